@@ -1,0 +1,112 @@
+//! Taking dead elements out of the arrays.
+
+use crate::attribute::Sources;
+use crate::{EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
+
+/// The new id of each element from before [`Mesh::compact`]; `NONE` for elements that were dead.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Renumbering {
+    /// By old vertex index.
+    pub vertices: Vec<VertexId>,
+    /// By old edge index. Half-edge 2e + i becomes half-edge i of the new edge.
+    pub edges: Vec<EdgeId>,
+    /// By old face index.
+    pub faces: Vec<FaceId>,
+}
+
+impl Renumbering {
+    /// The new id of a half-edge.
+    pub fn half_edge(&self, h: HalfEdgeId) -> HalfEdgeId {
+        match self.edges[h.edge().index()] {
+            EdgeId::NONE => HalfEdgeId::NONE,
+            e => e.half_edges()[h.index() % 2],
+        }
+    }
+}
+
+impl Mesh {
+    /// Takes dead elements out of the arrays. The living ones keep their order and are numbered from
+    /// 0 without gaps. Returns the map; ids from before mean nothing afterwards.
+    pub fn compact(&mut self) -> Renumbering {
+        let vertices: Vec<VertexId> = self.vertices().collect();
+        let edges: Vec<EdgeId> = self.edges().collect();
+        let faces: Vec<FaceId> = self.faces().collect();
+        let corners: Vec<HalfEdgeId> = self.half_edges().collect();
+        let map = Renumbering {
+            vertices: inverse(&vertices, self.positions.len()),
+            edges: inverse(&edges, self.connectivity.next.len() / 2),
+            faces: inverse(&faces, self.connectivity.face_half_edge.len()),
+        };
+        if self.is_dense() {
+            return map;
+        }
+        let old = std::mem::take(self);
+        let half_edge = |h: Option<HalfEdgeId>| h.map_or(HalfEdgeId::NONE, |h| map.half_edge(h));
+        let face = |f: Option<FaceId>| f.map_or(FaceId::NONE, |f| map.faces[f.index()]);
+        self.attributes = old.attributes.gathered(Sources {
+            vertices: &vertices,
+            corners: &corners,
+            edges: &edges,
+            faces: &faces,
+        });
+        self.positions = vertices.iter().map(|&v| old.position(v)).collect();
+        let c = &mut self.connectivity;
+        c.next = corners
+            .iter()
+            .map(|&h| map.half_edge(old.next(h)))
+            .collect();
+        c.origin = corners
+            .iter()
+            .map(|&h| map.vertices[old.origin(h).index()])
+            .collect();
+        c.face = corners.iter().map(|&h| face(old.face(h))).collect();
+        c.vertex_half_edge = vertices
+            .iter()
+            .map(|&v| half_edge(old.vertex_half_edge(v)))
+            .collect();
+        c.face_half_edge = faces
+            .iter()
+            .map(|&f| map.half_edge(old.face_half_edge(f)))
+            .collect();
+        map
+    }
+}
+
+/// For each old index below `n` its place in `kept`.
+fn inverse<I: Id>(kept: &[I], n: usize) -> Vec<I> {
+    let mut map = vec![I::NONE; n];
+    for (new, old) in kept.iter().enumerate() {
+        map[old.index()] = I::new(new);
+    }
+    map
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Domain, FaceId, VertexId, shapes};
+
+    #[test]
+    fn compacting_a_dense_mesh_changes_nothing() {
+        let mut mesh = shapes::torus(4, 3, 2.0, 1.0);
+        let before = mesh.clone();
+        mesh.compact();
+        assert_eq!(mesh, before);
+    }
+
+    #[test]
+    fn compacting_keeps_the_living_with_their_positions_and_values() {
+        let mut mesh = shapes::grid(3, 1);
+        mesh.set(crate::MATERIAL, vec![10, 11, 12]);
+        mesh.delete_face(FaceId::new(0)).unwrap();
+        mesh.delete_isolated_vertices();
+        let kept: Vec<_> = mesh.vertices().map(|v| mesh.position(v)).collect();
+        let map = mesh.compact();
+        assert_eq!(mesh.defects(), []);
+        assert!(mesh.is_dense());
+        assert_eq!(mesh.positions(), kept);
+        assert_eq!(mesh.get(crate::MATERIAL).unwrap(), [11, 12]);
+        assert_eq!(map.faces, [FaceId::NONE, FaceId::new(0), FaceId::new(1)]);
+        assert_eq!(map.vertices[0], VertexId::NONE);
+        assert_eq!(mesh.domain_len(Domain::Edge), 7);
+    }
+}

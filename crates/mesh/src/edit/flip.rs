@@ -1,0 +1,252 @@
+//! Turning the edge between two triangles.
+
+use crate::{EdgeId, EditError, Mesh};
+
+/// What to do when corner attributes differ between the two sides of an edge that is flipped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Seams {
+    /// Refuse with [`EditError::Seam`].
+    #[default]
+    Refuse,
+    /// Flip, and give each triangle the corner values of the side that its vertex was on.
+    Drop,
+}
+
+impl Mesh {
+    /// Turns the edge between two triangles counter-clockwise to their other diagonal.
+    ///
+    /// ```text
+    ///        c                   c
+    ///      / f \               / ^ \
+    ///    a --e-> b    -->    a f e g b
+    ///      \ g /               \ | /
+    ///        d                   d
+    /// ```
+    ///
+    /// All ids stay. `e` ran from a to b and runs from d to c afterwards; its first half keeps face f.
+    /// Four flips of an edge are none. Attributes of vertices, edges and faces stay with their ids;
+    /// corners at c and d get the values of the same vertex in the other triangle.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::Boundary`] if `e` has a face on one side only, [`EditError::NotTriangle`] if one of
+    /// them is not a triangle, [`EditError::SameOpposite`] if c is d, [`EditError::DuplicateEdge`] if c
+    /// and d already share an edge, [`EditError::Seam`] if corner attributes differ across `e`,
+    /// [`EditError::NoSuchEdge`]. The mesh is unchanged.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// use mesh::{EditError, shapes};
+    ///
+    /// let mut mesh = shapes::octahedron();
+    /// let e = mesh.edges().next().unwrap();
+    /// mesh.flip_edge(e)?;
+    /// assert!(mesh.defects().is_empty());
+    /// # Ok::<(), EditError>(())
+    /// ```
+    pub fn flip_edge(&mut self, e: EdgeId) -> Result<(), EditError> {
+        self.flip_edge_with(e, Seams::Refuse)
+    }
+
+    /// [`flip_edge`](Self::flip_edge) with a choice for seams.
+    ///
+    /// # Errors
+    ///
+    /// As [`flip_edge`](Self::flip_edge), but [`EditError::Seam`] only for [`Seams::Refuse`].
+    pub fn flip_edge_with(&mut self, e: EdgeId, seams: Seams) -> Result<(), EditError> {
+        self.check_edge(e)?;
+        let [ab, ba] = e.half_edges();
+        let (Some(f), Some(g)) = (self.face(ab), self.face(ba)) else {
+            return Err(EditError::Boundary(e));
+        };
+        for face in [f, g] {
+            if !self.is_triangle(face) {
+                return Err(EditError::NotTriangle(face));
+            }
+        }
+        let (bc, ad) = (self.next(ab), self.next(ba));
+        let (ca, db) = (self.next(bc), self.next(ad));
+        let (a, b, c, d) = (
+            self.origin(ab),
+            self.origin(ba),
+            self.origin(ca),
+            self.origin(db),
+        );
+        if c == d {
+            return Err(EditError::SameOpposite(e, c));
+        }
+        if self.find_half_edge(c, d).is_some() {
+            return Err(EditError::DuplicateEdge(c, d));
+        }
+        if seams == Seams::Refuse && self.is_seam(e) {
+            return Err(EditError::Seam(e));
+        }
+
+        // f becomes d -> c -> a, g becomes c -> d -> b.
+        self.attributes.drop_by_rule();
+        self.attributes.copy(ab, ad);
+        self.attributes.copy(ba, bc);
+        self.attributes.copy(db, ab);
+        self.attributes.copy(ca, ba);
+        for [x, y, z] in [[ab, ca, ad], [ba, db, bc]] {
+            self.set_next(x, y);
+            self.set_next(y, z);
+            self.set_next(z, x);
+        }
+        self.set_origin(ab, d);
+        self.set_origin(ba, c);
+        self.set_face(ad, Some(f));
+        self.set_face(bc, Some(g));
+        self.set_face_half_edge(f, ab);
+        self.set_face_half_edge(g, ba);
+        if self.vertex_half_edge(a) == Some(ab) {
+            self.set_vertex_half_edge(a, Some(ad));
+        }
+        if self.vertex_half_edge(b) == Some(ba) {
+            self.set_vertex_half_edge(b, Some(bc));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{FaceId, UV, VertexId, shapes};
+    use glam::{DVec2, DVec3};
+
+    /// a = 0, b = 1, c = 2, d = 3 of the picture; the edge is e0.
+    fn rhombus() -> Mesh {
+        let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+        let positions = vec![at(-1., 0.), at(1., 0.), at(0., 1.), at(0., -1.)];
+        Mesh::from_polygons(positions, &[[0, 1, 2], [1, 0, 3]])
+            .unwrap()
+            .0
+    }
+
+    fn corners(mesh: &Mesh, f: usize) -> Vec<usize> {
+        mesh.face_vertices(FaceId::new(f))
+            .map(VertexId::index)
+            .collect()
+    }
+
+    #[test]
+    fn a_flip_turns_the_edge_to_the_other_diagonal() {
+        let mut mesh = rhombus();
+        mesh.flip_edge(EdgeId::new(0)).unwrap();
+        assert_eq!(mesh.defects(), []);
+        assert_eq!(
+            mesh.edge_vertices(EdgeId::new(0)).map(VertexId::index),
+            [3, 2]
+        );
+        assert_eq!(
+            (corners(&mesh, 0), corners(&mesh, 1)),
+            (vec![3, 2, 0], vec![2, 3, 1])
+        );
+    }
+
+    #[test]
+    fn four_flips_are_none() {
+        let mut mesh = shapes::icosahedron();
+        let uvs = mesh
+            .half_edges()
+            .map(|h| mesh.position(mesh.origin(h)).truncate())
+            .collect();
+        mesh.set(UV, uvs);
+        let before = mesh.clone();
+        for e in before.edges() {
+            // On an icosahedron the opposite vertices are never joined.
+            for _ in 0..4 {
+                mesh.flip_edge(e).unwrap();
+                assert_eq!(mesh.defects(), []);
+            }
+            assert_eq!(mesh.connectivity.next, before.connectivity.next);
+            assert_eq!(mesh.connectivity.origin, before.connectivity.origin);
+            assert_eq!(mesh.connectivity.face, before.connectivity.face);
+            assert_eq!(mesh.attributes, before.attributes);
+        }
+    }
+
+    #[test]
+    fn corner_values_stay_with_their_vertices() {
+        let mut mesh = rhombus();
+        let uvs: Vec<DVec2> = mesh
+            .half_edges()
+            .map(|h| mesh.position(mesh.origin(h)).truncate() * 3.0)
+            .collect();
+        mesh.set(UV, uvs);
+        mesh.flip_edge(EdgeId::new(0)).unwrap();
+        for h in mesh.half_edges().filter(|&h| mesh.face(h).is_some()) {
+            let expected = mesh.position(mesh.origin(h)).truncate() * 3.0;
+            assert_eq!(mesh.get(UV).unwrap()[h.index()], expected, "{h}");
+        }
+    }
+
+    /// The edit is refused for this reason, and every array stays bit-identical.
+    fn refused(mesh: &Mesh, e: EdgeId) -> EditError {
+        let mut edited = mesh.clone();
+        let reason = edited.flip_edge(e).unwrap_err();
+        assert_eq!(&edited, mesh);
+        reason
+    }
+
+    #[test]
+    fn a_boundary_edge_does_not_flip() {
+        assert_eq!(
+            refused(&rhombus(), EdgeId::new(1)),
+            EditError::Boundary(EdgeId::new(1))
+        );
+    }
+
+    #[test]
+    fn an_edge_between_quads_does_not_flip() {
+        let mesh = shapes::cube();
+        assert_eq!(
+            refused(&mesh, EdgeId::new(0)),
+            EditError::NotTriangle(FaceId::new(0))
+        );
+    }
+
+    #[test]
+    fn an_edge_whose_opposite_vertices_are_joined_does_not_flip() {
+        let mesh = shapes::tetrahedron();
+        assert!(
+            mesh.edges()
+                .all(|e| matches!(refused(&mesh, e), EditError::DuplicateEdge(..)))
+        );
+    }
+
+    #[test]
+    fn an_edge_whose_opposite_vertices_coincide_does_not_flip() {
+        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+        let (mesh, _) = Mesh::from_polygons(positions, &[[0, 1, 2], [0, 2, 1]]).unwrap();
+        let e = EdgeId::new(0);
+        assert_eq!(
+            refused(&mesh, e),
+            EditError::SameOpposite(e, VertexId::new(2))
+        );
+    }
+
+    #[test]
+    fn a_seam_flips_only_when_told_to() {
+        let mut mesh = rhombus();
+        let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
+        uvs[0] = DVec2::X;
+        mesh.set(UV, uvs);
+        let e = EdgeId::new(0);
+        assert_eq!(refused(&mesh, e), EditError::Seam(e));
+        mesh.flip_edge_with(e, Seams::Drop).unwrap();
+        assert_eq!(mesh.defects(), []);
+    }
+
+    #[test]
+    fn an_edge_that_is_not_there_is_refused() {
+        let e = EdgeId::new(99);
+        assert_eq!(refused(&rhombus(), e), EditError::NoSuchEdge(e));
+        assert_eq!(
+            refused(&rhombus(), EdgeId::NONE),
+            EditError::NoSuchEdge(EdgeId::NONE)
+        );
+    }
+}

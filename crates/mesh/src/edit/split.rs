@@ -1,0 +1,273 @@
+//! Putting a vertex on an edge.
+
+use crate::{Domain, EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
+
+impl Mesh {
+    /// Puts a vertex on `e` and joins it to the far corners of the triangles beside it.
+    ///
+    /// ```text
+    ///        c                 c
+    ///      / f \             / | \
+    ///    a --e-> b   -->   a-e-m-->b       m = (1 - t) a + t b
+    ///      \ g /             \ | /
+    ///        d                 d
+    /// ```
+    ///
+    /// `e` keeps its id and becomes a-m. New are, in this order, the edges m-b, m-c (on the side of
+    /// the first half of `e`) and m-d, and the faces at b: (m, b, c) and (b, m, d). f and g stay at a.
+    /// A side without a face gets no new edge, and a face with more than three corners only gains m as
+    /// a corner. So on closed triangles V, E, F grow by 1, 3, 2 and on the boundary by 1, 2, 1, and
+    /// V - E + F stays.
+    ///
+    /// Vertex attributes at m follow their rules between a and b; corners at m likewise within their
+    /// own face, so that both sides of a seam keep their values; m-b takes the edge values of `e`; new
+    /// faces take those of f and g.
+    ///
+    /// Returns m.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::OutsideEdge`] if `t` is not strictly between 0 and 1, [`EditError::NoSuchEdge`],
+    /// [`EditError::Full`]. The mesh is unchanged.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let mut mesh = mesh::shapes::tetrahedron();
+    /// let e = mesh.edges().next().unwrap();
+    /// let m = mesh.split_edge(e, 0.5)?;
+    /// assert_eq!(mesh.valence(m), 4);
+    /// # Ok::<(), mesh::EditError>(())
+    /// ```
+    pub fn split_edge(&mut self, e: EdgeId, t: f64) -> Result<VertexId, EditError> {
+        self.check_edge(e)?;
+        if !(t > 0.0 && t < 1.0) {
+            return Err(EditError::OutsideEdge(t));
+        }
+        self.check_room(6)?;
+        let [am, ma] = e.half_edges();
+        let (a, b) = (self.origin(am), self.origin(ma));
+        let (after_b, before_b) = (self.next(am), self.prev(ma));
+        let cuts = [am, ma].map(|h| self.face(h).is_some_and(|f| self.is_triangle(f)));
+
+        self.attributes.drop_by_rule();
+        let m = self.push_vertex((1.0 - t) * self.position(a) + t * self.position(b));
+        self.attributes.mix(a, b, t, m);
+
+        // m-b, with both halves on the faces of e.
+        let new = self.push_edge(m, b);
+        self.attributes.copy(e, new);
+        let [mb, bm] = new.half_edges();
+        self.set_face(mb, self.face(am));
+        self.set_face(bm, self.face(ma));
+        self.attributes.copy(ma, bm);
+        self.attributes.mix(am, after_b, t, mb);
+        // The corner at m on the other side lies between that at b, now of bm, and that at a.
+        let at_a = self.next(ma);
+        self.attributes.mix(bm, at_a, 1.0 - t, ma);
+        self.set_next(am, mb);
+        self.set_next(mb, after_b);
+        self.set_next(before_b, bm);
+        self.set_next(bm, ma);
+        self.set_origin(ma, m);
+        self.set_vertex_half_edge(m, Some(if self.face(ma).is_none() { ma } else { mb }));
+        if self.vertex_half_edge(b) == Some(ma) {
+            self.set_vertex_half_edge(b, Some(bm));
+        }
+
+        // The cuts to the far corners: b's part of each triangle becomes a new face.
+        if cuts[0] {
+            let opposite = self.next(after_b);
+            self.insert_edge(mb, opposite, mb);
+        }
+        if cuts[1] {
+            self.insert_edge(ma, before_b, bm);
+        }
+        Ok(m)
+    }
+
+    /// Joins the origins of `x` and `y`, half-edges of one face. The part of the face with `moved`
+    /// becomes a new face; the other part keeps the old one.
+    fn insert_edge(&mut self, x: HalfEdgeId, y: HalfEdgeId, moved: HalfEdgeId) {
+        let (before_x, before_y) = (self.prev(x), self.prev(y));
+        let [xy, yx] = self.push_edge(self.origin(x), self.origin(y)).half_edges();
+        self.attributes.copy(x, xy);
+        self.attributes.copy(y, yx);
+        self.set_next(before_x, xy);
+        self.set_next(xy, y);
+        self.set_next(before_y, yx);
+        self.set_next(yx, x);
+
+        let new = self.push_face(moved);
+        if let Some(old) = self.face(x) {
+            self.attributes.copy(old, new);
+            for h in [xy, yx] {
+                self.set_face(h, Some(old));
+                self.set_face_half_edge(old, h);
+            }
+        }
+        let mut h = moved;
+        while self.face(h) != Some(new) {
+            self.set_face(h, Some(new));
+            h = self.next(h);
+        }
+        let kept = if self.face(xy) == Some(new) { yx } else { xy };
+        if let Some(old) = self.face(kept) {
+            self.set_face_half_edge(old, kept);
+        }
+    }
+
+    /// Marks all isolated vertices dead and returns how many there were.
+    pub fn delete_isolated_vertices(&mut self) -> usize {
+        let n = self.n_vertices();
+        for v in 0..self.domain_len(Domain::Vertex) {
+            if self.vertex_half_edge(VertexId::new(v)).is_none() {
+                self.dead_vertices.add(v);
+            }
+        }
+        n - self.n_vertices()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{COLOR, CREASE, MATERIAL, UV, VERTEX_NORMAL, shapes};
+    use glam::{DVec2, DVec3, DVec4};
+
+    fn triangles(polygons: &[[u32; 3]]) -> Mesh {
+        let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+        let positions = vec![at(-1., 0.), at(1., 0.), at(0., 1.), at(0., -1.)];
+        Mesh::from_polygons(positions, polygons).unwrap().0
+    }
+
+    fn split(mesh: &mut Mesh, e: usize, t: f64) -> VertexId {
+        let before = mesh.euler_characteristic();
+        let m = mesh.split_edge(EdgeId::new(e), t).unwrap();
+        assert_eq!(mesh.defects(), []);
+        assert_eq!(mesh.euler_characteristic(), before);
+        m
+    }
+
+    #[test]
+    fn an_edge_of_one_triangle_splits_into_ten_half_edges() {
+        for e in 0..3 {
+            let mut mesh = triangles(&[[0, 1, 2]]);
+            split(&mut mesh, e, 0.5);
+            assert_eq!(mesh.n_half_edges(), 10);
+        }
+    }
+
+    #[test]
+    fn the_edge_of_two_triangles_splits_into_sixteen_half_edges() {
+        let mut mesh = triangles(&[[0, 1, 2], [1, 0, 3]]);
+        let m = split(&mut mesh, 0, 0.5);
+        assert_eq!(mesh.n_half_edges(), 16);
+        assert_eq!(mesh.valence(m), 4);
+        assert_eq!(mesh.n_faces(), 4);
+        assert!(mesh.faces().all(|f| mesh.is_triangle(f)));
+    }
+
+    #[test]
+    fn ids_are_given_as_documented() {
+        let mut mesh = triangles(&[[0, 1, 2], [1, 0, 3]]);
+        let m = split(&mut mesh, 0, 0.25);
+        assert_eq!(mesh.position(m), DVec3::new(-0.5, 0.0, 0.0));
+        let ends = |e| mesh.edge_vertices(EdgeId::new(e)).map(VertexId::index);
+        assert_eq!(
+            [ends(0), ends(5), ends(6), ends(7)],
+            [[0, 4], [4, 1], [4, 2], [4, 3]]
+        );
+        let corners = |f| -> Vec<usize> {
+            let mut c: Vec<_> = mesh
+                .face_vertices(crate::FaceId::new(f))
+                .map(VertexId::index)
+                .collect();
+            let low = c.iter().position(|v| v == c.iter().min().unwrap()).unwrap();
+            c.rotate_left(low);
+            c
+        };
+        assert_eq!([corners(0), corners(1)], [[0, 4, 2], [0, 3, 4]]);
+        assert_eq!([corners(2), corners(3)], [[1, 2, 4], [1, 4, 3]]);
+    }
+
+    #[test]
+    fn every_edge_of_every_shape_splits() {
+        for shape in [
+            shapes::grid(2, 2),
+            shapes::cube(),
+            shapes::torus(4, 3, 2.0, 1.0),
+        ] {
+            for e in 0..shape.n_edges() {
+                let mut mesh = shape.clone();
+                let m = split(&mut mesh, e, 0.5);
+                assert_eq!(
+                    mesh.is_boundary_vertex(m),
+                    shape.is_boundary_edge(EdgeId::new(e))
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn quads_beside_the_edge_become_pentagons() {
+        let mut mesh = shapes::cube();
+        let m = split(&mut mesh, 3, 0.5);
+        assert_eq!(mesh.valence(m), 2);
+        assert!(mesh.vertex_faces(m).all(|f| mesh.degree(f) == 5));
+    }
+
+    #[test]
+    fn attributes_follow_their_rules() {
+        let mut mesh = triangles(&[[0, 1, 2], [1, 0, 3]]);
+        // Corner values that are linear on each face, with a seam along the edge.
+        let uvs = mesh
+            .half_edges()
+            .map(|h| {
+                let shift = if mesh.face(h) == Some(crate::FaceId::new(1)) {
+                    10.0
+                } else {
+                    0.0
+                };
+                mesh.position(mesh.origin(h)).truncate() + DVec2::splat(shift)
+            })
+            .collect();
+        mesh.set(UV, uvs);
+        mesh.set(COLOR, (0..4).map(|i| DVec4::splat(f64::from(i))).collect());
+        mesh.set(VERTEX_NORMAL, vec![DVec3::X, DVec3::Y, DVec3::Z, DVec3::Z]);
+        mesh.set(MATERIAL, vec![7, 8]);
+        mesh.set(CREASE, vec![2.5, 0.0, 0.0, 0.0, 0.0]);
+        let m = split(&mut mesh, 0, 0.25);
+
+        for h in mesh.half_edges() {
+            let Some(f) = mesh.face(h) else { continue };
+            let second = mesh.get(MATERIAL).unwrap()[f.index()] == 8;
+            let expected = mesh.position(mesh.origin(h)).truncate()
+                + DVec2::splat(if second { 10.0 } else { 0.0 });
+            assert_eq!(mesh.get(UV).unwrap()[h.index()], expected, "{h}");
+        }
+        assert_eq!(mesh.get(COLOR).unwrap()[m.index()], DVec4::splat(0.25));
+        let normal = mesh.get(VERTEX_NORMAL).unwrap()[m.index()];
+        assert!((normal - DVec3::new(0.75, 0.25, 0.0).normalize()).length() < 1e-15);
+        assert_eq!(mesh.get(MATERIAL).unwrap(), [7, 8, 7, 8]);
+        assert_eq!(
+            mesh.get(CREASE).unwrap(),
+            [2.5, 0.0, 0.0, 0.0, 0.0, 2.5, 0.0, 0.0]
+        );
+    }
+
+    #[test]
+    fn a_place_outside_the_edge_is_refused() {
+        let mesh = triangles(&[[0, 1, 2]]);
+        for t in [0.0, 1.0, -0.5, 2.0, f64::NAN, f64::INFINITY] {
+            let mut edited = mesh.clone();
+            let refused = edited.split_edge(EdgeId::new(0), t).unwrap_err();
+            assert!(matches!(refused, EditError::OutsideEdge(_)), "{t}");
+            assert_eq!(edited, mesh);
+        }
+        let mut edited = mesh.clone();
+        let e = EdgeId::new(3);
+        assert_eq!(edited.split_edge(e, 0.5), Err(EditError::NoSuchEdge(e)));
+        assert_eq!(edited, mesh);
+    }
+}

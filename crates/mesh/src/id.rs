@@ -1,0 +1,174 @@
+//! The ids of mesh elements: plain numbers, each kind a type of its own.
+
+use std::fmt;
+
+use bytemuck::{Pod, Zeroable};
+
+use crate::Domain;
+
+/// What the four kinds of ids have in common.
+pub trait Id: Copy + Ord + fmt::Display + fmt::Debug + Pod + Send + Sync + 'static {
+    /// The value that stands in the arrays of a [`Connectivity`](crate::Connectivity) where there
+    /// is no such element. Accessors return `Option` instead.
+    const NONE: Self;
+
+    /// The domain of attributes that these ids index. A half-edge stands for the corner at its
+    /// origin, in its face.
+    const DOMAIN: Domain;
+
+    /// The id with this index.
+    ///
+    /// # Panics
+    ///
+    /// If `index` is not below 2³² − 1. Builders check sizes before, so this is a bug of ours.
+    fn new(index: usize) -> Self;
+
+    /// The place of the element in its arrays.
+    fn index(self) -> usize;
+}
+
+macro_rules! id {
+    ($(#[$doc:meta])* $name:ident, $letter:literal, $domain:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
+        #[repr(transparent)]
+        pub struct $name(u32);
+
+        impl $name {
+            /// The value that stands in the arrays of a [`Connectivity`](crate::Connectivity) where
+            /// there is no such element. Accessors return `Option` instead.
+            pub const NONE: Self = Self(u32::MAX);
+
+            /// The id with this index.
+            ///
+            /// # Panics
+            ///
+            /// If `index` is not below 2³² − 1. Builders check sizes before, so this is a bug of ours.
+            #[inline]
+            pub fn new(index: usize) -> Self {
+                assert!(index < u32::MAX as usize, "more than 2^32 - 2 elements of one kind");
+                #[expect(clippy::cast_possible_truncation, reason = "checked above")]
+                Self(index as u32)
+            }
+
+            /// The place of the element in its arrays.
+            #[inline]
+            pub const fn index(self) -> usize {
+                self.0 as usize
+            }
+
+            /// The id as an `Option`: `None` for [`Self::NONE`].
+            #[inline]
+            pub fn some(self) -> Option<Self> {
+                (self != Self::NONE).then_some(self)
+            }
+        }
+
+        impl Id for $name {
+            const NONE: Self = Self::NONE;
+            const DOMAIN: Domain = Domain::$domain;
+
+            #[inline]
+            fn new(index: usize) -> Self {
+                Self::new(index)
+            }
+
+            #[inline]
+            fn index(self) -> usize {
+                self.index()
+            }
+        }
+
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                if *self == Self::NONE {
+                    write!(f, concat!($letter, "-"))
+                } else {
+                    write!(f, concat!($letter, "{}"), self.0)
+                }
+            }
+        }
+
+        impl fmt::Debug for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                fmt::Display::fmt(self, f)
+            }
+        }
+    };
+}
+
+id!(
+    /// A vertex. Shown as `v12`.
+    VertexId, "v", Vertex
+);
+id!(
+    /// A half-edge: an edge seen from one of its sides, with a direction. Shown as `h12`.
+    ///
+    /// The two halves of edge e are half-edges 2e and 2e + 1.
+    HalfEdgeId, "h", Corner
+);
+id!(
+    /// An edge: a pair of half-edges. Shown as `e12`.
+    EdgeId, "e", Edge
+);
+id!(
+    /// A face: a polygon of any degree. Shown as `f12`.
+    FaceId, "f", Face
+);
+
+impl HalfEdgeId {
+    /// The other half of the same edge.
+    #[inline]
+    #[must_use]
+    pub const fn twin(self) -> Self {
+        Self(self.0 ^ 1)
+    }
+
+    /// The edge that this is a half of.
+    #[inline]
+    pub const fn edge(self) -> EdgeId {
+        EdgeId(self.0 >> 1)
+    }
+}
+
+impl EdgeId {
+    /// The first half of the edge. The second is its twin.
+    #[inline]
+    pub const fn half_edge(self) -> HalfEdgeId {
+        HalfEdgeId(self.0 << 1)
+    }
+
+    /// Both halves of the edge.
+    #[inline]
+    pub const fn half_edges(self) -> [HalfEdgeId; 2] {
+        [HalfEdgeId(self.0 << 1), HalfEdgeId(self.0 << 1 | 1)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_id_takes_four_bytes() {
+        assert_eq!(size_of::<VertexId>(), 4);
+        assert_eq!(size_of::<HalfEdgeId>(), 4);
+        assert_eq!(size_of::<EdgeId>(), 4);
+        assert_eq!(size_of::<FaceId>(), 4);
+    }
+
+    #[test]
+    fn the_halves_of_an_edge_are_twins() {
+        let [a, b] = EdgeId::new(7).half_edges();
+        assert_eq!((a.twin(), b.twin()), (b, a));
+        assert_eq!((a.edge(), b.edge()), (EdgeId::new(7), EdgeId::new(7)));
+    }
+
+    #[test]
+    fn ids_are_shown_with_their_letter() {
+        assert_eq!(
+            format!("{} {:?} {}", VertexId::new(3), FaceId::new(0), EdgeId::NONE),
+            "v3 f0 e-"
+        );
+    }
+}

@@ -1,0 +1,85 @@
+//! A half-edge mesh of polygons in space.
+//!
+//! Every edge is a pair of half-edges, one for each side, that run in opposite directions. A half-edge
+//! knows the next one around its face, the vertex that it leaves, and its face:
+//!
+//! ```text
+//!              c
+//!            /   \
+//!          /       \            h = half-edge from a to b, on face f
+//!        /     f     \          next(h)      = from b to c
+//!      /               \        origin(h)    = a, target(h) = b
+//!    a ------- h ------> b      face(h)      = f
+//!      <---- twin(h) ---        twin(h)      = from b to a, on the other face or on the boundary
+//! ```
+//!
+//! Ids are plain numbers ([`VertexId`], [`HalfEdgeId`], [`EdgeId`], [`FaceId`]). The halves of edge e are
+//! 2e and 2e + 1, so `h.twin()` and `h.edge()` need no mesh. Faces are counter-clockwise seen from
+//! outside; around a vertex the circulators turn clockwise.
+//!
+//! # Invariants
+//!
+//! [`Mesh::defects`] names every broken one, with its element:
+//!
+//! 1. Arrays that belong together have the same length; half-edges come in pairs.
+//! 2. Entries name living elements.
+//! 3. `next` is a permutation of the half-edges, stays on one face (or around one hole), and begins
+//!    where the half-edge before ended: `origin(next(h)) == target(h)`.
+//! 4. No edge begins and ends at one vertex, and each has a face on one side at least. Both halves
+//!    always exist; on the boundary `face(h)` is `None`.
+//! 5. A face has at least three corners, and its half-edges are one loop through its
+//!    [`face_half_edge`](Mesh::face_half_edge).
+//! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex leaves it, and is the boundary one
+//!    if there is one; only an isolated vertex has none.
+//! 7. The half-edges that leave a vertex are all reached by walking around it: one fan.
+//! 8. Positions are finite.
+//! 9. A column of an attribute has one value for each element of its domain.
+//!
+//! # Editing
+//!
+//! Local edits ([`Mesh::flip_edge`], [`Mesh::split_edge`], [`Mesh::delete_face`]) check first and
+//! change after: an `Err` means that nothing changed. Removed elements are marked dead, and no id is
+//! used again until [`Mesh::compact`] renumbers. Operations over a whole mesh build new arrays
+//! ([`Mesh::from_arrays`]) or polygons ([`build`]).
+//!
+//! # Examples
+//!
+//! ```
+//! use mesh::{EditError, shapes};
+//!
+//! let mut mesh = shapes::icosahedron();
+//! let e = mesh.edges().next().unwrap();
+//! mesh.flip_edge(e)?;
+//! let m = mesh.split_edge(e, 0.5)?;
+//! assert_eq!(mesh.valence(m), 4);
+//! assert_eq!(mesh.euler_characteristic(), 2);
+//! assert!(mesh.defects().is_empty());
+//! # Ok::<(), EditError>(())
+//! ```
+
+mod attribute;
+pub mod blocks;
+pub mod build;
+mod compact;
+mod edit;
+mod id;
+mod marks;
+mod measure;
+mod mesh;
+pub mod shapes;
+mod traverse;
+mod validate;
+
+pub use attribute::{
+    Attribute, Attributes, COLOR, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Rule, SMOOTHING,
+    Sources, UV, VERTEX_NORMAL, Value, Values,
+};
+pub use build::{BuildError, BuildReport, Built, NonManifold, build};
+pub use compact::Renumbering;
+pub use edit::{EditError, Seams};
+pub use glam::{DVec2, DVec3, DVec4};
+pub use id::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
+pub use measure::angle_between;
+pub use mesh::{Connectivity, Mesh};
+pub use traverse::Orbit;
+pub use validate::Defect;

@@ -1,0 +1,51 @@
+//! A set of indices: one bit each, and no memory while the set is empty.
+
+/// Marked indices.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Marks {
+    words: Vec<u64>,
+    count: usize,
+}
+
+impl Marks {
+    /// Whether `i` is marked.
+    #[inline]
+    pub(crate) fn has(&self, i: usize) -> bool {
+        self.words
+            .get(i / 64)
+            .is_some_and(|word| word >> (i % 64) & 1 == 1)
+    }
+
+    /// Marks `i`.
+    pub(crate) fn add(&mut self, i: usize) {
+        if self.words.len() <= i / 64 {
+            self.words.resize(i / 64 + 1, 0);
+        }
+        if !self.has(i) {
+            self.words[i / 64] |= 1 << (i % 64);
+            self.count += 1;
+        }
+    }
+
+    /// How many indices are marked.
+    #[inline]
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mark_is_counted_once() {
+        let mut marks = Marks::default();
+        marks.add(70);
+        marks.add(70);
+        assert_eq!(
+            (marks.count(), marks.has(70), marks.has(6), marks.has(700)),
+            (1, true, false, false)
+        );
+    }
+}

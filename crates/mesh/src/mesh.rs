@@ -1,0 +1,347 @@
+//! The mesh: its arrays, its elements, and the accessors that read them.
+
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::attribute::{Attribute, Attributes, Column, Domain, Value, Values};
+use crate::marks::Marks;
+use crate::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
+
+/// The five arrays that say how the elements of a mesh hang together. The crate's front page lists
+/// what holds for them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Connectivity {
+    /// For each half-edge the one that follows it around its face, or around its hole.
+    pub next: Vec<HalfEdgeId>,
+    /// For each half-edge the vertex that it leaves.
+    pub origin: Vec<VertexId>,
+    /// For each half-edge its face; [`FaceId::NONE`] on the boundary.
+    pub face: Vec<FaceId>,
+    /// For each vertex a half-edge that leaves it, the boundary one if there is one;
+    /// [`HalfEdgeId::NONE`] for an isolated vertex.
+    pub vertex_half_edge: Vec<HalfEdgeId>,
+    /// For each face one of its half-edges.
+    pub face_half_edge: Vec<HalfEdgeId>,
+}
+
+/// A half-edge mesh of polygons in space, with attributes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    pub(crate) connectivity: Connectivity,
+    pub(crate) positions: Vec<DVec3>,
+    pub(crate) attributes: Attributes,
+    pub(crate) dead_vertices: Marks,
+    pub(crate) dead_edges: Marks,
+    pub(crate) dead_faces: Marks,
+}
+
+impl Mesh {
+    /// A mesh of these arrays, without attributes, all elements living.
+    ///
+    /// For operations that compute a whole mesh in closed form. The invariants are the caller's duty:
+    /// [`defects`](Self::defects) checks them.
+    ///
+    /// # Panics
+    ///
+    /// If arrays that belong together differ in length, or the number of half-edges is odd.
+    pub fn from_arrays(connectivity: Connectivity, positions: Vec<DVec3>) -> Self {
+        let n = connectivity.next.len();
+        assert!(
+            n.is_multiple_of(2),
+            "half-edges come in pairs, but there are {n}"
+        );
+        assert_eq!(
+            connectivity.origin.len(),
+            n,
+            "one origin for each half-edge"
+        );
+        assert_eq!(connectivity.face.len(), n, "one face for each half-edge");
+        assert_eq!(
+            connectivity.vertex_half_edge.len(),
+            positions.len(),
+            "one position for each vertex"
+        );
+        Self {
+            connectivity,
+            positions,
+            ..Self::default()
+        }
+    }
+
+    /// The arrays of the connectivity. Dead elements are still in them unless the mesh
+    /// [is dense](Self::is_dense).
+    pub fn connectivity(&self) -> &Connectivity {
+        &self.connectivity
+    }
+
+    // ---- Counts and elements -------------------------------------------------------------------
+
+    /// The number of living vertices.
+    pub fn n_vertices(&self) -> usize {
+        self.positions.len() - self.dead_vertices.count()
+    }
+
+    /// The number of living half-edges: two for each edge.
+    pub fn n_half_edges(&self) -> usize {
+        2 * self.n_edges()
+    }
+
+    /// The number of living edges.
+    pub fn n_edges(&self) -> usize {
+        self.connectivity.next.len() / 2 - self.dead_edges.count()
+    }
+
+    /// The number of living faces.
+    pub fn n_faces(&self) -> usize {
+        self.connectivity.face_half_edge.len() - self.dead_faces.count()
+    }
+
+    /// The number of values that a column of this domain has: all elements, dead ones too.
+    pub fn domain_len(&self, domain: Domain) -> usize {
+        match domain {
+            Domain::Vertex => self.positions.len(),
+            Domain::Corner => self.connectivity.next.len(),
+            Domain::Edge => self.connectivity.next.len() / 2,
+            Domain::Face => self.connectivity.face_half_edge.len(),
+        }
+    }
+
+    /// Whether no element is dead, so that ids run from 0 without gaps.
+    pub fn is_dense(&self) -> bool {
+        self.dead_vertices.count() + self.dead_edges.count() + self.dead_faces.count() == 0
+    }
+
+    /// The living vertices in order of their ids.
+    pub fn vertices(&self) -> impl Iterator<Item = VertexId> + Clone + '_ {
+        living(0..self.positions.len(), &self.dead_vertices)
+    }
+
+    /// The living edges in order of their ids.
+    pub fn edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
+        living(0..self.connectivity.next.len() / 2, &self.dead_edges)
+    }
+
+    /// The living half-edges in order of their ids.
+    pub fn half_edges(&self) -> impl Iterator<Item = HalfEdgeId> + Clone + '_ {
+        self.edges().flat_map(EdgeId::half_edges)
+    }
+
+    /// The living faces in order of their ids.
+    pub fn faces(&self) -> impl Iterator<Item = FaceId> + Clone + '_ {
+        living(0..self.connectivity.face_half_edge.len(), &self.dead_faces)
+    }
+
+    /// Whether `v` is a living vertex of this mesh.
+    pub fn has_vertex(&self, v: VertexId) -> bool {
+        v.index() < self.positions.len() && !self.dead_vertices.has(v.index())
+    }
+
+    /// Whether `e` is a living edge of this mesh.
+    pub fn has_edge(&self, e: EdgeId) -> bool {
+        e.index() < self.connectivity.next.len() / 2 && !self.dead_edges.has(e.index())
+    }
+
+    /// Whether `f` is a living face of this mesh.
+    pub fn has_face(&self, f: FaceId) -> bool {
+        f.index() < self.connectivity.face_half_edge.len() && !self.dead_faces.has(f.index())
+    }
+
+    // ---- Reading the arrays --------------------------------------------------------------------
+
+    /// The half-edge after `h` around its face, or around its hole.
+    #[inline]
+    pub fn next(&self, h: HalfEdgeId) -> HalfEdgeId {
+        self.connectivity.next[h.index()]
+    }
+
+    /// The vertex that `h` leaves.
+    #[inline]
+    pub fn origin(&self, h: HalfEdgeId) -> VertexId {
+        self.connectivity.origin[h.index()]
+    }
+
+    /// The vertex that `h` goes to.
+    #[inline]
+    pub fn target(&self, h: HalfEdgeId) -> VertexId {
+        self.origin(h.twin())
+    }
+
+    /// The face of `h`, to its left; `None` on the boundary.
+    #[inline]
+    pub fn face(&self, h: HalfEdgeId) -> Option<FaceId> {
+        self.connectivity.face[h.index()].some()
+    }
+
+    /// A half-edge that leaves `v`, the boundary one if there is one; `None` if `v` is isolated.
+    #[inline]
+    pub fn vertex_half_edge(&self, v: VertexId) -> Option<HalfEdgeId> {
+        self.connectivity.vertex_half_edge[v.index()].some()
+    }
+
+    /// A half-edge of `f`.
+    #[inline]
+    pub fn face_half_edge(&self, f: FaceId) -> HalfEdgeId {
+        self.connectivity.face_half_edge[f.index()]
+    }
+
+    /// The position of `v`, in scene units.
+    #[inline]
+    pub fn position(&self, v: VertexId) -> DVec3 {
+        self.positions[v.index()]
+    }
+
+    /// The positions of all vertices, dead ones too, by index.
+    pub fn positions(&self) -> &[DVec3] {
+        &self.positions
+    }
+
+    /// The positions of all vertices, to be moved.
+    pub fn positions_mut(&mut self) -> &mut [DVec3] {
+        &mut self.positions
+    }
+
+    // ---- Attributes ----------------------------------------------------------------------------
+
+    /// All attributes.
+    pub fn attributes(&self) -> &Attributes {
+        &self.attributes
+    }
+
+    /// Replaces all attributes.
+    ///
+    /// # Panics
+    ///
+    /// If a column has not one value for each element of its domain.
+    pub fn set_attributes(&mut self, attributes: Attributes) {
+        for (domain, column) in attributes.iter() {
+            self.assert_length(domain, column);
+        }
+        self.attributes = attributes;
+    }
+
+    /// The values of an attribute by index of its elements, if the mesh has it with this type.
+    pub fn get<I: Id, T: Value>(&self, attribute: Attribute<I, T>) -> Option<&[T]> {
+        self.attributes
+            .column(I::DOMAIN, attribute.name)
+            .and_then(|c| T::of(&c.values))
+    }
+
+    /// The values of an attribute, to be changed.
+    pub fn get_mut<I: Id, T: Value>(&mut self, attribute: Attribute<I, T>) -> Option<&mut [T]> {
+        self.attributes
+            .column_mut(I::DOMAIN, attribute.name)
+            .and_then(|c| T::of_mut(&mut c.values))
+    }
+
+    /// Gives the mesh an attribute, in place of one of the same name and domain.
+    ///
+    /// # Panics
+    ///
+    /// If there is not one value for each element of the domain.
+    pub fn set<I: Id, T: Value>(&mut self, attribute: Attribute<I, T>, values: Vec<T>) {
+        let name = attribute.name.to_owned();
+        self.insert_column(
+            I::DOMAIN,
+            Column {
+                name,
+                rule: attribute.rule,
+                values: T::wrap(values),
+            },
+        );
+    }
+
+    /// Gives the mesh a column, in place of one of the same name and domain.
+    ///
+    /// # Panics
+    ///
+    /// If there is not one value for each element of the domain.
+    pub fn insert_column(&mut self, domain: Domain, column: Column) {
+        self.assert_length(domain, &column);
+        self.attributes.insert(domain, column);
+    }
+
+    /// Takes a column away and returns it.
+    pub fn remove_column(&mut self, domain: Domain, name: &str) -> Option<Column> {
+        self.attributes.remove(domain, name)
+    }
+
+    /// The marks of a tag, by index of its elements.
+    pub fn tag(&self, domain: Domain, name: &str) -> Option<&[bool]> {
+        match &self.attributes.column(domain, name)?.values {
+            Values::Tag(marks) => Some(marks),
+            _ => None,
+        }
+    }
+
+    fn assert_length(&self, domain: Domain, column: &Column) {
+        assert_eq!(
+            column.values.len(),
+            self.domain_len(domain),
+            "attribute {} needs one value for each {domain}",
+            column.name
+        );
+    }
+
+    /// The bytes that the arrays of the mesh take.
+    pub fn bytes(&self) -> usize {
+        let c = &self.connectivity;
+        let attributes: usize = self.attributes.iter().map(|(_, c)| c.values.bytes()).sum();
+        12 * c.next.len() + 4 * c.face_half_edge.len() + 28 * self.positions.len() + attributes
+    }
+
+    // ---- Writing, for the edits of this crate --------------------------------------------------
+
+    pub(crate) fn set_next(&mut self, h: HalfEdgeId, next: HalfEdgeId) {
+        self.connectivity.next[h.index()] = next;
+    }
+
+    pub(crate) fn set_origin(&mut self, h: HalfEdgeId, v: VertexId) {
+        self.connectivity.origin[h.index()] = v;
+    }
+
+    pub(crate) fn set_face(&mut self, h: HalfEdgeId, f: Option<FaceId>) {
+        self.connectivity.face[h.index()] = f.unwrap_or(FaceId::NONE);
+    }
+
+    pub(crate) fn set_vertex_half_edge(&mut self, v: VertexId, h: Option<HalfEdgeId>) {
+        self.connectivity.vertex_half_edge[v.index()] = h.unwrap_or(HalfEdgeId::NONE);
+    }
+
+    pub(crate) fn set_face_half_edge(&mut self, f: FaceId, h: HalfEdgeId) {
+        self.connectivity.face_half_edge[f.index()] = h;
+    }
+
+    /// A new isolated vertex.
+    pub(crate) fn push_vertex(&mut self, position: DVec3) -> VertexId {
+        let v = VertexId::new(self.positions.len());
+        self.positions.push(position);
+        self.connectivity.vertex_half_edge.push(HalfEdgeId::NONE);
+        self.attributes.grow(Domain::Vertex, v.index() + 1);
+        v
+    }
+
+    /// A new edge between two vertices: its halves have no faces and no followers yet.
+    pub(crate) fn push_edge(&mut self, origin: VertexId, target: VertexId) -> EdgeId {
+        let e = EdgeId::new(self.connectivity.next.len() / 2);
+        self.connectivity.next.extend([HalfEdgeId::NONE; 2]);
+        self.connectivity.origin.extend([origin, target]);
+        self.connectivity.face.extend([FaceId::NONE; 2]);
+        self.attributes.grow(Domain::Edge, e.index() + 1);
+        self.attributes.grow(Domain::Corner, 2 * e.index() + 2);
+        e
+    }
+
+    /// A new face at half-edge `h`.
+    pub(crate) fn push_face(&mut self, h: HalfEdgeId) -> FaceId {
+        let f = FaceId::new(self.connectivity.face_half_edge.len());
+        self.connectivity.face_half_edge.push(h);
+        self.attributes.grow(Domain::Face, f.index() + 1);
+        f
+    }
+}
+
+/// The ids of a range that are not marked dead.
+fn living<I: Id>(range: Range<usize>, dead: &Marks) -> impl Iterator<Item = I> + Clone + '_ {
+    range.filter(|&i| !dead.has(i)).map(I::new)
+}

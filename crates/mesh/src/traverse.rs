@@ -1,0 +1,206 @@
+//! Walking around faces and vertices, and finding the edge between two vertices.
+//!
+//! ```text
+//!            c
+//!          /   \            around face f, counter-clockwise:   h, next(h), next(next(h))
+//!        /   f   \          around vertex a, clockwise:         h, next(twin(h)), ...
+//!      a ---h---> b
+//! ```
+
+use crate::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
+
+/// Half-edges around a face or leaving a vertex, until the first one comes again.
+///
+/// A named type without a destructor, so that `if let Some(h) = mesh.vertex_half_edges(v).find(..)`
+/// does not borrow the mesh for the block that follows.
+#[derive(Clone, Debug)]
+pub struct Orbit<'m> {
+    mesh: &'m Mesh,
+    start: Option<HalfEdgeId>,
+    at: Option<HalfEdgeId>,
+    around_vertex: bool,
+}
+
+impl Iterator for Orbit<'_> {
+    type Item = HalfEdgeId;
+
+    #[inline]
+    fn next(&mut self) -> Option<HalfEdgeId> {
+        let h = self.at?;
+        let following = self
+            .mesh
+            .next(if self.around_vertex { h.twin() } else { h });
+        self.at = Some(following).filter(|_| Some(following) != self.start);
+        Some(h)
+    }
+}
+
+impl Mesh {
+    /// The half-edges of `f`, counter-clockwise, beginning with [`Mesh::face_half_edge`].
+    pub fn face_half_edges(&self, f: FaceId) -> Orbit<'_> {
+        self.loop_half_edges(self.face_half_edge(f))
+    }
+
+    /// The half-edges around the face, or the hole, of `h`, beginning with `h`.
+    pub fn loop_half_edges(&self, h: HalfEdgeId) -> Orbit<'_> {
+        Orbit {
+            mesh: self,
+            start: Some(h),
+            at: Some(h),
+            around_vertex: false,
+        }
+    }
+
+    /// The half-edges that leave `v`, clockwise; on the boundary the first is the boundary one and
+    /// the last is the one whose twin is on the boundary.
+    pub fn vertex_half_edges(&self, v: VertexId) -> Orbit<'_> {
+        let h = self.vertex_half_edge(v);
+        Orbit {
+            mesh: self,
+            start: h,
+            at: h,
+            around_vertex: true,
+        }
+    }
+
+    /// The corners of `f`, counter-clockwise.
+    pub fn face_vertices(&self, f: FaceId) -> impl Iterator<Item = VertexId> + Clone + '_ {
+        self.face_half_edges(f).map(|h| self.origin(h))
+    }
+
+    /// The vertices that share an edge with `v`, clockwise.
+    pub fn vertex_neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + Clone + '_ {
+        self.vertex_half_edges(v).map(|h| self.target(h))
+    }
+
+    /// The faces around `v`, clockwise.
+    pub fn vertex_faces(&self, v: VertexId) -> impl Iterator<Item = FaceId> + Clone + '_ {
+        self.vertex_half_edges(v).filter_map(|h| self.face(h))
+    }
+
+    /// The two vertices of `e`: the origin and the target of its first half.
+    pub fn edge_vertices(&self, e: EdgeId) -> [VertexId; 2] {
+        e.half_edges().map(|h| self.origin(h))
+    }
+
+    /// The faces beside `e`: of its first and of its second half.
+    pub fn edge_faces(&self, e: EdgeId) -> [Option<FaceId>; 2] {
+        e.half_edges().map(|h| self.face(h))
+    }
+
+    /// The half-edge before `h`. Walks around the face, or on the boundary around the vertex.
+    pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
+        let orbit = if self.face(h).is_some() {
+            self.loop_half_edges(h)
+        } else {
+            Orbit {
+                mesh: self,
+                start: Some(h),
+                at: Some(h),
+                around_vertex: true,
+            }
+        };
+        let on_boundary = orbit.around_vertex;
+        let last = orbit.last().expect("an orbit contains its start");
+        if on_boundary { last.twin() } else { last }
+    }
+
+    /// The half-edge from `v` to `w`, if they share an edge. Of several the first around `v`.
+    pub fn find_half_edge(&self, v: VertexId, w: VertexId) -> Option<HalfEdgeId> {
+        self.vertex_half_edges(v).find(|&h| self.target(h) == w)
+    }
+
+    /// The number of edges at `v`.
+    pub fn valence(&self, v: VertexId) -> usize {
+        self.vertex_half_edges(v).count()
+    }
+
+    /// The number of corners of `f`.
+    pub fn degree(&self, f: FaceId) -> usize {
+        self.face_half_edges(f).count()
+    }
+
+    /// Whether `f` has three corners.
+    pub fn is_triangle(&self, f: FaceId) -> bool {
+        let h = self.face_half_edge(f);
+        self.next(self.next(self.next(h))) == h
+    }
+
+    /// Whether `e` has a face on one side only.
+    pub fn is_boundary_edge(&self, e: EdgeId) -> bool {
+        self.edge_faces(e).contains(&None)
+    }
+
+    /// Whether `v` has a boundary edge.
+    pub fn is_boundary_vertex(&self, v: VertexId) -> bool {
+        self.vertex_half_edge(v)
+            .is_some_and(|h| self.face(h).is_none())
+    }
+
+    /// Whether some corner attribute has different values on the two sides of `e`, at either end.
+    /// A boundary edge is no seam.
+    pub fn is_seam(&self, e: EdgeId) -> bool {
+        let [h, twin] = e.half_edges();
+        self.face(h).is_some()
+            && self.face(twin).is_some()
+            && (self.attributes.corners_differ(h, self.next(twin))
+                || self.attributes.corners_differ(self.next(h), twin))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes;
+
+    /// A fan of three triangles around vertex 0, drawn counter-clockwise: 1 east, 2 north-east, 3
+    /// north-west, 4 west.
+    fn fan() -> Mesh {
+        let at = |x: f64, y: f64| glam::DVec3::new(x, y, 0.0);
+        let positions = vec![at(0., 0.), at(2., 0.), at(1., 2.), at(-1., 2.), at(-2., 0.)];
+        Mesh::from_polygons(positions, &[[0, 1, 2], [0, 2, 3], [0, 3, 4]])
+            .unwrap()
+            .0
+    }
+
+    #[test]
+    fn a_vertex_is_walked_around_clockwise_from_its_boundary() {
+        let mesh = fan();
+        let around: Vec<_> = mesh
+            .vertex_neighbors(VertexId::new(0))
+            .map(VertexId::index)
+            .collect();
+        assert_eq!(around, [4, 3, 2, 1]);
+    }
+
+    #[test]
+    fn a_face_is_walked_around_counter_clockwise() {
+        let mesh = fan();
+        let around: Vec<_> = mesh
+            .face_vertices(FaceId::new(1))
+            .map(VertexId::index)
+            .collect();
+        assert_eq!(around, [0, 2, 3]);
+    }
+
+    #[test]
+    fn prev_is_the_inverse_of_next() {
+        for mesh in [fan(), shapes::cube(), shapes::grid(3, 2)] {
+            assert!(mesh.half_edges().all(|h| mesh.prev(mesh.next(h)) == h));
+        }
+    }
+
+    #[test]
+    fn the_half_edge_between_two_vertices_is_found_or_not_there() {
+        let mesh = fan();
+        let h = mesh
+            .find_half_edge(VertexId::new(2), VertexId::new(0))
+            .unwrap();
+        assert_eq!(mesh.origin(h), VertexId::new(2));
+        assert_eq!(mesh.target(h), VertexId::new(0));
+        assert_eq!(
+            mesh.find_half_edge(VertexId::new(1), VertexId::new(3)),
+            None
+        );
+    }
+}

@@ -1,0 +1,431 @@
+//! Bezier curves of any degree, by de Casteljau's algorithm.
+//!
+//! ```text
+//!        p1 ---- q1 ------ p2          p: control points (level 0)
+//!       /      /    \        \         q: level 1
+//!      /      r0--m--r1       \        r: level 2
+//!     /      /         \       \       m: level 3, the point of the curve
+//!    q0 ----'           '------ q2
+//!   /                             \    each level cuts the legs of the one before
+//! p0                               p3  in the ratio t : 1 - t
+//! ```
+//!
+//! Sources: Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, chapters 4 and 5;
+//! de Casteljau, "Outillages méthodes calcul", Citroën, 1959.
+
+use std::fmt::Debug;
+use std::ops::{Add, Mul, Sub};
+
+use glam::{DVec2, DVec3};
+
+use crate::BezierError;
+use crate::weights::Weights;
+
+/// The most control points that a [`Curve`] takes.
+///
+/// De Casteljau's algorithm makes n (n + 1) / 2 points out of n: this bounds what one evaluation
+/// costs (8 million steps) and what [`Curve::levels`] holds (200 MB).
+pub const MAX_POINTS: usize = 4096;
+
+/// A point of the plane or of space, and the vectors between such points.
+pub trait Point:
+    Copy + Debug + PartialEq + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
+{
+    /// The origin, or the vector of length zero.
+    const ZERO: Self;
+
+    /// Whether every coordinate is a number and not infinite.
+    fn is_finite(self) -> bool;
+}
+
+impl Point for DVec2 {
+    const ZERO: Self = DVec2::ZERO;
+
+    fn is_finite(self) -> bool {
+        DVec2::is_finite(self)
+    }
+}
+
+impl Point for DVec3 {
+    const ZERO: Self = DVec3::ZERO;
+
+    fn is_finite(self) -> bool {
+        DVec3::is_finite(self)
+    }
+}
+
+/// A Bezier curve of degree n, given by n + 1 control points.
+///
+/// It starts at the first control point (t = 0), ends at the last (t = 1), touches the first and
+/// last leg of the control polygon there, and stays inside the convex hull of the control points
+/// between. Parameters outside 0 to 1 are allowed everywhere: they continue the same polynomial.
+/// A parameter that is no number gives points that are no numbers, and never a panic.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve<P> {
+    /// Never empty, at most [`MAX_POINTS`] of them.
+    points: Vec<P>,
+}
+
+impl<P: Point> Curve<P> {
+    /// A curve from its control points, first to last.
+    ///
+    /// # Errors
+    ///
+    /// [`BezierError::NoPoints`] without a point, [`BezierError::TooManyPoints`] with more than
+    /// [`MAX_POINTS`], [`BezierError::NotFinite`] for the first point that is not finite.
+    pub fn new(points: Vec<P>) -> Result<Self, BezierError> {
+        if points.is_empty() {
+            return Err(BezierError::NoPoints);
+        }
+        if points.len() > MAX_POINTS {
+            return Err(BezierError::TooManyPoints {
+                count: points.len(),
+            });
+        }
+        match points.iter().position(|p| !p.is_finite()) {
+            Some(index) => Err(BezierError::NotFinite { index }),
+            None => Ok(Self { points }),
+        }
+    }
+
+    /// The control points, first to last: at least one.
+    pub fn points(&self) -> &[P] {
+        &self.points
+    }
+
+    /// One less than the number of control points.
+    pub fn degree(&self) -> usize {
+        self.points.len() - 1
+    }
+
+    /// The same curve with control point `index` moved to `point`.
+    ///
+    /// # Errors
+    ///
+    /// [`BezierError::NoSuchPoint`] if there is no such control point, [`BezierError::NotFinite`]
+    /// if `point` is not finite.
+    pub fn with_point(&self, index: usize, point: P) -> Result<Self, BezierError> {
+        if index >= self.points.len() {
+            return Err(BezierError::NoSuchPoint {
+                index,
+                count: self.points.len(),
+            });
+        }
+        let mut points = self.points.clone();
+        points[index] = point;
+        Self::new(points)
+    }
+
+    /// Every level of de Casteljau's algorithm at `t`: degree + 1 of them.
+    ///
+    /// The first holds the control points, each has one point less than the one before, and the
+    /// last holds the point of the curve.
+    pub fn levels(&self, t: f64) -> Vec<Vec<P>> {
+        let mut levels = vec![self.points.clone()];
+        for k in 0..self.degree() {
+            levels.push(one_step(&levels[k], t));
+        }
+        levels
+    }
+
+    /// The point of the curve at `t`. The ends (0 and 1) are the end control points, bit for bit.
+    pub fn point(&self, t: f64) -> P {
+        casteljau(self.points.clone(), Weights::at(t))
+    }
+
+    /// The derivative with respect to t: the velocity of the point at `t`, zero for degree 0.
+    ///
+    /// It is n times the Bezier curve of the differences of the control points (Farin 2002, §5.3).
+    pub fn derivative(&self, t: f64) -> P {
+        match self.differences() {
+            differences if differences.is_empty() => P::ZERO,
+            differences => casteljau(differences, Weights::at(t)),
+        }
+    }
+
+    /// The derivative as a curve of its own, one degree lower; `None` for degree 0, and if the
+    /// differences of huge coordinates are not finite.
+    pub fn hodograph(&self) -> Option<Self> {
+        Self::new(self.differences()).ok()
+    }
+
+    /// Cuts the curve at `t`: the parts that run from 0 to `t` and from `t` to 1.
+    ///
+    /// The first takes the first point of every level, the second takes the last ones. At x of
+    /// 0 to 1 the first equals this curve at t x, the second at t + (1 - t) x.
+    ///
+    /// # Errors
+    ///
+    /// [`BezierError::BadParameter`] if `t` is not finite, [`BezierError::NotFinite`] if `t` is so
+    /// far outside 0 to 1 that a control point of a part is not finite.
+    pub fn split(&self, t: f64) -> Result<(Self, Self), BezierError> {
+        if !t.is_finite() {
+            return Err(BezierError::BadParameter { t });
+        }
+        let weights = Weights::at(t);
+        let mut last = self.points.clone();
+        let mut first = vec![last[0]];
+        // After step k, `last` holds level k in front and the last points of the levels before
+        // it, newest first, behind: in the end the control points of the second part.
+        for remaining in (1..self.points.len()).rev() {
+            for i in 0..remaining {
+                last[i] = weights.blend(last[i], last[i + 1]);
+            }
+            first.push(last[0]);
+        }
+        Ok((Self::new(first)?, Self::new(last)?))
+    }
+
+    /// The points at 0, 1/n, 2/n, ... 1 for n `segments`: n + 1 points, both ends exact.
+    ///
+    /// Of 0 segments only the start remains. The reversed curve gives the same points, bit for
+    /// bit, in reverse.
+    pub fn sample(&self, segments: u32) -> impl Iterator<Item = P> {
+        let points = &self.points;
+        (0..=segments).map(move |i| match i {
+            0 => points[0],
+            i => casteljau(points.clone(), Weights::ratio(i, segments)),
+        })
+    }
+
+    /// n times the differences of neighbouring control points: none for degree 0.
+    fn differences(&self) -> Vec<P> {
+        let n = self.degree() as f64;
+        self.points
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]) * n)
+            .collect()
+    }
+}
+
+/// One step of de Casteljau's algorithm: (1 - t) a + t b for every pair of neighbours a, b.
+///
+/// Gives one point less than it gets, and none for one point or none.
+pub fn one_step<P: Point>(points: &[P], t: f64) -> Vec<P> {
+    let weights = Weights::at(t);
+    points
+        .windows(2)
+        .map(|pair| weights.blend(pair[0], pair[1]))
+        .collect()
+}
+
+/// The last level of de Casteljau's algorithm. `points` is not empty.
+fn casteljau<P: Point>(mut points: Vec<P>, weights: Weights) -> P {
+    if let Some(end) = weights.end() {
+        return if end == 0 {
+            points[0]
+        } else {
+            points[points.len() - 1]
+        };
+    }
+    for remaining in (1..points.len()).rev() {
+        for i in 0..remaining {
+            points[i] = weights.blend(points[i], points[i + 1]);
+        }
+    }
+    points[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bernstein;
+    use crate::fixtures::{Lcg, assert_close};
+
+    /// Random curves of degree 0 to 12.
+    fn curves(seed: u64) -> Vec<Curve<DVec3>> {
+        let mut random = Lcg::new(seed);
+        (1..=13)
+            .map(|n| Curve::new((0..n).map(|_| random.point()).collect()).unwrap())
+            .collect()
+    }
+
+    #[test]
+    fn points_and_derivatives_agree_with_the_bernstein_form() {
+        let mut random = Lcg::new(1);
+        for curve in curves(2) {
+            for _ in 0..50 {
+                let t = random.unit();
+                assert_close(curve.point(t), bernstein::point(curve.points(), t), 1e-12);
+                assert_close(
+                    curve.derivative(t),
+                    bernstein::derivative(curve.points(), t),
+                    1e-12,
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_ends_are_the_end_control_points_bit_for_bit() {
+        let points = vec![
+            DVec2::new(-0.0, 0.1),
+            DVec2::new(3.0, 0.7),
+            DVec2::new(0.3, -0.0),
+        ];
+        let curve = Curve::new(points.clone()).unwrap();
+        let samples: Vec<DVec2> = curve.sample(7).collect();
+
+        assert_eq!(samples.len(), 8);
+        for (p, q) in [(samples[0], points[0]), (samples[7], points[2])] {
+            assert_eq!(
+                p.to_array().map(f64::to_bits),
+                q.to_array().map(f64::to_bits)
+            );
+        }
+        assert_eq!((curve.point(0.0), curve.point(1.0)), (points[0], points[2]));
+    }
+
+    #[test]
+    fn levels_shrink_to_the_point() {
+        let points = [[0.0, 0.0], [0.0, 4.0], [4.0, 4.0]].map(DVec2::from_array);
+        let levels = Curve::new(points.to_vec()).unwrap().levels(0.5);
+
+        assert_eq!(levels.iter().map(Vec::len).collect::<Vec<_>>(), [3, 2, 1]);
+        assert_eq!(levels[0], points);
+        assert_eq!(levels[1], [DVec2::new(0.0, 2.0), DVec2::new(2.0, 4.0)]);
+        assert_eq!(levels[2], [DVec2::new(1.0, 3.0)]);
+    }
+
+    #[test]
+    fn both_parts_of_a_split_trace_the_same_curve() {
+        let mut random = Lcg::new(3);
+        for curve in curves(4) {
+            for t in [random.unit(), 0.5, 0.0, 1.0, -0.5, 1.5] {
+                let (first, second) = curve.split(t).unwrap();
+                assert_eq!(first.degree(), curve.degree());
+                assert_eq!(second.degree(), curve.degree());
+                for _ in 0..10 {
+                    let x = random.unit();
+                    assert_close(first.point(x), curve.point(t * x), 1e-9);
+                    assert_close(second.point(x), curve.point(t + (1.0 - t) * x), 1e-9);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_affine_map_commutes_with_evaluation() {
+        let map = glam::DAffine3::from_mat3_translation(
+            glam::DMat3::from_cols_array(&[1.0, 2.0, 0.0, -1.0, 0.5, 3.0, 0.25, 0.0, -2.0]),
+            DVec3::new(5.0, -3.0, 2.0),
+        );
+        for curve in curves(5) {
+            let points = curve
+                .points()
+                .iter()
+                .map(|&p| map.transform_point3(p))
+                .collect();
+            let moved = Curve::new(points).unwrap();
+            for t in [0.1, 0.37, 0.5, 0.93] {
+                assert_close(moved.point(t), map.transform_point3(curve.point(t)), 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn the_curve_stays_in_the_box_of_its_control_points() {
+        for curve in curves(6) {
+            let low = curve.points().iter().copied().reduce(DVec3::min).unwrap();
+            let high = curve.points().iter().copied().reduce(DVec3::max).unwrap();
+            let margin = DVec3::splat(1e-14);
+            for p in curve.sample(100) {
+                assert!(p.cmpge(low - margin).all() && p.cmple(high + margin).all());
+            }
+        }
+    }
+
+    #[test]
+    fn the_derivative_is_the_limit_of_difference_quotients_and_the_point_of_the_hodograph() {
+        let h = 1e-5;
+        for curve in curves(7) {
+            for t in [0.0, 0.3, 0.77, 1.0] {
+                let quotient = (curve.point(t + h) - curve.point(t - h)) / (2.0 * h);
+                assert_close(curve.derivative(t), quotient, 1e-7);
+                match curve.hodograph() {
+                    Some(hodograph) => assert_eq!(hodograph.point(t), curve.derivative(t)),
+                    None => assert_eq!(curve.degree(), 0),
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_reversed_curve_samples_the_same_bits() {
+        for curve in curves(8) {
+            let reversed = Curve::new(curve.points().iter().rev().copied().collect()).unwrap();
+            for n in [1, 3, 7, 49, 100] {
+                let forth: Vec<DVec3> = curve.sample(n).collect();
+                let back: Vec<DVec3> = reversed.sample(n).collect();
+                for (p, q) in forth.iter().zip(back.iter().rev()) {
+                    assert_eq!(
+                        p.to_array().map(f64::to_bits),
+                        q.to_array().map(f64::to_bits)
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn moving_a_control_point_moves_the_curve_by_its_bernstein_weight() {
+        let curve = &curves(9)[5];
+        let shift = DVec3::new(0.0, 2.0, 0.0);
+        let moved = curve.with_point(2, curve.points()[2] + shift).unwrap();
+
+        let weight = bernstein::weight(5, 2, 0.4);
+        assert_close(moved.point(0.4) - curve.point(0.4), shift * weight, 1e-12);
+    }
+
+    #[test]
+    fn bad_points_are_refused() {
+        let nan = DVec2::new(0.0, f64::NAN);
+        let curve = Curve::new(vec![DVec2::ZERO, DVec2::ONE]).unwrap();
+
+        assert_eq!(Curve::<DVec2>::new(vec![]), Err(BezierError::NoPoints));
+        assert_eq!(
+            Curve::new(vec![DVec2::ZERO, nan]),
+            Err(BezierError::NotFinite { index: 1 })
+        );
+        assert_eq!(
+            Curve::new(vec![DVec2::ZERO; MAX_POINTS + 1]),
+            Err(BezierError::TooManyPoints {
+                count: MAX_POINTS + 1
+            })
+        );
+        assert_eq!(
+            curve.with_point(0, nan),
+            Err(BezierError::NotFinite { index: 0 })
+        );
+        assert_eq!(
+            curve.with_point(2, DVec2::ONE),
+            Err(BezierError::NoSuchPoint { index: 2, count: 2 })
+        );
+    }
+
+    #[test]
+    fn parameters_that_are_no_numbers_never_panic() {
+        for curve in curves(10) {
+            for t in [
+                f64::NAN,
+                f64::INFINITY,
+                f64::NEG_INFINITY,
+                f64::MAX,
+                -f64::MAX,
+            ] {
+                let (_, _, _) = (curve.point(t), curve.derivative(t), curve.levels(t));
+                assert!(curve.split(t).is_err() || curve.degree() < 2);
+            }
+        }
+    }
+
+    #[test]
+    fn one_step_of_one_point_is_empty() {
+        assert!(one_step(&[DVec2::ONE], 0.5).is_empty());
+        assert!(one_step::<DVec2>(&[], 0.5).is_empty());
+        assert_eq!(
+            one_step(&[DVec2::ZERO, DVec2::ONE], 0.25),
+            [DVec2::splat(0.25)]
+        );
+    }
+}

@@ -1,0 +1,69 @@
+//! Bezier curves and patches: de Casteljau's algorithm, derivatives, exact normals, subdivision
+//! of curves, and tessellation of patches into polygons.
+//!
+//! The crate knows numbers only: no meshes, no files, no operations.
+//!
+//! - A **Bezier curve** of degree n is the weighted mean of n + 1 *control points*: c(t) is the
+//!   sum of `p_i B(n, i)(t)` with the Bernstein polynomials B(n, i). [`Curve`], in 2D and in 3D.
+//! - **De Casteljau's algorithm** finds c(t) by taking, level after level, the points that cut the
+//!   legs of the control polygon in the ratio t : 1 - t. [`one_step`], [`Curve::levels`].
+//! - A **bicubic patch** is a curve of curves, s(u, v), with 4 by 4 control points: u runs along a
+//!   row, v across the rows. [`Patch`].
+//! - A **tessellation** samples patches at u = i/n, v = j/n and joins the samples by triangles or
+//!   quads. [`tessellate()`], [`counts`].
+//!
+//! Faces are counter-clockwise seen from the side of the normal ds/du x ds/dv. Positions that two
+//! patches share are the same bits, collapsed sides become one vertex, and normals are exact
+//! there too.
+//!
+//! # Examples
+//!
+//! ```
+//! use bezier::{Curve, DVec2, DVec3, Faces, Patch, counts, tessellate};
+//!
+//! // A curve, the construction of its middle point, and its two halves.
+//! let arch = Curve::new(vec![DVec2::ZERO, DVec2::new(0.0, 4.0), DVec2::new(4.0, 4.0)])?;
+//! let levels = arch.levels(0.5);
+//! assert_eq!(levels[1], [DVec2::new(0.0, 2.0), DVec2::new(2.0, 4.0)]);
+//! assert_eq!(levels[2], [arch.point(0.5)]);
+//! let (left, right) = arch.split(0.5)?;
+//! assert_eq!(left.point(1.0), right.point(0.0));
+//!
+//! // A hill over a square, in triangles.
+//! let height = [0.0, 1.0, 1.0, 0.0];
+//! let hill = Patch::new([0, 1, 2, 3].map(|r| {
+//!     [0, 1, 2, 3].map(|c| DVec3::new(c as f64, r as f64, height[r] * height[c]))
+//! }))?;
+//! assert_eq!(hill.normal(0.5, 0.5), DVec3::Z);
+//! let mesh = tessellate(&[hill], 8, Faces::Triangles)?;
+//! assert_eq!((mesh.positions.len(), mesh.face_count()), (81, 128));
+//! assert_eq!(counts(&[hill], 8, Faces::Triangles)?.faces, 128);
+//! # Ok::<(), bezier::BezierError>(())
+//! ```
+//!
+//! # Sources
+//!
+//! - de Casteljau, "Outillages méthodes calcul", Citroën, 1959: the algorithm.
+//! - Farin, "Curves and Surfaces for CAGD", 5th edition, 2002: the names and the formulas.
+//! - Newell, "The utilization of procedure models in digital image synthesis", 1975: the teapot,
+//!   whose lid and bottom have the collapsed sides that every Bezier program meets first.
+
+#[cfg(test)]
+mod bernstein;
+mod collapse;
+pub mod curve;
+mod error;
+#[cfg(test)]
+mod fixtures;
+pub mod normal;
+pub mod patch;
+pub mod polygons;
+pub mod tessellate;
+mod weights;
+
+pub use curve::{Curve, MAX_POINTS, Point, one_step};
+pub use error::BezierError;
+pub use glam::{DVec2, DVec3};
+pub use patch::{MAX_COORDINATE, Patch};
+pub use polygons::{Counts, Tessellation};
+pub use tessellate::{Faces, counts, tessellate, tessellate_patch};

@@ -1,0 +1,277 @@
+//! Bicubic Bezier patches.
+//!
+//! ```text
+//!   v                                   row r of the control points is the control polygon
+//!   ^   p30 -- p31 -- p32 -- p33        of a cubic in u; the four points of these cubics at u
+//!   |    |      |      |      |         are the control polygon of a cubic in v
+//!   |   p20 -- p21 -- p22 -- p23
+//!   |    |      |      |      |         rc: row r, column c
+//!   |   p10 -- p11 -- p12 -- p13        (u, v) = (0, 0) at p00, (1, 0) at p03,
+//!   |    |      |      |      |                  (0, 1) at p30, (1, 1) at p33
+//!   |   p00 -- p01 -- p02 -- p03
+//!   +---------------------------> u     the normal du x dv points at the reader
+//! ```
+//!
+//! Source: Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, chapter 14.
+
+use glam::{DVec2, DVec3};
+
+use crate::BezierError;
+use crate::normal;
+use crate::weights::Weights;
+
+/// The largest coordinate, in magnitude, that a [`Patch`] takes.
+///
+/// Far beyond every model (`f32` ends at 3.4e38), and small enough that products of two
+/// derivatives do not overflow.
+pub const MAX_COORDINATE: f64 = 1e100;
+
+/// A bicubic Bezier patch: a surface in two parameters, u along the rows of its control points
+/// and v across them.
+///
+/// Parameters outside 0 to 1 are allowed everywhere and continue the same polynomial. A parameter
+/// that is no number gives points that are no numbers and the normal zero, and never a panic.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    points: [[DVec3; 4]; 4],
+}
+
+impl Patch {
+    /// A patch from its control points, `points[row][column]`.
+    ///
+    /// # Errors
+    ///
+    /// [`BezierError::NotFinite`] or [`BezierError::TooLarge`] for the first control point with a
+    /// coordinate that is not finite, or beyond [`MAX_COORDINATE`].
+    #[expect(
+        clippy::large_types_passed_by_value,
+        reason = "a constructor takes what it keeps"
+    )]
+    pub fn new(points: [[DVec3; 4]; 4]) -> Result<Self, BezierError> {
+        for (index, p) in points.as_flattened().iter().enumerate() {
+            if !p.is_finite() {
+                return Err(BezierError::NotFinite { index });
+            }
+            if size(*p) > MAX_COORDINATE {
+                return Err(BezierError::TooLarge { index });
+            }
+        }
+        Ok(Self { points })
+    }
+
+    /// The control points, `points[row][column]`.
+    pub fn points(&self) -> &[[DVec3; 4]; 4] {
+        &self.points
+    }
+
+    /// The patch with the roles of u and v exchanged: the same surface seen from the other side,
+    /// every normal reversed.
+    #[must_use]
+    pub fn transposed(&self) -> Self {
+        let p = &self.points;
+        Self {
+            points: [0, 1, 2, 3].map(|c| [p[0][c], p[1][c], p[2][c], p[3][c]]),
+        }
+    }
+
+    /// The point at (`u`, `v`): every row at u, then the four points at v.
+    ///
+    /// On the boundary it is the point of the curve of the boundary control points, and at a
+    /// corner the control point, bit for bit.
+    pub fn point(&self, u: f64, v: f64) -> DVec3 {
+        self.point_at(Weights::at(u), Weights::at(v))
+    }
+
+    /// The derivatives by u and by v at (`u`, `v`), not scaled.
+    pub fn derivatives(&self, u: f64, v: f64) -> (DVec3, DVec3) {
+        self.derivatives_at(Weights::at(u), Weights::at(v))
+    }
+
+    /// The unit normal at (`u`, `v`), in the direction of du x dv.
+    ///
+    /// Where du x dv vanishes, as at the pole of a surface of revolution, it is the limit of the
+    /// normals inside the patch; see the [module of normals](crate::normal). Zero only
+    /// where the patch has no normal anywhere near: it is a curve or a point.
+    pub fn normal(&self, u: f64, v: f64) -> DVec3 {
+        self.normal_at(Weights::at(u), Weights::at(v), self.reach())
+    }
+
+    /// The point at a pair of weights.
+    pub(crate) fn point_at(&self, u: Weights, v: Weights) -> DVec3 {
+        cubic(self.points.map(|row| cubic(row, u)), v)
+    }
+
+    /// The normal at a pair of weights. `reach` is that of [`Patch::reach`].
+    pub(crate) fn normal_at(&self, u: Weights, v: Weights, reach: DVec2) -> DVec3 {
+        if reach.x == 0.0 || reach.y == 0.0 {
+            return DVec3::ZERO;
+        }
+        let (du, dv) = self.derivatives_at(u, v);
+        normal::unit((du / reach.x).cross(dv / reach.y))
+            .or_else(|| normal::limit(&self.expansion(u, v), reach, DVec2::new(u.t, v.t)))
+            .unwrap_or(DVec3::ZERO)
+    }
+
+    /// The largest coordinate difference between neighbouring control points, along u and along v.
+    ///
+    /// These are the sizes against which derivatives are called zero.
+    pub(crate) fn reach(&self) -> DVec2 {
+        let mut reach = DVec2::ZERO;
+        for row in &self.points {
+            for pair in row.windows(2) {
+                reach.x = reach.x.max(size(pair[1] - pair[0]));
+            }
+        }
+        for rows in self.points.windows(2) {
+            for (p, q) in rows[0].iter().zip(&rows[1]) {
+                reach.y = reach.y.max(size(*q - *p));
+            }
+        }
+        reach
+    }
+
+    /// The derivatives at a pair of weights.
+    fn derivatives_at(&self, u: Weights, v: Weights) -> (DVec3, DVec3) {
+        let du = cubic(self.points.map(|row| slope(row, u)), v);
+        let dv = slope(self.points.map(|row| cubic(row, u)), v);
+        (du, dv)
+    }
+
+    /// The Taylor coefficients c: the point at (u + x, v + y) is the sum of c\[i\]\[j\] x^i y^j.
+    fn expansion(&self, u: Weights, v: Weights) -> [[DVec3; 4]; 4] {
+        let rows = self.points.map(|row| taylor(row, u));
+        [0, 1, 2, 3].map(|i| taylor(rows.map(|coefficients| coefficients[i]), v))
+    }
+}
+
+/// The largest coordinate in magnitude.
+pub(crate) fn size(p: DVec3) -> f64 {
+    p.abs().max_element()
+}
+
+/// The point of a cubic.
+pub(crate) fn cubic(p: [DVec3; 4], w: Weights) -> DVec3 {
+    match w.end() {
+        Some(0) => p[0],
+        Some(_) => p[3],
+        None => {
+            let q = [
+                w.blend(p[0], p[1]),
+                w.blend(p[1], p[2]),
+                w.blend(p[2], p[3]),
+            ];
+            quadratic(q, w)
+        }
+    }
+}
+
+/// The point of a quadratic.
+fn quadratic(p: [DVec3; 3], w: Weights) -> DVec3 {
+    w.blend(w.blend(p[0], p[1]), w.blend(p[1], p[2]))
+}
+
+/// The derivative of a cubic.
+fn slope(p: [DVec3; 4], w: Weights) -> DVec3 {
+    quadratic([p[1] - p[0], p[2] - p[1], p[3] - p[2]], w) * 3.0
+}
+
+/// The Taylor coefficients of a cubic: its derivatives of order k divided by k!.
+///
+/// Order k takes the k-th differences of the control points (Farin 2002, §5.3).
+fn taylor(p: [DVec3; 4], w: Weights) -> [DVec3; 4] {
+    let first = [p[1] - p[0], p[2] - p[1], p[3] - p[2]];
+    let second = [first[1] - first[0], first[2] - first[1]];
+    let third = second[1] - second[0];
+    [
+        cubic(p, w),
+        quadratic(first, w) * 3.0,
+        w.blend(second[0], second[1]) * 3.0,
+        third,
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bernstein;
+    use crate::fixtures::{Lcg, assert_close};
+
+    #[test]
+    fn points_and_derivatives_agree_with_the_bernstein_form() {
+        let mut random = Lcg::new(11);
+        for _ in 0..20 {
+            let patch = random.patch();
+            for _ in 0..20 {
+                let (u, v) = (random.unit(), random.unit());
+                let [point, by_u, by_v] = bernstein::patch(patch.points(), u, v);
+                let (du, dv) = patch.derivatives(u, v);
+                assert_close(patch.point(u, v), point, 1e-12);
+                assert_close(du, by_u, 1e-12);
+                assert_close(dv, by_v, 1e-12);
+                assert_close(patch.normal(u, v), by_u.cross(by_v).normalize(), 1e-10);
+            }
+        }
+    }
+
+    #[test]
+    fn corners_are_control_points_and_u_runs_along_a_row() {
+        let patch = Lcg::new(12).patch();
+        let p = patch.points();
+
+        assert_eq!(patch.point(0.0, 0.0), p[0][0]);
+        assert_eq!(patch.point(1.0, 0.0), p[0][3]);
+        assert_eq!(patch.point(0.0, 1.0), p[3][0]);
+        assert_eq!(patch.point(1.0, 1.0), p[3][3]);
+    }
+
+    #[test]
+    fn the_taylor_expansion_continues_the_patch() {
+        let patch = Lcg::new(13).patch();
+        let (u, v, x, y) = (0.3, 0.8, 0.4_f64, -0.7_f64);
+        let mut sum = DVec3::ZERO;
+        for (row, x) in patch
+            .expansion(Weights::at(u), Weights::at(v))
+            .iter()
+            .zip(powers(x))
+        {
+            for (&c, y) in row.iter().zip(powers(y)) {
+                sum += c * x * y;
+            }
+        }
+        assert_close(sum, patch.point(u + x, v + y), 1e-12);
+    }
+
+    fn powers(x: f64) -> [f64; 4] {
+        [1.0, x, x * x, x * x * x]
+    }
+
+    #[test]
+    fn transposing_reverses_normals_and_keeps_points() {
+        let patch = Lcg::new(14).patch();
+        let other = patch.transposed();
+
+        assert_close(other.point(0.2, 0.7), patch.point(0.7, 0.2), 1e-14);
+        assert_close(other.normal(0.2, 0.7), -patch.normal(0.7, 0.2), 1e-12);
+        assert_eq!(other.transposed(), patch);
+    }
+
+    #[test]
+    fn bad_control_points_are_refused_by_place() {
+        let mut points = *Lcg::new(15).patch().points();
+        points[2][1].y = -1e101;
+        assert_eq!(Patch::new(points), Err(BezierError::TooLarge { index: 9 }));
+        points[1][3].z = f64::INFINITY;
+        assert_eq!(Patch::new(points), Err(BezierError::NotFinite { index: 7 }));
+    }
+
+    #[test]
+    fn parameters_that_are_no_numbers_never_panic() {
+        let patch = Lcg::new(16).patch();
+        for t in [f64::NAN, f64::INFINITY, f64::MAX, -f64::MAX] {
+            let _ = (patch.point(t, 0.5), patch.derivatives(0.5, t));
+            let normal = patch.normal(t, 0.5);
+            assert!(normal == DVec3::ZERO || normal.is_normalized());
+        }
+        assert_eq!(patch.normal(f64::NAN, 0.5), DVec3::ZERO);
+    }
+}

@@ -1,0 +1,439 @@
+//! Patches into polygons.
+//!
+//! ```text
+//!   (0,n) ------------ (n,n)      every patch is cut into n by n cells at u = i/n, v = j/n
+//!     |  |  |  |  |  |  |
+//!     |--d-----c--|--|--|         quads:      a b c d
+//!     |  |   / |  |  |  |         triangles:  a b c  and  a c d, always along this diagonal
+//!     |--a-----b--|--|--|
+//!     |  |  |  |  |  |  |         v
+//!   (0,0) ------------ (n,0)      ^  faces run counter-clockwise seen from the side
+//!                                 +-> u   that du x dv points to
+//! ```
+//!
+//! Vertices are numbered along u first, then along v, patch after patch, and patches share none:
+//! joining them is the business of a weld. For it, patches with the same control points on a
+//! shared boundary, in either direction, get the same positions there, bit for bit.
+//!
+//! A side of a patch that is one point, as at the poles of a teapot's lid, becomes one vertex
+//! (neighbouring collapsed sides together: one). A cell with such a side becomes one triangle, a
+//! cell with more of them no face. The side counts as one point if its boundary curve, sampled at
+//! 0, 1/m, ... 1 with m the smaller of 3 and n, stays within 1e-12 of the extent of the patch's
+//! control points of its first point, in every coordinate. The vertex lies at the start of the
+//! first such side (v = 0, u = 1, v = 1, u = 0); its uv and its normal are those of the middle of
+//! that side. Patches that have no cell left, and patches that are a curve or a point (all rows or
+//! all columns coincide, with the same tolerance), give no vertex and no face and are listed.
+//!
+//! Nothing else is looked for: a patch that folds onto itself, or one that is cut so coarsely that
+//! the corners of a cell lie in a line (the tip of the teapot's spout in one segment), may have
+//! faces without area.
+
+use glam::DVec2;
+
+use crate::collapse::Sides;
+use crate::weights::Weights;
+use crate::{BezierError, Counts, Patch, Tessellation};
+
+/// What a cell of a patch becomes.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Faces {
+    /// Two triangles, cut from the corner (i, j) to the corner (i + 1, j + 1).
+    Triangles,
+    /// One quad.
+    Quads,
+}
+
+/// Tessellates `patches`, each into `segments` by `segments` cells.
+///
+/// The [module](self) says how vertices are numbered and what becomes of sides that are one
+/// point. For progress or cancelling, loop over [`tessellate_patch`].
+///
+/// # Errors
+///
+/// Those of [`counts`], before anything is computed, and [`BezierError::OutOfMemory`].
+pub fn tessellate(
+    patches: &[Patch],
+    segments: u32,
+    faces: Faces,
+) -> Result<Tessellation, BezierError> {
+    let mut out = Tessellation::default();
+    out.reserve(counts(patches, segments, faces)?)?;
+    for patch in patches {
+        tessellate_patch(patch, segments, faces, &mut out)?;
+    }
+    Ok(out)
+}
+
+/// Adds one patch to a tessellation, which keeps its ids.
+///
+/// # Errors
+///
+/// Those of [`counts`], for what `out` would hold, and [`BezierError::OutOfMemory`]. `out` is
+/// unchanged.
+pub fn tessellate_patch(
+    patch: &Patch,
+    segments: u32,
+    faces: Faces,
+    out: &mut Tessellation,
+) -> Result<(), BezierError> {
+    let n = checked_segments(segments)?;
+    let sides = Sides::of(patch, n);
+    let more = sides.counts(n, faces);
+    out.counts().plus(&more).check()?;
+    out.reserve(more)?;
+    if more.faces == 0 {
+        out.empty_patches.push(out.patches);
+    } else {
+        out.collapsed_sides += sides.collapsed.iter().filter(|&&side| side).count() as u64;
+        let reach = patch.reach();
+        let mut cutter = Cutter {
+            patch,
+            n,
+            sides,
+            reach,
+            collapsed: [None; 4],
+        };
+        let mut below = cutter.push_row(0, out);
+        for j in 1..=n {
+            let above = cutter.push_row(j, out);
+            push_faces(&below, &above, faces, out);
+            below = above;
+        }
+    }
+    out.patches += 1;
+    Ok(())
+}
+
+/// How many elements [`tessellate`] gives, exactly, from the control points alone.
+///
+/// # Errors
+///
+/// [`BezierError::NoSegments`] if `segments` is 0, [`BezierError::TooManyElements`] if the
+/// vertices, faces or face corners do not fit ids of 32 bits.
+pub fn counts(patches: &[Patch], segments: u32, faces: Faces) -> Result<Counts, BezierError> {
+    let n = checked_segments(segments)?;
+    let total = patches.iter().fold(Counts::default(), |total, patch| {
+        total.plus(&Sides::of(patch, n).counts(n, faces))
+    });
+    total.check()?;
+    Ok(total)
+}
+
+/// A patch on its way into polygons.
+struct Cutter<'a> {
+    patch: &'a Patch,
+    n: u32,
+    sides: Sides,
+    /// See [`Patch::reach`].
+    reach: DVec2,
+    /// The vertices of collapsed sides, by the first side of their chain.
+    collapsed: [Option<u32>; 4],
+}
+
+impl Cutter<'_> {
+    /// Adds the vertices of row `j` that are not there yet. Gives the ids of all, along u.
+    fn push_row(&mut self, j: u32, out: &mut Tessellation) -> Vec<u32> {
+        let (n, sides) = (self.n, self.sides);
+        let chains = sides.chains();
+        let mut row = Vec::new();
+        for i in 0..=n {
+            let on_side = [j == 0, i == n, j == n, i == 0];
+            let collapsed = (0..4).find(|&k| on_side[k] && sides.collapsed[k]);
+            row.push(match collapsed.map(|side| chains[side]) {
+                None => self.push_vertex(i, j, out),
+                Some(side) => *self.collapsed[side]
+                    .get_or_insert_with(|| push_collapsed(self.patch, side, out)),
+            });
+        }
+        row
+    }
+
+    /// Adds the vertex at (i/n, j/n).
+    fn push_vertex(&self, i: u32, j: u32, out: &mut Tessellation) -> u32 {
+        let (u, v) = (Weights::ratio(i, self.n), Weights::ratio(j, self.n));
+        let normal = self.patch.normal_at(u, v, self.reach);
+        out.push_vertex(self.patch.point_at(u, v), normal, DVec2::new(u.t, v.t))
+    }
+}
+
+/// Adds the one vertex of a collapsed side.
+fn push_collapsed(patch: &Patch, side: usize, out: &mut Tessellation) -> u32 {
+    let p = patch.points();
+    let start = [p[0][0], p[0][3], p[3][3], p[3][0]][side];
+    let [u, v] = [[0.5, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]][side];
+    out.push_vertex(start, patch.normal(u, v), DVec2::new(u, v))
+}
+
+/// Adds the faces between two rows of vertices.
+fn push_faces(below: &[u32], above: &[u32], faces: Faces, out: &mut Tessellation) {
+    for (low, high) in below.windows(2).zip(above.windows(2)) {
+        let [a, b, c, d] = [low[0], low[1], high[1], high[0]];
+        match faces {
+            Faces::Quads => out.push_face([a, b, c, d]),
+            Faces::Triangles => {
+                out.push_face([a, b, c]);
+                out.push_face([a, c, d]);
+            }
+        }
+    }
+}
+
+/// `segments`, unless it is 0.
+fn checked_segments(segments: u32) -> Result<u32, BezierError> {
+    if segments == 0 {
+        Err(BezierError::NoSegments)
+    } else {
+        Ok(segments)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::fixtures::{Lcg, octant, quarter_turn, squared};
+
+    const KINDS: [Faces; 2] = [Faces::Triangles, Faces::Quads];
+
+    /// Patches with none to four collapsed sides, in every position.
+    fn collapsing() -> Vec<Patch> {
+        let mut random = Lcg::new(41);
+        let sides = [
+            [(0, 0), (0, 1), (0, 2), (0, 3)],
+            [(0, 3), (1, 3), (2, 3), (3, 3)],
+            [(3, 0), (3, 1), (3, 2), (3, 3)],
+            [(0, 0), (1, 0), (2, 0), (3, 0)],
+        ];
+        let mut patches = Vec::new();
+        for mask in 0..16 {
+            let mut points = *random.patch().points();
+            // Twice, so that neighbouring sides agree on their corner.
+            for _ in 0..2 {
+                for (k, side) in sides
+                    .iter()
+                    .enumerate()
+                    .filter(|(k, _)| mask & (1 << k) != 0)
+                {
+                    let meets_0 = mask & 1 != 0 && (k == 1 || k == 3);
+                    let meets_2 = mask & 4 != 0 && (k == 1 || k == 3);
+                    let (r, c) = if meets_2 && !meets_0 {
+                        side[3]
+                    } else {
+                        side[0]
+                    };
+                    let point = points[r][c];
+                    for &(r, c) in side {
+                        points[r][c] = point;
+                    }
+                }
+            }
+            patches.push(Patch::new(points).unwrap());
+        }
+        patches
+    }
+
+    fn bits(points: impl IntoIterator<Item = DVec3>) -> Vec<[u64; 3]> {
+        points
+            .into_iter()
+            .map(|p| p.to_array().map(f64::to_bits))
+            .collect()
+    }
+
+    /// The positions along a side, in the order of the sides of a patch, along u or v.
+    fn side_positions(patch: &Patch, n: u32, side: usize) -> Vec<DVec3> {
+        let mesh = tessellate(&[*patch], n, Faces::Quads).unwrap();
+        let m = n as usize;
+        let at = |i: usize, j: usize| mesh.positions[j * (m + 1) + i];
+        (0..=m)
+            .map(|k| [at(k, 0), at(m, k), at(k, m), at(0, k)][side])
+            .collect()
+    }
+
+    #[test]
+    fn a_patch_of_two_segments_is_eight_triangles_or_four_quads() {
+        let patch = Lcg::new(42).patch();
+        let triangles = tessellate(&[patch], 2, Faces::Triangles).unwrap();
+        let quads = tessellate(&[patch], 2, Faces::Quads).unwrap();
+
+        assert_eq!((triangles.positions.len(), triangles.face_count()), (9, 8));
+        assert_eq!(triangles.indices[..6], [0, 1, 4, 0, 4, 3]);
+        assert_eq!((quads.positions.len(), quads.face_count()), (9, 4));
+        assert_eq!(quads.faces().last().unwrap(), [4, 5, 8, 7]);
+    }
+
+    #[test]
+    fn a_pole_is_one_vertex_in_a_fan_of_triangles() {
+        let mesh = tessellate(&[octant()], 3, Faces::Quads).unwrap();
+        let degrees: Vec<usize> = mesh.faces().map(<[u32]>::len).collect();
+
+        assert_eq!(mesh.positions.len(), 13);
+        assert_eq!(degrees, [4, 4, 4, 4, 4, 4, 3, 3, 3]);
+        assert_eq!(mesh.positions[12], DVec3::Z);
+        assert_eq!(mesh.uvs[12], DVec2::new(0.5, 1.0));
+        assert!(mesh.normals[12].distance(DVec3::Z) < 1e-12);
+        assert_eq!(mesh.collapsed_sides, 1);
+    }
+
+    #[test]
+    fn counts_are_exact_for_every_set_of_collapsed_sides() {
+        for (mask, patch) in collapsing().iter().enumerate() {
+            for n in 1..6 {
+                for faces in KINDS {
+                    let mesh = tessellate(&[*patch], n, faces).unwrap();
+                    let forecast = counts(&[*patch], n, faces).unwrap();
+                    assert_eq!(mesh.counts(), forecast, "sides {mask:04b}, {n} segments");
+                    assert_eq!(mesh.empty_patches.is_empty(), forecast.faces > 0);
+                    // No vertex is left without a face, and no face repeats a vertex.
+                    let mut used = vec![false; mesh.positions.len()];
+                    for face in mesh.faces() {
+                        for &v in face {
+                            used[v as usize] = true;
+                        }
+                        let mut sorted = face.to_vec();
+                        sorted.sort_unstable();
+                        assert!(sorted.windows(2).all(|pair| pair[0] != pair[1]));
+                    }
+                    assert!(
+                        used.iter().all(|&used| used),
+                        "sides {mask:04b}, {n} segments"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn faces_have_area_and_agree_with_unit_normals() {
+        let lid = quarter_turn([[0.0, 3.15], [0.8, 3.15], [0.0, 2.85], [0.2, 2.7]]);
+        let bottom = quarter_turn([[0.0, 0.0], [1.4, 0.0], [1.5, 0.1], [1.5, 0.2]]);
+        for patch in [octant(), octant().transposed(), bottom, lid, squared()] {
+            let mesh = tessellate(&[patch], 8, Faces::Triangles).unwrap();
+            assert!(mesh.normals.iter().all(|n| n.is_normalized()));
+            for face in mesh.faces() {
+                let [a, b, c] = [0, 1, 2].map(|k| mesh.positions[face[k] as usize]);
+                let area = (b - a).cross(c - a) / 2.0;
+                assert!(area.length() > 1e-6);
+                for &v in face {
+                    assert!(area.normalize().dot(mesh.normals[v as usize]) > 0.3);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn normals_are_those_of_the_patch() {
+        let patch = Lcg::new(43).patch();
+        let mesh = tessellate(&[patch], 5, Faces::Quads).unwrap();
+        for ((uv, normal), position) in mesh.uvs.iter().zip(&mesh.normals).zip(&mesh.positions) {
+            assert!(patch.normal(uv.x, uv.y).distance(*normal) < 1e-12);
+            assert!(patch.point(uv.x, uv.y).distance(*position) < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_shared_boundary_has_the_same_bits_in_every_direction() {
+        let mut random = Lcg::new(44);
+        for n in [1, 2, 3, 7, 10, 49] {
+            let shared = [(); 4].map(|()| random.point() * 100.0 + DVec3::splat(0.1));
+            let mut expected = None;
+            for side in 0..4 {
+                for reversed in [false, true] {
+                    let mut points = *random.patch().points();
+                    for k in 0..4 {
+                        let (r, c) = [(0, k), (k, 3), (3, k), (k, 0)][side];
+                        points[r][c] = shared[if reversed { 3 - k } else { k }];
+                    }
+                    let mut found = side_positions(&Patch::new(points).unwrap(), n, side);
+                    if reversed {
+                        found.reverse();
+                    }
+                    let found = bits(found);
+                    assert_eq!(&found, expected.get_or_insert_with(|| found.clone()));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn signed_zeros_of_a_shared_boundary_are_kept() {
+        let mut random = Lcg::new(45);
+        let shared = [1.0, -0.0, 0.0, -0.0].map(|x| DVec3::new(x, -0.0, 0.0));
+        let mut found = Vec::new();
+        for _ in 0..2 {
+            let mut points = *random.patch().points();
+            points[0] = shared;
+            let upright = Patch::new(points).unwrap();
+            found.push(bits(side_positions(&upright, 5, 0)));
+            found.push(bits(side_positions(&upright.transposed(), 5, 3)));
+        }
+        assert!(found.iter().all(|side| *side == found[0]));
+    }
+
+    #[test]
+    fn patches_follow_each_other_and_say_where_faces_come_from() {
+        let mut random = Lcg::new(46);
+        let patches = [
+            random.patch(),
+            Patch::new([[DVec3::ONE; 4]; 4]).unwrap(),
+            random.patch(),
+        ];
+        let mesh = tessellate(&patches, 2, Faces::Quads).unwrap();
+
+        assert_eq!(mesh.patch_of_face, [0, 0, 0, 0, 2, 2, 2, 2]);
+        assert_eq!((mesh.patches, mesh.empty_patches), (3, vec![1]));
+        assert_eq!(mesh.offsets, [0, 4, 8, 12, 16, 20, 24, 28, 32]);
+        assert_eq!(mesh.indices[16..20], [9, 10, 13, 12]);
+    }
+
+    #[test]
+    fn curves_and_loops_without_area_give_nothing_and_are_listed() {
+        let mut random = Lcg::new(47);
+        let curve = Patch::new([(); 4].map(|()| [random.point(); 4])).unwrap();
+        let mesh = tessellate(&[curve, curve.transposed()], 9, Faces::Triangles).unwrap();
+        assert_eq!(
+            (mesh.counts(), mesh.empty_patches),
+            (Counts::default(), vec![0, 1])
+        );
+
+        // A tube around its axis: with one segment only a line of it would remain.
+        let mut points = *random.patch().points();
+        for row in &mut points {
+            row[3] = row[0];
+        }
+        let tube = [Patch::new(points).unwrap()];
+        assert_eq!(
+            tessellate(&tube, 1, Faces::Quads).unwrap().empty_patches,
+            [0]
+        );
+        assert_eq!(tessellate(&tube, 2, Faces::Quads).unwrap().face_count(), 4);
+    }
+
+    #[test]
+    fn sizes_are_refused_before_anything_is_computed() {
+        let patch = [octant()];
+        assert_eq!(
+            counts(&patch, 0, Faces::Quads),
+            Err(BezierError::NoSegments)
+        );
+        for segments in [65_536, u32::MAX] {
+            let error = tessellate(&patch, segments, Faces::Triangles).unwrap_err();
+            assert!(
+                matches!(error, BezierError::TooManyElements { .. }),
+                "{error}"
+            );
+        }
+        let mut out = tessellate(&patch, 2, Faces::Quads).unwrap();
+        let before = out.clone();
+        assert!(tessellate_patch(&patch[0], 40_000, Faces::Triangles, &mut out).is_err());
+        assert_eq!(out, before);
+        assert_eq!(
+            counts(&patch, 20_000, Faces::Quads).unwrap(),
+            Counts {
+                vertices: 400_020_001,
+                faces: 400_000_000,
+                corners: 1_599_980_000
+            }
+        );
+    }
+}

@@ -1,0 +1,163 @@
+//! Where a recipe reads and writes.
+//!
+//! A recipe reads relative to its own folder. It writes only below the output folder, wherever the
+//! path in the recipe points: a path that leads out of it is refused.
+
+use std::path::{Component, Path, PathBuf};
+
+/// Why a path cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FileError {
+    /// The path leads out of the output folder.
+    #[error(
+        "the output path \"{0}\" must stay inside the output folder: no \"..\", no absolute path"
+    )]
+    Outside(String),
+    /// The path names no file.
+    #[error("the output path \"{0}\" names no file")]
+    NoName(String),
+    /// A placeholder that is not a path parameter.
+    #[error("unknown placeholder {{{0}}} in \"{1}\", known are: {2}")]
+    Placeholder(String, String, String),
+    /// A link inside the output folder leads out of it.
+    #[error("\"{0}\" leads out of the output folder through a link")]
+    Link(String),
+}
+
+/// The folders of a run, and the texts that stand for placeholders in output paths.
+#[derive(Clone, Debug, Default)]
+pub struct Files {
+    /// The folder of the recipe.
+    pub input: PathBuf,
+    /// The output folder.
+    pub output: PathBuf,
+    /// For `{model.stem}` in an output path: ("model.stem", "cow").
+    pub placeholders: Vec<(String, String)>,
+    /// A line that says where the outputs come from, for formats that can carry it.
+    pub provenance: Option<String>,
+}
+
+impl Files {
+    /// The path of a file to read: `path` seen from the recipe's folder.
+    pub fn to_read(&self, path: &str) -> PathBuf {
+        self.input.join(path)
+    }
+
+    /// The path of a file to write: `path` below the output folder, placeholders filled in.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError`] if the path leaves the output folder, names no file or has an unknown
+    /// placeholder.
+    pub fn to_write(&self, path: &str) -> Result<PathBuf, FileError> {
+        let filled = self.fill(path)?;
+        let relative = Path::new(&filled);
+        // A drive or a backslash means something on some systems only: refused on all.
+        let plain = relative
+            .components()
+            .all(|c| matches!(c, Component::Normal(_)));
+        if !plain || filled.contains('\\') || filled.contains(':') || filled.contains('\0') {
+            return Err(FileError::Outside(filled));
+        }
+        if relative.file_name().is_none() || filled.ends_with('/') {
+            return Err(FileError::NoName(filled));
+        }
+        self.check_links(relative)?;
+        Ok(self.output.join(relative))
+    }
+
+    fn fill(&self, path: &str) -> Result<String, FileError> {
+        let mut filled = String::new();
+        let mut rest = path;
+        while let Some((before, after)) = rest.split_once('{') {
+            filled.push_str(before);
+            let (name, behind) = after.split_once('}').unwrap_or((after, ""));
+            let Some((_, text)) = self.placeholders.iter().find(|(known, _)| known == name) else {
+                let known: Vec<_> = self
+                    .placeholders
+                    .iter()
+                    .map(|(known, _)| format!("{{{known}}}"))
+                    .collect();
+                let known = if known.is_empty() {
+                    "none".into()
+                } else {
+                    known.join(", ")
+                };
+                return Err(FileError::Placeholder(name.into(), path.into(), known));
+            };
+            filled.push_str(text);
+            rest = behind;
+        }
+        filled.push_str(rest);
+        Ok(filled)
+    }
+
+    /// Refuses a path whose existing folders lead out of the output folder.
+    fn check_links(&self, relative: &Path) -> Result<(), FileError> {
+        let Ok(root) = self.output.canonicalize() else {
+            return Ok(());
+        };
+        for folder in relative.ancestors().skip(1) {
+            if let Ok(real) = self.output.join(folder).canonicalize() {
+                if real.starts_with(&root) {
+                    return Ok(());
+                }
+                return Err(FileError::Link(relative.display().to_string()));
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn files() -> Files {
+        Files {
+            input: "recipes".into(),
+            output: "out".into(),
+            placeholders: vec![("model.stem".into(), "cow".into())],
+            provenance: None,
+        }
+    }
+
+    #[test]
+    fn outputs_stay_below_the_output_folder() {
+        assert_eq!(
+            files().to_write("a/b.glb"),
+            Ok(PathBuf::from("out/a/b.glb"))
+        );
+        for path in [
+            "../b.glb",
+            "/b.glb",
+            "a/../../b.glb",
+            "./b.glb",
+            "c:b.glb",
+            "a\\..\\b.glb",
+            "",
+        ] {
+            assert!(files().to_write(path).is_err(), "{path}");
+        }
+    }
+
+    #[test]
+    fn placeholders_are_filled_in() {
+        assert_eq!(
+            files().to_write("{model.stem}.obj"),
+            Ok(PathBuf::from("out/cow.obj"))
+        );
+        assert_eq!(
+            files().to_write("{mdel}.obj").unwrap_err().to_string(),
+            "unknown placeholder {mdel} in \"{mdel}.obj\", known are: {model.stem}"
+        );
+    }
+
+    #[test]
+    fn inputs_are_seen_from_the_recipe() {
+        assert_eq!(
+            files().to_read("assets/a.obj"),
+            PathBuf::from("recipes/assets/a.obj")
+        );
+    }
+}

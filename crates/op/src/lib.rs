@@ -1,0 +1,68 @@
+//! What an operation is, and all that operations share: their registry, the context that they run in,
+//! plans, reports, errors, selections and parameter types. No operation lives here.
+//!
+//! An operation is a struct whose fields are its parameters. Most change one mesh and implement
+//! [`MeshOperation`]; they get objects, `on:`, loss reports and the promise that an error changes
+//! nothing for free. Those that see the whole scene implement [`Operation`].
+//!
+//! ```
+//! use mesh::{DVec3, Mesh};
+//! use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
+//! use schemars::JsonSchema;
+//! use serde::{Deserialize, Serialize};
+//!
+//! /// Lifts every vertex.
+//! #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+//! #[serde(deny_unknown_fields)]
+//! pub struct Lift {
+//!     /// How far, in scene units.
+//!     pub by: f64,
+//! }
+//!
+//! impl MeshOperation for Lift {
+//!     const NAME: &'static str = "Lift";
+//!     const SUMMARY: &'static str = "Lift every vertex";
+//!
+//!     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+//!         Vec::new() // counts and attributes stay as they are
+//!     }
+//!
+//!     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+//!         cx.advance("lift", 0, 1)?;
+//!         for p in mesh.positions_mut() {
+//!             *p += DVec3::new(0.0, 0.0, self.by);
+//!         }
+//!         Ok(Report::changed(mesh.n_vertices()))
+//!     }
+//! }
+//!
+//! let registry = op::Registry::new().with::<Lift>();
+//! assert!(registry.get("Lift").is_some());
+//! let lifted = op::test::applied(&Lift { by: 2.0 }, mesh::shapes::square());
+//! assert_eq!(lifted.position(lifted.vertices().next().unwrap()), DVec3::new(0.0, 0.0, 2.0));
+//! ```
+
+mod context;
+mod edit;
+mod error;
+mod files;
+mod operation;
+mod parameter;
+mod plan;
+mod registry;
+mod report;
+mod selection;
+pub mod test;
+
+pub use context::{Context, NoProgress, Progress};
+pub use edit::{OnRefusal, edit_each};
+pub use error::{OpError, Refusal};
+pub use files::{FileError, Files};
+pub use operation::{MeshOperation, Operation};
+pub use parameter::{Axis, Vector};
+pub use plan::{
+    MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
+};
+pub use registry::{DuplicateOperation, Entry, Registry, Step};
+pub use report::{Loss, Refused, Report};
+pub use selection::{EdgeSelection, FaceSelection, Region, Select, VertexSelection};

@@ -1,0 +1,360 @@
+//! What is known of a scene before anything runs: kinds, counts, attributes and bytes.
+
+use std::path::PathBuf;
+
+use mesh::Domain;
+
+use crate::Files;
+
+/// A count that lies between two numbers, both included.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Range {
+    /// The lowest that it can be.
+    pub min: u64,
+    /// The highest that it can be; `u64::MAX` if nothing is known.
+    pub max: u64,
+}
+
+impl Range {
+    /// Any number.
+    pub const ANY: Self = Self {
+        min: 0,
+        max: u64::MAX,
+    };
+
+    /// Exactly this number.
+    pub const fn exactly(n: u64) -> Self {
+        Self { min: n, max: n }
+    }
+
+    /// From 0 to this number.
+    pub const fn at_most(max: u64) -> Self {
+        Self { min: 0, max }
+    }
+
+    /// Whether the number is known.
+    pub const fn is_exact(self) -> bool {
+        self.min == self.max
+    }
+
+    /// Whether the number can be `n`.
+    pub const fn contains(self, n: u64) -> bool {
+        self.min <= n && n <= self.max
+    }
+
+    /// The sum of two counts.
+    #[must_use]
+    pub const fn plus(self, other: Self) -> Self {
+        Self {
+            min: self.min.saturating_add(other.min),
+            max: self.max.saturating_add(other.max),
+        }
+    }
+
+    /// The product of two counts.
+    #[must_use]
+    pub const fn times(self, other: Self) -> Self {
+        Self {
+            min: self.min.saturating_mul(other.min),
+            max: self.max.saturating_mul(other.max),
+        }
+    }
+
+    /// So many times this count.
+    #[must_use]
+    pub const fn by(self, n: u64) -> Self {
+        self.times(Self::exactly(n))
+    }
+
+    /// From 0 to the highest that it can be: some of the elements are gone.
+    #[must_use]
+    pub const fn or_less(self) -> Self {
+        Self::at_most(self.max)
+    }
+
+    /// The lower of two counts.
+    #[must_use]
+    pub fn capped(self, cap: Self) -> Self {
+        Self {
+            min: self.min.min(cap.min),
+            max: self.max.min(cap.max),
+        }
+    }
+}
+
+/// What is known of an attribute.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlannedAttribute {
+    /// Its domain.
+    pub domain: Domain,
+    /// Its name.
+    pub name: String,
+    /// Whether it is there for certain.
+    pub certain: bool,
+}
+
+/// What is known of a mesh.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshPlan {
+    /// How many vertices it has.
+    pub vertices: Range,
+    /// How many edges.
+    pub edges: Range,
+    /// How many faces.
+    pub faces: Range,
+    /// How many corners its faces have: the lowest and the highest degree.
+    pub degrees: Range,
+    /// Its attributes.
+    pub attributes: Vec<PlannedAttribute>,
+}
+
+impl MeshPlan {
+    /// A mesh of which nothing is known.
+    pub const fn unknown() -> Self {
+        Self {
+            vertices: Range::ANY,
+            edges: Range::ANY,
+            faces: Range::ANY,
+            degrees: Range {
+                min: 3,
+                max: u64::MAX,
+            },
+            attributes: Vec::new(),
+        }
+    }
+
+    /// A mesh of known counts, without attributes.
+    pub const fn counted(vertices: u64, edges: u64, faces: u64, degrees: Range) -> Self {
+        Self {
+            vertices: Range::exactly(vertices),
+            edges: Range::exactly(edges),
+            faces: Range::exactly(faces),
+            degrees,
+            attributes: Vec::new(),
+        }
+    }
+
+    /// What is known of an existing mesh: everything.
+    pub fn of(mesh: &mesh::Mesh) -> Self {
+        let degrees = || mesh.faces().map(|f| mesh.degree(f) as u64);
+        Self {
+            vertices: Range::exactly(mesh.n_vertices() as u64),
+            edges: Range::exactly(mesh.n_edges() as u64),
+            faces: Range::exactly(mesh.n_faces() as u64),
+            degrees: Range {
+                min: degrees().min().unwrap_or(3),
+                max: degrees().max().unwrap_or(3),
+            },
+            attributes: mesh
+                .attributes()
+                .iter()
+                .map(|(domain, c)| PlannedAttribute {
+                    domain,
+                    name: c.name.clone(),
+                    certain: true,
+                })
+                .collect(),
+        }
+    }
+
+    /// Whether all faces are triangles for certain.
+    pub fn is_triangles(&self) -> bool {
+        self.degrees == Range::exactly(3)
+    }
+
+    /// Adds an attribute that is there for certain.
+    pub fn provide(&mut self, domain: Domain, name: &str) {
+        self.drop_attribute(domain, name);
+        self.attributes.push(PlannedAttribute {
+            domain,
+            name: name.to_owned(),
+            certain: true,
+        });
+    }
+
+    /// Takes an attribute out.
+    pub fn drop_attribute(&mut self, domain: Domain, name: &str) {
+        self.attributes
+            .retain(|a| a.domain != domain || a.name != name);
+    }
+
+    /// The bytes that the mesh takes, attributes at 16 bytes a value.
+    pub fn bytes(&self) -> Range {
+        let count = |domain| match domain {
+            Domain::Vertex => self.vertices,
+            Domain::Corner => self.edges.by(2),
+            Domain::Edge => self.edges,
+            Domain::Face => self.faces,
+        };
+        let connectivity = self
+            .vertices
+            .by(28)
+            .plus(self.edges.by(24))
+            .plus(self.faces.by(4));
+        self.attributes
+            .iter()
+            .fold(connectivity, |sum, a| sum.plus(count(a.domain).by(16)))
+    }
+}
+
+/// What is known of the shape of an object.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PlannedGeometry {
+    /// A mesh.
+    Mesh(MeshPlan),
+    /// Bezier patches; how many.
+    Patches(Range),
+    /// A Bezier curve; how many control points.
+    Curve(Range),
+    /// Polylines.
+    Polylines,
+}
+
+impl PlannedGeometry {
+    /// The word for this kind of geometry.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Mesh(_) => "mesh",
+            Self::Patches(_) => "patches",
+            Self::Curve(_) => "curve",
+            Self::Polylines => "polylines",
+        }
+    }
+}
+
+/// What is known of an object.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlannedObject {
+    /// Its name.
+    pub name: String,
+    /// Its shape.
+    pub geometry: PlannedGeometry,
+}
+
+/// What is known of a scene at one point of a recipe. Steps change it as they will change the scene.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Plan {
+    /// The objects, in order.
+    pub objects: Vec<PlannedObject>,
+    /// Files that are read so far.
+    pub inputs: Vec<PathBuf>,
+    /// Files that are written so far.
+    pub outputs: Vec<PathBuf>,
+}
+
+impl Plan {
+    /// The object of this name.
+    pub fn object(&self, name: &str) -> Option<&PlannedObject> {
+        self.objects.iter().find(|o| o.name == name)
+    }
+
+    /// Adds an object; a problem if its name is taken.
+    pub fn insert(&mut self, name: &str, geometry: PlannedGeometry) -> Vec<Problem> {
+        if self.object(name).is_some() {
+            let message = format!("an object named \"{name}\" is in the scene already");
+            return vec![Problem::error(message).at(["name"])];
+        }
+        self.objects.push(PlannedObject {
+            name: name.to_owned(),
+            geometry,
+        });
+        Vec::new()
+    }
+
+    /// A problem for each name that no object has, with the names there are. `field` is the parameter
+    /// that names them.
+    pub fn check_names<'n>(
+        &self,
+        names: impl IntoIterator<Item = &'n str>,
+        field: &str,
+    ) -> Vec<Problem> {
+        let known: Vec<_> = self
+            .objects
+            .iter()
+            .map(|o| format!("\"{}\"", o.name))
+            .collect();
+        let known = if known.is_empty() {
+            "none".to_owned()
+        } else {
+            known.join(", ")
+        };
+        names
+            .into_iter()
+            .filter(|name| self.object(name).is_none())
+            .map(|name| {
+                Problem::error(format!("no object is named \"{name}\""))
+                    .at([field])
+                    .help(format!("objects at this point: {known}"))
+            })
+            .collect()
+    }
+
+    /// The bytes that all meshes take.
+    pub fn bytes(&self) -> Range {
+        self.objects
+            .iter()
+            .fold(Range::exactly(0), |sum, o| match &o.geometry {
+                PlannedGeometry::Mesh(mesh) => sum.plus(mesh.bytes()),
+                _ => sum,
+            })
+    }
+}
+
+/// What a step is planned in.
+#[derive(Clone, Copy, Debug)]
+pub struct PlanContext<'a> {
+    /// Where files are read and written.
+    pub files: &'a Files,
+    /// The objects that the step was told to act on; `None` for all that it can. They exist.
+    pub on: Option<&'a [String]>,
+    /// How many bytes meshes may take.
+    pub budget: u64,
+}
+
+/// Something wrong with a step, found before anything runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// What is wrong: lower case, no full stop.
+    pub message: String,
+    /// What to do about it.
+    pub help: Option<String>,
+    /// The parameter that it is about: names of fields and variants and numbers of items, from the
+    /// outside in. Empty for the whole step.
+    pub path: Vec<String>,
+    /// Whether the recipe can run all the same.
+    pub is_warning: bool,
+}
+
+impl Problem {
+    /// An error about the whole step.
+    pub fn error(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            help: None,
+            path: Vec::new(),
+            is_warning: false,
+        }
+    }
+
+    /// A warning about the whole step.
+    pub fn warning(message: impl Into<String>) -> Self {
+        Self {
+            is_warning: true,
+            ..Self::error(message)
+        }
+    }
+
+    /// The same, about this parameter.
+    #[must_use]
+    pub fn at<const N: usize>(mut self, path: [&str; N]) -> Self {
+        self.path = path.map(str::to_owned).to_vec();
+        self
+    }
+
+    /// The same, with a way out.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+}

@@ -1,0 +1,163 @@
+//! The list of operations that a program knows.
+
+use std::fmt;
+
+use ron::error::SpannedError;
+use ron::extensions::Extensions;
+use scene::Scene;
+
+use crate::{Context, OpError, Operation, Plan, PlanContext, Problem, Report};
+
+/// Two operations have one name.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("two operations are named {0}: rename one, or register the second with `with_override`")]
+pub struct DuplicateOperation(pub String);
+
+/// The operations that a program knows, in the order in which they were registered.
+#[derive(Clone, Debug, Default)]
+pub struct Registry {
+    entries: Vec<Entry>,
+    clash: Option<DuplicateOperation>,
+}
+
+/// One operation: what the parser, the help, the schema and the runner need of it.
+#[derive(Clone)]
+pub struct Entry {
+    /// The name of the step in recipes.
+    pub name: &'static str,
+    /// The version of its results.
+    pub version: u32,
+    /// One line: what it does.
+    pub summary: &'static str,
+    /// Names that recipes used for it before.
+    pub aliases: &'static [&'static str],
+    /// Whether a step of it may choose objects with `on:`.
+    pub takes_on: bool,
+    schema: fn() -> schemars::Schema,
+    parse: fn(&str) -> Result<Box<dyn Step>, SpannedError>,
+}
+
+impl fmt::Debug for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Entry")
+            .field("name", &self.name)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Entry {
+    fn of<T: Operation>() -> Self {
+        Self {
+            name: T::NAME,
+            version: T::VERSION,
+            summary: T::SUMMARY,
+            aliases: T::ALIASES,
+            takes_on: T::TAKES_ON,
+            schema: || schemars::schema_for!(T),
+            parse: |text| {
+                let options =
+                    ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+                Ok(Box::new(options.from_str::<T>(text)?))
+            },
+        }
+    }
+
+    /// The JSON schema of the parameters, with their documentation.
+    pub fn schema(&self) -> serde_json::Value {
+        (self.schema)().to_value()
+    }
+
+    /// Reads the parameters from RON: `(levels: 2)`.
+    ///
+    /// # Errors
+    ///
+    /// What the parser says, with the place in `text`.
+    pub fn parse(&self, text: &str) -> Result<Box<dyn Step>, SpannedError> {
+        (self.parse)(text)
+    }
+}
+
+impl Registry {
+    /// No operations.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds an operation. Of two with one name [`check`](Self::check) reports the clash.
+    #[must_use]
+    pub fn with<T: Operation>(mut self) -> Self {
+        let entry = Entry::of::<T>();
+        let taken = std::iter::once(entry.name).chain(entry.aliases.iter().copied());
+        for name in taken {
+            if self.get(name).is_some() {
+                self.clash
+                    .get_or_insert(DuplicateOperation(name.to_owned()));
+            }
+        }
+        self.entries.push(entry);
+        self
+    }
+
+    /// Adds an operation in place of the one that has its name, if there is one.
+    #[must_use]
+    pub fn with_override<T: Operation>(mut self) -> Self {
+        self.entries
+            .retain(|e| e.name != T::NAME && !e.aliases.contains(&T::NAME));
+        self.with::<T>()
+    }
+
+    /// Whether every name is there once.
+    ///
+    /// # Errors
+    ///
+    /// [`DuplicateOperation`] for the first clash.
+    pub fn check(&self) -> Result<(), DuplicateOperation> {
+        self.clash.clone().map_or(Ok(()), Err)
+    }
+
+    /// All operations in the order in which they were registered.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
+    }
+
+    /// The operation of this name, or that had it before.
+    pub fn get(&self, name: &str) -> Option<&Entry> {
+        self.entries
+            .iter()
+            .find(|e| e.name == name || e.aliases.contains(&name))
+    }
+}
+
+/// An operation with its parameters, its type erased.
+pub trait Step: fmt::Debug + Send + Sync {
+    /// The name of the operation.
+    fn name(&self) -> &'static str;
+    /// See [`Operation::plan`].
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem>;
+    /// See [`Operation::apply`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Operation::apply`].
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError>;
+    /// The parameters in their canonical form: RON with every default written out.
+    fn canonical(&self) -> String;
+}
+
+impl<T: Operation> Step for T {
+    fn name(&self) -> &'static str {
+        T::NAME
+    }
+
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        Operation::plan(self, plan, cx)
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        Operation::apply(self, scene, cx)
+    }
+
+    fn canonical(&self) -> String {
+        ron::to_string(self).expect("parameters are plain data")
+    }
+}

@@ -1,0 +1,182 @@
+//! Selections of edges.
+
+use mesh::{EdgeId, Mesh, VertexId};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    FaceSelection, Region, Select, Shared, VertexSelection, lowest, marks, named_vertex, one,
+    shared, shared_count, shared_mask,
+};
+use crate::{Context, MeshPlan, OpError, Range, Refusal, Vector};
+
+/// Which edges.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum EdgeSelection {
+    /// Every edge.
+    #[default]
+    All,
+    /// Edges with a face on one side only.
+    Boundary,
+    /// The edge between two vertices, by their numbers; refused if there is none.
+    Between(u32, u32),
+    /// Edges whose faces turn by more than an angle.
+    Sharp {
+        /// In degrees, from 0 (flat) to 180. Boundary edges have no angle and are never sharp.
+        #[schemars(range(min = 0.0, max = 180.0))]
+        above: f64,
+    },
+    /// Edges whose faces turn by less than an angle.
+    Flat {
+        /// In degrees, from 0 (flat) to 180. Boundary edges have no angle and are never flat.
+        #[schemars(range(min = 0.0, max = 180.0))]
+        below: f64,
+    },
+    /// Edges longer than a length.
+    Longer {
+        /// In scene units.
+        #[schemars(range(min = 0.0))]
+        than: f64,
+    },
+    /// Edges shorter than a length.
+    Shorter {
+        /// In scene units.
+        #[schemars(range(min = 0.0))]
+        than: f64,
+    },
+    /// Edges of these faces.
+    EdgesOf(FaceSelection),
+    /// Edges with an end in these vertices.
+    EdgesAround(VertexSelection),
+    /// Edges with both ends in these vertices.
+    EdgesWithin(VertexSelection),
+    /// The longest; of equal lengths the lower numbers.
+    Longest {
+        /// How many; all if there are fewer.
+        #[serde(default = "one")]
+        count: u32,
+        /// From which.
+        #[serde(default)]
+        of: Box<Self>,
+    },
+    /// Edges whose vertices all lie in a region, its surface included.
+    Inside(Region),
+    /// Edges marked by a tag of this name.
+    Tagged(String),
+    /// Edges in all of these; every one for an empty list.
+    And(Vec<Self>),
+    /// Edges in any of these; none for an empty list.
+    Or(Vec<Self>),
+    /// Edges that are not in this.
+    Not(Box<Self>),
+    /// These, and those that share a vertex with one of them.
+    Grow(Box<Self>),
+    /// Those of these that share a vertex with no other one outside.
+    Shrink(Box<Self>),
+    /// Drawn by chance, the same for the same seed and step.
+    Random {
+        /// How many; all if there are fewer.
+        count: u32,
+        /// From which.
+        #[serde(default)]
+        of: Box<Self>,
+        /// Another number gives another choice.
+        seed: u64,
+    },
+    /// Those whose middles are nearest to a point; of equal distances the lower numbers.
+    Nearest {
+        /// The point.
+        to: Vector,
+        /// How many; all if there are fewer.
+        #[serde(default = "one")]
+        count: u32,
+        /// From which.
+        #[serde(default)]
+        of: Box<Self>,
+    },
+    /// These, but refused unless they are so many.
+    Expect {
+        /// How many there must be.
+        count: u32,
+        /// Of what.
+        of: Box<Self>,
+    },
+}
+
+impl EdgeSelection {
+    fn shared(&self) -> Option<Shared<'_, Self>> {
+        shared!(self)
+    }
+}
+
+impl Select for EdgeSelection {
+    type Id = EdgeId;
+    const WORD: &'static str = "edges";
+
+    fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError> {
+        if let Some(shared) = self.shared() {
+            return shared_mask(&shared, mesh, cx);
+        }
+        let angle = |e| mesh.dihedral_angle(e).map(f64::to_degrees);
+        let length = |e: EdgeId| mesh.length(e.half_edge());
+        Ok(match self {
+            Self::Boundary => marks::<Self>(mesh, |e| mesh.is_boundary_edge(e)),
+            Self::Between(v, w) => {
+                let (a, b) = (named_vertex(mesh, *v)?, named_vertex(mesh, *w)?);
+                let Some(h) = mesh.find_half_edge(a, b) else {
+                    let message = format!("there is no edge between vertices {v} and {w}");
+                    return Err(OpError::refused(Refusal::Missing, message));
+                };
+                marks::<Self>(mesh, |e| e == h.edge())
+            }
+            Self::Sharp { above } => marks::<Self>(mesh, |e| angle(e).is_some_and(|a| a > *above)),
+            Self::Flat { below } => marks::<Self>(mesh, |e| angle(e).is_some_and(|a| a < *below)),
+            Self::Longer { than } => marks::<Self>(mesh, |e| length(e) > *than),
+            Self::Shorter { than } => marks::<Self>(mesh, |e| length(e) < *than),
+            Self::EdgesOf(faces) => {
+                let faces = faces.mask(mesh, cx)?;
+                marks::<Self>(mesh, |e| {
+                    mesh.edge_faces(e)
+                        .into_iter()
+                        .flatten()
+                        .any(|f| faces[f.index()])
+                })
+            }
+            Self::EdgesAround(vertices) => {
+                let ends = vertices.mask(mesh, cx)?;
+                marks::<Self>(mesh, |e| {
+                    mesh.edge_vertices(e).iter().any(|v| ends[v.index()])
+                })
+            }
+            Self::EdgesWithin(vertices) => {
+                let ends = vertices.mask(mesh, cx)?;
+                marks::<Self>(mesh, |e| {
+                    mesh.edge_vertices(e).iter().all(|v| ends[v.index()])
+                })
+            }
+            Self::Longest { count, of } => {
+                lowest::<Self, f64>(mesh, *count, &of.mask(mesh, cx)?, |e| -length(e))
+            }
+            _ => unreachable!("the shared part is evaluated above"),
+        })
+    }
+
+    fn count(&self, plan: &MeshPlan) -> Range {
+        match self {
+            Self::Between(..) => Range::exactly(1),
+            Self::Longest { count, of } => of.count(plan).capped(Range::exactly(u64::from(*count))),
+            _ => self
+                .shared()
+                .map_or(plan.edges.or_less(), |s| shared_count(&s, plan.edges, plan)),
+        }
+    }
+
+    fn elements(mesh: &Mesh) -> Vec<EdgeId> {
+        mesh.edges().collect()
+    }
+
+    fn vertices(mesh: &Mesh, e: EdgeId) -> Vec<VertexId> {
+        mesh.edge_vertices(e).to_vec()
+    }
+}

@@ -1,0 +1,223 @@
+//! Tests of all three types of selections.
+
+use super::*;
+use crate::{Files, NoProgress};
+use mesh::{EdgeId, shapes};
+use proptest::prelude::*;
+
+fn edges(selection: &EdgeSelection, mesh: &Mesh) -> Vec<EdgeId> {
+    let files = Files::default();
+    selection
+        .resolve(mesh, &Context::new(&NoProgress, &files))
+        .unwrap()
+}
+
+fn refusal(selection: &EdgeSelection, mesh: &Mesh) -> (Refusal, String) {
+    let files = Files::default();
+    match selection.resolve(mesh, &Context::new(&NoProgress, &files)) {
+        Err(OpError::Refused { reason, message }) => (reason, message),
+        other => panic!("expected a refusal, got {other:?}"),
+    }
+}
+
+fn parse(text: &str) -> EdgeSelection {
+    ron::from_str(text).unwrap()
+}
+
+#[test]
+fn predicates_select_by_geometry_and_connectivity() {
+    let cube = shapes::cube();
+    let grid = shapes::grid(3, 2);
+    assert_eq!(edges(&parse("All"), &cube).len(), 12);
+    assert_eq!(edges(&parse("Boundary"), &grid).len(), 10);
+    assert_eq!(edges(&parse("Sharp(above: 89)"), &cube).len(), 12);
+    assert_eq!(edges(&parse("Sharp(above: 91)"), &cube).len(), 0);
+    assert_eq!(edges(&parse("Flat(below: 1)"), &grid).len(), 7);
+    assert_eq!(edges(&parse("Longer(than: 1.9)"), &cube).len(), 12);
+    assert_eq!(edges(&parse("Shorter(than: 1.9)"), &cube).len(), 0);
+    assert_eq!(edges(&parse("Between(0, 1)"), &cube).len(), 1);
+    assert_eq!(edges(&parse("EdgesOf(Faces([0]))"), &cube).len(), 4);
+    assert_eq!(edges(&parse("EdgesAround(Vertices([0]))"), &cube).len(), 3);
+    assert_eq!(
+        edges(&parse("EdgesWithin(Vertices([0, 1, 3]))"), &cube).len(),
+        2
+    );
+    assert_eq!(
+        edges(
+            &parse("EdgesWithin(CornersOf(FacesAround(Valence(2))))"),
+            &grid
+        )
+        .len(),
+        16
+    );
+    let top = "Inside(HalfSpace(point: (0, 0, 1), normal: (0, 0, 1)))";
+    assert_eq!(edges(&parse(top), &cube).len(), 4);
+    let sphere = "Inside(Sphere(center: (1, 1, 1), radius: 2))";
+    assert_eq!(edges(&parse(sphere), &cube).len(), 3);
+    let slab = "Inside(Box(min: (-2, -2, -2), max: (2, 2, 0)))";
+    assert_eq!(edges(&parse(slab), &cube).len(), 4);
+}
+
+#[test]
+fn choices_take_as_many_as_they_are_told() {
+    let grid = shapes::grid(4, 4);
+    assert_eq!(edges(&parse("Random(count: 7, seed: 1)"), &grid).len(), 7);
+    assert_eq!(
+        edges(&parse("Random(count: 700, seed: 1)"), &grid).len(),
+        grid.n_edges()
+    );
+    assert_eq!(edges(&parse("Longest(count: 3)"), &grid).len(), 3);
+    let nearest = edges(&parse("Nearest(to: (-2, -2, 0), count: 2)"), &grid);
+    assert!(
+        nearest
+            .iter()
+            .all(|&e| grid.edge_vertices(e).contains(&VertexId::new(0)))
+    );
+}
+
+#[test]
+fn another_seed_or_step_gives_another_choice_and_the_same_the_same() {
+    let grid = shapes::grid(20, 20);
+    let files = Files::default();
+    let choose = |seed: u64, stream| {
+        let mut cx = Context::new(&NoProgress, &files);
+        cx.stream = stream;
+        let random = EdgeSelection::Random {
+            count: 20,
+            of: Box::default(),
+            seed,
+        };
+        random.resolve(&grid, &cx).unwrap()
+    };
+    assert_eq!(choose(1, "a"), choose(1, "a"));
+    assert_ne!(choose(1, "a"), choose(2, "a"));
+    assert_ne!(choose(1, "a"), choose(1, "b"));
+}
+
+#[test]
+fn a_choice_by_chance_is_even() {
+    // 2000 draws of 10 edges out of 40: each is drawn 500 times, give or take. The chance of being off
+    // by 100 is below one in a million.
+    let grid = shapes::grid(4, 4);
+    let mut drawn = vec![0; 40];
+    for seed in 0..2000 {
+        for e in edges(
+            &EdgeSelection::Random {
+                count: 10,
+                of: Box::default(),
+                seed,
+            },
+            &grid,
+        ) {
+            drawn[e.index()] += 1;
+        }
+    }
+    assert!(drawn.iter().all(|n| (400..600).contains(n)), "{drawn:?}");
+}
+
+#[test]
+fn an_edge_that_is_not_there_is_refused() {
+    let cube = shapes::cube();
+    let (reason, message) = refusal(&parse("Between(0, 7)"), &cube);
+    assert_eq!(reason, Refusal::Missing);
+    assert_eq!(message, "there is no edge between vertices 0 and 7");
+    let (_, message) = refusal(&parse("Between(0, 8)"), &cube);
+    assert_eq!(message, "there is no vertex 8, only 8 vertices");
+    let (_, message) = refusal(&parse("Between(0, 4294967295)"), &cube);
+    assert_eq!(message, "there is no vertex 4294967295, only 8 vertices");
+}
+
+#[test]
+fn an_unknown_tag_is_refused_with_the_known_ones() {
+    let mut cube = shapes::cube();
+    let tag = mesh::Attribute::<EdgeId, bool>::new("rim", mesh::Rule::Copy);
+    cube.set(tag, (0..12).map(|i| i < 5).collect());
+    assert_eq!(edges(&parse("Tagged(\"rim\")"), &cube).len(), 5);
+    let (reason, message) = refusal(&parse("Tagged(\"rib\")"), &cube);
+    assert_eq!(reason, Refusal::Missing);
+    assert_eq!(message, "no edges are tagged \"rib\"; tags: rim");
+}
+
+#[test]
+fn an_expected_number_that_is_not_met_is_refused() {
+    let cube = shapes::cube();
+    assert_eq!(edges(&parse("Expect(count: 12, of: All)"), &cube).len(), 12);
+    let (reason, message) = refusal(&parse("Expect(count: 4, of: Sharp(above: 30))"), &cube);
+    assert_eq!(reason, Refusal::Expectation);
+    assert_eq!(message, "expected 4 edges to be selected, found 12");
+}
+
+#[test]
+fn faces_are_selected_by_material() {
+    let mut cube = shapes::cube();
+    cube.set(mesh::MATERIAL, vec![0, 1, 1, 0, -1, 1]);
+    let files = Files::default();
+    let mut cx = Context::new(&NoProgress, &files);
+    cx.materials = vec!["red".into(), "blue".into()];
+    let blue = FaceSelection::Material("blue".into())
+        .resolve(&cube, &cx)
+        .unwrap();
+    assert_eq!(
+        blue.iter().map(|f| f.index()).collect::<Vec<_>>(),
+        [1, 2, 5]
+    );
+    assert!(
+        FaceSelection::Material("green".into())
+            .resolve(&cube, &cx)
+            .is_err()
+    );
+}
+
+/// Selections over a 5 x 4 grid, nested up to three deep.
+fn any_selection() -> impl Strategy<Value = EdgeSelection> {
+    let leaf = prop_oneof![
+        Just(EdgeSelection::All),
+        Just(EdgeSelection::Boundary),
+        (0..31_u32)
+            .prop_map(|v| EdgeSelection::EdgesAround(VertexSelection::Vertices(vec![v % 30]))),
+        (0..20_u32).prop_map(|f| EdgeSelection::EdgesOf(FaceSelection::Faces(vec![f]))),
+        (0..40_u32, 0..9_u64).prop_map(|(count, seed)| EdgeSelection::Random {
+            count,
+            of: Box::default(),
+            seed
+        }),
+    ];
+    leaf.prop_recursive(3, 12, 3, |inner| {
+        prop_oneof![
+            prop::collection::vec(inner.clone(), 0..3).prop_map(EdgeSelection::And),
+            prop::collection::vec(inner.clone(), 0..3).prop_map(EdgeSelection::Or),
+            inner.clone().prop_map(|s| EdgeSelection::Not(Box::new(s))),
+            inner.clone().prop_map(|s| EdgeSelection::Grow(Box::new(s))),
+            inner.prop_map(|s| EdgeSelection::Shrink(Box::new(s))),
+        ]
+    })
+}
+
+proptest! {
+    #[test]
+    fn the_algebra_keeps_its_laws(a in any_selection(), b in any_selection()) {
+        let grid = shapes::grid(5, 4);
+        let not = |s: &EdgeSelection| EdgeSelection::Not(Box::new(s.clone()));
+        let boxed = |s: &EdgeSelection| Box::new(s.clone());
+        // De Morgan.
+        let both = EdgeSelection::And(vec![a.clone(), b.clone()]);
+        let neither = EdgeSelection::Or(vec![not(&a), not(&b)]);
+        prop_assert_eq!(edges(&not(&both), &grid), edges(&neither, &grid));
+        prop_assert_eq!(edges(&not(&not(&a)), &grid), edges(&a, &grid));
+        // Growing adds, shrinking takes away, and they are each other's complement.
+        let grown = edges(&EdgeSelection::Grow(boxed(&a)), &grid);
+        prop_assert!(edges(&a, &grid).iter().all(|e| grown.contains(e)));
+        prop_assert_eq!(
+            edges(&EdgeSelection::Shrink(boxed(&a)), &grid),
+            edges(&not(&EdgeSelection::Grow(Box::new(not(&a)))), &grid)
+        );
+        // The count is within what was planned.
+        let planned = a.count(&MeshPlan::of(&grid));
+        prop_assert!(planned.contains(edges(&a, &grid).len() as u64), "{:?}", planned);
+    }
+
+    #[test]
+    fn a_selection_comes_back_from_its_text(a in any_selection()) {
+        prop_assert_eq!(parse(&ron::to_string(&a).unwrap()), a);
+    }
+}

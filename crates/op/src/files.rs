@@ -92,8 +92,12 @@ impl Files {
         Ok(filled)
     }
 
-    /// Refuses a path whose existing folders lead out of the output folder.
-    fn check_links(&self, relative: &Path) -> Result<(), FileError> {
+    /// Refuses a path whose existing folders lead out of the output folder through a link.
+    ///
+    /// # Errors
+    ///
+    /// [`FileError::Link`].
+    pub fn check_links(&self, relative: &Path) -> Result<(), FileError> {
         let Ok(root) = self.output.canonicalize() else {
             return Ok(());
         };

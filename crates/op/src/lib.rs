@@ -52,6 +52,7 @@ mod plan;
 mod registry;
 mod report;
 mod selection;
+mod source;
 pub mod test;
 
 pub use context::{Context, NoProgress, Progress};
@@ -66,3 +67,4 @@ pub use plan::{
 pub use registry::{DuplicateOperation, Entry, Registry, Step};
 pub use report::{Loss, Refused, Report};
 pub use selection::{EdgeSelection, FaceSelection, Region, Select, VertexSelection};
+pub use source::{Source, change_curves, check_name, made, named_object, plan_curves};

@@ -96,7 +96,7 @@ impl<T: MeshOperation> Operation for T {
                 _ => {}
             }
         }
-        if n == 0 && problems.is_empty() {
+        if n == 0 && problems.is_empty() && !plan.incomplete {
             let message = format!("{} finds no mesh to change", Self::NAME);
             problems.push(
                 Problem::error(message).help(

@@ -240,6 +240,9 @@ pub struct Plan {
     pub inputs: Vec<PathBuf>,
     /// Files that are written so far.
     pub outputs: Vec<PathBuf>,
+    /// Whether a step before this one could not be read or planned: objects may be missing here that
+    /// will be there.
+    pub incomplete: bool,
 }
 
 impl Plan {
@@ -280,7 +283,7 @@ impl Plan {
         };
         names
             .into_iter()
-            .filter(|name| self.object(name).is_none())
+            .filter(|name| !self.incomplete && self.object(name).is_none())
             .map(|name| {
                 Problem::error(format!("no object is named \"{name}\""))
                     .at([field])

@@ -1,0 +1,162 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+
+/// Edit 3D meshes by recipe.
+#[derive(Debug, Parser)]
+#[command(name = "meshwright", version, max_term_width = 100)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run a recipe
+    Run(RunArgs),
+    /// Check a recipe without running it, and forecast what it will make
+    Check(CheckArgs),
+    /// Run recipes as tests: one line each, and a summary
+    Test(TestArgs),
+    /// List the operations, or show one of them
+    Ops {
+        /// The operation to show
+        name: Option<String>,
+        /// Print the whole reference as Markdown
+        #[arg(long, conflicts_with = "name")]
+        markdown: bool,
+    },
+    /// Show what a file holds
+    Info {
+        /// A mesh, patch or curve file
+        file: PathBuf,
+        #[arg(long, value_enum, default_value_t)]
+        format: Format,
+    },
+    /// Read a file and write it in another format
+    Convert {
+        /// The file to read
+        input: PathBuf,
+        /// The file to write; its ending chooses the format
+        output: PathBuf,
+    },
+    /// Print the JSON schema of recipes
+    Schema,
+    /// Write a new operation crate: its folder, a working sample with a test, and its line in ops/all
+    NewOp {
+        /// The name of the operation in camel case, such as `InflateFaces`
+        name: String,
+        /// The root of the workspace
+        #[arg(long, default_value = ".")]
+        dir: PathBuf,
+    },
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// For people
+    #[default]
+    Human,
+    /// One JSON object
+    Json,
+}
+
+/// What commands that read one recipe share.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct RecipeArgs {
+    /// The recipe
+    pub(crate) recipe: PathBuf,
+    /// Set a parameter of the recipe
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+    /// The folder for outputs
+    #[arg(long, default_value = "out", value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// The memory that meshes may take, such as 512MiB or 8GiB
+    #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
+    pub(crate) budget: u64,
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct RunArgs {
+    #[command(flatten)]
+    pub(crate) recipe: RecipeArgs,
+    /// The number of threads; by default one for each processor
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// Print where the value of each parameter comes from
+    #[arg(long)]
+    pub(crate) explain: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct CheckArgs {
+    #[command(flatten)]
+    pub(crate) recipe: RecipeArgs,
+    /// Print where the value of each parameter comes from
+    #[arg(long)]
+    pub(crate) explain: bool,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct TestArgs {
+    /// Recipes, or folders of recipes
+    #[arg(default_value = "scenes")]
+    pub(crate) paths: Vec<PathBuf>,
+    /// Keep outputs, each recipe's in a folder of its name below this one
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// The memory that meshes may take, such as 512MiB or 8GiB
+    #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
+    pub(crate) budget: u64,
+}
+
+fn assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
+        _ => Err("expected NAME=VALUE".to_owned()),
+    }
+}
+
+fn size(text: &str) -> Result<u64, String> {
+    let digits = text
+        .find(|c: char| !c.is_ascii_digit())
+        .unwrap_or(text.len());
+    let (number, unit) = text.split_at(digits);
+    let shift = match unit.trim() {
+        "" | "B" => 0,
+        "KiB" | "K" => 10,
+        "MiB" | "M" => 20,
+        "GiB" | "G" => 30,
+        "TiB" | "T" => 40,
+        _ => return Err("expected a size such as 512MiB or 8GiB".to_owned()),
+    };
+    number
+        .parse::<u64>()
+        .ok()
+        .and_then(|n| n.checked_mul(1 << shift))
+        .ok_or_else(|| "expected a size such as 512MiB or 8GiB".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory;
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_have_units() {
+        assert_eq!(size("2KiB"), Ok(2048));
+        assert_eq!(size("3G"), Ok(3 << 30));
+        assert_eq!(size("17"), Ok(17));
+        assert!(size("much").is_err() && size("-1").is_err() && size("99999999T").is_err());
+    }
+}

@@ -1,0 +1,70 @@
+//! `meshwright check`: reads and plans a recipe and says what it will make.
+
+use op::{Range, Registry};
+use recipe::mebibytes;
+
+use super::run::refuse;
+use crate::args::{CheckArgs, Format};
+use crate::loading::load;
+use crate::output::{explain, grouped, print, problems_json, show, table};
+
+pub(crate) fn run(args: &CheckArgs, registry: &Registry) -> anyhow::Result<bool> {
+    let loaded = load(&args.recipe, registry)?;
+    let json = args.recipe.format == Format::Json;
+    if args.explain && !json {
+        print(&explain(&loaded.recipe.parameters))?;
+    }
+    if loaded.has_errors() {
+        return refuse(&loaded, json);
+    }
+    let steps = &loaded.forecast.steps;
+    if json {
+        let range = |r: Range| serde_json::json!({ "min": r.min, "max": (r.max < u64::MAX).then_some(r.max) });
+        let forecast: Vec<_> = steps
+            .iter()
+            .map(|s| {
+                serde_json::json!({
+                    "step": s.label, "vertices": range(s.vertices), "edges": range(s.edges),
+                    "faces": range(s.faces), "bytes": range(s.bytes),
+                })
+            })
+            .collect();
+        let lines = recipe::LineIndex::new(&loaded.source);
+        let report = serde_json::json!({
+            "recipe": loaded.path, "succeeded": true, "forecast": forecast,
+            "warnings": problems_json(&loaded.diagnostics, &lines),
+        });
+        print(&format!("{report:#}\n"))?;
+        return Ok(true);
+    }
+    show(&loaded, &loaded.diagnostics);
+    let mut rows = vec![
+        ["step", "vertices", "edges", "faces", "memory"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for (i, step) in steps.iter().enumerate() {
+        let mut row = vec![format!("{:>2} {}", i + 1, step.label)];
+        row.extend([step.vertices, step.edges, step.faces].map(|r| range(r, grouped)));
+        row.push(range(step.bytes, mebibytes));
+        rows.push(row);
+    }
+    print(&table(&rows))?;
+    let n = loaded.recipe.expectations.len();
+    print(&format!(
+        "{} is fine: {} steps, {n} expectations\n",
+        loaded.path,
+        steps.len()
+    ))?;
+    Ok(true)
+}
+
+fn range(range: Range, show: impl Fn(u64) -> String) -> String {
+    match (range.is_exact(), range.max) {
+        (true, n) => show(n),
+        (_, u64::MAX) if range.min == 0 => "?".to_owned(),
+        (_, u64::MAX) => format!("{} or more", show(range.min)),
+        (_, max) if range.min == 0 => format!("up to {}", show(max)),
+        (_, max) => format!("{} to {}", show(range.min), show(max)),
+    }
+}

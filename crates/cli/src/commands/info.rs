@@ -1,0 +1,162 @@
+//! `meshwright info`: shows what a file holds.
+
+use std::path::Path;
+
+use mesh::Mesh;
+use scene::{Geometry, Object};
+
+use crate::args::Format;
+use crate::output::{grouped, print};
+
+pub(crate) fn run(path: &Path, format: Format) -> anyhow::Result<bool> {
+    let loaded = mesh_io::read(path, &mesh_io::ReadOptions::default())
+        .map_err(|error| anyhow::anyhow!("{error}"))?;
+    if format == Format::Json {
+        let objects: Vec<_> = loaded.objects.iter().map(object_json).collect();
+        let notes: Vec<_> = loaded.notes.iter().map(ToString::to_string).collect();
+        let info = serde_json::json!({ "file": path.display().to_string(), "objects": objects, "notes": notes });
+        print(&format!("{info:#}\n"))?;
+        return Ok(true);
+    }
+    for object in &loaded.objects {
+        print(&format!("{}: {}\n", object.name, object.geometry.kind()))?;
+        for (what, value) in facts(object) {
+            print(&format!("  {what:<18} {value}\n"))?;
+        }
+    }
+    for note in &loaded.notes {
+        print(&format!("note: {note}\n"))?;
+    }
+    Ok(true)
+}
+
+fn facts(object: &Object) -> Vec<(&'static str, String)> {
+    match &object.geometry {
+        Geometry::Mesh(mesh) => mesh_facts(object, mesh),
+        Geometry::Patches(patches) => vec![("patches", grouped(patches.len() as u64))],
+        Geometry::Curve(curve) => vec![("control points", grouped(curve.points().len() as u64))],
+        Geometry::Polylines(lines) => vec![
+            ("polylines", grouped(lines.len() as u64)),
+            (
+                "points",
+                grouped(lines.iter().map(Vec::len).sum::<usize>() as u64),
+            ),
+        ],
+    }
+}
+
+fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
+    let count = |n: usize| grouped(n as u64);
+    let loops = mesh.n_boundary_loops();
+    let closed = if loops == 0 {
+        "yes".to_owned()
+    } else {
+        format!("no, {loops} boundary loops")
+    };
+    let mut degrees: Vec<usize> = Vec::new();
+    for f in mesh.faces() {
+        let n = mesh.degree(f);
+        degrees.resize(degrees.len().max(n + 1), 0);
+        degrees[n] += 1;
+    }
+    let attributes: Vec<String> = mesh
+        .attributes()
+        .iter()
+        .map(|(domain, c)| format!("{domain} {} ({})", c.name, c.values.type_name()))
+        .collect();
+    let mut facts = vec![
+        ("vertices", count(mesh.n_vertices())),
+        ("edges", count(mesh.n_edges())),
+        (
+            "faces",
+            format!(
+                "{} ({})",
+                count(mesh.n_faces()),
+                histogram(&degrees, "corners")
+            ),
+        ),
+        ("valences", histogram(&mesh.valences(), "edges")),
+        ("closed", closed),
+        ("components", count(mesh.n_components())),
+        ("Euler char.", mesh.euler_characteristic().to_string()),
+        ("genus", mesh.genus().to_string()),
+        ("area", mesh.area().to_string()),
+    ];
+    if loops == 0 {
+        facts.push(("volume", mesh.volume().to_string()));
+    }
+    if let Some([min, max]) = mesh.bounds() {
+        facts.push(("bounds", format!("{min} to {max}")));
+    }
+    let isolated = mesh.n_isolated_vertices();
+    if isolated > 0 {
+        facts.push(("isolated vertices", count(isolated)));
+    }
+    if !attributes.is_empty() {
+        facts.push(("attributes", attributes.join(", ")));
+    }
+    if !object.materials.is_empty() {
+        let names: Vec<&str> = object.materials.iter().map(|m| m.name.as_str()).collect();
+        facts.push(("materials", names.join(", ")));
+    }
+    facts
+}
+
+/// Counts by number: `12 of 3, 6 of 4 corners`; at most eight of them.
+fn histogram(counts: &[usize], what: &str) -> String {
+    let mut parts: Vec<String> = counts
+        .iter()
+        .enumerate()
+        .filter(|(_, n)| **n > 0)
+        .map(|(number, n)| format!("{} of {number}", grouped(*n as u64)))
+        .collect();
+    if parts.is_empty() {
+        return "none".to_owned();
+    }
+    if parts.len() > 8 {
+        parts.truncate(8);
+        parts.push("...".to_owned());
+    }
+    format!("{} {what}", parts.join(", "))
+}
+
+fn object_json(object: &Object) -> serde_json::Value {
+    let mut json = serde_json::json!({ "name": object.name, "kind": object.geometry.kind() });
+    let members = json.as_object_mut().expect("made as an object");
+    match &object.geometry {
+        Geometry::Mesh(mesh) => {
+            let attributes: Vec<String> = mesh
+                .attributes()
+                .iter()
+                .map(|(d, c)| format!("{d} {}", c.name))
+                .collect();
+            let bounds = mesh.bounds().map(|b| b.map(|p| p.to_array()));
+            members.extend([
+                ("vertices".to_owned(), mesh.n_vertices().into()),
+                ("edges".to_owned(), mesh.n_edges().into()),
+                ("faces".to_owned(), mesh.n_faces().into()),
+                ("boundary_loops".to_owned(), mesh.n_boundary_loops().into()),
+                ("components".to_owned(), mesh.n_components().into()),
+                (
+                    "euler_characteristic".to_owned(),
+                    mesh.euler_characteristic().into(),
+                ),
+                ("genus".to_owned(), mesh.genus().into()),
+                ("area".to_owned(), mesh.area().into()),
+                ("volume".to_owned(), mesh.volume().into()),
+                ("bounds".to_owned(), serde_json::json!(bounds)),
+                (
+                    "isolated_vertices".to_owned(),
+                    mesh.n_isolated_vertices().into(),
+                ),
+                ("attributes".to_owned(), attributes.into()),
+            ]);
+        }
+        _ => members.extend(
+            facts(object)
+                .into_iter()
+                .map(|(what, value)| (what.to_owned(), value.into())),
+        ),
+    }
+    json
+}

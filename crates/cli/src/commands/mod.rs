@@ -1,0 +1,10 @@
+//! The commands: one a file. Each returns whether it succeeded.
+
+pub(crate) mod check;
+pub(crate) mod convert;
+pub(crate) mod info;
+pub(crate) mod new_op;
+pub(crate) mod ops;
+pub(crate) mod run;
+pub(crate) mod schema;
+pub(crate) mod test;

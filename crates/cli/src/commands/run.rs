@@ -1,0 +1,85 @@
+//! `meshwright run`: runs a recipe.
+
+use anyhow::Context as _;
+use op::Registry;
+use recipe::Settings;
+
+use crate::args::{Format, RunArgs};
+use crate::listener::{Terminal, catch_interrupts};
+use crate::loading::{Loaded, load, read_objects};
+use crate::output::{explain, print, problems_json, run_json, show, step_notes, step_table};
+
+pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
+    if let Some(threads) = args.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads.into())
+            .build_global()
+            .context("cannot start the threads")?;
+    }
+    let loaded = load(&args.recipe, registry)?;
+    let json = args.recipe.format == Format::Json;
+    if args.explain && !json {
+        print(&explain(&loaded.recipe.parameters))?;
+    }
+    if loaded.has_errors() {
+        return refuse(&loaded, json);
+    }
+    show(&loaded, &loaded.diagnostics);
+
+    catch_interrupts();
+    let terminal = Terminal::new();
+    let settings = Settings {
+        files: &loaded.files,
+        budget: args.recipe.budget,
+        read: &read_objects,
+        keep_outputs: true,
+        writes: !loaded.forecast.outputs.is_empty(),
+    };
+    let outcome = recipe::run(&loaded.recipe, settings, &terminal);
+    terminal.clear();
+    if json {
+        print(&format!("{:#}\n", run_json(&loaded, &outcome)))?;
+        return Ok(outcome.succeeded());
+    }
+
+    print(&step_table(&outcome.steps))?;
+    print(&step_notes(&outcome.steps))?;
+    show(&loaded, &outcome.failures);
+    for path in &outcome.written {
+        print(&format!("wrote {}\n", path.display()))?;
+    }
+    if outcome.succeeded() {
+        let n = outcome.checked;
+        if n > 0 {
+            print(&format!("{n} expectations hold\n"))?;
+        }
+        print(&format!("digest {}\n", outcome.digest))?;
+    } else if outcome.cancelled {
+        eprintln!("interrupted, nothing was written");
+    } else {
+        eprintln!("{} failed, nothing was written", loaded.path);
+    }
+    Ok(outcome.succeeded())
+}
+
+/// Shows what is wrong with a recipe that cannot run.
+pub(crate) fn refuse(loaded: &Loaded, json: bool) -> anyhow::Result<bool> {
+    if json {
+        let lines = recipe::LineIndex::new(&loaded.source);
+        let problems = problems_json(&loaded.diagnostics, &lines);
+        let report = serde_json::json!({
+            "recipe": loaded.path, "succeeded": false, "failures": problems,
+        });
+        print(&format!("{report:#}\n"))?;
+        return Ok(false);
+    }
+    show(loaded, &loaded.diagnostics);
+    let n = loaded.n_errors();
+    let errors = if n == 1 {
+        "1 error".to_owned()
+    } else {
+        format!("{n} errors")
+    };
+    eprintln!("{errors}, nothing was run");
+    Ok(false)
+}

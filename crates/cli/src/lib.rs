@@ -1,0 +1,70 @@
+//! The program: command line, output and exit codes, for any registry of operations.
+//!
+//! A program with operations of its own is five lines:
+//!
+//! ```no_run
+//! fn main() -> std::process::ExitCode {
+//!     // with::<MyOperation>() for each of one's own
+//!     cli::run(ops_all::registry())
+//! }
+//! ```
+//!
+//! Exit codes: 0 done, 1 failed, 2 wrong usage.
+#![expect(clippy::print_stderr,
+    reason = "this is the crate that prints"
+)]
+
+mod args;
+mod commands;
+mod listener;
+mod loading;
+mod output;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::Parser;
+use op::Registry;
+
+use args::{Args, Command};
+
+/// Runs the program with the operations of `registry` and returns its exit code.
+#[expect(clippy::needless_pass_by_value, reason = "a program hands its registry over")]
+pub fn run(registry: Registry) -> ExitCode {
+    let args = Args::parse();
+    if let Err(clash) = registry.check() {
+        eprintln!("error: {clash}");
+        return ExitCode::FAILURE;
+    }
+    let done = match args.command {
+        Command::Run(args) => commands::run::run(&args, &registry),
+        Command::Check(args) => commands::check::run(&args, &registry),
+        Command::Test(args) => commands::test::run(&args, &registry),
+        Command::Ops { name, markdown } => commands::ops::run(name.as_deref(), markdown, &registry),
+        Command::Info { file, format } => commands::info::run(&file, format),
+        Command::Convert { input, output } => commands::convert::run(&input, &output),
+        Command::Schema => commands::schema::run(&registry),
+        Command::NewOp { name, dir } => commands::new_op::run(&name, &dir),
+    };
+    match done.and_then(|succeeded| flushed().map(|()| succeeded)) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn flushed() -> anyhow::Result<()> {
+    Ok(io::stdout().flush()?)
+}
+
+/// Whether the reader of our output went away, as `head` does.
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error
+        .chain()
+        .filter_map(|cause| cause.downcast_ref::<io::Error>())
+        .any(|cause| cause.kind() == io::ErrorKind::BrokenPipe)
+}

@@ -1,0 +1,70 @@
+//! Progress on a terminal, and Ctrl-C.
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use op::Progress;
+use recipe::{Listener, StepDone};
+
+/// Set by Ctrl-C; every long loop asks for it.
+fn interrupted() -> &'static AtomicBool {
+    static INTERRUPTED: OnceLock<AtomicBool> = OnceLock::new();
+    INTERRUPTED.get_or_init(|| AtomicBool::new(false))
+}
+
+/// Lets Ctrl-C end the run in an orderly way. The second one ends the program at once.
+pub(crate) fn catch_interrupts() {
+    // Without a handler Ctrl-C ends the program, which is fine too.
+    let _ = ctrlc::set_handler(|| {
+        if interrupted().swap(true, Ordering::Relaxed) {
+            std::process::exit(1);
+        }
+    });
+}
+
+/// Shows the step at work on a terminal, and nothing in a pipe.
+pub(crate) struct Terminal {
+    bar: ProgressBar,
+}
+
+impl Terminal {
+    pub(crate) fn new() -> Self {
+        // Draws on the standard error, and only if that is a terminal.
+        let bar = ProgressBar::new(0);
+        if let Ok(style) =
+            ProgressStyle::with_template("{spinner} {prefix}: {msg} {wide_bar} {percent}%")
+        {
+            bar.set_style(style);
+        }
+        bar.enable_steady_tick(Duration::from_millis(120));
+        Self { bar }
+    }
+
+    /// Takes the bar off the screen.
+    pub(crate) fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Progress for Terminal {
+    fn advance(&self, what: &str, done: u64, total: u64) -> bool {
+        if !self.bar.is_hidden() {
+            self.bar.set_message(what.to_owned());
+            self.bar.set_length(total.max(1));
+            self.bar.set_position(done);
+        }
+        !interrupted().load(Ordering::Relaxed)
+    }
+}
+
+impl Listener for Terminal {
+    fn step_begins(&self, number: usize, label: &str) {
+        self.bar.set_prefix(format!("{} {label}", number + 1));
+        self.bar.set_message(String::new());
+        self.bar.set_position(0);
+    }
+
+    fn step_done(&self, _: usize, _: &StepDone) {}
+}

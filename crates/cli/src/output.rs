@@ -1,0 +1,179 @@
+//! Texts that several commands print.
+
+use std::io::{self, IsTerminal, Write};
+
+use recipe::{Outcome, Parameter, StepDone};
+
+use crate::loading::Loaded;
+
+/// Writes to the standard output. An error that a broken pipe causes is told apart by the caller.
+pub(crate) fn print(text: &str) -> io::Result<()> {
+    io::stdout().write_all(text.as_bytes())
+}
+
+/// Shows diagnostics on the standard error, as a compiler does.
+pub(crate) fn show(loaded: &Loaded, diagnostics: &[recipe::Diagnostic]) {
+    if !diagnostics.is_empty() {
+        eprint!("{}", loaded.render(diagnostics, io::stderr().is_terminal()));
+    }
+}
+
+/// The steps as a table: counts after each, and its time.
+pub(crate) fn step_table(steps: &[StepDone]) -> String {
+    let mut rows = vec![
+        ["step", "vertices", "edges", "faces", "time"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for (i, step) in steps.iter().enumerate() {
+        let count = |n: usize| grouped(n as u64);
+        let time = format!("{:.1} ms", step.time.as_secs_f64() * 1e3);
+        rows.push(vec![
+            format!("{:>2} {}", i + 1, step.label),
+            count(step.vertices),
+            count(step.edges),
+            count(step.faces),
+            time,
+        ]);
+    }
+    table(&rows)
+}
+
+/// What the steps report: refused edits, losses, notes.
+pub(crate) fn step_notes(steps: &[StepDone]) -> String {
+    let mut text = String::new();
+    for step in steps {
+        let label = &step.label;
+        for refused in &step.report.refused {
+            let (n, reason, first) = (refused.count, refused.reason, &refused.first);
+            text += &format!("{label}: {n} refused, {reason:?} (first: {first})\n");
+        }
+        for loss in &step.report.losses {
+            text += &format!("{label}: {loss}\n");
+        }
+        for note in &step.report.notes {
+            text += &format!("{label}: {note}\n");
+        }
+    }
+    text
+}
+
+/// Rows in columns: the first to the left, the others to the right.
+pub(crate) fn table(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |c: usize| {
+        rows.iter()
+            .filter_map(|row| row.get(c))
+            .map(|cell| cell.chars().count())
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (c, cell) in row.iter().enumerate() {
+            if c == 0 {
+                line += &format!("{cell:<0$}", widths[0]);
+            } else {
+                line += &format!("  {cell:>0$}", widths[c]);
+            }
+        }
+        text += line.trim_end();
+        text.push('\n');
+    }
+    text
+}
+
+/// A number with its digits in groups of three.
+pub(crate) fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// Where the value of each parameter comes from.
+pub(crate) fn explain(parameters: &[Parameter]) -> String {
+    let mut rows = vec![["parameter", "value", "from"].map(str::to_owned).to_vec()];
+    for parameter in parameters {
+        let from = if parameter.is_set {
+            "--set"
+        } else {
+            "the recipe's default"
+        };
+        rows.push(vec![
+            parameter.name.clone(),
+            parameter.literal.clone(),
+            from.to_owned(),
+        ]);
+    }
+    rows.push(vec!["(--set goes before the recipe's default)".to_owned()]);
+    table(&rows)
+}
+
+/// A run as one JSON object.
+pub(crate) fn run_json(loaded: &Loaded, outcome: &Outcome) -> serde_json::Value {
+    let lines = recipe::LineIndex::new(&loaded.source);
+    let steps: Vec<_> = outcome
+        .steps
+        .iter()
+        .map(|step| {
+            let refused: Vec<_> = step
+                .report
+                .refused
+                .iter()
+                .map(|r| {
+                    let reason = format!("{:?}", r.reason);
+                    serde_json::json!({ "reason": reason, "count": r.count, "first": r.first })
+                })
+                .collect();
+            serde_json::json!({
+                "step": step.label,
+                "vertices": step.vertices,
+                "edges": step.edges,
+                "faces": step.faces,
+                "changed": step.report.changed,
+                "refused": refused,
+                "losses": step.report.losses.iter().map(ToString::to_string).collect::<Vec<_>>(),
+                "notes": step.report.notes,
+                "milliseconds": step.time.as_secs_f64() * 1e3,
+            })
+        })
+        .collect();
+    serde_json::json!({
+        "recipe": loaded.path,
+        "succeeded": outcome.succeeded(),
+        "cancelled": outcome.cancelled,
+        "steps": steps,
+        "expectations": outcome.checked,
+        "digest": outcome.digest.to_string(),
+        "written": outcome.written.iter().map(|p| p.display().to_string()).collect::<Vec<_>>(),
+        "failures": problems_json(&outcome.failures, &lines),
+    })
+}
+
+/// Diagnostics as JSON.
+pub(crate) fn problems_json(
+    diagnostics: &[recipe::Diagnostic],
+    lines: &recipe::LineIndex,
+) -> serde_json::Value {
+    diagnostics
+        .iter()
+        .map(|d| {
+            let place = d.span.map(|span| lines.position(span.start));
+            serde_json::json!({
+                "severity": d.severity.name(),
+                "line": place.map(|p| p.0),
+                "column": place.map(|p| p.1),
+                "message": d.message,
+                "help": d.help,
+            })
+        })
+        .collect()
+}

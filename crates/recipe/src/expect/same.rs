@@ -1,0 +1,108 @@
+//! Whether two meshes are the same up to the order of their elements.
+
+use mesh::{DVec3, Mesh, VertexId};
+
+/// The vertices of a mesh in order of x, to be found by position.
+pub(super) struct Points<'m> {
+    mesh: &'m Mesh,
+    by_x: Vec<VertexId>,
+}
+
+impl<'m> Points<'m> {
+    pub(super) fn new(mesh: &'m Mesh) -> Self {
+        let mut by_x: Vec<VertexId> = mesh.vertices().collect();
+        by_x.sort_by(|&v, &w| mesh.position(v).x.total_cmp(&mesh.position(w).x));
+        Self { mesh, by_x }
+    }
+
+    /// The vertex nearest to `p` within the tolerance that is not taken.
+    fn nearest(&self, p: DVec3, tolerance: f64, taken: &[bool]) -> Option<VertexId> {
+        let start = self
+            .by_x
+            .partition_point(|&v| self.mesh.position(v).x < p.x - tolerance);
+        self.by_x[start..]
+            .iter()
+            .take_while(|&&v| self.mesh.position(v).x <= p.x + tolerance)
+            .map(|&v| (self.mesh.position(v).distance(p), v))
+            .filter(|&(distance, v)| distance <= tolerance && !taken[v.index()])
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+            .map(|(_, v)| v)
+    }
+
+    /// For each vertex of `other`, by index, the vertex that its image lies on; `None` if they do not
+    /// match one to one.
+    pub(super) fn matching(
+        &self,
+        other: &Mesh,
+        image: impl Fn(VertexId) -> DVec3,
+        tolerance: f64,
+    ) -> Option<Vec<VertexId>> {
+        if other.n_vertices() != self.mesh.n_vertices() {
+            return None;
+        }
+        let mut taken = vec![false; self.mesh.positions().len()];
+        let mut map = vec![VertexId::NONE; other.positions().len()];
+        for v in other.vertices() {
+            let found = self.nearest(image(v), tolerance, &taken)?;
+            taken[found.index()] = true;
+            map[v.index()] = found;
+        }
+        Some(map)
+    }
+}
+
+/// Whether the faces of `other`, their vertices mapped, are those of `mesh`; turned round if
+/// `reversed`.
+pub(super) fn same_faces(mesh: &Mesh, other: &Mesh, map: &[VertexId], reversed: bool) -> bool {
+    let canonical = |mut corners: Vec<VertexId>| {
+        let lowest = corners
+            .iter()
+            .enumerate()
+            .min_by_key(|(_, v)| **v)
+            .map_or(0, |(i, _)| i);
+        corners.rotate_left(lowest);
+        corners
+    };
+    let mut faces: Vec<_> = mesh
+        .faces()
+        .map(|f| canonical(mesh.face_vertices(f).collect()))
+        .collect();
+    let mut others: Vec<_> = other
+        .faces()
+        .map(|f| {
+            let mut corners: Vec<_> = other.face_vertices(f).map(|v| map[v.index()]).collect();
+            if reversed {
+                corners.reverse();
+            }
+            canonical(corners)
+        })
+        .collect();
+    faces.sort_unstable();
+    others.sort_unstable();
+    faces == others
+}
+
+/// Whether the two meshes have the same vertices within the tolerance and, if `connectivity` is asked
+/// for, the same faces.
+pub(super) fn check(
+    mesh: &Mesh,
+    other: &Mesh,
+    tolerance: f64,
+    connectivity: bool,
+) -> Result<(), String> {
+    let (n, m) = (mesh.n_vertices(), other.n_vertices());
+    if n != m {
+        return Err(format!(
+            "expected {m} vertices as in the other mesh, found {n}"
+        ));
+    }
+    let Some(map) = Points::new(mesh).matching(other, |v| other.position(v), tolerance) else {
+        return Err(format!(
+            "expected the vertices of the other mesh within {tolerance}"
+        ));
+    };
+    if connectivity && !same_faces(mesh, other, &map, false) {
+        return Err("expected the faces of the other mesh, found others".to_owned());
+    }
+    Ok(())
+}

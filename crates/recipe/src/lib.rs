@@ -1,0 +1,31 @@
+//! Recipes: read, checked, forecast and run.
+//!
+//! ```text
+//! text --read--> Recipe + diagnostics --check--> Forecast + diagnostics --run--> Outcome
+//! ```
+//!
+//! [`read`] turns text into operations of a [`Registry`](op::Registry) and reports every error at once.
+//! [`check`] plans all steps without touching geometry: counts, memory, files, names. [`run`] runs them;
+//! outputs appear only when every step is done and every expectation holds.
+
+pub mod diagnostic;
+pub mod expect;
+pub mod shape;
+pub mod syntax;
+
+mod check;
+mod describe;
+mod params;
+mod read;
+mod run;
+mod schema;
+
+pub use check::{Forecast, StepForecast, check, mebibytes};
+pub use describe::{FieldDoc, fields};
+pub use diagnostic::{Diagnostic, LineIndex, Severity, Span, render};
+pub use expect::{Expectation, ReadObjects};
+pub use params::Param;
+pub use read::{Parameter, Placed, Reading, Recipe, RecipeStep, VERSION, read};
+pub use run::{Listener, Outcome, Settings, Silent, StepDone, run};
+pub use schema::schema;
+pub use shape::did_you_mean;

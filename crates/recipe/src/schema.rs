@@ -1,0 +1,157 @@
+//! JSON schemas: of whole recipes for editors, and of their parts for the reader.
+
+use op::{Refusal, Registry};
+use schemars::JsonSchema;
+use serde_json::{Map, Value as Json, json};
+
+use crate::expect::Expectation;
+use crate::params::Param;
+
+/// The schema of a type.
+pub(crate) fn of<T: JsonSchema>() -> Json {
+    schemars::schema_for!(T).to_value()
+}
+
+/// The fields around a recipe; steps and expectations can be anything.
+pub(crate) fn envelope() -> Json {
+    recipe(&json!({}), &json!({}), &json!({}))
+}
+
+/// The fields around an operation; the operation can be anything.
+pub(crate) fn step_envelope() -> Json {
+    with_definitions(&[("Refusal", of::<Refusal>())], |at| {
+        step_fields(&json!({}), &at("Refusal"))
+    })
+}
+
+/// The fields around an expectation; the expectation can be anything.
+pub(crate) fn expectation_envelope() -> Json {
+    expectation_fields(&json!({}))
+}
+
+/// The schema of whole recipes with the operations of `registry`, in the JSON form of RON: `Name(a: 1)`
+/// is `{"Name": {"a": 1}}`, and a name without parameters is a string.
+pub fn schema(registry: &Registry) -> Json {
+    let mut parts = vec![
+        ("Param", of::<Param>()),
+        ("Expectation", of::<Expectation>()),
+        ("Refusal", of::<Refusal>()),
+    ];
+    parts.extend(registry.entries().iter().map(|e| (e.name, e.schema())));
+    let mut schema = with_definitions(&parts, |at| {
+        let operations: Vec<Json> = registry
+            .entries()
+            .iter()
+            .flat_map(|e| {
+                let call = json!({
+                    "type": "object",
+                    "description": e.summary,
+                    "properties": { e.name: at(e.name) },
+                    "required": [e.name],
+                    "additionalProperties": false,
+                });
+                let alone = json!({ "const": e.name, "description": e.summary });
+                let needs = e.schema().get("required").is_some();
+                if needs { vec![call] } else { vec![call, alone] }
+            })
+            .collect();
+        let operation = json!({ "oneOf": operations });
+        let step = json!({ "oneOf": [operation.clone(), step_fields(&operation, &at("Refusal"))] });
+        let expectation = at("Expectation");
+        let many =
+            json!({ "oneOf": [expectation.clone(), { "type": "array", "items": expectation }] });
+        let placed = json!({ "oneOf": [at("Expectation"), expectation_fields(&many)] });
+        recipe(&at("Param"), &step, &placed)
+    });
+    schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
+    schema["title"] = json!("Meshwright recipe");
+    schema
+}
+
+fn recipe(param: &Json, step: &Json, expectation: &Json) -> Json {
+    json!({
+        "type": "object",
+        "properties": {
+            "recipe": { "type": "integer", "const": 1 },
+            "needs": { "type": "string" },
+            "about": { "type": "string" },
+            "params": { "type": "object", "additionalProperties": param },
+            "steps": { "type": "array", "items": step },
+            "expect": { "type": "array", "items": expectation },
+        },
+        "required": ["recipe", "steps"],
+        "additionalProperties": false,
+    })
+}
+
+fn step_fields(operation: &Json, refusal: &Json) -> Json {
+    json!({
+        "type": "object",
+        "properties": {
+            "id": { "type": "string", "minLength": 1 },
+            "run": operation,
+            "on": { "type": "array", "items": { "type": "string" }, "minItems": 1 },
+            "note": { "type": "string" },
+            "refused": refusal,
+        },
+        "required": ["run"],
+        "additionalProperties": false,
+    })
+}
+
+fn expectation_fields(that: &Json) -> Json {
+    json!({
+        "type": "object",
+        "properties": {
+            "after": { "type": "string" },
+            "on": { "type": "array", "items": { "type": "string" }, "minItems": 1 },
+            "that": that,
+        },
+        "required": ["that"],
+        "additionalProperties": false,
+    })
+}
+
+/// Puts schemas with definitions of their own side by side: each part and each of its definitions gets
+/// a name of its own, and references are led there.
+fn with_definitions(parts: &[(&str, Json)], build: impl Fn(&dyn Fn(&str) -> Json) -> Json) -> Json {
+    let mut definitions = Map::new();
+    for (name, schema) in parts {
+        let mut schema = schema.clone();
+        if let Some(object) = schema.as_object_mut() {
+            object.remove("$schema");
+            if let Some(Json::Object(own)) = object.remove("$defs") {
+                for (key, mut definition) in own {
+                    lead(&mut definition, name);
+                    definitions.insert(format!("{name}.{key}"), definition);
+                }
+            }
+        }
+        lead(&mut schema, name);
+        definitions.insert((*name).to_owned(), schema);
+    }
+    let mut schema = build(&|name| json!({ "$ref": format!("#/$defs/{name}") }));
+    schema["$defs"] = Json::Object(definitions);
+    schema
+}
+
+/// Leads references in the schema of `part` to the definitions of that part.
+fn lead(schema: &mut Json, part: &str) {
+    match schema {
+        Json::Object(object) => {
+            for (key, value) in object.iter_mut() {
+                match value {
+                    Json::String(target) if key == "$ref" => {
+                        *target = match target.strip_prefix("#/$defs/") {
+                            Some(name) => format!("#/$defs/{part}.{name}"),
+                            None => format!("#/$defs/{part}"),
+                        };
+                    }
+                    _ => lead(value, part),
+                }
+            }
+        }
+        Json::Array(items) => items.iter_mut().for_each(|item| lead(item, part)),
+        _ => {}
+    }
+}

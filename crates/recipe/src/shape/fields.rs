@@ -1,0 +1,127 @@
+//! Checks structs and maps.
+
+use super::schema::Schema;
+use super::{Checker, Place, listed, nearest};
+use crate::diagnostic::Span;
+use crate::syntax::{Field, Value, ValueKind};
+
+impl Checker {
+    /// Checks `(a: 1, b: 2)`.
+    ///
+    /// `owner` is the place of the name, or of the bracket, that missing fields are reported at.
+    pub(super) fn check_struct(
+        &mut self,
+        value: &Value,
+        schema: &Schema,
+        place: Place,
+        owner: Span,
+    ) {
+        let (fields, complete): (&[Field], bool) = match &value.kind {
+            ValueKind::Struct(body) => (&body.fields, body.complete),
+            ValueKind::Unit => (&[], true),
+            // `ron` lets the name of a struct stand before its brackets.
+            ValueKind::Call(call) if schema.name() == Some(&*call.name.text) => {
+                return self.check_struct(&call.body, schema, place, call.name.span);
+            }
+            _ => {
+                let help = match &value.kind {
+                    ValueKind::Map(_) => Some("fields stand in round brackets, without quotes"),
+                    _ => None,
+                };
+                let expected = schema.expectation();
+                return self.mismatch(value, &expected, place, help.map(str::to_owned));
+            }
+        };
+        for field in fields {
+            match schema.field(&field.name.text) {
+                Some(inner) => self.check(&field.value, &inner, Place::named(&field.name.text)),
+                None => self.unknown_field(value, field, schema, place),
+            }
+        }
+        let is_given = |name: &&str| fields.iter().any(|field| &*field.name.text == *name);
+        let missing: Vec<&str> = schema.required().filter(|name| !is_given(name)).collect();
+        if complete && !missing.is_empty() {
+            let subject = place
+                .name
+                .map_or("the value".to_owned(), |name| format!("`{name}`"));
+            let message = format!("{subject} needs {}", listed(missing.iter().copied()));
+            let help = format!("write {}", usage_of(&missing, schema));
+            self.report(value, owner, message, Some(help));
+        }
+    }
+
+    fn unknown_field(&mut self, value: &Value, field: &Field, schema: &Schema, place: Place) {
+        let name = &*field.name.text;
+        let near = nearest(name, schema.fields());
+        let known: Vec<&str> = schema.fields().collect();
+        let help = match place.name {
+            _ if !near.is_empty() => format!("did you mean {}?", listed(near)),
+            Some(owner) if known.is_empty() => format!("`{owner}` has no fields"),
+            _ => format!("fields: {}", listed(known.iter().copied().take(24))),
+        };
+        let owner = place
+            .name
+            .map_or(String::new(), |owner| format!(" in `{owner}`"));
+        self.report(
+            value,
+            field.name.span,
+            format!("unknown field `{name}`{owner}"),
+            Some(help),
+        );
+    }
+
+    /// Checks `{"a": 1}`.
+    pub(super) fn check_map(&mut self, value: &Value, schema: &Schema, place: Place) {
+        let ValueKind::Map(entries) = &value.kind else {
+            return self.mismatch(value, &schema.expectation(), place, None);
+        };
+        let values = schema.map_values();
+        for (key, value) in entries {
+            let fits = match &key.kind {
+                ValueKind::String(_) => !schema.has_number_keys(),
+                ValueKind::Number(number) => number.to_int().is_some_and(|key| schema.allows_key(key)),
+                ValueKind::Error => true,
+                _ => false,
+            };
+            if !fits {
+                let expected = if schema.has_number_keys() {
+                    "a whole number"
+                } else {
+                    "a string `\"..\"`"
+                };
+                let message = format!(
+                    "expected {expected} as key{}, found {}",
+                    place.of(),
+                    key.describe()
+                );
+                self.report(key, key.span, message, None);
+            }
+            if let Some(values) = &values {
+                self.check(
+                    value,
+                    values,
+                    Place {
+                        name: key.as_str().or(place.name),
+                        inside: false,
+                    },
+                );
+            }
+        }
+    }
+}
+
+/// How the missing fields are written: `count: (a whole number)`.
+fn usage_of(missing: &[&str], schema: &Schema) -> String {
+    let one = |name: &&str| {
+        let expectation = schema
+            .field(name)
+            .map_or("a value".to_owned(), |s| s.expectation());
+        format!("`{name}:` with {expectation}")
+    };
+    missing
+        .iter()
+        .take(3)
+        .map(one)
+        .collect::<Vec<_>>()
+        .join(", ")
+}

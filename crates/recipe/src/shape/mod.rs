@@ -1,0 +1,346 @@
+//! Holds values of a recipe against the JSON schema of the Rust type that they are meant for.
+//!
+//! The schema is one that `schemars` derives, and the values are as `ron` writes the type: what is
+//! accepted here, `ron` reads. But here every error of every value is found, with its place and
+//! with advice.
+//!
+//! ```text
+//! schema                                        in the recipe
+//! object with properties                        (count: 24, seed: 7)
+//! object with additionalProperties              {"key": value}
+//! array with items                              [1, 2, 3]
+//! array with prefixItems, or of one length      (0, 0, 1)
+//! string with enum or const                     Area
+//! object with one required property, in oneOf   Random(count: 24), Between(1, 2), Not(All)
+//! anyOf with null, type with null               7, Some(7) or None
+//! ```
+//!
+//! A schema does not say everything that `ron` needs to know, so types of parameters keep to
+//! three rules. A variant around a tuple or struct has it as a type of its own (a `$ref`), and
+//! not inlined. A struct around one value is `#[serde(transparent)]`. A list of one length is an
+//! array, and not a `Vec`.
+
+mod fields;
+mod nearest;
+mod range;
+mod schema;
+mod variants;
+
+pub use nearest::{did_you_mean, nearest};
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::syntax::{Value, ValueKind};
+use schema::Schema;
+use serde_json::Value as Json;
+
+/// Every way in which `value` does not fit `schema`, in the order of the text.
+///
+/// `schema` is a root schema: references in it are looked up in its `$defs`. Parts of the value
+/// that could not be read are passed over.
+pub fn check_shape(value: &Value, schema: &Json) -> Vec<Diagnostic> {
+    let mut checker = Checker::default();
+    checker.check(value, &Schema::root(schema), Place::default());
+    checker.finish()
+}
+
+/// The same for a step `Name(parameters)`, or `Name`, whose name the caller knows already.
+///
+/// The schema is that of the parameters.
+pub fn check_step(step: &Value, schema: &Json) -> Vec<Diagnostic> {
+    let mut checker = Checker::default();
+    let schema = Schema::root(schema);
+    let place = Place::default();
+    match &step.kind {
+        ValueKind::Call(call) => {
+            let place = Place {
+                name: Some(&call.name.text),
+                inside: false,
+            };
+            checker.check_struct(&call.body, &schema, place, call.name.span);
+        }
+        ValueKind::Name(name) => {
+            let body = Value::new(step.span, ValueKind::Unit);
+            let place = Place {
+                name: Some(name),
+                inside: false,
+            };
+            checker.check_struct(&body, &schema, place, step.span);
+        }
+        _ => checker.check(step, &schema, place),
+    }
+    checker.finish()
+}
+
+/// Where a value stands, for messages.
+#[derive(Clone, Copy, Debug, Default)]
+struct Place<'n> {
+    /// The nearest field or variant around the value.
+    name: Option<&'n str>,
+    /// Whether the value is only a part of that.
+    inside: bool,
+}
+
+impl<'n> Place<'n> {
+    fn named(name: &'n str) -> Self {
+        Self {
+            name: Some(name),
+            inside: false,
+        }
+    }
+
+    fn inside(self) -> Self {
+        Self {
+            inside: true,
+            ..self
+        }
+    }
+
+    /// The subject of a sentence.
+    fn subject(self) -> String {
+        match self.name {
+            Some(name) if self.inside => format!("a value in `{name}`"),
+            Some(name) => format!("`{name}`"),
+            None => "the value".to_owned(),
+        }
+    }
+
+    /// The end of `expected a number ..`.
+    fn of(self) -> String {
+        match self.name {
+            Some(name) if self.inside => format!(" in `{name}`"),
+            Some(name) => format!(" for `{name}`"),
+            None => String::new(),
+        }
+    }
+}
+
+#[derive(Default)]
+struct Checker {
+    diagnostics: Vec<Diagnostic>,
+    /// How many values around this one are tried against several schemas.
+    trials: u32,
+}
+
+/// Most trials inside each other: each multiplies the time by the number of alternatives.
+const MAX_TRIALS: u32 = 4;
+
+impl Checker {
+    fn finish(mut self) -> Vec<Diagnostic> {
+        self.diagnostics.sort_by_key(|d| d.span);
+        self.diagnostics
+    }
+
+    /// Reports a problem of `value`, saying so if a parameter of the recipe brought it.
+    fn report(&mut self, value: &Value, span: Span, message: String, help: Option<String>) {
+        let message = match &value.parameter {
+            Some(parameter) => format!("{message} (from parameter `{parameter}`)"),
+            None => message,
+        };
+        self.diagnostics.push(Diagnostic {
+            help,
+            ..Diagnostic::error(span, message)
+        });
+    }
+
+    fn mismatch(&mut self, value: &Value, expected: &str, place: Place, help: Option<String>) {
+        if value.has_errors() {
+            // What it would have been is not known.
+            return;
+        }
+        let message = format!(
+            "expected {expected}{}, found {}",
+            place.of(),
+            value.describe()
+        );
+        self.report(value, value.span, message, help);
+    }
+
+    fn check(&mut self, value: &Value, schema: &Schema, place: Place) {
+        let is_none = matches!(&value.kind, ValueKind::Name(name) if &**name == "None");
+        if !schema.is_nullable() {
+            self.check_present(value, schema, place);
+        } else if let Some(inner) = value.some() {
+            self.check_present(inner, schema, place);
+        } else if !is_none {
+            self.check_present(value, schema, place);
+        }
+    }
+
+    /// Checks a value that is not `None`.
+    fn check_present(&mut self, value: &Value, schema: &Schema, place: Place) {
+        if matches!(value.kind, ValueKind::Error) {
+            return;
+        }
+        if let Some(choice) = schema.choice() {
+            return self.check_choice(value, schema, &choice, place);
+        }
+        let types = schema.types();
+        match types.as_slice() {
+            _ if schema.allows_nothing() => {
+                let message = format!("no value is allowed{}", place.of());
+                self.report(value, value.span, message, None);
+            }
+            [] => {}
+            [one] => self.check_type(value, schema, one, place),
+            several => match several.iter().find(|t| is_of_type(value, t)) {
+                Some(one) => self.check_type(value, schema, one, place),
+                None => self.mismatch(value, &schema.expectation(), place, None),
+            },
+        }
+    }
+
+    fn check_type(&mut self, value: &Value, schema: &Schema, name: &str, place: Place) {
+        let fits = match (name, &value.kind) {
+            ("integer", ValueKind::Number(number)) => {
+                return self.check_integer(value, number, schema, place);
+            }
+            ("number", ValueKind::Number(number)) => {
+                return self.check_number(value, number, schema, place);
+            }
+            ("string", ValueKind::String(_) | ValueKind::Char(_)) => {
+                return self.check_string(value, schema, place);
+            }
+            ("array", _) => return self.check_array(value, schema, place),
+            ("object", _) if schema.is_map() => return self.check_map(value, schema, place),
+            ("object", _) => return self.check_struct(value, schema, place, opening(value)),
+            ("boolean", ValueKind::Bool(_)) => true,
+            // `ron` reads no space between the brackets of a value that is nothing else.
+            ("null", ValueKind::Unit) => value.span.len() == 2 || value.parameter.is_some(),
+            _ => false,
+        };
+        if !fits {
+            let quotes = match (name, &value.kind) {
+                ("string", ValueKind::Name(name)) => Some(format!("write \"{name}\" in quotes")),
+                ("boolean", ValueKind::Name(name)) if name.eq_ignore_ascii_case("true") => {
+                    Some("write `true`".to_owned())
+                }
+                ("boolean", ValueKind::Name(name)) if name.eq_ignore_ascii_case("false") => {
+                    Some("write `false`".to_owned())
+                }
+                ("integer" | "number", ValueKind::String(_)) => {
+                    Some("numbers stand without quotes".to_owned())
+                }
+                _ => None,
+            };
+            self.mismatch(value, &schema.expectation(), place, quotes);
+        }
+    }
+
+    fn check_string(&mut self, value: &Value, schema: &Schema, place: Place) {
+        let (least, most) = (schema.count("minLength"), schema.count("maxLength"));
+        let is_character = least == Some(1) && most == Some(1);
+        let text = match &value.kind {
+            ValueKind::Char(_) if is_character => return,
+            ValueKind::String(text) if !is_character => text,
+            _ => return self.mismatch(value, &schema.expectation(), place, None),
+        };
+        let length = text.chars().count();
+        self.check_count(value, length, [least, most], "characters", place);
+    }
+
+    fn check_array(&mut self, value: &Value, schema: &Schema, place: Place) {
+        if let Some(items) = schema.tuple() {
+            let expected = schema.expectation() + &place.of();
+            // `ron` lets the name of a struct stand before its brackets.
+            let body = match &value.kind {
+                ValueKind::Call(call) if schema.name() == Some(&*call.name.text) => &call.body,
+                _ => value,
+            };
+            return self.check_tuple(body, &items, &expected, place);
+        }
+        let ValueKind::List(values) = &value.kind else {
+            let help = match &value.kind {
+                ValueKind::Tuple(_) => Some("a list stands in square brackets: `[..]`".to_owned()),
+                _ => None,
+            };
+            return self.mismatch(value, &schema.expectation(), place, help);
+        };
+        if values.iter().all(|v| !matches!(v.kind, ValueKind::Error)) {
+            let limits = [schema.count("minItems"), schema.count("maxItems")];
+            self.check_count(value, values.len(), limits, "items", place);
+        }
+        if let Some(item) = schema.child("items") {
+            for value in values {
+                self.check(value, &item, place.inside());
+            }
+        }
+    }
+
+    /// Checks `(1, 2)`, of which `expected` says what it should be.
+    fn check_tuple(&mut self, value: &Value, items: &[Schema], expected: &str, place: Place) {
+        let values = match &value.kind {
+            ValueKind::Tuple(values) => values.as_slice(),
+            ValueKind::Unit => &[],
+            ValueKind::List(_) => {
+                let help = "values of a fixed number stand in round brackets: `(1, 2, 3)`";
+                return self.mismatch(value, expected, Place::default(), Some(help.to_owned()));
+            }
+            _ => return self.mismatch(value, expected, Place::default(), None),
+        };
+        let readable = values.iter().all(|v| !matches!(v.kind, ValueKind::Error));
+        if readable && values.len() != items.len() {
+            let found = counted(values.len(), "value");
+            let message = format!("expected {expected}, found {found}");
+            self.report(value, value.span, message, None);
+        }
+        for (value, schema) in values.iter().zip(items) {
+            self.check(value, schema, place.inside());
+        }
+    }
+
+    /// Checks a number of things: characters of a text or items of a list.
+    fn check_count(
+        &mut self,
+        value: &Value,
+        count: usize,
+        [least, most]: [Option<u64>; 2],
+        things: &str,
+        place: Place,
+    ) {
+        let limit = if let Some(least) = least.filter(|&least| (count as u64) < least) {
+            format!("at least {least}")
+        } else if let Some(most) = most.filter(|&most| count as u64 > most) {
+            format!("at most {most}")
+        } else {
+            return;
+        };
+        let message = format!("{} has {count} {things}, expected {limit}", place.subject());
+        self.report(value, value.span, message, None);
+    }
+}
+
+/// Whether a value has the form of a type of JSON schema, without a look inside.
+fn is_of_type(value: &Value, name: &str) -> bool {
+    match (&value.kind, name) {
+        (ValueKind::Number(number), "integer") => number.to_int().is_some(),
+        (ValueKind::Number(_), "number")
+        | (ValueKind::String(_) | ValueKind::Char(_), "string")
+        | (ValueKind::Bool(_), "boolean")
+        | (ValueKind::List(_) | ValueKind::Tuple(_), "array")
+        | (ValueKind::Struct(_) | ValueKind::Map(_), "object")
+        | (ValueKind::Unit, "null" | "array" | "object") => true,
+        _ => false,
+    }
+}
+
+/// Where a value starts: its name, or its bracket.
+fn opening(value: &Value) -> Span {
+    match value.name() {
+        Some((_, span)) => span,
+        None => Span::new(value.span.start, value.span.end.min(value.span.start + 1)),
+    }
+}
+
+/// `1 value`, `2 values`.
+fn counted(count: usize, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Names in backticks, with commas.
+fn listed<'n>(names: impl IntoIterator<Item = &'n str>) -> String {
+    let quoted: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
+    quoted.join(", ")
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,387 @@
+//! Reads JSON schemas as `schemars` derives them (draft 2020-12).
+
+use super::{counted, listed};
+use serde_json::{Map, Value as Json};
+
+/// A schema, with what it refers to.
+#[derive(Clone, Debug)]
+pub(super) struct Schema<'s> {
+    root: &'s Json,
+    /// The schema and those that it takes in by `$ref` and `allOf`: a value fits all of them.
+    layers: Vec<&'s Map<String, Json>>,
+    /// The name of the type, if it has one.
+    name: Option<&'s str>,
+    /// Whether the schema stands in `$defs` rather than in its place.
+    is_reference: bool,
+    /// Whether it is `false`, which no value fits.
+    never: bool,
+}
+
+/// A choice between variants of an enumeration, or other schemas.
+#[derive(Debug, Default)]
+pub(super) struct Choice<'s> {
+    /// Variants without content.
+    pub(super) units: Vec<&'s str>,
+    /// Variants with content.
+    pub(super) variants: Vec<(&'s str, Schema<'s>)>,
+    /// Anything else, save null.
+    pub(super) others: Vec<Schema<'s>>,
+    /// Whether `None` is one of the choices.
+    nullable: bool,
+}
+
+/// Most schemas that one takes in: a schema that refers to itself has no end.
+const MAX_LAYERS: usize = 32;
+
+impl<'s> Schema<'s> {
+    pub(super) fn root(root: &'s Json) -> Self {
+        let mut schema = Self::new(root, root);
+        schema.name = schema.text("title");
+        schema
+    }
+
+    fn new(root: &'s Json, json: &'s Json) -> Self {
+        let (layers, name, is_reference) = (Vec::new(), None, false);
+        let mut schema = Self {
+            root,
+            layers,
+            name,
+            is_reference,
+            never: false,
+        };
+        schema.add(json);
+        schema
+    }
+
+    fn add(&mut self, json: &'s Json) {
+        self.never |= json == &Json::Bool(false);
+        let Json::Object(layer) = json else { return };
+        if self.layers.len() >= MAX_LAYERS {
+            return;
+        }
+        self.layers.push(layer);
+        if let Some(path) = layer.get("$ref").and_then(Json::as_str) {
+            self.is_reference = true;
+            self.name = self.name.or(path.rsplit('/').next());
+            // What cannot be found says nothing.
+            if let Some(target) = path
+                .strip_prefix('#')
+                .and_then(|path| self.root.pointer(path))
+            {
+                self.add(target);
+            }
+        }
+        for part in layer
+            .get("allOf")
+            .and_then(Json::as_array)
+            .into_iter()
+            .flatten()
+        {
+            self.add(part);
+        }
+    }
+
+    /// The values of a keyword in all layers, outermost first.
+    fn all(&self, keyword: &str) -> impl Iterator<Item = &'s Json> {
+        self.layers
+            .iter()
+            .filter_map(move |layer| layer.get(keyword))
+    }
+
+    fn text(&self, keyword: &str) -> Option<&'s str> {
+        self.all(keyword).find_map(Json::as_str)
+    }
+
+    /// The numbers of a keyword in all layers.
+    pub(super) fn numbers(&self, keyword: &str) -> impl Iterator<Item = &'s serde_json::Number> {
+        self.all(keyword).filter_map(Json::as_number)
+    }
+
+    /// A number of things.
+    pub(super) fn count(&self, keyword: &str) -> Option<u64> {
+        self.all(keyword).find_map(Json::as_u64)
+    }
+
+    pub(super) fn format(&self) -> Option<&'s str> {
+        self.text("format")
+    }
+
+    pub(super) fn name(&self) -> Option<&'s str> {
+        self.name
+    }
+
+    pub(super) fn child(&self, keyword: &str) -> Option<Self> {
+        self.all(keyword)
+            .next()
+            .map(|json| Self::new(self.root, json))
+    }
+
+    pub(super) fn allows_nothing(&self) -> bool {
+        self.never
+    }
+
+    /// The types that are allowed, without null if there is another; none for any.
+    pub(super) fn types(&self) -> Vec<&'s str> {
+        let mut types: Vec<&str> = match self.all("type").next() {
+            Some(Json::String(name)) => vec![name],
+            Some(Json::Array(names)) => names.iter().filter_map(Json::as_str).collect(),
+            _ if self.has("properties") => vec!["object"],
+            _ if self.has("items") || self.has("prefixItems") => vec!["array"],
+            _ => Vec::new(),
+        };
+        if types.len() > 1 {
+            types.retain(|&name| name != "null");
+        }
+        types
+    }
+
+    fn has(&self, keyword: &str) -> bool {
+        self.all(keyword).next().is_some()
+    }
+
+    /// Whether `None` is allowed besides something else.
+    pub(super) fn is_nullable(&self) -> bool {
+        let by_type = match self.all("type").next() {
+            Some(Json::Array(names)) => names.len() > 1 && names.iter().any(|name| name == "null"),
+            _ => false,
+        };
+        by_type || self.choice().is_some_and(|choice| choice.nullable)
+    }
+
+    /// The alternatives of the schema, if it is a choice.
+    pub(super) fn choice(&self) -> Option<Choice<'s>> {
+        let mut choice = Choice::default();
+        let mut found = self.add_units(&mut choice);
+        for keyword in ["oneOf", "anyOf"] {
+            for part in self.all(keyword).filter_map(Json::as_array).flatten() {
+                found = true;
+                let schema = Self::new(self.root, part);
+                if schema.is_reference {
+                    choice.others.push(schema);
+                } else if schema.types() == ["null"] {
+                    choice.nullable = true;
+                } else if let Some((name, content)) = schema.variant() {
+                    choice.variants.push((name, content));
+                } else if !schema.add_units(&mut choice) {
+                    choice.others.push(schema);
+                }
+            }
+        }
+        found.then_some(choice)
+    }
+
+    /// Adds the names of `enum` and `const`, if the schema is one of a text that is one of these.
+    fn add_units(&self, choice: &mut Choice<'s>) -> bool {
+        if !self.types().iter().all(|&name| name == "string") {
+            return false;
+        }
+        let names = self
+            .all("enum")
+            .filter_map(Json::as_array)
+            .flatten()
+            .chain(self.all("const"));
+        let before = choice.units.len();
+        choice.units.extend(names.filter_map(Json::as_str));
+        choice.units.len() > before
+    }
+
+    /// Name and content of the variant that the schema describes, if it does.
+    fn variant(&self) -> Option<(&'s str, Self)> {
+        let [layer] = self.layers.as_slice() else {
+            return None;
+        };
+        let properties = layer.get("properties")?.as_object()?;
+        let required = layer.get("required")?.as_array()?;
+        let closed = layer.get("additionalProperties") == Some(&Json::Bool(false));
+        let (name, content) = properties.iter().next()?;
+        let single = properties.len() == 1 && required.len() == 1 && required[0] == name.as_str();
+        (single && closed).then(|| (name.as_str(), Self::new(self.root, content)))
+    }
+
+    /// The schemas of the items, if the array has a fixed number of them.
+    pub(super) fn tuple(&self) -> Option<Vec<Self>> {
+        if let Some(items) = self.all("prefixItems").find_map(Json::as_array) {
+            return Some(
+                items
+                    .iter()
+                    .map(|item| Self::new(self.root, item))
+                    .collect(),
+            );
+        }
+        let most = self.count("maxItems")?;
+        if most == 0 {
+            return Some(Vec::new());
+        }
+        let length = (self.count("minItems")? == most).then_some(most)?;
+        let item = self.child("items")?;
+        // Rust implements traits for arrays of up to 32 values.
+        Some(vec![
+            item;
+            usize::try_from(length).ok().filter(|&n| n <= 64)?
+        ])
+    }
+
+    /// Whether the object is a map rather than a struct.
+    pub(super) fn is_map(&self) -> bool {
+        let open = self
+            .all("additionalProperties")
+            .any(|json| json != &Json::Bool(false));
+        !self.has("properties") && (open || self.has("patternProperties"))
+    }
+
+    /// Whether the keys of the map are numbers.
+    pub(super) fn has_number_keys(&self) -> bool {
+        self.has("patternProperties")
+    }
+
+    /// Whether a whole number may be a key. Schemas do not say how large it may be: 64 bits.
+    pub(super) fn allows_key(&self, key: i128) -> bool {
+        let mut patterns = self.all("patternProperties").filter_map(Json::as_object).flatten();
+        let unsigned = u64::try_from(key).is_ok();
+        let signed = i64::try_from(key).is_ok();
+        patterns.any(|(pattern, _)| if pattern.contains('-') { signed } else { unsigned })
+    }
+
+    /// The schema of the values of a map.
+    pub(super) fn map_values(&self) -> Option<Self> {
+        let by_pattern = self
+            .all("patternProperties")
+            .filter_map(Json::as_object)
+            .flatten();
+        let json = by_pattern.map(|(_, json)| json).next();
+        let json = json.or_else(|| self.all("additionalProperties").next())?;
+        Some(Self::new(self.root, json))
+    }
+
+    /// The names of the fields of a struct.
+    pub(super) fn fields(&self) -> impl Iterator<Item = &'s str> {
+        self.all("properties")
+            .filter_map(Json::as_object)
+            .flatten()
+            .map(|(name, _)| name.as_str())
+    }
+
+    pub(super) fn field(&self, name: &str) -> Option<Self> {
+        let mut found = self.all("properties").filter_map(|fields| fields.get(name));
+        found.next().map(|json| Self::new(self.root, json))
+    }
+
+    /// The fields that must be given.
+    pub(super) fn required(&self) -> impl Iterator<Item = &'s str> {
+        self.all("required")
+            .filter_map(Json::as_array)
+            .flatten()
+            .filter_map(Json::as_str)
+    }
+
+    /// Whether the content of a variant is written as a value in its brackets, `Not((a: 1))`,
+    /// rather than as the brackets themselves, `Random(count: 1)`.
+    pub(super) fn is_one_value(&self) -> bool {
+        let types = self.types();
+        let spread = match types.as_slice() {
+            ["object"] => !self.is_map(),
+            ["array"] => self.has("prefixItems") || self.count("maxItems") == Some(0),
+            _ => false,
+        };
+        self.is_reference || !spread || self.is_nullable()
+    }
+
+    /// What a value should be, in a few words.
+    pub(super) fn expectation(&self) -> String {
+        if let Some(choice) = self.choice() {
+            let names: Vec<&str> = choice.names().collect();
+            return match (self.name, choice.others.as_slice()) {
+                (_, [one]) if names.is_empty() => one.expectation(),
+                (_, []) if names.len() <= 6 => format!("one of {}", listed(names)),
+                (Some(name), _) => article(name),
+                (None, others) => {
+                    let others: Vec<String> = others.iter().map(Self::expectation).collect();
+                    let names = (!names.is_empty()).then(|| listed(names));
+                    others
+                        .into_iter()
+                        .chain(names)
+                        .collect::<Vec<_>>()
+                        .join(" or ")
+                }
+            };
+        }
+        let types = self.types();
+        let parts: Vec<String> = types
+            .iter()
+            .map(|name| self.type_expectation(name))
+            .collect();
+        if parts.is_empty() {
+            "a value".to_owned()
+        } else {
+            parts.join(" or ")
+        }
+    }
+
+    fn type_expectation(&self, name: &str) -> String {
+        match name {
+            "integer" => "a whole number".to_owned(),
+            "number" => "a number".to_owned(),
+            "string"
+                if self.count("maxLength") == Some(1) && self.count("minLength") == Some(1) =>
+            {
+                "a character `'c'`".to_owned()
+            }
+            "string" => "a string".to_owned(),
+            "boolean" => "`true` or `false`".to_owned(),
+            "null" => "`()`".to_owned(),
+            "array" => match self.tuple() {
+                Some(items) => {
+                    format!(
+                        "{} in brackets `({})`",
+                        counted(items.len(), "value"),
+                        dots(items.len())
+                    )
+                }
+                None => "a list `[..]`".to_owned(),
+            },
+            "object" if self.is_map() => "a map `{..}`".to_owned(),
+            "object" => format!("named fields `{}`", self.usage("")),
+            other => format!("a value of type {other}"),
+        }
+    }
+
+    /// How the content of a variant or struct is written: `Name(count: .., seed: ..)`.
+    pub(super) fn usage(&self, name: &str) -> String {
+        if self.is_one_value() && !name.is_empty() {
+            return format!("{name}(..)");
+        }
+        if let Some(items) = self.tuple() {
+            return format!("{name}({})", dots(items.len()));
+        }
+        let mut fields: Vec<&str> = self.required().collect();
+        if fields.is_empty() {
+            fields = self.fields().take(1).collect();
+        }
+        let fields: Vec<String> = fields
+            .iter()
+            .take(4)
+            .map(|field| format!("{field}: .."))
+            .collect();
+        format!("{name}({})", fields.join(", "))
+    }
+}
+
+impl<'s> Choice<'s> {
+    /// The names of all variants.
+    pub(super) fn names(&self) -> impl Iterator<Item = &'s str> {
+        self.units
+            .iter()
+            .copied()
+            .chain(self.variants.iter().map(|(name, _)| *name))
+    }
+}
+
+fn dots(count: usize) -> String {
+    vec![".."; count].join(", ")
+}
+
+/// The name of a type with its article.
+fn article(name: &str) -> String {
+    let vowel = name.starts_with(['A', 'E', 'I', 'O', 'U']);
+    format!("{} `{name}`", if vowel { "an" } else { "a" })
+}

@@ -1,0 +1,179 @@
+//! Checks values that are one of several things: variants of enumerations, above all.
+
+use super::schema::{Choice, Schema};
+use super::{Checker, MAX_TRIALS, Place, counted, listed, nearest};
+use crate::diagnostic::Span;
+use crate::syntax::{Call, Value, ValueKind};
+
+impl Checker {
+    pub(super) fn check_choice(
+        &mut self,
+        value: &Value,
+        schema: &Schema,
+        choice: &Choice,
+        place: Place,
+    ) {
+        let has_variant = value
+            .name()
+            .is_some_and(|(name, _)| choice.names().any(|n| n == name));
+        match choice.others.as_slice() {
+            [] => self.check_variant(value, schema, choice, place),
+            _ if has_variant => self.check_variant(value, schema, choice, place),
+            [one] if choice.names().next().is_none() => self.check(value, one, place),
+            others => self.check_alternatives(value, schema, others, place),
+        }
+    }
+
+    /// Checks a value that should be a variant of an enumeration.
+    fn check_variant(&mut self, value: &Value, schema: &Schema, choice: &Choice, place: Place) {
+        let content = |name: &str| {
+            choice
+                .variants
+                .iter()
+                .find(|(n, _)| *n == name)
+                .map(|(_, s)| s)
+        };
+        let is_unit = |name: &str| choice.units.contains(&name);
+        match &value.kind {
+            ValueKind::Name(name) if is_unit(name) => {}
+            ValueKind::Name(name) => match content(name) {
+                Some(content) => {
+                    let help = format!("write `{}`", content.usage(name));
+                    self.report(
+                        value,
+                        value.span,
+                        format!("`{name}` needs parameters"),
+                        Some(help),
+                    );
+                }
+                None => self.unknown_variant(value, name, value.span, choice, place),
+            },
+            ValueKind::Call(call) => match content(&call.name.text) {
+                Some(content) => self.check_content(call, content),
+                None if is_unit(&call.name.text) => {
+                    let message = format!("`{}` takes no parameters", call.name.text);
+                    let help = format!("write `{}` alone", call.name.text);
+                    self.report(value, call.body.span, message, Some(help));
+                }
+                None => self.unknown_variant(value, &call.name.text, call.name.span, choice, place),
+            },
+            ValueKind::String(text) if is_unit(text) || content(text).is_some() => {
+                let message = format!("the variant `{text}` stands without quotes");
+                self.report(value, value.span, message, Some(format!("write `{text}`")));
+            }
+            _ => {
+                let names: Vec<&str> = choice.names().collect();
+                let help = (names.len() > 6).then(|| variants_help(&names)).flatten();
+                self.mismatch(value, &schema.expectation(), place, help);
+            }
+        }
+    }
+
+    fn unknown_variant(
+        &mut self,
+        value: &Value,
+        name: &str,
+        span: Span,
+        choice: &Choice,
+        place: Place,
+    ) {
+        let names: Vec<&str> = choice.names().collect();
+        let near = nearest(name, names.iter().copied());
+        let help = if near.is_empty() {
+            variants_help(&names)
+        } else {
+            Some(format!("did you mean {}?", listed(near)))
+        };
+        self.report(
+            value,
+            span,
+            format!("unknown variant `{name}`{}", place.of()),
+            help,
+        );
+    }
+
+    /// Checks what stands in the brackets of a variant.
+    fn check_content(&mut self, call: &Call, schema: &Schema) {
+        let name = &*call.name.text;
+        let place = Place::named(name);
+        if !schema.is_one_value() {
+            if let Some(items) = schema.tuple() {
+                let expected = format!("`{}`", schema.usage(name));
+                return self.check_tuple(&call.body, &items, &expected, place);
+            }
+            return self.check_struct(&call.body, schema, place, call.name.span);
+        }
+        if let Some(single) = call.body.single() {
+            return self.check(single, schema, place);
+        }
+        if let ValueKind::Struct(body) = &call.body.kind
+            && !body.complete
+        {
+            return;
+        }
+        let found = match &call.body.kind {
+            ValueKind::Tuple(values) => counted(values.len(), "value"),
+            ValueKind::Unit => "none".to_owned(),
+            _ => call.body.describe(),
+        };
+        let message = format!("expected one value in `{name}(..)`, found {found}");
+        let wraps = matches!(call.body.kind, ValueKind::Struct(_) | ValueKind::Tuple(_))
+            && matches!(schema.types().as_slice(), ["object" | "array"]);
+        let help = if wraps && schema.types() == ["array"] && schema.tuple().is_none() {
+            Some(format!("write `{name}([..])`"))
+        } else if wraps {
+            Some(format!(
+                "the value has brackets of its own: `{name}({})`",
+                schema.usage("")
+            ))
+        } else {
+            Some(format!("the value is {}", schema.expectation()))
+        };
+        self.report(&call.body, call.body.span, message, help);
+    }
+
+    /// Checks a value against several schemas, one of which it should fit.
+    fn check_alternatives(
+        &mut self,
+        value: &Value,
+        schema: &Schema,
+        others: &[Schema],
+        place: Place,
+    ) {
+        if self.trials >= MAX_TRIALS {
+            return;
+        }
+        let mut closest: Option<Self> = None;
+        for other in others {
+            let mut trial = Self {
+                trials: self.trials + 1,
+                ..Self::default()
+            };
+            trial.check(value, other, place);
+            if trial.diagnostics.is_empty() {
+                return;
+            }
+            // What is wrong inside of the value is closer than a value of the wrong form.
+            let whole = |d: &Self| d.diagnostics.iter().any(|d| d.span == Some(value.span));
+            let closer = closest
+                .as_ref()
+                .is_none_or(|best| whole(best) && !whole(&trial));
+            if closer {
+                closest = Some(trial);
+            }
+        }
+        match closest {
+            Some(best) if best.diagnostics.iter().all(|d| d.span != Some(value.span)) => {
+                self.diagnostics.extend(best.diagnostics);
+            }
+            _ => self.mismatch(value, &schema.expectation(), place, None),
+        }
+    }
+}
+
+/// The list of the variants, if it is not too long to read.
+fn variants_help(names: &[&str]) -> Option<String> {
+    (1..=24)
+        .contains(&names.len())
+        .then(|| format!("variants: {}", listed(names.iter().copied())))
+}

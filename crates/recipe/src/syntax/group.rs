@@ -1,0 +1,346 @@
+//! Reads what stands between brackets: fields, items, entries.
+
+use super::lexer::{Bracket, TokenKind};
+use super::parser::{MAX_DEPTH, Parser, excerpt, starts_value};
+use super::recovery::{Closing, OpenBracket};
+use super::tree::{Field, Name, Struct, Value, ValueKind};
+use crate::diagnostic::{Diagnostic, Span};
+use std::collections::BTreeMap;
+
+/// What stands between two brackets.
+pub(super) struct Contents {
+    pub(super) bracket: Bracket,
+    pub(super) fields: Vec<Field>,
+    values: Vec<Value>,
+    entries: Vec<(Value, Value)>,
+    complete: bool,
+}
+
+impl Contents {
+    /// Whether there are values without names so far, and nothing else.
+    pub(super) fn is_tuple(&self) -> bool {
+        self.bracket == Bracket::Round && self.fields.is_empty() && !self.values.is_empty()
+    }
+}
+
+impl Parser<'_> {
+    /// Reads what starts with the bracket that is `current`.
+    pub(super) fn group(&mut self, bracket: Bracket, has_name: bool) -> Value {
+        if self.open.len() >= MAX_DEPTH {
+            return self.skip_group();
+        }
+        let start = self.current;
+        let mut contents = Contents {
+            bracket,
+            fields: Vec::new(),
+            values: Vec::new(),
+            entries: Vec::new(),
+            complete: true,
+        };
+        self.open.push(OpenBracket {
+            bracket,
+            span: start.span,
+            has_name,
+            line: start.line,
+        });
+        self.bump();
+        self.contents(&mut contents);
+        self.open.pop();
+        let span = Span::new(start.span.start, self.previous_end);
+        Value::new(span, self.finish(contents))
+    }
+
+    /// Reads items up to the closing bracket, and passes it if it is there.
+    fn contents(&mut self, contents: &mut Contents) {
+        loop {
+            match self.current.kind {
+                None => return self.ended_inside(),
+                Some(TokenKind::Close(found)) => match self.closing(contents.bracket, found) {
+                    Closing::Ours => {
+                        self.bump();
+                        return;
+                    }
+                    Closing::Mistyped => {
+                        self.unexpected(&format!("`{}`", contents.bracket.close()));
+                        contents.complete = false;
+                        self.bump();
+                        return;
+                    }
+                    Closing::Missing => {
+                        self.unclosed();
+                        contents.complete = false;
+                        return;
+                    }
+                    Closing::Stray => {
+                        let text = excerpt(self.current.span.of(self.source));
+                        let message = format!("{text} closes nothing");
+                        self.complain(Diagnostic::error(self.current.span, message));
+                        self.bump();
+                        self.complained_at = Some(self.current.span.start);
+                        self.separator(contents);
+                    }
+                },
+                Some(TokenKind::Comma) => {
+                    self.unexpected("a value");
+                    while self.take(TokenKind::Comma) {}
+                }
+                _ if self.belongs_outside(contents) => {
+                    self.unclosed();
+                    contents.complete = false;
+                    return;
+                }
+                _ => {
+                    self.item(contents);
+                    self.separator(contents);
+                }
+            }
+        }
+    }
+
+    fn item(&mut self, contents: &mut Contents) {
+        if self.current.kind == Some(TokenKind::Hash) && self.next.kind == Some(TokenKind::Bang) {
+            return self.attribute(false);
+        }
+        if !starts_value(self.current.kind) {
+            self.unexpected("a value");
+            self.bump();
+            contents.complete = false;
+            return;
+        }
+        match contents.bracket {
+            Bracket::Round => self.round_item(contents),
+            Bracket::Square => {
+                let value = self.value("a value");
+                contents.values.push(value);
+            }
+            Bracket::Curly => {
+                let key = self.value("a key");
+                self.colon();
+                let value = self.value_after_colon(&format!("the key {}", key.describe()));
+                contents.entries.push((key, value));
+            }
+        }
+    }
+
+    /// A field of a struct or an item of a tuple.
+    fn round_item(&mut self, contents: &mut Contents) {
+        use TokenKind as K;
+        let quoted = self.current.kind == Some(K::String) && self.next.kind == Some(K::Colon);
+        let named = quoted
+            || self.current.kind == Some(K::Ident)
+                && match self.next.kind {
+                    Some(K::Colon | K::Equals) => true,
+                    Some(K::Open(Bracket::Round)) => false,
+                    // `levels 3`: the colon is missing. `levels,` among fields: the value is.
+                    Some(K::Comma | K::Close(_)) => !contents.fields.is_empty(),
+                    next => starts_value(next) && contents.values.is_empty(),
+                };
+        let mixed = if named {
+            !contents.values.is_empty()
+        } else {
+            !contents.fields.is_empty()
+        };
+        if mixed && contents.complete {
+            let message = "either all values in brackets have a name, or none has";
+            let help = "parameters are written `name: value`";
+            self.complain(Diagnostic::error(self.current.span, message).with_help(help));
+            contents.complete = false;
+        }
+        if !named {
+            let value = self.value("a value");
+            contents.values.push(value);
+            return;
+        }
+        if quoted {
+            let message = "names of fields stand without quotes";
+            self.complain(Diagnostic::error(self.current.span, message));
+        }
+        let name = match self.current.kind {
+            Some(K::String) => {
+                let span = self.bump().span;
+                Name {
+                    span,
+                    text: span.of(self.source).trim_matches('"').into(),
+                }
+            }
+            _ => self.name(),
+        };
+        let value = if matches!(self.current.kind, Some(K::Comma | K::Close(_))) {
+            self.missing(&format!("the value of `{}`", name.text));
+            Value::new(
+                Span::new(self.previous_end, self.previous_end),
+                ValueKind::Error,
+            )
+        } else {
+            self.colon();
+            self.value_after_colon(&format!("`{}`", name.text))
+        };
+        contents.fields.push(Field { name, value });
+    }
+
+    /// Passes a colon, or complains that there is none.
+    fn colon(&mut self) {
+        match self.current.kind {
+            Some(TokenKind::Colon) => {
+                self.bump();
+            }
+            Some(TokenKind::Equals) => {
+                self.unexpected("`:`");
+                self.bump();
+            }
+            kind if starts_value(kind) => self.missing("`:`"),
+            _ => self.unexpected("`:`"),
+        }
+    }
+
+    fn value_after_colon(&mut self, of: &str) -> Value {
+        while matches!(
+            self.current.kind,
+            Some(TokenKind::Colon | TokenKind::Equals)
+        ) {
+            self.unexpected(&format!("the value of {of}"));
+            self.bump();
+        }
+        let is_next_field = self.current.kind == Some(TokenKind::Ident)
+            && self.next.kind == Some(TokenKind::Colon)
+            && self
+                .open
+                .last()
+                .is_some_and(|open| open.bracket == Bracket::Round);
+        if is_next_field || !starts_value(self.current.kind) {
+            self.missing(&format!("the value of {of}"));
+            return Value::new(
+                Span::new(self.previous_end, self.previous_end),
+                ValueKind::Error,
+            );
+        }
+        self.value("a value")
+    }
+
+    /// Passes the comma between two items, or complains that there is none.
+    fn separator(&mut self, contents: &mut Contents) {
+        use TokenKind as K;
+        let expected = format!("`,` or `{}`", contents.bracket.close());
+        loop {
+            match self.current.kind {
+                Some(K::Comma) => {
+                    self.bump();
+                    return;
+                }
+                None | Some(K::Close(_)) => return,
+                _ if self.belongs_outside(contents) => return,
+                Some(K::Colon | K::Equals | K::Semicolon | K::Hash | K::Bang) => {
+                    self.unexpected(&expected);
+                    let pairs = matches!(self.bump().kind, Some(K::Colon | K::Equals));
+                    contents.complete = false;
+                    if !pairs || !starts_value(self.current.kind) {
+                        return;
+                    }
+                    // `[a: 1]` is one slip: the 1 belongs to the a.
+                    self.value("a value");
+                }
+                _ => return self.missing("`,`"),
+            }
+        }
+    }
+
+    fn finish(&mut self, contents: Contents) -> ValueKind {
+        let Contents {
+            bracket,
+            fields,
+            mut values,
+            entries,
+            complete,
+        } = contents;
+        if !complete && (bracket == Bracket::Square || !values.is_empty()) {
+            // The number of items is not known.
+            values.push(Value::new(
+                Span::new(self.previous_end, self.previous_end),
+                ValueKind::Error,
+            ));
+        }
+        let has_fields = !fields.is_empty();
+        self.refuse_duplicates(fields.iter().map(|f| (&*f.name.text, f.name.span)), "field");
+        let keys = entries
+            .iter()
+            .filter_map(|(key, _)| Some((key.as_str()?, key.span)));
+        self.refuse_duplicates(keys, "key");
+        match bracket {
+            Bracket::Square => ValueKind::List(values),
+            Bracket::Curly => ValueKind::Map(entries),
+            Bracket::Round if has_fields || !complete && values.is_empty() => {
+                ValueKind::Struct(Struct { fields, complete })
+            }
+            Bracket::Round if values.is_empty() => ValueKind::Unit,
+            Bracket::Round => ValueKind::Tuple(values),
+        }
+    }
+
+    fn refuse_duplicates<'n>(&mut self, names: impl Iterator<Item = (&'n str, Span)>, what: &str) {
+        let mut first_places = BTreeMap::new();
+        for (name, span) in names {
+            let first = *first_places.entry(name).or_insert(span);
+            if first != span {
+                let message = format!("the {what} `{}` is given twice", name.escape_debug());
+                self.report(Diagnostic::error(span, message).with_label(first, "first given here"));
+            }
+        }
+    }
+
+    /// Passes a bracket that lies too deep, and all that it holds.
+    fn skip_group(&mut self) -> Value {
+        let start = self.current.span;
+        if !self.too_deep {
+            self.too_deep = true;
+            let message = format!("more than {MAX_DEPTH} brackets inside each other");
+            self.report(Diagnostic::error(start, message));
+        }
+        let mut depth = 0_usize;
+        loop {
+            match self.bump().kind {
+                Some(TokenKind::Open(_)) => depth += 1,
+                Some(TokenKind::Close(_)) => depth -= 1,
+                None => break,
+                _ => {}
+            }
+            if depth == 0 {
+                break;
+            }
+        }
+        Value::new(Span::new(start.start, self.previous_end), ValueKind::Error)
+    }
+
+    fn unclosed(&mut self) {
+        if let Some(open) = self.open.last() {
+            let message = format!("this `{}` is not closed", open.bracket.open());
+            let help = format!("`{}` is missing", open.bracket.close());
+            let diagnostic = Diagnostic::error(open.span, message)
+                .with_label(
+                    Span::new(self.previous_end, self.previous_end),
+                    "most likely here",
+                )
+                .with_help(help);
+            self.report(diagnostic);
+            self.complained_at = Some(self.current.span.start);
+        }
+    }
+
+    /// Reports, once, that the text ends inside of brackets.
+    fn ended_inside(&mut self) {
+        let Some((innermost, others)) = self.open.split_last() else {
+            return;
+        };
+        let message = format!(
+            "the text ends before this `{}` is closed",
+            innermost.bracket.open()
+        );
+        let mut diagnostic = Diagnostic::error(innermost.span, message);
+        for open in others.iter().rev().take(3) {
+            let text = format!("and this `{}`", open.bracket.open());
+            diagnostic = diagnostic.with_label(open.span, text);
+        }
+        // All brackets outside end here too.
+        self.complain(diagnostic);
+    }
+}
+

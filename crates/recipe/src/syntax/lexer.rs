@@ -1,0 +1,535 @@
+//! Cuts a recipe into tokens, without losing a byte and without giving up.
+//!
+//! Every byte of the text lies in exactly one token: the tokens, written one after the other, are
+//! the text. What is no RON becomes a bad token, and lexing goes on behind it. Literals are cut
+//! out here and read in [`literal`](super::literal).
+
+use crate::diagnostic::Span;
+
+/// A piece of the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Token {
+    /// What it is.
+    pub kind: TokenKind,
+    /// Where it stands; never empty.
+    pub span: Span,
+}
+
+/// The kinds of tokens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TokenKind {
+    /// Spaces and line ends.
+    Whitespace,
+    /// `// ..`, without the line feed.
+    LineComment,
+    /// `/* .. */`, which nests.
+    BlockComment,
+    /// `name` or `r#name`.
+    Ident,
+    /// What starts like a number, up to the next thing that cannot belong to one.
+    Number,
+    /// `".."`.
+    String,
+    /// `r".."`, `r#".."#` and so on.
+    RawString,
+    /// `b".."`, `br".."` or `b'.'`, which RON has and recipes do not.
+    Bytes,
+    /// `'.'`.
+    Char,
+    /// `(`, `[` or `{`.
+    Open(Bracket),
+    /// `)`, `]` or `}`.
+    Close(Bracket),
+    /// `:`.
+    Colon,
+    /// `,`.
+    Comma,
+    /// `#`.
+    Hash,
+    /// `!`.
+    Bang,
+    /// `=`.
+    Equals,
+    /// `;`.
+    Semicolon,
+    /// A text in single quotes that is no single character.
+    BadChar,
+    /// A string without its closing quote.
+    UnclosedString,
+    /// A comment without its end; it goes to the end of the text.
+    UnclosedComment,
+    /// Characters that mean nothing in RON.
+    Unknown,
+}
+
+impl TokenKind {
+    /// Whether the token only stands between others.
+    pub fn is_trivia(self) -> bool {
+        matches!(
+            self,
+            Self::Whitespace | Self::LineComment | Self::BlockComment
+        )
+    }
+}
+
+/// The three pairs of brackets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bracket {
+    /// `( )`.
+    Round,
+    /// `[ ]`.
+    Square,
+    /// `{ }`.
+    Curly,
+}
+
+impl Bracket {
+    /// The opening character.
+    pub fn open(self) -> char {
+        match self {
+            Self::Round => '(',
+            Self::Square => '[',
+            Self::Curly => '{',
+        }
+    }
+
+    /// The closing character.
+    pub fn close(self) -> char {
+        match self {
+            Self::Round => ')',
+            Self::Square => ']',
+            Self::Curly => '}',
+        }
+    }
+}
+
+/// The tokens of a text, in order.
+///
+/// Time is linear in the length of the text, and nothing is stored.
+#[derive(Clone, Debug)]
+pub struct Lexer<'s> {
+    source: &'s str,
+    at: usize,
+    /// Whether a `"` string ends with its line at the latest.
+    lines_end_strings: bool,
+    /// A raw string with this many hashes, or more, has no end in the rest of the text.
+    endless_hashes: usize,
+}
+
+impl<'s> Lexer<'s> {
+    /// The tokens of `source`.
+    ///
+    /// Strings may span lines. But if the quotes of the text do not pair up, one of them is
+    /// missing, and all text behind it would seem to be inside out: then a string ends with its
+    /// line, so that only the line with the slip is misread.
+    pub fn new(source: &'s str) -> Self {
+        let mut lexer = Self {
+            source,
+            at: 0,
+            lines_end_strings: false,
+            endless_hashes: usize::MAX,
+        };
+        let unbalanced = lexer.clone().any(|t| t.kind == TokenKind::UnclosedString);
+        lexer.lines_end_strings = unbalanced;
+        lexer
+    }
+
+    fn rest(&self) -> &'s str {
+        &self.source[self.at..]
+    }
+
+    /// Kind and length of the token at the start of `rest`, whose first character is `first`.
+    fn token(&mut self, rest: &'s str, first: char) -> (TokenKind, usize) {
+        use TokenKind as K;
+        match first {
+            '(' => (K::Open(Bracket::Round), 1),
+            '[' => (K::Open(Bracket::Square), 1),
+            '{' => (K::Open(Bracket::Curly), 1),
+            ')' => (K::Close(Bracket::Round), 1),
+            ']' => (K::Close(Bracket::Square), 1),
+            '}' => (K::Close(Bracket::Curly), 1),
+            ':' => (K::Colon, 1),
+            ',' => (K::Comma, 1),
+            '#' => (K::Hash, 1),
+            '!' => (K::Bang, 1),
+            '=' => (K::Equals, 1),
+            ';' => (K::Semicolon, 1),
+            '"' => self.string(rest, K::String),
+            '\'' => quoted(rest),
+            '/' if rest.starts_with("//") => {
+                (K::LineComment, rest.find('\n').unwrap_or(rest.len()))
+            }
+            '/' if rest.starts_with("/*") => block_comment(rest),
+            'b' if rest.starts_with("b\"") => after(1, self.string(&rest[1..], K::Bytes)),
+            'b' if rest.starts_with("b'") => match quoted(&rest[1..]) {
+                (K::Char, length) => (K::Bytes, length + 1),
+                (kind, length) => (kind, length + 1),
+            },
+            'b' if rest.starts_with("br\"") || rest.starts_with("br#") => {
+                after(2, self.raw_string(&rest[2..], K::Bytes))
+            }
+            'r' if is_raw_string(&rest[1..]) => after(1, self.raw_string(&rest[1..], K::RawString)),
+            'r' if rest.starts_with("r#") => (
+                K::Ident,
+                2 + length_while(&rest[2..], is_raw_ident_character),
+            ),
+            // The byte order mark that some editors write.
+            '\u{FEFF}' if self.at == 0 => (K::Whitespace, first.len_utf8()),
+            _ if is_whitespace(first) => (K::Whitespace, length_while(rest, is_whitespace)),
+            _ if starts_ident(first) => (K::Ident, length_while(rest, continues_ident)),
+            _ if starts_number(rest) => (K::Number, number_length(rest)),
+            _ => (K::Unknown, unknown_length(rest)),
+        }
+    }
+
+    /// A string that starts with the quote at the start of `text`.
+    fn string(&self, text: &str, kind: TokenKind) -> (TokenKind, usize) {
+        let bytes = text.as_bytes();
+        let mut at = 1;
+        loop {
+            match bytes.get(at) {
+                None => break,
+                Some(b'\n') if self.lines_end_strings => break,
+                Some(b'"') => {
+                    let length = at + 1;
+                    // `"a.bez, name: "b"`: the closing quote is the opening one of the next.
+                    let swallowed =
+                        self.lines_end_strings && text[length..].starts_with(char::is_alphanumeric);
+                    if let (true, Some(end)) = (swallowed, next_field(&text[..at])) {
+                        return (TokenKind::UnclosedString, end);
+                    }
+                    return (kind, length);
+                }
+                Some(b'\\') => at += 2,
+                Some(_) => at += 1,
+            }
+        }
+        let line = &text[..at.min(text.len())];
+        if !self.lines_end_strings {
+            return (TokenKind::UnclosedString, line.len());
+        }
+        // What most likely stood behind the missing quote is given back.
+        let end = next_field(line).unwrap_or_else(|| {
+            line.trim_end_matches([')', ']', '}', ',', ' ', '\t', '\r'])
+                .len()
+        });
+        (TokenKind::UnclosedString, end.max(1))
+    }
+
+    /// A raw string whose hashes, or quote, are at the start of `text`.
+    fn raw_string(&mut self, text: &str, kind: TokenKind) -> (TokenKind, usize) {
+        let hashes = length_while(text, |c| c == '#');
+        let Some(inside) = text[hashes..].strip_prefix('"') else {
+            return (TokenKind::Unknown, hashes);
+        };
+        let start = text.len() - inside.len();
+        if hashes < self.endless_hashes {
+            let end = format!("\"{}", &text[..hashes]);
+            if let Some(found) = inside.find(&end) {
+                return (kind, start + found + end.len());
+            }
+            self.endless_hashes = hashes;
+        }
+        (
+            TokenKind::UnclosedString,
+            text.find('\n').unwrap_or(text.len()),
+        )
+    }
+}
+
+impl Iterator for Lexer<'_> {
+    type Item = Token;
+
+    fn next(&mut self) -> Option<Token> {
+        let rest = self.rest();
+        let first = rest.chars().next()?;
+        let (kind, mut length) = self.token(rest, first);
+        // A backslash at the very end, or before a character of several bytes, was skipped as two
+        // bytes.
+        length = length.clamp(first.len_utf8(), rest.len());
+        while !rest.is_char_boundary(length) {
+            length += 1;
+        }
+        let span = Span::new(self.at, self.at + length);
+        self.at += length;
+        Some(Token { kind, span })
+    }
+}
+
+/// Longest text that guesses about missing quotes look at: they must not make lexing quadratic.
+const GUESS: usize = 4096;
+
+/// Where the next `, name:` starts in the rest of a line that lost its quote.
+fn next_field(line: &str) -> Option<usize> {
+    if line.len() > GUESS {
+        return None;
+    }
+    line.match_indices(',').map(|(i, _)| i).find(|&i| {
+        let rest = line[i + 1..].trim_start();
+        let name = length_while(rest, continues_ident);
+        name > 0 && rest[name..].trim_start().starts_with(':')
+    })
+}
+
+/// What starts with a single quote: a character, or a slip.
+fn quoted(text: &str) -> (TokenKind, usize) {
+    let mut rest = text[1..].char_indices();
+    let (first, second) = (rest.next(), rest.next());
+    match (first, second) {
+        (Some((_, '\\')), Some((i, escaped))) => {
+            let from = 1 + i + escaped.len_utf8();
+            // The longest escape is `\u{10ffff}`.
+            let mut behind = text[from..].char_indices().take(10);
+            if let Some((end, _)) = behind.find(|&(_, c)| c == '\'') {
+                return (TokenKind::Char, from + end + 1);
+            }
+        }
+        (Some((_, c)), Some((i, '\''))) if c != '\'' && c != '\n' => {
+            return (TokenKind::Char, 1 + i + 1);
+        }
+        _ => {}
+    }
+    let close = text
+        .char_indices()
+        .skip(1)
+        .take(GUESS)
+        .find(|&(_, c)| c == '\'' || c == '\n');
+    match close {
+        Some((end, '\'')) => (TokenKind::BadChar, end + 1),
+        _ => (TokenKind::Unknown, 1),
+    }
+}
+
+fn block_comment(text: &str) -> (TokenKind, usize) {
+    let bytes = text.as_bytes();
+    let (mut at, mut depth) = (2, 1_usize);
+    while depth > 0 {
+        match bytes.get(at..at + 2) {
+            Some(b"/*") => {
+                depth += 1;
+                at += 2;
+            }
+            Some(b"*/") => {
+                depth -= 1;
+                at += 2;
+            }
+            Some(_) => at += 1,
+            None => return (TokenKind::UnclosedComment, text.len()),
+        }
+    }
+    (TokenKind::BlockComment, at)
+}
+
+/// The length of the number at the start of `text`, or of what its author took for one.
+fn number_length(text: &str) -> usize {
+    let digits = text.trim_start_matches(['+', '-']);
+    let hexadecimal = digits.starts_with("0x");
+    let mut previous = ' ';
+    let mut first = true;
+    length_while(text, |c| {
+        let sign_of_exponent = matches!(previous, 'e' | 'E') && !hexadecimal;
+        let belongs = match c {
+            '+' | '-' => first || sign_of_exponent,
+            _ => c == '.' || continues_ident(c),
+        };
+        first = false;
+        previous = c;
+        belongs
+    })
+}
+
+fn starts_number(text: &str) -> bool {
+    let unsigned = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let signed = unsigned.len() < text.len();
+    let digits = unsigned.strip_prefix('.').unwrap_or(unsigned);
+    digits.starts_with(|c: char| c.is_ascii_digit())
+        || (signed && (unsigned.starts_with("inf") || unsigned.starts_with("NaN")))
+}
+
+/// The length of the run of characters that mean nothing.
+fn unknown_length(text: &str) -> usize {
+    let known = |i: usize, c: char| {
+        is_whitespace(c)
+            || starts_ident(c)
+            || "()[]{}:,#!=;\"'/".contains(c)
+            || (c.is_ascii() && starts_number(&text[i..]))
+    };
+    let mut characters = text.char_indices().skip(1);
+    characters
+        .find(|&(i, c)| known(i, c))
+        .map_or(text.len(), |(i, _)| i)
+}
+
+fn after(prefix: usize, (kind, length): (TokenKind, usize)) -> (TokenKind, usize) {
+    (kind, prefix + length)
+}
+
+/// Whether a raw string follows the `r`: `"`, `#"` or `##`, as `ron` tells it from `r#name`.
+fn is_raw_string(rest: &str) -> bool {
+    rest.starts_with('"') || rest.starts_with("#\"") || rest.starts_with("##")
+}
+
+/// What `ron` takes for white space.
+fn is_whitespace(c: char) -> bool {
+    matches!(
+        c,
+        ' ' | '\t'
+            | '\n'
+            | '\r'
+            | '\x0B'
+            | '\x0C'
+            | '\u{85}'
+            | '\u{200E}'
+            | '\u{200F}'
+            | '\u{2028}'
+            | '\u{2029}'
+    )
+}
+
+fn starts_ident(c: char) -> bool {
+    c == '_' || c.is_alphabetic()
+}
+
+fn continues_ident(c: char) -> bool {
+    c == '_' || c.is_alphanumeric()
+}
+
+fn is_raw_ident_character(c: char) -> bool {
+    matches!(c, '.' | '+' | '-') || continues_ident(c)
+}
+
+fn length_while(text: &str, mut belongs: impl FnMut(char) -> bool) -> usize {
+    text.find(|c| !belongs(c)).unwrap_or(text.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn kinds(source: &str) -> Vec<TokenKind> {
+        Lexer::new(source)
+            .map(|t| t.kind)
+            .filter(|k| !k.is_trivia())
+            .collect()
+    }
+
+    fn texts(source: &str) -> Vec<&str> {
+        let tokens = Lexer::new(source).filter(|t| !t.kind.is_trivia());
+        tokens.map(|t| t.span.of(source)).collect()
+    }
+
+    #[test]
+    fn a_step_is_cut_into_its_tokens() {
+        assert_eq!(
+            texts("Load(path: \"a\\\"b\", at: -1.5e-3) // end"),
+            [
+                "Load",
+                "(",
+                "path",
+                ":",
+                "\"a\\\"b\"",
+                ",",
+                "at",
+                ":",
+                "-1.5e-3",
+                ")"
+            ]
+        );
+    }
+
+    #[test]
+    fn comments_nest_and_are_trivia() {
+        assert_eq!(texts("/* a /* b */ c */ 1 // 2\n3"), ["1", "3"]);
+    }
+
+    #[test]
+    fn raw_strings_end_at_their_hashes() {
+        assert_eq!(
+            texts(r##"r#"a"b"# r"c" r#type"##),
+            [r##"r#"a"b"#"##, r#"r"c""#, "r#type"]
+        );
+    }
+
+    #[test]
+    fn every_form_of_number_is_one_token() {
+        for number in [
+            "0", "1_000", "0xFF_e", "0b10", "-5", "+.5", "1.", "1e+9", "-inf", "+NaN",
+        ] {
+            assert_eq!(kinds(number), [TokenKind::Number], "{number}");
+        }
+        assert_eq!(texts("0x1e+5"), ["0x1e", "+5"]);
+    }
+
+    #[test]
+    fn characters_and_bytes_are_told_apart_from_slips() {
+        use TokenKind::{BadChar, Bytes, Char, Unknown};
+
+        assert_eq!(
+            kinds(r"'a' '\n' '\u{1F600}' b'a' b'\xff'"),
+            [Char, Char, Char, Bytes, Bytes]
+        );
+        assert_eq!(kinds(r##"b"x" br#"y"#"##), [Bytes, Bytes]);
+        assert_eq!(kinds("'teapot.bez'"), [BadChar]);
+        assert_eq!(kinds("'"), [Unknown]);
+    }
+
+    #[test]
+    fn bad_characters_become_one_token_and_lexing_goes_on() {
+        assert_eq!(texts("1 @$% 2"), ["1", "@$%", "2"]);
+        assert_eq!(kinds("@ a"), [TokenKind::Unknown, TokenKind::Ident]);
+    }
+
+    #[test]
+    fn a_missing_quote_costs_only_its_line() {
+        let lines = "(path: \"a.bez),\n(path: \"b.bez\")";
+        assert_eq!(texts(lines)[3..7], ["\"a.bez", ")", ",", "("]);
+
+        let fields = "(path: \"a.bez, name: \"b\")";
+        assert_eq!(
+            texts(fields)[3..],
+            ["\"a.bez", ",", "name", ":", "\"b\"", ")"]
+        );
+    }
+
+    #[test]
+    fn strings_may_span_lines_when_the_quotes_pair_up() {
+        assert_eq!(texts("\"a\nb\" 1"), ["\"a\nb\"", "1"]);
+    }
+
+    #[test]
+    fn hostile_texts_take_linear_time() {
+        let n = 200_000;
+        for part in [
+            "\"",
+            "'",
+            "r#\"\n",
+            "/*",
+            "\"a, b:\\",
+            "@",
+            "r##",
+            "b'",
+            "\\\"",
+            "-",
+            ".",
+        ] {
+            let text = part.repeat(n);
+            let length: usize = Lexer::new(&text).map(|t| t.span.len()).sum();
+            assert_eq!(length, text.len());
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_tokens_are_the_text(text in "(\\PC|[\\n\"'/*#rb()\\\\,:]){0,80}") {
+            let mut end = 0;
+            for token in Lexer::new(&text) {
+                prop_assert_eq!(token.span.start, end);
+                prop_assert!(!token.span.is_empty());
+                prop_assert!(text.is_char_boundary(token.span.end));
+                end = token.span.end;
+            }
+            prop_assert_eq!(end, text.len());
+        }
+    }
+}

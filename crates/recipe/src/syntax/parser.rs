@@ -1,0 +1,384 @@
+//! Reads a text into a tree of values, whatever the text.
+//!
+//! One slip gives one diagnostic, and reading goes on behind it. What was meant is guessed from
+//! what people do: one bracket is missing or mistyped, lines and indents are right, an entry of a
+//! list starts on a line of its own. [`recovery`](super::recovery) holds the guesses about
+//! brackets.
+
+use super::lexer::{Bracket, Lexer, Token, TokenKind};
+use super::literal::{self, BadLiteral, Number};
+use super::recovery::{Closing, OpenBracket};
+use super::tree::{Call, Field, Name, Struct, Value, ValueKind};
+use crate::diagnostic::{Diagnostic, Span};
+use std::collections::BTreeMap;
+
+/// Longest text that is read, in bytes.
+pub const MAX_BYTES: usize = 64 << 20;
+
+/// Most brackets inside each other.
+pub const MAX_DEPTH: usize = 128;
+
+/// Most values in a text: each takes about a hundred bytes.
+pub const MAX_VALUES: usize = 4 << 20;
+
+/// Most problems that are reported.
+const MAX_DIAGNOSTICS: usize = 100;
+
+/// A text that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parsed {
+    /// The value; what could not be read in it is [`ValueKind::Error`].
+    pub value: Value,
+    /// What is wrong with the text, in its order.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Reads a text that holds one value.
+///
+/// Attributes `#![type = ".."]` and `#![schema = ".."]` may stand before it. Takes time and
+/// memory in proportion to the text, which is refused above [`MAX_BYTES`], [`MAX_VALUES`] and
+/// [`MAX_DEPTH`].
+pub fn parse(source: &str) -> Parsed {
+    if source.len() > MAX_BYTES {
+        let message = format!(
+            "the text has {} MiB, expected at most {}",
+            source.len() >> 20,
+            MAX_BYTES >> 20
+        );
+        let diagnostics = vec![Diagnostic::without_place(message)];
+        return Parsed {
+            value: Value::new(Span::default(), ValueKind::Error),
+            diagnostics,
+        };
+    }
+    let mut parser = Parser::new(source);
+    while parser.current.kind == Some(TokenKind::Hash) {
+        parser.attribute(true);
+    }
+    let value = parser.value("a value");
+    if parser.current.kind.is_some() {
+        parser.unexpected("the end of the text");
+    }
+    let mut diagnostics = parser.diagnostics;
+    diagnostics.sort_by_key(|d| d.span);
+    Parsed { value, diagnostics }
+}
+
+/// A token that is no trivia, or the end of the text.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lexeme {
+    /// `None` at the end of the text.
+    pub(super) kind: Option<TokenKind>,
+    pub(super) span: Span,
+    /// The number of line feeds before it.
+    pub(super) line: usize,
+    /// Whether it is the first of its line.
+    pub(super) starts_line: bool,
+    /// Whether characters before it were reported and skipped.
+    after_junk: bool,
+}
+
+pub(super) struct Parser<'s> {
+    pub(super) source: &'s str,
+    pub(super) lexer: Lexer<'s>,
+    pub(super) current: Lexeme,
+    pub(super) next: Lexeme,
+    /// Where the last token before `current` ends.
+    pub(super) previous_end: usize,
+    /// The brackets around `current`, outermost first.
+    pub(super) open: Vec<OpenBracket>,
+    diagnostics: Vec<Diagnostic>,
+    /// The token that was complained about last: once is enough.
+    pub(super) complained_at: Option<usize>,
+    values: usize,
+    pub(super) too_deep: bool,
+    /// Whether the rest of the text is not read.
+    stopped: bool,
+}
+
+impl<'s> Parser<'s> {
+    fn new(source: &'s str) -> Self {
+        let start = Lexeme {
+            kind: None,
+            span: Span::new(0, 0),
+            line: 0,
+            starts_line: true,
+            after_junk: false,
+        };
+        let mut parser = Self {
+            source,
+            lexer: Lexer::new(source),
+            current: start,
+            next: start,
+            previous_end: 0,
+            open: Vec::new(),
+            diagnostics: Vec::new(),
+            pub(super) complained_at: None,
+            values: 0,
+            too_deep: false,
+            stopped: false,
+        };
+        parser.current = parser.lexeme();
+        parser.next = parser.current;
+        parser.next = parser.lexeme();
+        parser
+    }
+
+    /// Goes one token on and returns the one that is left behind; stays at the end of the text.
+    pub(super) fn bump(&mut self) -> Lexeme {
+        let passed = self.current;
+        if passed.kind.is_some() {
+            self.previous_end = passed.span.end;
+            self.current = self.next;
+            self.next = self.lexeme();
+        }
+        passed
+    }
+
+    /// The lexeme after `next`.
+    fn lexeme(&mut self) -> Lexeme {
+        if self.next.kind.is_none() && self.next.span.end > 0 {
+            return self.next;
+        }
+        let last_end = self.next.span.end;
+        let mut line = self.next.line + line_feeds(self.next.span.of(self.source));
+        let (mut starts_line, mut after_junk) = (last_end == 0, false);
+        for Token { kind, span } in self.lexer.by_ref() {
+            let feeds = line_feeds(span.of(self.source));
+            match kind {
+                kind if kind.is_trivia() => starts_line |= feeds > 0,
+                TokenKind::Unknown => {
+                    let text = excerpt(span.of(self.source));
+                    report(
+                        &mut self.diagnostics,
+                        Diagnostic::error(span, format!("unexpected {text}")),
+                    );
+                    after_junk = true;
+                }
+                TokenKind::UnclosedComment => {
+                    let start = Span::new(span.start, span.start + 2);
+                    report(
+                        &mut self.diagnostics,
+                        Diagnostic::error(start, "this comment has no end")
+                            .with_help("end it with `*/`"),
+                    );
+                    // Whatever is missing may stand in the comment.
+                    after_junk = true;
+                }
+                _ => {
+                    return Lexeme {
+                        kind: Some(kind),
+                        span,
+                        line,
+                        starts_line,
+                        after_junk,
+                    };
+                }
+            }
+            line += feeds;
+        }
+        let end = Span::new(self.source.len(), self.source.len());
+        Lexeme {
+            kind: None,
+            span: end,
+            line,
+            starts_line,
+            after_junk,
+        }
+    }
+
+    /// Reports a problem that is not about `current`.
+    pub(super) fn report(&mut self, diagnostic: Diagnostic) {
+        if self.diagnostics.len() >= MAX_DIAGNOSTICS {
+            self.stop("too many errors: the rest of the text was not read");
+        } else if !self.stopped {
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// Reports a problem with `current`, unless it was complained about already.
+    pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
+        let start = self.current.span.start;
+        // These tokens are complained about for themselves.
+        let is_bad = matches!(self.current.kind, Some(TokenKind::UnclosedString | TokenKind::BadChar));
+        if self.complained_at != Some(start) && !self.current.after_junk && !is_bad {
+            self.report(diagnostic);
+        }
+        self.complained_at = Some(start);
+    }
+
+    pub(super) fn unexpected(&mut self, expected: &str) {
+        let found = match self.current.kind {
+            None => "the end of the text".to_owned(),
+            Some(_) => excerpt(self.current.span.of(self.source)),
+        };
+        let message = format!("expected {expected}, found {found}");
+        self.complain(Diagnostic::error(self.current.span, message));
+    }
+
+    /// Reports that something is missing before `current`.
+    pub(super) fn missing(&mut self, what: &str) {
+        let place = Span::new(self.previous_end, self.previous_end);
+        self.complain(Diagnostic::error(place, format!("missing {what}")));
+    }
+
+    /// Reads no further.
+    fn stop(&mut self, message: &str) {
+        if !self.stopped {
+            self.stopped = true;
+            self.diagnostics
+                .push(Diagnostic::error(self.current.span, message));
+        }
+        let end = Span::new(self.source.len(), self.source.len());
+        self.lexer = Lexer::new("");
+        self.next = Lexeme {
+            kind: None,
+            span: end,
+            ..self.next
+        };
+        self.current = self.next;
+    }
+
+    /// Passes `current` if it is of this kind.
+    pub(super) fn take(&mut self, kind: TokenKind) -> bool {
+        let found = self.current.kind == Some(kind);
+        if found {
+            self.bump();
+        }
+        found
+    }
+
+    /// Reads a value. If `current` starts none, it is not passed.
+    pub(super) fn value(&mut self, expected: &str) -> Value {
+        use TokenKind as K;
+        self.values += 1;
+        if self.values > MAX_VALUES {
+            self.stop("too many values: the rest of the text was not read");
+        }
+        let Lexeme { kind, span, .. } = self.current;
+        let text = span.of(self.source);
+        let kind = match kind {
+            Some(K::Open(bracket)) => return self.group(bracket, false),
+            Some(K::Ident) if self.next.kind == Some(K::Open(Bracket::Round)) => {
+                let name = self.name();
+                let body = self.group(Bracket::Round, true);
+                return Value::new(
+                    span.to(body.span),
+                    ValueKind::Call(Box::new(Call { name, body })),
+                );
+            }
+            Some(K::Ident) => match text {
+                "true" => ValueKind::Bool(true),
+                "false" => ValueKind::Bool(false),
+                "inf" | "NaN" => ValueKind::Number(Number::Float(text.into())),
+                _ => ValueKind::Name(literal::name(text).into()),
+            },
+            Some(K::Number) => match Number::parse(text) {
+                Some(number) => ValueKind::Number(number),
+                None => self.bad_number(span),
+            },
+            Some(K::String) => match literal::unescape_string(text) {
+                Ok(text) => ValueKind::String(text.into()),
+                Err(error) => self.bad_literal(span, &error),
+            },
+            Some(K::RawString) => ValueKind::String(literal::raw_string(text).into()),
+            Some(K::Char) => match literal::unescape_char(text) {
+                Ok(c) => ValueKind::Char(c),
+                Err(error) => self.bad_literal(span, &error),
+            },
+            Some(K::Bytes) => {
+                self.report(Diagnostic::error(span, "recipes hold text, no bytes"));
+                ValueKind::Error
+            }
+            Some(K::BadChar) => {
+                let help = "a string stands in double quotes: `\"..\"`";
+                let message = "more than one character in single quotes";
+                self.report(Diagnostic::error(span, message).with_help(help));
+                ValueKind::Error
+            }
+            Some(K::UnclosedString) => {
+                let first_line = Span::new(
+                    span.start,
+                    span.start + text.find('\n').unwrap_or(text.len()),
+                );
+                self.report(Diagnostic::error(
+                    first_line,
+                    "this string has no closing quote",
+                ));
+                ValueKind::Error
+            }
+            _ => {
+                self.unexpected(expected);
+                let place = Span::new(self.previous_end, self.previous_end);
+                return Value::new(place, ValueKind::Error);
+            }
+        };
+        self.bump();
+        Value::new(span, kind)
+    }
+
+    fn bad_number(&mut self, span: Span) -> ValueKind {
+        let text = excerpt(span.of(self.source));
+        let help =
+            "numbers are written as 7, 1_000, 0.5, -3 or 1e-6, with no unit or type behind them";
+        self.report(Diagnostic::error(span, format!("{text} is not a number")).with_help(help));
+        ValueKind::Error
+    }
+
+    fn bad_literal(&mut self, literal: Span, error: &BadLiteral) -> ValueKind {
+        let span = Span::new(
+            literal.start + error.span.start,
+            literal.start + error.span.end,
+        );
+        self.report(Diagnostic::error(span, error.message));
+        ValueKind::Error
+    }
+
+    pub(super) fn name(&mut self) -> Name {
+        let span = self.bump().span;
+        Name {
+            span,
+            text: literal::name(span.of(self.source)).into(),
+        }
+    }
+}
+
+/// The same as [`Parser::report`], for a problem that is met while looking ahead.
+fn report(diagnostics: &mut Vec<Diagnostic>, diagnostic: Diagnostic) {
+    if diagnostics.len() < MAX_DIAGNOSTICS {
+        diagnostics.push(diagnostic);
+    }
+}
+
+/// Whether a value starts with a token of this kind, be it one that cannot be read.
+pub(super) fn starts_value(kind: Option<TokenKind>) -> bool {
+    use TokenKind as K;
+    matches!(
+        kind,
+        Some(
+            K::Open(_)
+                | K::Ident
+                | K::Number
+                | K::String
+                | K::RawString
+                | K::Char
+                | K::Bytes
+                | K::BadChar
+                | K::UnclosedString
+        )
+    )
+}
+
+/// A short text in backticks.
+pub(super) fn excerpt(text: &str) -> String {
+    let line = text.lines().next().unwrap_or("");
+    let mut shown: String = line.chars().take(20).flat_map(char::escape_debug).collect();
+    if line.chars().nth(20).is_some() {
+        shown += "..";
+    }
+    format!("`{shown}`")
+}
+
+fn line_feeds(text: &str) -> usize {
+    text.bytes().filter(|&b| b == b'\n').count()
+}

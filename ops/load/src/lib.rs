@@ -1,0 +1,234 @@
+//! Load: reads the objects of a file into the scene.
+
+use mesh::{Domain, NonManifold};
+use mesh_io::{Peek, PeekGeometry, PeekMesh, ReadError, ReadOptions};
+use op::{
+    Context, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Range,
+    Report,
+};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Reads the objects of a file into the scene.
+///
+/// Formats: `.obj`, `.gltf`, `.glb`, `.bez` (Bezier patches) and `.bzc` (a Bezier curve). An OBJ file is
+/// one object, whose `o` and `g` become face tags; a glTF file has an object for each of its meshes.
+/// What the scene cannot hold is counted and listed.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// The file, seen from the recipe's folder.
+    pub path: String,
+    /// The name of the object, in files that hold one; by default the name of the file without its
+    /// ending.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// What to do where faces do not form a manifold.
+    #[serde(default)]
+    pub non_manifold: Policy,
+}
+
+/// What to do where faces do not form a manifold.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Policy {
+    /// Split edges and vertices until they do, and list it.
+    #[default]
+    Split,
+    /// Fail.
+    Refuse,
+}
+
+impl Load {
+    fn options(&self) -> ReadOptions {
+        let non_manifold = match self.non_manifold {
+            Policy::Split => NonManifold::Split,
+            Policy::Refuse => NonManifold::Refuse,
+        };
+        ReadOptions {
+            name: self.name.clone(),
+            non_manifold,
+        }
+    }
+}
+
+impl Operation for Load {
+    const NAME: &'static str = "Load";
+    const SUMMARY: &'static str = "Read the objects of a file";
+
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        let path = cx.files.to_read(&self.path);
+        plan.inputs.push(path.clone());
+        match mesh_io::peek(&path, &self.options()) {
+            Ok(peek) => self.plan_objects(&peek, plan),
+            Err(error) => {
+                plan.incomplete = true;
+                vec![self.problem(&error)]
+            }
+        }
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        cx.advance("read", 0, 1)?;
+        let path = cx.files().to_read(&self.path);
+        let loaded = mesh_io::read(&path, &self.options())
+            .map_err(|error| OpError::File(error.to_string()))?;
+        let mut report = Report::changed(loaded.objects.len());
+        for object in loaded.objects {
+            let bytes = object.as_mesh().map_or(0, |mesh| mesh.bytes() as u64);
+            if bytes > cx.budget {
+                let message = format!("\"{}\" takes {bytes} bytes, over the budget", object.name);
+                return Err(OpError::Budget(message));
+            }
+            scene
+                .insert(object)
+                .map_err(|error| OpError::Object(error.to_string()))?;
+        }
+        report
+            .notes
+            .extend(loaded.notes.iter().map(ToString::to_string));
+        cx.advance("read", 1, 1)?;
+        Ok(report)
+    }
+}
+
+impl Load {
+    fn problem(&self, error: &ReadError) -> Problem {
+        Problem::error(error.to_string()).at(["path"])
+    }
+
+    fn plan_objects(&self, peek: &Peek, plan: &mut Plan) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        for object in &peek.objects {
+            let geometry = match object.geometry {
+                PeekGeometry::Mesh(mesh) => PlannedGeometry::Mesh(planned(&mesh)),
+                PeekGeometry::Patches { patches } => {
+                    PlannedGeometry::Patches(Range::exactly(patches))
+                }
+                PeekGeometry::Curve { points } => PlannedGeometry::Curve(Range::exactly(points)),
+                PeekGeometry::Polylines { .. } => PlannedGeometry::Polylines,
+            };
+            let field = if self.name.is_some() { "name" } else { "path" };
+            let taken = plan.insert(&object.name, geometry);
+            problems.extend(taken.into_iter().map(|p| {
+                p.at([field])
+                    .help("give another name with `name`, or rename the first")
+            }));
+        }
+        problems
+    }
+}
+
+/// What reading will make of a mesh of these counts. Degenerate faces may be left out, and splitting
+/// may add vertices and edges.
+fn planned(peek: &PeekMesh) -> MeshPlan {
+    let mut plan = MeshPlan {
+        vertices: Range {
+            min: 0,
+            max: peek.vertices.saturating_add(peek.corners),
+        },
+        edges: Range::at_most(peek.corners),
+        faces: Range::at_most(peek.faces),
+        degrees: Range {
+            min: peek.min_degree.max(3),
+            max: peek.max_degree.max(3),
+        },
+        attributes: Vec::new(),
+    };
+    let mut perhaps = |there: bool, domain, name: &str| {
+        if there {
+            plan.provide(domain, name);
+            if let Some(attribute) = plan.attributes.last_mut() {
+                attribute.certain = false;
+            }
+        }
+    };
+    perhaps(peek.uvs, Domain::Corner, mesh::UV.name);
+    perhaps(peek.normals, Domain::Vertex, mesh::VERTEX_NORMAL.name);
+    perhaps(peek.normals, Domain::Corner, mesh::CORNER_NORMAL.name);
+    perhaps(peek.colors, Domain::Vertex, mesh::COLOR.name);
+    perhaps(peek.materials, Domain::Face, mesh::MATERIAL.name);
+    plan
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use op::{Files, NoProgress};
+
+    fn files(folder: &std::path::Path) -> Files {
+        Files {
+            input: folder.into(),
+            ..Files::default()
+        }
+    }
+
+    fn load(text: &str) -> Load {
+        ron::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn a_file_is_planned_and_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+        std::fs::write(folder.path().join("a.obj"), obj).unwrap();
+        let files = files(folder.path());
+        let operation = load("(path: \"a.obj\", name: Some(\"quad\"))");
+
+        let mut plan = Plan::default();
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        assert_eq!(operation.plan(&mut plan, &cx), []);
+        let Some(PlannedGeometry::Mesh(planned)) = plan.object("quad").map(|o| &o.geometry) else {
+            panic!("a mesh is planned");
+        };
+
+        let mut scene = Scene::new();
+        operation
+            .apply(&mut scene, &mut Context::new(&NoProgress, &files))
+            .unwrap();
+        let mesh = scene.object("quad").and_then(|o| o.as_mesh()).unwrap();
+        assert!(planned.vertices.contains(mesh.n_vertices() as u64));
+        assert!(planned.edges.contains(mesh.n_edges() as u64));
+        assert!(planned.faces.contains(mesh.n_faces() as u64));
+        assert!(planned.degrees.contains(4));
+    }
+
+    #[test]
+    fn a_missing_file_is_a_problem_at_its_path() {
+        let files = files(std::path::Path::new("nowhere"));
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let problems = load("(path: \"a.obj\")").plan(&mut Plan::default(), &cx);
+        assert_eq!(problems.len(), 1);
+        assert_eq!(problems[0].path, ["path"]);
+        assert!(
+            problems[0].message.contains("nowhere"),
+            "{}",
+            problems[0].message
+        );
+    }
+
+    #[test]
+    fn faces_that_are_no_manifold_can_be_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n";
+        std::fs::write(folder.path().join("a.obj"), obj).unwrap();
+        let files = files(folder.path());
+        let mut scene = Scene::new();
+        let mut cx = Context::new(&NoProgress, &files);
+        let refused = load("(path: \"a.obj\", non_manifold: Refuse)").apply(&mut scene, &mut cx);
+        assert!(refused.is_err());
+        let report = load("(path: \"a.obj\")")
+            .apply(&mut scene, &mut cx)
+            .unwrap();
+        assert!(!report.notes.is_empty());
+    }
+}

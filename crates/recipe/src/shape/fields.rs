@@ -79,7 +79,9 @@ impl Checker {
         for (key, value) in entries {
             let fits = match &key.kind {
                 ValueKind::String(_) => !schema.has_number_keys(),
-                ValueKind::Number(number) => number.to_int().is_some_and(|key| schema.allows_key(key)),
+                ValueKind::Number(number) => {
+                    number.to_int().is_some_and(|key| schema.allows_key(key))
+                }
                 ValueKind::Error => true,
                 _ => false,
             };

@@ -117,9 +117,14 @@ impl<'n> Place<'n> {
 #[derive(Default)]
 struct Checker {
     diagnostics: Vec<Diagnostic>,
+    /// How many more there are than are kept.
+    more: usize,
     /// How many values around this one are tried against several schemas.
     trials: u32,
 }
+
+/// Most problems of one value that are reported one by one.
+const MAX_DIAGNOSTICS: usize = 100;
 
 /// Most trials inside each other: each multiplies the time by the number of alternatives.
 const MAX_TRIALS: u32 = 4;
@@ -127,11 +132,19 @@ const MAX_TRIALS: u32 = 4;
 impl Checker {
     fn finish(mut self) -> Vec<Diagnostic> {
         self.diagnostics.sort_by_key(|d| d.span);
+        if let (1.., Some(last)) = (self.more, self.diagnostics.last().and_then(|d| d.span)) {
+            let message = format!("and {} more errors like these", self.more);
+            self.diagnostics.push(Diagnostic::error(last, message));
+        }
         self.diagnostics
     }
 
     /// Reports a problem of `value`, saying so if a parameter of the recipe brought it.
     fn report(&mut self, value: &Value, span: Span, message: String, help: Option<String>) {
+        if self.diagnostics.len() >= MAX_DIAGNOSTICS {
+            self.more += 1;
+            return;
+        }
         let message = match &value.parameter {
             Some(parameter) => format!("{message} (from parameter `{parameter}`)"),
             None => message,

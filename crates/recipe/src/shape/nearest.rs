@@ -47,7 +47,11 @@ pub fn did_you_mean<'n>(name: &str, known: impl IntoIterator<Item = &'n str>) ->
     } else if known.is_empty() {
         "there are none".to_owned()
     } else {
-        let rest = if known.len() > MOST { " and others" } else { "" };
+        let rest = if known.len() > MOST {
+            " and others"
+        } else {
+            ""
+        };
         format!("known: {}{rest}", listed(known.into_iter().take(MOST)))
     }
 }

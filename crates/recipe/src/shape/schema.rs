@@ -236,10 +236,19 @@ impl<'s> Schema<'s> {
 
     /// Whether a whole number may be a key. Schemas do not say how large it may be: 64 bits.
     pub(super) fn allows_key(&self, key: i128) -> bool {
-        let mut patterns = self.all("patternProperties").filter_map(Json::as_object).flatten();
+        let mut patterns = self
+            .all("patternProperties")
+            .filter_map(Json::as_object)
+            .flatten();
         let unsigned = u64::try_from(key).is_ok();
         let signed = i64::try_from(key).is_ok();
-        patterns.any(|(pattern, _)| if pattern.contains('-') { signed } else { unsigned })
+        patterns.any(|(pattern, _)| {
+            if pattern.contains('-') {
+                signed
+            } else {
+                unsigned
+            }
+        })
     }
 
     /// The schema of the values of a map.

@@ -178,7 +178,10 @@ fn what_is_right_has_no_problems_and_is_read_by_ron() {
         assert_eq!(problems(&source), [""; 0], "{source}");
         let read: Result<Everything, _> = ron_options().from_str(&source);
         let read = read.unwrap_or_else(|e| panic!("{source}: {e}"));
-        if ["Vector(", "Nested(", "Empty(", "nothing"].iter().any(|name| source.contains(name)) {
+        if ["Vector(", "Nested(", "Empty(", "nothing"]
+            .iter()
+            .any(|name| source.contains(name))
+        {
             // Only a schema tells the name of a struct, and a unit from a struct without fields.
             continue;
         }
@@ -543,6 +546,19 @@ fn schemas_that_are_true_or_false_or_endless_do_no_harm() {
         ),
         []
     );
+}
+
+#[test]
+fn thousands_of_errors_are_counted() {
+    let source = format!(
+        "Everything(levels: 1, edges: Vertices([{}]))",
+        "-1,".repeat(5000)
+    );
+
+    let found = check_step(&parse(&source).value, &schema());
+
+    assert_eq!(found.len(), 101);
+    assert_eq!(found[100].message, "and 4900 more errors like these");
 }
 
 #[test]

@@ -20,15 +20,19 @@ impl Parser<'_> {
         let name = self.bump().span.of(self.source);
         let strings = [Some(TokenKind::String), Some(TokenKind::RawString)];
         let has_text = self.take(TokenKind::Equals) && strings.contains(&self.current.kind);
-        while !matches!(self.current.kind, None | Some(TokenKind::Close(Bracket::Square))) {
+        while !matches!(
+            self.current.kind,
+            None | Some(TokenKind::Close(Bracket::Square))
+        ) {
             self.bump();
         }
         let span = start.to(self.bump().span);
         let (message, help) = match name {
             "type" | "schema" if has_text && is_start => return,
-            "type" | "schema" if has_text => {
-                ("attributes stand at the start of the text", "move it to the first line")
-            }
+            "type" | "schema" if has_text => (
+                "attributes stand at the start of the text",
+                "move it to the first line",
+            ),
             "enable" => (
                 "recipes do not choose extensions of RON",
                 "remove it: `Some(..)` may always be left out, and no other extension is used",

@@ -343,4 +343,3 @@ impl Parser<'_> {
         self.complain(diagnostic);
     }
 }
-

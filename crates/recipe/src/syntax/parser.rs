@@ -7,10 +7,9 @@
 
 use super::lexer::{Bracket, Lexer, Token, TokenKind};
 use super::literal::{self, BadLiteral, Number};
-use super::recovery::{Closing, OpenBracket};
-use super::tree::{Call, Field, Name, Struct, Value, ValueKind};
+use super::recovery::OpenBracket;
+use super::tree::{Call, Name, Value, ValueKind};
 use crate::diagnostic::{Diagnostic, Span};
-use std::collections::BTreeMap;
 
 /// Longest text that is read, in bytes.
 pub const MAX_BYTES: usize = 64 << 20;
@@ -113,7 +112,7 @@ impl<'s> Parser<'s> {
             previous_end: 0,
             open: Vec::new(),
             diagnostics: Vec::new(),
-            pub(super) complained_at: None,
+            complained_at: None,
             values: 0,
             too_deep: false,
             stopped: false,
@@ -143,22 +142,18 @@ impl<'s> Parser<'s> {
         let last_end = self.next.span.end;
         let mut line = self.next.line + line_feeds(self.next.span.of(self.source));
         let (mut starts_line, mut after_junk) = (last_end == 0, false);
-        for Token { kind, span } in self.lexer.by_ref() {
+        while let Some(Token { kind, span }) = self.lexer.next() {
             let feeds = line_feeds(span.of(self.source));
             match kind {
                 kind if kind.is_trivia() => starts_line |= feeds > 0,
                 TokenKind::Unknown => {
                     let text = excerpt(span.of(self.source));
-                    report(
-                        &mut self.diagnostics,
-                        Diagnostic::error(span, format!("unexpected {text}")),
-                    );
+                    self.report(Diagnostic::error(span, format!("unexpected {text}")));
                     after_junk = true;
                 }
                 TokenKind::UnclosedComment => {
                     let start = Span::new(span.start, span.start + 2);
-                    report(
-                        &mut self.diagnostics,
+                    self.report(
                         Diagnostic::error(start, "this comment has no end")
                             .with_help("end it with `*/`"),
                     );
@@ -189,10 +184,13 @@ impl<'s> Parser<'s> {
 
     /// Reports a problem that is not about `current`.
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
-        if self.diagnostics.len() >= MAX_DIAGNOSTICS {
-            self.stop("too many errors: the rest of the text was not read");
-        } else if !self.stopped {
+        if self.stopped {
+            return;
+        }
+        if self.diagnostics.len() < MAX_DIAGNOSTICS {
             self.diagnostics.push(diagnostic);
+        } else {
+            self.stop("too many errors: the rest of the text was not read");
         }
     }
 
@@ -200,7 +198,10 @@ impl<'s> Parser<'s> {
     pub(super) fn complain(&mut self, diagnostic: Diagnostic) {
         let start = self.current.span.start;
         // These tokens are complained about for themselves.
-        let is_bad = matches!(self.current.kind, Some(TokenKind::UnclosedString | TokenKind::BadChar));
+        let is_bad = matches!(
+            self.current.kind,
+            Some(TokenKind::UnclosedString | TokenKind::BadChar)
+        );
         if self.complained_at != Some(start) && !self.current.after_junk && !is_bad {
             self.report(diagnostic);
         }
@@ -340,13 +341,6 @@ impl<'s> Parser<'s> {
             span,
             text: literal::name(span.of(self.source)).into(),
         }
-    }
-}
-
-/// The same as [`Parser::report`], for a problem that is met while looking ahead.
-fn report(diagnostics: &mut Vec<Diagnostic>, diagnostic: Diagnostic) {
-    if diagnostics.len() < MAX_DIAGNOSTICS {
-        diagnostics.push(diagnostic);
     }
 }
 

@@ -69,9 +69,10 @@ fn step<'v>(value: &'v Value, item: &PathItem, named: bool) -> Step<'v> {
         (ValueKind::Call(call), _) => return Step::Through(&call.body),
         (ValueKind::Name(name), PathItem::Key(key)) if *key == **name => return Step::Variant,
         (ValueKind::Struct(body), PathItem::Key(key)) => body.field(key).map(|f| &f.value),
-        (ValueKind::Map(entries), PathItem::Key(key)) => {
-            entries.iter().find(|(k, _)| k.as_str() == Some(key)).map(|(_, value)| value)
-        }
+        (ValueKind::Map(entries), PathItem::Key(key)) => entries
+            .iter()
+            .find(|(k, _)| k.as_str() == Some(key))
+            .map(|(_, value)| value),
         // The only value of a variant is the variant's content, and not its first item, if it
         // has parts itself.
         (ValueKind::Tuple(items), item)
@@ -96,7 +97,10 @@ mod tests {
                           at: (1, 2), list: Vertices([7, 8]), map: {\"k\": 5}, kind: Area)";
 
     fn found(path: &[&str]) -> &'static str {
-        let item = |text: &&str| text.parse().map_or_else(|_| PathItem::from(*text), PathItem::Index);
+        let item = |text: &&str| {
+            text.parse()
+                .map_or_else(|_| PathItem::from(*text), PathItem::Index)
+        };
         let path: Vec<PathItem> = path.iter().map(item).collect();
         field_span(&parse(SOURCE).value, &path).of(SOURCE)
     }
@@ -118,7 +122,10 @@ mod tests {
     #[test]
     fn the_deepest_part_that_exists_is_the_place() {
         assert_eq!(found(&["at", "7"]), "(1, 2)");
-        assert_eq!(found(&["edges", "Random", "seed"]), "Random(count: 24, of: Some(Not(Tagged(\"a\"))))");
+        assert_eq!(
+            found(&["edges", "Random", "seed"]),
+            "Random(count: 24, of: Some(Not(Tagged(\"a\"))))"
+        );
         assert_eq!(found(&["nothing"]), SOURCE);
         assert_eq!(found(&[]), SOURCE);
     }

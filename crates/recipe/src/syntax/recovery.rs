@@ -10,8 +10,8 @@
 //! ]
 //! ```
 
-use super::lexer::{Bracket, TokenKind};
 use super::group::Contents;
+use super::lexer::{Bracket, TokenKind};
 use super::parser::{Lexeme, Parser};
 use crate::diagnostic::Span;
 
@@ -90,7 +90,9 @@ impl Parser<'_> {
             return false;
         };
         let names_field = is_ident && self.next.kind == Some(TokenKind::Colon);
-        let in_round = outer.last().is_some_and(|open| open.bracket == Bracket::Round);
+        let in_round = outer
+            .last()
+            .is_some_and(|open| open.bracket == Bracket::Round);
         match contents.bracket {
             // In a tuple without a name, the next field of the struct around it.
             Bracket::Round if contents.is_tuple() && names_field => !innermost.has_name && in_round,

@@ -1,0 +1,291 @@
+//! `.bez`: bicubic Bezier patches, and `.bzc`: one Bezier curve in the plane. Both are plain numbers.
+//!
+//! ```text
+//! 2                                   the number of patches
+//! x y z   x y z   x y z   x y z       4 rows of 4 control points each
+//! x y z   x y z   x y z   x y z
+//! ...
+//! ```
+//!
+//! A `.bzc` file is the number of control points and then `x y` of each. Numbers are separated by
+//! blanks and line ends in any number. There are no comments.
+
+use bezier::{Curve, Patch};
+use glam::{DVec2, DVec3};
+
+use crate::error::TextError;
+use crate::text::{Cursor, number, push_number, quoted};
+
+/// Reads the patches of a `.bez` file.
+///
+/// # Errors
+///
+/// The place of the first thing that is not what it should be.
+pub(crate) fn read_patches(bytes: &[u8]) -> Result<Vec<Patch>, TextError> {
+    let mut cursor = Cursor::new(bytes);
+    let n = count(&mut cursor, "patches", 16 * 3)?;
+    let mut patches = Vec::with_capacity(n);
+    for i in 0..n {
+        cursor.skip_white();
+        let place = cursor.place();
+        let mut points = [[DVec3::ZERO; 4]; 4];
+        for (k, point) in points.as_flattened_mut().iter_mut().enumerate() {
+            let what = |axis| {
+                format!(
+                    "{axis} of control point {} of 16 of patch {} of {n}",
+                    k + 1,
+                    i + 1
+                )
+            };
+            point.x = coordinate(&mut cursor, || what('x'))?;
+            point.y = coordinate(&mut cursor, || what('y'))?;
+            point.z = coordinate(&mut cursor, || what('z'))?;
+        }
+        let patch = Patch::new(points);
+        patches.push(patch.map_err(|e| place.error(format!("patch {} of {n}: {e}", i + 1)))?);
+    }
+    expect_end(&mut cursor, &format!("the last of {n} patches"))?;
+    Ok(patches)
+}
+
+/// Reads the curve of a `.bzc` file.
+///
+/// # Errors
+///
+/// The place of the first thing that is not what it should be.
+pub(crate) fn read_curve(bytes: &[u8]) -> Result<Curve<DVec2>, TextError> {
+    let mut cursor = Cursor::new(bytes);
+    cursor.skip_white();
+    let place = cursor.place();
+    let n = count(&mut cursor, "control points", 2)?;
+    let mut points = Vec::with_capacity(n);
+    for i in 0..n {
+        let what = |axis| format!("{axis} of control point {} of {n}", i + 1);
+        let x = coordinate(&mut cursor, || what('x'))?;
+        let y = coordinate(&mut cursor, || what('y'))?;
+        points.push(DVec2::new(x, y));
+    }
+    expect_end(&mut cursor, &format!("the last of {n} control points"))?;
+    Curve::new(points).map_err(|e| place.error(e.to_string()))
+}
+
+/// The text of a `.bez` file with these patches.
+pub(crate) fn write_patches(patches: &[Patch]) -> Vec<u8> {
+    let mut out = format!("{}\n", patches.len()).into_bytes();
+    for patch in patches {
+        for row in patch.points() {
+            let line: Vec<f64> = row.iter().flat_map(DVec3::to_array).collect();
+            push_line(&mut out, &line);
+        }
+        out.push(b'\n');
+    }
+    out
+}
+
+/// The text of a `.bzc` file with this curve.
+pub(crate) fn write_curve(curve: &Curve<DVec2>) -> Vec<u8> {
+    let mut out = format!("{}\n", curve.points().len()).into_bytes();
+    for point in curve.points() {
+        push_line(&mut out, &point.to_array());
+    }
+    out
+}
+
+fn push_line(out: &mut Vec<u8>, numbers: &[f64]) {
+    for (i, &x) in numbers.iter().enumerate() {
+        if i > 0 {
+            out.push(b' ');
+        }
+        push_number(out, x);
+    }
+    out.push(b'\n');
+}
+
+/// The whole number at the start of a file, checked against what the rest of the file can hold.
+fn count(cursor: &mut Cursor, what: &str, numbers_each: usize) -> Result<usize, TextError> {
+    cursor.skip_white();
+    let place = cursor.place();
+    let word = cursor.word();
+    let parsed = std::str::from_utf8(word)
+        .ok()
+        .and_then(|text| text.parse::<usize>().ok());
+    let Some(n) = parsed else {
+        return Err(place.error(format!(
+            "expected the number of {what}, a whole number, found {}{}",
+            quoted(word),
+            comment_hint(word)
+        )));
+    };
+    // A number takes at least one digit and one separator.
+    let room = cursor.remaining() / 2;
+    if n.checked_mul(numbers_each)
+        .is_none_or(|numbers| numbers > room)
+    {
+        return Err(place.error(format!(
+            "the file says {n} {what}, but is too short for them: {} bytes follow",
+            cursor.remaining()
+        )));
+    }
+    Ok(n)
+}
+
+fn coordinate(cursor: &mut Cursor, what: impl Fn() -> String) -> Result<f64, TextError> {
+    cursor.skip_white();
+    let place = cursor.place();
+    if cursor.is_at_end() {
+        return Err(place.error(format!("expected {}, found the end of the file", what())));
+    }
+    let word = cursor.word();
+    number(place, word).map_err(|error| {
+        place.error(format!(
+            "{}: {}{}",
+            what(),
+            error.message,
+            comment_hint(word)
+        ))
+    })
+}
+
+fn expect_end(cursor: &mut Cursor, last: &str) -> Result<(), TextError> {
+    cursor.skip_white();
+    if cursor.is_at_end() {
+        return Ok(());
+    }
+    let place = cursor.place();
+    let word = cursor.word();
+    Err(place.error(format!(
+        "expected the end of the file after {last}, found {}{}",
+        quoted(word),
+        comment_hint(word)
+    )))
+}
+
+fn comment_hint(word: &[u8]) -> &'static str {
+    if word.starts_with(b"#") {
+        " (the format has no comments)"
+    } else {
+        ""
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn patch_text() -> String {
+        (0..16).fold(String::new(), |text, i| {
+            text + &format!("{i} {}.5 -1e-3\n", i * 2)
+        })
+    }
+
+    #[test]
+    fn patches_are_rows_of_points() {
+        let patches =
+            read_patches(format!("\u{feff}1\r\n\r\n{}", patch_text()).as_bytes()).unwrap();
+
+        assert_eq!(patches.len(), 1);
+        assert_eq!(patches[0].points()[1][2], DVec3::new(6.0, 12.5, -1e-3));
+    }
+
+    #[test]
+    fn a_curve_is_a_count_and_its_points() {
+        let curve = read_curve(b"3\n0 0   0.5 1\n1 0").unwrap();
+        assert_eq!(
+            curve.points(),
+            [DVec2::ZERO, DVec2::new(0.5, 1.0), DVec2::X]
+        );
+    }
+
+    #[test]
+    fn broken_patch_files_are_refused_at_the_place() {
+        let one = patch_text();
+        let short = one.trim_end().rsplit_once(' ').unwrap().0;
+        for (text, line, column, words) in [
+            (String::new(), 1, 1, "expected the number of patches"),
+            ("# teapot\n1\n".to_owned(), 1, 1, "no comments"),
+            ("1.5\n".to_owned(), 1, 1, "whole number, found `1.5`"),
+            ("-1\n".to_owned(), 1, 1, "whole number"),
+            ("4000000000 0 0".to_owned(), 1, 1, "too short"),
+            ("18446744073709551615 0".to_owned(), 1, 1, "too short"),
+            (
+                format!("1\n{short}"),
+                17,
+                8,
+                "z of control point 16 of 16 of patch 1 of 1",
+            ),
+            (format!("1\n{one}7\n"), 18, 1, "found `7`"),
+            (format!("1\n{one}# end\n"), 18, 1, "no comments"),
+            (
+                format!("1\n{}", one.replacen("2.5", "x", 1)),
+                3,
+                3,
+                "found `x`",
+            ),
+            (
+                format!("1\n{}", one.replacen("0.5", "nan", 1)),
+                2,
+                3,
+                "finite number, found `nan`",
+            ),
+            (
+                format!("1\n{}", one.replacen("0.5", "1e999", 1)),
+                2,
+                3,
+                "found `1e999`",
+            ),
+        ] {
+            let error = read_patches(text.as_bytes()).unwrap_err();
+            assert!(error.message.contains(words), "{text:?}: {error:?}");
+            assert_eq!(
+                (error.line, error.column),
+                (line, column),
+                "{text:?}: {error:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn broken_curve_files_are_refused_at_the_place() {
+        for (text, line, words) in [
+            ("", 1, "expected the number of control points"),
+            ("\n0", 2, "at least one control point"),
+            ("2\n0 0\n1", 1, "too short"),
+            ("2\n0 0\n1     ", 3, "y of control point 2 of 2"),
+            ("1\n0 0\n1 1", 3, "expected the end of the file"),
+            ("4000000000\n0 0", 1, "too short"),
+        ] {
+            let error = read_curve(text.as_bytes()).unwrap_err();
+            assert!(error.message.contains(words), "{text:?}: {error:?}");
+            assert_eq!(error.line, line, "{text:?}: {error:?}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn written_patches_read_back_the_same(numbers in prop::array::uniform32(-1e9..1e9_f64)) {
+            let points = std::array::from_fn(|i| std::array::from_fn(|j| {
+                let k = 4 * i + j;
+                DVec3::new(numbers[2 * k], numbers[2 * k + 1], -0.0)
+            }));
+            let patches = vec![Patch::new(points).unwrap(); 2];
+            prop_assert_eq!(read_patches(&write_patches(&patches)), Ok(patches));
+        }
+
+        #[test]
+        fn written_curves_read_back_the_same(numbers in prop::collection::vec(-1e9..1e9_f64, 1..20)) {
+            let points = numbers.iter().map(|&x| DVec2::new(x, 1e-7 * x)).collect();
+            let curve = Curve::new(points).unwrap();
+            prop_assert_eq!(read_curve(&write_curve(&curve)), Ok(curve));
+        }
+
+        #[test]
+        fn any_bytes_are_read_or_refused(bytes: Vec<u8>, text in "[0-9 #.\\-e\n]{0,300}") {
+            for input in [&bytes[..], text.as_bytes()] {
+                let _ = read_patches(input);
+                let _ = read_curve(input);
+            }
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! Why a file could not be read or written.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a file could not be read. Nothing of it was taken.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The file, or a file that it needs, could not be opened or read.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The extension of the file's name is not that of a known format.
+    #[error("{}: expected a file name that ends in one of {known}", path.display())]
+    UnknownFormat {
+        /// The file.
+        path: PathBuf,
+        /// The known extensions.
+        known: String,
+    },
+    /// A text file breaks the rules of its format.
+    #[error("{}:{line}:{column}: {message}", path.display())]
+    Text {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// The byte in the line, from 1.
+        column: usize,
+        /// What was expected and what was there.
+        message: String,
+    },
+    /// A glTF file breaks the rules of its format.
+    #[error("{}: {pointer}: {message}", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// The place in the JSON document as a JSON pointer (RFC 6901), such as `/accessors/3/count`.
+        pointer: String,
+        /// What was expected and what was there.
+        message: String,
+    },
+    /// The polygons of the file could not become a mesh.
+    #[error("{}: {source}", path.display())]
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with them.
+        source: mesh::BuildError,
+    },
+    /// A binary file breaks the rules of its format.
+    #[error("{}: byte {offset}: {message}", path.display())]
+    Binary {
+        /// The file.
+        path: PathBuf,
+        /// The place in the file in bytes, from 0.
+        offset: usize,
+        /// What was expected and what was there.
+        message: String,
+    },
+}
+
+impl ReadError {
+    pub(crate) fn io(path: &Path, source: io::Error) -> Self {
+        Self::Io {
+            path: path.to_path_buf(),
+            source,
+        }
+    }
+
+    /// The file that could not be read: the one that was asked for, or one that it refers to.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Io { path, .. }
+            | Self::UnknownFormat { path, .. }
+            | Self::Mesh { path, .. }
+            | Self::Text { path, .. }
+            | Self::Json { path, .. }
+            | Self::Binary { path, .. } => path,
+        }
+    }
+}
+
+/// What is wrong at one place of a text, before the name of the file is known.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct TextError {
+    pub(crate) line: usize,
+    pub(crate) column: usize,
+    pub(crate) message: String,
+}
+
+impl TextError {
+    pub(crate) fn in_file(self, path: &Path) -> ReadError {
+        let Self {
+            line,
+            column,
+            message,
+        } = self;
+        ReadError::Text {
+            path: path.to_path_buf(),
+            line,
+            column,
+            message,
+        }
+    }
+}
+
+/// Why a scene could not be written. No file was changed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// The file could not be created or written.
+    #[error("cannot write {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The extension of the file's name is not that of a known format.
+    #[error("{}: expected a file name that ends in one of {known}", path.display())]
+    UnknownFormat {
+        /// The file.
+        path: PathBuf,
+        /// The known extensions.
+        known: String,
+    },
+    /// The format cannot hold an object of the scene at all.
+    #[error("{}: object `{object}`: {message}", path.display())]
+    Object {
+        /// The file.
+        path: PathBuf,
+        /// The name of the object.
+        object: String,
+        /// What the format holds and what was there.
+        message: String,
+    },
+    /// The format cannot hold the scene as a whole.
+    #[error("{}: {message}", path.display())]
+    Scene {
+        /// The file.
+        path: PathBuf,
+        /// What the format holds and what was there.
+        message: String,
+    },
+}
+
+impl WriteError {
+    pub(crate) fn io(path: &Path, source: io::Error) -> Self {
+        Self::Io {
+            path: path.to_path_buf(),
+            source,
+        }
+    }
+}
+
+/// Why a scene does not fit a format, before the name of the file is known.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Unwritable {
+    Object { object: String, message: String },
+    Scene { message: String },
+}
+
+impl Unwritable {
+    pub(crate) fn object(object: &str, message: impl Into<String>) -> Self {
+        Self::Object {
+            object: object.to_owned(),
+            message: message.into(),
+        }
+    }
+
+    pub(crate) fn in_file(self, path: &Path) -> WriteError {
+        let path = path.to_path_buf();
+        match self {
+            Self::Object { object, message } => WriteError::Object {
+                path,
+                object,
+                message,
+            },
+            Self::Scene { message } => WriteError::Scene { path, message },
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! The table of formats: names, extensions, and which of them can be written.
+
+use std::fmt;
+use std::path::Path;
+
+/// A file format, chosen by the extension of a file's name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Format {
+    /// Wavefront OBJ: polygons as text, materials in an MTL file beside it.
+    Obj,
+    /// glTF 2.0 as JSON text, binary data inside it or in a file beside it.
+    Gltf,
+    /// glTF 2.0 in one binary file.
+    Glb,
+    /// Bicubic Bezier patches as text.
+    Bez,
+    /// One plane Bezier curve as text.
+    Bzc,
+}
+
+impl Format {
+    /// All formats, in the order in which messages list them.
+    pub const ALL: [Self; 5] = [Self::Obj, Self::Gltf, Self::Glb, Self::Bez, Self::Bzc];
+
+    /// The extension of the format's files, in lower case and without the dot.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Obj => "obj",
+            Self::Gltf => "gltf",
+            Self::Glb => "glb",
+            Self::Bez => "bez",
+            Self::Bzc => "bzc",
+        }
+    }
+
+    /// The format that the extension of `path` names, in upper or lower case; `None` if it is
+    /// unknown or missing.
+    pub fn from_path(path: &Path) -> Option<Self> {
+        let extension = path.extension()?;
+        Self::ALL
+            .into_iter()
+            .find(|format| extension.eq_ignore_ascii_case(format.extension()))
+    }
+
+    /// The known extensions as messages list them: `.obj, .gltf, ...`.
+    pub fn known() -> String {
+        Self::ALL
+            .map(|format| format!(".{}", format.extension()))
+            .join(", ")
+    }
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Obj => "OBJ",
+            Self::Gltf => "glTF",
+            Self::Glb => "GLB",
+            Self::Bez => "Bezier patches",
+            Self::Bzc => "Bezier curve",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_extension_decides_whatever_its_case() {
+        assert_eq!(
+            Format::from_path(Path::new("a/Teapot.OBJ")),
+            Some(Format::Obj)
+        );
+        assert_eq!(Format::from_path(Path::new("x.tar.glb")), Some(Format::Glb));
+        assert_eq!(Format::from_path(Path::new("obj")), None);
+        assert_eq!(Format::from_path(Path::new("x.stl")), None);
+    }
+
+    #[test]
+    fn every_extension_leads_back_to_its_format() {
+        for format in Format::ALL {
+            let path = format!("x.{}", format.extension());
+            assert_eq!(Format::from_path(Path::new(&path)), Some(format));
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! What reading changed or left out, and what writing lost: nothing is dropped silently.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use mesh::Domain;
+
+/// Something that a reader did not take as it stands in the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// Whether something is missing from the scene or only has another form.
+    pub kind: NoteKind,
+    /// The file that holds it: the one that was read or one that it refers to.
+    pub path: PathBuf,
+    /// The first line that it concerns, from 1, in text files.
+    pub line: Option<usize>,
+    /// How many there are of what the note is about.
+    pub count: usize,
+    /// What it is and what became of it, as words that follow the count: `statements 'vp' left out`.
+    pub what: String,
+}
+
+/// What kind of news a [`Note`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum NoteKind {
+    /// The file holds something that the scene does not.
+    LeftOut,
+    /// The scene holds it in another form than the file.
+    Changed,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.path.display())?;
+        if let Some(line) = self.line {
+            write!(f, "{line}:")?;
+        }
+        write!(f, " {} {}", self.count, self.what)
+    }
+}
+
+/// The notes about one file, while it is being read.
+#[derive(Debug)]
+pub(crate) struct Notes {
+    path: PathBuf,
+    list: Vec<Note>,
+}
+
+impl Notes {
+    pub(crate) fn of(path: &Path) -> Self {
+        Self {
+            path: path.to_path_buf(),
+            list: Vec::new(),
+        }
+    }
+
+    /// Adds a note unless `count` is 0.
+    pub(crate) fn left_out(
+        &mut self,
+        count: usize,
+        line: impl Into<Option<usize>>,
+        what: impl Into<String>,
+    ) {
+        self.add(NoteKind::LeftOut, count, line.into(), what.into());
+    }
+
+    /// Adds a note unless `count` is 0.
+    pub(crate) fn changed(
+        &mut self,
+        count: usize,
+        line: impl Into<Option<usize>>,
+        what: impl Into<String>,
+    ) {
+        self.add(NoteKind::Changed, count, line.into(), what.into());
+    }
+
+    fn add(&mut self, kind: NoteKind, count: usize, line: Option<usize>, what: String) {
+        if count > 0 {
+            self.list.push(Note {
+                kind,
+                path: self.path.clone(),
+                line,
+                count,
+                what,
+            });
+        }
+    }
+
+    /// Adds the notes about another file.
+    pub(crate) fn append(&mut self, other: Self) {
+        self.list.extend(other.list);
+    }
+
+    pub(crate) fn into_vec(self) -> Vec<Note> {
+        self.list
+    }
+}
+
+/// Something of the scene that a written file does not hold.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Loss {
+    /// The name of the object.
+    pub object: String,
+    /// What the lost values belong to; `None` if they belong to the object as a whole.
+    pub domain: Option<Domain>,
+    /// The name of the attribute, or what else it is.
+    pub attribute: String,
+    /// How many values or elements it concerns.
+    pub count: usize,
+    /// Why the file does not hold them.
+    pub reason: String,
+}
+
+impl fmt::Display for Loss {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "object `{}`: ", self.object)?;
+        if let Some(domain) = self.domain {
+            write!(f, "{domain} ")?;
+        }
+        write!(f, "`{}` ({}): {}", self.attribute, self.count, self.reason)
+    }
+}

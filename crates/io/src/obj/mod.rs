@@ -1,0 +1,31 @@
+//! Wavefront OBJ: polygons, polylines, groups and materials as text.
+//!
+//! A file is one object. What its statements become:
+//!
+//! | statement | in the mesh |
+//! | --- | --- |
+//! | `v x y z` | position, and the order of the vertices is kept |
+//! | `v x y z r g b` | vertex attribute `color` |
+//! | `vt`, `f v/vt` | corner attribute `uv` |
+//! | `vn`, `f v//vn` | `normal` of vertices if the corners of each agree, and otherwise of corners |
+//! | `f` | a polygon of any degree, in order |
+//! | `g a b` | face tags `a` and `b` |
+//! | `o a` | face tag `o:a` |
+//! | `s 1` | face attribute `smoothing` |
+//! | `usemtl a`, `mtllib` | face attribute `material` and the object's materials |
+//!
+//! The writer takes the same table from right to left, so that what was read is written and what was
+//! written is read.
+
+mod material;
+mod parse;
+mod peek;
+mod read;
+mod write;
+
+pub(crate) use peek::peek;
+pub(crate) use read::read;
+pub(crate) use write::write;
+
+/// What the tag of an object's name begins with.
+const OBJECT_TAG: &str = "o:";

@@ -1,0 +1,92 @@
+//! What a file holds, found out without building it: for a forecast before anything runs.
+
+use crate::Format;
+
+/// What a file holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Peek {
+    /// The format of the file.
+    pub format: Format,
+    /// The objects that reading would give, in their order and with their names.
+    pub objects: Vec<PeekObject>,
+}
+
+/// What an object of a file will be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PeekObject {
+    /// The name that it will have.
+    pub name: String,
+    /// The kind of its geometry and its counts.
+    pub geometry: PeekGeometry,
+}
+
+/// The kind of geometry of an object, and how large it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PeekGeometry {
+    /// A mesh.
+    Mesh(PeekMesh),
+    /// Bezier patches.
+    Patches {
+        /// How many.
+        patches: u64,
+    },
+    /// A Bezier curve.
+    Curve {
+        /// How many control points.
+        points: u64,
+    },
+    /// Open chains of points.
+    Polylines {
+        /// How many chains.
+        lines: u64,
+        /// How many points in all of them.
+        points: u64,
+    },
+}
+
+/// The counts and attributes of a mesh as its file states them.
+///
+/// The mesh that is read has no more faces and corners. It may have more vertices where the faces are
+/// no manifold, by the split copies, and fewer where a glTF file has one for each side of a seam.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "attributes do not depend on each other"
+)]
+pub struct PeekMesh {
+    /// How many vertices.
+    pub vertices: u64,
+    /// How many faces.
+    pub faces: u64,
+    /// How many corners all faces have together.
+    pub corners: u64,
+    /// The fewest corners of a face; 0 without faces.
+    pub min_degree: u64,
+    /// The most corners of a face; 0 without faces.
+    pub max_degree: u64,
+    /// Whether corners have texture coordinates.
+    pub uvs: bool,
+    /// Whether vertices or corners have normals.
+    pub normals: bool,
+    /// Whether vertices have colors.
+    pub colors: bool,
+    /// Whether faces have materials.
+    pub materials: bool,
+}
+
+impl PeekMesh {
+    /// Counts `n` more faces of `degree` corners.
+    pub(crate) fn add_faces(&mut self, n: u64, degree: u64) {
+        if n == 0 {
+            return;
+        }
+        self.min_degree = if self.faces == 0 {
+            degree
+        } else {
+            self.min_degree.min(degree)
+        };
+        self.max_degree = self.max_degree.max(degree);
+        self.faces = self.faces.saturating_add(n);
+        self.corners = self.corners.saturating_add(n.saturating_mul(degree));
+    }
+}

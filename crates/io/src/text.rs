@@ -1,0 +1,390 @@
+//! Reads words and numbers from the bytes of a text, and knows the line and the column.
+
+use crate::error::TextError;
+
+/// A place in a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Place {
+    /// The line, from 1.
+    pub(crate) line: usize,
+    /// The byte in the line, from 1.
+    pub(crate) column: usize,
+}
+
+impl Place {
+    pub(crate) fn error(self, message: impl Into<String>) -> TextError {
+        TextError {
+            line: self.line,
+            column: self.column,
+            message: message.into(),
+        }
+    }
+}
+
+/// Walks over the bytes of a text. Lines end in LF, CR LF or CR.
+#[derive(Clone, Debug)]
+pub(crate) struct Cursor<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: usize,
+    line_start: usize,
+}
+
+impl<'a> Cursor<'a> {
+    /// Stands on the first byte of `bytes`, behind a byte order mark.
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
+        let start = if bytes.starts_with(b"\xef\xbb\xbf") {
+            3
+        } else {
+            0
+        };
+        Self {
+            bytes,
+            at: start,
+            line: 1,
+            line_start: start,
+        }
+    }
+
+    pub(crate) fn place(&self) -> Place {
+        Place {
+            line: self.line,
+            column: self.at - self.line_start + 1,
+        }
+    }
+
+    /// How many bytes are left.
+    pub(crate) fn remaining(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+
+    pub(crate) fn is_at_end(&self) -> bool {
+        self.at >= self.bytes.len()
+    }
+
+    fn peek(&self) -> Option<u8> {
+        self.bytes.get(self.at).copied()
+    }
+
+    /// Passes over blanks within the line, and over a backslash at the end of a line together with
+    /// the line's end.
+    pub(crate) fn skip_blanks(&mut self) {
+        while let Some(byte) = self.peek() {
+            if is_blank(byte) {
+                self.at += 1;
+            } else if byte != b'\\' || !self.skip_continuation() {
+                return;
+            }
+        }
+    }
+
+    /// Passes over blanks and line ends.
+    pub(crate) fn skip_white(&mut self) {
+        while let Some(byte) = self.peek() {
+            if is_blank(byte) {
+                self.at += 1;
+            } else if !self.skip_line_end() {
+                return;
+            }
+        }
+    }
+
+    /// The next word, up to a blank, the line's end or a backslash before it; empty at the end.
+    pub(crate) fn word(&mut self) -> &'a [u8] {
+        let start = self.at;
+        while let Some(byte) = self.peek() {
+            if is_blank(byte) || is_line_end(byte) || (byte == b'\\' && self.continues()) {
+                break;
+            }
+            self.at += 1;
+        }
+        &self.bytes[start..self.at]
+    }
+
+    /// The next word of the line; `None` at the line's end and before a comment.
+    pub(crate) fn argument(&mut self) -> Option<(Place, &'a [u8])> {
+        self.skip_blanks();
+        let place = self.place();
+        match self.peek() {
+            None | Some(b'\n' | b'\r' | b'#') => None,
+            Some(_) => Some((place, self.word())),
+        }
+    }
+
+    /// The rest of the line without the blanks around it. Continued lines are joined by a space.
+    pub(crate) fn rest_of_line(&mut self) -> Vec<u8> {
+        let mut rest = Vec::new();
+        self.skip_blanks();
+        while let Some(byte) = self.peek() {
+            if is_line_end(byte) {
+                break;
+            }
+            if byte == b'\\' && self.skip_continuation() {
+                rest.push(b' ');
+            } else {
+                rest.push(byte);
+                self.at += 1;
+            }
+        }
+        rest.truncate(rest.trim_ascii_end().len());
+        rest
+    }
+
+    /// Passes over the rest of the line and its end. A comment ends with its line, a backslash
+    /// continues any other.
+    pub(crate) fn skip_line(&mut self) {
+        let mut comment = false;
+        while let Some(byte) = self.peek() {
+            if is_line_end(byte) {
+                self.skip_line_end();
+                return;
+            }
+            comment |= byte == b'#';
+            if comment || byte != b'\\' || !self.skip_continuation() {
+                self.at += 1;
+            }
+        }
+    }
+
+    /// Whether a line ends right behind the byte under the cursor.
+    fn continues(&self) -> bool {
+        self.bytes
+            .get(self.at + 1)
+            .is_some_and(|&byte| is_line_end(byte))
+    }
+
+    fn skip_continuation(&mut self) -> bool {
+        if !self.continues() {
+            return false;
+        }
+        self.at += 1;
+        self.skip_line_end()
+    }
+
+    fn skip_line_end(&mut self) -> bool {
+        let length = match (self.peek(), self.bytes.get(self.at + 1)) {
+            (Some(b'\r'), Some(b'\n')) => 2,
+            (Some(b'\n' | b'\r'), _) => 1,
+            _ => return false,
+        };
+        self.at += length;
+        self.line += 1;
+        self.line_start = self.at;
+        true
+    }
+}
+
+#[inline]
+fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | 0x0b | 0x0c)
+}
+
+#[inline]
+fn is_line_end(byte: u8) -> bool {
+    matches!(byte, b'\n' | b'\r')
+}
+
+/// The finite number that `word` spells, correctly rounded.
+///
+/// # Errors
+///
+/// If the word is no decimal number, or one that is not finite.
+pub(crate) fn number(place: Place, word: &[u8]) -> Result<f64, TextError> {
+    if let Some(x) = short_number(word) {
+        return Ok(x);
+    }
+    let parsed = std::str::from_utf8(word)
+        .ok()
+        .and_then(|text| text.parse::<f64>().ok());
+    match parsed {
+        Some(x) if x.is_finite() => Ok(x),
+        Some(_) => Err(place.error(format!("expected a finite number, found {}", quoted(word)))),
+        None => Err(place.error(format!("expected a number, found {}", quoted(word)))),
+    }
+}
+
+/// Numbers whose digits and power of ten are both exact in an f64, so that one multiplication or
+/// division rounds once (Clinger, "How to read floating point numbers accurately", 1990).
+fn short_number(word: &[u8]) -> Option<f64> {
+    let (negative, digits) = match word {
+        [b'-', rest @ ..] => (true, rest),
+        [b'+', rest @ ..] => (false, rest),
+        _ => (false, word),
+    };
+    // Beyond 19 digits the mantissa might overflow; the general way takes over.
+    if digits.len() > 20 {
+        return None;
+    }
+    let mut mantissa = 0_u64;
+    let mut seen = 0_usize;
+    let mut decimals = 0_usize;
+    let mut point = false;
+    for &byte in digits {
+        match byte {
+            b'0'..=b'9' => {
+                mantissa = mantissa
+                    .checked_mul(10)?
+                    .checked_add(u64::from(byte - b'0'))?;
+                seen += 1;
+                decimals += usize::from(point);
+            }
+            b'.' if !point => point = true,
+            _ => return None,
+        }
+    }
+    if seen == 0 || mantissa > 1 << 53 {
+        return None;
+    }
+    let magnitude = mantissa as f64 / POWERS_OF_TEN.get(decimals)?;
+    Some(if negative { -magnitude } else { magnitude })
+}
+
+/// The powers of ten that an f64 holds exactly.
+const POWERS_OF_TEN: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+];
+
+/// Appends the shortest decimal number that reads back as `x`: in plain digits where that is short,
+/// with an exponent where it is not (`1e300`, `2.5e-9`).
+pub(crate) fn push_number(out: &mut Vec<u8>, x: f64) {
+    use std::io::Write;
+    let size = x.abs();
+    let plain = size == 0.0 || (1e-5..1e16).contains(&size);
+    let written = if plain {
+        write!(out, "{x}")
+    } else {
+        write!(out, "{x:e}")
+    };
+    debug_assert!(written.is_ok(), "writing to memory succeeds");
+}
+
+/// A word of a file for a message: between backticks, cut if it is long.
+pub(crate) fn quoted(word: &[u8]) -> String {
+    const LONGEST: usize = 40;
+    if word.is_empty() {
+        return "nothing".to_owned();
+    }
+    let text = name(&word[..word.len().min(LONGEST)]);
+    let dots = if word.len() > LONGEST { "..." } else { "" };
+    format!("`{}{dots}`", text.escape_debug())
+}
+
+/// A name in a file: UTF-8 if it is that, and otherwise Latin-1, in which any bytes are text.
+pub(crate) fn name(bytes: &[u8]) -> String {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const HERE: Place = Place { line: 1, column: 1 };
+
+    fn written(x: f64) -> String {
+        let mut out = Vec::new();
+        push_number(&mut out, x);
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn numbers_take_every_usual_spelling() {
+        for (text, x) in [
+            ("1", 1.0),
+            ("+1.5", 1.5),
+            ("-.25", -0.25),
+            ("5.", 5.0),
+            ("1e-3", 1e-3),
+            ("2.5E+2", 250.0),
+            ("0.1", 0.1),
+            ("123456789012345678901234567890", 1.234_567_890_123_456_8e29),
+        ] {
+            assert_eq!(number(HERE, text.as_bytes()), Ok(x), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_finite_number_is_refused() {
+        for text in [
+            "",
+            "abc",
+            "1.2.3",
+            "1,5",
+            "-",
+            ".",
+            "nan",
+            "inf",
+            "-infinity",
+            "1e999",
+            "0x10",
+        ] {
+            assert!(number(HERE, text.as_bytes()).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn the_sign_of_zero_survives() {
+        assert_eq!(written(-0.0), "-0");
+        assert!(number(HERE, b"-0").unwrap().is_sign_negative());
+    }
+
+    #[test]
+    fn large_and_small_numbers_get_an_exponent() {
+        assert_eq!(written(1e300), "1e300");
+        assert_eq!(written(2.5e-9), "2.5e-9");
+        assert_eq!(written(123_456.75), "123456.75");
+    }
+
+    #[test]
+    fn lines_end_in_three_ways_and_places_count_from_one() {
+        let mut cursor = Cursor::new(b"a\r\nb\rc\n  d");
+        let mut lines = Vec::new();
+        while !cursor.is_at_end() {
+            cursor.skip_white();
+            lines.push((cursor.place().line, cursor.place().column, cursor.word()));
+        }
+        assert_eq!(
+            lines,
+            [(1, 1, &b"a"[..]), (2, 1, b"b"), (3, 1, b"c"), (4, 3, b"d")]
+        );
+    }
+
+    #[test]
+    fn a_backslash_continues_a_line_but_not_a_comment() {
+        let mut cursor = Cursor::new(b"f 1 \\\n 2\\\n3\n# art \\\nv");
+        let words: Vec<_> = std::iter::from_fn(|| cursor.argument())
+            .map(|(_, w)| w)
+            .collect();
+        assert_eq!(words, [b"f", b"1", b"2", b"3"]);
+        cursor.skip_line();
+        cursor.skip_line();
+        assert_eq!(cursor.word(), b"v");
+        assert_eq!(cursor.place().line, 5);
+    }
+
+    #[test]
+    fn names_that_are_not_utf8_are_latin1() {
+        assert_eq!(name(b"caf\xe9"), "café");
+        assert_eq!(name("café".as_bytes()), "café");
+    }
+
+    proptest! {
+        #[test]
+        fn written_numbers_read_back_the_same_bits(bits: u64) {
+            let x = f64::from_bits(bits);
+            prop_assume!(x.is_finite());
+            prop_assert_eq!(number(HERE, written(x).as_bytes()).unwrap().to_bits(), bits);
+        }
+
+        #[test]
+        fn the_short_way_agrees_with_the_standard_library(text in "[-+]?[0-9]{0,12}\\.?[0-9]{0,10}") {
+            let expected = text.parse::<f64>().ok().map(f64::to_bits);
+            prop_assert_eq!(number(HERE, text.as_bytes()).ok().map(f64::to_bits), expected);
+        }
+    }
+}

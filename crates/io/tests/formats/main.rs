@@ -1,0 +1,110 @@
+//! Reading and writing whole files, against laws and against other readers.
+
+mod broken;
+mod gltf_files;
+mod obj_files;
+
+use std::fmt::Debug;
+use std::path::{Path, PathBuf};
+
+use mesh::{Column, Domain, Mesh, Rule, Values};
+use mesh_io::{Loaded, ReadError, ReadOptions, WriteOptions, WriteReport};
+use scene::{Object, Scene};
+
+/// A folder that is gone after the test.
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn with(&self, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.path(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, content).unwrap();
+        path
+    }
+
+    /// How many files and folders are in it.
+    fn count(&self) -> usize {
+        std::fs::read_dir(self.0.path()).unwrap().count()
+    }
+}
+
+fn read(path: &Path) -> Result<Loaded, ReadError> {
+    mesh_io::read(path, &ReadOptions::default())
+}
+
+fn write(path: &Path, objects: impl IntoIterator<Item = Object>) -> WriteReport {
+    mesh_io::write(path, &scene(objects), &WriteOptions::default()).unwrap()
+}
+
+fn scene(objects: impl IntoIterator<Item = Object>) -> Scene {
+    let mut scene = Scene::new();
+    for object in objects {
+        scene.insert(object).unwrap();
+    }
+    scene
+}
+
+/// The one object of a file, read without notes.
+fn only(path: &Path) -> Object {
+    let Loaded { mut objects, notes } = read(path).unwrap();
+    assert!(notes.is_empty(), "{notes:?}");
+    assert_eq!(objects.len(), 1);
+    objects.remove(0)
+}
+
+/// The faces of a mesh as lists of vertices.
+fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
+    let polygon = |f| mesh.face_vertices(f).map(|v| v.index()).collect();
+    mesh.faces().map(polygon).collect()
+}
+
+/// A mesh is its polygons, positions and attributes; how its half-edges are numbered does not matter.
+/// Corner values are listed by face.
+fn assert_same(a: &Mesh, b: &Mesh) {
+    assert_eq!(a.positions(), b.positions());
+    assert_eq!(polygons(a), polygons(b));
+    for domain in [Domain::Vertex, Domain::Face] {
+        assert_eq!(a.attributes().of(domain), b.attributes().of(domain));
+    }
+    assert_eq!(by_face(a), by_face(b));
+}
+
+fn by_face(mesh: &Mesh) -> Vec<(String, Vec<String>)> {
+    fn pick<T: Debug>(mesh: &Mesh, values: &[T]) -> Vec<String> {
+        let corners = mesh.faces().flat_map(|f| mesh.face_half_edges(f));
+        corners
+            .map(|h| format!("{:?}", values[h.index()]))
+            .collect()
+    }
+    let column = |column: &Column| {
+        let values = match &column.values {
+            Values::Vec2(values) => pick(mesh, values),
+            Values::Vec3(values) => pick(mesh, values),
+            Values::Vec4(values) => pick(mesh, values),
+            other => panic!("{other:?}"),
+        };
+        (column.name.clone(), values)
+    };
+    mesh.attributes()
+        .of(Domain::Corner)
+        .iter()
+        .map(column)
+        .collect()
+}
+
+fn tag(mesh: &mut Mesh, domain: Domain, name: &str, marks: Vec<bool>) {
+    let column = Column {
+        name: name.to_owned(),
+        rule: Rule::Copy,
+        values: Values::Tag(marks),
+    };
+    mesh.insert_column(domain, column);
+}

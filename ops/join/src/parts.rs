@@ -1,0 +1,55 @@
+//! The connectivity and the positions of several meshes, one behind the other.
+
+use mesh::{Connectivity, DVec3, Id, Mesh};
+use op::{Context, OpError};
+
+/// The most elements of one kind: ids end at 2^32 - 2.
+pub(crate) const MAX_ELEMENTS: u64 = u32::MAX as u64 - 1;
+
+pub(crate) fn too_many(n: u64) -> String {
+    format!("{n} elements of one kind are more than ids can number: at most {MAX_ELEMENTS}")
+}
+
+/// The meshes, which are dense, as one without attributes. Ids of a part are shifted by the counts of all
+/// parts before it.
+pub(crate) fn connected(parts: &[&Mesh], cx: &Context) -> Result<Mesh, OpError> {
+    let total = |count: fn(&Mesh) -> usize| -> usize { parts.iter().map(|m| count(m)).sum() };
+    let n_half_edges = total(Mesh::n_half_edges);
+    let n_vertices = total(Mesh::n_vertices);
+    let n_faces = total(Mesh::n_faces);
+    let largest = n_half_edges.max(n_vertices).max(n_faces) as u64;
+    if largest > MAX_ELEMENTS {
+        return Err(OpError::Budget(too_many(largest)));
+    }
+
+    let mut all = Connectivity {
+        next: Vec::with_capacity(n_half_edges),
+        origin: Vec::with_capacity(n_half_edges),
+        face: Vec::with_capacity(n_half_edges),
+        vertex_half_edge: Vec::with_capacity(n_vertices),
+        face_half_edge: Vec::with_capacity(n_faces),
+    };
+    let mut positions: Vec<DVec3> = Vec::with_capacity(n_vertices);
+    for (done, part) in (0..).zip(parts) {
+        cx.advance("join", done, parts.len() as u64)?;
+        let c = part.connectivity();
+        let (h, v, f) = (all.next.len(), positions.len(), all.face_half_edge.len());
+        all.next.extend(shifted(&c.next, h));
+        all.origin.extend(shifted(&c.origin, v));
+        all.face.extend(shifted(&c.face, f));
+        all.vertex_half_edge.extend(shifted(&c.vertex_half_edge, h));
+        all.face_half_edge.extend(shifted(&c.face_half_edge, h));
+        positions.extend_from_slice(part.positions());
+    }
+    Ok(Mesh::from_arrays(all, positions))
+}
+
+fn shifted<I: Id>(ids: &[I], by: usize) -> impl Iterator<Item = I> {
+    ids.iter().map(move |&id| {
+        if id == I::NONE {
+            id
+        } else {
+            I::new(id.index() + by)
+        }
+    })
+}

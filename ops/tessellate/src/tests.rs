@@ -1,0 +1,244 @@
+//! Tests of the operation.
+
+use super::*;
+use mesh::VertexId;
+use op::{Files, NoProgress, Progress};
+use scene::Object;
+
+/// A patch over the unit square: the height of control point (row, column) is given.
+fn hill(height: impl Fn(usize, usize) -> f64) -> Patch {
+    let at = |i: usize| i as f64 / 3.0;
+    let point = |r: usize, c: usize| DVec3::new(at(c), at(r), height(r, c));
+    Patch::new([0, 1, 2, 3].map(|r| [0, 1, 2, 3].map(|c| point(r, c)))).unwrap()
+}
+
+/// The same patch with sides shrunk to points: bit k of `mask` for v = 0, u = 1, v = 1, u = 0.
+fn collapsed(mask: u32) -> Patch {
+    let mut points = *hill(|r, c| ((r * 5 + c * 3) % 7) as f64 * 0.1).points();
+    // Twice, so that neighbouring sides agree on their corner.
+    for _ in 0..2 {
+        for k in (0..4).filter(|k| mask & (1 << k) != 0) {
+            let side = [0, 1, 2, 3].map(|i| [(0, i), (i, 3), (3, 3 - i), (3 - i, 0)][k]);
+            let (r, c) = side[0];
+            let point = points[r][c];
+            for (r, c) in side {
+                points[r][c] = point;
+            }
+        }
+    }
+    Patch::new(points).unwrap()
+}
+
+fn scene_of(patches: Vec<Patch>) -> Scene {
+    let mut scene = Scene::new();
+    scene
+        .insert(Object::new("pot", Geometry::Patches(patches)))
+        .unwrap();
+    scene
+}
+
+fn parse(text: &str) -> Tessellate {
+    ron::from_str(text).unwrap()
+}
+
+fn run(operation: &Tessellate, patches: Vec<Patch>) -> (Mesh, Report) {
+    let mut scene = scene_of(patches);
+    let report = op::test::run(operation, &mut scene).unwrap();
+    let mesh = scene.object("pot").unwrap().as_mesh().unwrap();
+    assert_eq!(mesh.defects(), []);
+    (mesh.as_ref().clone(), report)
+}
+
+fn planned(operation: &Tessellate, plan: &mut Plan, on: Option<&[String]>) -> Vec<Problem> {
+    let files = Files::default();
+    let cx = PlanContext {
+        files: &files,
+        on,
+        budget: u64::MAX,
+    };
+    operation.plan(plan, &cx)
+}
+
+fn patches_plan(n: u64) -> Plan {
+    let mut plan = Plan::default();
+    plan.insert("pot", PlannedGeometry::Patches(Range::exactly(n)));
+    plan
+}
+
+#[test]
+fn a_flat_patch_becomes_a_grid_of_its_parameters() {
+    let (mesh, report) = run(
+        &parse("(segments: 4, faces: Quads)"),
+        vec![hill(|_, _| 0.0)],
+    );
+    assert_eq!(
+        (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()),
+        (25, 40, 16)
+    );
+    assert_eq!(report, Report::changed(16));
+    assert!((mesh.area() - 1.0).abs() < 1e-15);
+    for (p, i) in mesh.positions().iter().zip(0..) {
+        let expected = DVec3::new(f64::from(i % 5) / 4.0, f64::from(i / 5) / 4.0, 0.0);
+        assert!(p.distance(expected) < 1e-15);
+    }
+}
+
+#[test]
+fn counts_lie_within_the_plan_whatever_sides_are_points() {
+    for mask in 0..16 {
+        for n in 1..6 {
+            for faces in [Faces::Triangles, Faces::Quads] {
+                let operation = Tessellate {
+                    segments: n,
+                    faces,
+                    ..parse("(uvs: true, normals: true)")
+                };
+                let (mesh, _) = run(&operation, vec![collapsed(mask)]);
+                let plan = operation.planned(1);
+                let named = format!("sides {mask:04b}, {n} segments, {faces:?}");
+                assert!(plan.vertices.contains(mesh.n_vertices() as u64), "{named}");
+                assert!(plan.edges.contains(mesh.n_edges() as u64), "{named}");
+                assert!(plan.faces.contains(mesh.n_faces() as u64), "{named}");
+                let within = |f| plan.degrees.contains(mesh.degree(f) as u64);
+                assert!(mesh.faces().all(within), "{named}");
+                assert_eq!(MeshPlan::of(&mesh).attributes.len(), plan.attributes.len());
+            }
+        }
+    }
+    let whole = parse("(segments: 5)").planned(1);
+    let (mesh, _) = run(&parse("(segments: 5)"), vec![collapsed(0)]);
+    assert_eq!(whole.edges.max, mesh.n_edges() as u64);
+}
+
+#[test]
+fn nothing_but_positions_is_written_unless_asked_for() {
+    let (mesh, _) = run(&parse("()"), vec![hill(|r, c| (r * c) as f64)]);
+    assert_eq!(mesh.n_faces(), 128);
+    assert_eq!(mesh.attributes().iter().count(), 0);
+}
+
+#[test]
+fn uvs_and_normals_are_those_of_the_patch() {
+    let patch = hill(|r, c| (r * c) as f64 * 0.1);
+    let (mesh, _) = run(
+        &parse("(segments: 3, uvs: true, normals: true)"),
+        vec![patch],
+    );
+    let (uvs, normals) = (mesh.get(UV).unwrap(), mesh.get(VERTEX_NORMAL).unwrap());
+    for h in mesh.half_edges().filter(|&h| mesh.face(h).is_some()) {
+        let (uv, v) = (uvs[h.index()], mesh.origin(h));
+        assert!(patch.point(uv.x, uv.y).distance(mesh.position(v)) < 1e-14);
+        assert!(patch.normal(uv.x, uv.y).distance(normals[v.index()]) < 1e-12);
+    }
+}
+
+#[test]
+fn patches_follow_each_other_and_share_no_vertices() {
+    let (mesh, _) = run(
+        &parse("(segments: 2)"),
+        vec![hill(|_, _| 0.0), hill(|_, _| 1.0)],
+    );
+    assert_eq!((mesh.n_vertices(), mesh.n_components()), (18, 2));
+    assert_eq!(mesh.position(VertexId::new(9)), DVec3::Z);
+}
+
+#[test]
+fn empty_patches_and_no_patches_are_told() {
+    let point = Patch::new([[DVec3::ONE; 4]; 4]).unwrap();
+    let (mesh, report) = run(&parse("()"), vec![point, hill(|_, _| 0.0), point]);
+    assert_eq!(mesh.n_faces(), 128);
+    assert_eq!(
+        report.notes,
+        ["patches without area, which gave nothing: 2 (first: patch 0)"]
+    );
+    assert_eq!(run(&parse("()"), Vec::new()).0, Mesh::default());
+}
+
+#[test]
+fn other_objects_stay_and_named_ones_must_be_patches() {
+    let mut scene = scene_of(vec![hill(|_, _| 0.0)]);
+    scene
+        .insert(Object::mesh("cube", mesh::shapes::cube()))
+        .unwrap();
+    let before = scene.clone();
+    op::test::run(&parse("()"), &mut scene).unwrap();
+    assert_eq!(scene.object("cube"), before.object("cube"));
+    assert_eq!(scene.objects()[0].name, "pot");
+
+    let files = Files::default();
+    let on = ["cube".to_owned()];
+    let mut cx = Context::new(&NoProgress, &files);
+    cx.on = Some(&on);
+    let refused = parse("()").apply(&mut before.clone(), &mut cx).unwrap_err();
+    assert_eq!(
+        refused.to_string(),
+        "Tessellate cuts patches, but \"cube\" is mesh"
+    );
+    let mut plan = patches_plan(1);
+    plan.insert("cube", PlannedGeometry::Mesh(MeshPlan::unknown()));
+    let problems = planned(&parse("()"), &mut plan, Some(&on));
+    assert_eq!(problems[0].message, refused.to_string());
+}
+
+#[test]
+fn the_plan_turns_patches_into_a_mesh() {
+    let mut plan = patches_plan(32);
+    assert_eq!(
+        planned(&parse("(segments: 10, uvs: true)"), &mut plan, None),
+        []
+    );
+    let PlannedGeometry::Mesh(mesh) = &plan.objects[0].geometry else {
+        panic!("a mesh");
+    };
+    assert_eq!(mesh.faces, Range::at_most(6400));
+    assert!(mesh.is_triangles());
+    assert_eq!(mesh.attributes[0].name, "uv");
+    // There are no patches any more.
+    assert_eq!(planned(&parse("()"), &mut plan, None).len(), 1);
+}
+
+#[test]
+fn sizes_are_refused_before_anything_is_made() {
+    for segments in [0, 4097, u32::MAX] {
+        let operation = Tessellate {
+            segments,
+            ..parse("()")
+        };
+        let problems = planned(&operation, &mut patches_plan(1), None);
+        assert_eq!(problems[0].path, ["segments"]);
+        let refused = op::test::run(&operation, &mut scene_of(vec![hill(|_, _| 0.0)]));
+        assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+    }
+    let many = vec![hill(|_, _| 0.0); 50];
+    let refused = op::test::run(&parse("(segments: 4096)"), &mut scene_of(many));
+    assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+
+    let files = Files::default();
+    let mut cx = Context::new(&NoProgress, &files);
+    cx.budget = 1000;
+    let refused = parse("()").apply(&mut scene_of(vec![hill(|_, _| 0.0)]), &mut cx);
+    assert!(matches!(refused, Err(OpError::Budget(_))), "{refused:?}");
+}
+
+#[test]
+fn it_can_be_cancelled_between_patches() {
+    struct Stop;
+    impl Progress for Stop {
+        fn advance(&self, _: &str, done: u64, _: u64) -> bool {
+            done < 1
+        }
+    }
+    let files = Files::default();
+    let mut scene = scene_of(vec![hill(|_, _| 0.0); 3]);
+    let stopped = parse("()").apply(&mut scene, &mut Context::new(&Stop, &files));
+    assert!(matches!(stopped, Err(OpError::Cancelled)));
+}
+
+#[test]
+fn a_recipe_may_leave_out_everything() {
+    let operation = parse("()");
+    assert_eq!((operation.segments, operation.faces), (8, Faces::Triangles));
+    assert!(!operation.uvs && !operation.normals);
+    assert!(ron::from_str::<Tessellate>("(faces: Hexagons)").is_err());
+    assert!(ron::from_str::<Tessellate>("(segment: 8)").is_err());
+}

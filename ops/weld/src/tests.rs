@@ -1,0 +1,294 @@
+//! Tests of the operation.
+
+use super::*;
+use mesh::{Attribute, CREASE, DVec2, DVec3, Domain, MATERIAL, UV, Value, Values, shapes};
+use op::test::{applied, try_applied};
+use op::{Files, NoProgress, Progress};
+
+fn weld(distance: f64) -> Weld {
+    Weld { distance }
+}
+
+/// The faces of a mesh as separate polygons, with their own vertices.
+fn torn(mesh: &Mesh) -> Mesh {
+    let mut positions = Vec::new();
+    let mut polygons = Vec::new();
+    for f in mesh.faces() {
+        let first = to_u32(positions.len());
+        positions.extend(mesh.face_vertices(f).map(|v| mesh.position(v)));
+        polygons.push((first..to_u32(positions.len())).collect::<Vec<_>>());
+    }
+    Mesh::from_polygons(positions, &polygons).unwrap().0
+}
+
+fn flat(points: &[(f64, f64)], polygons: &[&[u32]]) -> Mesh {
+    let points = points.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect();
+    Mesh::from_polygons(points, polygons).unwrap().0
+}
+
+fn values<I: mesh::Id, T: Value>(mesh: &Mesh, attribute: Attribute<I, T>) -> Vec<T> {
+    mesh.get(attribute).unwrap().to_vec()
+}
+
+#[test]
+fn six_squares_become_a_cube_again() {
+    let (cube, report) = try_applied(&weld(0.0), torn(&shapes::cube())).unwrap();
+    assert_eq!(
+        (cube.n_vertices(), cube.n_edges(), cube.n_faces()),
+        (8, 12, 6)
+    );
+    assert!(cube.is_closed());
+    assert_eq!(cube.genus(), 0);
+    assert!((cube.volume() - 8.0).abs() < 1e-12);
+    assert_eq!(report.changed, 16);
+    assert_eq!(report.notes, ["merged 16 vertices"]);
+}
+
+#[test]
+fn any_torn_shape_grows_together_again() {
+    for shape in [
+        shapes::torus(7, 5, 2.0, 0.5),
+        shapes::icosahedron(),
+        shapes::grid(4, 3),
+        shapes::cylinder(9, true),
+    ] {
+        let whole = applied(&weld(1e-9), torn(&shape));
+        assert_eq!(whole.n_vertices(), shape.n_vertices());
+        assert_eq!(whole.n_edges(), shape.n_edges());
+        assert_eq!(whole.euler_characteristic(), shape.euler_characteristic());
+        assert_eq!(whole.n_boundary_loops(), shape.n_boundary_loops());
+        assert!((whole.area() - shape.area()).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn welding_twice_is_welding_once() {
+    let mut mesh = torn(&shapes::torus(9, 6, 2.0, 0.5));
+    for (p, i) in mesh.positions_mut().iter_mut().zip(0_u32..) {
+        *p += DVec3::new(f64::from(i % 3), f64::from(i % 5), f64::from(i % 7)) * 1e-4;
+    }
+    let once = applied(&weld(1e-2), mesh);
+    let (twice, report) = try_applied(&weld(1e-2), once.clone()).unwrap();
+    assert_eq!(once.n_vertices(), 54);
+    assert_eq!(twice, once);
+    assert_eq!(report, Report::default());
+}
+
+#[test]
+fn a_mesh_without_near_vertices_keeps_every_number() {
+    // Two triangles back to back with an edge twice between the same vertices would be paired anew.
+    let mesh = shapes::uv_sphere(6, 5);
+    assert_eq!(applied(&weld(1e-6), mesh.clone()), mesh);
+    assert_eq!(applied(&weld(1e-6), Mesh::default()), Mesh::default());
+}
+
+#[test]
+fn the_merged_vertex_is_the_one_of_the_lowest_number() {
+    let weights = Attribute::<VertexId, f64>::new("weight", Rule::Interpolate);
+    let points = [
+        (0.0, 0.0),
+        (1.0, 0.0),
+        (1.0, 1.0),
+        (1.01, 0.0),
+        (2.0, 0.0),
+        (1.01, 1.0),
+    ];
+    let mut mesh = flat(&points, &[&[0, 1, 2], &[3, 4, 5]]);
+    mesh.set(weights, vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+    let welded = applied(&weld(0.1), mesh);
+    assert_eq!(welded.n_vertices(), 4);
+    assert_eq!(values(&welded, weights), [0.0, 1.0, 2.0, 4.0]);
+    let x: Vec<f64> = welded.positions().iter().map(|p| p.x).collect();
+    assert_eq!(x, [0.0, 1.0, 1.0, 2.0]);
+    assert_eq!(welded.n_edges(), 5);
+}
+
+#[test]
+fn seams_are_kept() {
+    let cube = shapes::cube();
+    let mut mesh = torn(&cube);
+    // Each face has a chart of its own.
+    let uv = |mesh: &Mesh, h| {
+        let f = mesh.face(h).map_or(0.0, |f| f.index() as f64);
+        let p = mesh.position(mesh.origin(h));
+        DVec2::new(10.0 * f + p.x, p.y + 3.0 * p.z)
+    };
+    let uvs = mesh.half_edges().map(|h| uv(&mesh, h)).collect();
+    mesh.set(UV, uvs);
+    let welded = applied(&weld(0.0), mesh);
+    let uvs = values(&welded, UV);
+    assert!(
+        welded
+            .half_edges()
+            .all(|h| uvs[h.index()] == uv(&welded, h))
+    );
+    assert!(welded.edges().all(|e| welded.is_seam(e)));
+}
+
+#[test]
+fn faces_and_edges_keep_their_values() {
+    let mut mesh = torn(&shapes::cube());
+    mesh.set(MATERIAL, vec![5, 4, 3, 2, 1, 0]);
+    mesh.set(CREASE, (0..24).map(f64::from).collect());
+    let welded = applied(&weld(0.0), mesh.clone());
+    assert_eq!(values(&welded, MATERIAL), [5, 4, 3, 2, 1, 0]);
+    // The first of the two edges that became one.
+    for e in welded.edges() {
+        let place = |mesh: &Mesh, e| {
+            let [a, b] = mesh.edge_vertices(e).map(|v| mesh.position(v));
+            (a + b).to_array()
+        };
+        let first = mesh
+            .edges()
+            .find(|&old| place(&mesh, old) == place(&welded, e));
+        let expected = first.unwrap().index() as f64;
+        assert_eq!(values(&welded, CREASE)[e.index()], expected);
+    }
+}
+
+#[test]
+fn three_squares_at_one_edge_are_split_and_counted() {
+    let mut squares = Vec::new();
+    for direction in [DVec3::X, DVec3::Y, DVec3::NEG_X] {
+        squares.extend([DVec3::ZERO, direction, direction + DVec3::Z, DVec3::Z]);
+    }
+    let polygons = [[0, 1, 2, 3], [7, 6, 5, 4], [8, 9, 10, 11]];
+    let (mesh, _) = Mesh::from_polygons(squares, &polygons).unwrap();
+    let (welded, report) = try_applied(&weld(0.0), mesh).unwrap();
+    assert_eq!((welded.n_faces(), welded.n_components()), (3, 2));
+    // Four vertices merged, and two were copied again for the third square.
+    assert_eq!(welded.n_vertices(), 10);
+    assert_eq!(report.notes.len(), 2);
+    assert!(
+        report.notes[1].contains("1 non-manifold edges split"),
+        "{}",
+        report.notes[1]
+    );
+}
+
+#[test]
+fn small_faces_lose_corners_or_go() {
+    // A quad with one short side, a triangle with one, and a quad that is folded to a line.
+    let points = [
+        (0.0, 0.0),
+        (1.0, 0.0),
+        (1.0, 1.0),
+        (1.0, 1.001),
+        (5.0, 0.0),
+        (6.0, 0.0),
+        (6.0, 0.001),
+    ];
+    let (welded, report) =
+        try_applied(&weld(0.01), flat(&points, &[&[0, 1, 2, 3], &[4, 5, 6]])).unwrap();
+    assert_eq!((welded.n_faces(), welded.n_vertices()), (1, 5));
+    assert_eq!(welded.degree(FaceId::new(0)), 3);
+    assert_eq!(welded.n_isolated_vertices(), 2);
+    assert_eq!(
+        report.notes,
+        [
+            "merged 2 vertices",
+            "faces that lost corners: 1",
+            "1 degenerate faces left out (first: face 1)"
+        ]
+    );
+}
+
+#[test]
+fn a_face_that_visits_a_vertex_twice_goes() {
+    let points = [
+        (0.0, 0.0),
+        (1.0, 0.001),
+        (2.0, 0.0),
+        (1.0, 1.0),
+        (1.0, 0.002),
+        (0.5, 0.5),
+    ];
+    let (welded, report) = try_applied(&weld(0.01), flat(&points, &[&[0, 1, 2, 3, 4, 5]])).unwrap();
+    assert_eq!((welded.n_faces(), welded.n_vertices()), (0, 5));
+    assert!(
+        report.notes[1].contains("1 degenerate faces"),
+        "{:?}",
+        report.notes
+    );
+}
+
+#[test]
+fn a_distance_beyond_the_mesh_leaves_one_vertex() {
+    for distance in [100.0, f64::MAX] {
+        let point = applied(&weld(distance), shapes::cube());
+        assert_eq!(
+            (point.n_vertices(), point.n_edges(), point.n_faces()),
+            (1, 0, 0)
+        );
+        assert_eq!(
+            point.position(VertexId::new(0)),
+            shapes::cube().positions()[0]
+        );
+    }
+}
+
+#[test]
+fn isolated_vertices_merge_too_and_otherwise_stay() {
+    let points = [(9.0, 9.0), (0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (0.0, 0.0)];
+    let welded = applied(&weld(0.0), flat(&points, &[&[1, 2, 3]]));
+    assert_eq!((welded.n_vertices(), welded.n_isolated_vertices()), (4, 1));
+}
+
+#[test]
+fn columns_that_edits_drop_are_dropped_and_told() {
+    let mut mesh = torn(&shapes::cube());
+    let column = mesh::Column {
+        name: "cache".into(),
+        rule: Rule::Drop,
+        values: Values::Int(vec![1; 6]),
+    };
+    mesh.insert_column(Domain::Face, column);
+    let (welded, report) = try_applied(&weld(0.0), mesh).unwrap();
+    assert_eq!(welded.attributes().iter().count(), 0);
+    assert_eq!(report.losses.len(), 1);
+}
+
+#[test]
+fn a_distance_that_is_none_is_refused() {
+    for distance in [-1.0, f64::NAN, f64::INFINITY] {
+        let refused = try_applied(&weld(distance), shapes::cube());
+        assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+        let files = Files::default();
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let problems =
+            MeshOperation::plan(&weld(distance), &mut MeshPlan::of(&shapes::cube()), &cx);
+        assert_eq!(problems[0].path, ["distance"]);
+    }
+}
+
+#[test]
+fn it_can_be_cancelled_before_the_first_change() {
+    struct Stop;
+    impl Progress for Stop {
+        fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+            false
+        }
+    }
+    let files = Files::default();
+    let mut mesh = torn(&shapes::cube());
+    let mut cx = Context::new(&Stop, &files);
+    let stopped = MeshOperation::apply(&weld(0.0), &mut mesh, &mut cx);
+    assert!(matches!(stopped, Err(OpError::Cancelled)));
+    assert_eq!(mesh, torn(&shapes::cube()));
+    let mut cx = Context::new(&NoProgress, &files);
+    assert!(MeshOperation::apply(&weld(0.0), &mut mesh, &mut cx).is_ok());
+}
+
+#[test]
+fn a_recipe_must_give_the_distance() {
+    assert_eq!(
+        ron::from_str::<Weld>("(distance: 1e-6)").unwrap().distance,
+        1e-6
+    );
+    assert!(ron::from_str::<Weld>("()").is_err());
+    assert!(ron::from_str::<Weld>("(distance: 1, uvs: true)").is_err());
+}

@@ -4,7 +4,7 @@
 use std::hint::black_box;
 use std::time::Duration;
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use loop_subdivide::LoopSubdivide;
 use mesh::{Mesh, shapes};
 use op::{Context, Files, MeshOperation, NoProgress};
@@ -27,12 +27,22 @@ fn five_million_triangles(c: &mut Criterion) {
             let pool = pool.build().expect("a pool of one or two threads");
             let id = BenchmarkId::new(name, format!("{threads} threads"));
             group.bench_function(id, |b| {
-                pool.install(|| b.iter_with_large_drop(|| subdivided(&mesh, levels)));
+                pool.install(|| {
+                    b.iter_batched(
+                        || (),
+                        |()| subdivided(&mesh, levels),
+                        BatchSize::PerIteration,
+                    );
+                });
             });
         }
         // Into new memory, as the mesh is.
         group.bench_function(BenchmarkId::new(name, "copy of its bytes"), |b| {
-            b.iter_with_large_drop(|| black_box(&bytes).clone());
+            b.iter_batched(
+                || (),
+                |()| black_box(&bytes).clone(),
+                BatchSize::PerIteration,
+            );
         });
     }
     group.finish();

@@ -37,7 +37,10 @@ pub(crate) fn by_splits_and_flips(old: &Mesh) -> Mesh {
 fn moved(mesh: &Mesh, v: VertexId) -> DVec3 {
     let p = mesh.position(v);
     let on_boundary = |e: &EdgeId| mesh.is_boundary_edge(*e);
-    let edges: Vec<EdgeId> = mesh.vertex_half_edges(v).map(|h| h.edge()).collect();
+    let edges: Vec<EdgeId> = mesh
+        .vertex_half_edges(v)
+        .map(mesh::HalfEdgeId::edge)
+        .collect();
     let n = edges.len() as f64;
     let far = |e: EdgeId| -> DVec3 {
         let [a, b] = mesh.edge_vertices(e);

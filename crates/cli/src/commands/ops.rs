@@ -1,6 +1,8 @@
 //! `meshwright ops`: lists the operations, or shows one, from the same structs that recipes are read
 //! into.
 
+use std::collections::BTreeMap;
+
 use op::{Entry, Registry};
 use recipe::{did_you_mean, fields};
 
@@ -80,6 +82,7 @@ pub(crate) fn reference(registry: &Registry) -> String {
             entry.summary
         );
     }
+    let mut choices: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
     for entry in registry.entries() {
         let schema = entry.schema();
         text += &format!("\n## {}\n\n", entry.name);
@@ -101,6 +104,17 @@ pub(crate) fn reference(registry: &Registry) -> String {
                 "| `{}` | {} | {default} | {doc} |\n",
                 field.name, field.kind
             );
+            if !field.variants.is_empty() {
+                choices.insert(field.kind, field.variants);
+            }
+        }
+    }
+    text += "\n# Choices\n";
+    for (name, variants) in choices {
+        text += &format!("\n## {name}\n\n| choice | meaning |\n| --- | --- |\n");
+        for (variant, doc) in variants {
+            let doc = doc.replace('\n', " ").replace('|', "\\|");
+            text += &format!("| `{variant}` | {doc} |\n");
         }
     }
     text

@@ -1,0 +1,35 @@
+// Validates every glTF file below a folder with the Khronos validator: no errors, no warnings.
+const fs = require("fs");
+const path = require("path");
+
+const root = path.resolve(process.argv[2]);
+const validator = require(path.join(root, "validator/node_modules/gltf-validator"));
+
+function* files(folder) {
+    for (const entry of fs.readdirSync(folder, { withFileTypes: true })) {
+        const full = path.join(folder, entry.name);
+        if (entry.isDirectory() && entry.name !== "validator") yield* files(full);
+        else if (/\.(glb|gltf)$/.test(entry.name)) yield full;
+    }
+}
+
+(async () => {
+    let checked = 0;
+    for (const file of files(root)) {
+        const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)), {
+            externalResourceFunction: (uri) =>
+                Promise.resolve(new Uint8Array(fs.readFileSync(path.join(path.dirname(file), uri)))),
+        });
+        const { numErrors, numWarnings, messages } = report.issues;
+        checked += 1;
+        if (numErrors + numWarnings > 0) {
+            console.error(file, JSON.stringify(messages.slice(0, 5), null, 2));
+            process.exit(1);
+        }
+    }
+    if (checked === 0) {
+        console.error("no glTF file was found");
+        process.exit(1);
+    }
+    console.log(`${checked} glTF files are valid`);
+})();

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use crate::Mesh;
+use crate::{Mesh, VertexId};
 
 /// The square from (0, 0, 0) to (1, 1, 0): one face.
 pub fn square() -> Mesh {
@@ -245,6 +245,18 @@ pub fn uv_sphere(around: u32, rings: u32) -> Mesh {
     of(positions, &polygons)
 }
 
+/// The same vertices with each polygon cut into a fan of triangles at its first corner: the triangles of
+/// a polygon stand where it stood. For the convex polygons of the shapes here; attributes are left out.
+pub fn fans(mesh: &Mesh) -> Mesh {
+    let number = |v: VertexId| u32::try_from(v.index()).expect("ids are below 2^32");
+    let mut triangles = Vec::new();
+    for f in mesh.faces() {
+        let corners: Vec<u32> = mesh.face_vertices(f).map(number).collect();
+        triangles.extend(corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]));
+    }
+    of(mesh.positions().to_vec(), &triangles)
+}
+
 /// A mesh of polygons that are known to be a manifold.
 fn of(positions: Vec<DVec3>, polygons: &[impl AsRef<[u32]>]) -> Mesh {
     let (mesh, report) =
@@ -283,6 +295,14 @@ mod tests {
             assert_eq!(mesh.defects(), []);
             assert!(mesh.faces().all(|f| mesh.face_normal(f) == DVec3::Z));
         }
+    }
+
+    #[test]
+    fn fans_keep_the_shape() {
+        let fan = fans(&cylinder(7, true));
+        assert!(fan.faces().all(|f| fan.is_triangle(f)));
+        assert_eq!((fan.n_faces(), fan.euler_characteristic()), (24, 2));
+        assert!((fan.volume() - cylinder(7, true).volume()).abs() < 1e-15);
     }
 
     #[test]

@@ -59,16 +59,7 @@ fn subdivided(mesh: &Mesh, levels: u32) -> Mesh {
 
 /// A torus of 20,000 triangles.
 fn torus() -> Mesh {
-    let quads = shapes::torus(100, 100, 2.0, 1.0);
-    let mut triangles = Vec::new();
-    for f in quads.faces() {
-        let mut v = quads.face_vertices(f).map(mesh::VertexId::index);
-        let v = [(); 4].map(|()| v.next().expect("a quadrilateral"));
-        let v = v.map(|v| u32::try_from(v).expect("few vertices"));
-        triangles.extend([[v[0], v[1], v[2]], [v[0], v[2], v[3]]]);
-    }
-    let (mesh, _) = Mesh::from_polygons(quads.positions().to_vec(), &triangles).expect("valid");
-    mesh
+    shapes::fans(&shapes::torus(100, 100, 2.0, 1.0))
 }
 
 criterion_group!(benches, five_million_triangles);

@@ -484,8 +484,8 @@ impl Attributes {
             .any(|c| !c.values.same(a.index(), b.index()))
     }
 
-    /// Removes the columns whose rule is [`Rule::Drop`].
-    pub(crate) fn drop_by_rule(&mut self) {
+    /// Removes the columns whose rule is [`Rule::Drop`]: for whatever changes connectivity.
+    pub fn drop_by_rule(&mut self) {
         for columns in &mut self.columns {
             columns.retain(|c| c.rule != Rule::Drop);
         }

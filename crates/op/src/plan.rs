@@ -108,6 +108,9 @@ pub struct MeshPlan {
     pub attributes: Vec<PlannedAttribute>,
 }
 
+/// The bytes of a value of an attribute.
+const VALUE: Range = Range { min: 1, max: 32 };
+
 impl MeshPlan {
     /// A mesh of which nothing is known.
     pub const fn unknown() -> Self {
@@ -178,7 +181,7 @@ impl MeshPlan {
             .retain(|a| a.domain != domain || a.name != name);
     }
 
-    /// The bytes that the mesh takes, attributes at 16 bytes a value.
+    /// The bytes that the mesh takes. A value of an attribute takes from 1 byte, a tag, to 32.
     pub fn bytes(&self) -> Range {
         let count = |domain| match domain {
             Domain::Vertex => self.vertices,
@@ -193,7 +196,7 @@ impl MeshPlan {
             .plus(self.faces.by(4));
         self.attributes
             .iter()
-            .fold(connectivity, |sum, a| sum.plus(count(a.domain).by(16)))
+            .fold(connectivity, |sum, a| sum.plus(count(a.domain).times(VALUE)))
     }
 }
 

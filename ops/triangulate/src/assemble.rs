@@ -4,7 +4,7 @@
 //! follow those of the faces before it, in the order of [`Cut::diagonals`]; the first half of each runs
 //! from its lower corner.
 
-use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, Rule, Sources, VertexId};
+use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 
 use crate::cut::Cut;
 
@@ -67,14 +67,7 @@ pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {
         edges: &edge_sources(mesh.n_edges(), n_diagonals),
         faces: &face_sources,
     });
-    let dropped: Vec<_> = attributes
-        .iter()
-        .filter(|(_, column)| column.rule == Rule::Drop)
-        .map(|(domain, column)| (domain, column.name.clone()))
-        .collect();
-    for (domain, name) in dropped {
-        attributes.remove(domain, &name);
-    }
+    attributes.drop_by_rule();
     let mut cut = Mesh::from_arrays(connectivity, mesh.positions().to_vec());
     cut.set_attributes(attributes);
     cut

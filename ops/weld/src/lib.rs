@@ -15,7 +15,7 @@
 mod cluster;
 mod union_find;
 
-use mesh::{Built, EdgeId, FaceId, HalfEdgeId, Mesh, NonManifold, Rule, Sources, VertexId};
+use mesh::{Built, EdgeId, FaceId, HalfEdgeId, Mesh, NonManifold, Sources, VertexId};
 use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -190,14 +190,7 @@ impl Polygons {
             edges: &edges,
             faces: &faces,
         });
-        let dropped: Vec<_> = attributes
-            .iter()
-            .filter(|(_, column)| column.rule == Rule::Drop)
-            .map(|(domain, column)| (domain, column.name.clone()))
-            .collect();
-        for (domain, name) in dropped {
-            attributes.remove(domain, &name);
-        }
+        attributes.drop_by_rule();
         mesh.set_attributes(attributes);
         mesh
     }

@@ -194,9 +194,9 @@ impl MeshPlan {
             .by(28)
             .plus(self.edges.by(24))
             .plus(self.faces.by(4));
-        self.attributes
-            .iter()
-            .fold(connectivity, |sum, a| sum.plus(count(a.domain).times(VALUE)))
+        self.attributes.iter().fold(connectivity, |sum, a| {
+            sum.plus(count(a.domain).times(VALUE))
+        })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Tests of the operation.
 
 use super::*;
-use mesh::{Attribute, CREASE, DVec2, DVec3, Domain, MATERIAL, UV, Value, Values, shapes};
+use mesh::{Attribute, CREASE, DVec2, DVec3, Domain, MATERIAL, Rule, UV, Value, Values, shapes};
 use op::test::{applied, try_applied};
 use op::{Files, NoProgress, Progress};
 

@@ -10,9 +10,6 @@
 //! ```
 //!
 //! Exit codes: 0 done, 1 failed, 2 wrong usage.
-#![expect(clippy::print_stderr,
-    reason = "this is the crate that prints"
-)]
 
 mod args;
 mod commands;
@@ -27,13 +24,17 @@ use clap::Parser;
 use op::Registry;
 
 use args::{Args, Command};
+use output::complain;
 
 /// Runs the program with the operations of `registry` and returns its exit code.
-#[expect(clippy::needless_pass_by_value, reason = "a program hands its registry over")]
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "a program hands its registry over"
+)]
 pub fn run(registry: Registry) -> ExitCode {
     let args = Args::parse();
     if let Err(clash) = registry.check() {
-        eprintln!("error: {clash}");
+        complain(&format!("error: {clash}\n"));
         return ExitCode::FAILURE;
     }
     let done = match args.command {
@@ -51,7 +52,7 @@ pub fn run(registry: Registry) -> ExitCode {
         Ok(false) => ExitCode::FAILURE,
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            complain(&format!("error: {error:#}\n"));
             ExitCode::FAILURE
         }
     }

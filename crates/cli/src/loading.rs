@@ -55,7 +55,10 @@ pub(crate) fn load_recipe(
     let bytes = std::fs::read(path).with_context(|| format!("cannot read {shown}"))?;
     let source = String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        let line = String::from_utf8_lossy(&error.as_bytes()[..at]).matches('\n').count() + 1;
+        let line = String::from_utf8_lossy(&error.as_bytes()[..at])
+            .matches('\n')
+            .count()
+            + 1;
         anyhow::anyhow!("{shown}:{line}: the recipe is not UTF-8 text")
     })?;
     let folder = std::env::current_dir().context("cannot tell the working directory")?;

@@ -11,10 +11,15 @@ pub(crate) fn print(text: &str) -> io::Result<()> {
     io::stdout().write_all(text.as_bytes())
 }
 
+/// Writes to the standard error. If nobody reads that, there is nobody to tell.
+pub(crate) fn complain(text: &str) {
+    let _ = io::stderr().write_all(text.as_bytes());
+}
+
 /// Shows diagnostics on the standard error, as a compiler does.
 pub(crate) fn show(loaded: &Loaded, diagnostics: &[recipe::Diagnostic]) {
     if !diagnostics.is_empty() {
-        eprint!("{}", loaded.render(diagnostics, io::stderr().is_terminal()));
+        complain(&loaded.render(diagnostics, io::stderr().is_terminal()));
     }
 }
 

@@ -22,7 +22,12 @@ pub(crate) fn save_all(files: Vec<(PathBuf, Vec<u8>)>) -> Result<Vec<PathBuf>, W
             let source = std::io::Error::other("a folder of this name is there");
             return Err(WriteError::io(&path, source));
         }
-        let file = temporary(&path, &bytes).map_err(|source| WriteError::io(&path, source))?;
+        if !folder_of(&path).is_dir() {
+            let source = std::io::Error::other("there is no such folder");
+            return Err(WriteError::io(&path, source));
+        }
+        let file = temporary(&path, &bytes)
+            .map_err(|source| WriteError::io(&path, without_temporary_name(source)))?;
         complete.push((path, file));
     }
     let mut paths = Vec::with_capacity(complete.len());
@@ -46,6 +51,15 @@ fn temporary(path: &Path, bytes: &[u8]) -> std::io::Result<NamedTempFile> {
     file.write_all(bytes)?;
     file.flush()?;
     Ok(file)
+}
+
+/// The error without the path that tempfile puts behind it: the name of a file that is gone tells a
+/// person nothing.
+fn without_temporary_name(error: std::io::Error) -> std::io::Error {
+    match error.to_string().split_once(" at path ") {
+        Some((what, _)) => std::io::Error::new(error.kind(), what),
+        None => error,
+    }
 }
 
 #[cfg(test)]
@@ -79,11 +93,24 @@ mod tests {
 
         let error = save_all(vec![(a.clone(), vec![]), (missing.clone(), vec![])]).unwrap_err();
 
-        assert!(
-            error.to_string().contains(&missing.display().to_string()),
-            "{error}"
+        let expected = format!(
+            "cannot write {}: there is no such folder",
+            missing.display()
         );
+        assert_eq!(error.to_string(), expected);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_folder_that_takes_no_files_is_named_without_the_temporary_file() {
+        // Not even the administrator makes files here.
+        let error = save_all(vec![(PathBuf::from("/proc/a.obj"), vec![])]).unwrap_err();
+        let text = error.to_string();
+        assert!(
+            text.starts_with("cannot write /proc/a.obj: ") && !text.contains("meshwright-"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -118,7 +118,15 @@ fn plan_step(
         operation.plan(&mut plan.clone(), &cx);
         return;
     }
-    let problems = operation.plan(plan, &cx);
+    let earlier = plan.outputs.len();
+    let mut problems = operation.plan(plan, &cx);
+    let (earlier, new) = plan.outputs.split_at(earlier.min(plan.outputs.len()));
+    if problems.iter().all(|p| p.is_warning)
+        && let Some(twice) = new.iter().find(|path| earlier.contains(path))
+    {
+        let message = format!("an earlier step writes {} too", twice.display());
+        problems.push(Problem::error(message));
+    }
     plan.incomplete |= problems.iter().any(|p| !p.is_warning);
     for problem in &problems {
         let path: Vec<PathItem> = problem

@@ -222,7 +222,6 @@ mod tests {
 
     /// Does something.
     #[derive(JsonSchema, Serialize)]
-    #[expect(dead_code, reason = "only its schema is looked at")]
     struct Sample {
         /// Which edges.
         edges: EdgeSelection,

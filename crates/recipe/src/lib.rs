@@ -29,3 +29,6 @@ pub use read::{Parameter, Placed, Reading, Recipe, RecipeStep, VERSION, read};
 pub use run::{Listener, Outcome, Settings, Silent, StepDone, run};
 pub use schema::schema;
 pub use shape::did_you_mean;
+
+#[cfg(test)]
+mod tests;

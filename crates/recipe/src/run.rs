@@ -185,7 +185,7 @@ impl Runner<'_> {
         cx.stream = step.label();
         cx.budget = self.settings.budget;
         let result = operation.apply(&mut self.scene, &mut cx);
-        if result.is_err() {
+        if result.is_err() || step.refused.is_some() {
             self.scene = before;
         }
         match (result, step.refused) {
@@ -301,10 +301,10 @@ fn deliver(stage: &Path, files: &Files) -> Result<Vec<PathBuf>, String> {
         let relative = from.strip_prefix(stage).expect("found below the stage");
         let to = files.output.join(relative);
         let failed = |e: std::io::Error| format!("cannot write {}: {e}", to.display());
+        files.check_links(relative).map_err(|e| e.to_string())?;
         if let Some(folder) = to.parent() {
             std::fs::create_dir_all(folder).map_err(failed)?;
         }
-        files.check_links(relative).map_err(|e| e.to_string())?;
         if to.is_dir() {
             return Err(format!(
                 "cannot write {}: there is a folder of that name",

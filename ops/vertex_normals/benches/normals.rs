@@ -10,7 +10,9 @@ use vertex_normals::{Weight, normals};
 fn million_triangles(c: &mut Criterion) {
     let mesh = torus();
     let mut group = c.benchmark_group("vertex normals of 1 M triangles");
-    group.sample_size(20).throughput(Throughput::Elements(mesh.n_faces() as u64));
+    group
+        .sample_size(20)
+        .throughput(Throughput::Elements(mesh.n_faces() as u64));
     for weight in [Weight::Area, Weight::Angle, Weight::Uniform] {
         for threads in [1, 2] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
@@ -20,7 +22,9 @@ fn million_triangles(c: &mut Criterion) {
         }
     }
     let bytes = vec![1_u8; 2 * size_of_val(mesh.positions())];
-    group.bench_function("copy of positions and normals", |b| b.iter(|| black_box(&bytes).clone()));
+    group.bench_function("copy of positions and normals", |b| {
+        b.iter(|| black_box(&bytes).clone())
+    });
     group.finish();
 }
 

@@ -23,7 +23,8 @@ pub(crate) fn run(input: &Path, output: &Path) -> anyhow::Result<bool> {
     let options = mesh_io::WriteOptions {
         provenance: Some(provenance),
     };
-    let report = mesh_io::write(output, &scene, &options).map_err(|error| anyhow::anyhow!("{error}"))?;
+    let report =
+        mesh_io::write(output, &scene, &options).map_err(|error| anyhow::anyhow!("{error}"))?;
     for loss in &report.losses {
         print(&format!("{loss}\n"))?;
     }

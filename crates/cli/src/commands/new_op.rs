@@ -10,6 +10,16 @@ use crate::output::print;
 const MANIFEST: &str = include_str!("new_op/Cargo.toml.txt");
 const SOURCE: &str = include_str!("new_op/lib.rs.txt");
 
+/// Names of crates that the sample or the list use, and words that no crate can have as its name.
+const TAKEN: &str = "abstract alloc all as async await become box break const continue core crate do \
+    dyn else enum extern false final fn for gen if impl in let loop macro match mesh mod move mut op \
+    override priv proc_macro pub ref return scene schemars self serde static std struct super test \
+    trait true try type typeof unsafe unsized use virtual where while yield";
+
+/// Types that the sample uses.
+const TYPES: &str = "Context DVec3 Deserialize JsonSchema MeshOperation MeshPlan OpError PlanContext \
+    Problem Report Result Select Serialize Vec VertexSelection";
+
 pub(crate) fn run(name: &str, root: &Path) -> anyhow::Result<bool> {
     let snake = snake_case(name)?;
     let folder = root.join("ops").join(&snake);
@@ -73,9 +83,14 @@ fn snake_case(name: &str) -> anyhow::Result<String> {
         }
         snake.push(c.to_ascii_lowercase());
     }
+    let among = |words: &str, word: &str| words.split(' ').any(|w| w == word);
     ensure!(
-        !matches!(snake.as_str(), "all" | "mesh" | "op" | "scene" | "test"),
+        !among(TAKEN, &snake),
         "`{name}` would be the crate `{snake}`, which is taken"
+    );
+    ensure!(
+        !among(TYPES, name),
+        "the sample uses another `{name}`: choose a name that says more"
     );
     Ok(snake)
 }
@@ -107,7 +122,16 @@ mod tests {
     #[test]
     fn camel_case_becomes_snake_case() {
         assert_eq!(snake_case("InflateFaces").unwrap(), "inflate_faces");
-        for bad in ["inflate", "", "Inflate-Faces", "../Evil", "All"] {
+        for bad in [
+            "inflate",
+            "",
+            "Inflate-Faces",
+            "../Evil",
+            "All",
+            "Loop",
+            "Std",
+            "Report",
+        ] {
             assert!(snake_case(bad).is_err(), "{bad}");
         }
     }

@@ -7,7 +7,9 @@ use recipe::Settings;
 use crate::args::{Format, RunArgs};
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::{Loaded, load, read_objects};
-use crate::output::{explain, print, problems_json, run_json, show, step_notes, step_table};
+use crate::output::{
+    complain, explain, print, problems_json, run_json, show, step_notes, step_table,
+};
 
 pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
     if let Some(threads) = args.threads {
@@ -55,9 +57,9 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
         }
         print(&format!("digest {}\n", outcome.digest))?;
     } else if outcome.cancelled {
-        eprintln!("interrupted, nothing was written");
+        complain("interrupted, nothing was written\n");
     } else {
-        eprintln!("{} failed, nothing was written", loaded.path);
+        complain(&format!("{} failed, nothing was written\n", loaded.path));
     }
     Ok(outcome.succeeded())
 }
@@ -80,6 +82,6 @@ pub(crate) fn refuse(loaded: &Loaded, json: bool) -> anyhow::Result<bool> {
     } else {
         format!("{n} errors")
     };
-    eprintln!("{errors}, nothing was run");
+    complain(&format!("{errors}, nothing was run\n"));
     Ok(false)
 }

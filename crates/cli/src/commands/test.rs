@@ -8,7 +8,7 @@ use recipe::{Settings, Silent};
 
 use crate::args::TestArgs;
 use crate::loading::{load_recipe, read_objects, recipes};
-use crate::output::{print, show};
+use crate::output::{complain, print, show};
 
 pub(crate) fn run(args: &TestArgs, registry: &Registry) -> anyhow::Result<bool> {
     let recipes = recipes(&args.paths)?;
@@ -36,7 +36,7 @@ fn one(path: &Path, args: &TestArgs, registry: &Registry) -> anyhow::Result<bool
         Ok(loaded) => loaded,
         Err(error) => {
             line("FAILED", "")?;
-            eprintln!("error: {error:#}");
+            complain(&format!("error: {error:#}\n"));
             return Ok(false);
         }
     };

@@ -20,11 +20,15 @@
 mod accessor;
 mod buffers;
 mod document;
+mod nodes;
+mod peek;
 mod primitives;
 mod read;
+mod split;
 mod write;
 
-pub(crate) use read::{peek, read};
+pub(crate) use peek::peek;
+pub(crate) use read::read;
 pub(crate) use write::write;
 
 use glam::DVec4;

@@ -2,29 +2,23 @@
 
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
-use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
-use gltf_json::mesh::{Mode, Semantic};
-use gltf_json::validation::Checked;
-use gltf_json::{Index, Node};
+use glam::{DAffine3, DMat3, DVec3};
 use mesh::{COLOR, CORNER_NORMAL, Mesh, UV, VERTEX_NORMAL};
 use scene::{Material, Object};
 use serde_json::Value;
 
 use super::accessor::Reader;
-use super::document::{Document, get};
+use super::document::Document;
+use super::nodes::{Names, placed_meshes};
 use super::primitives::{Triangles, triangles};
 use super::{CORNER_COLOR, JsonError, buffers};
 use crate::ReadOptions;
-use crate::asset_path::read_plain;
 use crate::build::build_mesh;
 use crate::corners::{on_half_edges, set_on_vertices_or_corners};
 use crate::error::{ReadError, TextError};
 use crate::note::Notes;
-use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 
 /// Reads the objects of a glTF file from its bytes; `path` is where its buffers are looked for.
 ///
@@ -79,7 +73,7 @@ pub(crate) fn read(
     Ok(objects)
 }
 
-fn parse(path: &Path, json: &[u8]) -> Result<Value, ReadError> {
+pub(super) fn parse(path: &Path, json: &[u8]) -> Result<Value, ReadError> {
     let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
     serde_json::from_slice(json).map_err(|error| {
         let message = error.to_string();
@@ -93,140 +87,6 @@ fn parse(path: &Path, json: &[u8]) -> Result<Value, ReadError> {
         }
         .in_file(path)
     })
-}
-
-// ---- Nodes -------------------------------------------------------------------------------------
-
-/// A node with a mesh.
-struct Placed {
-    node: usize,
-    mesh: usize,
-    to_scene: DAffine3,
-}
-
-impl Placed {
-    fn name<'a>(&self, document: &'a Document, otherwise: &'a str) -> &'a str {
-        let node = document.nodes[self.node].name.as_deref();
-        let mesh = document.meshes[self.mesh].name.as_deref();
-        [node, mesh]
-            .into_iter()
-            .flatten()
-            .find(|name| !name.is_empty())
-            .unwrap_or(otherwise)
-    }
-}
-
-/// The nodes of the scene that have a mesh, parents before children, in the order of the file.
-fn placed_meshes(document: &Document) -> Result<Vec<Placed>, JsonError> {
-    let mut seen = vec![false; document.nodes.len()];
-    let mut placed = Vec::new();
-    // A stack of our own: a chain of nodes may be as long as the file.
-    let mut open: Vec<(usize, DAffine3)> = Vec::new();
-    for &root in document.roots.iter().rev() {
-        open.push((root, DAffine3::IDENTITY));
-    }
-    while let Some((i, above)) = open.pop() {
-        let node = get(&document.nodes, i, || "/scenes".to_owned(), "node")?;
-        let here = format!("/nodes/{i}");
-        if std::mem::replace(&mut seen[i], true) {
-            return Err(JsonError::new(
-                here,
-                "the node is in the scene twice, or below itself",
-            ));
-        }
-        let to_scene = above * placement(node, &here)?;
-        if !to_scene.is_finite() {
-            return Err(JsonError::new(
-                here,
-                "the placement of the node is not finite",
-            ));
-        }
-        if let Some(mesh) = node.mesh {
-            get(
-                &document.meshes,
-                mesh.value(),
-                || format!("{here}/mesh"),
-                "mesh",
-            )?;
-            placed.push(Placed {
-                node: i,
-                mesh: mesh.value(),
-                to_scene,
-            });
-        }
-        for (k, child) in node
-            .children
-            .as_deref()
-            .unwrap_or(&[])
-            .iter()
-            .enumerate()
-            .rev()
-        {
-            let pointer = || format!("{here}/children/{k}");
-            get(&document.nodes, child.value(), pointer, "node")?;
-            open.push((child.value(), to_scene));
-        }
-    }
-    Ok(placed)
-}
-
-fn placement(node: &Node, here: &str) -> Result<DAffine3, JsonError> {
-    if let Some(matrix) = node.matrix {
-        let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
-        if matrix.row(3).to_array().map(f64::to_bits) != [0.0, 0.0, 0.0, 1.0].map(f64::to_bits) {
-            return Err(JsonError::new(
-                format!("{here}/matrix"),
-                "expected 0, 0, 0, 1 as the last row",
-            ));
-        }
-        return Ok(DAffine3::from_mat4(matrix));
-    }
-    let scale = node
-        .scale
-        .map_or(DVec3::ONE, |scale| DVec3::from_array(scale.map(f64::from)));
-    let translation = node.translation.unwrap_or_default().map(f64::from);
-    let rotation = node.rotation.unwrap_or_default().0.map(f64::from);
-    let rotation = DQuat::from_array(rotation);
-    // Written with 32 bits, its length is only nearly 1.
-    let length = rotation.length();
-    if length == 0.0 || !length.is_finite() {
-        return Err(JsonError::new(
-            format!("{here}/rotation"),
-            "expected a unit quaternion",
-        ));
-    }
-    let rotation = DQuat::from_array(rotation.to_array().map(|x| x / length));
-    Ok(DAffine3::from_scale_rotation_translation(
-        scale,
-        rotation,
-        DVec3::from_array(translation),
-    ))
-}
-
-/// Makes names different from each other.
-#[derive(Default)]
-struct Names {
-    taken: BTreeSet<String>,
-    /// The number that was last put behind a name.
-    last: BTreeMap<String, usize>,
-}
-
-impl Names {
-    fn unique(&mut self, name: &str, notes: &mut Notes) -> String {
-        let mut new = name.to_owned();
-        while !self.taken.insert(new.clone()) {
-            let last = self.last.entry(name.to_owned()).or_insert(1);
-            *last += 1;
-            new = format!("{name}.{last}");
-        }
-        let renamed = usize::from(new != name);
-        notes.changed(
-            renamed,
-            None,
-            format!("node named `{name}` is now called `{new}`: the name is taken"),
-        );
-        new
-    }
 }
 
 // ---- Materials ---------------------------------------------------------------------------------
@@ -427,92 +287,4 @@ fn weld(triangles: &Triangles) -> Welded {
         vertex_of,
         unused,
     }
-}
-
-// ---- Peeking -----------------------------------------------------------------------------------
-
-/// The largest JSON chunk of a GLB file that is looked at, in bytes.
-const LARGEST_JSON: usize = 1 << 30;
-
-/// The counts of the objects of a glTF file: only its JSON is read.
-///
-/// # Errors
-///
-/// As [`read`], as far as it looks.
-pub(crate) fn peek(path: &Path, name: &str) -> Result<Vec<PeekObject>, ReadError> {
-    let io = |source| ReadError::io(path, source);
-    // The header, the length of the first chunk, and no more.
-    let head = read_plain(path, 20).map_err(io)?;
-    let json = match head.as_slice() {
-        [b'g', b'l', b'T', b'F', .., a, b, c, d, _, _, _, _] if head.len() == 20 => {
-            let length = u32::from_le_bytes([*a, *b, *c, *d]) as usize;
-            let end = 20 + length.min(LARGEST_JSON) as u64;
-            let mut bytes = Vec::new();
-            File::open(path)
-                .map_err(io)?
-                .take(end)
-                .read_to_end(&mut bytes)
-                .map_err(io)?;
-            bytes.split_off(bytes.len().min(20))
-        }
-        _ => read_plain(path, u64::MAX).map_err(io)?,
-    };
-    let in_file = |error: JsonError| error.in_file(path);
-    let json = parse(path, &json)?;
-    let mut notes = Notes::of(path);
-    let document = Document::new(&json, &mut notes).map_err(in_file)?;
-    let mut names = Names::default();
-    let mut objects = Vec::new();
-    for placed in placed_meshes(&document).map_err(in_file)? {
-        let mesh = peek_mesh(&document, placed.mesh).map_err(in_file)?;
-        let name = names.unique(placed.name(&document, name), &mut notes);
-        objects.push(PeekObject {
-            name,
-            geometry: PeekGeometry::Mesh(mesh),
-        });
-    }
-    Ok(objects)
-}
-
-fn peek_mesh(document: &Document, index: usize) -> Result<PeekMesh, JsonError> {
-    let reader = Reader {
-        document,
-        buffers: &[],
-    };
-    let mut counts = PeekMesh::default();
-    let mut known = BTreeSet::new();
-    for (i, primitive) in document.meshes[index].primitives.iter().enumerate() {
-        let here = format!("/meshes/{index}/primitives/{i}");
-        let has = |semantic| primitive.attributes.contains_key(&Checked::Valid(semantic));
-        let position = primitive
-            .attributes
-            .get(&Checked::Valid(Semantic::Positions));
-        let Some(position) = position.map(Index::value) else {
-            continue;
-        };
-        let vertices = reader.count(position, &format!("{here}/attributes/POSITION"))?;
-        let corners = match primitive.indices {
-            Some(indices) => reader.count(indices.value(), &format!("{here}/indices"))?,
-            None => vertices,
-        };
-        let triangles = match primitive.mode {
-            Checked::Valid(Mode::Triangles) => corners / 3,
-            Checked::Valid(Mode::TriangleStrip | Mode::TriangleFan) => corners.saturating_sub(2),
-            _ => continue,
-        };
-        counts.add_faces(triangles, 3);
-        let attributes: Vec<_> = primitive
-            .attributes
-            .iter()
-            .map(|(k, a)| (k.clone(), a.value()))
-            .collect();
-        if known.insert(attributes) {
-            counts.vertices = counts.vertices.saturating_add(vertices);
-        }
-        counts.uvs |= has(Semantic::TexCoords(0));
-        counts.normals |= has(Semantic::Normals);
-        counts.colors |= has(Semantic::Colors(0));
-        counts.materials |= primitive.material.is_some();
-    }
-    Ok(counts)
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use scene::Material;
 use tobj::LoadError;
 
-use super::parse::ObjFile;
+use super::file::ObjFile;
 use crate::asset_path::{folder_of, inside, read_beside};
 use crate::error::ReadError;
 use crate::note::Notes;

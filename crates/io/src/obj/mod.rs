@@ -17,10 +17,12 @@
 //! The writer takes the same table from right to left, so that what was read is written and what was
 //! written is read.
 
+mod file;
 mod material;
 mod parse;
 mod peek;
 mod read;
+mod states;
 mod write;
 
 pub(crate) use peek::peek;

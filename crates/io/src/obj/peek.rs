@@ -1,6 +1,6 @@
 //! Counting the statements of an OBJ file without keeping them.
 
-use super::parse::NO_MATERIAL;
+use super::file::NO_MATERIAL;
 use crate::peek::{PeekGeometry, PeekMesh};
 use crate::text::Cursor;
 

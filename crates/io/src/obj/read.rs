@@ -8,8 +8,9 @@ use mesh::{Built, CORNER_NORMAL, Column, Domain, Mesh, Rule, UV, VERTEX_NORMAL, 
 use scene::{Geometry, Object};
 
 use super::OBJECT_TAG;
+use super::file::{Faces, LeftOut, NONE, ObjFile, Run};
 use super::material::read_libraries;
-use super::parse::{Faces, LeftOut, NONE, ObjFile, Run, parse};
+use super::parse::parse;
 use crate::ReadOptions;
 use crate::build::{build_mesh, values_of_copies};
 use crate::corners::{on_half_edges, set_on_vertices_or_corners};

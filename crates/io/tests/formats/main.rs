@@ -1,13 +1,15 @@
 //! Reading and writing whole files, against laws and against other readers.
 
 mod broken;
-mod gltf_files;
+mod gltf_broken;
+mod gltf_read;
+mod gltf_written;
 mod obj_files;
 
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 
-use mesh::{Column, Domain, Mesh, Rule, Values};
+use mesh::{Column, Domain, Mesh, Rule, Values, VertexId};
 use mesh_io::{Loaded, ReadError, ReadOptions, WriteOptions, WriteReport};
 use scene::{Object, Scene};
 
@@ -62,7 +64,7 @@ fn only(path: &Path) -> Object {
 
 /// The faces of a mesh as lists of vertices.
 fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
-    let polygon = |f| mesh.face_vertices(f).map(|v| v.index()).collect();
+    let polygon = |f| mesh.face_vertices(f).map(VertexId::index).collect();
     mesh.faces().map(polygon).collect()
 }
 

@@ -48,7 +48,7 @@ fn predicates_select_by_geometry_and_connectivity() {
             &grid
         )
         .len(),
-        16
+        17
     );
     let top = "Inside(HalfSpace(point: (0, 0, 1), normal: (0, 0, 1)))";
     assert_eq!(edges(&parse(top), &cube).len(), 4);

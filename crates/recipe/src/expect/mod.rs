@@ -255,7 +255,7 @@ pub enum Expectation {
     },
     /// The digest of the scene, as `run` prints it.
     Digest(String),
-    /// The contrary holds.
+    /// The contrary holds. What cannot be told, as about a file that cannot be read, does not.
     Not(Box<Self>),
 }
 
@@ -317,6 +317,20 @@ const fn yes() -> bool {
 /// Reads the objects of a file.
 pub type ReadObjects<'a> = &'a (dyn Fn(&Path) -> Result<Vec<Object>, String> + Sync);
 
+/// Why an expectation does not hold.
+enum Failure {
+    /// The scene is not as expected.
+    Unmet(String),
+    /// There is nothing to hold it against: then its contrary does not hold either.
+    Unknown(String),
+}
+
+impl From<String> for Failure {
+    fn from(message: String) -> Self {
+        Self::Unknown(message)
+    }
+}
+
 /// What expectations are held against.
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {
@@ -337,10 +351,19 @@ impl Expectation {
     ///
     /// What was expected and what was found, in one line.
     pub fn check(&self, subject: Subject) -> Result<(), String> {
+        self.ask(subject).map_err(|failure| match failure {
+            Failure::Unmet(message) | Failure::Unknown(message) => message,
+        })
+    }
+
+    fn ask(&self, subject: Subject) -> Result<(), Failure> {
         match self {
-            Self::Not(inner) => match inner.check(subject) {
-                Ok(()) => Err(format!("expected {inner} not to hold, but it does")),
-                Err(_) => Ok(()),
+            Self::Not(inner) => match inner.ask(subject) {
+                Ok(()) => Err(Failure::Unmet(format!(
+                    "expected {inner} not to hold, but it does"
+                ))),
+                Err(Failure::Unmet(_)) => Ok(()),
+                Err(unknown) => Err(unknown),
             },
             Self::Digest(expected) => {
                 let found = subject.scene.digest().to_string();
@@ -393,7 +416,7 @@ impl Expectation {
                 max,
                 tolerance,
             } => near(
-                "area",
+                "an area",
                 subject.sum(Mesh::area)?,
                 [*eq, *min, *max],
                 *tolerance,
@@ -404,7 +427,7 @@ impl Expectation {
                 max,
                 tolerance,
             } => near(
-                "volume",
+                "a volume",
                 subject.sum(Mesh::volume)?,
                 [*eq, *min, *max],
                 *tolerance,
@@ -418,10 +441,10 @@ impl Expectation {
             Self::Closed => subject.each_mesh(|name, mesh| {
                 let open = mesh.edges().find(|&e| mesh.is_boundary_edge(e));
                 open.map_or(Ok(()), |e| {
-                    Err(format!(
-                        "expected no boundary, but {name} has one at {}",
-                        ends(mesh, e)
-                    ))
+                    let edge = ends(mesh, e);
+                    Err(Failure::Unmet(format!(
+                        "expected no boundary, but {name} has one at {edge}"
+                    )))
                 })
             }),
             Self::Count { of, eq, min, max } => {
@@ -458,6 +481,7 @@ impl Expectation {
                     *tolerance,
                     *connectivity,
                 )
+                .map_err(Failure::Unmet)
             }
             Self::DistanceTo { other, below } => {
                 let (_, mesh) = subject.one_mesh()?;
@@ -535,7 +559,7 @@ impl fmt::Display for Expectation {
 }
 
 impl Elements {
-    fn count(&self, object: &Object, mesh: &Mesh, files: &Files) -> Result<u64, String> {
+    fn count(&self, object: &Object, mesh: &Mesh, files: &Files) -> Result<u64, Failure> {
         let n = match self {
             Self::Vertices(s) => selected(s, object, mesh, files)?.len(),
             Self::Edges(s) => selected(s, object, mesh, files)?.len(),
@@ -545,23 +569,26 @@ impl Elements {
     }
 }
 
-/// The elements of a selection on one object.
+/// The elements of a selection on one object. A selection that is refused, as one that names an edge
+/// that is not there, is an answer.
 fn selected<S: Select>(
     selection: &S,
     object: &Object,
     mesh: &Mesh,
     files: &Files,
-) -> Result<Vec<S::Id>, String> {
+) -> Result<Vec<S::Id>, Failure> {
     let mut cx = Context::new(&NoProgress, files);
     cx.materials = object.materials.iter().map(|m| m.name.clone()).collect();
-    selection
-        .resolve(mesh, &cx)
-        .map_err(|e: OpError| e.to_string())
+    selection.resolve(mesh, &cx).map_err(|error| match error {
+        OpError::Refused { message, .. } => Failure::Unmet(message),
+        other => Failure::Unknown(other.to_string()),
+    })
 }
 
-fn manifold(name: &str, mesh: &Mesh) -> Result<(), String> {
+fn manifold(name: &str, mesh: &Mesh) -> Result<(), Failure> {
     if let Some(defect) = mesh.defects().first() {
-        return Err(format!("expected a manifold, but in {name} {defect}"));
+        let message = format!("expected a manifold, but in {name} {defect}");
+        return Err(Failure::Unmet(message));
     }
     let mut pairs: Vec<_> = mesh
         .edges()
@@ -574,9 +601,9 @@ fn manifold(name: &str, mesh: &Mesh) -> Result<(), String> {
     let double = pairs.windows(2).find(|w| w[0] == w[1]);
     double.map_or(Ok(()), |w| {
         let [v, w] = w[0];
-        Err(format!(
+        Err(Failure::Unmet(format!(
             "expected a manifold, but in {name} several edges join {v} and {w}"
-        ))
+        )))
     })
 }
 
@@ -622,10 +649,10 @@ impl<'a> Subject<'a> {
         Ok(self.meshes()?.into_iter().map(|(_, mesh)| term(mesh)).sum())
     }
 
-    fn each_mesh(&self, ask: impl Fn(&str, &Mesh) -> Result<(), String>) -> Result<(), String> {
+    fn each_mesh(&self, ask: impl Fn(&str, &Mesh) -> Result<(), Failure>) -> Result<(), Failure> {
         let meshes = self.meshes()?;
         if meshes.is_empty() {
-            return Err("expected a mesh, found none".to_owned());
+            return Err("expected a mesh, found none".to_owned().into());
         }
         meshes
             .into_iter()
@@ -670,10 +697,10 @@ impl<'a> Subject<'a> {
         }
     }
 
-    fn bounds(&self, min: Vector, max: Vector, tolerance: f64) -> Result<(), String> {
+    fn bounds(&self, min: Vector, max: Vector, tolerance: f64) -> Result<(), Failure> {
         let points = self.points()?;
         let Some(&first) = points.first() else {
-            return Err("expected points, found none".into());
+            return Err("expected points, found none".to_owned().into());
         };
         let low = points.iter().fold(first, |a, &b| a.min(b));
         let high = points.iter().fold(first, |a, &b| a.max(b));
@@ -690,7 +717,7 @@ impl<'a> Subject<'a> {
         of: &VertexSelection,
         min: Option<u64>,
         max: Option<u64>,
-    ) -> Result<(), String> {
+    ) -> Result<(), Failure> {
         let mut n = 0;
         for (object, mesh) in self.meshes()? {
             for v in selected(of, object, mesh, self.files)? {
@@ -699,9 +726,12 @@ impl<'a> Subject<'a> {
                 within(&format!("edges at {v}"), valence, None, min, max)?;
             }
         }
-        fails_unless(n > 0, || {
-            "expected vertices to be selected, found none".to_owned()
-        })
+        if n == 0 {
+            return Err("expected vertices to be selected, found none"
+                .to_owned()
+                .into());
+        }
+        Ok(())
     }
 
     fn dihedral(
@@ -710,23 +740,24 @@ impl<'a> Subject<'a> {
         min: Option<f64>,
         max: Option<f64>,
         reaches: Option<f64>,
-    ) -> Result<(), String> {
+    ) -> Result<(), Failure> {
         let mut largest: Option<f64> = None;
         for (object, mesh) in self.meshes()? {
             for e in selected(of, object, mesh, self.files)? {
                 let Some(angle) = mesh.dihedral_angle(e).map(f64::to_degrees) else {
                     continue;
                 };
-                let what = format!("dihedral angle at {}", ends(mesh, e));
+                let what = format!("a dihedral angle at {}", ends(mesh, e));
                 near(&what, angle, [None, min, max], 0.0)?;
                 largest = Some(largest.map_or(angle, |l| l.max(angle)));
             }
         }
         let Some(largest) = largest else {
-            return Err("expected edges between two faces to be selected, found none".into());
+            let message = "expected edges between two faces to be selected, found none";
+            return Err(message.to_owned().into());
         };
         near(
-            "largest dihedral angle",
+            "a largest dihedral angle",
             largest,
             [None, reaches, None],
             0.0,
@@ -738,13 +769,15 @@ impl<'a> Subject<'a> {
         of: &FaceSelection,
         min: Option<f64>,
         max: Option<f64>,
-    ) -> Result<(), String> {
+    ) -> Result<(), Failure> {
         let (object, mesh) = self.one_mesh()?;
         let chosen = selected(of, object, mesh, self.files)?;
         let mut areas: Vec<f64> = mesh.faces().map(|f| mesh.face_area(f)).collect();
         areas.sort_by(f64::total_cmp);
         if chosen.is_empty() {
-            return Err("expected faces to be selected, found none".into());
+            return Err("expected faces to be selected, found none"
+                .to_owned()
+                .into());
         }
         let mean = chosen
             .iter()
@@ -753,21 +786,19 @@ impl<'a> Subject<'a> {
             / chosen.len() as f64;
         let found = mean / areas[areas.len() / 2];
         near(
-            "mean face area over the median",
+            "a mean face area over the median",
             found,
             [None, min, max],
             0.0,
         )
     }
 
-    fn position(&self, of: &VertexSelection, is: DVec3, tolerance: f64) -> Result<(), String> {
+    fn position(&self, of: &VertexSelection, is: DVec3, tolerance: f64) -> Result<(), Failure> {
         let (object, mesh) = self.one_mesh()?;
         let chosen = selected(of, object, mesh, self.files)?;
         let [v] = chosen[..] else {
-            return Err(format!(
-                "expected one vertex to be selected, found {}",
-                chosen.len()
-            ));
+            let message = format!("expected one vertex to be selected, found {}", chosen.len());
+            return Err(message.into());
         };
         let found = mesh.position(v);
         fails_unless(found.distance(is) <= tolerance, || {
@@ -775,7 +806,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    fn point(&self, line: u32, index: u32, is: DVec3, tolerance: f64) -> Result<(), String> {
+    fn point(&self, line: u32, index: u32, is: DVec3, tolerance: f64) -> Result<(), Failure> {
         let objects = self.objects()?;
         let lines: Vec<&Vec<Vec<DVec3>>> = objects
             .iter()
@@ -789,12 +820,12 @@ impl<'a> Subject<'a> {
             .collect();
         let [lines] = lines[..] else {
             let n = lines.len();
-            return Err(format!(
-                "this expectation is about one object of polylines, found {n}"
-            ));
+            let message = format!("this expectation is about one object of polylines, found {n}");
+            return Err(message.into());
         };
         let Some(&found) = lines.get(line as usize).and_then(|l| l.get(index as usize)) else {
-            return Err(format!("there is no point {index} on a polyline {line}"));
+            let message = format!("there is no point {index} on a polyline {line}");
+            return Err(Failure::Unmet(message));
         };
         fails_unless(found.distance(is) <= tolerance, || {
             format!("expected point {index} of polyline {line} at {is}, found it at {found}")
@@ -802,8 +833,12 @@ impl<'a> Subject<'a> {
     }
 }
 
-fn fails_unless(holds: bool, message: impl FnOnce() -> String) -> Result<(), String> {
-    if holds { Ok(()) } else { Err(message()) }
+fn fails_unless(holds: bool, message: impl FnOnce() -> String) -> Result<(), Failure> {
+    if holds {
+        Ok(())
+    } else {
+        Err(Failure::Unmet(message()))
+    }
 }
 
 fn within<T: PartialOrd + fmt::Display + Copy>(
@@ -812,14 +847,16 @@ fn within<T: PartialOrd + fmt::Display + Copy>(
     eq: Option<T>,
     min: Option<T>,
     max: Option<T>,
-) -> Result<(), String> {
+) -> Result<(), Failure> {
     let bounds = [
         ("", eq, eq.is_none_or(|n| found == n)),
         ("at least ", min, min.is_none_or(|n| found >= n)),
         ("at most ", max, max.is_none_or(|n| found <= n)),
     ];
     match bounds.into_iter().find(|(_, _, holds)| !holds) {
-        Some((word, Some(n), _)) => Err(format!("expected {word}{n} {what}, found {found}")),
+        Some((word, Some(n), _)) => Err(Failure::Unmet(format!(
+            "expected {word}{n} {what}, found {found}"
+        ))),
         _ => Ok(()),
     }
 }
@@ -829,14 +866,16 @@ fn near(
     found: f64,
     [eq, min, max]: [Option<f64>; 3],
     tolerance: f64,
-) -> Result<(), String> {
+) -> Result<(), Failure> {
     let bounds = [
         ("of ", eq, eq.is_none_or(|x| (found - x).abs() <= tolerance)),
         ("of at least ", min, min.is_none_or(|x| found >= x)),
         ("of at most ", max, max.is_none_or(|x| found <= x)),
     ];
     match bounds.into_iter().find(|(_, _, holds)| !holds) {
-        Some((word, Some(x), _)) => Err(format!("expected a {what} {word}{x}, found {found}")),
+        Some((word, Some(x), _)) => Err(Failure::Unmet(format!(
+            "expected {what} {word}{x}, found {found}"
+        ))),
         _ => Ok(()),
     }
 }

@@ -1,0 +1,97 @@
+//! `info` and `convert`.
+
+use crate::folder::Folder;
+
+const SQUARE: &str = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n";
+
+#[test]
+fn the_facts_of_a_mesh_are_shown() {
+    let folder = Folder::new().with("square.obj", SQUARE);
+    folder.run("info square.obj").with_code(0).prints(&[
+        "square: mesh\n",
+        "vertices           4\n",
+        "edges              4\n",
+        "faces              1 (1 of 4 corners)\n",
+        "closed             no, 1 boundary loop",
+        "area               2\n",
+        "bounds             [0, 0, 0] to [2, 1, 0]\n",
+    ]);
+    let json = folder
+        .run("info square.obj --format json")
+        .with_code(0)
+        .json();
+    assert_eq!(json["objects"][0]["name"], "square");
+    assert_eq!(json["objects"][0]["area"], 2.0);
+    assert_eq!(json["objects"][0]["bounds"][1][0], 2.0);
+}
+
+#[test]
+fn the_facts_of_curves_and_patches_are_shown() {
+    let patch = format!("1\n{}", "0 0 0\n".repeat(16));
+    let folder = Folder::new()
+        .with("a.bzc", "3\n0 0\n1 1\n2 0\n")
+        .with("b.bez", patch);
+    folder
+        .run("info a.bzc")
+        .with_code(0)
+        .prints(&["a: curve\n", "control points     3\n"]);
+    folder
+        .run("info b.bez")
+        .with_code(0)
+        .prints(&["b: patches\n", "patches            1\n"]);
+}
+
+#[test]
+fn what_a_file_holds_beside_its_mesh_is_noted() {
+    let folder = Folder::new().with("a.obj", format!("{SQUARE}f 1 2 2\n"));
+    let ended = folder.run("info a.obj").with_code(0);
+    assert!(ended.stdout.contains("note: "), "{ended:#?}");
+}
+
+#[test]
+fn a_mesh_is_the_same_in_another_format() {
+    let folder = Folder::new().with("square.obj", SQUARE);
+    let converted = folder.run("convert square.obj b/new.obj");
+    // Folders are the user's to make.
+    if converted.code == Some(0) {
+        folder.read("b/new.obj");
+    } else {
+        assert!(converted.stderr.contains("b/new.obj"), "{converted:#?}");
+    }
+    folder
+        .run("convert square.obj square.glb")
+        .with_code(0)
+        .prints(&["wrote square.glb\n"]);
+    folder.run("convert square.glb back.obj").with_code(0);
+    let facts = folder.run("info back.obj --format json").json();
+    assert_eq!(facts["objects"][0]["area"], 2.0);
+    assert_eq!(facts["objects"][0]["bounds"][1][1], 1.0);
+}
+
+#[test]
+fn what_cannot_be_converted_leaves_no_file() {
+    let folder = Folder::new()
+        .with("square.obj", SQUARE)
+        .with("curve.bzc", "2\n0 0\n1 1\n")
+        .with("bad.obj", "f 1 2 3\n")
+        .with("old.obj", "old");
+    for (arguments, message) in [
+        (
+            "square.obj new.xyz",
+            "new.xyz: expected a file name that ends in one of ",
+        ),
+        ("curve.bzc new.obj", "new.obj"),
+        ("bad.obj old.obj", "bad.obj:1:"),
+        ("none.obj new.obj", "none.obj: "),
+        ("square.obj bad.obj/new.obj", "bad.obj/new.obj"),
+    ] {
+        let ended = folder.run(&format!("convert {arguments}")).with_code(1);
+        assert!(ended.stderr.starts_with("error: "), "{ended:#?}");
+        assert!(ended.stderr.contains(message), "{ended:#?}");
+    }
+    assert_eq!(
+        folder.entries("."),
+        ["bad.obj", "curve.bzc", "old.obj", "square.obj"]
+    );
+    assert_eq!(folder.read("old.obj"), b"old");
+}

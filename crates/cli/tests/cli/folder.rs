@@ -1,0 +1,138 @@
+//! A temporary folder to run the program in.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+/// The program that is tested.
+pub(crate) const PROGRAM: &str = env!("CARGO_BIN_EXE_meshwright");
+
+/// A folder that is gone after the test.
+pub(crate) struct Folder(TempDir);
+
+/// How the program ended.
+#[derive(Debug)]
+pub(crate) struct Ended {
+    pub(crate) code: Option<i32>,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+impl Folder {
+    pub(crate) fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    /// A folder with one recipe, `recipe.ron`.
+    pub(crate) fn with_recipe(text: &str) -> Self {
+        Self::new().with("recipe.ron", text)
+    }
+
+    /// The same with another file.
+    pub(crate) fn with(self, path: &str, content: impl AsRef<[u8]>) -> Self {
+        let path = self.path(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+        self
+    }
+
+    pub(crate) fn path(&self, path: &str) -> PathBuf {
+        self.0.path().join(path)
+    }
+
+    pub(crate) fn read(&self, path: &str) -> Vec<u8> {
+        fs::read(self.path(path)).unwrap()
+    }
+
+    /// The names of everything in a folder, hidden files too; nothing if there is no such folder.
+    pub(crate) fn entries(&self, path: &str) -> Vec<String> {
+        names(&self.path(path))
+    }
+
+    /// Runs the program with these arguments, separated by blanks.
+    pub(crate) fn run(&self, arguments: &str) -> Ended {
+        self.run_all(&arguments.split_whitespace().collect::<Vec<_>>())
+    }
+
+    pub(crate) fn run_all(&self, arguments: &[&str]) -> Ended {
+        self.command(PROGRAM, arguments)
+    }
+
+    /// Runs commands of the shell; `"$0"` is the program.
+    #[cfg(unix)]
+    pub(crate) fn shell(&self, commands: &str) -> Ended {
+        self.command("sh", &["-c", commands, PROGRAM])
+    }
+
+    fn command(&self, program: &str, arguments: &[&str]) -> Ended {
+        let output = Command::new(program)
+            .args(arguments)
+            .current_dir(self.0.path())
+            .output()
+            .unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        Ended {
+            code: output.status.code(),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+}
+
+pub(crate) fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .into_iter()
+        .flatten()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+impl Ended {
+    /// Asks for an exit code.
+    #[track_caller]
+    pub(crate) fn with_code(self, code: i32) -> Self {
+        assert_eq!(self.code, Some(code), "{self:#?}");
+        self
+    }
+
+    /// Asks for texts in the standard output, in this order.
+    #[track_caller]
+    pub(crate) fn prints(self, texts: &[&str]) -> Self {
+        assert_contains(&self.stdout, texts);
+        self
+    }
+
+    /// Asks for texts in the standard error, in this order.
+    #[track_caller]
+    pub(crate) fn complains(self, texts: &[&str]) -> Self {
+        assert_contains(&self.stderr, texts);
+        self
+    }
+
+    #[track_caller]
+    pub(crate) fn json(&self) -> serde_json::Value {
+        serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {self:#?}"))
+    }
+
+    /// The digest that a run prints.
+    #[track_caller]
+    pub(crate) fn digest(&self) -> &str {
+        let line = self.stdout.lines().find_map(|l| l.strip_prefix("digest "));
+        line.unwrap_or_else(|| panic!("no digest: {self:#?}"))
+    }
+}
+
+#[track_caller]
+fn assert_contains(text: &str, wanted: &[&str]) {
+    let mut rest = text;
+    for part in wanted {
+        let Some(at) = rest.find(part) else {
+            panic!("expected `{part}` in this order in:\n{text}");
+        };
+        rest = &rest[at + part.len()..];
+    }
+}

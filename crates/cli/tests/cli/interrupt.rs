@@ -1,0 +1,67 @@
+//! Ctrl-C.
+#![cfg(unix)]
+
+use std::io::Read;
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use crate::folder::{Folder, PROGRAM, names};
+
+/// Interrupts a run that would take long, some time after it began to work.
+#[track_caller]
+fn interrupted_after(wait: Duration) {
+    let folder = Folder::with_recipe(
+        r#"(recipe: 1, steps: [
+            Torus(name: "a", around: 8, across: 6),
+            Triangulate,
+            Save(path: "first.obj"),
+            LoopSubdivide(levels: 9),
+            Save(path: "last.obj"),
+        ])"#,
+    );
+    let mut child = Command::new(PROGRAM)
+        .args(["run", "recipe.ron"])
+        .current_dir(folder.path("."))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The folder where outputs wait is made when the run begins.
+    let out = folder.path("out");
+    let begin = Instant::now();
+    while names(&out).is_empty() && begin.elapsed() < Duration::from_secs(30) {
+        sleep(Duration::from_millis(5));
+    }
+    sleep(wait);
+    assert_eq!(child.try_wait().unwrap(), None, "the run was too short");
+
+    let signal = Instant::now();
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(kill.unwrap().success());
+    let mut stderr = String::new();
+    let mut pipe = child.stderr.take().unwrap();
+    pipe.read_to_string(&mut stderr).unwrap();
+    let status = child.wait().unwrap();
+
+    assert_eq!(stderr, "interrupted, nothing was written\n");
+    assert_eq!(status.code(), Some(1));
+    assert!(
+        signal.elapsed() < Duration::from_secs(10),
+        "{:?}",
+        signal.elapsed()
+    );
+    assert_eq!(names(&out), [""; 0]);
+}
+
+#[test]
+fn an_interrupted_run_ends_soon_and_leaves_nothing() {
+    interrupted_after(Duration::from_millis(300));
+}
+
+#[test]
+fn a_run_can_be_interrupted_at_once() {
+    interrupted_after(Duration::ZERO);
+}

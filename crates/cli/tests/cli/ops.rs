@@ -1,0 +1,98 @@
+//! `ops` and `schema`.
+
+use crate::folder::Folder;
+
+#[test]
+fn operations_are_listed_with_what_they_do() {
+    let listed = Folder::new().run("ops").with_code(0);
+    for entry in ops_all::registry().entries() {
+        let line = format!("{:<20} {}\n", entry.name, entry.summary);
+        assert!(listed.stdout.contains(&line), "{line}");
+    }
+    let n = ops_all::registry().entries().len();
+    assert_eq!(listed.stdout.lines().count(), n);
+}
+
+#[test]
+fn one_operation_is_shown_with_its_parameters() {
+    Folder::new().run("ops SplitEdges").with_code(0).prints(&[
+        "SplitEdges (version 1): ",
+        "Parameters:\n",
+        "  edges: EdgeSelection",
+        "Between(.., ..)",
+        "  at: number from 0.0 to 1.0 = 0.5\n",
+        "  on_refusal: ",
+        "Takes `on: [\"name\", ..]`",
+    ]);
+}
+
+#[test]
+fn every_operation_can_be_shown() {
+    let folder = Folder::new();
+    for entry in ops_all::registry().entries() {
+        let shown = folder.run(&format!("ops {}", entry.name)).with_code(0);
+        assert!(shown.stdout.starts_with(entry.name), "{shown:#?}");
+    }
+}
+
+#[test]
+fn an_unknown_operation_gets_a_suggestion() {
+    let ended = Folder::new().run("ops SplitEdge").with_code(1);
+    assert_eq!(
+        ended.stderr,
+        "error: there is no operation `SplitEdge`: did you mean `SplitEdges`?\n"
+    );
+}
+
+#[test]
+fn the_reference_has_a_chapter_for_each_operation() {
+    let reference = Folder::new().run("ops --markdown").with_code(0).stdout;
+    for entry in ops_all::registry().entries() {
+        assert!(reference.contains(&format!("\n## {}\n", entry.name)));
+    }
+}
+
+#[test]
+fn the_schema_is_json_and_knows_every_operation() {
+    let schema = Folder::new().run("schema").with_code(0).json();
+    assert_eq!(schema["title"], "Meshwright recipe");
+    for entry in ops_all::registry().entries() {
+        assert!(schema["$defs"].get(entry.name).is_some(), "{}", entry.name);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    let folder = Folder::new();
+    let first = folder.shell("\"$0\" ops | head -1").with_code(0);
+    assert_eq!(first.stdout.lines().count(), 1);
+    assert_eq!(first.stderr, "");
+    // Here the reader is gone before the first byte.
+    for command in ["ops", "ops --markdown", "schema"] {
+        let gone = folder.shell(&format!(
+            "{{ sleep 0.3; \"$0\" {command}; echo \"exit code $?\" >&2; }} | true"
+        ));
+        assert_eq!(gone.stderr, "exit code 0\n", "{command}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn an_error_that_nobody_reads_is_still_exit_code_1() {
+    let folder = Folder::with_recipe("(recipe: 1, steps: [Cubee])");
+    for command in ["run none.ron", "run recipe.ron", "ops Cubee"] {
+        folder.shell(&format!(
+            "{{ sleep 0.3; \"$0\" {command}; echo $? > code; }} 2>&1 | true"
+        ));
+        // The pipe does not wait for its left side.
+        let code = (0..100).find_map(|_| {
+            std::thread::sleep(std::time::Duration::from_millis(50));
+            std::fs::read(folder.path("code"))
+                .ok()
+                .filter(|c| !c.is_empty())
+        });
+        assert_eq!(code.as_deref(), Some(&b"1\n"[..]), "{command}");
+        std::fs::remove_file(folder.path("code")).unwrap();
+    }
+}

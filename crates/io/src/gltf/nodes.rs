@@ -1,0 +1,142 @@
+//! The nodes of a glTF scene: which meshes stand where, under which names.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{DAffine3, DMat4, DQuat, DVec3};
+use gltf_json::Node;
+
+use super::JsonError;
+use super::document::{Document, get};
+use crate::note::Notes;
+
+/// A node with a mesh.
+pub(super) struct Placed {
+    node: usize,
+    pub(super) mesh: usize,
+    pub(super) to_scene: DAffine3,
+}
+
+impl Placed {
+    pub(super) fn name<'a>(&self, document: &'a Document, otherwise: &'a str) -> &'a str {
+        let node = document.nodes[self.node].name.as_deref();
+        let mesh = document.meshes[self.mesh].name.as_deref();
+        [node, mesh]
+            .into_iter()
+            .flatten()
+            .find(|name| !name.is_empty())
+            .unwrap_or(otherwise)
+    }
+}
+
+/// The nodes of the scene that have a mesh, parents before children, in the order of the file.
+pub(super) fn placed_meshes(document: &Document) -> Result<Vec<Placed>, JsonError> {
+    let mut seen = vec![false; document.nodes.len()];
+    let mut placed = Vec::new();
+    // A stack of our own: a chain of nodes may be as long as the file.
+    let mut open: Vec<(usize, DAffine3)> = Vec::new();
+    for &root in document.roots.iter().rev() {
+        open.push((root, DAffine3::IDENTITY));
+    }
+    while let Some((i, above)) = open.pop() {
+        let node = get(&document.nodes, i, || "/scenes".to_owned(), "node")?;
+        let here = format!("/nodes/{i}");
+        if std::mem::replace(&mut seen[i], true) {
+            return Err(JsonError::new(
+                here,
+                "the node is in the scene twice, or below itself",
+            ));
+        }
+        let to_scene = above * placement(node, &here)?;
+        if !to_scene.is_finite() {
+            return Err(JsonError::new(
+                here,
+                "the placement of the node is not finite",
+            ));
+        }
+        if let Some(mesh) = node.mesh {
+            get(
+                &document.meshes,
+                mesh.value(),
+                || format!("{here}/mesh"),
+                "mesh",
+            )?;
+            placed.push(Placed {
+                node: i,
+                mesh: mesh.value(),
+                to_scene,
+            });
+        }
+        for (k, child) in node
+            .children
+            .as_deref()
+            .unwrap_or(&[])
+            .iter()
+            .enumerate()
+            .rev()
+        {
+            let pointer = || format!("{here}/children/{k}");
+            get(&document.nodes, child.value(), pointer, "node")?;
+            open.push((child.value(), to_scene));
+        }
+    }
+    Ok(placed)
+}
+
+fn placement(node: &Node, here: &str) -> Result<DAffine3, JsonError> {
+    if let Some(matrix) = node.matrix {
+        let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
+        if matrix.row(3).to_array().map(f64::to_bits) != [0.0, 0.0, 0.0, 1.0].map(f64::to_bits) {
+            return Err(JsonError::new(
+                format!("{here}/matrix"),
+                "expected 0, 0, 0, 1 as the last row",
+            ));
+        }
+        return Ok(DAffine3::from_mat4(matrix));
+    }
+    let scale = node
+        .scale
+        .map_or(DVec3::ONE, |scale| DVec3::from_array(scale.map(f64::from)));
+    let translation = node.translation.unwrap_or_default().map(f64::from);
+    let rotation = node.rotation.unwrap_or_default().0.map(f64::from);
+    let rotation = DQuat::from_array(rotation);
+    // Written with 32 bits, its length is only nearly 1.
+    let length = rotation.length();
+    if length == 0.0 || !length.is_finite() {
+        return Err(JsonError::new(
+            format!("{here}/rotation"),
+            "expected a unit quaternion",
+        ));
+    }
+    let rotation = DQuat::from_array(rotation.to_array().map(|x| x / length));
+    Ok(DAffine3::from_scale_rotation_translation(
+        scale,
+        rotation,
+        DVec3::from_array(translation),
+    ))
+}
+
+/// Makes names different from each other.
+#[derive(Default)]
+pub(super) struct Names {
+    taken: BTreeSet<String>,
+    /// The number that was last put behind a name.
+    last: BTreeMap<String, usize>,
+}
+
+impl Names {
+    pub(super) fn unique(&mut self, name: &str, notes: &mut Notes) -> String {
+        let mut new = name.to_owned();
+        while !self.taken.insert(new.clone()) {
+            let last = self.last.entry(name.to_owned()).or_insert(1);
+            *last += 1;
+            new = format!("{name}.{last}");
+        }
+        let renamed = usize::from(new != name);
+        notes.changed(
+            renamed,
+            None,
+            format!("node named `{name}` is now called `{new}`: the name is taken"),
+        );
+        new
+    }
+}

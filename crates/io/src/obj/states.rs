@@ -1,0 +1,194 @@
+//! What the statements of an OBJ file say of its faces: groups, objects, materials, smoothing.
+
+use std::borrow::Cow;
+
+use mesh::{Column, Domain, FaceId, Mesh, Values};
+use scene::{Material, Object};
+
+use super::OBJECT_TAG;
+use super::file::NO_MATERIAL;
+use crate::loss::Losses;
+
+/// What the statements so far say of the faces that follow.
+#[derive(Default, PartialEq)]
+pub(super) struct State<'a> {
+    pub(super) object: Option<&'a str>,
+    pub(super) groups: Vec<&'a str>,
+    pub(super) material: Option<usize>,
+    pub(super) smoothing: i32,
+}
+
+/// The columns that groups, objects, materials and smoothing of faces come from.
+pub(super) struct FaceStates<'a> {
+    /// Tags that stand for objects: each face has exactly one of them.
+    objects: Vec<(&'a str, &'a [bool])>,
+    groups: Vec<(&'a str, &'a [bool])>,
+    materials: Option<&'a [i32]>,
+    smoothing: Option<&'a [i32]>,
+    places: &'a [usize],
+}
+
+impl<'a> FaceStates<'a> {
+    pub(super) fn new(
+        mesh: &'a Mesh,
+        places: &'a [usize],
+        several: bool,
+        losses: &mut Losses,
+    ) -> Self {
+        let mut groups = Vec::new();
+        for Column { name, values, .. } in mesh.attributes().of(Domain::Face) {
+            let Values::Tag(marks) = values else { continue };
+            if !marks.contains(&true) {
+                losses.add(Domain::Face, name, 1, "no face has this tag");
+                continue;
+            }
+            groups.push((name.as_str(), marks.as_slice()));
+        }
+        let is_object = |name: &str| {
+            name.strip_prefix(OBJECT_TAG)
+                .is_some_and(|rest| !rest.is_empty() && fit_line(rest) == rest)
+        };
+        let one_object_each = |f: FaceId| {
+            let of_face = groups
+                .iter()
+                .filter(|(name, marks)| is_object(name) && marks[f.index()]);
+            of_face.count() == 1
+        };
+        // `o` can be written only if it says the whole truth; otherwise the tags are groups like any other.
+        let objects = if !several && mesh.faces().all(one_object_each) {
+            groups.extract_if(.., |(name, _)| is_object(name)).collect()
+        } else {
+            Vec::new()
+        };
+        for (name, marks) in &groups {
+            let word = one_word(name);
+            let count = marks.iter().filter(|&&is| is).count();
+            let renamed = if word == *name { 0 } else { count };
+            losses.add(
+                Domain::Face,
+                name,
+                renamed,
+                format!("the tag is written as group `{word}`"),
+            );
+        }
+        let materials = mesh.get(mesh::MATERIAL);
+        let unknown = materials
+            .into_iter()
+            .flatten()
+            .filter(|&&m| m < -1 || m >= 0 && !exists(m, places));
+        losses.add(
+            Domain::Face,
+            "material",
+            unknown.count(),
+            "the object has no such material",
+        );
+        let smoothing = mesh.get(mesh::SMOOTHING);
+        let negative = smoothing.into_iter().flatten().filter(|&&group| group < 0);
+        losses.add(
+            Domain::Face,
+            "smoothing",
+            negative.count(),
+            "OBJ has no negative groups: written as off",
+        );
+        Self {
+            objects,
+            groups,
+            materials,
+            smoothing,
+            places,
+        }
+    }
+
+    pub(super) fn of(&self, f: FaceId) -> State<'a> {
+        let f = f.index();
+        let object = self.objects.iter().find(|(_, marks)| marks[f]);
+        let groups = self.groups.iter().filter(|(_, marks)| marks[f]);
+        let material = self.materials.and_then(|m| usize::try_from(m[f]).ok());
+        State {
+            object: object.map(|(name, _)| &name[OBJECT_TAG.len()..]),
+            groups: groups.map(|(name, _)| *name).collect(),
+            material: material.and_then(|m| self.places.get(m).copied()),
+            smoothing: self.smoothing.map_or(0, |s| s[f].max(0)),
+        }
+    }
+}
+
+fn exists(material: i32, places: &[usize]) -> bool {
+    usize::try_from(material).is_ok_and(|m| m < places.len())
+}
+
+/// A name as the rest of a line: without line ends and blanks around it.
+pub(super) fn fit_line(name: &str) -> Cow<'_, str> {
+    let trimmed = name.trim_matches(|c: char| c.is_whitespace());
+    if trimmed.contains(char::is_control) || trimmed.ends_with('\\') {
+        let fitted = trimmed.trim_end_matches('\\');
+        return Cow::Owned(fitted.replace(char::is_control, "_"));
+    }
+    Cow::Borrowed(trimmed)
+}
+
+/// A name as one word of a line.
+pub(super) fn one_word(name: &str) -> Cow<'_, str> {
+    let blank = |c: char| c.is_whitespace() || c.is_control();
+    if name.is_empty() || name.contains(blank) || name.starts_with('#') || name.ends_with('\\') {
+        let word = name.replace(blank, "_");
+        let word = word.trim_start_matches('#').trim_end_matches('\\');
+        return Cow::Owned(if word.is_empty() {
+            "unnamed".to_owned()
+        } else {
+            word.to_owned()
+        });
+    }
+    Cow::Borrowed(name)
+}
+
+/// The materials of all objects. Their names are different and fit a line.
+#[derive(Default)]
+pub(super) struct Library {
+    pub(super) materials: Vec<Material>,
+    /// For each object, for each of its materials, its place in `materials`.
+    pub(super) places: Vec<Vec<usize>>,
+}
+
+impl Library {
+    pub(super) fn add(&mut self, object: &Object, losses: &mut Losses) {
+        let places = object
+            .materials
+            .iter()
+            .map(|material| self.place(material, losses))
+            .collect();
+        self.places.push(places);
+    }
+
+    /// Objects share a material if all of it is the same; a second one of a name gets another name.
+    fn place(&mut self, material: &Material, losses: &mut Losses) -> usize {
+        let mut base = fit_line(&material.name).into_owned();
+        if base.is_empty() || base.as_bytes() == NO_MATERIAL {
+            "unnamed".clone_into(&mut base);
+        }
+        let mut new = Material {
+            name: base.clone(),
+            ..material.clone()
+        };
+        for suffix in 2.. {
+            match self
+                .materials
+                .iter()
+                .position(|known| known.name == new.name)
+            {
+                None => break,
+                Some(place) if self.materials[place] == new => return place,
+                Some(_) => new.name = format!("{base}_{suffix}"),
+            }
+        }
+        let renamed = usize::from(new.name != material.name);
+        losses.add(
+            None,
+            &material.name,
+            renamed,
+            format!("material is written as `{}`", new.name),
+        );
+        self.materials.push(new);
+        self.materials.len() - 1
+    }
+}

@@ -1,0 +1,380 @@
+//! Broken glTF files: each is refused with the place, and none brings the reader down.
+
+use mesh_io::{ReadError, ReadOptions};
+use proptest::prelude::*;
+use scene::Object;
+use serde_json::{Value, json};
+
+use crate::gltf_read::{SQUARE, document, floats, read_json, square};
+use crate::gltf_written::sphere;
+use crate::{Folder, read, write};
+
+const FOUR_BILLION: u32 = 4_000_000_000;
+
+/// A change of one place of a good document, and the pointer and words of the error.
+fn assert_refused(change: &str, to: Value, pointer: &str, words: &str) {
+    let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
+    let place = json.pointer_mut(change);
+    if let Some(place) = place {
+        *place = to;
+    } else {
+        let (parent, key) = change.rsplit_once('/').unwrap();
+        json.pointer_mut(parent).unwrap()[key] = to;
+    }
+    match read_json(&json) {
+        Err(ReadError::Json {
+            pointer: found,
+            message,
+            ..
+        }) => {
+            assert_eq!(found, pointer, "{change}: {message}");
+            assert!(message.contains(words), "{change}: {message}");
+        }
+        other => panic!("{change}: {other:?}"),
+    }
+}
+
+#[test]
+fn broken_nodes_and_scenes_are_refused_at_the_pointer() {
+    for (change, to, pointer, words) in [
+        ("/asset", json!({}), "/asset/version", "found nothing"),
+        ("/asset/version", json!("1.0"), "/asset/version", "1.0"),
+        (
+            "/asset/minVersion",
+            json!("2.1"),
+            "/asset/minVersion",
+            "2.1",
+        ),
+        (
+            "/extensionsRequired",
+            json!(["KHR_draco_mesh_compression"]),
+            "/extensionsRequired/0",
+            "KHR_draco",
+        ),
+        ("/scene", json!(3), "/scene", "scene 3, but there are 1"),
+        ("/scenes/0/nodes/0", json!(7), "/scenes", "node 7"),
+        (
+            "/scenes/0/nodes/0",
+            json!(-1),
+            "/scenes/0/nodes/0",
+            "expected an index",
+        ),
+        (
+            "/nodes/0/mesh",
+            json!(1),
+            "/nodes/0/mesh",
+            "mesh 1, but there are 1",
+        ),
+        (
+            "/nodes/0/children",
+            json!([0]),
+            "/nodes/0",
+            "twice, or below itself",
+        ),
+        (
+            "/nodes/0/children",
+            json!([5]),
+            "/nodes/0/children/0",
+            "node 5",
+        ),
+        (
+            "/nodes/0/rotation",
+            json!([0, 0, 0, 0]),
+            "/nodes/0/rotation",
+            "unit",
+        ),
+        (
+            "/nodes/0/matrix",
+            json!(vec![0; 16]),
+            "/nodes/0/matrix",
+            "last row",
+        ),
+        ("/nodes/0/scale", json!([1, 1]), "/nodes/0", "length 2"),
+    ] {
+        assert_refused(change, to, pointer, words);
+    }
+}
+
+#[test]
+fn broken_primitives_and_accessors_are_refused_at_the_pointer() {
+    for (change, to, pointer, words) in [
+        ("/meshes", json!({}), "/meshes", "expected a list"),
+        (
+            "/meshes/0/primitives/0/mode",
+            json!(9),
+            "/meshes/0/primitives/0/mode",
+            "0 to 6",
+        ),
+        (
+            "/meshes/0/primitives/0/indices",
+            json!(9),
+            "/meshes/0/primitives/0/indices",
+            "accessor 9",
+        ),
+        (
+            "/meshes/0/primitives/0/indices",
+            json!(0),
+            "/accessors/0/type",
+            "expected SCALAR",
+        ),
+        (
+            "/meshes/0/primitives/0/material",
+            json!(0),
+            "/meshes/0/primitives/0/material",
+            "material 0",
+        ),
+        (
+            "/meshes/0/primitives/0/attributes/POSITION",
+            json!(1),
+            "/accessors/1/type",
+            "expected VEC3",
+        ),
+        (
+            "/meshes/0/primitives/0/attributes/NORMAL",
+            json!(2),
+            "/meshes/0/primitives/0/attributes/NORMAL",
+            "accessor 2",
+        ),
+        (
+            "/accessors/0/count",
+            json!(FOUR_BILLION),
+            "/accessors/0/count",
+            "do not fit",
+        ),
+        (
+            "/accessors/0/count",
+            json!(u64::MAX),
+            "/accessors/0/count",
+            "do not fit",
+        ),
+        (
+            "/accessors/0/count",
+            json!(3),
+            "/meshes/0/primitives/0/indices",
+            "refers to vertex 3",
+        ),
+        (
+            "/accessors/1/count",
+            json!(5),
+            "/meshes/0/primitives/0",
+            "multiple of 3",
+        ),
+        (
+            "/accessors/0/byteOffset",
+            json!(u64::MAX),
+            "/accessors/0/count",
+            "do not fit",
+        ),
+        (
+            "/accessors/0/componentType",
+            json!(1),
+            "/accessors/0/componentType",
+            "5120",
+        ),
+        (
+            "/accessors/1/componentType",
+            json!(5126),
+            "/accessors/1/componentType",
+            "unsigned",
+        ),
+        (
+            "/accessors/0/bufferView",
+            json!(4),
+            "/accessors/0/bufferView",
+            "buffer view 4",
+        ),
+        (
+            "/accessors/0",
+            json!({ "componentType": 5126, "count": 4_000_000_000_u32, "type": "VEC3" }),
+            "/accessors/0/count",
+            "no buffer view",
+        ),
+        ("/accessors/0/type", json!(3), "/accessors/0", "expected"),
+    ] {
+        assert_refused(change, to, pointer, words);
+    }
+}
+
+#[test]
+fn broken_buffers_and_uris_are_refused_at_the_pointer() {
+    for (change, to, pointer, words) in [
+        (
+            "/bufferViews/0/buffer",
+            json!(1),
+            "/bufferViews/0/buffer",
+            "buffer 1",
+        ),
+        (
+            "/bufferViews/0/byteLength",
+            json!(FOUR_BILLION),
+            "/bufferViews/0/byteLength",
+            "buffer 0 has 60",
+        ),
+        (
+            "/bufferViews/0/byteOffset",
+            json!(u64::MAX),
+            "/bufferViews/0/byteLength",
+            "buffer 0 has 60",
+        ),
+        (
+            "/bufferViews/0/byteStride",
+            json!(4),
+            "/bufferViews/0/byteStride",
+            "at least 12",
+        ),
+        (
+            "/buffers/0/byteLength",
+            json!(FOUR_BILLION),
+            "/buffers/0/byteLength",
+            "but has 60",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("data:;base64,A"),
+            "/buffers/0/uri",
+            "base64",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("data:,abc"),
+            "/buffers/0/uri",
+            "base64",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("no.bin"),
+            "/buffers/0/uri",
+            "cannot read \"no.bin\"",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("../a.bin"),
+            "/buffers/0/uri",
+            "\"../a.bin\" leads out",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("file:///etc/passwd"),
+            "/buffers/0/uri",
+            "scheme",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("http://a/b"),
+            "/buffers/0/uri",
+            "scheme",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("/etc/passwd"),
+            "/buffers/0/uri",
+            "absolute",
+        ),
+        (
+            "/buffers/0/uri",
+            json!("%2e%2e/a.bin"),
+            "/buffers/0/uri",
+            "percent",
+        ),
+    ] {
+        assert_refused(change, to, pointer, words);
+    }
+}
+
+#[test]
+fn numbers_that_are_not_finite_are_refused() {
+    let mut positions = SQUARE;
+    positions[4] = f32::NAN;
+    let accessors = json!([{ "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3" }]);
+    let json = document(
+        &floats(&positions),
+        &accessors,
+        &json!([{ "attributes": { "POSITION": 0 }, "mode": 6 }]),
+    );
+    let error = read_json(&json).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("/accessors/0: element 1 is not a finite number"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_long_chain_of_nodes_overflows_no_stack() {
+    let mut json = square(&[0, 1, 2], 4);
+    let n = 100_000;
+    let chain = (0..n).map(|i| {
+        if i + 1 < n {
+            json!({ "children": [i + 1] })
+        } else {
+            json!({ "mesh": 0 })
+        }
+    });
+    json["nodes"] = chain.collect();
+    assert_eq!(read_json(&json).unwrap().objects.len(), 1);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn any_bytes_are_read_or_refused(bytes: Vec<u8>) {
+        let folder = Folder::new();
+        for (name, head) in [("a.gltf", &b""[..]), ("a.glb", b""), ("b.glb", b"glTF\x02\0\0\0")] {
+            let path = folder.with(name, [head, &bytes].concat());
+            let _ = read(&path);
+            let _ = mesh_io::peek(&path, &ReadOptions::default());
+        }
+        for name in ["a.obj", "a.bez", "a.bzc"] {
+            let path = folder.with(name, &bytes);
+            let _ = read(&path);
+            let _ = mesh_io::peek(&path, &ReadOptions::default());
+        }
+    }
+
+    #[test]
+    fn a_file_with_changed_bytes_is_read_or_refused(
+        changes in prop::collection::vec((0..1_000_000_usize, any::<u8>()), 1..6),
+    ) {
+        let folder = Folder::new();
+        let path = folder.path("a.glb");
+        write(&path, [Object::mesh("ball", sphere())]);
+        let mut bytes = std::fs::read(&path).unwrap();
+        for (at, byte) in changes {
+            let at = at % bytes.len();
+            bytes[at] = byte;
+        }
+        std::fs::write(&path, bytes).unwrap();
+        let _ = read(&path);
+        let _ = mesh_io::peek(&path, &ReadOptions::default());
+    }
+
+    #[test]
+    fn a_document_with_changed_numbers_is_read_or_refused(
+        which in 0..200_usize,
+        number in prop_oneof![0..8_u64, Just(u64::MAX), Just(1 << 32), any::<u64>()],
+    ) {
+        fn numbers<'a>(value: &'a mut Value, found: &mut Vec<&'a mut Value>) {
+            match value {
+                Value::Number(_) => found.push(value),
+                Value::Array(values) => values.iter_mut().for_each(|v| numbers(v, found)),
+                Value::Object(values) => values.values_mut().for_each(|v| numbers(v, found)),
+                _ => {}
+            }
+        }
+        let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
+        json["accessors"][0]["sparse"] = json!({
+            "count": 1,
+            "indices": { "bufferView": 0, "byteOffset": 48, "componentType": 5123 },
+            "values": { "bufferView": 0, "byteOffset": 0 },
+        });
+        {
+            let mut found = Vec::new();
+            numbers(&mut json, &mut found);
+            let n = found.len();
+            *found[which % n] = json!(number);
+        }
+        let _ = read_json(&json);
+    }
+}

@@ -1,0 +1,282 @@
+//! glTF files made by hand: what the reader makes of them.
+
+use glam::{DVec2, DVec3, DVec4};
+use mesh::{Mesh, UV, VERTEX_NORMAL};
+use mesh_io::ReadError;
+use serde_json::{Value, json};
+
+use crate::{Folder, polygons, read};
+
+/// A document with one node, one mesh and one buffer of these bytes.
+pub(crate) fn document(bytes: &[u8], accessors: &Value, primitives: &Value) -> Value {
+    json!({
+        "asset": { "version": "2.0" },
+        "scenes": [{ "nodes": [0] }],
+        "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": primitives }],
+        "buffers": [{ "byteLength": bytes.len(), "uri": data_uri(bytes) }],
+        "bufferViews": [{ "buffer": 0, "byteLength": bytes.len() }],
+        "accessors": accessors,
+    })
+}
+
+fn data_uri(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = "data:application/octet-stream;base64,".to_owned();
+    for three in bytes.chunks(3) {
+        let mut bits = 0;
+        for k in 0..3 {
+            bits = bits << 8 | usize::from(three.get(k).copied().unwrap_or(0));
+        }
+        for k in 0..4 {
+            let digit = char::from(DIGITS[bits >> (18 - 6 * k) & 63]);
+            text.push(if k > three.len() { '=' } else { digit });
+        }
+    }
+    text
+}
+
+pub(crate) fn floats(values: &[f32]) -> Vec<u8> {
+    values.iter().flat_map(|x| x.to_le_bytes()).collect()
+}
+
+/// Four corners of a square, counter-clockwise.
+pub(crate) const SQUARE: [f32; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0];
+
+/// The square with indices behind it, drawn in a mode.
+pub(crate) fn square(indices: &[u16], mode: u32) -> Value {
+    let mut bytes = floats(&SQUARE);
+    bytes.extend(indices.iter().flat_map(|i| i.to_le_bytes()));
+    let accessors = json!([
+        { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3" },
+        { "bufferView": 0, "byteOffset": 48, "componentType": 5123, "count": indices.len(), "type": "SCALAR" },
+    ]);
+    document(
+        &bytes,
+        &accessors,
+        &json!([{ "attributes": { "POSITION": 0 }, "indices": 1, "mode": mode }]),
+    )
+}
+
+pub(crate) fn read_json(json: &Value) -> Result<mesh_io::Loaded, ReadError> {
+    let folder = Folder::new();
+    read(&folder.with("a.gltf", json.to_string()))
+}
+
+fn mesh_of(json: &Value) -> Mesh {
+    let loaded = read_json(json).unwrap();
+    assert!(loaded.notes.is_empty(), "{:?}", loaded.notes);
+    loaded.objects[0].as_mesh().unwrap().as_ref().clone()
+}
+
+/// Triangles with their lowest corner first.
+fn turned(mesh: &Mesh) -> Vec<Vec<usize>> {
+    let mut faces = polygons(mesh);
+    for face in &mut faces {
+        let lowest = (0..face.len()).min_by_key(|&i| face[i]).unwrap();
+        face.rotate_left(lowest);
+    }
+    faces
+}
+
+#[test]
+fn lists_strips_and_fans_are_triangles() {
+    let two = [vec![0, 1, 2], vec![0, 2, 3]];
+    assert_eq!(turned(&mesh_of(&square(&[0, 1, 2, 0, 2, 3], 4))), two);
+    assert_eq!(turned(&mesh_of(&square(&[0, 1, 2, 3], 6))), two);
+    assert_eq!(turned(&mesh_of(&square(&[1, 2, 0, 3], 5))), two);
+    // A strip that jumps: triangles without area are left out.
+    let jumping = mesh_of(&square(&[0, 1, 2, 2, 2, 3, 0], 5));
+    assert_eq!(jumping.n_faces(), 2);
+    assert!(jumping.is_dense() && jumping.n_edges() == 5);
+}
+
+#[test]
+fn without_indices_vertices_are_taken_in_order() {
+    let mut positions = SQUARE.to_vec();
+    positions.extend_from_within(0..3);
+    positions.extend_from_within(6..9);
+    // 0 1 2, 3 0 2 in the places of new vertices, welded to the old ones.
+    let bytes = floats(&positions);
+    let accessors = json!([{ "bufferView": 0, "componentType": 5126, "count": 6, "type": "VEC3" }]);
+    let mesh = mesh_of(&document(
+        &bytes,
+        &accessors,
+        &json!([{ "attributes": { "POSITION": 0 } }]),
+    ));
+    assert_eq!(
+        (mesh.n_vertices(), mesh.n_faces(), mesh.n_edges()),
+        (4, 2, 5)
+    );
+}
+
+#[test]
+fn interleaved_normalized_and_sparse_arrays_are_read() {
+    // Position as 3 floats, color as 4 bytes, texture coordinate as 2 shorts: 20 bytes a vertex.
+    let mut bytes = Vec::new();
+    for (i, position) in SQUARE.chunks(3).enumerate() {
+        bytes.extend(floats(position));
+        bytes.extend([255, 0, 51, 255]);
+        bytes.extend(
+            [0_u16, if i == 0 { 65535 } else { 0 }]
+                .iter()
+                .flat_map(|x| x.to_le_bytes()),
+        );
+    }
+    bytes.extend([0, 1, 2, 3, 0, 0, 0, 0]);
+    bytes.extend(floats(&[0.0, 0.0, 7.0]));
+    let mut json = document(
+        &bytes,
+        &json!([
+            {
+                "bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3",
+                "sparse": {
+                    "count": 1,
+                    "indices": { "bufferView": 2, "byteOffset": 3, "componentType": 5121 },
+                    "values": { "bufferView": 2, "byteOffset": 8 },
+                },
+            },
+            { "bufferView": 1, "byteOffset": 12, "componentType": 5121, "normalized": true, "count": 4, "type": "VEC4" },
+            { "bufferView": 1, "byteOffset": 16, "componentType": 5123, "normalized": true, "count": 4, "type": "VEC2" },
+            { "componentType": 5126, "count": 4, "type": "VEC3" },
+        ]),
+        &json!([{ "attributes": { "POSITION": 0, "COLOR_0": 1, "TEXCOORD_0": 2 }, "mode": 6 }]),
+    );
+    json["bufferViews"] = json!([
+        { "buffer": 0, "byteLength": 0 },
+        { "buffer": 0, "byteLength": 80, "byteStride": 20 },
+        { "buffer": 0, "byteOffset": 80, "byteLength": 20 },
+    ]);
+    let mesh = mesh_of(&json);
+    assert_eq!(
+        mesh.position(mesh.vertices().nth(3).unwrap()),
+        DVec3::new(0.0, 0.0, 7.0)
+    );
+    assert_eq!(
+        mesh.get(mesh::COLOR).unwrap()[2],
+        DVec4::new(1.0, 0.0, 0.2, 1.0)
+    );
+    let uvs = mesh.get(UV).unwrap();
+    for h in mesh.faces().flat_map(|f| mesh.face_half_edges(f)) {
+        let v = if mesh.origin(h).index() == 0 {
+            0.0
+        } else {
+            1.0
+        };
+        assert_eq!(uvs[h.index()], DVec2::new(0.0, v));
+    }
+    // Zeros without data: all vertices fall on one.
+    json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(3);
+    let loaded = read_json(&json).unwrap();
+    assert_eq!(loaded.objects[0].as_mesh().unwrap().n_faces(), 0);
+    assert_eq!(loaded.notes[0].count, 2);
+}
+
+#[test]
+fn placements_of_nodes_are_applied_and_mirrors_turn_faces() {
+    let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
+    json["nodes"] = json!([
+        { "children": [1, 2, 3], "translation": [10, 0, 0], "name": "root" },
+        { "mesh": 0, "name": "twin", "scale": [2, 1, 1] },
+        { "mesh": 0, "name": "twin", "scale": [-1, 1, 1] },
+        { "mesh": 0, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1] },
+    ]);
+    let loaded = read_json(&json).unwrap();
+    let names: Vec<_> = loaded.objects.iter().map(|o| o.name.as_str()).collect();
+    assert_eq!(names, ["twin", "twin.2", "a"]);
+    assert_eq!(loaded.notes.len(), 1);
+    let meshes: Vec<_> = loaded
+        .objects
+        .iter()
+        .map(|o| o.as_mesh().unwrap())
+        .collect();
+    let corner = |mesh: &Mesh, v: usize| mesh.positions()[v];
+    assert_eq!(corner(meshes[0], 1), DVec3::new(12.0, 0.0, 0.0));
+    assert_eq!(corner(meshes[1], 1), DVec3::new(9.0, 0.0, 0.0));
+    assert_eq!(corner(meshes[2], 1), DVec3::new(10.0, 1.0, 5.0));
+    for mesh in meshes {
+        for f in mesh.faces() {
+            assert!(mesh.area_vector(f).z > 0.0);
+        }
+    }
+}
+
+#[test]
+fn normals_turn_with_the_node() {
+    let mut bytes = floats(&SQUARE);
+    bytes.extend(floats(&[0.0, 0.6, 0.8].repeat(4)));
+    let mut json = document(
+        &bytes,
+        &json!([
+            { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3" },
+            { "bufferView": 0, "byteOffset": 48, "componentType": 5126, "count": 4, "type": "VEC3" },
+        ]),
+        &json!([{ "attributes": { "POSITION": 0, "NORMAL": 1 }, "mode": 6 }]),
+    );
+    json["nodes"][0]["scale"] = json!([1, 0.5, 1]);
+    let mesh = mesh_of(&json);
+    let expected = DVec3::new(0.0, f64::from(0.6_f32) * 2.0, f64::from(0.8_f32)).normalize();
+    assert!((mesh.get(VERTEX_NORMAL).unwrap()[0] - expected).length() < 1e-12);
+    json["nodes"][0]["scale"] = json!([1, 0, 1]);
+    assert!(
+        read_json(&json)
+            .unwrap()
+            .notes
+            .iter()
+            .any(|note| note.what.contains("flat"))
+    );
+}
+
+#[test]
+fn what_is_left_out_is_said() {
+    let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
+    json["animations"] = json!([{ "not": "read" }]);
+    json["cameras"] = json!([{}, {}]);
+    json["skins"] = json!([{}]);
+    json["scenes"] = json!([{ "nodes": [0] }, {}]);
+    json["meshes"][0]["primitives"][0]["targets"] = json!([{ "POSITION": 0 }]);
+    json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = json!(0);
+    json["meshes"][0]["primitives"][0]["attributes"]["_TEMPERATURE"] = json!(0);
+    json["meshes"]
+        .as_array_mut()
+        .unwrap()
+        .push(json!({ "primitives": [] }));
+    json["extensionsUsed"] = json!(["KHR_lights_punctual", "KHR_mesh_quantization"]);
+    json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+    json["textures"] = json!([{ "source": 0 }, { "extensions": {} }]);
+    json["images"] = json!([{ "uri": "wood.png" }]);
+    json["materials"] = json!([
+        { "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } }, "normalTexture": { "index": 1 } },
+    ]);
+    json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    let loaded = read_json(&json).unwrap();
+    let notes: Vec<String> = loaded
+        .notes
+        .iter()
+        .map(|n| format!("{} {}", n.count, n.what))
+        .collect();
+    let expected = [
+        "extension \"KHR_lights_punctual\"",
+        "1 other scenes",
+        "1 animations",
+        "1 skins",
+        "2 cameras",
+        "1 pictures inside",
+        "1 meshes left out",
+        "1 morph targets",
+        "1 attributes TEXCOORD_1",
+        "1 attributes _TEMPERATURE",
+        "1 textures of materials",
+    ];
+    for words in expected {
+        assert!(
+            notes.iter().any(|note| note.contains(words)),
+            "{words}: {notes:#?}"
+        );
+    }
+    assert_eq!(notes.len(), expected.len(), "{notes:#?}");
+    assert_eq!(
+        loaded.objects[0].materials[0].base_color_texture.as_deref(),
+        Some("wood.png")
+    );
+}

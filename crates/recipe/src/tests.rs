@@ -1,0 +1,180 @@
+//! Recipes over a small registry of their own, from the text to the outcome.
+
+mod check;
+mod read;
+mod run;
+
+use std::path::Path;
+
+use mesh::{DVec3, Mesh, shapes};
+use op::{
+    Context, Files, MeshOperation, MeshPlan, OpError, Operation, Plan, PlanContext, Problem,
+    Refusal, Registry, Report, Select, Source, VertexSelection,
+};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::{Diagnostic, Forecast, Reading};
+
+/// Makes a sheet of squares in one row.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Sheet {
+    /// How many squares.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    columns: u32,
+    /// The name of the new object.
+    #[serde(default = "sheet")]
+    name: String,
+}
+
+fn sheet() -> String {
+    "sheet".to_owned()
+}
+
+impl Sheet {
+    fn source(&self) -> Source<'_> {
+        let n = u64::from(self.columns);
+        let counts = MeshPlan::counted(2 * n + 2, 3 * n + 1, n, op::Range::exactly(4));
+        Source::new(&self.name, counts)
+    }
+}
+
+impl Operation for Sheet {
+    const NAME: &'static str = "Sheet";
+    const SUMMARY: &'static str = "Make a sheet";
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        self.source().plan(plan)
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        self.source()
+            .insert(scene, cx, || shapes::grid(self.columns, 1))
+    }
+}
+
+/// Lifts vertices.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Lift {
+    /// How far.
+    by: f64,
+    /// Which vertices.
+    #[serde(default)]
+    vertices: VertexSelection,
+    /// For which reason to be refused after half of the work.
+    #[serde(default)]
+    fails: Option<Refusal>,
+}
+
+impl MeshOperation for Lift {
+    const NAME: &'static str = "Lift";
+    const SUMMARY: &'static str = "Lift vertices";
+
+    fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        if self.by > 1e6 {
+            vec![Problem::error("that is too high").at(["by"])]
+        } else if self.by == 0.0 {
+            vec![Problem::warning("nothing moves").at(["by"])]
+        } else {
+            Vec::new()
+        }
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        let chosen = self.vertices.resolve(mesh, cx)?;
+        for (done, &v) in chosen.iter().enumerate() {
+            cx.advance("lift", done as u64, chosen.len() as u64)?;
+            mesh.positions_mut()[mesh::Id::index(v)] += DVec3::new(0.0, 0.0, self.by);
+            if let Some(reason) = self.fails
+                && done >= chosen.len() / 2
+            {
+                return Err(OpError::refused(reason, format!("{v} refuses")));
+            }
+        }
+        Ok(Report::changed(chosen.len()))
+    }
+}
+
+/// Writes a text of the names of all objects.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Write {
+    /// The file.
+    path: String,
+}
+
+impl Operation for Write {
+    const NAME: &'static str = "Write";
+    const SUMMARY: &'static str = "Write names";
+
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        match cx.files.to_write(&self.path) {
+            Ok(path) => plan.outputs.push(path),
+            Err(error) => return vec![Problem::error(error.to_string()).at(["path"])],
+        }
+        Vec::new()
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        cx.advance("write", 0, 1)?;
+        let failed = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
+        let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|e| failed(&e))?;
+        }
+        let names: Vec<&str> = scene.objects().iter().map(|o| o.name.as_str()).collect();
+        std::fs::write(path, names.join("\n")).map_err(|e| failed(&e))?;
+        Ok(Report::changed(1))
+    }
+}
+
+fn registry() -> Registry {
+    Registry::new()
+        .with::<Sheet>()
+        .with::<Lift>()
+        .with::<Write>()
+}
+
+/// Reads a recipe that is said to lie in the working directory `/work`.
+fn read(text: &str) -> Reading {
+    read_with(text, &[])
+}
+
+fn read_with(text: &str, set: &[(&str, &str)]) -> Reading {
+    let owned = |&(name, value): &(&str, &str)| (name.to_owned(), value.to_owned());
+    let set: Vec<_> = set.iter().map(owned).collect();
+    crate::read(text, &registry(), &set, Path::new("/work"))
+}
+
+/// A recipe of these steps.
+fn steps(steps: &str) -> String {
+    format!("(recipe: 1, steps: [{steps}])")
+}
+
+fn files(reading: &Reading, output: &Path) -> Files {
+    Files {
+        output: output.into(),
+        placeholders: reading.recipe.placeholders(),
+        ..Files::default()
+    }
+}
+
+/// Checks a recipe without mistakes to be read.
+#[track_caller]
+fn checked(text: &str, budget: u64) -> Forecast {
+    let reading = read(text);
+    assert_eq!(reading.diagnostics, [], "{text}");
+    crate::check(&reading.recipe, &files(&reading, Path::new("out")), budget)
+}
+
+/// What each diagnostic points at, its message and its advice.
+fn shown<'t>(text: &'t str, diagnostics: &'t [Diagnostic]) -> Vec<(&'t str, &'t str, &'t str)> {
+    let one = |d: &'t Diagnostic| {
+        let place = d.span.map_or("nowhere", |span| span.of(text));
+        (place, d.message.as_str(), d.help.as_deref().unwrap_or(""))
+    };
+    diagnostics.iter().map(one).collect()
+}

@@ -1,0 +1,421 @@
+//! Reading: every mistake with its place.
+
+use super::{read, read_with, registry, shown, steps};
+use crate::{Severity, syntax};
+
+#[track_caller]
+fn one_problem(text: &str, place: &str, message: &str, help: &str) {
+    let reading = read(text);
+    assert_eq!(
+        shown(text, &reading.diagnostics),
+        [(place, message, help)],
+        "{text}"
+    );
+    assert!(reading.has_errors());
+}
+
+#[test]
+fn five_different_mistakes_are_five_errors_at_their_places() {
+    let text = r#"(
+        recipe: 1,
+        steps: [
+            Sheet(colums: 3, columns: 2),
+            Lfit(by: 1),
+            Lift(by: "high"),
+            Sheet(columns: 0),
+            (id: "last", run: Lift(vertices: Boundry)),
+        ],
+        expect: [Faces()],
+    )"#;
+    let reading = read(text);
+    assert_eq!(
+        shown(text, &reading.diagnostics),
+        [
+            (
+                "colums",
+                "unknown field `colums` in `Sheet`",
+                "did you mean `columns`?"
+            ),
+            ("Lfit", "unknown operation `Lfit`", "did you mean `Lift`?"),
+            (
+                "\"high\"",
+                "expected a number for `by`, found the string \"high\"",
+                "numbers stand without quotes"
+            ),
+            (
+                "0",
+                "`columns` is 0, expected at least 1",
+                "allowed: 1 to 1000000"
+            ),
+            ("Lift", "`Lift` needs `by`", "write `by:` with a number"),
+            (
+                "Boundry",
+                "unknown variant `Boundry` for `vertices`",
+                "did you mean `Boundary`?"
+            ),
+            (
+                "Faces()",
+                "it has no bound, so it can never fail",
+                "give it a bound, such as `eq`, `min` or `max`"
+            ),
+        ]
+    );
+    assert!(reading.has_errors());
+    assert_eq!(reading.recipe.steps.len(), 5);
+}
+
+#[test]
+fn a_recipe_without_mistakes_is_read_whole() {
+    let text = r#"(
+        recipe: 1,
+        about: "two sheets",
+        needs: "0.1",
+        params: { "n": Int(default: 3, min: 1, max: 9, doc: "how many") },
+        steps: [
+            Sheet(columns: arg("n")),
+            (id: "up", run: Lift(by: 1, vertices: Not(Boundary)), on: ["sheet"], note: "why"),
+        ],
+        expect: [(after: "up", on: ["sheet"], that: [Faces(eq: arg("n")), Manifold])],
+    )"#;
+    let reading = read(text);
+    assert_eq!(reading.diagnostics, []);
+    let recipe = reading.recipe;
+    assert_eq!(recipe.about.as_deref(), Some("two sheets"));
+    assert_eq!(recipe.parameters[0].literal, "3");
+    assert_eq!(recipe.steps[0].label(), "Sheet");
+    assert_eq!(recipe.steps[1].label(), "up");
+    assert_eq!(recipe.steps[1].span.of(text), "Lift");
+    assert_eq!(recipe.steps[1].on_names(), Some(vec!["sheet".to_owned()]));
+    assert_eq!(recipe.expectations.len(), 2);
+    assert!(recipe.expectations.iter().all(|e| e.after == Some(1)));
+    assert_eq!(recipe.expectations[1].span.of(text), "Manifold");
+    let step = recipe.steps[0].step.as_ref().unwrap();
+    assert_eq!(step.canonical(), "(columns:3,name:\"sheet\")");
+}
+
+#[test]
+fn a_recipe_of_another_version_is_refused_and_nothing_else_is_said_of_it() {
+    one_problem(
+        "(recipe: 2, stages: {\"new\": Things})",
+        "2",
+        "this recipe is of version 2, expected 1",
+        "a newer meshwright can read it",
+    );
+    one_problem(
+        "(recipe: 0, steps: [])",
+        "0",
+        "this recipe is of version 0, expected 1",
+        "write 1",
+    );
+}
+
+#[test]
+fn a_recipe_says_which_version_of_the_program_it_needs() {
+    let needs = |version: &str| format!("(recipe: 1, needs: \"{version}\", steps: [])");
+    for fine in ["0", "0.1", "0.1.0", "0.0.99"] {
+        assert_eq!(read(&needs(fine)).diagnostics, [], "{fine}");
+    }
+    let here = env!("CARGO_PKG_VERSION");
+    one_problem(
+        &needs("99.1"),
+        "\"99.1\"",
+        &format!("this recipe needs meshwright 99.1, and this is {here}"),
+        "",
+    );
+    one_problem(
+        &needs("newest"),
+        "\"newest\"",
+        &format!("expected a version such as \"{here}\", found \"newest\""),
+        "",
+    );
+}
+
+#[test]
+fn fields_of_the_recipe_and_of_steps_are_known() {
+    one_problem(
+        "(recipe: 1, steps: [], expct: [])",
+        "expct",
+        "unknown field `expct`",
+        "did you mean `expect`?",
+    );
+    one_problem(
+        &steps("(run: Sheet(columns: 1), nots: \"x\")"),
+        "nots",
+        "unknown field `nots`",
+        "did you mean `note`?",
+    );
+    let missing = read("(recipe: 1)");
+    assert_eq!(missing.diagnostics[0].message, "the value needs `steps`");
+}
+
+#[test]
+fn a_step_is_an_operation() {
+    one_problem(&steps("7"), "7", "expected an operation, found 7", "");
+    let reading = read(&steps("(id: \"a\")"));
+    assert_eq!(reading.diagnostics[0].message, "the value needs `run`");
+    assert_eq!(reading.recipe.steps.len(), 1);
+}
+
+#[test]
+fn a_parameter_that_is_not_declared_is_named() {
+    let text = r#"(recipe: 1, params: {"columns": Int(default: 2)},
+        steps: [Sheet(columns: arg("colums"))], expect: [Faces(eq: arg("x"))])"#;
+    assert_eq!(
+        shown(text, &read(text).diagnostics),
+        [
+            (
+                "\"colums\"",
+                "the recipe has no parameter `colums`",
+                "did you mean `columns`?"
+            ),
+            (
+                "\"x\"",
+                "the recipe has no parameter `x`",
+                "known: `columns`"
+            ),
+        ]
+    );
+}
+
+const WITH_PARAMETERS: &str = r#"(recipe: 1,
+    params: { "n": Int(default: 2, max: 9), "input": Path(default: "models/cow.obj") },
+    steps: [Sheet(columns: arg("n"), name: arg("input"))],
+    expect: [Faces(eq: arg("n"))])"#;
+
+#[test]
+fn values_that_are_set_take_the_place_of_defaults() {
+    let reading = read_with(WITH_PARAMETERS, &[("n", "7")]);
+    assert_eq!(reading.diagnostics, []);
+    let [n, input] = &reading.recipe.parameters[..] else {
+        panic!("two parameters")
+    };
+    assert_eq!((n.literal.as_str(), n.is_set), ("7", true));
+    assert!(!input.is_set);
+    let step = reading.recipe.steps[0].step.as_ref().unwrap();
+    assert_eq!(step.canonical(), "(columns:7,name:\"models/cow.obj\")");
+    assert_eq!(
+        reading.recipe.expectations[0].that.to_string(),
+        "Faces(eq:Some(7),min:None,max:None)"
+    );
+}
+
+#[test]
+fn values_that_cannot_be_set_are_errors_without_a_place() {
+    let set = [("n", "many"), ("n", "10"), ("inptu", "x")];
+    let reading = read_with(WITH_PARAMETERS, &set);
+    assert_eq!(
+        shown(WITH_PARAMETERS, &reading.diagnostics),
+        [
+            (
+                "nowhere",
+                "the value set for `n` is not allowed: expected a whole number, found `many`",
+                ""
+            ),
+            (
+                "nowhere",
+                "the value set for `n` is not allowed: 10 is above the maximum 9",
+                ""
+            ),
+            (
+                "nowhere",
+                "the recipe has no parameter `inptu`",
+                "did you mean `input`?"
+            ),
+        ]
+    );
+}
+
+#[test]
+fn a_value_that_does_not_fit_where_it_goes_says_which_parameter_brought_it() {
+    let text =
+        r#"(recipe: 1, params: {"n": Text(default: "two")}, steps: [Sheet(columns: arg("n"))])"#;
+    one_problem(
+        text,
+        "arg(\"n\")",
+        "expected a whole number for `columns`, found the string \"two\" (from parameter `n`)",
+        "numbers stand without quotes",
+    );
+}
+
+#[test]
+fn a_default_that_its_own_parameter_forbids_is_an_error() {
+    let text = r#"(recipe: 1, params: {"n": Int(default: 10, max: 9)}, steps: [])"#;
+    one_problem(
+        text,
+        "Int(default: 10, max: 9)",
+        "the default of `n` is not allowed: 10 is above the maximum 9",
+        "",
+    );
+}
+
+#[test]
+fn placeholders_are_the_parts_of_paths() {
+    let owned = |pairs: [(&str, &str); 2]| pairs.map(|(a, b)| (a.to_owned(), b.to_owned()));
+    assert_eq!(
+        read(WITH_PARAMETERS).recipe.placeholders(),
+        owned([("input.stem", "cow"), ("input.name", "cow.obj")])
+    );
+    let set = read_with(WITH_PARAMETERS, &[("input", "a/pig.old.obj")]);
+    assert_eq!(set.recipe.parameters[1].literal, "\"/work/a/pig.old.obj\"");
+    assert_eq!(
+        set.recipe.placeholders(),
+        owned([("input.stem", "pig.old"), ("input.name", "pig.old.obj")])
+    );
+}
+
+#[test]
+fn ids_are_there_once() {
+    let text = steps(
+        r#"(id: "a", run: Sheet(columns: 1)), (id: "b", run: Lift(by: 1)), (id: "a", run: Lift(by: 1))"#,
+    );
+    let reading = read(&text);
+    assert_eq!(
+        shown(&text, &reading.diagnostics),
+        [("\"a\"", "two steps have the id \"a\"", "")]
+    );
+    let last = text.rfind("\"a\"").unwrap();
+    assert_eq!(reading.diagnostics[0].span.unwrap().start, last);
+}
+
+#[test]
+fn an_expectation_after_a_step_names_its_id() {
+    let text = r#"(recipe: 1, steps: [(id: "up", run: Sheet(columns: 1))],
+        expect: [(after: "upp", that: Closed)])"#;
+    one_problem(
+        text,
+        "\"upp\"",
+        "no step has the id \"upp\"",
+        "did you mean `up`?",
+    );
+}
+
+#[test]
+fn a_step_that_could_not_be_read_keeps_its_id() {
+    let text = r#"(recipe: 1, steps: [(id: "up", run: Lift(by: arg("x")))],
+        expect: [(after: "up", that: Manifold)])"#;
+    let reading = read(text);
+    assert_eq!(reading.diagnostics.len(), 1, "{:?}", reading.diagnostics);
+    assert_eq!(reading.recipe.expectations[0].after, Some(0));
+}
+
+#[test]
+fn on_is_for_operations_that_take_it() {
+    one_problem(
+        &steps("(run: Sheet(columns: 1), on: [\"a\"])"),
+        "[\"a\"]",
+        "Sheet does not take `on`",
+        "it names its objects in parameters of its own, or makes new ones",
+    );
+}
+
+#[test]
+fn a_wrong_reason_of_refusal_is_an_error() {
+    let text = steps("Sheet(columns: 1), (run: Lift(by: 1), refused: Bondary)");
+    let reading = read(&text);
+    assert_eq!(reading.diagnostics.len(), 1, "{:?}", reading.diagnostics);
+    assert_eq!(reading.diagnostics[0].span.unwrap().of(&text), "Bondary");
+}
+
+#[test]
+fn one_slip_hides_no_mistake_in_other_steps() {
+    let text = "(recipe: 1, steps: [\n  Sheet(columns: 3,,),\n  Lfit(by: 1),\n  Lift(by: 1\n])";
+    let reading = read(text);
+    let unknown = reading
+        .diagnostics
+        .iter()
+        .any(|d| d.message == "unknown operation `Lfit`");
+    assert!(
+        unknown && reading.diagnostics.len() >= 2,
+        "{:?}",
+        reading.diagnostics
+    );
+}
+
+#[test]
+fn hostile_recipes_are_a_few_errors() {
+    let brackets = "(".repeat(10_000);
+    let closed = format!("{brackets}{}", ")".repeat(10_000));
+    let nested = steps(&format!(
+        "Lift(by: 1, vertices: {}All{})",
+        "Not(".repeat(5000),
+        ")".repeat(5000)
+    ));
+    let shallow = steps(&format!(
+        "Lift(by: 1, vertices: {}All{})",
+        "Not(".repeat(50),
+        ")".repeat(50)
+    ));
+    for text in [&brackets, &closed, &nested, "", "\0", "[[[", "recipe"] {
+        let reading = read(text);
+        assert!(reading.has_errors(), "{:.40}", text);
+        assert!(reading.diagnostics.len() < 10, "{:.40}", text);
+    }
+    assert_eq!(read(&shallow).diagnostics, []);
+}
+
+#[test]
+fn the_digest_of_a_recipe_is_that_of_what_it_does() {
+    let digest = |text: &str| read(text).recipe.digest();
+    let plain = digest(&steps("Sheet(columns: 2)"));
+    assert_eq!(
+        digest(&steps(
+            "/* two */ (run: Sheet(columns: 2, name: \"sheet\"), note: \"x\")"
+        )),
+        plain
+    );
+    assert_ne!(digest(&steps("Sheet(columns: 3)")), plain);
+}
+
+const SAMPLE: &str = r#"(
+    recipe: 1,
+    about: "a sample",
+    params: { "n": Int(default: 3, min: 1), "where": Vector(default: (0, 0, 1)) },
+    steps: [
+        Sheet(columns: 2),
+        (id: "up", run: Lift(by: 0.5, vertices: And([Boundary, Vertices([1, 2])])), on: ["sheet"]),
+        (run: Lift(by: 1), refused: Boundary),
+    ],
+    expect: [
+        Manifold,
+        Not(Closed),
+        (after: "up", that: [Faces(eq: 2), Position(of: Vertices([0]), is: (0, 0, 0))]),
+        (that: SymmetricUnder(group: AxisMirrors, min: 1)),
+    ],
+)"#;
+
+#[test]
+fn the_schema_accepts_what_is_read_without_mistakes() {
+    let schema = crate::schema(&registry());
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let json = |text: &str| syntax::to_json(&syntax::parse(text).value);
+    assert_eq!(read(SAMPLE).diagnostics, []);
+    let sample = json(SAMPLE);
+    let errors: Vec<String> = validator
+        .iter_errors(&sample)
+        .map(|e| e.to_string())
+        .collect();
+    assert!(errors.is_empty(), "{errors:#?}");
+    for (from, to) in [
+        ("recipe: 1", "recipe: 2"),
+        ("columns: 2", "colums: 2"),
+        ("Lift(by: 0.5", "Lfit(by: 0.5"),
+        ("refused: Boundary", "refused: Whim"),
+        ("Faces(eq: 2)", "Faces(equal: 2)"),
+        ("default: 3", "default: \"3\""),
+    ] {
+        assert!(SAMPLE.contains(from));
+        let wrong = SAMPLE.replace(from, to);
+        assert!(!validator.is_valid(&json(&wrong)), "{to}");
+        assert!(read(&wrong).has_errors(), "{to}");
+    }
+}
+
+#[test]
+fn a_deep_list_of_problems_is_sorted_by_place() {
+    let text = steps("Lfit(by: 1), Sheet(columns: 0), 7, Sheet(colums: 2)");
+    let reading = read(&text);
+    let places: Vec<_> = reading.diagnostics.iter().map(|d| d.span).collect();
+    assert!(places.is_sorted() && places.len() >= 4, "{places:?}");
+    let errors = |d: &crate::Diagnostic| d.severity == Severity::Error;
+    assert!(reading.diagnostics.iter().all(errors));
+}

@@ -1,0 +1,344 @@
+//! Running: all or nothing.
+
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use op::{Files, Progress};
+use tempfile::TempDir;
+
+use super::{files, read, read_with, shown, steps};
+use crate::{Listener, Outcome, Reading, Settings, Silent, StepDone, run};
+
+/// Runs a recipe that is read without mistakes.
+#[track_caller]
+fn ran(text: &str, output: &Path) -> Outcome {
+    let reading = read(text);
+    assert_eq!(reading.diagnostics, [], "{text}");
+    run_reading(&reading, output, true, &Silent)
+}
+
+fn run_reading(
+    reading: &Reading,
+    output: &Path,
+    keep_outputs: bool,
+    listener: &dyn Listener,
+) -> Outcome {
+    let files: Files = files(reading, output);
+    let forecast = crate::check(&reading.recipe, &files, u64::MAX);
+    let settings = Settings {
+        files: &files,
+        budget: u64::MAX,
+        read: &|path| Err(format!("{} is not read here", path.display())),
+        keep_outputs,
+        writes: !forecast.outputs.is_empty(),
+    };
+    run(&reading.recipe, settings, listener)
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().unwrap()
+}
+
+/// Everything in a folder, hidden files too.
+fn entries(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn steps_run_in_order_and_outputs_appear() {
+    let folder = folder();
+    let text = r#"(recipe: 1, steps: [
+            Sheet(columns: 2),
+            (id: "up", run: Lift(by: 1)),
+            Write(path: "names.txt"),
+            Write(path: "deep/er/names.txt"),
+        ], expect: [
+            Faces(eq: 2),
+            (after: "up", that: Bounds(min: (-1, -0.5, 1), max: (1, 0.5, 1))),
+        ])"#;
+    let outcome = ran(text, folder.path());
+    assert!(outcome.succeeded(), "{:?}", outcome.failures);
+    assert_eq!(outcome.checked, 2);
+    assert_eq!(
+        outcome.written,
+        ["deep/er/names.txt", "names.txt"].map(|p| folder.path().join(p))
+    );
+    assert_eq!(fs::read(&outcome.written[1]).unwrap(), b"sheet");
+    assert_eq!(entries(folder.path()), ["deep", "names.txt"]);
+    let up = &outcome.steps[1];
+    assert_eq!((up.label.as_str(), up.report.changed), ("up", 6));
+    assert_eq!((up.vertices, up.edges, up.faces), (6, 7, 2));
+    assert_eq!(outcome.digest, outcome.scene.digest());
+}
+
+#[test]
+fn outputs_can_be_thrown_away() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let reading = read(&steps("Sheet(columns: 1), Write(path: \"a.txt\")"));
+    let outcome = run_reading(&reading, &out, false, &Silent);
+    assert!(outcome.succeeded() && outcome.written.is_empty());
+    assert!(!out.exists());
+}
+
+#[test]
+fn a_step_that_is_refused_as_expected_leaves_the_scene_as_it_was() {
+    let folder = folder();
+    let plain = ran(&steps("Sheet(columns: 2)"), folder.path());
+    let outcome = ran(
+        r#"(recipe: 1, steps: [
+            Sheet(columns: 2),
+            (id: "no", run: Lift(by: 1, fails: Seam), refused: Seam),
+        ], expect: [(after: "no", that: Bounds(min: (-1, -0.5, 0), max: (1, 0.5, 0)))])"#,
+        folder.path(),
+    );
+    assert!(outcome.succeeded(), "{:?}", outcome.failures);
+    assert_eq!(outcome.steps[1].refused, Some(op::Refusal::Seam));
+    assert_eq!(
+        outcome.steps[1].report.notes,
+        ["refused as expected: v3 refuses"]
+    );
+    assert_eq!(outcome.scene, plain.scene);
+}
+
+#[test]
+fn a_step_that_is_not_refused_as_expected_fails_and_leaves_the_scene_as_it_was() {
+    let folder = folder();
+    let plain = ran(&steps("Sheet(columns: 2)"), folder.path());
+    for (lift, message) in [
+        (
+            "Lift(by: 1)",
+            "expected to be refused as Boundary, but it was done",
+        ),
+        (
+            "Lift(by: 1, fails: Seam)",
+            "expected to be refused as Boundary, but: v3 refuses",
+        ),
+    ] {
+        let text = steps(&format!(
+            "Sheet(columns: 2), (run: {lift}, refused: Boundary), Write(path: \"a.txt\")"
+        ));
+        let outcome = ran(&text, folder.path());
+        assert!(!outcome.succeeded());
+        assert_eq!(shown(&text, &outcome.failures), [("Lift", message, "")]);
+        assert_eq!(outcome.scene, plain.scene);
+        assert!(entries(folder.path()).is_empty());
+    }
+}
+
+#[test]
+fn a_failing_step_ends_the_run_and_nothing_is_written() {
+    let folder = folder();
+    let text = steps(
+        "Sheet(columns: 2), Write(path: \"a.txt\"), Lift(by: 1, fails: Pinch), Write(path: \"b.txt\")",
+    );
+    let outcome = ran(&text, folder.path());
+    assert_eq!(
+        shown(&text, &outcome.failures),
+        [("Lift", "v3 refuses", "")]
+    );
+    assert_eq!(outcome.steps.len(), 2);
+    let plain = ran(&steps("Sheet(columns: 2)"), folder.path());
+    assert_eq!(outcome.digest, plain.digest);
+    assert!(outcome.written.is_empty() && entries(folder.path()).is_empty());
+}
+
+#[test]
+fn expectations_that_do_not_hold_are_all_reported_and_nothing_is_written() {
+    let folder = folder();
+    let text = r#"(recipe: 1, steps: [
+            (id: "sheet", run: Sheet(columns: 2)), Write(path: "a.txt"),
+        ], expect: [Closed, Faces(eq: 2), (after: "sheet", that: [Vertices(eq: 5), Manifold])])"#;
+    let outcome = ran(text, folder.path());
+    assert_eq!(
+        shown(text, &outcome.failures),
+        [
+            ("Vertices(eq: 5)", "expected 5 vertices, found 6", ""),
+            (
+                "Closed",
+                "expected no boundary, but sheet has one at the edge v0-v1",
+                ""
+            ),
+        ]
+    );
+    let (label, why) = &outcome.failures[0].labels[0];
+    assert_eq!((label.of(text), why.as_str()), ("Sheet", "after this step"));
+    assert_eq!((outcome.checked, outcome.steps.len()), (4, 2));
+    assert!(entries(folder.path()).is_empty());
+}
+
+#[test]
+fn a_step_acts_on_the_objects_it_is_told_to() {
+    let folder = folder();
+    let text = r#"(recipe: 1, steps: [
+            Sheet(columns: 2), Sheet(columns: 2, name: "b"),
+            (run: Lift(by: 3), on: ["b"]),
+        ], expect: [
+            (on: ["sheet"], that: Bounds(min: (-1, -0.5, 0), max: (1, 0.5, 0))),
+            (on: ["b"], that: Bounds(min: (-1, -0.5, 3), max: (1, 0.5, 3))),
+        ])"#;
+    let outcome = ran(text, folder.path());
+    assert!(outcome.succeeded(), "{:?}", outcome.failures);
+}
+
+#[test]
+fn an_output_replaces_the_file_of_its_name_and_only_that() {
+    let folder = folder();
+    fs::write(folder.path().join("a.txt"), "old").unwrap();
+    fs::write(folder.path().join("b.txt"), "old").unwrap();
+    let outcome = ran(
+        &steps("Sheet(columns: 1), Write(path: \"a.txt\")"),
+        folder.path(),
+    );
+    assert!(outcome.succeeded());
+    assert_eq!(fs::read(folder.path().join("a.txt")).unwrap(), b"sheet");
+    assert_eq!(fs::read(folder.path().join("b.txt")).unwrap(), b"old");
+}
+
+#[test]
+fn an_output_does_not_replace_a_folder() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("b.txt")).unwrap();
+    let text = steps("Sheet(columns: 1), Write(path: \"a.txt\"), Write(path: \"b.txt\")");
+    let outcome = ran(&text, folder.path());
+    let path = folder.path().join("b.txt");
+    let message = format!(
+        "cannot write {}: there is a folder of that name",
+        path.display()
+    );
+    assert_eq!(
+        shown(&text, &outcome.failures),
+        [("nowhere", &*message, "")]
+    );
+    assert_eq!(entries(folder.path()), ["b.txt"]);
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_fails_before_any_step() {
+    let folder = folder();
+    let file = folder.path().join("file");
+    fs::write(&file, "").unwrap();
+    let text = steps("Sheet(columns: 1), Write(path: \"a.txt\")");
+    let outcome = ran(&text, &file.join("out"));
+    assert!(outcome.steps.is_empty());
+    let message = &outcome.failures[0].message;
+    assert!(
+        message.starts_with("cannot write to the output folder"),
+        "{message}"
+    );
+}
+
+#[test]
+fn placeholders_are_filled_in_when_writing() {
+    let folder = folder();
+    let text = r#"(recipe: 1, params: {"input": Path(default: "cow.obj")},
+        steps: [Sheet(columns: 1), Write(path: "{input.name}.{input.stem}")])"#;
+    let reading = read_with(text, &[("input", "a/pig.obj")]);
+    let outcome = run_reading(&reading, folder.path(), true, &Silent);
+    assert!(outcome.succeeded(), "{:?}", outcome.failures);
+    assert_eq!(entries(folder.path()), ["pig.obj.pig"]);
+}
+
+#[test]
+fn a_mesh_over_the_budget_is_not_made() {
+    let reading = read(&steps("Sheet(columns: 1000)"));
+    let files = files(&reading, Path::new("out"));
+    let settings = Settings {
+        files: &files,
+        budget: 1000,
+        read: &|_| Err(String::new()),
+        keep_outputs: true,
+        writes: false,
+    };
+    let outcome = run(&reading.recipe, settings, &Silent);
+    assert_eq!(outcome.failures.len(), 1);
+    assert!(outcome.failures[0].message.contains("the budget is 1000"));
+    assert!(outcome.scene.objects().is_empty());
+}
+
+/// Cancels at a call, and remembers what it heard.
+struct Cancel {
+    at: u64,
+    calls: AtomicU64,
+    begun: AtomicU64,
+    done: AtomicU64,
+}
+
+impl Progress for Cancel {
+    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+        self.calls.fetch_add(1, Ordering::Relaxed) + 1 < self.at
+    }
+}
+
+impl Listener for Cancel {
+    fn step_begins(&self, number: usize, _: &str) {
+        assert_eq!(number as u64, self.begun.fetch_add(1, Ordering::Relaxed));
+    }
+
+    fn step_done(&self, number: usize, _: &StepDone) {
+        assert_eq!(number as u64, self.done.fetch_add(1, Ordering::Relaxed));
+    }
+}
+
+#[test]
+fn a_run_can_be_cancelled_at_every_moment_and_nothing_is_written() {
+    let text = steps("Sheet(columns: 2), Write(path: \"a.txt\"), Lift(by: 1)");
+    let reading = read(&text);
+    let cancelled = |at| {
+        let folder = folder();
+        let listener = Cancel {
+            at,
+            calls: AtomicU64::new(0),
+            begun: AtomicU64::new(0),
+            done: AtomicU64::new(0),
+        };
+        let outcome = run_reading(&reading, folder.path(), true, &listener);
+        let [begun, done, calls] =
+            [listener.begun, listener.done, listener.calls].map(AtomicU64::into_inner);
+        (outcome, begun, done, calls, entries(folder.path()))
+    };
+    let (outcome, begun, done, calls, written) = cancelled(u64::MAX);
+    assert!(outcome.succeeded() && !outcome.cancelled);
+    assert_eq!((begun, done), (3, 3));
+    assert_eq!(written, ["a.txt"]);
+
+    for at in 1..=calls {
+        let (outcome, begun, done, heard, written) = cancelled(at);
+        assert!(outcome.cancelled && !outcome.succeeded(), "{at}");
+        // Nobody goes on after the call that says so.
+        assert_eq!(heard, at);
+        assert_eq!(begun, done + 1);
+        assert_eq!(outcome.steps.len() as u64, done);
+        assert!(outcome.failures.is_empty() && outcome.written.is_empty());
+        assert!(written.is_empty(), "{at}: {written:?}");
+        let flat = ran(&steps("Sheet(columns: 2)"), Path::new("out"));
+        assert!(outcome.scene.objects().is_empty() || outcome.scene == flat.scene);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_does_not_lead_outputs_out_of_the_folder() {
+    let (folder, elsewhere) = (folder(), folder());
+    let reading = read(&steps("Sheet(columns: 1), Write(path: \"link/new/a.txt\")"));
+    // The link appears after the check, as if somebody were quick.
+    let files = files(&reading, folder.path());
+    let settings = Settings {
+        files: &files,
+        budget: u64::MAX,
+        read: &|_| Err(String::new()),
+        keep_outputs: true,
+        writes: true,
+    };
+    std::os::unix::fs::symlink(elsewhere.path(), folder.path().join("link")).unwrap();
+    let outcome = run(&reading.recipe, settings, &Silent);
+    assert_eq!(outcome.failures.len(), 1, "{:?}", outcome.failures);
+    assert!(outcome.failures[0].message.contains("through a link"));
+    assert!(entries(elsewhere.path()).is_empty());
+}

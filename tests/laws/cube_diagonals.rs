@@ -1,0 +1,47 @@
+//! What flipping diagonals can do for the symmetry of a subdivided cube: all 64 patterns.
+
+use loop_subdivide::LoopSubdivide;
+use mesh::{EdgeId, shapes};
+use op::Files;
+use recipe::Expectation;
+use recipe::expect::{Group, Subject};
+use scene::{Object, Scene};
+
+/// A cube after one level of subdivision, the diagonals in `pattern` flipped before.
+fn subdivided(pattern: usize) -> Scene {
+    let mut cube = shapes::fans(&shapes::cube());
+    let flat = |e: &EdgeId| cube.dihedral_angle(*e).is_some_and(|angle| angle < 0.1);
+    let diagonals: Vec<EdgeId> = cube.edges().filter(flat).collect();
+    assert_eq!(diagonals.len(), 6);
+    for (i, e) in diagonals.into_iter().enumerate() {
+        if pattern >> i & 1 == 1 {
+            cube.flip_edge(e).expect("a diagonal of a cube can be flipped");
+        }
+    }
+    let smooth = op::test::applied(&LoopSubdivide { levels: 1 }, cube);
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("cube", smooth)).expect("the first object");
+    scene
+}
+
+fn keeps(scene: &Scene, eq: Option<u64>, max: Option<u64>) -> bool {
+    let symmetric = Expectation::SymmetricUnder {
+        group: Group::CubeRotations,
+        eq,
+        min: None,
+        max,
+        tolerance: 1e-9,
+        connectivity: true,
+    };
+    let files = Files::default();
+    let read = |_: &std::path::Path| Err("no file is read".to_owned());
+    symmetric.check(Subject { scene, on: None, files: &files, read: &read }).is_ok()
+}
+
+#[test]
+fn no_pattern_of_flipped_diagonals_keeps_more_than_twelve_rotations_of_a_cube() {
+    let scenes: Vec<Scene> = (0..64).map(subdivided).collect();
+    assert!(scenes.iter().all(|scene| keeps(scene, None, Some(12))));
+    // The diagonals of a tetrahedron, and those of its mirror image.
+    assert_eq!(scenes.iter().filter(|scene| keeps(scene, Some(12), None)).count(), 2);
+}

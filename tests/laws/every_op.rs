@@ -1,0 +1,460 @@
+//! Every operation, with every sample of its parameters, on every fixture.
+
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use mesh::{Mesh, Values};
+use op::{
+    Context, Entry, Files, MeshPlan, NoProgress, OpError, Plan, PlanContext, PlannedGeometry,
+    PlannedObject, Progress, Range, Report, Step,
+};
+use scene::{Geometry, Object, Scene};
+
+use crate::threads::POOLS;
+use crate::{assert_none, fixtures, samples};
+
+/// An operation with its parameters, and what it is tried on.
+struct Case {
+    /// `Weld(distance: 0) on cube`.
+    name: String,
+    operation: &'static str,
+    step: Box<dyn Step>,
+    scene: Scene,
+}
+
+/// What a step makes of a scene: the scene and a report, or an error.
+type Done = Result<(Scene, Report), OpError>;
+
+impl Case {
+    fn all() -> Vec<Self> {
+        let scenes = fixtures::scenes();
+        let registry = ops_all::registry();
+        let steps = registry.entries().iter().flat_map(|entry| {
+            let samples = samples::of(entry.name).iter();
+            samples.map(move |sample| (entry, *sample))
+        });
+        steps
+            .flat_map(|(entry, sample)| {
+                let case = |(name, scene)| Self::new(entry, sample, name, scene);
+                scenes.iter().map(|(name, scene)| (*name, scene)).map(case)
+            })
+            .collect()
+    }
+
+    fn new(entry: &Entry, sample: &str, fixture: &str, scene: &Scene) -> Self {
+        Self {
+            name: format!("{}{sample} on {fixture}", entry.name),
+            operation: entry.name,
+            step: entry
+                .parse(sample)
+                .expect("a test of the samples reads them"),
+            scene: scene.clone(),
+        }
+    }
+
+    /// Runs the step with a folder for its outputs.
+    fn run(&self, output: &Path, progress: &dyn Progress) -> (Scene, Result<Report, OpError>) {
+        let files = files(output);
+        let mut scene = self.scene.clone();
+        let mut cx = Context::new(progress, &files);
+        cx.stream = "sample";
+        let result = self.step.apply(&mut scene, &mut cx);
+        (scene, result)
+    }
+
+    fn done(&self) -> Done {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (scene, result) = self.run(folder.path(), &NoProgress);
+        result.map(|report| (scene, report))
+    }
+}
+
+/// Everything is read from the models of the recipes.
+fn files(output: &Path) -> Files {
+    Files {
+        input: crate::root().join("scenes/assets"),
+        output: output.to_owned(),
+        ..Files::default()
+    }
+}
+
+#[test]
+fn results_are_valid_and_finite_and_nothing_panics() {
+    let mut failures = Vec::new();
+    for case in Case::all() {
+        match catch_unwind(AssertUnwindSafe(|| case.done())) {
+            Err(_) => failures.push(format!("{}: panicked", case.name)),
+            Ok(Err(_)) => {}
+            Ok(Ok((scene, _))) => failures.extend(
+                scene
+                    .objects()
+                    .iter()
+                    .flat_map(defects)
+                    .map(|defect| format!("{}: {defect}", case.name)),
+            ),
+        }
+    }
+    assert_none(&failures);
+}
+
+/// What is wrong with an object.
+fn defects(object: &Object) -> Vec<String> {
+    let mut found = Vec::new();
+    match &object.geometry {
+        Geometry::Mesh(mesh) => {
+            found.extend(mesh.defects().iter().take(3).map(ToString::to_string));
+            if !mesh.is_dense() {
+                found.push("dead elements are left".to_owned());
+            }
+            for (domain, column) in mesh.attributes().iter() {
+                if !is_finite(&column.values) {
+                    found.push(format!("{domain} attribute {} is not finite", column.name));
+                }
+            }
+        }
+        Geometry::Patches(patches) => {
+            if !patches
+                .iter()
+                .all(|p| p.points().as_flattened().iter().all(|p| p.is_finite()))
+            {
+                found.push("a control point is not finite".to_owned());
+            }
+        }
+        Geometry::Curve(curve) => {
+            if !curve.points().iter().all(|p| p.is_finite()) {
+                found.push("a control point is not finite".to_owned());
+            }
+        }
+        Geometry::Polylines(lines) => {
+            if !lines.as_slice().concat().iter().all(|p| p.is_finite()) {
+                found.push("a point is not finite".to_owned());
+            }
+        }
+    }
+    found
+}
+
+fn is_finite(values: &Values) -> bool {
+    match values {
+        Values::Float(v) => v.iter().all(|x| x.is_finite()),
+        Values::Vec2(v) => v.iter().all(|x| x.is_finite()),
+        Values::Vec3(v) => v.iter().all(|x| x.is_finite()),
+        Values::Vec4(v) => v.iter().all(|x| x.is_finite()),
+        Values::Int(_) | Values::Tag(_) => true,
+    }
+}
+
+#[test]
+fn results_and_refusals_are_the_same_twice_and_for_any_number_of_threads() {
+    let mut failures = Vec::new();
+    for case in Case::all() {
+        let first = summary(&case.done());
+        if summary(&case.done()) != first {
+            failures.push(format!("{}: differs the second time", case.name));
+        }
+        for pool in &*POOLS {
+            let n = pool.current_num_threads();
+            let again = pool.install(|| summary(&case.done()));
+            if again != first {
+                failures.push(format!(
+                    "{}: {n} threads: {again}, before {first}",
+                    case.name
+                ));
+            }
+        }
+    }
+    assert_none(&failures);
+}
+
+/// What must stay the same. Temporary folders have other names each time.
+fn summary(done: &Done) -> String {
+    match done {
+        Ok((scene, report)) => format!("{} {report:?}", scene.digest()),
+        Err(OpError::File(_)) => "a file error".to_owned(),
+        Err(error) => format!("{error:?}"),
+    }
+}
+
+#[test]
+fn results_are_as_planned() {
+    let mut failures = Vec::new();
+    for case in Case::all() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let files = files(folder.path());
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let mut plan = known(&case.scene);
+        let problems = case.step.plan(&mut plan, &cx);
+        if problems.iter().any(|p| !p.is_warning) {
+            continue;
+        }
+        if let Ok((scene, _)) = case.done() {
+            let differences = differences(&scene, &plan);
+            failures.extend(differences.iter().map(|d| format!("{}: {d}", case.name)));
+        }
+    }
+    assert_none(&failures);
+}
+
+#[test]
+fn planning_never_panics_even_when_little_is_known() {
+    let mut failures = Vec::new();
+    for case in Case::all() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let files = files(folder.path());
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        // The second is what steps see behind one that could not be read.
+        for incomplete in [false, true] {
+            let mut plan = known(&case.scene);
+            plan.incomplete = incomplete;
+            let planned = catch_unwind(AssertUnwindSafe(|| case.step.plan(&mut plan, &cx)));
+            if planned.is_err() {
+                let name = &case.name;
+                failures.push(format!("{name}: panicked, incomplete: {incomplete}"));
+            }
+        }
+    }
+    assert_none(&failures);
+}
+
+/// The plan of a scene that is there.
+fn known(scene: &Scene) -> Plan {
+    let exactly = |n: usize| Range::exactly(n as u64);
+    let planned = |object: &Object| PlannedObject {
+        name: object.name.clone(),
+        geometry: match &object.geometry {
+            Geometry::Mesh(mesh) => PlannedGeometry::Mesh(MeshPlan::of(mesh)),
+            Geometry::Patches(patches) => PlannedGeometry::Patches(exactly(patches.len())),
+            Geometry::Curve(curve) => PlannedGeometry::Curve(exactly(curve.points().len())),
+            Geometry::Polylines(_) => PlannedGeometry::Polylines,
+        },
+    };
+    Plan {
+        objects: scene.objects().iter().map(planned).collect(),
+        ..Plan::default()
+    }
+}
+
+/// Where a scene is not as planned.
+fn differences(scene: &Scene, plan: &Plan) -> Vec<String> {
+    let there: Vec<_> = scene
+        .objects()
+        .iter()
+        .map(|o| (o.name.as_str(), o.geometry.kind()))
+        .collect();
+    let planned: Vec<_> = plan
+        .objects
+        .iter()
+        .map(|o| (o.name.as_str(), o.geometry.kind()))
+        .collect();
+    if there != planned {
+        return vec![format!("planned {planned:?}, found {there:?}")];
+    }
+    let mut differences = Vec::new();
+    for (object, planned) in scene.objects().iter().zip(&plan.objects) {
+        let name = &object.name;
+        match (&object.geometry, &planned.geometry) {
+            (Geometry::Mesh(mesh), PlannedGeometry::Mesh(plan)) => {
+                let found = mesh_differences(mesh, plan);
+                differences.extend(found.iter().map(|d| format!("{name}: {d}")));
+            }
+            (Geometry::Patches(patches), PlannedGeometry::Patches(n)) => {
+                differences.extend(outside(*n, patches.len(), "patches"));
+            }
+            (Geometry::Curve(curve), PlannedGeometry::Curve(n)) => {
+                differences.extend(outside(*n, curve.points().len(), "control points"));
+            }
+            _ => {}
+        }
+    }
+    differences
+}
+
+fn mesh_differences(mesh: &Mesh, plan: &MeshPlan) -> Vec<String> {
+    let mut differences = Vec::new();
+    differences.extend(outside(plan.vertices, mesh.n_vertices(), "vertices"));
+    differences.extend(outside(plan.edges, mesh.n_edges(), "edges"));
+    differences.extend(outside(plan.faces, mesh.n_faces(), "faces"));
+    let degrees: BTreeSet<usize> = mesh.faces().map(|f| mesh.degree(f)).collect();
+    for degree in degrees {
+        differences.extend(outside(plan.degrees, degree, "corners of a face"));
+    }
+    let attributes = mesh.attributes();
+    for a in &plan.attributes {
+        if a.certain && attributes.column(a.domain, &a.name).is_none() {
+            let (domain, name) = (a.domain, &a.name);
+            differences.push(format!("the {domain} attribute {name} is not there"));
+        }
+    }
+    for (domain, column) in attributes.iter() {
+        let is_planned = |a: &op::PlannedAttribute| a.domain == domain && a.name == column.name;
+        if !plan.attributes.iter().any(is_planned) {
+            differences.push(format!(
+                "the {domain} attribute {} was not planned",
+                column.name
+            ));
+        }
+    }
+    differences
+}
+
+fn outside(planned: Range, found: usize, what: &str) -> Option<String> {
+    let Range { min, max } = planned;
+    (!planned.contains(found as u64))
+        .then(|| format!("planned {min} to {max} {what}, found {found}"))
+}
+
+#[test]
+fn every_operation_changes_something() {
+    let mut idle: BTreeSet<&str> = ops_all::registry()
+        .entries()
+        .iter()
+        .map(|e| e.name)
+        .collect();
+    for case in Case::all() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (scene, result) = case.run(folder.path(), &NoProgress);
+        let mut written = folder.path().read_dir().expect("the folder is there");
+        let changes = scene.digest() != case.scene.digest() || written.next().is_some();
+        if result.is_ok() && changes {
+            idle.remove(case.operation);
+        }
+    }
+    assert!(
+        idle.is_empty(),
+        "no sample and fixture shows what they do: {idle:?}"
+    );
+}
+
+/// Goes on so many times and then says stop.
+struct StopAfter {
+    allowed: usize,
+    calls: AtomicUsize,
+}
+
+impl StopAfter {
+    fn new(allowed: usize) -> Self {
+        let calls = AtomicUsize::new(0);
+        Self { allowed, calls }
+    }
+
+    fn was_asked(&self) -> bool {
+        self.calls.load(Ordering::Relaxed) > self.allowed
+    }
+}
+
+impl Progress for StopAfter {
+    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+        self.calls.fetch_add(1, Ordering::Relaxed) < self.allowed
+    }
+}
+
+#[test]
+fn an_operation_that_is_cancelled_at_once_has_changed_nothing() {
+    let mut failures = Vec::new();
+    for case in Case::all() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let stop = StopAfter::new(0);
+        let (scene, result) = case.run(folder.path(), &stop);
+        let mut written = folder.path().read_dir().expect("the folder is there");
+        let was_cancelled = matches!(result, Err(OpError::Cancelled));
+        if stop.was_asked() && !was_cancelled {
+            failures.push(format!("{}: asked whether to stop, and did not", case.name));
+        }
+        // An operation that finds nothing to do need not ask.
+        if (result.is_ok() || was_cancelled) && scene != case.scene {
+            failures.push(format!("{}: changed the scene before it asked", case.name));
+        }
+        if written.next().is_some() {
+            failures.push(format!("{}: wrote a file", case.name));
+        }
+    }
+    assert_none(&failures);
+}
+
+/// What comes before a step in the recipes of the next test: an object of each name that samples use.
+const PRELUDE: &str = r#"
+    Cube(name: "mesh", triangles: true),
+    Octahedron(name: "other"),
+    Load(path: "teapot.bez", name: "patches"),
+    Load(path: "curve.bzc"),
+"#;
+
+#[test]
+fn a_run_that_is_cancelled_ends_with_the_scene_from_before_the_step() {
+    let registry = ops_all::registry();
+    let mut failures = Vec::new();
+    let steps = registry.entries().iter().flat_map(|entry| {
+        let samples = samples::of(entry.name).iter();
+        samples.map(|sample| format!("{}{sample}", entry.name))
+    });
+    for step in steps {
+        let before = runner::run(PRELUDE, usize::MAX);
+        assert!(before.outcome.succeeded(), "{:?}", before.outcome.failures);
+        let whole = runner::run(&format!("{PRELUDE}{step}"), usize::MAX);
+        for stop_at in [before.calls, whole.calls.saturating_sub(1)] {
+            if stop_at < before.calls || stop_at >= whole.calls {
+                continue;
+            }
+            let stopped = runner::run(&format!("{PRELUDE}{step}"), stop_at).outcome;
+            if !stopped.cancelled {
+                failures.push(format!("{step}: call {stop_at} did not stop it"));
+            }
+            if stopped.scene != before.outcome.scene {
+                failures.push(format!(
+                    "{step}: stopped at call {stop_at}, the scene is another"
+                ));
+            }
+            if !stopped.written.is_empty() {
+                failures.push(format!("{step}: stopped at call {stop_at}, but wrote"));
+            }
+        }
+    }
+    assert_none(&failures);
+}
+
+mod runner {
+    use super::{StopAfter, files};
+    use std::sync::atomic::Ordering;
+
+    use recipe::{Listener, Outcome, Settings, StepDone};
+
+    pub(super) struct Run {
+        pub(super) outcome: Outcome,
+        /// How often it was asked whether to go on.
+        pub(super) calls: usize,
+    }
+
+    /// Runs a list of steps and says stop after so many questions.
+    pub(super) fn run(steps: &str, allowed: usize) -> Run {
+        let source = format!("(recipe: 1, steps: [{steps}])");
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let reading = recipe::read(&source, &ops_all::registry(), &[], folder.path());
+        assert!(!reading.has_errors(), "{steps}: {:?}", reading.diagnostics);
+        let stop = StopAfter::new(allowed);
+        let settings = Settings {
+            files: &files(folder.path()),
+            budget: u64::MAX,
+            read: &|_| Err("no expectation reads a file".to_owned()),
+            keep_outputs: true,
+            writes: true,
+        };
+        let outcome = recipe::run(&reading.recipe, settings, &stop);
+        let calls = stop.calls.load(Ordering::Relaxed);
+        Run { outcome, calls }
+    }
+
+    impl Listener for StopAfter {
+        fn step_begins(&self, _: usize, _: &str) {}
+        fn step_done(&self, _: usize, _: &StepDone) {}
+    }
+}

@@ -1,0 +1,200 @@
+//! Parameters to try each operation with.
+
+/// For each operation parameters as a recipe gives them.
+const SAMPLES: &[(&str, &[&str])] = &[
+    (
+        "Load",
+        &[
+            r#"(path: "teapot.bez")"#,
+            r#"(path: "curve.bzc", name: "new")"#,
+            r#"(path: "bunny.obj", non_manifold: Refuse)"#,
+        ],
+    ),
+    (
+        "Polygons",
+        &[
+            r#"(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])"#,
+            // A bow-tie, which is split, and a point without a face.
+            r#"(name: "new", points: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (-1, 0, 0),
+                (-1, -1, 0)], faces: [[0, 1, 2], [0, 4, 5]])"#,
+            r#"(name: "new", points: [(0, 0, 0)], faces: [[0, 1, 2]])"#,
+        ],
+    ),
+    (
+        "Cube",
+        &[
+            r#"(name: "new", size: 3, center: (1, 2, 3))"#,
+            r#"(name: "new", triangles: true)"#,
+            r#"(name: "mesh")"#,
+        ],
+    ),
+    (
+        "Tetrahedron",
+        &[r#"(name: "new")"#, r#"(name: "new", radius: 0.5)"#],
+    ),
+    (
+        "Octahedron",
+        &[r#"(name: "new")"#, r#"(name: "new", radius: 0.5)"#],
+    ),
+    (
+        "Icosahedron",
+        &[r#"(name: "new")"#, r#"(name: "new", radius: 0.5)"#],
+    ),
+    (
+        "Grid",
+        &[
+            r#"(name: "new", columns: 3, rows: 2)"#,
+            r#"(name: "new", columns: 70, rows: 70, size: 0.1, center: (0, 0, 1))"#,
+        ],
+    ),
+    (
+        "Torus",
+        &[r#"(name: "new", around: 7, across: 5, major: 2, minor: 0.5)"#],
+    ),
+    (
+        "Cylinder",
+        &[
+            r#"(name: "new", around: 6, radius: 1, height: 2, caps: true)"#,
+            r#"(name: "new", around: 6, radius: 1, height: 2, caps: false)"#,
+        ],
+    ),
+    (
+        "UvSphere",
+        &[r#"(name: "new", around: 8, rings: 4, radius: 2)"#],
+    ),
+    (
+        "Tessellate",
+        &[
+            "(segments: 3)",
+            "(segments: 1, faces: Quads, uvs: true, normals: true)",
+            "(segments: 5, faces: Triangles, uvs: true, normals: true)",
+        ],
+    ),
+    ("SampleCurve", &["(segments: 1)", "(segments: 9)"]),
+    ("CurveLevels", &["(t: 0)", "(t: 0.25)"]),
+    (
+        "MoveControlPoint",
+        &["(index: 1, to: (2, -3.5))", "(index: 99, to: (0, 0))"],
+    ),
+    (
+        "Copy",
+        &[
+            r#"(from: "mesh", to: "new")"#,
+            r#"(from: "curve", to: "new")"#,
+        ],
+    ),
+    (
+        "Delete",
+        &[
+            r#"(objects: ["mesh"])"#,
+            r#"(objects: ["patches", "curve"])"#,
+        ],
+    ),
+    (
+        "Rename",
+        &[
+            r#"(from: "mesh", to: "new")"#,
+            r#"(from: "mesh", to: "other")"#,
+        ],
+    ),
+    (
+        "Join",
+        &[
+            r#"(objects: ["mesh", "other"], name: "joined")"#,
+            r#"(objects: ["other", "mesh"], name: "mesh", tag_parts: false)"#,
+            r#"(objects: ["mesh"], name: "alone")"#,
+        ],
+    ),
+    (
+        "Transform",
+        &[
+            "()",
+            "(scale: (2, 1, 0.5), move: (1, 2, 3))",
+            "(scale: (-1, 1, 1), about: Center)",
+            "(rotate: [(axis: Z, degrees: 90), (axis: X, degrees: 33)], about: Point(1, 0, 0))",
+            "(rotate: [(axis: Z, degrees: 30)])",
+        ],
+    ),
+    (
+        "Triangulate",
+        &["()", "(faces: Degree(5))", "(faces: Faces([0]))"],
+    ),
+    (
+        "FlipEdges",
+        &[
+            "(edges: All)",
+            "(edges: All, on_refusal: Skip)",
+            "(edges: Random(count: 9, seed: 7), on_refusal: Skip, seams: Drop)",
+            "(edges: Between(0, 2))",
+            r#"(edges: Tagged("marked"), on_refusal: Skip)"#,
+        ],
+    ),
+    (
+        "SplitEdges",
+        &[
+            "(edges: All)",
+            "(edges: Boundary, at: 0.25)",
+            "(edges: Between(1, 0), at: 0.125)",
+            "(edges: Expect(count: 3, of: Longest(count: 3)), on_refusal: Skip)",
+            "(edges: EdgesOf(Grow(Faces([0]))))",
+        ],
+    ),
+    (
+        "LoopSubdivide",
+        &["(levels: 0)", "(levels: 1)", "(levels: 2)"],
+    ),
+    (
+        "Weld",
+        &["(distance: 0)", "(distance: 0.5)", "(distance: 100)"],
+    ),
+    (
+        "VertexNormals",
+        &["()", "(weight: Angle)", "(weight: Uniform)"],
+    ),
+    (
+        "Save",
+        &[
+            r#"(path: "a.obj")"#,
+            r#"(path: "b/a.glb")"#,
+            r#"(path: "a.gltf")"#,
+            r#"(path: "a.bez")"#,
+            r#"(path: "a.bzc")"#,
+        ],
+    ),
+];
+
+/// The parameters to try the operation of this name with.
+pub(crate) fn of(operation: &str) -> &'static [&'static str] {
+    let found = SAMPLES.iter().find(|(name, _)| *name == operation);
+    found.map_or(&[], |(_, samples)| samples)
+}
+
+#[test]
+fn every_operation_has_samples() {
+    let registry = ops_all::registry();
+    let missing: Vec<_> = registry
+        .entries()
+        .iter()
+        .map(|entry| entry.name)
+        .filter(|name| of(name).is_empty())
+        .collect();
+    assert!(
+        missing.is_empty(),
+        "tests/laws/samples.rs has no parameters to try for: {}",
+        missing.join(", ")
+    );
+}
+
+#[test]
+fn every_sample_is_of_an_operation() {
+    let registry = ops_all::registry();
+    for (name, samples) in SAMPLES {
+        let entry = registry.get(name);
+        let entry = entry.unwrap_or_else(|| panic!("{name} is not in the registry"));
+        for sample in *samples {
+            if let Err(error) = entry.parse(sample) {
+                panic!("{name}{sample}: {error}");
+            }
+        }
+    }
+}

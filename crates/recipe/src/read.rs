@@ -435,16 +435,11 @@ impl Reader<'_> {
                 .map(str::to_owned)
                 .collect::<Vec<_>>()
         });
-        match value.field("that") {
-            Some(that) => match that.items() {
-                Some(items) => {
-                    items
-                        .iter()
-                        .for_each(|item| self.place(item, after, on.clone()));
-                }
-                None => self.place(that, after, on),
-            },
-            None => {}
+        let Some(that) = value.field("that") else {
+            return;
+        };
+        for item in that.items().unwrap_or(std::slice::from_ref(that)) {
+            self.place(item, after, on.clone());
         }
     }
 

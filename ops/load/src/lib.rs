@@ -1,7 +1,7 @@
 //! Load: reads the objects of a file into the scene.
 
 use mesh::{Domain, NonManifold};
-use mesh_io::{Peek, PeekGeometry, PeekMesh, ReadError, ReadOptions};
+use mesh_io::{Peek, PeekGeometry, PeekMesh, ReadOptions};
 use op::{
     Context, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Range,
     Report,
@@ -64,7 +64,7 @@ impl Operation for Load {
             Ok(peek) => self.plan_objects(&peek, plan),
             Err(error) => {
                 plan.incomplete = true;
-                vec![self.problem(&error)]
+                vec![Problem::error(error.to_string()).at(["path"])]
             }
         }
     }
@@ -94,10 +94,6 @@ impl Operation for Load {
 }
 
 impl Load {
-    fn problem(&self, error: &ReadError) -> Problem {
-        Problem::error(error.to_string()).at(["path"])
-    }
-
     fn plan_objects(&self, peek: &Peek, plan: &mut Plan) -> Vec<Problem> {
         let mut problems = Vec::new();
         for object in &peek.objects {

@@ -1,7 +1,12 @@
+use std::path::Path;
+
+use op::Files;
+use scene::{Geometry, Object, Scene};
+
 use super::*;
 
 use bezier::Curve;
-use mesh::{Connectivity, HalfEdgeId, Rule, Values, VertexId, shapes};
+use mesh::{Connectivity, DVec3, FaceId, HalfEdgeId, Mesh, Rule, Values, VertexId, shapes};
 
 /// A scene with these meshes.
 fn scene(meshes: impl IntoIterator<Item = (&'static str, Mesh)>) -> Scene {

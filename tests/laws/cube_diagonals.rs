@@ -15,12 +15,15 @@ fn subdivided(pattern: usize) -> Scene {
     assert_eq!(diagonals.len(), 6);
     for (i, e) in diagonals.into_iter().enumerate() {
         if pattern >> i & 1 == 1 {
-            cube.flip_edge(e).expect("a diagonal of a cube can be flipped");
+            cube.flip_edge(e)
+                .expect("a diagonal of a cube can be flipped");
         }
     }
     let smooth = op::test::applied(&LoopSubdivide { levels: 1 }, cube);
     let mut scene = Scene::new();
-    scene.insert(Object::mesh("cube", smooth)).expect("the first object");
+    scene
+        .insert(Object::mesh("cube", smooth))
+        .expect("the first object");
     scene
 }
 
@@ -35,7 +38,14 @@ fn keeps(scene: &Scene, eq: Option<u64>, max: Option<u64>) -> bool {
     };
     let files = Files::default();
     let read = |_: &std::path::Path| Err("no file is read".to_owned());
-    symmetric.check(Subject { scene, on: None, files: &files, read: &read }).is_ok()
+    symmetric
+        .check(Subject {
+            scene,
+            on: None,
+            files: &files,
+            read: &read,
+        })
+        .is_ok()
 }
 
 #[test]
@@ -43,5 +53,11 @@ fn no_pattern_of_flipped_diagonals_keeps_more_than_twelve_rotations_of_a_cube() 
     let scenes: Vec<Scene> = (0..64).map(subdivided).collect();
     assert!(scenes.iter().all(|scene| keeps(scene, None, Some(12))));
     // The diagonals of a tetrahedron, and those of its mirror image.
-    assert_eq!(scenes.iter().filter(|scene| keeps(scene, Some(12), None)).count(), 2);
+    assert_eq!(
+        scenes
+            .iter()
+            .filter(|scene| keeps(scene, Some(12), None))
+            .count(),
+        2
+    );
 }

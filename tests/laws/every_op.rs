@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use mesh::{Mesh, Values};
 use op::{
@@ -16,19 +15,19 @@ use crate::threads::POOLS;
 use crate::{assert_none, fixtures, samples};
 
 /// An operation with its parameters, and what it is tried on.
-struct Case {
+pub(crate) struct Case {
     /// `Weld(distance: 0) on cube`.
-    name: String,
+    pub(crate) name: String,
     operation: &'static str,
     step: Box<dyn Step>,
-    scene: Scene,
+    pub(crate) scene: Scene,
 }
 
 /// What a step makes of a scene: the scene and a report, or an error.
 type Done = Result<(Scene, Report), OpError>;
 
 impl Case {
-    fn all() -> Vec<Self> {
+    pub(crate) fn all() -> Vec<Self> {
         let scenes = fixtures::scenes();
         let registry = ops_all::registry();
         let steps = registry.entries().iter().flat_map(|entry| {
@@ -55,7 +54,11 @@ impl Case {
     }
 
     /// Runs the step with a folder for its outputs.
-    fn run(&self, output: &Path, progress: &dyn Progress) -> (Scene, Result<Report, OpError>) {
+    pub(crate) fn run(
+        &self,
+        output: &Path,
+        progress: &dyn Progress,
+    ) -> (Scene, Result<Report, OpError>) {
         let files = files(output);
         let mut scene = self.scene.clone();
         let mut cx = Context::new(progress, &files);
@@ -72,7 +75,7 @@ impl Case {
 }
 
 /// Everything is read from the models of the recipes.
-fn files(output: &Path) -> Files {
+pub(crate) fn files(output: &Path) -> Files {
     Files {
         input: crate::root().join("scenes/assets"),
         output: output.to_owned(),
@@ -333,128 +336,4 @@ fn every_operation_changes_something() {
         idle.is_empty(),
         "no sample and fixture shows what they do: {idle:?}"
     );
-}
-
-/// Goes on so many times and then says stop.
-struct StopAfter {
-    allowed: usize,
-    calls: AtomicUsize,
-}
-
-impl StopAfter {
-    fn new(allowed: usize) -> Self {
-        let calls = AtomicUsize::new(0);
-        Self { allowed, calls }
-    }
-
-    fn was_asked(&self) -> bool {
-        self.calls.load(Ordering::Relaxed) > self.allowed
-    }
-}
-
-impl Progress for StopAfter {
-    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
-        self.calls.fetch_add(1, Ordering::Relaxed) < self.allowed
-    }
-}
-
-#[test]
-fn an_operation_that_is_cancelled_at_once_has_changed_nothing() {
-    let mut failures = Vec::new();
-    for case in Case::all() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let stop = StopAfter::new(0);
-        let (scene, result) = case.run(folder.path(), &stop);
-        let mut written = folder.path().read_dir().expect("the folder is there");
-        let was_cancelled = matches!(result, Err(OpError::Cancelled));
-        if stop.was_asked() && !was_cancelled {
-            failures.push(format!("{}: asked whether to stop, and did not", case.name));
-        }
-        // An operation that finds nothing to do need not ask.
-        if (result.is_ok() || was_cancelled) && scene != case.scene {
-            failures.push(format!("{}: changed the scene before it asked", case.name));
-        }
-        if written.next().is_some() {
-            failures.push(format!("{}: wrote a file", case.name));
-        }
-    }
-    assert_none(&failures);
-}
-
-/// What comes before a step in the recipes of the next test: an object of each name that samples use.
-const PRELUDE: &str = r#"
-    Cube(name: "mesh", triangles: true),
-    Octahedron(name: "other"),
-    Load(path: "teapot.bez", name: "patches"),
-    Load(path: "curve.bzc"),
-"#;
-
-#[test]
-fn a_run_that_is_cancelled_ends_with_the_scene_from_before_the_step() {
-    let registry = ops_all::registry();
-    let mut failures = Vec::new();
-    let steps = registry.entries().iter().flat_map(|entry| {
-        let samples = samples::of(entry.name).iter();
-        samples.map(|sample| format!("{}{sample}", entry.name))
-    });
-    for step in steps {
-        let before = runner::run(PRELUDE, usize::MAX);
-        assert!(before.outcome.succeeded(), "{:?}", before.outcome.failures);
-        let whole = runner::run(&format!("{PRELUDE}{step}"), usize::MAX);
-        for stop_at in [before.calls, whole.calls.saturating_sub(1)] {
-            if stop_at < before.calls || stop_at >= whole.calls {
-                continue;
-            }
-            let stopped = runner::run(&format!("{PRELUDE}{step}"), stop_at).outcome;
-            if !stopped.cancelled {
-                failures.push(format!("{step}: call {stop_at} did not stop it"));
-            }
-            if stopped.scene != before.outcome.scene {
-                failures.push(format!(
-                    "{step}: stopped at call {stop_at}, the scene is another"
-                ));
-            }
-            if !stopped.written.is_empty() {
-                failures.push(format!("{step}: stopped at call {stop_at}, but wrote"));
-            }
-        }
-    }
-    assert_none(&failures);
-}
-
-mod runner {
-    use super::{StopAfter, files};
-    use std::sync::atomic::Ordering;
-
-    use recipe::{Listener, Outcome, Settings, StepDone};
-
-    pub(super) struct Run {
-        pub(super) outcome: Outcome,
-        /// How often it was asked whether to go on.
-        pub(super) calls: usize,
-    }
-
-    /// Runs a list of steps and says stop after so many questions.
-    pub(super) fn run(steps: &str, allowed: usize) -> Run {
-        let source = format!("(recipe: 1, steps: [{steps}])");
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let reading = recipe::read(&source, &ops_all::registry(), &[], folder.path());
-        assert!(!reading.has_errors(), "{steps}: {:?}", reading.diagnostics);
-        let stop = StopAfter::new(allowed);
-        let settings = Settings {
-            files: &files(folder.path()),
-            budget: u64::MAX,
-            read: &|_| Err("no expectation reads a file".to_owned()),
-            keep_outputs: true,
-            writes: true,
-        };
-        let outcome = recipe::run(&reading.recipe, settings, &stop);
-        let calls = stop.calls.load(Ordering::Relaxed);
-        Run { outcome, calls }
-    }
-
-    impl Listener for StopAfter {
-        fn step_begins(&self, _: usize, _: &str) {}
-        fn step_done(&self, _: usize, _: &StepDone) {}
-    }
 }

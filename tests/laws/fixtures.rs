@@ -19,7 +19,7 @@ pub(crate) fn scenes() -> Vec<(&'static str, Scene)> {
     scenes.push(("squares with attributes", one(dressed(shapes::grid(4, 3)))));
     scenes.push((
         "triangles with attributes",
-        one(dressed(triangulated(&shapes::grid(4, 3)))),
+        one(dressed(shapes::fans(&shapes::grid(4, 3)))),
     ));
     scenes.push(("patches", one(Object::new("patches", teapot()))));
     scenes.push(("curve", one(Object::new("curve", curve()))));
@@ -34,12 +34,12 @@ pub(crate) fn meshes() -> Vec<(&'static str, Mesh)> {
         ("one triangle", one_triangle()),
         ("open grid", shapes::grid(3, 2)),
         ("cube", shapes::cube()),
-        ("cube of triangles", triangulated(&shapes::cube())),
+        ("cube of triangles", shapes::fans(&shapes::cube())),
         ("tetrahedron", shapes::tetrahedron()),
         ("torus", shapes::torus(8, 6, 2.0, 1.0)),
         (
             "large torus of triangles",
-            triangulated(&shapes::torus(90, 60, 2.0, 1.0)),
+            shapes::fans(&shapes::torus(90, 60, 2.0, 1.0)),
         ),
         ("two components", two_components()),
         ("bow-tie vertex", bow_tie()),
@@ -52,17 +52,8 @@ pub(crate) fn meshes() -> Vec<(&'static str, Mesh)> {
     ]
 }
 
-/// The mesh with each face cut into a fan from its first corner.
-pub(crate) fn triangulated(mesh: &Mesh) -> Mesh {
-    let mut triangles = Vec::new();
-    for face in polygons(mesh) {
-        triangles.extend(face.windows(2).skip(1).map(|w| [face[0], w[0], w[1]]));
-    }
-    of(mesh.positions().to_vec(), &triangles)
-}
-
 /// The faces of a mesh as lists of vertex numbers, in order.
-pub(crate) fn polygons(mesh: &Mesh) -> Vec<Vec<u32>> {
+fn polygons(mesh: &Mesh) -> Vec<Vec<u32>> {
     let number = |v: mesh::VertexId| u32::try_from(v.index()).expect("ids have 32 bits");
     mesh.faces()
         .map(|f| mesh.face_vertices(f).map(number).collect())
@@ -129,7 +120,7 @@ fn everything() -> Scene {
     let mut scene = Scene::new();
     for object in [
         Object::mesh("mesh", shapes::octahedron()),
-        dressed_as("other", triangulated(&shapes::cube())),
+        dressed_as("other", shapes::fans(&shapes::cube())),
         Object::new("patches", teapot()),
         Object::new("curve", curve()),
         Object::new("lines", Geometry::Polylines(lines)),

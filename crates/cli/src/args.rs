@@ -88,6 +88,9 @@ pub(crate) struct RunArgs {
     /// The number of threads; by default one for each processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
+    /// Do not hold the recipe's expectations against the result
+    #[arg(long)]
+    pub(crate) no_expect: bool,
     /// Print where the value of each parameter comes from
     #[arg(long)]
     pub(crate) explain: bool,

@@ -32,7 +32,7 @@ fn million_triangles(c: &mut Criterion) {
         group.bench_function("read the bytes alone", |b| b.iter(|| std::fs::read(&path)));
         group.bench_function("write", |b| b.iter(|| save(&path, &scene)));
         group.bench_function("write the bytes alone", |b| {
-            b.iter(|| std::fs::write(&path, &bytes))
+            b.iter(|| std::fs::write(&path, &bytes));
         });
         group.finish();
     }

@@ -36,13 +36,16 @@ pub fn edit_each<I: Copy>(
 ) -> Result<Report, OpError> {
     let mut report = Report::default();
     let total = elements.len() as u64;
+    if total == 0 {
+        report.notes.push("nothing was selected".to_owned());
+    }
     cx.advance(what, 0, total)?;
     for (done, &element) in (1..).zip(elements) {
         match edit(mesh, element) {
             Ok(()) => report.changed += 1,
             Err(refusal) => match on_refusal {
-                OnRefusal::Error => return Err(refusal.into()),
-                OnRefusal::Skip => report.refuse(refusal.into())?,
+                OnRefusal::Error => return Err(described(refusal, mesh)),
+                OnRefusal::Skip => report.refuse(described(refusal, mesh))?,
             },
         }
         if done % 4096 == 0 {
@@ -50,4 +53,17 @@ pub fn edit_each<I: Copy>(
         }
     }
     Ok(report)
+}
+
+/// A refusal that names its edge as recipes do, by its vertices.
+fn described(refusal: EditError, mesh: &Mesh) -> OpError {
+    let (EditError::Boundary(e) | EditError::Seam(e) | EditError::SameOpposite(e, _)) = refusal
+    else {
+        return refusal.into();
+    };
+    let [v, w] = mesh.edge_vertices(e).map(mesh::VertexId::index);
+    OpError::refused(
+        refusal.into(),
+        format!("{refusal}; it is Between({v}, {w})"),
+    )
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use mesh::Domain;
+use mesh::{Domain, Rule};
 
 use crate::Files;
 
@@ -154,7 +154,8 @@ impl MeshPlan {
                 .map(|(domain, c)| PlannedAttribute {
                     domain,
                     name: c.name.clone(),
-                    certain: true,
+                    // An edit that changes connectivity drops such a column.
+                    certain: c.rule != Rule::Drop,
                 })
                 .collect(),
         }

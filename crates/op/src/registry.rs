@@ -55,8 +55,10 @@ impl Entry {
             takes_on: T::TAKES_ON,
             schema: || schemars::schema_for!(T),
             parse: |text| {
-                let options =
-                    ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+                // Recipes limit the depth themselves.
+                let options = ron::Options::default()
+                    .with_default_extension(Extensions::IMPLICIT_SOME)
+                    .without_recursion_limit();
                 Ok(Box::new(options.from_str::<T>(text)?))
             },
         }

@@ -211,7 +211,7 @@ pub fn plan_curves(
             )));
         }
     }
-    if n == 0 && problems.is_empty() {
+    if n == 0 && problems.is_empty() && !plan.incomplete {
         let message = format!("{operation} finds no curve to change");
         problems.push(Problem::error(message).help("load a .bzc file in an earlier step"));
     }

@@ -45,6 +45,56 @@ pub fn fields(schema: &Json) -> Vec<FieldDoc> {
         .collect()
 }
 
+/// A type that parameters are made of: a choice of variants, or a group of fields.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TypeDoc {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub doc: String,
+    /// Its fields, if it is written `(a: .., b: ..)`.
+    pub fields: Vec<FieldDoc>,
+    /// Its variants, if it is a choice.
+    pub variants: Vec<(String, String)>,
+}
+
+/// The types that the parameters of an operation are made of, in order of their names; not those that
+/// are written as plain numbers.
+pub fn types(schema: &Json) -> Vec<TypeDoc> {
+    let Some(definitions) = schema["$defs"].as_object() else {
+        return Vec::new();
+    };
+    let mut types: Vec<TypeDoc> = definitions
+        .iter()
+        .map(|(name, definition)| {
+            let mut inner = definition.clone();
+            inner["$defs"] = schema["$defs"].clone();
+            TypeDoc {
+                name: name.clone(),
+                doc: text_of(definition),
+                fields: fields(&inner),
+                variants: variants(schema, definition),
+            }
+        })
+        .filter(|t| !t.fields.is_empty() || !t.variants.is_empty())
+        .collect();
+    types.sort_by(|a, b| a.name.cmp(&b.name));
+    types
+}
+
+/// The reasons that `refused:` can name, with what they mean.
+pub fn refusals() -> Vec<(String, String)> {
+    let schema = crate::schema::of::<op::Refusal>();
+    variants(&schema, &schema)
+}
+
+fn text_of(schema: &Json) -> String {
+    schema["description"]
+        .as_str()
+        .unwrap_or_default()
+        .to_owned()
+}
+
 /// What a reference leads to.
 fn resolve<'s>(root: &'s Json, schema: &'s Json) -> &'s Json {
     let target = schema["$ref"]

@@ -21,7 +21,7 @@ mod run;
 mod schema;
 
 pub use check::{Forecast, StepForecast, check, mebibytes};
-pub use describe::{FieldDoc, fields};
+pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
 pub use diagnostic::{Diagnostic, LineIndex, Severity, Span, render};
 pub use expect::{Expectation, ReadObjects};
 pub use params::Param;

@@ -113,6 +113,8 @@ pub fn read(source: &str, registry: &Registry, set: &[(String, String)], folder:
             steps: Vec::new(),
             expectations: Vec::new(),
         },
+        broken: Vec::new(),
+        used: Vec::new(),
     };
     reader.recipe(&parsed.value, set, folder);
     reader.diagnostics.sort_by_key(|d| d.span);
@@ -127,6 +129,10 @@ struct Reader<'a> {
     registry: &'a Registry,
     diagnostics: Vec<Diagnostic>,
     recipe: Recipe,
+    /// Parameters that are declared, but wrongly.
+    broken: Vec<String>,
+    /// Parameters that some `arg(..)` names.
+    used: Vec<String>,
 }
 
 impl Reader<'_> {
@@ -138,11 +144,7 @@ impl Reader<'_> {
             && found != VERSION
         {
             let message = format!("this recipe is of version {found}, expected {VERSION}");
-            let help = if found > VERSION {
-                "a newer meshwright can read it"
-            } else {
-                "write 1"
-            };
+            let help = "write `recipe: 1`, unless it is meant for a newer meshwright";
             self.diagnostics
                 .push(Diagnostic::error(version.span, message).with_help(help));
             return;
@@ -174,6 +176,7 @@ impl Reader<'_> {
         {
             self.expectation(expectation);
         }
+        self.unused(root.field("params"));
     }
 
     fn needs(&mut self, needs: &Value) {
@@ -198,6 +201,7 @@ impl Reader<'_> {
             for (key, value) in entries {
                 let Some(name) = key.as_str() else { continue };
                 let Some(param): Option<Param> = self.typed(value, &schema::of::<Param>()) else {
+                    self.broken.push(name.to_owned());
                     continue;
                 };
                 let literal = match param.default_literal() {
@@ -206,6 +210,7 @@ impl Reader<'_> {
                         let message = format!("the default of `{name}` is not allowed: {problem}");
                         self.diagnostics
                             .push(Diagnostic::error(value.span, message));
+                        self.broken.push(name.to_owned());
                         continue;
                     }
                 };
@@ -219,6 +224,9 @@ impl Reader<'_> {
             }
         }
         for (name, text) in set {
+            if self.broken.contains(name) {
+                continue;
+            }
             let Some(parameter) = self.recipe.parameters.iter_mut().find(|p| p.name == *name)
             else {
                 let known = self.recipe.parameters.iter().map(|p| p.name.as_str());
@@ -240,7 +248,14 @@ impl Reader<'_> {
     /// Fills parameters in.
     fn filled(&mut self, value: &Value) -> Option<Value> {
         let parameters = &self.recipe.parameters;
+        let (broken, used) = (&self.broken, &mut self.used);
+        // The declarations of these were reported already.
+        let mut reported = Vec::new();
         let resolve = |name: &str, span: Span| {
+            used.push(name.to_owned());
+            if broken.iter().any(|b| b == name) {
+                reported.push(span);
+            }
             let found = parameters.iter().find(|p| p.name == name);
             found.map(|p| p.literal.clone()).ok_or_else(|| {
                 let known = parameters.iter().map(|p| p.name.as_str());
@@ -250,9 +265,27 @@ impl Reader<'_> {
         };
         match syntax::substitute(self.source, value, resolve) {
             Ok(substituted) => Some(substituted.value),
-            Err(diagnostics) => {
+            Err(mut diagnostics) => {
+                diagnostics.retain(|d| d.span.is_none_or(|span| !reported.contains(&span)));
                 self.diagnostics.extend(diagnostics);
                 None
+            }
+        }
+    }
+
+    /// Warns of parameters that no `arg(..)` names.
+    fn unused(&mut self, params: Option<&Value>) {
+        let Some(ValueKind::Map(entries)) = params.map(|p| &p.kind) else {
+            return;
+        };
+        for (key, _) in entries {
+            if let Some(name) = key.as_str()
+                && !self.used.iter().any(|used| used == name)
+            {
+                let message = format!("the parameter `{name}` is never used");
+                let help = format!("a step takes its value with arg(\"{name}\")");
+                self.diagnostics
+                    .push(Diagnostic::warning(key.span, message).with_help(help));
             }
         }
     }

@@ -75,6 +75,11 @@ impl Operation for Join {
         if !problems.is_empty() {
             return problems;
         }
+        if parts.len() != self.objects.len() {
+            // A step before could not be planned, and may make the missing ones.
+            plan.incomplete = true;
+            return problems;
+        }
         let joined = self.joined_plan(&parts);
         let largest = joined
             .edges

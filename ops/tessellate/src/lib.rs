@@ -101,7 +101,7 @@ impl Operation for Tessellate {
                 _ => {}
             }
         }
-        if n == 0 && problems.is_empty() {
+        if n == 0 && problems.is_empty() && !plan.incomplete {
             let problem = Problem::error("Tessellate finds no patches to cut");
             problems.push(problem.help("load a .bez file in an earlier step"));
         }

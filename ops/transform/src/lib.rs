@@ -233,7 +233,7 @@ impl Operation for Transform {
         }
         let chosen = |name: &String| cx.on.is_none_or(|on| on.contains(name));
         let objects: Vec<_> = plan.objects.iter().filter(|o| chosen(&o.name)).collect();
-        if objects.is_empty() {
+        if objects.is_empty() && !plan.incomplete {
             problems.push(Problem::error("Transform finds no object to change"));
         }
         for object in objects {

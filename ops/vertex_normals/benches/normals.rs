@@ -23,7 +23,7 @@ fn million_triangles(c: &mut Criterion) {
     }
     let bytes = vec![1_u8; 2 * size_of_val(mesh.positions())];
     group.bench_function("copy of positions and normals", |b| {
-        b.iter(|| black_box(&bytes).clone())
+        b.iter(|| black_box(&bytes).clone());
     });
     group.finish();
 }

@@ -51,7 +51,8 @@ fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
     let closed = if loops == 0 {
         "yes".to_owned()
     } else {
-        format!("no, {loops} boundary loops")
+        let s = if loops == 1 { "" } else { "s" };
+        format!("no, {loops} boundary loop{s}")
     };
     let mut degrees: Vec<usize> = Vec::new();
     for f in mesh.faces() {

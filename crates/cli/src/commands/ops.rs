@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use op::{Entry, Registry};
-use recipe::{did_you_mean, fields};
+use recipe::{FieldDoc, TypeDoc, did_you_mean, fields, types};
 
 use crate::output::{print, table};
 
@@ -48,23 +48,44 @@ fn detail(entry: &Entry) -> String {
     } else {
         text += "\nParameters:\n";
     }
-    for field in fields {
-        text += &format!("  {}: {}", field.name, field.kind);
-        match field.default {
-            Some(default) => text += &format!(" = {default}"),
-            None => text += " (required)",
+    for field in &fields {
+        text += &field_text(field, "  ");
+    }
+    // What the parameters are made of, but for the variants that stand above.
+    let shown = |t: &TypeDoc| fields.iter().any(|f| f.kind == t.name);
+    for t in types(&schema).iter().filter(|t| !shown(t)) {
+        text += &format!("\n{}: {}\n", t.name, t.doc);
+        for field in &t.fields {
+            text += &field_text(field, "  ");
         }
-        text.push('\n');
-        for line in field.doc.lines() {
-            text += &format!("      {line}\n");
-        }
-        for (variant, doc) in field.variants {
-            let first = doc.lines().next().unwrap_or("");
-            text += &format!("      {variant:<34} {first}\n");
-        }
+        text += &variants_text(&t.variants, "  ");
     }
     if entry.takes_on {
         text += "\nTakes `on: [\"name\", ..]` to act on chosen objects; without it on all that it can.\n";
+    }
+    text
+}
+
+fn field_text(field: &FieldDoc, indent: &str) -> String {
+    let mut text = format!("{indent}{}: {}", field.name, field.kind);
+    match &field.default {
+        Some(default) => text += &format!(" = {default}"),
+        None => text += " (required)",
+    }
+    text.push('\n');
+    for line in field.doc.lines() {
+        text += format!("{indent}    {line}").trim_end();
+        text.push('\n');
+    }
+    text + &variants_text(&field.variants, &format!("{indent}    "))
+}
+
+fn variants_text(variants: &[(String, String)], indent: &str) -> String {
+    let mut text = String::new();
+    for (variant, doc) in variants {
+        let first = doc.lines().next().unwrap_or("");
+        text += format!("{indent}{variant:<34} {first}").trim_end();
+        text.push('\n');
     }
     text
 }
@@ -82,7 +103,7 @@ pub(crate) fn reference(registry: &Registry) -> String {
             entry.summary
         );
     }
-    let mut choices: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
+    let mut used: BTreeMap<String, TypeDoc> = BTreeMap::new();
     for entry in registry.entries() {
         let schema = entry.schema();
         text += &format!("\n## {}\n\n", entry.name);
@@ -93,29 +114,47 @@ pub(crate) fn reference(registry: &Registry) -> String {
         if fields.is_empty() {
             text += "No parameters.\n";
         } else {
-            text += "| parameter | type | default | meaning |\n| --- | --- | --- | --- |\n";
+            text += &fields_table(&fields);
         }
-        for field in fields {
-            let default = field
-                .default
-                .map_or("required".to_owned(), |d| format!("`{d}`"));
-            let doc = field.doc.replace('\n', " ").replace('|', "\\|");
-            text += &format!(
-                "| `{}` | {} | {default} | {doc} |\n",
-                field.name, field.kind
-            );
-            if !field.variants.is_empty() {
-                choices.insert(field.kind, field.variants);
-            }
+        used.extend(types(&schema).into_iter().map(|t| (t.name.clone(), t)));
+    }
+    text += "\n# Types of parameters\n";
+    for t in used.values() {
+        text += &format!("\n## {}\n\n{}\n\n", t.name, t.doc);
+        if !t.fields.is_empty() {
+            text += &fields_table(&t.fields);
+        }
+        if !t.variants.is_empty() {
+            text += &variants_table(&t.variants);
         }
     }
-    text += "\n# Choices\n";
-    for (name, variants) in choices {
-        text += &format!("\n## {name}\n\n| choice | meaning |\n| --- | --- |\n");
-        for (variant, doc) in variants {
-            let doc = doc.replace('\n', " ").replace('|', "\\|");
-            text += &format!("| `{variant}` | {doc} |\n");
-        }
+    text += "\n# Reasons for `refused:`\n\n";
+    text + &variants_table(&recipe::refusals())
+}
+
+fn fields_table(fields: &[FieldDoc]) -> String {
+    let mut text =
+        "| parameter | type | default | meaning |\n| --- | --- | --- | --- |\n".to_owned();
+    for field in fields {
+        let default = match &field.default {
+            Some(default) => format!("`{default}`"),
+            None => "required".to_owned(),
+        };
+        let (name, kind, doc) = (&field.name, &field.kind, cell(&field.doc));
+        text += &format!("| `{name}` | {kind} | {default} | {doc} |\n");
     }
     text
+}
+
+fn variants_table(variants: &[(String, String)]) -> String {
+    let mut text = "| choice | meaning |\n| --- | --- |\n".to_owned();
+    for (variant, doc) in variants {
+        text += &format!("| `{variant}` | {} |\n", cell(doc));
+    }
+    text
+}
+
+/// A text in one cell of a table.
+fn cell(text: &str) -> String {
+    text.replace('\n', " ").replace('|', "\\|")
 }

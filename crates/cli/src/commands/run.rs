@@ -18,7 +18,10 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
             .build_global()
             .context("cannot start the threads")?;
     }
-    let loaded = load(&args.recipe, registry)?;
+    let mut loaded = load(&args.recipe, registry)?;
+    if args.no_expect {
+        loaded.recipe.expectations.clear();
+    }
     let json = args.recipe.format == Format::Json;
     if args.explain && !json {
         print(&explain(&loaded.recipe.parameters))?;
@@ -44,7 +47,9 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
         return Ok(outcome.succeeded());
     }
 
-    print(&step_table(&outcome.steps))?;
+    if !outcome.steps.is_empty() {
+        print(&step_table(&outcome.steps))?;
+    }
     print(&step_notes(&outcome.steps))?;
     show(&loaded, &outcome.failures);
     for path in &outcome.written {
@@ -60,6 +65,12 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
         complain("interrupted, nothing was written\n");
     } else {
         complain(&format!("{} failed, nothing was written\n", loaded.path));
+        let is_set = loaded.recipe.parameters.iter().any(|p| p.is_set);
+        if is_set && outcome.steps.len() == loaded.recipe.steps.len() {
+            complain(
+                "a parameter was set: expectations may be meant for its default; --no-expect runs without them\n",
+            );
+        }
     }
     Ok(outcome.succeeded())
 }

@@ -20,7 +20,7 @@ fn one_operation_is_shown_with_its_parameters() {
         "Parameters:\n",
         "  edges: EdgeSelection",
         "Between(.., ..)",
-        "  at: number from 0.0 to 1.0 = 0.5\n",
+        "  at: number above 0.0 below 1.0 = 0.5\n",
         "  on_refusal: ",
         "Takes `on: [\"name\", ..]`",
     ]);

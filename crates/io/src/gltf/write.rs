@@ -38,10 +38,7 @@ pub(crate) fn write(
         let Geometry::Mesh(mesh) = &object.geometry else {
             return Err(Unwritable::object(
                 &object.name,
-                format!(
-                    "glTF files hold meshes, found {}: tessellate it first",
-                    object.geometry.kind()
-                ),
+                format!("glTF files hold meshes, found {}", object.geometry.kind()),
             ));
         };
         writer.object(

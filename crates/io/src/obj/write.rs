@@ -62,7 +62,7 @@ pub(crate) fn write(
                 return Err(Unwritable::object(
                     &object.name,
                     format!(
-                        "OBJ files hold meshes and polylines, found {}: tessellate it first",
+                        "OBJ files hold meshes and polylines, found {}",
                         object.geometry.kind()
                     ),
                 ));

@@ -23,6 +23,8 @@ impl Mesh {
     /// own face, so that both sides of a seam keep their values; m-b takes the edge values of `e`; new
     /// faces take those of f and g.
     ///
+    /// Where both triangles have the same vertex opposite (c is d), m and c are joined twice.
+    ///
     /// Returns m.
     ///
     /// # Errors

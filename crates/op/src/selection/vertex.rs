@@ -29,7 +29,7 @@ pub enum VertexSelection {
     EndsOf(Box<EdgeSelection>),
     /// The corners of these faces.
     CornersOf(FaceSelection),
-    /// Vertices whose vertices all lie in a region, its surface included.
+    /// Vertices that lie in a region, its surface included.
     Inside(Region),
     /// Vertices marked by a tag of this name.
     Tagged(String),
@@ -53,7 +53,7 @@ pub enum VertexSelection {
         /// Another number gives another choice.
         seed: u64,
     },
-    /// Those whose middles are nearest to a point; of equal distances the lower numbers.
+    /// Those nearest to a point; of equal distances the lower numbers.
     Nearest {
         /// The point.
         to: Vector,

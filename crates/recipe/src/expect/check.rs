@@ -116,7 +116,7 @@ impl Expectation {
                 for (object, mesh) in subject.meshes()? {
                     found += of.count(object, mesh, subject.files)?;
                 }
-                within("selected elements", found, *eq, *min, *max)
+                within(of.word(), found, *eq, *min, *max)
             }
             Self::Valence { of, min, max } => subject.valence(of, *min, *max),
             Self::DihedralAngle {
@@ -180,6 +180,14 @@ impl Expectation {
 }
 
 impl Elements {
+    fn word(&self) -> &'static str {
+        match self {
+            Self::Vertices(_) => "selected vertices",
+            Self::Edges(_) => "selected edges",
+            Self::Faces(_) => "selected faces",
+        }
+    }
+
     fn count(&self, object: &Object, mesh: &Mesh, files: &Files) -> Result<u64, Failure> {
         let n = match self {
             Self::Vertices(s) => selected(s, object, mesh, files)?.len(),

@@ -554,7 +554,7 @@ fn a_cube_has_24_rotations_and_48_motions() {
 }
 
 #[test]
-fn the_five_regular_symmetries_are_counted_as_known() {
+fn a_tetrahedron_has_half_of_the_symmetries_of_a_cube() {
     // The corners of a tetrahedron are every second one of a cube: half of its motions keep them.
     let tetrahedron = scene([("a", shapes::tetrahedron())]);
     holds_and_fails(

@@ -347,8 +347,8 @@ fn hostile_recipes_are_a_few_errors() {
     ));
     for text in [&brackets, &closed, &nested, "", "\0", "[[[", "recipe"] {
         let reading = read(text);
-        assert!(reading.has_errors(), "{:.40}", text);
-        assert!(reading.diagnostics.len() < 10, "{:.40}", text);
+        assert!(reading.has_errors(), "{text:.40}");
+        assert!(reading.diagnostics.len() < 10, "{text:.40}");
     }
     assert_eq!(read(&shallow).diagnostics, []);
 }
@@ -411,7 +411,7 @@ fn the_schema_accepts_what_is_read_without_mistakes() {
 }
 
 #[test]
-fn a_deep_list_of_problems_is_sorted_by_place() {
+fn problems_come_in_the_order_of_the_text() {
     let text = steps("Lfit(by: 1), Sheet(columns: 0), 7, Sheet(colums: 2)");
     let reading = read(&text);
     let places: Vec<_> = reading.diagnostics.iter().map(|d| d.span).collect();

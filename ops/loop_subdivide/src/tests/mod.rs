@@ -1,0 +1,34 @@
+//! Laws of Loop subdivision, and comparisons with two other ways to compute it.
+
+mod attributes;
+mod laws;
+mod operation;
+mod other_ways;
+
+use mesh::{DVec3, Mesh, VertexId};
+use op::NoProgress;
+
+use crate::subdivide;
+
+/// One level, checked.
+pub(crate) fn once(mesh: &Mesh) -> Mesh {
+    let new = subdivide(mesh, &NoProgress).unwrap();
+    assert_eq!(new.defects(), []);
+    new
+}
+
+/// The largest distance between two points of the same place.
+pub(crate) fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| a.distance(*b))
+        .fold(0.0, f64::max)
+}
+
+/// Whether `v` is one of the four corners of a sheet.
+pub(crate) fn is_corner(mesh: &Mesh, v: VertexId) -> bool {
+    let [min, max] = mesh.bounds().unwrap();
+    let p = mesh.position(v);
+    (p.x == min.x || p.x == max.x) && (p.y == min.y || p.y == max.y)
+}

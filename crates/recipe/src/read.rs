@@ -144,7 +144,11 @@ impl Reader<'_> {
             && found != VERSION
         {
             let message = format!("this recipe is of version {found}, expected {VERSION}");
-            let help = "write `recipe: 1`, unless it is meant for a newer meshwright";
+            let help = if found > VERSION {
+                "a newer meshwright can read it"
+            } else {
+                "write 1"
+            };
             self.diagnostics
                 .push(Diagnostic::error(version.span, message).with_help(help));
             return;
@@ -273,14 +277,23 @@ impl Reader<'_> {
         }
     }
 
-    /// Warns of parameters that no `arg(..)` names.
+    /// Warns of parameters that neither an `arg(..)` nor a placeholder in a path names. Says nothing
+    /// beside errors: one of them may be the use.
     fn unused(&mut self, params: Option<&Value>) {
         let Some(ValueKind::Map(entries)) = params.map(|p| &p.kind) else {
             return;
         };
+        if self
+            .diagnostics
+            .iter()
+            .any(|d| d.severity == Severity::Error)
+        {
+            return;
+        }
         for (key, _) in entries {
             if let Some(name) = key.as_str()
                 && !self.used.iter().any(|used| used == name)
+                && !self.source.contains(&format!("{{{name}."))
             {
                 let message = format!("the parameter `{name}` is never used");
                 let help = format!("a step takes its value with arg(\"{name}\")");

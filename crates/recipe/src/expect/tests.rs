@@ -282,7 +282,7 @@ fn selected_elements_are_counted() {
         &cube(),
         "Count(of: Vertices(Valence(3)), eq: 8)",
         "Count(of: Edges(Sharp(above: 91)), min: 1)",
-        "expected at least 1 selected elements, found 0",
+        "expected at least 1 selected edges, found 0",
     );
     holds_and_fails(
         &cube(),

@@ -238,8 +238,23 @@ fn a_value_that_does_not_fit_where_it_goes_says_which_parameter_brought_it() {
 }
 
 #[test]
-fn a_default_that_its_own_parameter_forbids_is_an_error() {
-    let text = r#"(recipe: 1, params: {"n": Int(default: 10, max: 9)}, steps: [])"#;
+fn a_parameter_that_is_never_used_is_a_warning() {
+    let text = r#"(recipe: 1, params: {"n": Int(default: 1)}, steps: [])"#;
+    let reading = read(text);
+    assert!(!reading.has_errors());
+    assert_eq!(
+        shown(text, &reading.diagnostics),
+        [(
+            "\"n\"",
+            "the parameter `n` is never used",
+            "a step takes its value with arg(\"n\")"
+        )]
+    );
+}
+
+#[test]
+fn a_default_that_its_own_parameter_forbids_is_the_only_error() {
+    let text = r#"(recipe: 1, params: {"n": Int(default: 10, max: 9)}, steps: [Sheet(columns: arg("n"))])"#;
     one_problem(
         text,
         "Int(default: 10, max: 9)",
@@ -388,7 +403,7 @@ fn the_schema_accepts_what_is_read_without_mistakes() {
     let schema = crate::schema(&registry());
     let validator = jsonschema::validator_for(&schema).unwrap();
     let json = |text: &str| syntax::to_json(&syntax::parse(text).value);
-    assert_eq!(read(SAMPLE).diagnostics, []);
+    assert!(!read(SAMPLE).has_errors());
     let sample = json(SAMPLE);
     let errors: Vec<String> = validator
         .iter_errors(&sample)

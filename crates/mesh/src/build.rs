@@ -119,7 +119,7 @@ impl Mesh {
     /// A mesh of polygons given as lists of vertex indices, counter-clockwise.
     ///
     /// Polygon i becomes face i unless a degenerate one before it was left out. For input that is not
-    /// a manifold see the [module](crate::build).
+    /// a manifold see the [module](mod@crate::build).
     ///
     /// # Errors
     ///

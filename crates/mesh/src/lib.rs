@@ -40,7 +40,7 @@
 //! Local edits ([`Mesh::flip_edge`], [`Mesh::split_edge`], [`Mesh::delete_face`]) check first and
 //! change after: an `Err` means that nothing changed. Removed elements are marked dead, and no id is
 //! used again until [`Mesh::compact`] renumbers. Operations over a whole mesh build new arrays
-//! ([`Mesh::from_arrays`]) or polygons ([`build`]).
+//! ([`Mesh::from_arrays`]) or polygons ([`build()`]).
 //!
 //! # Examples
 //!

@@ -208,11 +208,64 @@ impl Values {
         each!(self, v => v[to] = v[from]);
     }
 
+    /// Sets the value at `i` to the only one of `other`, which has the same type.
+    fn set(&mut self, i: usize, other: &Self) {
+        match (self, other) {
+            (Self::Float(a), Self::Float(b)) => a[i] = b[0],
+            (Self::Vec2(a), Self::Vec2(b)) => a[i] = b[0],
+            (Self::Vec3(a), Self::Vec3(b)) => a[i] = b[0],
+            (Self::Vec4(a), Self::Vec4(b)) => a[i] = b[0],
+            (Self::Int(a), Self::Int(b)) => a[i] = b[0],
+            (Self::Tag(a), Self::Tag(b)) => a[i] = b[0],
+            _ => unreachable!("blended from the same column"),
+        }
+    }
+
+    /// Puts the numbers of the value at `i` behind `numbers`.
+    pub(crate) fn push_numbers(&self, i: usize, numbers: &mut Vec<f64>) {
+        match self {
+            Self::Float(v) => numbers.push(v[i]),
+            Self::Vec2(v) => numbers.extend(v[i].to_array()),
+            Self::Vec3(v) => numbers.extend(v[i].to_array()),
+            Self::Vec4(v) => numbers.extend(v[i].to_array()),
+            Self::Int(v) => numbers.push(f64::from(v[i])),
+            Self::Tag(v) => numbers.push(f64::from(u8::from(v[i]))),
+        }
+    }
+
+    /// Takes the numbers of the value at `i` from the end of `numbers`, as
+    /// [`push_numbers`](Self::push_numbers) put them there.
+    pub(crate) fn pop_numbers(&mut self, i: usize, numbers: &mut Vec<f64>) {
+        let mut pop = || numbers.pop().expect("pushed before");
+        // The last component was pushed last.
+        match self {
+            Self::Float(v) => v[i] = pop(),
+            Self::Vec2(v) => (v[i].y, v[i].x) = (pop(), pop()),
+            Self::Vec3(v) => (v[i].z, v[i].y, v[i].x) = (pop(), pop(), pop()),
+            Self::Vec4(v) => (v[i].w, v[i].z, v[i].y, v[i].x) = (pop(), pop(), pop(), pop()),
+            #[expect(clippy::cast_possible_truncation, reason = "it was an i32")]
+            Self::Int(v) => v[i] = pop() as i32,
+            Self::Tag(v) => v[i] = pop() != 0.0,
+        }
+    }
+
+    /// Takes the values from `n` on away and returns them.
+    pub(crate) fn split_off(&mut self, n: usize) -> Self {
+        match self {
+            Self::Float(v) => Self::Float(v.split_off(n)),
+            Self::Vec2(v) => Self::Vec2(v.split_off(n)),
+            Self::Vec3(v) => Self::Vec3(v.split_off(n)),
+            Self::Vec4(v) => Self::Vec4(v.split_off(n)),
+            Self::Int(v) => Self::Int(v.split_off(n)),
+            Self::Tag(v) => Self::Tag(v.split_off(n)),
+        }
+    }
+
     fn same(&self, a: usize, b: usize) -> bool {
         each!(self, v => v[a] == v[b])
     }
 
-    fn append(&mut self, other: &Self) -> bool {
+    pub(crate) fn append(&mut self, other: &Self) -> bool {
         match (self, other) {
             (Self::Float(a), Self::Float(b)) => a.extend_from_slice(b),
             (Self::Vec2(a), Self::Vec2(b)) => a.extend_from_slice(b),
@@ -361,6 +414,10 @@ impl Attributes {
         self.of(domain).iter().find(|c| c.name == name)
     }
 
+    pub(crate) fn of_mut(&mut self, domain: Domain) -> &mut [Column] {
+        &mut self.columns[domain as usize]
+    }
+
     pub(crate) fn column_mut(&mut self, domain: Domain, name: &str) -> Option<&mut Column> {
         self.columns[domain as usize]
             .iter_mut()
@@ -468,13 +525,34 @@ impl Attributes {
                 Rule::Interpolate => column.values.mix(a.index(), b.index(), t, to.index()),
                 Rule::Normal => {
                     column.values.mix(a.index(), b.index(), t, to.index());
-                    if let Values::Vec3(v) = &mut column.values {
-                        v[to.index()] = v[to.index()].normalize_or_zero();
-                    }
+                    column.normalize(to.index());
                 }
                 Rule::Copy | Rule::Drop => {}
             }
         }
+    }
+
+    /// Gives element `to` the mean of the values of `from`, where the rules say interpolate.
+    pub(crate) fn average<I: Id>(&mut self, from: &[I], to: I) {
+        for column in &mut self.columns[I::DOMAIN as usize] {
+            if matches!(column.rule, Rule::Interpolate | Rule::Normal) {
+                let weight = 1.0 / from.len().max(1) as f64;
+                let weights = |_: usize, add: &mut dyn FnMut(usize, f64)| {
+                    from.iter().for_each(|i| add(i.index(), weight));
+                };
+                let mean = column.values.blend(1, weights);
+                column.values.set(to.index(), &mean);
+                column.normalize(to.index());
+            }
+        }
+    }
+
+    /// The domain and name of a column whose rule is [`Rule::Drop`].
+    #[inline]
+    pub(crate) fn first_to_drop(&self) -> Option<(Domain, String)> {
+        self.iter()
+            .find(|(_, c)| c.rule == Rule::Drop)
+            .map(|(domain, c)| (domain, c.name.clone()))
     }
 
     /// Whether any corner column has different values at `a` and `b`.
@@ -493,6 +571,13 @@ impl Attributes {
 }
 
 impl Column {
+    /// Scales the value at `i` to length 1 if the rule asks for that.
+    fn normalize(&mut self, i: usize) {
+        if let (Rule::Normal, Values::Vec3(v)) = (self.rule, &mut self.values) {
+            v[i] = v[i].normalize_or_zero();
+        }
+    }
+
     /// A column of the same name, rule and type without values.
     fn clone_empty(&self) -> Self {
         Self {

@@ -40,17 +40,18 @@ impl Mesh {
         if self.is_dense() {
             return map;
         }
-        let old = std::mem::take(self);
+        let old = &*self;
+        let mut new = Self::default();
         let half_edge = |h: Option<HalfEdgeId>| h.map_or(HalfEdgeId::NONE, |h| map.half_edge(h));
         let face = |f: Option<FaceId>| f.map_or(FaceId::NONE, |f| map.faces[f.index()]);
-        self.attributes = old.attributes.gathered(Sources {
+        new.attributes = old.attributes.gathered(Sources {
             vertices: &vertices,
             corners: &corners,
             edges: &edges,
             faces: &faces,
         });
-        self.positions = vertices.iter().map(|&v| old.position(v)).collect();
-        let c = &mut self.connectivity;
+        new.positions = vertices.iter().map(|&v| old.position(v)).collect();
+        let c = &mut new.connectivity;
         c.next = corners
             .iter()
             .map(|&h| map.half_edge(old.next(h)))
@@ -68,6 +69,7 @@ impl Mesh {
             .iter()
             .map(|&f| map.half_edge(old.face_half_edge(f)))
             .collect();
+        self.replace(new);
         map
     }
 }

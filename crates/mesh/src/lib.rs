@@ -63,12 +63,14 @@ pub mod build;
 mod compact;
 mod edit;
 mod id;
+mod journal;
 mod marks;
 mod measure;
 mod mesh;
 pub mod shapes;
 mod traverse;
 mod validate;
+mod write;
 
 pub use attribute::{
     Attribute, Attributes, COLOR, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Rule, SMOOTHING,
@@ -79,6 +81,7 @@ pub use compact::Renumbering;
 pub use edit::{EditError, Seams};
 pub use glam::{DVec2, DVec3, DVec4};
 pub use id::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
+pub use journal::Change;
 pub use measure::angle_between;
 pub use mesh::{Connectivity, Mesh};
 pub use traverse::Orbit;

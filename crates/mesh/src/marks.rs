@@ -27,6 +27,17 @@ impl Marks {
         }
     }
 
+    /// Takes the mark from `i`. Memory shrinks with the highest mark, so that equal sets are equal.
+    pub(crate) fn remove(&mut self, i: usize) {
+        if self.has(i) {
+            self.words[i / 64] &= !(1 << (i % 64));
+            self.count -= 1;
+            while self.words.last() == Some(&0) {
+                self.words.pop();
+            }
+        }
+    }
+
     /// How many indices are marked.
     #[inline]
     pub(crate) fn count(&self) -> usize {
@@ -37,6 +48,16 @@ impl Marks {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_mark_that_is_taken_away_leaves_no_trace() {
+        let mut marks = Marks::default();
+        marks.add(5);
+        let before = marks.clone();
+        marks.add(700);
+        marks.remove(700);
+        assert_eq!(marks, before);
+    }
 
     #[test]
     fn a_mark_is_counted_once() {

@@ -5,6 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::attribute::{Attribute, Attributes, Column, Domain, Value, Values};
+use crate::journal::{Entry, Journal};
 use crate::marks::Marks;
 use crate::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
 
@@ -26,7 +27,9 @@ pub struct Connectivity {
 }
 
 /// A half-edge mesh of polygons in space, with attributes.
-#[derive(Clone, Debug, Default, PartialEq)]
+///
+/// Meshes are equal if all their arrays are, dead elements included.
+#[derive(Clone, Debug, Default)]
 pub struct Mesh {
     pub(crate) connectivity: Connectivity,
     pub(crate) positions: Vec<DVec3>,
@@ -34,6 +37,19 @@ pub struct Mesh {
     pub(crate) dead_vertices: Marks,
     pub(crate) dead_edges: Marks,
     pub(crate) dead_faces: Marks,
+    /// What the edits since [`Mesh::begin`] overwrote, while that is open.
+    pub(crate) journal: Option<Box<Journal>>,
+}
+
+impl PartialEq for Mesh {
+    fn eq(&self, other: &Self) -> bool {
+        self.connectivity == other.connectivity
+            && self.positions == other.positions
+            && self.attributes == other.attributes
+            && self.dead_vertices == other.dead_vertices
+            && self.dead_edges == other.dead_edges
+            && self.dead_faces == other.dead_faces
+    }
 }
 
 impl Mesh {
@@ -196,9 +212,21 @@ impl Mesh {
         &self.positions
     }
 
-    /// The positions of all vertices, to be moved.
+    /// The positions of all vertices, to be moved. An open [journal](Self::begin) copies all of them
+    /// first; [`set_position`](Self::set_position) moves one.
     pub fn positions_mut(&mut self) -> &mut [DVec3] {
+        if let Some(journal) = &mut self.journal {
+            journal.push(Entry::Positions(self.positions.clone().into()));
+        }
         &mut self.positions
+    }
+
+    /// Moves `v`.
+    pub fn set_position(&mut self, v: VertexId, position: DVec3) {
+        let old = std::mem::replace(&mut self.positions[v.index()], position);
+        if let Some(journal) = &mut self.journal {
+            journal.position(v, old);
+        }
     }
 
     // ---- Attributes ----------------------------------------------------------------------------
@@ -217,7 +245,10 @@ impl Mesh {
         for (domain, column) in attributes.iter() {
             self.assert_length(domain, column);
         }
-        self.attributes = attributes;
+        let old = std::mem::replace(&mut self.attributes, attributes);
+        if let Some(journal) = &mut self.journal {
+            journal.push(Entry::Attributes(old.into()));
+        }
     }
 
     /// The values of an attribute by index of its elements, if the mesh has it with this type.
@@ -227,11 +258,14 @@ impl Mesh {
             .and_then(|c| T::of(&c.values))
     }
 
-    /// The values of an attribute, to be changed.
+    /// The values of an attribute, to be changed. An open [journal](Self::begin) copies all of them
+    /// first.
     pub fn get_mut<I: Id, T: Value>(&mut self, attribute: Attribute<I, T>) -> Option<&mut [T]> {
-        self.attributes
-            .column_mut(I::DOMAIN, attribute.name)
-            .and_then(|c| T::of_mut(&mut c.values))
+        let column = self.attributes.column_mut(I::DOMAIN, attribute.name)?;
+        if let Some(journal) = &mut self.journal {
+            journal.push(Entry::Column(I::DOMAIN, column.clone().into()));
+        }
+        T::of_mut(&mut column.values)
     }
 
     /// Gives the mesh an attribute, in place of one of the same name and domain.
@@ -258,12 +292,22 @@ impl Mesh {
     /// If there is not one value for each element of the domain.
     pub fn insert_column(&mut self, domain: Domain, column: Column) {
         self.assert_length(domain, &column);
+        if let Some(journal) = &mut self.journal {
+            journal.push(match self.attributes.column(domain, &column.name) {
+                Some(old) => Entry::Column(domain, old.clone().into()),
+                None => Entry::NoColumn(domain, column.name.clone().into()),
+            });
+        }
         self.attributes.insert(domain, column);
     }
 
     /// Takes a column away and returns it.
     pub fn remove_column(&mut self, domain: Domain, name: &str) -> Option<Column> {
-        self.attributes.remove(domain, name)
+        let removed = self.attributes.remove(domain, name);
+        if let (Some(journal), Some(column)) = (&mut self.journal, &removed) {
+            journal.push(Entry::Column(domain, column.clone().into()));
+        }
+        removed
     }
 
     /// The marks of a tag, by index of its elements.
@@ -288,56 +332,6 @@ impl Mesh {
         let c = &self.connectivity;
         let attributes: usize = self.attributes.iter().map(|(_, c)| c.values.bytes()).sum();
         12 * c.next.len() + 4 * c.face_half_edge.len() + 28 * self.positions.len() + attributes
-    }
-
-    // ---- Writing, for the edits of this crate --------------------------------------------------
-
-    pub(crate) fn set_next(&mut self, h: HalfEdgeId, next: HalfEdgeId) {
-        self.connectivity.next[h.index()] = next;
-    }
-
-    pub(crate) fn set_origin(&mut self, h: HalfEdgeId, v: VertexId) {
-        self.connectivity.origin[h.index()] = v;
-    }
-
-    pub(crate) fn set_face(&mut self, h: HalfEdgeId, f: Option<FaceId>) {
-        self.connectivity.face[h.index()] = f.unwrap_or(FaceId::NONE);
-    }
-
-    pub(crate) fn set_vertex_half_edge(&mut self, v: VertexId, h: Option<HalfEdgeId>) {
-        self.connectivity.vertex_half_edge[v.index()] = h.unwrap_or(HalfEdgeId::NONE);
-    }
-
-    pub(crate) fn set_face_half_edge(&mut self, f: FaceId, h: HalfEdgeId) {
-        self.connectivity.face_half_edge[f.index()] = h;
-    }
-
-    /// A new isolated vertex.
-    pub(crate) fn push_vertex(&mut self, position: DVec3) -> VertexId {
-        let v = VertexId::new(self.positions.len());
-        self.positions.push(position);
-        self.connectivity.vertex_half_edge.push(HalfEdgeId::NONE);
-        self.attributes.grow(Domain::Vertex, v.index() + 1);
-        v
-    }
-
-    /// A new edge between two vertices: its halves have no faces and no followers yet.
-    pub(crate) fn push_edge(&mut self, origin: VertexId, target: VertexId) -> EdgeId {
-        let e = EdgeId::new(self.connectivity.next.len() / 2);
-        self.connectivity.next.extend([HalfEdgeId::NONE; 2]);
-        self.connectivity.origin.extend([origin, target]);
-        self.connectivity.face.extend([FaceId::NONE; 2]);
-        self.attributes.grow(Domain::Edge, e.index() + 1);
-        self.attributes.grow(Domain::Corner, 2 * e.index() + 2);
-        e
-    }
-
-    /// A new face at half-edge `h`.
-    pub(crate) fn push_face(&mut self, h: HalfEdgeId) -> FaceId {
-        let f = FaceId::new(self.connectivity.face_half_edge.len());
-        self.connectivity.face_half_edge.push(h);
-        self.attributes.grow(Domain::Face, f.index() + 1);
-        f
     }
 }
 

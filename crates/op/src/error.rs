@@ -12,18 +12,40 @@ use serde::{Deserialize, Serialize};
 pub enum Refusal {
     /// An edge is on the boundary and the edit needs a face on both sides.
     Boundary,
+    /// An edge has a face on both sides and the edit needs one of the boundary.
+    NotBoundary,
     /// The edit is for triangles only.
     NotTriangle,
     /// Both triangles at an edge have the same opposite vertex.
     SameOpposite,
+    /// One face lies on both sides of an edge.
+    SameFace,
     /// Two vertices would get a second edge between them.
     DuplicateEdge,
+    /// A vertex has too few edges.
+    FewEdges,
+    /// A face has too few corners.
+    FewCorners,
+    /// Nothing would be left of the faces around an edge.
+    Vanishes,
+    /// The ends of an edge have a neighbour in common outside the faces beside it, so that they cannot
+    /// become one.
+    Link,
+    /// An edge inside the surface joins two places of the boundary, so that its ends cannot become one.
+    JoinsBoundaries,
     /// Corner attributes differ between the two sides of an edge.
     Seam,
     /// A place on an edge is not strictly between its ends.
     OutsideEdge,
+    /// A coordinate or length is not finite or out of its range.
+    BadNumber,
     /// The faces around a vertex would fall into two fans.
     Pinch,
+    /// The faces are only a part of their component.
+    PartOfComponent,
+    /// Elements do not lie to each other as the edit needs it: a path with a gap, corners of two faces,
+    /// one element named twice, or none.
+    WrongPlace,
     /// A vertex, edge or face that was named is not there, or is not there any more.
     Missing,
     /// A selection did not match as many elements as was expected.
@@ -37,17 +59,28 @@ pub enum Refusal {
 impl From<EditError> for Refusal {
     fn from(error: EditError) -> Self {
         match error {
-            EditError::NoSuchVertex(_) | EditError::NoSuchEdge(_) | EditError::NoSuchFace(_) => {
-                Self::Missing
-            }
-            EditError::Boundary(_) => Self::Boundary,
+            EditError::NoSuchVertex(_)
+            | EditError::NoSuchHalfEdge(_)
+            | EditError::NoSuchEdge(_)
+            | EditError::NoSuchFace(_) => Self::Missing,
+            EditError::Boundary(_) | EditError::BoundaryVertex(_) => Self::Boundary,
+            EditError::NotBoundary(_) => Self::NotBoundary,
             EditError::NotTriangle(_) => Self::NotTriangle,
             EditError::SameOpposite(..) => Self::SameOpposite,
+            EditError::SameFace(_) => Self::SameFace,
             EditError::DuplicateEdge(..) => Self::DuplicateEdge,
+            EditError::FewEdges(_) => Self::FewEdges,
+            EditError::FewCorners(_) => Self::FewCorners,
+            EditError::Vanishes(_) => Self::Vanishes,
+            EditError::Link(..) => Self::Link,
+            EditError::JoinsBoundaries(_) => Self::JoinsBoundaries,
             EditError::Seam(_) => Self::Seam,
             EditError::OutsideEdge(_) => Self::OutsideEdge,
+            EditError::BadNumber(_) => Self::BadNumber,
             EditError::Pinch(_) => Self::Pinch,
+            EditError::PartOfComponent(_) => Self::PartOfComponent,
             EditError::Full => Self::Full,
+            _ => Self::WrongPlace,
         }
     }
 }

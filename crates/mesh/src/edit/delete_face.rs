@@ -33,8 +33,8 @@ impl Mesh {
             }
         }
 
-        self.attributes.drop_by_rule();
-        self.dead_faces.add(f.index());
+        self.drop_columns_by_rule();
+        self.kill_face(f);
         for &h in &sides {
             self.set_face(h, None);
         }
@@ -68,7 +68,7 @@ impl Mesh {
         }
         for (&h, &rim) in sides.iter().zip(&rims) {
             if rim {
-                self.dead_edges.add(h.edge().index());
+                self.kill_edge(h.edge());
             }
         }
         Ok(())

@@ -1,6 +1,6 @@
-//! Turning the edge between two triangles.
+//! Turning the edge between two faces.
 
-use crate::{EdgeId, EditError, Mesh};
+use crate::{EdgeId, EditError, HalfEdgeId, Mesh};
 
 /// What to do when corner attributes differ between the two sides of an edge that is flipped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -13,26 +13,28 @@ pub enum Seams {
 }
 
 impl Mesh {
-    /// Turns the edge between two triangles counter-clockwise to their other diagonal.
+    /// Turns the edge between two faces counter-clockwise: each end moves on by one corner.
     ///
     /// ```text
-    ///        c                   c
-    ///      / f \               / ^ \
-    ///    a --e-> b    -->    a f e g b
-    ///      \ g /               \ | /
-    ///        d                   d
+    ///        c                   c                 +-----c           +-----c
+    ///      / f \               / ^ \               |  f  |           |  f  |\
+    ///    a --e-> b    -->    a f e g b            a--e->b    -->    a     | b
+    ///      \ g /               \ | /               |  g  |            \ g  | |
+    ///        d                   d                 d-----+             d----+     (e from d to c)
     /// ```
     ///
-    /// All ids stay. `e` ran from a to b and runs from d to c afterwards; its first half keeps face f.
-    /// Four flips of an edge are none. Attributes of vertices, edges and faces stay with their ids;
-    /// corners at c and d get the values of the same vertex in the other triangle.
+    /// Between triangles that is their other diagonal, and four flips of an edge are none. All ids stay.
+    /// `e` ran from a to b and runs from d to c afterwards, where c follows b on face f and d follows a
+    /// on face g; its first half keeps face f. Attributes of vertices, edges and faces stay with their
+    /// ids; corners at c and d get the values of the same vertex in the other face.
     ///
     /// # Errors
     ///
-    /// [`EditError::Boundary`] if `e` has a face on one side only, [`EditError::NotTriangle`] if one of
-    /// them is not a triangle, [`EditError::SameOpposite`] if c is d, [`EditError::DuplicateEdge`] if c
-    /// and d already share an edge, [`EditError::Seam`] if corner attributes differ across `e`,
-    /// [`EditError::NoSuchEdge`]. The mesh is unchanged.
+    /// [`EditError::Boundary`] if `e` has a face on one side only, [`EditError::SameFace`] if that on
+    /// both is the same, [`EditError::SameOpposite`] if c is d, [`EditError::FewEdges`] if an end of `e`
+    /// has only two edges, [`EditError::DuplicateEdge`] if c and d already share an edge,
+    /// [`EditError::Seam`] if corner attributes differ across `e`, [`EditError::NoSuchEdge`]. The mesh is
+    /// unchanged.
     ///
     /// # Examples
     ///
@@ -60,39 +62,41 @@ impl Mesh {
         let (Some(f), Some(g)) = (self.face(ab), self.face(ba)) else {
             return Err(EditError::Boundary(e));
         };
-        for face in [f, g] {
-            if !self.is_triangle(face) {
-                return Err(EditError::NotTriangle(face));
-            }
-        }
         let (bc, ad) = (self.next(ab), self.next(ba));
-        let (ca, db) = (self.next(bc), self.next(ad));
-        let (a, b, c, d) = (
-            self.origin(ab),
-            self.origin(ba),
-            self.origin(ca),
-            self.origin(db),
-        );
+        let (after_c, after_d) = (self.next(bc), self.next(ad));
+        let (before_a, before_b) = (self.prev_on_face(ab), self.prev_on_face(ba));
+        let (a, b) = (self.origin(ab), self.origin(ba));
+        let (c, d) = (self.origin(after_c), self.origin(after_d));
+        if f == g {
+            return Err(EditError::SameFace(e));
+        }
         if c == d {
             return Err(EditError::SameOpposite(e, c));
         }
-        if self.find_half_edge(c, d).is_some() {
+        for (before, after, v) in [(before_a, ad, a), (before_b, bc, b)] {
+            if before == after.twin() {
+                return Err(EditError::FewEdges(v));
+            }
+        }
+        if self.share_an_edge(after_c, after_d) {
             return Err(EditError::DuplicateEdge(c, d));
         }
         if seams == Seams::Refuse && self.is_seam(e) {
             return Err(EditError::Seam(e));
         }
 
-        // f becomes d -> c -> a, g becomes c -> d -> b.
-        self.attributes.drop_by_rule();
-        self.attributes.copy(ab, ad);
-        self.attributes.copy(ba, bc);
-        self.attributes.copy(db, ab);
-        self.attributes.copy(ca, ba);
-        for [x, y, z] in [[ab, ca, ad], [ba, db, bc]] {
-            self.set_next(x, y);
-            self.set_next(y, z);
-            self.set_next(z, x);
+        // f becomes d -> c ... a -> d, g becomes c -> d ... b -> c.
+        self.drop_columns_by_rule();
+        self.copy_values(ab, ad);
+        self.copy_values(ba, bc);
+        self.copy_values(after_d, ab);
+        self.copy_values(after_c, ba);
+        for [x, after_x, before_x, moved] in
+            [[ab, after_c, before_a, ad], [ba, after_d, before_b, bc]]
+        {
+            self.set_next(x, after_x);
+            self.set_next(before_x, moved);
+            self.set_next(moved, x);
         }
         self.set_origin(ab, d);
         self.set_origin(ba, c);
@@ -107,6 +111,34 @@ impl Mesh {
             self.set_vertex_half_edge(b, Some(bc));
         }
         Ok(())
+    }
+
+    /// The half-edge before `h` on its face.
+    #[inline]
+    fn prev_on_face(&self, h: HalfEdgeId) -> HalfEdgeId {
+        let mut before = self.next(h);
+        while self.next(before) != h {
+            before = self.next(before);
+        }
+        before
+    }
+
+    /// Whether the origins of `x` and `y` share an edge. Walks around both at once, so that an end of
+    /// few edges answers for one of many.
+    #[inline]
+    fn share_an_edge(&self, x: HalfEdgeId, y: HalfEdgeId) -> bool {
+        let (v, w) = (self.origin(x), self.origin(y));
+        let (mut a, mut b) = (x, y);
+        loop {
+            if self.target(a) == w || self.target(b) == v {
+                return true;
+            }
+            a = self.next(a.twin());
+            b = self.next(b.twin());
+            if a == x || b == y {
+                return false;
+            }
+        }
     }
 }
 
@@ -200,12 +232,31 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_between_quads_does_not_flip() {
-        let mesh = shapes::cube();
-        assert_eq!(
-            refused(&mesh, EdgeId::new(0)),
-            EditError::NotTriangle(FaceId::new(0))
-        );
+    fn an_edge_between_quads_turns_by_one_corner_and_six_turns_are_none() {
+        let cube = shapes::cube();
+        for e in cube.edges() {
+            let mut mesh = cube.clone();
+            let [h, twin] = e.half_edges();
+            let ends = [mesh.target(mesh.next(twin)), mesh.target(mesh.next(h))];
+            for turn in 1..=6 {
+                mesh.flip_edge(e).unwrap();
+                assert_eq!(mesh.defects(), []);
+                assert!(mesh.faces().all(|f| mesh.degree(f) == 4));
+                if turn == 1 {
+                    assert_eq!(mesh.edge_vertices(e), ends);
+                }
+            }
+            assert_eq!(mesh.connectivity.next, cube.connectivity.next);
+            assert_eq!(mesh.connectivity.origin, cube.connectivity.origin);
+        }
+    }
+
+    #[test]
+    fn an_edge_does_not_leave_a_vertex_that_has_only_two() {
+        // The new vertex on the edge of a cube has two edges; turning one would leave a spur.
+        let mut mesh = shapes::cube();
+        let m = mesh.split_edge(EdgeId::new(0), 0.5).unwrap();
+        assert_eq!(refused(&mesh, EdgeId::new(0)), EditError::FewEdges(m));
     }
 
     #[test]

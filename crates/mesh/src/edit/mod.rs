@@ -4,17 +4,22 @@
 mod delete_face;
 mod flip;
 mod split;
+mod split_face;
 
 pub use flip::Seams;
 
-use crate::{EdgeId, FaceId, Mesh, VertexId};
+use crate::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 /// Why an edit was refused. The mesh is unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum EditError {
     /// The vertex does not exist, or is dead.
     #[error("{0} is not a vertex of the mesh")]
     NoSuchVertex(VertexId),
+    /// The half-edge does not exist, or is dead.
+    #[error("{0} is not a half-edge of the mesh")]
+    NoSuchHalfEdge(HalfEdgeId),
     /// The edge does not exist, or is dead.
     #[error("{0} is not an edge of the mesh")]
     NoSuchEdge(EdgeId),
@@ -24,35 +29,110 @@ pub enum EditError {
     /// The edit needs a face on both sides.
     #[error("{0} is on the boundary")]
     Boundary(EdgeId),
+    /// The edit needs an edge with a face on one side only.
+    #[error("{0} is not on the boundary")]
+    NotBoundary(EdgeId),
+    /// The edit is for vertices inside the surface.
+    #[error("{0} is on the boundary")]
+    BoundaryVertex(VertexId),
     /// The edit is for triangles only.
     #[error("{0} is not a triangle")]
     NotTriangle(FaceId),
     /// The vertices opposite the edge are one and the same.
     #[error("both triangles at {0} have {1} opposite")]
     SameOpposite(EdgeId, VertexId),
+    /// One face lies on both sides of the edge.
+    #[error("one face is on both sides of {0}")]
+    SameFace(EdgeId),
     /// The edit would make a second edge between the same two vertices.
     #[error("{0} and {1} already share an edge")]
     DuplicateEdge(VertexId, VertexId),
+    /// The vertex has too few edges for the edit.
+    #[error("{0} has too few edges")]
+    FewEdges(VertexId),
+    /// The face would be left with fewer than three corners.
+    #[error("{0} has too few corners")]
+    FewCorners(FaceId),
+    /// The edit would take the last faces of a closed part, or fold them onto each other.
+    #[error("nothing would be left of the faces around {0}")]
+    Vanishes(EdgeId),
+    /// The ends of the edge have a neighbour in common that no face beside the edge has: they cannot
+    /// become one.
+    #[error("the ends of {0} are both joined to {1}, but not by a face at the edge")]
+    Link(EdgeId, VertexId),
+    /// Both ends of the edge are on the boundary, but the edge is not: one boundary would become two,
+    /// or two one.
+    #[error("{0} joins two places of the boundary")]
+    JoinsBoundaries(EdgeId),
     /// Corner attributes differ between the two sides of the edge, and the edit would blur them.
     #[error("{0} is a seam of corner attributes")]
     Seam(EdgeId),
     /// The place on the edge is not strictly between its ends.
     #[error("the place on the edge must lie between 0 and 1, not {0}")]
     OutsideEdge(f64),
+    /// A coordinate or length is infinite or not a number, or out of its range.
+    #[error("{0} is not a number that the edit can use")]
+    BadNumber(f64),
     /// The edit would leave two fans of faces at a vertex.
     #[error("the faces around {0} would fall into two fans")]
     Pinch(VertexId),
+    /// The corner is not one of that face, or not one of that vertex.
+    #[error("{0} does not begin a side of the same face or vertex")]
+    Elsewhere(HalfEdgeId),
+    /// The two corners are the same or neighbours.
+    #[error("{0} and {1} are the same or next to each other")]
+    Adjacent(HalfEdgeId, HalfEdgeId),
+    /// The edit is for whole components, and this face is beside one that was not named.
+    #[error("{0} is only a part of its component")]
+    PartOfComponent(FaceId),
+    /// Elements are not a path, a loop or a region of the kind that the edit needs; this one is not in
+    /// its place.
+    #[error("{0} does not continue the path")]
+    NoPath(EdgeId),
+    /// The element was named twice.
+    #[error("{0} was named twice")]
+    Twice(EdgeId),
+    /// The same face was named twice.
+    #[error("{0} was named twice")]
+    TwiceFace(FaceId),
+    /// Nothing was named to edit.
+    #[error("nothing was named to edit")]
+    Nothing,
     /// The mesh has as many elements as ids can number.
     #[error("the mesh is full: ids end at 2^32 - 2")]
     Full,
 }
 
 impl Mesh {
+    fn check_vertex(&self, v: VertexId) -> Result<(), EditError> {
+        if self.has_vertex(v) {
+            Ok(())
+        } else {
+            Err(EditError::NoSuchVertex(v))
+        }
+    }
+
+    fn check_half_edge(&self, h: HalfEdgeId) -> Result<(), EditError> {
+        if self.has_edge(h.edge()) {
+            Ok(())
+        } else {
+            Err(EditError::NoSuchHalfEdge(h))
+        }
+    }
+
     fn check_edge(&self, e: EdgeId) -> Result<(), EditError> {
         if self.has_edge(e) {
             Ok(())
         } else {
             Err(EditError::NoSuchEdge(e))
+        }
+    }
+
+    fn check_face(&self, f: FaceId) -> Result<(), EditError> {
+        if self.has_face(f) {
+            Ok(())
+        } else {
+            Err(EditError::NoSuchFace(f))
         }
     }
 

@@ -52,21 +52,21 @@ impl Mesh {
         let (after_b, before_b) = (self.next(am), self.prev(ma));
         let cuts = [am, ma].map(|h| self.face(h).is_some_and(|f| self.is_triangle(f)));
 
-        self.attributes.drop_by_rule();
+        self.drop_columns_by_rule();
         let m = self.push_vertex((1.0 - t) * self.position(a) + t * self.position(b));
-        self.attributes.mix(a, b, t, m);
+        self.mix_values(a, b, t, m);
 
         // m-b, with both halves on the faces of e.
         let new = self.push_edge(m, b);
-        self.attributes.copy(e, new);
+        self.copy_values(e, new);
         let [mb, bm] = new.half_edges();
         self.set_face(mb, self.face(am));
         self.set_face(bm, self.face(ma));
-        self.attributes.copy(ma, bm);
-        self.attributes.mix(am, after_b, t, mb);
+        self.copy_values(ma, bm);
+        self.mix_values(am, after_b, t, mb);
         // The corner at m on the other side lies between that at b, now of bm, and that at a.
         let at_a = self.next(ma);
-        self.attributes.mix(bm, at_a, 1.0 - t, ma);
+        self.mix_values(bm, at_a, 1.0 - t, ma);
         self.set_next(am, mb);
         self.set_next(mb, after_b);
         self.set_next(before_b, bm);
@@ -88,43 +88,12 @@ impl Mesh {
         Ok(m)
     }
 
-    /// Joins the origins of `x` and `y`, half-edges of one face. The part of the face with `moved`
-    /// becomes a new face; the other part keeps the old one.
-    fn insert_edge(&mut self, x: HalfEdgeId, y: HalfEdgeId, moved: HalfEdgeId) {
-        let (before_x, before_y) = (self.prev(x), self.prev(y));
-        let [xy, yx] = self.push_edge(self.origin(x), self.origin(y)).half_edges();
-        self.attributes.copy(x, xy);
-        self.attributes.copy(y, yx);
-        self.set_next(before_x, xy);
-        self.set_next(xy, y);
-        self.set_next(before_y, yx);
-        self.set_next(yx, x);
-
-        let new = self.push_face(moved);
-        if let Some(old) = self.face(x) {
-            self.attributes.copy(old, new);
-            for h in [xy, yx] {
-                self.set_face(h, Some(old));
-                self.set_face_half_edge(old, h);
-            }
-        }
-        let mut h = moved;
-        while self.face(h) != Some(new) {
-            self.set_face(h, Some(new));
-            h = self.next(h);
-        }
-        let kept = if self.face(xy) == Some(new) { yx } else { xy };
-        if let Some(old) = self.face(kept) {
-            self.set_face_half_edge(old, kept);
-        }
-    }
-
     /// Marks all isolated vertices dead and returns how many there were.
     pub fn delete_isolated_vertices(&mut self) -> usize {
         let n = self.n_vertices();
         for v in 0..self.domain_len(Domain::Vertex) {
             if self.vertex_half_edge(VertexId::new(v)).is_none() {
-                self.dead_vertices.add(v);
+                self.kill_vertex(VertexId::new(v));
             }
         }
         n - self.n_vertices()

@@ -1,0 +1,399 @@
+//! Taking edits back.
+//!
+//! [`Mesh::begin`] opens a journal. From then on every write notes what it overwrites, so that
+//! [`Mesh::rollback`] gives back the same bytes, and [`Mesh::commit`] a [`Change`] that can be reverted
+//! later, and done again after that. Memory and time are in proportion to the change, not to the mesh.
+//! While no journal is open, a write costs one comparison more.
+//!
+//! Levels nest: an inner `rollback` takes back what was done since the inner `begin`, an inner `commit`
+//! leaves it to the outer level.
+//!
+//! The notes are one stack. An element that is newer than its level needs none: going back cuts the
+//! arrays to their lengths. Going back notes what it overwrites in the same way, and that is the change
+//! that does it again.
+
+use glam::DVec3;
+
+use crate::attribute::{Attributes, Column};
+use crate::{Connectivity, Domain, FaceId, HalfEdgeId, Id, Mesh, Values, VertexId};
+
+/// What an edit, or several, did to a mesh: enough to take it back. See [`Mesh::commit`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Change {
+    entries: Vec<Entry>,
+    /// The numbers of positions and values, in the order of the entries that own them.
+    numbers: Vec<f64>,
+}
+
+impl Change {
+    /// Whether nothing was changed.
+    pub fn is_empty(&self) -> bool {
+        self.entries
+            .iter()
+            .all(|entry| matches!(entry, Entry::Level(_)))
+    }
+
+    /// The bytes that it takes, without those of whole arrays in it.
+    pub fn bytes(&self) -> usize {
+        size_of_val(self.entries.as_slice()) + size_of_val(self.numbers.as_slice())
+    }
+}
+
+/// The journal of a mesh while it is open.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Journal {
+    noted: Change,
+    /// For each open level where its notes begin.
+    starts: Vec<usize>,
+    /// How long the arrays were when the innermost open level began.
+    lengths: Lengths,
+}
+
+/// One thing to put back.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Entry {
+    Next(HalfEdgeId, HalfEdgeId),
+    Origin(HalfEdgeId, VertexId),
+    Face(HalfEdgeId, FaceId),
+    VertexHalfEdge(VertexId, HalfEdgeId),
+    FaceHalfEdge(FaceId, HalfEdgeId),
+    /// Three numbers.
+    Position(VertexId),
+    /// The numbers of one value in each column of the domain.
+    Values(Domain, usize),
+    /// An element that was marked dead, or is to be again.
+    Mark(Domain, usize),
+    /// A column in place of the one of its name, if there is one.
+    Column(Domain, Box<Column>),
+    /// No column of this name.
+    NoColumn(Domain, Box<str>),
+    Positions(Box<[DVec3]>),
+    Attributes(Box<Attributes>),
+    /// A whole mesh, without journal.
+    Whole(Box<Mesh>),
+    /// The lengths of the arrays at the begin of a level: what is behind them goes.
+    Level(Box<Lengths>),
+    /// What stood behind: it comes again.
+    Tail(Box<Tail>),
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Lengths {
+    vertices: usize,
+    half_edges: usize,
+    faces: usize,
+}
+
+/// The ends of all arrays.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Tail {
+    connectivity: Connectivity,
+    positions: Vec<DVec3>,
+    /// For each domain the values of its columns.
+    values: [Vec<Values>; 4],
+}
+
+impl Journal {
+    pub(crate) fn push(&mut self, entry: Entry) {
+        self.noted.entries.push(entry);
+    }
+
+    pub(crate) fn half_edge(&mut self, h: HalfEdgeId, entry: Entry) {
+        if h.index() < self.lengths.half_edges {
+            self.push(entry);
+        }
+    }
+
+    pub(crate) fn vertex(&mut self, v: VertexId, entry: Entry) {
+        if v.index() < self.lengths.vertices {
+            self.push(entry);
+        }
+    }
+
+    pub(crate) fn face(&mut self, f: FaceId, entry: Entry) {
+        if f.index() < self.lengths.faces {
+            self.push(entry);
+        }
+    }
+
+    pub(crate) fn position(&mut self, v: VertexId, old: DVec3) {
+        if v.index() < self.lengths.vertices {
+            self.noted.position(v, old);
+        }
+    }
+
+    /// Notes the values that `element` has in these columns, all those of its domain.
+    pub(crate) fn values<I: Id>(&mut self, element: I, columns: &[Column]) {
+        if element.index() < self.lengths.of(I::DOMAIN) {
+            self.noted.values(I::DOMAIN, element.index(), columns);
+        }
+    }
+}
+
+impl Change {
+    fn position(&mut self, v: VertexId, old: DVec3) {
+        self.entries.push(Entry::Position(v));
+        self.numbers.extend(old.to_array());
+    }
+
+    fn values(&mut self, domain: Domain, i: usize, columns: &[Column]) {
+        for column in columns {
+            column.values.push_numbers(i, &mut self.numbers);
+        }
+        self.entries.push(Entry::Values(domain, i));
+    }
+}
+
+impl Lengths {
+    const fn of(&self, domain: Domain) -> usize {
+        match domain {
+            Domain::Vertex => self.vertices,
+            Domain::Corner => self.half_edges,
+            Domain::Edge => self.half_edges / 2,
+            Domain::Face => self.faces,
+        }
+    }
+}
+
+impl Mesh {
+    /// Begins to note what is overwritten, until [`commit`](Self::commit) or
+    /// [`rollback`](Self::rollback). May be nested.
+    pub fn begin(&mut self) {
+        let lengths = self.lengths();
+        let journal = self.journal.get_or_insert_default();
+        journal.starts.push(journal.noted.entries.len());
+        journal.lengths = lengths;
+        journal.push(Entry::Level(Box::new(lengths)));
+    }
+
+    /// Takes back everything since the matching [`begin`](Self::begin): every array is the same as it
+    /// was then, bit for bit.
+    ///
+    /// # Panics
+    ///
+    /// If nothing was begun.
+    pub fn rollback(&mut self) {
+        let mut journal = self.journal.take().expect("begin comes before rollback");
+        let start = journal.starts.pop().expect("an open journal has a level");
+        self.go_back(&mut journal.noted, start);
+        self.reopen(journal);
+    }
+
+    /// Keeps what was done since the matching [`begin`](Self::begin). If that was the outermost one,
+    /// returns the change, to be [reverted](Self::revert) later.
+    ///
+    /// # Panics
+    ///
+    /// If nothing was begun.
+    pub fn commit(&mut self) -> Option<Change> {
+        let mut journal = self.journal.take().expect("begin comes before commit");
+        journal.starts.pop().expect("an open journal has a level");
+        if journal.starts.is_empty() {
+            return Some(journal.noted);
+        }
+        self.reopen(journal);
+        None
+    }
+
+    /// Takes back a change, and returns the change that does it again.
+    ///
+    /// The mesh must be as it was when that change was committed: later ones are reverted first.
+    ///
+    /// # Panics
+    ///
+    /// If a journal is open. For a change of another mesh, or out of turn, the result is any mesh, or a
+    /// panic where it names an element that is not there.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let mut mesh = mesh::shapes::tetrahedron();
+    /// let before = mesh.clone();
+    /// mesh.begin();
+    /// let m = mesh.split_edge(mesh::EdgeId::new(0), 0.5)?;
+    /// let change = mesh.commit().unwrap();
+    /// let after = mesh.clone();
+    ///
+    /// let again = mesh.revert(change);
+    /// assert_eq!(mesh, before);
+    /// mesh.revert(again);
+    /// assert_eq!(mesh, after);
+    /// # Ok::<(), mesh::EditError>(())
+    /// ```
+    pub fn revert(&mut self, mut change: Change) -> Change {
+        assert!(self.journal.is_none(), "a journal is open");
+        self.go_back(&mut change, 0)
+    }
+
+    /// Runs `edit` as a whole: if it returns an error, the mesh is as it was before.
+    ///
+    /// # Errors
+    ///
+    /// The error of `edit`.
+    pub fn atomically<T, E>(
+        &mut self,
+        edit: impl FnOnce(&mut Self) -> Result<T, E>,
+    ) -> Result<T, E> {
+        self.begin();
+        let result = edit(self);
+        if result.is_ok() {
+            self.commit();
+        } else {
+            self.rollback();
+        }
+        result
+    }
+
+    /// Puts another mesh in the place of this one. Where `*mesh = other` would lose an open journal,
+    /// this notes it.
+    pub fn replace(&mut self, other: Self) {
+        let journal = self.journal.take();
+        let old = std::mem::replace(self, other);
+        self.journal = journal;
+        if let Some(journal) = &mut self.journal {
+            journal.push(Entry::Whole(Box::new(old)));
+        }
+    }
+
+    /// Puts the journal back if a level is still open.
+    fn reopen(&mut self, mut journal: Box<Journal>) {
+        if let Some(&start) = journal.starts.last() {
+            let Entry::Level(lengths) = &journal.noted.entries[start] else {
+                unreachable!("a level begins with its lengths");
+            };
+            journal.lengths = **lengths;
+            self.journal = Some(journal);
+        }
+    }
+
+    /// Puts back what the entries from `start` on say, the last one first. Returns what undoes that.
+    fn go_back(&mut self, change: &mut Change, start: usize) -> Change {
+        let mut inverse = Change::default();
+        for entry in change.entries.drain(start..).rev() {
+            let undo = self.put_back(entry, &mut change.numbers, &mut inverse);
+            inverse.entries.extend(undo);
+        }
+        inverse
+    }
+
+    /// Puts one entry back. Returns the entry that undoes that, unless it went into `inverse` together
+    /// with numbers.
+    fn put_back(
+        &mut self,
+        entry: Entry,
+        numbers: &mut Vec<f64>,
+        inverse: &mut Change,
+    ) -> Option<Entry> {
+        use std::mem::replace;
+        let c = &mut self.connectivity;
+        Some(match entry {
+            Entry::Next(h, old) => Entry::Next(h, replace(&mut c.next[h.index()], old)),
+            Entry::Origin(h, old) => Entry::Origin(h, replace(&mut c.origin[h.index()], old)),
+            Entry::Face(h, old) => Entry::Face(h, replace(&mut c.face[h.index()], old)),
+            Entry::VertexHalfEdge(v, old) => {
+                Entry::VertexHalfEdge(v, replace(&mut c.vertex_half_edge[v.index()], old))
+            }
+            Entry::FaceHalfEdge(f, old) => {
+                Entry::FaceHalfEdge(f, replace(&mut c.face_half_edge[f.index()], old))
+            }
+            Entry::Position(v) => {
+                let position = &mut self.positions[v.index()];
+                inverse.position(v, *position);
+                for axis in (0..3).rev() {
+                    position[axis] = numbers.pop().expect("three numbers were noted");
+                }
+                return None;
+            }
+            Entry::Values(domain, i) => {
+                inverse.values(domain, i, self.attributes.of(domain));
+                for column in self.attributes.of_mut(domain).iter_mut().rev() {
+                    column.values.pop_numbers(i, numbers);
+                }
+                return None;
+            }
+            Entry::Mark(domain, i) => {
+                let marks = match domain {
+                    Domain::Vertex => &mut self.dead_vertices,
+                    Domain::Edge | Domain::Corner => &mut self.dead_edges,
+                    Domain::Face => &mut self.dead_faces,
+                };
+                if marks.has(i) {
+                    marks.remove(i);
+                } else {
+                    marks.add(i);
+                }
+                Entry::Mark(domain, i)
+            }
+            Entry::Column(domain, old) => match self.attributes.remove(domain, &old.name) {
+                Some(column) => {
+                    self.attributes.insert(domain, *old);
+                    Entry::Column(domain, column.into())
+                }
+                None => {
+                    let name = old.name.clone().into();
+                    self.attributes.insert(domain, *old);
+                    Entry::NoColumn(domain, name)
+                }
+            },
+            Entry::NoColumn(domain, name) => {
+                Entry::Column(domain, self.attributes.remove(domain, &name)?.into())
+            }
+            Entry::Positions(old) => {
+                Entry::Positions(replace(&mut self.positions, old.into_vec()).into())
+            }
+            Entry::Attributes(old) => Entry::Attributes(replace(&mut self.attributes, *old).into()),
+            Entry::Whole(old) => Entry::Whole(Box::new(replace(self, *old))),
+            Entry::Level(lengths) => Entry::Tail(Box::new(self.cut_tail(*lengths))),
+            Entry::Tail(tail) => {
+                let lengths = self.lengths();
+                self.append_tail(*tail);
+                Entry::Level(Box::new(lengths))
+            }
+        })
+    }
+
+    const fn lengths(&self) -> Lengths {
+        Lengths {
+            vertices: self.positions.len(),
+            half_edges: self.connectivity.next.len(),
+            faces: self.connectivity.face_half_edge.len(),
+        }
+    }
+
+    fn cut_tail(&mut self, lengths: Lengths) -> Tail {
+        let c = &mut self.connectivity;
+        Tail {
+            connectivity: Connectivity {
+                next: c.next.split_off(lengths.half_edges),
+                origin: c.origin.split_off(lengths.half_edges),
+                face: c.face.split_off(lengths.half_edges),
+                vertex_half_edge: c.vertex_half_edge.split_off(lengths.vertices),
+                face_half_edge: c.face_half_edge.split_off(lengths.faces),
+            },
+            positions: self.positions.split_off(lengths.vertices),
+            values: Domain::ALL.map(|domain| {
+                let columns = self.attributes.of_mut(domain).iter_mut();
+                columns
+                    .map(|c| c.values.split_off(lengths.of(domain)))
+                    .collect()
+            }),
+        }
+    }
+
+    fn append_tail(&mut self, tail: Tail) {
+        let c = &mut self.connectivity;
+        c.next.extend(tail.connectivity.next);
+        c.origin.extend(tail.connectivity.origin);
+        c.face.extend(tail.connectivity.face);
+        c.vertex_half_edge
+            .extend(tail.connectivity.vertex_half_edge);
+        c.face_half_edge.extend(tail.connectivity.face_half_edge);
+        self.positions.extend(tail.positions);
+        for (domain, ends) in Domain::ALL.into_iter().zip(tail.values) {
+            for (column, end) in self.attributes.of_mut(domain).iter_mut().zip(ends) {
+                let fits = column.values.append(&end);
+                debug_assert!(fits, "the columns are those that the tail was cut from");
+            }
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! Writing single entries of the arrays, for the edits of this crate. An open journal notes what they
+//! overwrite; nothing else in the crate may change connectivity, so that every edit can be taken back.
+
+use glam::DVec3;
+
+use crate::journal::Entry;
+use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
+
+impl Mesh {
+    #[inline]
+    pub(crate) fn set_next(&mut self, h: HalfEdgeId, next: HalfEdgeId) {
+        let old = std::mem::replace(&mut self.connectivity.next[h.index()], next);
+        if let Some(journal) = &mut self.journal {
+            journal.half_edge(h, Entry::Next(h, old));
+        }
+    }
+
+    #[inline]
+    pub(crate) fn set_origin(&mut self, h: HalfEdgeId, v: VertexId) {
+        let old = std::mem::replace(&mut self.connectivity.origin[h.index()], v);
+        if let Some(journal) = &mut self.journal {
+            journal.half_edge(h, Entry::Origin(h, old));
+        }
+    }
+
+    #[inline]
+    pub(crate) fn set_face(&mut self, h: HalfEdgeId, f: Option<FaceId>) {
+        let f = f.unwrap_or(FaceId::NONE);
+        let old = std::mem::replace(&mut self.connectivity.face[h.index()], f);
+        if let Some(journal) = &mut self.journal {
+            journal.half_edge(h, Entry::Face(h, old));
+        }
+    }
+
+    #[inline]
+    pub(crate) fn set_vertex_half_edge(&mut self, v: VertexId, h: Option<HalfEdgeId>) {
+        let h = h.unwrap_or(HalfEdgeId::NONE);
+        let old = std::mem::replace(&mut self.connectivity.vertex_half_edge[v.index()], h);
+        if let Some(journal) = &mut self.journal {
+            journal.vertex(v, Entry::VertexHalfEdge(v, old));
+        }
+    }
+
+    #[inline]
+    pub(crate) fn set_face_half_edge(&mut self, f: FaceId, h: HalfEdgeId) {
+        let old = std::mem::replace(&mut self.connectivity.face_half_edge[f.index()], h);
+        if let Some(journal) = &mut self.journal {
+            journal.face(f, Entry::FaceHalfEdge(f, old));
+        }
+    }
+
+    /// A new isolated vertex with zero values.
+    pub(crate) fn push_vertex(&mut self, position: DVec3) -> VertexId {
+        let v = VertexId::new(self.positions.len());
+        self.positions.push(position);
+        self.connectivity.vertex_half_edge.push(HalfEdgeId::NONE);
+        self.attributes.grow(Domain::Vertex, v.index() + 1);
+        v
+    }
+
+    /// A new edge between two vertices with zero values: its halves have no faces and no followers yet.
+    pub(crate) fn push_edge(&mut self, origin: VertexId, target: VertexId) -> EdgeId {
+        let e = EdgeId::new(self.connectivity.next.len() / 2);
+        self.connectivity.next.extend([HalfEdgeId::NONE; 2]);
+        self.connectivity.origin.extend([origin, target]);
+        self.connectivity.face.extend([FaceId::NONE; 2]);
+        self.attributes.grow(Domain::Edge, e.index() + 1);
+        self.attributes.grow(Domain::Corner, 2 * e.index() + 2);
+        e
+    }
+
+    /// A new face at half-edge `h` with zero values.
+    pub(crate) fn push_face(&mut self, h: HalfEdgeId) -> FaceId {
+        let f = FaceId::new(self.connectivity.face_half_edge.len());
+        self.connectivity.face_half_edge.push(h);
+        self.attributes.grow(Domain::Face, f.index() + 1);
+        f
+    }
+
+    pub(crate) fn kill_vertex(&mut self, v: VertexId) {
+        if self.dead_vertices.has(v.index()) {
+            return;
+        }
+        self.dead_vertices.add(v.index());
+        if let Some(journal) = &mut self.journal {
+            journal.push(Entry::Mark(Domain::Vertex, v.index()));
+        }
+    }
+
+    pub(crate) fn kill_edge(&mut self, e: EdgeId) {
+        if self.dead_edges.has(e.index()) {
+            return;
+        }
+        self.dead_edges.add(e.index());
+        if let Some(journal) = &mut self.journal {
+            journal.push(Entry::Mark(Domain::Edge, e.index()));
+        }
+    }
+
+    pub(crate) fn kill_face(&mut self, f: FaceId) {
+        if self.dead_faces.has(f.index()) {
+            return;
+        }
+        self.dead_faces.add(f.index());
+        if let Some(journal) = &mut self.journal {
+            journal.push(Entry::Mark(Domain::Face, f.index()));
+        }
+    }
+
+    /// Gives element `to` the values of element `from`, whatever their rules.
+    #[inline]
+    pub(crate) fn copy_values<I: Id>(&mut self, from: I, to: I) {
+        if !self.attributes.of(I::DOMAIN).is_empty() {
+            self.note_values(to);
+            self.attributes.copy(from, to);
+        }
+    }
+
+    /// Gives element `to`, which lies between `a` and `b` at `t` (0 at `a`, 1 at `b`), the values that
+    /// the rules say. Columns that are copied, not interpolated, stay as they are.
+    #[inline]
+    pub(crate) fn mix_values<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
+        if !self.attributes.of(I::DOMAIN).is_empty() {
+            self.note_values(to);
+            self.attributes.mix(a, b, t, to);
+        }
+    }
+
+    /// Gives element `to` the mean of the values of `from`, where the rules say interpolate; columns
+    /// that are copied stay as they are. `from` may contain `to`.
+    pub(crate) fn average_values<I: Id>(&mut self, from: &[I], to: I) {
+        if !self.attributes.of(I::DOMAIN).is_empty() {
+            self.note_values(to);
+            self.attributes.average(from, to);
+        }
+    }
+
+    fn note_values<I: Id>(&mut self, element: I) {
+        if let Some(journal) = &mut self.journal {
+            journal.values(element, self.attributes.of(I::DOMAIN));
+        }
+    }
+
+    /// Removes the columns whose rule is [`Rule::Drop`](crate::Rule::Drop): called by every edit before its first change.
+    #[inline]
+    pub(crate) fn drop_columns_by_rule(&mut self) {
+        while let Some((domain, name)) = self.attributes.first_to_drop() {
+            self.remove_column(domain, &name);
+        }
+    }
+}

@@ -57,6 +57,7 @@
 //! # Ok::<(), EditError>(())
 //! ```
 
+mod ahead;
 mod attribute;
 pub mod blocks;
 pub mod build;

@@ -1,6 +1,6 @@
 //! Putting a vertex on an edge.
 
-use crate::{Domain, EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
+use crate::{Domain, EdgeId, EditError, Mesh, VertexId};
 
 impl Mesh {
     /// Puts a vertex on `e` and joins it to the far corners of the triangles beside it.

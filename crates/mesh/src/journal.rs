@@ -10,7 +10,8 @@
 //!
 //! The notes are one stack. An element that is newer than its level needs none: going back cuts the
 //! arrays to their lengths. Going back notes what it overwrites in the same way, and that is the change
-//! that does it again.
+//! that does it again. Notes that would outgrow the mesh become one copy of it, and a level that has a
+//! copy needs no notes any more: so a journal never takes more than about twice the bytes of its mesh.
 
 use glam::DVec3;
 
@@ -39,14 +40,28 @@ impl Change {
     }
 }
 
+/// Notes of so many bytes are kept on any mesh.
+const MIN_JOURNAL: usize = 1 << 16;
+
 /// The journal of a mesh while it is open.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Journal {
     noted: Change,
-    /// For each open level where its notes begin.
-    starts: Vec<usize>,
-    /// How long the arrays were when the innermost open level began.
+    levels: Vec<Level>,
+    /// Elements below these counts are noted: those that are older than the innermost level.
     lengths: Lengths,
+}
+
+/// What lies between a begin and its end.
+#[derive(Clone, Copy, Debug)]
+struct Level {
+    /// Where its notes begin, and its numbers.
+    start: usize,
+    first_number: usize,
+    /// How long the arrays were.
+    lengths: Lengths,
+    /// Whether it has noted a whole mesh, so that all else that changes is in that already.
+    has_whole: bool,
 }
 
 /// One thing to put back.
@@ -94,25 +109,65 @@ pub(crate) struct Tail {
 }
 
 impl Journal {
-    pub(crate) fn push(&mut self, entry: Entry) {
-        self.noted.entries.push(entry);
+    /// Notes an entry, made only if it is needed.
+    pub(crate) fn note(&mut self, entry: impl FnOnce() -> Entry) {
+        if self.levels.last().is_some_and(|level| !level.has_whole) {
+            self.noted.entries.push(entry());
+        }
     }
 
+    /// Notes the whole mesh from before a change.
+    fn note_whole(&mut self, mesh: Mesh) {
+        self.note(|| Entry::Whole(Box::new(mesh)));
+        if let Some(level) = self.levels.last_mut() {
+            level.has_whole = true;
+        }
+        self.lengths = Lengths::default();
+    }
+
+    fn begin(&mut self, lengths: Lengths) {
+        self.levels.push(Level {
+            start: self.noted.entries.len(),
+            first_number: self.noted.numbers.len(),
+            lengths,
+            has_whole: false,
+        });
+        self.lengths = lengths;
+        self.note(|| Entry::Level(Box::new(lengths)));
+    }
+
+    /// Ends the innermost level and returns where its notes begin.
+    fn end(&mut self) -> Level {
+        let ended = self.levels.pop().expect("an open journal has a level");
+        if let Some(level) = self.levels.last() {
+            let lengths = if level.has_whole {
+                Lengths::default()
+            } else {
+                level.lengths
+            };
+            self.lengths = lengths;
+        }
+        ended
+    }
+
+    #[inline]
     pub(crate) fn half_edge(&mut self, h: HalfEdgeId, entry: Entry) {
         if h.index() < self.lengths.half_edges {
-            self.push(entry);
+            self.noted.entries.push(entry);
         }
     }
 
+    #[inline]
     pub(crate) fn vertex(&mut self, v: VertexId, entry: Entry) {
         if v.index() < self.lengths.vertices {
-            self.push(entry);
+            self.noted.entries.push(entry);
         }
     }
 
+    #[inline]
     pub(crate) fn face(&mut self, f: FaceId, entry: Entry) {
         if f.index() < self.lengths.faces {
-            self.push(entry);
+            self.noted.entries.push(entry);
         }
     }
 
@@ -160,10 +215,12 @@ impl Mesh {
     /// [`rollback`](Self::rollback). May be nested.
     pub fn begin(&mut self) {
         let lengths = self.lengths();
-        let journal = self.journal.get_or_insert_default();
-        journal.starts.push(journal.noted.entries.len());
-        journal.lengths = lengths;
-        journal.push(Entry::Level(Box::new(lengths)));
+        self.journal.get_or_insert_default().begin(lengths);
+    }
+
+    /// Whether a journal is open.
+    pub fn is_recording(&self) -> bool {
+        self.journal.is_some()
     }
 
     /// Takes back everything since the matching [`begin`](Self::begin): every array is the same as it
@@ -174,9 +231,11 @@ impl Mesh {
     /// If nothing was begun.
     pub fn rollback(&mut self) {
         let mut journal = self.journal.take().expect("begin comes before rollback");
-        let start = journal.starts.pop().expect("an open journal has a level");
-        self.go_back(&mut journal.noted, start);
-        self.reopen(journal);
+        let ended = journal.end();
+        self.go_back(&mut journal.noted, ended.start);
+        if !journal.levels.is_empty() {
+            self.journal = Some(journal);
+        }
     }
 
     /// Keeps what was done since the matching [`begin`](Self::begin). If that was the outermost one,
@@ -187,11 +246,19 @@ impl Mesh {
     /// If nothing was begun.
     pub fn commit(&mut self) -> Option<Change> {
         let mut journal = self.journal.take().expect("begin comes before commit");
-        journal.starts.pop().expect("an open journal has a level");
-        if journal.starts.is_empty() {
+        let ended = journal.end();
+        let Some(outer) = journal.levels.last_mut() else {
             return Some(journal.noted);
+        };
+        if outer.has_whole {
+            // The copy from before is enough.
+            journal.noted.entries.truncate(ended.start);
+            journal.noted.numbers.truncate(ended.first_number);
+        } else if ended.has_whole {
+            outer.has_whole = true;
+            journal.lengths = Lengths::default();
         }
-        self.reopen(journal);
+        self.journal = Some(journal);
         None
     }
 
@@ -251,19 +318,25 @@ impl Mesh {
         let old = std::mem::replace(self, other);
         self.journal = journal;
         if let Some(journal) = &mut self.journal {
-            journal.push(Entry::Whole(Box::new(old)));
+            journal.note_whole(old);
         }
     }
 
-    /// Puts the journal back if a level is still open.
-    fn reopen(&mut self, mut journal: Box<Journal>) {
-        if let Some(&start) = journal.starts.last() {
-            let Entry::Level(lengths) = &journal.noted.entries[start] else {
-                unreachable!("a level begins with its lengths");
-            };
-            journal.lengths = **lengths;
-            self.journal = Some(journal);
+    /// Turns notes that have become larger than the mesh into one copy of it as it was at the begin.
+    /// Called between edits; inner levels are those of one edit, and short.
+    pub(crate) fn bound_journal(&mut self) {
+        let Some(journal) = &self.journal else { return };
+        let [level] = journal.levels[..] else { return };
+        if level.has_whole || journal.noted.bytes() < self.bytes() + MIN_JOURNAL {
+            return;
         }
+        let mut journal = self.journal.take().expect("looked at above");
+        let mut before = self.clone();
+        before.go_back(&mut journal.noted, level.start);
+        journal.levels.clear();
+        journal.begin(level.lengths);
+        journal.note_whole(before);
+        self.journal = Some(journal);
     }
 
     /// Puts back what the entries from `start` on say, the last one first. Returns what undoes that.
@@ -397,3 +470,6 @@ impl Mesh {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

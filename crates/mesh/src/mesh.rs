@@ -216,7 +216,7 @@ impl Mesh {
     /// first; [`set_position`](Self::set_position) moves one.
     pub fn positions_mut(&mut self) -> &mut [DVec3] {
         if let Some(journal) = &mut self.journal {
-            journal.push(Entry::Positions(self.positions.clone().into()));
+            journal.note(|| Entry::Positions(self.positions.clone().into()));
         }
         &mut self.positions
     }
@@ -247,7 +247,7 @@ impl Mesh {
         }
         let old = std::mem::replace(&mut self.attributes, attributes);
         if let Some(journal) = &mut self.journal {
-            journal.push(Entry::Attributes(old.into()));
+            journal.note(|| Entry::Attributes(old.into()));
         }
     }
 
@@ -263,7 +263,7 @@ impl Mesh {
     pub fn get_mut<I: Id, T: Value>(&mut self, attribute: Attribute<I, T>) -> Option<&mut [T]> {
         let column = self.attributes.column_mut(I::DOMAIN, attribute.name)?;
         if let Some(journal) = &mut self.journal {
-            journal.push(Entry::Column(I::DOMAIN, column.clone().into()));
+            journal.note(|| Entry::Column(I::DOMAIN, column.clone().into()));
         }
         T::of_mut(&mut column.values)
     }
@@ -293,7 +293,7 @@ impl Mesh {
     pub fn insert_column(&mut self, domain: Domain, column: Column) {
         self.assert_length(domain, &column);
         if let Some(journal) = &mut self.journal {
-            journal.push(match self.attributes.column(domain, &column.name) {
+            journal.note(|| match self.attributes.column(domain, &column.name) {
                 Some(old) => Entry::Column(domain, old.clone().into()),
                 None => Entry::NoColumn(domain, column.name.clone().into()),
             });
@@ -305,7 +305,7 @@ impl Mesh {
     pub fn remove_column(&mut self, domain: Domain, name: &str) -> Option<Column> {
         let removed = self.attributes.remove(domain, name);
         if let (Some(journal), Some(column)) = (&mut self.journal, &removed) {
-            journal.push(Entry::Column(domain, column.clone().into()));
+            journal.note(|| Entry::Column(domain, column.clone().into()));
         }
         removed
     }

@@ -83,7 +83,7 @@ impl Mesh {
         }
         self.dead_vertices.add(v.index());
         if let Some(journal) = &mut self.journal {
-            journal.push(Entry::Mark(Domain::Vertex, v.index()));
+            journal.note(|| Entry::Mark(Domain::Vertex, v.index()));
         }
     }
 
@@ -93,7 +93,7 @@ impl Mesh {
         }
         self.dead_edges.add(e.index());
         if let Some(journal) = &mut self.journal {
-            journal.push(Entry::Mark(Domain::Edge, e.index()));
+            journal.note(|| Entry::Mark(Domain::Edge, e.index()));
         }
     }
 
@@ -103,7 +103,7 @@ impl Mesh {
         }
         self.dead_faces.add(f.index());
         if let Some(journal) = &mut self.journal {
-            journal.push(Entry::Mark(Domain::Face, f.index()));
+            journal.note(|| Entry::Mark(Domain::Face, f.index()));
         }
     }
 
@@ -141,9 +141,13 @@ impl Mesh {
         }
     }
 
-    /// Removes the columns whose rule is [`Rule::Drop`](crate::Rule::Drop): called by every edit before its first change.
+    /// Removes the columns whose rule is [`Rule::Drop`](crate::Rule::Drop), and keeps the journal within
+    /// bounds: called by every edit before its first change.
     #[inline]
     pub(crate) fn drop_columns_by_rule(&mut self) {
+        if self.journal.is_some() {
+            self.bound_journal();
+        }
         while let Some((domain, name)) = self.attributes.first_to_drop() {
             self.remove_column(domain, &name);
         }

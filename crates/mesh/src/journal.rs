@@ -214,6 +214,7 @@ impl Mesh {
     /// Begins to note what is overwritten, until [`commit`](Self::commit) or
     /// [`rollback`](Self::rollback). May be nested.
     pub fn begin(&mut self) {
+        self.bound_journal();
         let lengths = self.lengths();
         self.journal.get_or_insert_default().begin(lengths);
     }

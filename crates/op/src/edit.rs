@@ -25,7 +25,7 @@ pub enum OnRefusal {
 /// # Errors
 ///
 /// [`OpError::Cancelled`], and the first refusal for [`OnRefusal::Error`]. The mesh is then edited in
-/// part: operations return the error, and their driver throws that mesh away.
+/// part: operations return the error, and their driver takes the edits back.
 pub fn edit_each<I: Copy>(
     mesh: &mut Mesh,
     elements: &[I],
@@ -57,7 +57,14 @@ pub fn edit_each<I: Copy>(
 
 /// A refusal that names its edge as recipes do, by its vertices.
 fn described(refusal: EditError, mesh: &Mesh) -> OpError {
-    let (EditError::Boundary(e) | EditError::Seam(e) | EditError::SameOpposite(e, _)) = refusal
+    let (EditError::Boundary(e)
+    | EditError::NotBoundary(e)
+    | EditError::JoinsBoundaries(e)
+    | EditError::SameFace(e)
+    | EditError::Seam(e)
+    | EditError::Vanishes(e)
+    | EditError::Link(e, _)
+    | EditError::SameOpposite(e, _)) = refusal
     else {
         return refusal.into();
     };

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use mesh::{Domain, Mesh};
+use mesh::{Change, Domain, Mesh};
 use scene::{Geometry, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -30,12 +30,13 @@ pub trait MeshOperation:
     /// Runs before any geometry, so it must not take time.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
-    /// Changes the mesh, which is dense. Calls [`Context::advance`] before its first change.
+    /// Changes the mesh, which is dense. Calls [`Context::advance`] before its first change. An operation
+    /// that computes a new mesh puts it in place with [`Mesh::replace`].
     ///
     /// # Errors
     ///
-    /// [`OpError`]. The mesh may then be changed in part: its driver throws it away and keeps the
-    /// mesh from before the step.
+    /// [`OpError`]. The mesh may then be changed in part: the driver, which has opened the journal of
+    /// the mesh, takes that back.
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError>;
 }
 
@@ -53,6 +54,9 @@ pub trait Operation:
     const ALIASES: &'static [&'static str] = &[];
     /// Whether a step of it may choose objects with `on:`.
     const TAKES_ON: bool = false;
+    /// Whether it leaves the scene as it was when it fails. Otherwise the runner keeps the meshes from
+    /// before the step, and the operation changes copies.
+    const ATOMIC: bool = false;
 
     /// Changes `plan` as [`apply`](Self::apply) will change the scene, and returns what is wrong.
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem>;
@@ -72,6 +76,7 @@ impl<T: MeshOperation> Operation for T {
     const SUMMARY: &'static str = <T as MeshOperation>::SUMMARY;
     const ALIASES: &'static [&'static str] = <T as MeshOperation>::ALIASES;
     const TAKES_ON: bool = true;
+    const ATOMIC: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
@@ -118,34 +123,80 @@ impl<T: MeshOperation> Operation for T {
             .map(|o| o.name.clone())
             .collect();
         let mut report = Report::default();
+        let mut changes = Vec::new();
         for name in &names {
-            let (geometry, materials) = scene.parts_mut(name).expect("named above");
-            let Geometry::Mesh(mesh) = geometry else {
-                let message = format!(
-                    "{} changes meshes, but \"{name}\" is {}",
-                    Self::NAME,
-                    geometry.kind()
-                );
-                return Err(OpError::Object(message));
-            };
-            cx.materials = materials.iter().map(|m| m.name.clone()).collect();
-            let before = columns(mesh);
-            // A copy if the runner still holds the mesh from before the step.
-            let mesh = Arc::make_mut(mesh);
-            let done = MeshOperation::apply(self, mesh, cx);
-            cx.materials.clear();
-            let mut done = done?;
-            mesh.compact();
-            let after = columns(mesh);
-            let lost = before.into_iter().filter(|column| !after.contains(column));
-            for (domain, column) in lost {
-                let reason = format!("{} cannot carry it", Self::NAME);
-                done.losses
-                    .push(Loss::attribute(name, domain, &column, reason));
+            match apply_to(self, scene, name, cx) {
+                Ok((done, change)) => {
+                    report.merge(done);
+                    changes.push((name, change));
+                }
+                Err(error) => {
+                    for (name, change) in changes.into_iter().rev() {
+                        mesh_mut(scene, name)?.revert(change);
+                    }
+                    return Err(error);
+                }
             }
-            report.merge(done);
+        }
+        for (name, change) in changes {
+            // The notes may hold a whole mesh: they go before compacting needs memory.
+            drop(change);
+            mesh_mut(scene, name)?.compact();
         }
         Ok(report)
+    }
+}
+
+/// Applies an operation to one object. After an error its mesh is as it was before.
+fn apply_to<T: MeshOperation>(
+    operation: &T,
+    scene: &mut Scene,
+    name: &str,
+    cx: &mut Context,
+) -> Result<(Report, Change), OpError> {
+    let (geometry, materials) = scene.parts_mut(name).expect("a name of the scene");
+    let Geometry::Mesh(mesh) = geometry else {
+        let message = format!(
+            "{} changes meshes, but \"{name}\" is {}",
+            <T as MeshOperation>::NAME,
+            geometry.kind()
+        );
+        return Err(OpError::Object(message));
+    };
+    cx.materials = materials.iter().map(|m| m.name.clone()).collect();
+    let before = columns(mesh);
+    // A copy if somebody else holds the mesh too.
+    let mesh = Arc::make_mut(mesh);
+    mesh.begin();
+    let done = operation.apply(mesh, cx);
+    cx.materials.clear();
+    // An operation that assigned a mesh instead of replacing it has lost the journal.
+    let is_recording = mesh.is_recording();
+    let mut report = match done {
+        Ok(report) => report,
+        Err(error) => {
+            if is_recording {
+                mesh.rollback();
+            }
+            return Err(error);
+        }
+    };
+    let change = if is_recording { mesh.commit() } else { None };
+    let after = columns(mesh);
+    let lost = before.into_iter().filter(|column| !after.contains(column));
+    for (domain, column) in lost {
+        let reason = format!("{} cannot carry it", <T as MeshOperation>::NAME);
+        report
+            .losses
+            .push(Loss::attribute(name, domain, &column, reason));
+    }
+    Ok((report, change.unwrap_or_default()))
+}
+
+fn mesh_mut<'s>(scene: &'s mut Scene, name: &str) -> Result<&'s mut Mesh, OpError> {
+    match scene.parts_mut(name) {
+        Some((Geometry::Mesh(mesh), _)) => Ok(Arc::make_mut(mesh)),
+        _ => Err(OpError::Object(format!("\"{name}\" is no mesh any more"))),
     }
 }
 

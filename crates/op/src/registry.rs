@@ -142,6 +142,8 @@ pub trait Step: fmt::Debug + Send + Sync {
     ///
     /// As [`Operation::apply`].
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError>;
+    /// See [`Operation::ATOMIC`].
+    fn is_atomic(&self) -> bool;
     /// The parameters in their canonical form: RON with every default written out.
     fn canonical(&self) -> String;
 }
@@ -157,6 +159,10 @@ impl<T: Operation> Step for T {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         Operation::apply(self, scene, cx)
+    }
+
+    fn is_atomic(&self) -> bool {
+        T::ATOMIC
     }
 
     fn canonical(&self) -> String {

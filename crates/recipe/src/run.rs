@@ -177,7 +177,9 @@ impl Runner<'_> {
         let Some(operation) = &step.step else {
             return Err(Some("this step could not be read".to_owned()));
         };
-        let before = self.scene.clone();
+        // Held only where it is needed: whoever changes a mesh that is held copies it first.
+        let is_needed = step.refused.is_some() || !operation.is_atomic();
+        let before = is_needed.then(|| self.scene.clone());
         let on = step.on_names();
         let progress: &dyn Progress = &Forward(listener);
         let mut cx = Context::new(progress, files);
@@ -186,7 +188,7 @@ impl Runner<'_> {
         cx.budget = self.settings.budget;
         let result = operation.apply(&mut self.scene, &mut cx);
         if result.is_err() || step.refused.is_some() {
-            self.scene = before;
+            self.scene = before.unwrap_or_else(|| std::mem::take(&mut self.scene));
         }
         match (result, step.refused) {
             (Err(OpError::Cancelled), _) => Err(None),

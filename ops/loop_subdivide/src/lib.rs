@@ -145,7 +145,7 @@ impl MeshOperation for LoopSubdivide {
         let through = Through(cx);
         let meter = Meter::new(&through, total.sum());
         for _ in 0..self.levels {
-            *mesh = finer(mesh, &meter)?;
+            mesh.replace(finer(mesh, &meter)?);
         }
         Ok(Report::changed(mesh.n_faces()))
     }

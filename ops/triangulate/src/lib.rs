@@ -103,7 +103,7 @@ impl MeshOperation for Triangulate {
         cx.advance("triangulate", 1, 3)?;
         let doubles = doubles::avoid(mesh, &mut cuts);
         cx.advance("triangulate", 2, 3)?;
-        *mesh = assemble::assemble(mesh, &cuts, diagonals);
+        mesh.replace(assemble::assemble(mesh, &cuts, diagonals));
 
         let mut report = Report::changed(n_cut);
         let fans = cuts.iter().filter(|cut| cut.is_fan()).count();

@@ -97,7 +97,7 @@ impl MeshOperation for Weld {
         if !built.report.is_clean() {
             report = report.note(built.report.summary());
         }
-        *mesh = polygons.with_attributes(mesh, built);
+        mesh.replace(polygons.with_attributes(mesh, built));
         Ok(report)
     }
 }

@@ -521,13 +521,36 @@ impl Attributes {
     /// Gives element `to`, which lies between `a` and `b`, the values that the rules say.
     pub(crate) fn mix<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
         for column in &mut self.columns[I::DOMAIN as usize] {
-            match column.rule {
-                Rule::Interpolate => column.values.mix(a.index(), b.index(), t, to.index()),
-                Rule::Normal => {
-                    column.values.mix(a.index(), b.index(), t, to.index());
-                    column.normalize(to.index());
-                }
-                Rule::Copy | Rule::Drop => {}
+            column.mix(a.index(), b.index(), t, to.index());
+        }
+    }
+
+    /// Gives corner `to`, in each column where it has the value of a corner `sides[_][end]`, the value
+    /// between the two corners of that side. None of them is `to`.
+    pub(crate) fn follow(
+        &mut self,
+        sides: [Option<[HalfEdgeId; 2]>; 2],
+        end: usize,
+        t: f64,
+        to: HalfEdgeId,
+    ) {
+        for column in &mut self.columns[Domain::Corner as usize] {
+            let is_same =
+                |side: &&[HalfEdgeId; 2]| column.values.same(side[end].index(), to.index());
+            if let Some([a, b]) = sides.iter().flatten().find(is_same) {
+                column.mix(a.index(), b.index(), t, to.index());
+            }
+        }
+    }
+
+    /// Gives edge `to` the larger number and the mark of either of two edges.
+    pub(crate) fn merge(&mut self, from: EdgeId, to: EdgeId) {
+        let (from, to) = (from.index(), to.index());
+        for column in &mut self.columns[Domain::Edge as usize] {
+            match &mut column.values {
+                Values::Float(v) if v[from] > v[to] => v[to] = v[from],
+                Values::Tag(v) => v[to] |= v[from],
+                _ => {}
             }
         }
     }
@@ -571,6 +594,14 @@ impl Attributes {
 }
 
 impl Column {
+    /// Gives element `to`, which lies between `a` and `b`, the value that the rule says.
+    fn mix(&mut self, a: usize, b: usize, t: f64, to: usize) {
+        if matches!(self.rule, Rule::Interpolate | Rule::Normal) {
+            self.values.mix(a, b, t, to);
+            self.normalize(to);
+        }
+    }
+
     /// Scales the value at `i` to length 1 if the rule asks for that.
     fn normalize(&mut self, i: usize) {
         if let (Rule::Normal, Values::Vec3(v)) = (self.rule, &mut self.values) {

@@ -135,6 +135,33 @@ impl Mesh {
         }
     }
 
+    /// Gives edge `to` what counts of its values and those of `from`, when the two become one: the larger
+    /// number, and the mark of either. Other columns stay as they are.
+    pub(crate) fn merge_values(&mut self, from: EdgeId, to: EdgeId) {
+        if !self.attributes.of(Domain::Edge).is_empty() {
+            self.note_values(to);
+            self.attributes.merge(from, to);
+        }
+    }
+
+    /// Moves the values of corner `to` along an edge that shrinks to the place `t` on it. `sides` are the
+    /// corners at both ends of the edge, in the face on each side; where `to` has the value of the one
+    /// at its own end, which is `end`, it gets that of the place.
+    pub(crate) fn follow_values(
+        &mut self,
+        sides: [Option<[HalfEdgeId; 2]>; 2],
+        end: usize,
+        t: f64,
+        to: HalfEdgeId,
+    ) {
+        self.note_values(to);
+        self.attributes.follow(sides, end, t, to);
+    }
+
+    pub(crate) fn has_corner_columns(&self) -> bool {
+        !self.attributes.of(Domain::Corner).is_empty()
+    }
+
     fn note_values<I: Id>(&mut self, element: I) {
         if let Some(journal) = &mut self.journal {
             journal.values(element, self.attributes.of(I::DOMAIN));

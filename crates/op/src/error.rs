@@ -39,7 +39,7 @@ pub enum Refusal {
     OutsideEdge,
     /// A coordinate or length is not finite or out of its range.
     BadNumber,
-    /// The faces around a vertex would fall into two fans.
+    /// The faces around a vertex would fall into two fans, or a face would visit a vertex twice.
     Pinch,
     /// The faces are only a part of their component.
     PartOfComponent,
@@ -77,7 +77,7 @@ impl From<EditError> for Refusal {
             EditError::Seam(_) => Self::Seam,
             EditError::OutsideEdge(_) => Self::OutsideEdge,
             EditError::BadNumber(_) => Self::BadNumber,
-            EditError::Pinch(_) => Self::Pinch,
+            EditError::Pinch(_) | EditError::PinchedFace(_) => Self::Pinch,
             EditError::PartOfComponent(_) => Self::PartOfComponent,
             EditError::Full => Self::Full,
             _ => Self::WrongPlace,

@@ -1,10 +1,12 @@
 //! Local edits: one a file. Each checks first and changes after, so that a refused edit leaves every
 //! array as it was.
 
+mod collapse;
 mod delete_face;
 mod flip;
 mod split;
 mod split_face;
+mod split_vertex;
 
 pub use flip::Seams;
 
@@ -76,6 +78,9 @@ pub enum EditError {
     /// The edit would leave two fans of faces at a vertex.
     #[error("the faces around {0} would fall into two fans")]
     Pinch(VertexId),
+    /// The edit would bring two corners of the face to the same vertex.
+    #[error("{0} would visit one vertex twice")]
+    PinchedFace(FaceId),
     /// The corner is not one of that face, or not one of that vertex.
     #[error("{0} does not begin a side of the same face or vertex")]
     Elsewhere(HalfEdgeId),

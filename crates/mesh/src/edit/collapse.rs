@@ -1,0 +1,397 @@
+//! Shrinking an edge to a point.
+
+use glam::DVec3;
+
+use crate::{EdgeId, EditError, HalfEdgeId, Id, Mesh, VertexId};
+
+impl Mesh {
+    /// Shrinks an edge to its midpoint: its two ends become one vertex.
+    ///
+    /// ```text
+    ///        c               c                 +-----c           +-----c
+    ///      / f \             |                 |  f  |           |   f  \
+    ///    a --e-- b    -->    v                 a--e--b    -->    v-------+
+    ///      \ g /             |                 |  g  |           |   g  /
+    ///        d               d                 d-----+           d-----+
+    /// ```
+    ///
+    /// v is the end of the lower number; the other one and `e` die. A triangle beside `e` dies, and of its
+    /// other two edges, which become one, the edge at v stays and the other one dies. A larger face
+    /// only loses a corner, and so does a hole. On closed triangles V, E, F shrink by 1, 3, 2 and on the
+    /// boundary by 1, 2, 1, and V - E + F stays. No new id is given, and what lies around other vertices
+    /// keeps its ids.
+    ///
+    /// Vertex attributes follow their rules between the two ends; copied ones stay as they are at v.
+    /// Corners at v of the faces beside `e` likewise within their own face, so that both sides of a
+    /// seam keep their values. A corner of a face at only one end of `e` follows, in each attribute, the
+    /// face beside `e` that has the same value at that end, and stays as it is if neither has. Of two
+    /// edges that become one the larger number counts, so that a crease stays, and a tag of either;
+    /// for other types the value of the one that stays.
+    ///
+    /// An edge may shrink if that changes neither the shape of the surface nor makes two elements of it
+    /// coincide. The rule is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology
+    /// preserving edge contraction", 1999), on the surface with holes closed by a cone, for polygons: the
+    /// ends may have a neighbour in common only where a triangle beside `e` has it, and a face only
+    /// where it is beside `e`.
+    ///
+    /// Returns v.
+    ///
+    /// # Errors
+    ///
+    /// - [`EditError::JoinsBoundaries`] if both ends are on the boundary, but `e` is not.
+    /// - [`EditError::Link`] if the ends have a neighbour in common that no triangle beside `e` has: it
+    ///   would be joined to v twice. Also where `e` is a side of a hole of three.
+    /// - [`EditError::DuplicateEdge`] if the ends are joined by a second edge.
+    /// - [`EditError::PinchedFace`] if a face that is not beside `e` has both ends: it would visit v
+    ///   twice.
+    /// - [`EditError::Vanishes`] for the sides of a lone triangle, and where two faces would be left
+    ///   back to back, as of a tetrahedron, or nothing.
+    /// - [`EditError::SameFace`] if one face is on both sides of `e`, [`EditError::SameOpposite`] if
+    ///   two triangles beside it share a second edge. Both could shrink, but there are no such edges
+    ///   in the meshes that polygons are made into.
+    /// - [`EditError::NoSuchEdge`].
+    ///
+    /// The mesh is unchanged.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let mut mesh = mesh::shapes::icosahedron();
+    /// let e = mesh.edges().next().unwrap();
+    /// let v = mesh.collapse_edge(e)?;
+    /// assert_eq!((mesh.n_vertices(), mesh.n_faces()), (11, 18));
+    /// assert_eq!(mesh.valence(v), 6);
+    /// # Ok::<(), mesh::EditError>(())
+    /// ```
+    pub fn collapse_edge(&mut self, e: EdgeId) -> Result<VertexId, EditError> {
+        self.collapse_edge_at(e, 0.5)
+    }
+
+    /// [`collapse_edge`](Self::collapse_edge) to the point at `t` on the edge: 0 is the origin of its first
+    /// half, 1 its target.
+    ///
+    /// # Errors
+    ///
+    /// As [`collapse_edge`](Self::collapse_edge), and [`EditError::OutsideEdge`] if `t` is below 0, above
+    /// 1 or not a number.
+    pub fn collapse_edge_at(&mut self, e: EdgeId, t: f64) -> Result<VertexId, EditError> {
+        self.check_edge(e)?;
+        if !(0.0..=1.0).contains(&t) {
+            return Err(EditError::OutsideEdge(t));
+        }
+        let [a, b] = self.edge_vertices(e).map(|v| self.position(v));
+        self.collapse(e, t, (1.0 - t) * a + t * b)
+    }
+
+    /// [`collapse_edge`](Self::collapse_edge) to any point. Attributes are those at the place on the edge
+    /// that is nearest to it; in the middle if the ends lie in one place.
+    ///
+    /// # Errors
+    ///
+    /// As [`collapse_edge`](Self::collapse_edge), and [`EditError::BadNumber`] if a coordinate is not
+    /// finite.
+    pub fn collapse_edge_to(&mut self, e: EdgeId, point: DVec3) -> Result<VertexId, EditError> {
+        self.check_edge(e)?;
+        let [a, b] = self.edge_vertices(e).map(|v| self.position(v));
+        let t = (point - a).dot(b - a) / (b - a).length_squared();
+        let t = if t.is_nan() { 0.5 } else { t.clamp(0.0, 1.0) };
+        self.collapse(e, t, point)
+    }
+
+    fn collapse(&mut self, e: EdgeId, t: f64, point: DVec3) -> Result<VertexId, EditError> {
+        if let Some(bad) = point.to_array().into_iter().find(|x| !x.is_finite()) {
+            return Err(EditError::BadNumber(bad));
+        }
+        self.check_collapse(e)?;
+        let sides = e.half_edges();
+        let [a, b] = self.edge_vertices(e);
+        let (v, gone) = (a.min(b), a.max(b));
+
+        self.drop_columns_by_rule();
+        self.mix_corners_along(e, t, v);
+        self.mix_values(a, b, t, v);
+        self.set_position(v, point);
+        self.move_half_edges(sides[usize::from(v == a)], v);
+
+        let before = sides.map(|h| self.prev(h));
+        let vanishes = sides.map(|h| self.is_beside_triangle(h));
+        for (h, before) in sides.into_iter().zip(before) {
+            let after = self.next(h);
+            self.set_next(before, after);
+            if let Some(f) = self.face(h).filter(|&f| self.face_half_edge(f) == h) {
+                self.set_face_half_edge(f, after);
+            }
+        }
+        self.kill_edge(e);
+        self.kill_vertex(gone);
+        // A triangle has become a lens between two edges. The one that was at the vertex that is gone
+        // comes after the first side if that vertex was b, and after the second if it was a.
+        for (i, h) in sides.into_iter().enumerate().filter(|&(i, _)| vanishes[i]) {
+            let after = self.next(h);
+            if (gone == b) == (i == 0) {
+                self.close_lens(after, before[i]);
+            } else {
+                self.close_lens(before[i], after);
+            }
+        }
+        Ok(v)
+    }
+
+    // ---- Whether it may ------------------------------------------------------------------------
+
+    fn check_collapse(&self, e: EdgeId) -> Result<(), EditError> {
+        let [ab, ba] = e.half_edges();
+        let (a, b) = (self.origin(ab), self.origin(ba));
+        let (f, g) = (self.face(ab), self.face(ba));
+        if f == g {
+            return Err(EditError::SameFace(e));
+        }
+        let is_inside = f.is_some() && g.is_some();
+        let at_boundary = [a, b].map(|v| self.is_boundary_vertex(v));
+        if is_inside && at_boundary == [true; 2] {
+            return Err(EditError::JoinsBoundaries(e));
+        }
+        self.check_outer_faces(e)?;
+
+        // What the link of the edge has, and what those of both ends may have in common.
+        let apexes = [ab, ba].map(|h| {
+            self.is_beside_triangle(h)
+                .then(|| self.target(self.next(h)))
+        });
+        let (mut vertices, mut faces) = (Few::new(), Few::new());
+        let mut h = self.next(ab);
+        while h != ba {
+            vertices.push(self.target(h));
+            self.face(h).into_iter().for_each(|f| faces.push(f));
+            h = self.next(h.twin());
+        }
+        vertices.sort();
+        faces.sort();
+        let mut shared = [0; 2];
+        let mut valence = vertices.len();
+        let mut h = self.next(ba);
+        while h != ab {
+            let x = self.target(h);
+            if x == b {
+                return Err(EditError::DuplicateEdge(a, b));
+            }
+            if apexes.contains(&Some(x)) {
+                let i = usize::from(apexes[0] != Some(x));
+                shared[i] += 1;
+            } else if vertices.has(x) {
+                return Err(EditError::Link(e, x));
+            }
+            let beside = self.face(h);
+            if let Some(p) = beside.filter(|&p| beside != f && beside != g && faces.has(p)) {
+                return Err(EditError::PinchedFace(p));
+            }
+            valence += 1;
+            h = self.next(h.twin());
+        }
+        // Only of parallel edges are there more to an apex than its triangles merge, or a hole of three
+        // whose third corner is an apex.
+        for (i, x) in apexes.into_iter().enumerate() {
+            let merged = apexes.iter().filter(|&&apex| apex == x).count();
+            if let Some(x) = x.filter(|&x| shared[i].min(vertices.count(x)) > merged) {
+                return Err(EditError::Link(e, x));
+            }
+        }
+        for h in [ab, ba] {
+            if self.face(h).is_none() && self.is_loop_of_three(h) {
+                return Err(EditError::Link(e, self.target(self.next(h))));
+            }
+        }
+        let vanishing = apexes.iter().flatten().count();
+        let left = valence.saturating_sub(vanishing);
+        if vanishing > 0 && left == 2 && at_boundary == [false; 2] && self.would_fold(e, apexes) {
+            return Err(EditError::Vanishes(e));
+        }
+        Ok(())
+    }
+
+    /// Refuses if the two edges of a triangle beside `e` that would become one have the same beyond
+    /// them, or the other triangle.
+    fn check_outer_faces(&self, e: EdgeId) -> Result<(), EditError> {
+        for h in e.half_edges() {
+            if !self.is_beside_triangle(h) {
+                continue;
+            }
+            let across = h.twin();
+            let other = self
+                .face(across)
+                .filter(|_| self.is_beside_triangle(across));
+            let after = self.next(h);
+            let outer = [after, self.next(after)].map(|h| self.face(h.twin()));
+            match outer {
+                [None, None] => return Err(EditError::Vanishes(e)),
+                [x, y] if x == y && x == other => return Err(EditError::Vanishes(e)),
+                [Some(p), y] if Some(p) == y => return Err(EditError::PinchedFace(p)),
+                _ if other.is_some() && outer.contains(&other) => {
+                    return Err(EditError::SameOpposite(e, self.target(after)));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the two faces that would be left at the merged vertex, which has two edges then, would
+    /// lie back to back: if all vertices of one would have two edges.
+    fn would_fold(&self, e: EdgeId, apexes: [Option<VertexId>; 2]) -> bool {
+        let [ab, ba] = e.half_edges();
+        // A larger face beside e is left, otherwise the third face at a.
+        let around = match apexes {
+            [None, _] => ab,
+            [_, None] => ba,
+            _ => self.next(self.next(ba).twin()),
+        };
+        let ends = self.edge_vertices(e);
+        self.loop_half_edges(around).all(|h| {
+            let v = self.origin(h);
+            let lost = apexes.iter().filter(|&&x| x == Some(v)).count();
+            ends.contains(&v) || self.valence(v) == 2 + lost
+        })
+    }
+
+    fn is_loop_of_three(&self, h: HalfEdgeId) -> bool {
+        self.next(self.next(self.next(h))) == h
+    }
+
+    fn is_beside_triangle(&self, h: HalfEdgeId) -> bool {
+        self.face(h).is_some() && self.is_loop_of_three(h)
+    }
+
+    // ---- What it changes -----------------------------------------------------------------------
+
+    /// Lets all half-edges that leave the origin of `h` leave v instead, the target of `h`.
+    fn move_half_edges(&mut self, h: HalfEdgeId, v: VertexId) {
+        let gone = self.origin(h);
+        // On the boundary v leaves along it.
+        let hole = [h, h.twin()].into_iter().find(|&h| self.face(h).is_none());
+        if let Some(hole) = hole {
+            self.set_vertex_half_edge(v, Some(self.next(hole)));
+        } else if self.is_boundary_vertex(gone) {
+            self.set_vertex_half_edge(v, self.vertex_half_edge(gone));
+        } else if self.vertex_half_edge(v) == Some(h.twin()) {
+            self.set_vertex_half_edge(v, Some(self.next(h)));
+        }
+        let mut moved = self.next(h.twin());
+        while moved != h {
+            self.set_origin(moved, v);
+            moved = self.next(moved.twin());
+        }
+    }
+
+    /// Takes away the face between two half-edges that follow each other, and the edge of `x` with it:
+    /// `y` takes the place of the other half of `x`.
+    fn close_lens(&mut self, x: HalfEdgeId, y: HalfEdgeId) {
+        let outer = x.twin();
+        let (before, after) = (self.prev(outer), self.next(outer));
+        let (lens, beyond) = (self.face(x), self.face(outer));
+        self.copy_values(outer, y);
+        self.merge_values(x.edge(), y.edge());
+        self.set_next(before, y);
+        self.set_next(y, after);
+        self.set_face(y, beyond);
+        if let Some(p) = beyond.filter(|&p| self.face_half_edge(p) == outer) {
+            self.set_face_half_edge(p, y);
+        }
+        for (old, new) in [(x, y.twin()), (outer, y)] {
+            if self.vertex_half_edge(self.origin(old)) == Some(old) {
+                self.set_vertex_half_edge(self.origin(old), Some(new));
+            }
+        }
+        self.kill_edge(x.edge());
+        lens.into_iter().for_each(|f| self.kill_face(f));
+    }
+
+    /// Gives the corners at both ends of `e` their values for when it has shrunk to the place `t` on it.
+    fn mix_corners_along(&mut self, e: EdgeId, t: f64, v: VertexId) {
+        if !self.has_corner_columns() {
+            return;
+        }
+        // For the face on each side its corners at a and at b.
+        let [ab, ba] = e.half_edges();
+        let corners = [[ab, self.next(ab)], [self.next(ba), ba]];
+        let sides = [0, 1].map(|i| Some(corners[i]).filter(|_| self.face(corners[i][i]).is_some()));
+        for (end, leaving) in [ab, ba].into_iter().enumerate() {
+            let mut h = self.next(leaving.twin());
+            while h != leaving {
+                let is_beside = sides.iter().flatten().any(|side| side[end] == h);
+                if self.face(h).is_some() && !is_beside {
+                    self.follow_values(sides, end, t, h);
+                }
+                h = self.next(h.twin());
+            }
+        }
+        for (h, side) in [ab, ba].into_iter().zip(sides) {
+            if let Some([at_a, at_b]) = side {
+                // Copied values are those at v; the corner that stays is the one after h.
+                let at_v = if v == self.origin(ab) { at_a } else { at_b };
+                self.mix_values(at_a, at_b, t, at_v);
+                if at_v == h {
+                    self.copy_values(h, self.next(h));
+                }
+            }
+        }
+    }
+}
+
+/// A set of ids, on the stack while it is small.
+struct Few<I> {
+    few: [I; 16],
+    n: usize,
+    /// All of them, once they are more.
+    many: Vec<I>,
+}
+
+impl<I: Id + Ord> Few<I> {
+    fn new() -> Self {
+        Self {
+            few: [I::NONE; 16],
+            n: 0,
+            many: Vec::new(),
+        }
+    }
+
+    fn push(&mut self, id: I) {
+        if let Some(slot) = self.few.get_mut(self.n) {
+            *slot = id;
+        } else {
+            if self.many.is_empty() {
+                self.many.extend(self.few);
+            }
+            self.many.push(id);
+        }
+        self.n += 1;
+    }
+
+    /// To be called between the last `push` and the first question.
+    fn sort(&mut self) {
+        self.many.sort_unstable();
+    }
+
+    fn len(&self) -> usize {
+        self.n
+    }
+
+    fn has(&self, id: I) -> bool {
+        if self.many.is_empty() {
+            self.few[..self.n].contains(&id)
+        } else {
+            self.many.binary_search(&id).is_ok()
+        }
+    }
+
+    fn count(&self, id: I) -> usize {
+        let all = if self.many.is_empty() {
+            &self.few[..self.n]
+        } else {
+            &self.many
+        };
+        all.iter().filter(|&&x| x == id).count()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,363 @@
+//! Drawing a vertex out into an edge.
+
+use glam::DVec3;
+
+use crate::{EdgeId, EditError, HalfEdgeId, Mesh};
+
+impl Mesh {
+    /// Draws a vertex out into an edge between two of its corners: a new vertex takes the edges from `x`
+    /// clockwise to the last one before `y`.
+    ///
+    /// ```text
+    ///      \  f  |x             \  f  |x
+    ///       \    |               \    |          v: the origin of x and y
+    ///   ----- v -----    -->   -- v-->w ----     f: the face of x, g: the face of y
+    ///         |    \              |    \         w is new and has the edges of x and between
+    ///        y|  g  \            y|  g  \
+    /// ```
+    ///
+    /// `x` and `y` stand for the corners at their origin: `x` for the one in f, `y` for the one in g.
+    /// Between these the new edge runs from v to w; its first half is on f, its second on g, and both
+    /// gain a corner. Either may be a hole: then the edge is on the boundary. So V and E grow by 1. If the new vertex
+    /// takes one edge only, it has two. All ids stay.
+    ///
+    /// This is for vertices what [`split_face`](Self::split_face) is for faces, and the inverse of
+    /// [`collapse_edge_to`](Self::collapse_edge_to) the old position, which is always allowed, except
+    /// where v was joined twice to some vertex or a face visits it twice. Where a triangle vanished in a
+    /// collapse, a `split_face` after this one brings it back.
+    ///
+    /// The new vertex is at `position`, with the attributes of v; both corners at the new edge on each
+    /// side have the values of the one corner that was there; the edge has zero values.
+    ///
+    /// Returns the new edge.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::Elsewhere`] if `y` does not leave the origin of `x`, [`EditError::Adjacent`] if `x`
+    /// is `y`, [`EditError::TwiceFace`] if both corners are of one face, [`EditError::BadNumber`] if a
+    /// coordinate is not finite, [`EditError::NoSuchHalfEdge`], [`EditError::Full`]. The mesh is
+    /// unchanged.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let mut mesh = mesh::shapes::octahedron();
+    /// let before = mesh.clone();
+    /// let v = mesh.vertices().next().unwrap();
+    /// let around: Vec<_> = mesh.vertex_half_edges(v).collect();
+    /// let e = mesh.split_vertex(around[0], around[2], mesh.position(v) + mesh::DVec3::X)?;
+    /// assert_eq!((mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()), (7, 13, 8));
+    ///
+    /// mesh.collapse_edge_to(e, before.position(v))?;
+    /// mesh.compact();
+    /// assert_eq!(mesh.positions(), before.positions());
+    /// # Ok::<(), mesh::EditError>(())
+    /// ```
+    pub fn split_vertex(
+        &mut self,
+        x: HalfEdgeId,
+        y: HalfEdgeId,
+        position: DVec3,
+    ) -> Result<EdgeId, EditError> {
+        self.check_half_edge(x)?;
+        self.check_half_edge(y)?;
+        if let Some(bad) = position.to_array().into_iter().find(|x| !x.is_finite()) {
+            return Err(EditError::BadNumber(bad));
+        }
+        let v = self.origin(x);
+        if self.origin(y) != v {
+            return Err(EditError::Elsewhere(y));
+        }
+        if x == y {
+            return Err(EditError::Adjacent(x, y));
+        }
+        let (f, g) = (self.face(x), self.face(y));
+        if let Some(f) = f.filter(|_| f == g) {
+            return Err(EditError::TwiceFace(f));
+        }
+        self.check_room(2)?;
+        let (before_x, before_y) = (self.prev(x), self.prev(y));
+
+        self.drop_columns_by_rule();
+        let w = self.push_vertex(position);
+        let e = self.push_edge(v, w);
+        let [vw, wv] = e.half_edges();
+        self.copy_values(v, w);
+        self.copy_values(x, vw);
+        self.copy_values(y, wv);
+
+        let mut h = x;
+        while h != y {
+            self.set_origin(h, w);
+            h = self.next(h.twin());
+        }
+        for (before, new, after, face) in [(before_x, vw, x, f), (before_y, wv, y, g)] {
+            self.set_next(before, new);
+            self.set_next(new, after);
+            self.set_face(new, face);
+        }
+
+        // A boundary half-edge of v that moved is that of w. If it is x, the new edge is on the boundary
+        // at v; if it is y, at w.
+        let old = self.vertex_half_edge(v);
+        let is_moved = old.is_some_and(|h| self.origin(h) == w);
+        let first = if is_moved { old } else { Some(wv) };
+        self.set_vertex_half_edge(w, first);
+        if is_moved {
+            self.set_vertex_half_edge(v, Some(vw));
+        }
+        Ok(e)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{COLOR, FaceId, UV, VertexId, shapes};
+    use glam::{DVec2, DVec4};
+
+    /// The faces by id, each beginning at its lowest corner.
+    fn faces(mesh: &Mesh) -> Vec<(FaceId, Vec<VertexId>)> {
+        let corners = |f| {
+            let mut corners: Vec<VertexId> = mesh.face_vertices(f).collect();
+            let low = (0..corners.len()).min_by_key(|&i| corners[i]);
+            corners.rotate_left(low.unwrap_or(0));
+            corners
+        };
+        mesh.faces().map(|f| (f, corners(f))).collect()
+    }
+
+    fn samples() -> Vec<Mesh> {
+        vec![
+            shapes::square(),
+            shapes::grid(3, 2),
+            shapes::fans(&shapes::grid(3, 2)),
+            shapes::cube(),
+            shapes::tetrahedron(),
+            shapes::octahedron(),
+            shapes::torus(3, 3, 2.0, 1.0),
+            shapes::cylinder(5, false),
+            shapes::icosahedron(),
+        ]
+    }
+
+    /// All pairs of different half-edges that leave one vertex.
+    fn pairs(mesh: &Mesh) -> Vec<(HalfEdgeId, HalfEdgeId)> {
+        let of = |v| {
+            let pairs = move |x| mesh.vertex_half_edges(v).map(move |y| (x, y));
+            mesh.vertex_half_edges(v).flat_map(pairs)
+        };
+        let all = mesh.vertices().flat_map(of);
+        all.filter(|(x, y)| x != y).collect()
+    }
+
+    #[test]
+    fn the_new_vertex_takes_the_edges_from_x_clockwise_to_before_y() {
+        let mut mesh = shapes::octahedron();
+        let v = VertexId::new(0);
+        let around: Vec<_> = mesh.vertex_half_edges(v).collect();
+        let (f, g) = (mesh.face(around[1]), mesh.face(around[3]));
+        let e = mesh.split_vertex(around[1], around[3], DVec3::ONE).unwrap();
+        assert_eq!(mesh.defects(), []);
+        let w = VertexId::new(6);
+        assert_eq!(mesh.edge_vertices(e), [v, w]);
+        assert_eq!(mesh.edge_faces(e), [f, g]);
+        assert_eq!(mesh.position(w), DVec3::ONE);
+        assert_eq!([0, 1, 2, 3].map(|i| mesh.origin(around[i])), [v, w, w, v]);
+        assert_eq!([f, g].map(|f| mesh.degree(f.unwrap())), [4, 4]);
+    }
+
+    #[test]
+    fn a_collapse_undoes_a_split() {
+        for shape in samples() {
+            for (x, y) in pairs(&shape) {
+                let mut mesh = shape.clone();
+                let v = mesh.origin(x);
+                let e = mesh.split_vertex(x, y, DVec3::splat(9.0)).unwrap();
+                assert_eq!(mesh.defects(), []);
+                assert_eq!(mesh.n_boundary_loops(), shape.n_boundary_loops());
+                assert_eq!(mesh.collapse_edge_to(e, shape.position(v)), Ok(v));
+                assert_eq!(mesh.defects(), []);
+                assert_eq!(faces(&mesh), faces(&shape));
+                mesh.compact();
+                assert_eq!(mesh.positions(), shape.positions());
+            }
+        }
+    }
+
+    #[test]
+    fn a_split_undoes_a_collapse() {
+        let mut undone = 0;
+        for shape in samples() {
+            for e in shape.edges() {
+                let mut mesh = shape.clone();
+                if mesh.collapse_edge(e).is_err() {
+                    continue;
+                }
+                undo_collapse(&mut mesh, &shape, e);
+                undone += 1;
+                assert_eq!(mesh.defects(), []);
+                mesh.compact();
+                assert_eq!(mesh.n_vertices(), shape.n_vertices());
+                assert_eq!(places(&mesh), places(&shape));
+            }
+        }
+        assert!(undone > 100, "{undone}");
+    }
+
+    /// Splits the vertex that `e` of `shape` became in `mesh`.
+    fn undo_collapse(mesh: &mut Mesh, shape: &Mesh, e: EdgeId) {
+        // h runs from v to the vertex that is gone.
+        let [h, twin] = e.half_edges();
+        let h = if mesh.has_vertex(shape.origin(h)) {
+            h
+        } else {
+            twin
+        };
+        let (v, gone) = (shape.origin(h), shape.target(h));
+        let triangles = [h, h.twin()].map(|h| shape.face(h).is_some_and(|f| shape.is_triangle(f)));
+        // The first and the last edge that go back to it. Those of triangles became one with edges of v.
+        let [mut first, mut last] = [shape.next(h), shape.prev(h.twin()).twin()];
+        if triangles[0] {
+            first = shape.prev(h).twin();
+        }
+        if triangles[1] {
+            last = shape.next(h.twin());
+        }
+        if !mesh.has_edge(first.edge()) {
+            first = last;
+        }
+        if !mesh.has_edge(last.edge()) {
+            last = first;
+        }
+        let mut x = first;
+        let mut y = mesh.next(last.twin());
+        // A triangle comes back on either side of its edge, but not where there is a hole.
+        let left_stays = triangles[0] && (mesh.face(x).is_none() || x == y);
+        if left_stays {
+            x = mesh.next(x.twin());
+        }
+        let right_stays = triangles[1] && mesh.face(y).is_none();
+        if right_stays {
+            y = last;
+        }
+        let new = mesh.split_vertex(x, y, shape.position(gone)).unwrap();
+        mesh.set_position(v, shape.position(v));
+        let [vw, wv] = new.half_edges();
+        for (h, is_triangle, stays) in [
+            (vw, triangles[0], left_stays),
+            (wv, triangles[1], right_stays),
+        ] {
+            // The far corner comes after the new edge if its edge left with the new vertex on that side.
+            let is_after = (h == vw) != stays;
+            if is_triangle && is_after {
+                mesh.split_face(h, mesh.next(mesh.next(h))).unwrap();
+            } else if is_triangle {
+                mesh.split_face(mesh.next(h), mesh.prev(h)).unwrap();
+            }
+        }
+    }
+
+    /// The faces as places in space, in an order that does not depend on ids.
+    fn places(mesh: &Mesh) -> Vec<Vec<[u64; 3]>> {
+        let place = |&v: &VertexId| mesh.position(v).to_array().map(f64::to_bits);
+        let mut all: Vec<Vec<_>> = faces(mesh)
+            .iter()
+            .map(|(_, corners)| {
+                let mut places: Vec<_> = corners.iter().map(place).collect();
+                let low = (0..places.len()).min_by_key(|&i| places[i]);
+                places.rotate_left(low.unwrap_or(0));
+                places
+            })
+            .collect();
+        all.sort();
+        all
+    }
+
+    #[test]
+    fn the_new_edge_may_lie_on_the_boundary() {
+        for shape in samples() {
+            for (x, y) in pairs(&shape) {
+                let is_hole = [x, y].map(|h| shape.face(h).is_none());
+                let mut mesh = shape.clone();
+                let e = mesh.split_vertex(x, y, DVec3::ZERO).unwrap();
+                assert_eq!(mesh.is_boundary_edge(e), is_hole.contains(&true));
+            }
+        }
+    }
+
+    #[test]
+    fn values_are_those_of_the_vertex_and_its_corners() {
+        let mut mesh = shapes::octahedron();
+        let n = mesh.n_half_edges();
+        mesh.set(UV, (0..n).map(|i| DVec2::splat(i as f64)).collect());
+        mesh.set(COLOR, (0..6).map(|i| DVec4::splat(f64::from(i))).collect());
+        let v = VertexId::new(2);
+        let around: Vec<_> = mesh.vertex_half_edges(v).collect();
+        let (x, y) = (around[0], around[2]);
+        let e = mesh.split_vertex(x, y, DVec3::ONE).unwrap();
+        let [vw, wv] = e.half_edges();
+        let uv = mesh.get(UV).unwrap();
+        assert_eq!(
+            (uv[vw.index()], uv[wv.index()]),
+            (uv[x.index()], uv[y.index()])
+        );
+        assert_eq!(mesh.get(COLOR).unwrap()[6], DVec4::splat(2.0));
+    }
+
+    #[test]
+    fn a_split_can_be_taken_back_and_done_again() {
+        for shape in samples() {
+            for (x, y) in pairs(&shape) {
+                let mut mesh = shape.clone();
+                mesh.begin();
+                mesh.split_vertex(x, y, DVec3::ONE).unwrap();
+                let after = mesh.clone();
+                mesh.rollback();
+                assert_eq!(mesh, shape);
+                mesh.begin();
+                mesh.split_vertex(x, y, DVec3::ONE).unwrap();
+                let change = mesh.commit().unwrap();
+                let again = mesh.revert(change);
+                assert_eq!(mesh, shape);
+                mesh.revert(again);
+                assert_eq!(mesh, after);
+            }
+        }
+    }
+
+    #[test]
+    fn corners_that_are_not_two_of_one_vertex_are_refused() {
+        let mesh = shapes::cube();
+        let mut edited = mesh.clone();
+        let mut refused = |x, y, p| edited.split_vertex(x, y, p).unwrap_err();
+        let h = HalfEdgeId::new(0);
+        let next = mesh.next(h);
+        assert_eq!(refused(h, next, DVec3::ZERO), EditError::Elsewhere(next));
+        assert_eq!(refused(h, h, DVec3::ZERO), EditError::Adjacent(h, h));
+        let far = HalfEdgeId::new(99);
+        assert_eq!(refused(h, far, DVec3::ZERO), EditError::NoSuchHalfEdge(far));
+        assert_eq!(refused(far, h, DVec3::ZERO), EditError::NoSuchHalfEdge(far));
+        let other = mesh.next(h.twin());
+        let bad = refused(h, other, DVec3::X * f64::INFINITY);
+        assert!(matches!(bad, EditError::BadNumber(_)));
+        assert_eq!(edited, mesh);
+    }
+
+    #[test]
+    fn two_corners_of_one_face_are_refused() {
+        // Two faces that share two edges. One of these turned, the second face visits vertex 2 twice.
+        let polygons: [&[u32]; 2] = [&[0, 1, 2, 3], &[1, 0, 4, 3, 2, 5]];
+        let (mut mesh, _) = Mesh::from_polygons(vec![DVec3::ZERO; 6], &polygons).unwrap();
+        let e = mesh.find_half_edge(VertexId::new(0), VertexId::new(1));
+        mesh.flip_edge(e.unwrap().edge()).unwrap();
+        let f = FaceId::new(1);
+        let is_corner = |&h: &HalfEdgeId| mesh.face(h) == Some(f);
+        let around = mesh.vertex_half_edges(VertexId::new(2));
+        let corners: Vec<_> = around.filter(is_corner).collect();
+        let before = mesh.clone();
+        let refused = mesh.split_vertex(corners[0], corners[1], DVec3::ZERO);
+        assert_eq!(refused, Err(EditError::TwiceFace(f)));
+        assert_eq!(mesh, before);
+    }
+}

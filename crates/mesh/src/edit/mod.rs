@@ -4,9 +4,12 @@
 mod collapse;
 mod delete_face;
 mod flip;
+mod poke;
 mod split;
 mod split_face;
 mod split_vertex;
+#[cfg(test)]
+mod testing;
 
 pub use flip::Seams;
 

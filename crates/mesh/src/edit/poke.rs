@@ -1,0 +1,200 @@
+//! Putting a vertex into a face.
+
+use glam::DVec3;
+
+use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
+
+impl Mesh {
+    /// Puts a vertex at the mean of the corners of `f` and joins it to all of them.
+    ///
+    /// ```text
+    ///    d-----c          d-----c
+    ///    |     |          | \ / |
+    ///    |  f  |   -->    |  m  |        m = (a + b + c + d) / 4
+    ///    |     |          | /f\ |
+    ///    a-----b          a-----b
+    /// ```
+    ///
+    /// A face with n corners becomes n triangles: V, E, F grow by 1, n and n - 1, and V - E + F stays.
+    /// With a the first corner, that of [`face_half_edge`](Self::face_half_edge): `f` keeps its id as
+    /// (a, b, m); new are the edges m-a, m-b, ... and the faces (b, c, m), ... in the order of the
+    /// corners. A new edge runs from m.
+    ///
+    /// Vertex attributes at m are the mean of those of the corners where their rule says interpolate,
+    /// and zero otherwise; the corners at m have the mean of the corner values of the face, the other
+    /// ones keep theirs; new faces take the values of `f`, new edges have zero values.
+    ///
+    /// A face that passes a vertex twice is joined to it twice.
+    ///
+    /// Returns m. [`dissolve_vertex`](Self::dissolve_vertex) takes it out again.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::NoSuchFace`], [`EditError::BadNumber`] if the mean of the corners is not finite,
+    /// [`EditError::Full`]. The mesh is unchanged.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let mut mesh = mesh::shapes::cube();
+    /// let f = mesh.faces().next().unwrap();
+    /// let m = mesh.poke_face(f)?;
+    /// assert_eq!((mesh.valence(m), mesh.n_faces()), (4, 9));
+    /// # Ok::<(), mesh::EditError>(())
+    /// ```
+    pub fn poke_face(&mut self, f: FaceId) -> Result<VertexId, EditError> {
+        self.check_face(f)?;
+        self.poke_face_at(f, self.face_center(f))
+    }
+
+    /// [`poke_face`](Self::poke_face) with the vertex at `position`, in scene units. Its attributes and
+    /// those of its corners are means all the same, wherever it lies.
+    ///
+    /// # Errors
+    ///
+    /// As [`poke_face`](Self::poke_face), with [`EditError::BadNumber`] if `position` is not finite.
+    pub fn poke_face_at(&mut self, f: FaceId, position: DVec3) -> Result<VertexId, EditError> {
+        self.check_face(f)?;
+        if let Some(x) = position.to_array().into_iter().find(|x| !x.is_finite()) {
+            return Err(EditError::BadNumber(x));
+        }
+        let sides: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
+        self.check_room(2 * sides.len())?;
+
+        self.drop_columns_by_rule();
+        let corners: Vec<VertexId> = sides.iter().map(|&h| self.origin(h)).collect();
+        let m = self.push_vertex(position);
+        self.average_values(&corners, m);
+        let spokes: Vec<HalfEdgeId> = corners
+            .iter()
+            .map(|&v| self.push_edge(m, v).half_edge())
+            .collect();
+        self.set_vertex_half_edge(m, Some(spokes[0]));
+        self.average_values(&sides, spokes[0]);
+
+        for (i, (&side, &spoke)) in sides.iter().zip(&spokes).enumerate() {
+            // The triangle (this corner, the following one, m).
+            let following = (i + 1) % sides.len();
+            let to_m = spokes[following].twin();
+            self.copy_values(sides[following], to_m);
+            self.copy_values(spokes[0], spoke);
+            self.set_next(side, to_m);
+            self.set_next(to_m, spoke);
+            self.set_next(spoke, side);
+
+            let triangle = if i == 0 { f } else { self.push_face(side) };
+            self.copy_values(f, triangle);
+            for h in [side, to_m, spoke] {
+                self.set_face(h, Some(triangle));
+            }
+        }
+        Ok(m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::edit::testing::{dressed, shapes_to_try, undone_and_redone};
+    use crate::{COLOR, CREASE, Domain, EdgeId, MATERIAL, UV, shapes};
+    use glam::{DVec2, DVec4};
+
+    fn corners(mesh: &Mesh, f: usize) -> Vec<usize> {
+        mesh.face_vertices(FaceId::new(f))
+            .map(VertexId::index)
+            .collect()
+    }
+
+    #[test]
+    fn a_square_becomes_four_triangles() {
+        let mut mesh = shapes::square();
+        let m = mesh.poke_face(FaceId::new(0)).unwrap();
+        assert_eq!(mesh.defects(), []);
+        assert_eq!(mesh.position(m), DVec3::new(0.5, 0.5, 0.0));
+        assert_eq!(
+            (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()),
+            (5, 8, 4)
+        );
+        assert!(mesh.faces().all(|f| mesh.is_triangle(f)));
+    }
+
+    #[test]
+    fn ids_are_given_as_documented() {
+        let mut mesh = shapes::square();
+        mesh.poke_face(FaceId::new(0)).unwrap();
+        let faces: Vec<_> = (0..4).map(|f| corners(&mesh, f)).collect();
+        assert_eq!(faces, [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]);
+        let ends = |e| mesh.edge_vertices(EdgeId::new(e)).map(VertexId::index);
+        assert_eq!(
+            (4..8).map(ends).collect::<Vec<_>>(),
+            [[4, 0], [4, 1], [4, 2], [4, 3]]
+        );
+    }
+
+    #[test]
+    fn every_face_of_every_shape_can_be_poked_and_the_poke_taken_back() {
+        for shape in shapes_to_try() {
+            for f in shape.faces() {
+                let degree = shape.degree(f);
+                let mesh = undone_and_redone(&shape, |mesh| mesh.poke_face(f).map(drop)).unwrap();
+                assert_eq!(mesh.defects(), []);
+                assert_eq!(mesh.euler_characteristic(), shape.euler_characteristic());
+                assert_eq!(mesh.n_faces(), shape.n_faces() + degree - 1);
+                assert_eq!(mesh.n_boundary_loops(), shape.n_boundary_loops());
+            }
+        }
+    }
+
+    #[test]
+    fn a_flat_face_keeps_its_area_and_direction() {
+        let mut mesh = shapes::cylinder(7, true);
+        let (area, volume) = (mesh.area(), mesh.volume());
+        for f in 0..9 {
+            mesh.poke_face(FaceId::new(f)).unwrap();
+        }
+        assert!((mesh.area() - area).abs() < 1e-12);
+        assert!((mesh.volume() - volume).abs() < 1e-12);
+    }
+
+    #[test]
+    fn attributes_follow_their_rules() {
+        let mut mesh = dressed(shapes::grid(2, 1));
+        mesh.set(CREASE, vec![3.0; mesh.n_edges()]);
+        let f = FaceId::new(1);
+        let m = mesh.poke_face_at(f, mesh.face_center(f)).unwrap();
+        // Fields that are linear on each face stay linear, and both sides of the seam keep theirs.
+        for h in mesh.half_edges() {
+            let Some(face) = mesh.face(h) else { continue };
+            let shift = if face == FaceId::new(0) { 0.0 } else { 10.0 };
+            let expected = mesh.position(mesh.origin(h)).truncate() + DVec2::splat(shift);
+            assert_eq!(mesh.get(UV).unwrap()[h.index()], expected, "{h}");
+        }
+        let place = mesh.position(m);
+        assert_eq!(
+            mesh.get(COLOR).unwrap()[m.index()],
+            DVec4::new(place.x, place.y, 0.0, 1.0)
+        );
+        assert_eq!(mesh.get(MATERIAL).unwrap(), [5, 6, 6, 6, 6]);
+        let creases = mesh.get(CREASE).unwrap();
+        assert_eq!(creases[7..], [0.0; 4]);
+        assert!(mesh.attributes().column(Domain::Face, "passing").is_none());
+    }
+
+    #[test]
+    fn what_cannot_be_poked_is_refused_and_nothing_changes() {
+        let mesh = dressed(shapes::grid(2, 1));
+        let f = FaceId::new(0);
+        let mut edited = mesh.clone();
+        let far = DVec3::new(0.0, f64::INFINITY, 0.0);
+        let refused = edited.poke_face_at(f, far);
+        assert_eq!(refused, Err(EditError::BadNumber(f64::INFINITY)));
+        let refused = edited.poke_face_at(f, DVec3::splat(f64::NAN));
+        assert!(matches!(refused, Err(EditError::BadNumber(_))));
+        let missing = FaceId::new(2);
+        assert_eq!(
+            edited.poke_face(missing),
+            Err(EditError::NoSuchFace(missing))
+        );
+        assert_eq!(edited, mesh);
+    }
+}

@@ -26,6 +26,8 @@ pub enum Refusal {
     FewEdges,
     /// A face has too few corners.
     FewCorners,
+    /// A face would have a vertex as a corner twice.
+    RepeatedVertex,
     /// Nothing would be left of the faces around an edge.
     Vanishes,
     /// The ends of an edge have a neighbour in common outside the faces beside it, so that they cannot
@@ -71,6 +73,7 @@ impl From<EditError> for Refusal {
             EditError::DuplicateEdge(..) => Self::DuplicateEdge,
             EditError::FewEdges(_) => Self::FewEdges,
             EditError::FewCorners(_) => Self::FewCorners,
+            EditError::RepeatedVertex(_) => Self::RepeatedVertex,
             EditError::Vanishes(_) => Self::Vanishes,
             EditError::Link(..) => Self::Link,
             EditError::JoinsBoundaries(_) => Self::JoinsBoundaries,

@@ -115,7 +115,7 @@ impl Mesh {
 
     /// The half-edge before `h` on its face.
     #[inline]
-    fn prev_on_face(&self, h: HalfEdgeId) -> HalfEdgeId {
+    pub(super) fn prev_on_face(&self, h: HalfEdgeId) -> HalfEdgeId {
         let mut before = self.next(h);
         while self.next(before) != h {
             before = self.next(before);
@@ -126,7 +126,7 @@ impl Mesh {
     /// Whether the origins of `x` and `y` share an edge. Walks around both at once, so that an end of
     /// few edges answers for one of many.
     #[inline]
-    fn share_an_edge(&self, x: HalfEdgeId, y: HalfEdgeId) -> bool {
+    pub(super) fn share_an_edge(&self, x: HalfEdgeId, y: HalfEdgeId) -> bool {
         let (v, w) = (self.origin(x), self.origin(y));
         let (mut a, mut b) = (x, y);
         loop {

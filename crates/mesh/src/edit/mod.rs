@@ -2,7 +2,10 @@
 //! array as it was.
 
 mod collapse;
+mod delete;
 mod delete_face;
+mod dissolve_edge;
+mod dissolve_vertex;
 mod flip;
 mod poke;
 mod split;
@@ -58,6 +61,9 @@ pub enum EditError {
     /// The face would be left with fewer than three corners.
     #[error("{0} has too few corners")]
     FewCorners(FaceId),
+    /// A face would have this vertex, or has it, as a corner twice.
+    #[error("one face would have {0} as a corner twice")]
+    RepeatedVertex(VertexId),
     /// The edit would take the last faces of a closed part, or fold them onto each other.
     #[error("nothing would be left of the faces around {0}")]
     Vanishes(EdgeId),

@@ -1,8 +1,11 @@
 //! What the tests of the edits share.
 
-use glam::{DVec2, DVec4};
+use glam::{DVec2, DVec3, DVec4};
 
-use crate::{COLOR, Column, Domain, EditError, MATERIAL, Mesh, Rule, UV, Values, shapes};
+use crate::{
+    COLOR, Column, Domain, EditError, HalfEdgeId, MATERIAL, Mesh, Rule, UV, Values, VertexId,
+    shapes,
+};
 
 /// Closed and open meshes of triangles, squares and larger faces, with attributes on some of them.
 pub(super) fn shapes_to_try() -> Vec<Mesh> {
@@ -46,6 +49,72 @@ pub(super) fn dressed(mut mesh: Mesh) -> Mesh {
     };
     mesh.insert_column(Domain::Face, passing);
     mesh
+}
+
+/// One face with a hole in it, and edge e3 from vertex 0 on its rim to vertex 3 of the hole: the face is on
+/// both sides of that, and passes both vertices twice.
+///
+/// ```text
+///    2---------1
+///     \ 5---4 /
+///      \ \ / /
+///       \ 3 /
+///        \|/
+///         0
+/// ```
+pub(super) fn ring() -> Mesh {
+    of_one_face(
+        &[[0, 1], [1, 2], [2, 0], [0, 3], [3, 5], [5, 4], [4, 3]],
+        &[&[0, 2, 4, 6, 8, 10, 12, 7], &[1, 5, 3], &[13, 11, 9]],
+        &[5, 1, 3, 13, 11, 9],
+    )
+}
+
+/// A square with edge e4 from its corner 0 to vertex 4 in its middle, which has no other edge.
+pub(super) fn spur() -> Mesh {
+    of_one_face(
+        &[[0, 1], [1, 2], [2, 3], [3, 0], [0, 4]],
+        &[&[0, 2, 4, 6, 8, 9], &[1, 7, 5, 3]],
+        &[7, 1, 3, 5, 9],
+    )
+}
+
+/// A mesh of these edges and loops of half-edges, of which the first is a face; `leaving` has a half-edge
+/// for each vertex.
+fn of_one_face(edges: &[[usize; 2]], loops: &[&[usize]], leaving: &[usize]) -> Mesh {
+    let mut mesh = Mesh::default();
+    let vertices: Vec<VertexId> = (0..leaving.len())
+        .map(|i| mesh.push_vertex(DVec3::splat(i as f64)))
+        .collect();
+    for &[v, w] in edges {
+        mesh.push_edge(vertices[v], vertices[w]);
+    }
+    let half_edge = HalfEdgeId::new;
+    for around in loops {
+        for (&h, &after) in around.iter().zip(around.iter().cycle().skip(1)) {
+            mesh.set_next(half_edge(h), half_edge(after));
+        }
+    }
+    let f = mesh.push_face(half_edge(loops[0][0]));
+    loops[0]
+        .iter()
+        .for_each(|&h| mesh.set_face(half_edge(h), Some(f)));
+    for (&v, &h) in vertices.iter().zip(leaving) {
+        mesh.set_vertex_half_edge(v, Some(half_edge(h)));
+    }
+    assert_eq!(mesh.defects(), []);
+    mesh
+}
+
+/// The faces in order of their ids, each as the numbers of its vertices from the lowest one on.
+pub(super) fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
+    let corners = |f| {
+        let mut corners: Vec<_> = mesh.face_vertices(f).map(VertexId::index).collect();
+        let low = (0..corners.len()).min_by_key(|&i| corners[i]);
+        corners.rotate_left(low.unwrap_or(0));
+        corners
+    };
+    mesh.faces().map(corners).collect()
 }
 
 /// Does an edit, takes it back, does it again, and reverts and redoes that: each time the mesh must be

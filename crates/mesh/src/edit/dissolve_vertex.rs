@@ -1,0 +1,210 @@
+//! Taking a vertex out of the faces around it, which become one.
+
+use crate::{EditError, FaceId, HalfEdgeId, Mesh, Seams, VertexId};
+
+impl Mesh {
+    /// Takes a vertex out and merges the faces around it.
+    ///
+    /// ```text
+    ///    +-----+-----+        +-----+-----+        inside: all faces around v become one
+    ///    |     |     |        |           |
+    ///    +-----v-----+  -->   +     f     +
+    ///    |  f  |     |        |           |
+    ///    +-----+-----+        +-----+-----+
+    ///
+    ///    +-----+-----+        +-----+-----+        on the boundary: likewise, and the two edges
+    ///    |  f  |     |  -->   |     f     |        there become one
+    ///    a-----v-----b        a-----------b
+    ///
+    ///    +-----------+        +-----------+        v with two edges: they become one, and the
+    ///    |           |  -->   |           |        faces beside them lose a corner
+    ///    a-----v-----b        a-----------b
+    ///    |           |        |           |
+    /// ```
+    ///
+    /// Of faces that become one the one of the lowest id survives, of edges likewise, with their values.
+    /// `v` dies with its other edges. V - E + F stays. All other ids, and all other values, stay. The
+    /// inverse of [`poke_face`](Self::poke_face), and of [`split_edge`](Self::split_edge) where that made
+    /// no cuts.
+    ///
+    /// Returns the merged face; for a `v` with two edges the face of the lower id beside them.
+    ///
+    /// # Errors
+    ///
+    /// - [`EditError::FewEdges`] with `v` if it is isolated or has a single edge, or with a neighbour that
+    ///   would be left with a single one, in the middle of the merged face: take that vertex out first.
+    /// - [`EditError::RepeatedVertex`] if a face passes `v` twice, or the merged face would pass another
+    ///   vertex twice.
+    /// - [`EditError::DuplicateEdge`] if the edge that two become would join vertices that share one.
+    /// - [`EditError::FewCorners`] if a face would be left with fewer than three corners.
+    /// - [`EditError::Seam`] with an edge at `v` if corner attributes differ across its other end.
+    /// - [`EditError::NoSuchVertex`].
+    ///
+    /// The mesh is unchanged.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let mut mesh = mesh::shapes::icosahedron();
+    /// let v = mesh.vertices().next().unwrap();
+    /// let f = mesh.dissolve_vertex(v)?;
+    /// assert_eq!((mesh.n_faces(), mesh.degree(f)), (16, 5));
+    /// # Ok::<(), mesh::EditError>(())
+    /// ```
+    pub fn dissolve_vertex(&mut self, v: VertexId) -> Result<FaceId, EditError> {
+        self.dissolve_vertex_with(v, Seams::Refuse)
+    }
+
+    /// [`dissolve_vertex`](Self::dissolve_vertex) with a choice for seams. Where one is dropped, the
+    /// corner at the other end of the edge keeps the value that it had in the face counter-clockwise of
+    /// the edge, seen from `v`.
+    ///
+    /// # Errors
+    ///
+    /// As [`dissolve_vertex`](Self::dissolve_vertex), but [`EditError::Seam`] only for [`Seams::Refuse`].
+    pub fn dissolve_vertex_with(&mut self, v: VertexId, seams: Seams) -> Result<FaceId, EditError> {
+        self.check_vertex(v)?;
+        let spokes: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();
+        let mut faces: Vec<FaceId> = self.vertex_faces(v).collect();
+        faces.sort_unstable();
+        match spokes[..] {
+            [] | [_] => return Err(EditError::FewEdges(v)),
+            [x, y] => {
+                self.check_joint(x, y)?;
+                self.drop_columns_by_rule();
+                self.join_edges(x, y);
+                return Ok(faces[0]);
+            }
+            _ => {}
+        }
+        if faces.windows(2).any(|pair| pair[0] == pair[1]) {
+            return Err(EditError::RepeatedVertex(v));
+        }
+        // On the boundary the first and the last spoke stay, to become one edge.
+        let on_boundary = self.is_boundary_vertex(v);
+        let last = spokes.len() - 1;
+        let inner = if on_boundary {
+            &spokes[1..last]
+        } else {
+            &spokes[..]
+        };
+        for &h in inner {
+            if self.next(h) == self.prev_on_face(h.twin()).twin() {
+                return Err(EditError::FewEdges(self.target(h)));
+            }
+        }
+        let rim = self.rim_around(&spokes);
+        let mut corners: Vec<VertexId> = rim.iter().map(|&h| self.origin(h)).collect();
+        if on_boundary {
+            // The rim is open: it ends where the first spoke does.
+            corners.push(self.target(spokes[0]));
+        }
+        corners.sort_unstable();
+        if let Some(pair) = corners.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err(EditError::RepeatedVertex(pair[0]));
+        }
+        if on_boundary && self.share_an_edge(spokes[0].twin(), spokes[last].twin()) {
+            let [first, last] = [spokes[0], spokes[last]].map(|h| self.target(h));
+            return Err(EditError::DuplicateEdge(first, last));
+        }
+        if seams == Seams::Refuse {
+            let differ = |h: HalfEdgeId| self.attributes.corners_differ(self.next(h), h.twin());
+            if let Some(h) = inner.iter().copied().find(|&h| differ(h)) {
+                return Err(EditError::Seam(h.edge()));
+            }
+        }
+
+        self.drop_columns_by_rule();
+        for &h in inner {
+            let (w, after) = (self.target(h), self.next(h));
+            self.set_next(self.prev_on_face(h.twin()), after);
+            if self.vertex_half_edge(w) == Some(h.twin()) {
+                self.set_vertex_half_edge(w, Some(after));
+            }
+            self.kill_edge(h.edge());
+        }
+        let merged = faces[0];
+        self.set_face_half_edge(merged, rim[0]);
+        for &h in &rim {
+            self.set_face(h, Some(merged));
+        }
+        for &f in &faces[1..] {
+            self.kill_face(f);
+        }
+        if on_boundary {
+            let (into, out) = (spokes[0].twin(), spokes[last]);
+            self.set_face(into, Some(merged));
+            self.set_face(out, Some(merged));
+            self.set_next(into, out);
+            self.join_edges(spokes[0], spokes[last]);
+        } else {
+            self.kill_vertex(v);
+        }
+        Ok(merged)
+    }
+
+    /// The sides of the faces of `spokes`, which leave one vertex, without those at that vertex.
+    fn rim_around(&self, spokes: &[HalfEdgeId]) -> Vec<HalfEdgeId> {
+        let mut rim = Vec::new();
+        for &spoke in spokes.iter().filter(|&&h| self.face(h).is_some()) {
+            let mut h = self.next(spoke);
+            while self.target(h) != self.origin(spoke) {
+                rim.push(h);
+                h = self.next(h);
+            }
+        }
+        rim
+    }
+
+    /// Whether the edges of `x` and `y`, the only ones that leave a vertex, can become one.
+    fn check_joint(&self, x: HalfEdgeId, y: HalfEdgeId) -> Result<(), EditError> {
+        let lost = if self.face(x) == self.face(y) { 2 } else { 1 };
+        for f in [x, y].into_iter().filter_map(|h| self.face(h)) {
+            if self.face_half_edges(f).nth(lost + 2).is_none() {
+                return Err(EditError::FewCorners(f));
+            }
+        }
+        if let Some(h) = [x, y].into_iter().find(|&h| self.next(h) == h.twin()) {
+            return Err(EditError::FewEdges(self.target(h)));
+        }
+        let (a, b) = (self.target(x), self.target(y));
+        if a == b {
+            return Err(EditError::RepeatedVertex(a));
+        }
+        if self.share_an_edge(x.twin(), y.twin()) {
+            return Err(EditError::DuplicateEdge(a, b));
+        }
+        Ok(())
+    }
+
+    /// Makes one edge of those of `x` and `y`, the only ones that leave a vertex, which dies. The edge of
+    /// the lower id survives.
+    ///
+    /// ```text
+    ///    a <--x-- v --y--> b     -->     a <---x--- b
+    ///      -----> <------                  -------->
+    /// ```
+    fn join_edges(&mut self, x: HalfEdgeId, y: HalfEdgeId) {
+        let (x, y) = if x.edge() < y.edge() { (x, y) } else { (y, x) };
+        let (into, out) = (self.prev(y.twin()), self.next(y));
+        let (v, b) = (self.origin(x), self.target(y));
+        // The corner at b on the side of x is that of y's twin.
+        self.copy_values(y.twin(), x);
+        self.set_next(x.twin(), out);
+        self.set_next(into, x);
+        self.set_origin(x, b);
+        if self.vertex_half_edge(b) == Some(y.twin()) {
+            self.set_vertex_half_edge(b, Some(x));
+        }
+        for (gone, left) in [(y, x.twin()), (y.twin(), x)] {
+            if let Some(f) = self.face(gone).filter(|&f| self.face_half_edge(f) == gone) {
+                self.set_face_half_edge(f, left);
+            }
+        }
+        self.kill_edge(y.edge());
+        self.kill_vertex(v);
+    }
+}
+
+#[cfg(test)]
+mod tests;

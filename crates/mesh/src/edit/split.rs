@@ -68,8 +68,13 @@ impl Mesh {
         let at_a = self.next(ma);
         self.mix_values(bm, at_a, 1.0 - t, ma);
         self.set_next(am, mb);
-        self.set_next(mb, after_b);
-        self.set_next(before_b, bm);
+        if after_b == ma {
+            // e is the only edge of b.
+            self.set_next(mb, bm);
+        } else {
+            self.set_next(mb, after_b);
+            self.set_next(before_b, bm);
+        }
         self.set_next(bm, ma);
         self.set_origin(ma, m);
         self.set_vertex_half_edge(m, Some(if self.face(ma).is_none() { ma } else { mb }));
@@ -186,6 +191,14 @@ mod tests {
         let m = split(&mut mesh, 3, 0.5);
         assert_eq!(mesh.valence(m), 2);
         assert!(mesh.vertex_faces(m).all(|f| mesh.degree(f) == 5));
+    }
+
+    #[test]
+    fn an_edge_that_ends_inside_a_face_splits() {
+        let mut mesh = crate::edit::testing::spur();
+        let m = split(&mut mesh, 4, 0.5);
+        let around: Vec<_> = mesh.vertex_neighbors(m).map(VertexId::index).collect();
+        assert_eq!((around.len(), mesh.degree(crate::FaceId::new(0))), (2, 8));
     }
 
     #[test]

@@ -64,6 +64,12 @@ pub enum EditError {
     /// A face would have this vertex, or has it, as a corner twice.
     #[error("one face would have {0} as a corner twice")]
     RepeatedVertex(VertexId),
+    /// No face has both vertices as corners that an edge could join.
+    #[error("no face can be cut from {0} to {1}")]
+    NoCut(VertexId, VertexId),
+    /// Several faces have both vertices as corners, or one has them several times.
+    #[error("more than one face can be cut from {0} to {1}")]
+    SeveralCuts(VertexId, VertexId),
     /// The edit would take the last faces of a closed part, or fold them onto each other.
     #[error("nothing would be left of the faces around {0}")]
     Vanishes(EdgeId),

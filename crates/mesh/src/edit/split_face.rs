@@ -1,6 +1,6 @@
 //! Cutting a face in two.
 
-use crate::{EdgeId, EditError, HalfEdgeId, Mesh};
+use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
     /// Cuts a face in two by an edge between two of its corners.
@@ -55,6 +55,47 @@ impl Mesh {
         Ok(self.insert_edge(x, y, x))
     }
 
+    /// Cuts the one face that has two vertices as corners by an edge between them: [`split_face`] for
+    /// those who know the vertices.
+    ///
+    /// The new edge runs from `v` to `w`. The sides passed on the way counter-clockwise from `v` to `w` go
+    /// to the new face, those from `w` to `v` stay. Takes time in proportion to the corners of the faces
+    /// around `v`.
+    ///
+    /// Returns the new edge.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::DuplicateEdge`] if the vertices share an edge, [`EditError::NoCut`] if no face has both
+    /// as corners or they are the same, [`EditError::SeveralCuts`] if there is more than one such face, or
+    /// one that passes a vertex twice, [`EditError::NoSuchVertex`], [`EditError::Full`]. The mesh is
+    /// unchanged.
+    ///
+    /// [`split_face`]: Self::split_face
+    pub fn connect_vertices(&mut self, v: VertexId, w: VertexId) -> Result<EdgeId, EditError> {
+        self.check_vertex(v)?;
+        self.check_vertex(w)?;
+        if self.find_half_edge(v, w).is_some() {
+            return Err(EditError::DuplicateEdge(v, w));
+        }
+        if v == w {
+            return Err(EditError::NoCut(v, w));
+        }
+        let corners = self
+            .vertex_half_edges(v)
+            .filter(|&x| self.face(x).is_some());
+        let mut cuts = corners.flat_map(|x| {
+            let opposite = self.loop_half_edges(x).filter(|&y| self.origin(y) == w);
+            opposite.map(move |y| (x, y))
+        });
+        let (cut, other) = (cuts.next(), cuts.next());
+        let (x, y) = cut.ok_or(EditError::NoCut(v, w))?;
+        if other.is_some() {
+            return Err(EditError::SeveralCuts(v, w));
+        }
+        self.split_face(x, y)
+    }
+
     /// Joins the origins of `x` and `y`, half-edges of one face. The part of the face with `moved`
     /// becomes a new face; the other part keeps the old one.
     pub(super) fn insert_edge(
@@ -91,5 +132,80 @@ impl Mesh {
             self.set_face_half_edge(old, kept);
         }
         e
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::edit::testing::{polygons, ring, shapes_to_try, undone_and_redone};
+    use crate::{FaceId, shapes};
+
+    fn connect(mesh: &Mesh, v: usize, w: usize) -> Result<Mesh, EditError> {
+        let [v, w] = [v, w].map(VertexId::new);
+        undone_and_redone(mesh, |mesh| mesh.connect_vertices(v, w).map(drop))
+    }
+
+    #[test]
+    fn the_edge_runs_from_the_first_vertex_and_the_part_behind_it_keeps_the_face() {
+        let mut mesh = shapes::grid(2, 1);
+        let [v, w] = [5, 1].map(VertexId::new);
+        let e = mesh.connect_vertices(v, w).unwrap();
+        assert_eq!(mesh.edge_vertices(e), [v, w]);
+        assert_eq!(
+            polygons(&mesh),
+            [vec![0, 1, 4, 3], vec![1, 2, 5], vec![1, 5, 4]]
+        );
+    }
+
+    #[test]
+    fn any_two_corners_of_any_face_are_joined_unless_they_share_an_edge() {
+        for shape in shapes_to_try() {
+            for f in shape.faces() {
+                let corners: Vec<VertexId> = shape.face_vertices(f).collect();
+                for (&v, &w) in corners
+                    .iter()
+                    .flat_map(|v| corners.iter().map(move |w| (v, w)))
+                {
+                    let done = connect(&shape, v.index(), w.index());
+                    if v == w {
+                        assert_eq!(done, Err(EditError::NoCut(v, w)));
+                    } else if shape.find_half_edge(v, w).is_some() {
+                        assert_eq!(done, Err(EditError::DuplicateEdge(v, w)));
+                    } else {
+                        assert_eq!(done.unwrap().n_faces(), shape.n_faces() + 1);
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn vertices_without_a_face_in_common_or_with_several_are_refused() {
+        let v = VertexId::new;
+        assert_eq!(
+            connect(&shapes::cube(), 0, 7),
+            Err(EditError::NoCut(v(0), v(7)))
+        );
+        let missing = connect(&shapes::cube(), 0, 8);
+        assert_eq!(missing, Err(EditError::NoSuchVertex(v(8))));
+        // Both halves of a tube.
+        let mut tube = shapes::cylinder(4, false);
+        for e in [
+            tube.find_half_edge(v(1), v(5)),
+            tube.find_half_edge(v(3), v(7)),
+        ] {
+            tube.dissolve_edge(e.unwrap().edge()).unwrap();
+        }
+        assert_eq!(
+            connect(&tube, 0, 6),
+            Err(EditError::SeveralCuts(v(0), v(6)))
+        );
+        // The two corners of one face at its vertex 3.
+        assert_eq!(
+            connect(&ring(), 1, 3),
+            Err(EditError::SeveralCuts(v(1), v(3)))
+        );
+        assert_eq!(ring().degree(FaceId::new(0)), 8);
     }
 }

@@ -51,6 +51,20 @@ impl Range {
         }
     }
 
+    /// This count without another one, not below 0.
+    #[must_use]
+    pub const fn minus(self, other: Self) -> Self {
+        let max = if self.max == u64::MAX {
+            u64::MAX
+        } else {
+            self.max.saturating_sub(other.min)
+        };
+        Self {
+            min: self.min.saturating_sub(other.max),
+            max,
+        }
+    }
+
     /// The product of two counts.
     #[must_use]
     pub const fn times(self, other: Self) -> Self {

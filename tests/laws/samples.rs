@@ -140,6 +140,50 @@ const SAMPLES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "PokeFaces",
+        &[
+            "()",
+            "(faces: Degree(4), offset: 0.25)",
+            "(faces: Random(count: 3, seed: 7), on_refusal: Skip)",
+            r#"(faces: Tagged("marked"))"#,
+        ],
+    ),
+    (
+        "SplitFaces",
+        &[
+            "(between: [])",
+            "(between: [(0, 3)])",
+            "(between: [(0, 5), (6, 1), (2, 2), (0, 99), (0, 3)], on_refusal: Skip)",
+        ],
+    ),
+    (
+        "DeleteFaces",
+        &[
+            "(faces: All)",
+            "(faces: Faces([0]), keep_vertices: true)",
+            "(faces: FacesAround(Nearest(to: (1, 1, 1))))",
+            "(faces: Random(count: 9, seed: 7), on_refusal: Skip)",
+            r#"(faces: Tagged("marked"), on_refusal: Skip)"#,
+        ],
+    ),
+    (
+        "DissolveEdges",
+        &[
+            "(edges: Between(0, 1))",
+            "(edges: Longest(count: 1))",
+            "(edges: All, on_refusal: Skip)",
+            "(edges: Random(count: 9, seed: 7), on_refusal: Skip, seams: Drop)",
+        ],
+    ),
+    (
+        "DissolveVertices",
+        &[
+            "(vertices: Vertices([1]))",
+            "(vertices: All, on_refusal: Skip)",
+            "(vertices: Random(count: 5, seed: 7), on_refusal: Skip, seams: Drop)",
+        ],
+    ),
+    (
         "LoopSubdivide",
         &["(levels: 0)", "(levels: 1)", "(levels: 2)"],
     ),

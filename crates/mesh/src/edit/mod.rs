@@ -6,6 +6,7 @@ mod delete;
 mod delete_face;
 mod dissolve_edge;
 mod dissolve_vertex;
+mod fill_hole;
 mod flip;
 mod poke;
 mod split;
@@ -13,6 +14,8 @@ mod split_face;
 mod split_vertex;
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod tried;
 
 pub use flip::Seams;
 
@@ -115,6 +118,9 @@ pub enum EditError {
     /// The same face was named twice.
     #[error("{0} was named twice")]
     TwiceFace(FaceId),
+    /// The loop around the hole has fewer than three edges.
+    #[error("the loop of boundary edges through {0} has fewer than three")]
+    ShortLoop(HalfEdgeId),
     /// Nothing was named to edit.
     #[error("nothing was named to edit")]
     Nothing,

@@ -14,6 +14,7 @@ mod split_face;
 mod split_vertex;
 #[cfg(test)]
 mod testing;
+mod stitch;
 #[cfg(test)]
 mod tried;
 
@@ -121,6 +122,12 @@ pub enum EditError {
     /// The loop around the hole has fewer than three edges.
     #[error("the loop of boundary edges through {0} has fewer than three")]
     ShortLoop(HalfEdgeId),
+    /// The ends of the edge would become one vertex.
+    #[error("{0} would begin and end at one vertex")]
+    SelfLoop(EdgeId),
+    /// Two corners of the face would become one vertex.
+    #[error("{0} would visit {1} twice")]
+    VisitsTwice(FaceId, VertexId),
     /// Nothing was named to edit.
     #[error("nothing was named to edit")]
     Nothing,

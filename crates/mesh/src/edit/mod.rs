@@ -3,6 +3,7 @@
 
 mod collapse;
 mod delete;
+mod cut;
 mod delete_face;
 mod dissolve_edge;
 mod dissolve_vertex;

@@ -1,0 +1,198 @@
+//! Opening a mesh along edges.
+
+use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
+
+/// A part of the faces around a vertex, between two cuts, or between a cut and the boundary.
+struct Part {
+    /// The half-edges that leave the vertex, clockwise. The first is a boundary one.
+    leaving: Vec<HalfEdgeId>,
+    /// The boundary half-edge that arrives at the vertex.
+    arriving: HalfEdgeId,
+}
+
+impl Mesh {
+    /// Opens the mesh along edges, whatever they form: paths, loops, trees.
+    ///
+    /// ```text
+    ///    +-----+-----+          +-----+ +-----+
+    ///    |     e     |          |     e n     |         e keeps the face of its first half
+    ///    +-----v-----+    -->   +-----v w-----+         n is new and gets the other face
+    ///    |     e2    |          |     e2 n2   |
+    ///    +-----u-----+          +-----u-----+           u: the end of a cut inside the mesh stays one
+    ///    |     |     |          |     |     |
+    /// ```
+    ///
+    /// Where the faces around a vertex fall into several parts, the part with the lowest face keeps the
+    /// vertex; each other part gets a copy, in order of their lowest faces. New vertices are numbered in
+    /// the order of the old ones, new edges in the order of `edges`. Faces stay. The copies of vertices and
+    /// edges have the values of the old ones, and corners keep theirs. Nothing moves: the sides of the cut
+    /// lie on each other until something moves them. [`stitch_edges`](Self::stitch_edges) is the inverse.
+    ///
+    /// An edge whose ends both stay one vertex is refused: the hole of two edges could not be opened, and
+    /// could not be told from a closed one in a list of polygons. [`slits`](Self::slits) lists them.
+    ///
+    /// Returns the new edges: the other sides of `edges`, in the same order.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::Boundary`] if one of them is on the boundary, [`EditError::DuplicateEdge`] for the ends
+    /// of an edge that would be a slit, [`EditError::Twice`], [`EditError::Nothing`],
+    /// [`EditError::NoSuchEdge`], [`EditError::Full`]. The mesh is unchanged.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// // The ring around the middle of an octahedron: two pyramids.
+    /// let mut mesh = mesh::shapes::octahedron();
+    /// let ring: Vec<_> = mesh
+    ///     .edges()
+    ///     .filter(|&e| mesh.edge_vertices(e).iter().all(|&v| mesh.position(v).z == 0.0))
+    ///     .collect();
+    /// mesh.cut_edges(&ring)?;
+    /// assert_eq!((mesh.n_components(), mesh.n_vertices()), (2, 10));
+    /// # Ok::<(), mesh::EditError>(())
+    /// ```
+    pub fn cut_edges(&mut self, edges: &[EdgeId]) -> Result<Vec<EdgeId>, EditError> {
+        if edges.is_empty() {
+            return Err(EditError::Nothing);
+        }
+        let mut sorted = edges.to_vec();
+        sorted.sort_unstable();
+        for (i, &e) in sorted.iter().enumerate() {
+            self.check_edge(e)?;
+            if self.is_boundary_edge(e) {
+                return Err(EditError::Boundary(e));
+            }
+            if i > 0 && sorted[i - 1] == e {
+                return Err(EditError::Twice(e));
+            }
+        }
+        if let Some(&e) = self.slits(&sorted).first() {
+            let [v, w] = self.edge_vertices(e);
+            return Err(EditError::DuplicateEdge(v, w));
+        }
+        self.check_room(2 * edges.len())?;
+
+        self.drop_columns_by_rule();
+        // The fans of faces are read before the edges along them are doubled.
+        let mut vertices: Vec<VertexId> =
+            sorted.iter().flat_map(|&e| self.edge_vertices(e)).collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let is_cut = |h: HalfEdgeId| sorted.binary_search(&h.edge()).is_ok();
+        let fans: Vec<Vec<HalfEdgeId>> = vertices
+            .iter()
+            .map(|&v| self.fan_from_gap(v, is_cut))
+            .collect();
+
+        let new: Vec<EdgeId> = edges.iter().map(|&e| self.double(e)).collect();
+        let mut copies: Vec<(EdgeId, EdgeId)> =
+            edges.iter().copied().zip(new.iter().copied()).collect();
+        copies.sort_unstable();
+        let copy_of = |h: HalfEdgeId| {
+            let at = copies.binary_search_by_key(&h.edge(), |&(old, _)| old);
+            at.ok().map(|i| copies[i].1)
+        };
+        for (v, fan) in vertices.into_iter().zip(fans) {
+            let mut parts = parts(&fan, copy_of);
+            parts.sort_by_key(|part| part.leaving.iter().filter_map(|&h| self.face(h)).min());
+            for (i, part) in parts.into_iter().enumerate() {
+                let owner = if i == 0 { v } else { self.copy_vertex(v) };
+                self.set_next(part.arriving, part.leaving[0]);
+                self.set_vertex_half_edge(owner, Some(part.leaving[0]));
+                for h in part.leaving {
+                    self.set_origin(h, owner);
+                }
+            }
+        }
+        Ok(new)
+    }
+
+    /// Those of `edges` along which nothing would open if all were cut: both ends lie inside the mesh, and
+    /// no other edge of `edges` goes on there. In order of their numbers.
+    ///
+    /// # Panics
+    ///
+    /// If one is not an edge of the mesh.
+    pub fn slits(&self, edges: &[EdgeId]) -> Vec<EdgeId> {
+        let mut edges = edges.to_vec();
+        edges.sort_unstable();
+        edges.dedup();
+        let mut ends: Vec<VertexId> = edges.iter().flat_map(|&e| self.edge_vertices(e)).collect();
+        ends.sort_unstable();
+        let is_end = |v: VertexId| {
+            let first = ends.partition_point(|&w| w < v);
+            !self.is_boundary_vertex(v) && ends.get(first + 1) != Some(&v)
+        };
+        edges.retain(|&e| self.edge_vertices(e).into_iter().all(is_end));
+        edges
+    }
+
+    /// The half-edges that leave `v`, clockwise from the boundary or else from a cut.
+    fn fan_from_gap(&self, v: VertexId, is_cut: impl Fn(HalfEdgeId) -> bool) -> Vec<HalfEdgeId> {
+        let mut fan: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();
+        if !self.is_boundary_vertex(v) {
+            let first = fan.iter().position(|&h| is_cut(h)).unwrap_or_default();
+            fan.rotate_left(first);
+        }
+        fan
+    }
+
+    /// Gives the face of the second half of `e` to a new edge. The halves that lose their faces are linked
+    /// to nothing yet.
+    fn double(&mut self, e: EdgeId) -> EdgeId {
+        let [_, old] = e.half_edges();
+        let (before, after, face) = (self.prev(old), self.next(old), self.face(old));
+        let new = self.push_edge(self.target(old), self.origin(old));
+        let [_, kept] = new.half_edges();
+        self.copy_values(e, new);
+        self.copy_values(old, kept);
+        self.set_next(before, kept);
+        self.set_next(kept, after);
+        self.set_face(kept, face);
+        self.set_face(old, None);
+        if let Some(f) = face.filter(|&f| self.face_half_edge(f) == old) {
+            self.set_face_half_edge(f, kept);
+        }
+        new
+    }
+
+    fn copy_vertex(&mut self, v: VertexId) -> VertexId {
+        let copy = self.push_vertex(self.position(v));
+        self.copy_values(v, copy);
+        copy
+    }
+}
+
+/// The parts of a fan, which begins at a gap, after its cut edges were doubled.
+fn parts(fan: &[HalfEdgeId], copy_of: impl Fn(HalfEdgeId) -> Option<EdgeId>) -> Vec<Part> {
+    // Of the two edges that a cut one became, the half that leaves the vertex on the face before, seen
+    // clockwise, and the boundary half that leaves it after the cut.
+    let sides = |h: HalfEdgeId| {
+        let [first, second] = copy_of(h)?.half_edges();
+        let is_first = h == h.edge().half_edge();
+        Some(if is_first { (h, first) } else { (second, h) })
+    };
+    let mut parts = Vec::new();
+    let mut leaving = Vec::new();
+    for (i, &h) in fan.iter().enumerate() {
+        let Some((before, after)) = sides(h) else {
+            leaving.push(h);
+            continue;
+        };
+        if i > 0 {
+            leaving.push(before);
+            let arriving = before.twin();
+            parts.push(Part { leaving, arriving });
+        }
+        leaving = vec![after];
+    }
+    // The last part ends at the boundary, or at the cut where the first one began.
+    leaving.extend(sides(fan[0]).map(|(before, _)| before));
+    let arriving = leaving[leaving.len() - 1].twin();
+    parts.push(Part { leaving, arriving });
+    parts
+}
+
+#[cfg(test)]
+mod tests;

@@ -3,6 +3,7 @@
 
 mod collapse;
 mod delete;
+mod bridge;
 mod cut;
 mod delete_face;
 mod dissolve_edge;
@@ -123,6 +124,9 @@ pub enum EditError {
     /// The loop around the hole has fewer than three edges.
     #[error("the loop of boundary edges through {0} has fewer than three")]
     ShortLoop(HalfEdgeId),
+    /// The two half-edges lie on one boundary loop, and the edit is for two loops.
+    #[error("{0} and {1} lie on one boundary loop")]
+    SameLoop(HalfEdgeId, HalfEdgeId),
     /// The ends of the edge would become one vertex.
     #[error("{0} would begin and end at one vertex")]
     SelfLoop(EdgeId),

@@ -127,6 +127,9 @@ const SAMPLES: &[(&str, &[&str])] = &[
             "(edges: Random(count: 9, seed: 7), on_refusal: Skip, seams: Drop)",
             "(edges: Between(0, 2))",
             r#"(edges: Tagged("marked"), on_refusal: Skip)"#,
+            "(edges: All, until: Delaunay)",
+            "(edges: Flat(below: 30), until: Delaunay, passes: 2, seams: Drop)",
+            "(edges: All, until: Valence)",
         ],
     ),
     (

@@ -7,14 +7,25 @@
 //!      \   /               \ | /
 //!        d                   d
 //! ```
+//!
+//! Each edge once, or only those that make the mesh better, until none does (module `until`, with
+//! what is better in module `goal`).
 
-use mesh::Mesh;
+mod goal;
+mod until;
+
+use mesh::{EdgeId, EditError, Mesh};
 use op::{
     Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
     Report, Select, edit_each,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use goal::Goal;
+
+/// The most passes that a step may ask for.
+const MAX_PASSES: u32 = 1_000_000;
 
 /// Turns edges between triangles to their other diagonal.
 ///
@@ -23,17 +34,48 @@ use serde::{Deserialize, Serialize};
 /// of the triangles share an edge already or are one and the same, and at a seam. No number of an
 /// element changes and no vertex moves. Values of vertices, edges and faces stay with their elements;
 /// corners take the values of the same vertex in the other triangle.
+///
+/// With `until: Delaunay` or `until: Valence` an edge is flipped only if that brings the mesh nearer to
+/// the goal, and edges are judged again, pass after pass, until none is flipped any more. Such a flip
+/// neither folds the surface nor makes a triangle without area. Edges that would be flipped but may not
+/// be are no failure: they stay, and the report counts them by reason. The report also says how many
+/// passes it took, and whether edges were left because `passes` was reached.
+///
+/// On a surface that is not flat a flip changes the shape. To keep creases and the edges of a
+/// part, leave them out of `edges`: `Flat(below: 30)`, `Not(Tagged("keep"))`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct FlipEdges {
-    /// Which edges.
+    /// Which edges. They are chosen once: an edge keeps its number when it turns.
     pub edges: EdgeSelection,
-    /// What to do when a flip is refused.
+    /// How often, and which of them.
+    #[serde(default)]
+    pub until: Until,
+    /// The most passes over the edges; `Once` makes one.
+    #[serde(default = "hundred")]
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub passes: u32,
+    /// What to do when a flip is refused; only for `Once`.
     #[serde(default)]
     pub on_refusal: OnRefusal,
     /// What to do at seams.
     #[serde(default)]
     pub seams: Seams,
+}
+
+/// Which edges are flipped, and when to stop.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Until {
+    /// Each edge once.
+    #[default]
+    Once,
+    /// Until no flip makes the sum of the cotangents of all angles of all triangles smaller: angles far
+    /// from flat and from zero. On a flat mesh that is the Delaunay triangulation.
+    Delaunay,
+    /// Until no flip brings the numbers of edges at vertices nearer to 6, or 4 on the boundary: it
+    /// makes the sum of the squares of the differences smaller.
+    Valence,
 }
 
 /// What to do with an edge whose corner values, like UVs, differ between its two sides.
@@ -45,6 +87,10 @@ pub enum Seams {
     Refuse,
     /// Flip, and give each triangle the corner values of the other side where it crosses the seam.
     Drop,
+}
+
+const fn hundred() -> u32 {
+    100
 }
 
 impl From<Seams> for mesh::Seams {
@@ -61,166 +107,84 @@ impl MeshOperation for FlipEdges {
     const SUMMARY: &'static str = "Turn edges to the other diagonal of their two triangles";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        // Counts, degrees and attributes stay. Without a triangle every flip is refused.
-        if plan.degrees.min <= 3 || self.edges.count(plan).min == 0 {
-            return Vec::new();
+        let mut problems = Vec::new();
+        if let Err(message) = self.check() {
+            problems.push(Problem::error(message).at(["passes"]));
         }
-        let message = format!(
-            "FlipEdges turns edges between triangles, but every face has at least {} corners",
-            plan.degrees.min
-        );
-        let problem = match self.on_refusal {
-            OnRefusal::Error => Problem::error(message),
-            OnRefusal::Skip => Problem::warning(message),
-        };
-        vec![problem.help("cut the faces into triangles first, with Triangulate")]
+        // Counts, degrees and attributes stay. Without a triangle every flip is refused.
+        if plan.degrees.min > 3 && self.edges.count(plan).min > 0 {
+            let message = format!(
+                "FlipEdges turns edges between triangles, but every face has at least {} corners",
+                plan.degrees.min
+            );
+            let fails = self.until == Until::Once && self.on_refusal == OnRefusal::Error;
+            let problem = if fails {
+                Problem::error(message)
+            } else {
+                Problem::warning(message)
+            };
+            problems.push(problem.help("cut the faces into triangles first, with Triangulate"));
+        }
+        problems
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        self.check().map_err(OpError::Parameter)?;
         let edges = self.edges.resolve(mesh, cx)?;
-        let seams = self.seams.into();
-        let mut crossed = 0_u64;
-        let report = edit_each(mesh, &edges, self.on_refusal, "flip", cx, |mesh, e| {
-            // Asked before the flip: afterwards the seam is gone from the edge.
-            let is_seam = self.seams == Seams::Drop && mesh.is_seam(e);
-            mesh.flip_edge_with(e, seams)?;
-            crossed += u64::from(is_seam);
-            Ok(())
-        })?;
-        Ok(if crossed == 0 {
-            report
-        } else {
-            report.note(format!(
-                "seams crossed: {crossed}; corners there took values of the other side"
-            ))
+        let mut flips = Flips {
+            seams: self.seams,
+            crossed: 0,
+        };
+        let goal = match self.until {
+            Until::Once => None,
+            Until::Delaunay => Some(Goal::Delaunay),
+            Until::Valence => Some(Goal::valence(mesh)),
+        };
+        let report = match goal {
+            None => edit_each(mesh, &edges, self.on_refusal, "flip", cx, |mesh, e| {
+                flips.flip(mesh, e)
+            })?,
+            Some(goal) => until::flip_until(mesh, &edges, goal, self.passes, cx, |mesh, e| {
+                flips.flip(mesh, e)
+            })?,
+        };
+        Ok(match flips.crossed {
+            0 => report,
+            n => report.note(format!(
+                "seams crossed: {n}; corners there took values of the other side"
+            )),
         })
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use mesh::{DVec2, EdgeId, UV, shapes};
-    use op::test::{applied, try_applied};
-    use op::{Files, Refusal, Region};
-    use proptest::prelude::*;
-
-    fn parse(text: &str) -> FlipEdges {
-        ron::from_str(text).unwrap()
-    }
-
-    /// A flat sheet of triangles with a seam of UVs along the edge between vertices 0 and 3.
-    fn sheet_with_a_seam() -> Mesh {
-        let positions = shapes::square().positions().to_vec();
-        let (mut mesh, _) = Mesh::from_polygons(positions, &[[0, 1, 2], [0, 2, 3]]).unwrap();
-        let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
-        for h in mesh.face_half_edges(mesh::FaceId::new(1)) {
-            uvs[h.index()] = DVec2::X;
-        }
-        mesh.set(UV, uvs);
-        mesh
-    }
-
-    #[test]
-    fn an_edge_between_two_vertices_joins_the_other_two() {
-        let mesh = applied(&parse("(edges: Between(0, 2))"), {
-            let mut mesh = sheet_with_a_seam();
-            mesh.remove_column(mesh::Domain::Corner, UV.name);
-            mesh
-        });
-        let v = mesh::VertexId::new;
-        assert!(mesh.find_half_edge(v(1), v(3)).is_some());
-        assert!(mesh.find_half_edge(v(0), v(2)).is_none());
-    }
-
-    #[test]
-    fn four_flips_are_none() {
-        let mesh = shapes::icosahedron();
-        let e = EdgeId::new(0);
-        let once = parse("(edges: Tagged(\"it\"))");
-        let mut tagged = mesh.clone();
-        let tag = mesh::Attribute::<EdgeId, bool>::new("it", mesh::Rule::Copy);
-        tagged.set(tag, tagged.edges().map(|other| other == e).collect());
-        let mut flipped = tagged.clone();
-        for _ in 0..4 {
-            flipped = applied(&once, flipped);
-        }
-        assert_eq!(flipped.connectivity().next, tagged.connectivity().next);
-        assert_eq!(flipped.connectivity().origin, tagged.connectivity().origin);
-    }
-
-    #[test]
-    fn a_refused_flip_fails_the_step_and_says_why() {
-        let refused = try_applied(&parse("(edges: Boundary)"), sheet_with_a_seam());
-        let Err(OpError::Refused { reason, .. }) = refused else {
-            panic!("expected a refusal, got {refused:?}");
-        };
-        assert_eq!(reason, Refusal::Boundary);
-    }
-
-    #[test]
-    fn skipped_refusals_are_counted_by_reason() {
-        let skip = parse("(edges: All, on_refusal: Skip)");
-        let (mesh, report) = try_applied(&skip, sheet_with_a_seam()).unwrap();
-        assert_eq!(mesh, sheet_with_a_seam());
-        assert_eq!(report.changed, 0);
-        let counts: Vec<_> = report.refused.iter().map(|r| (r.reason, r.count)).collect();
-        assert_eq!(counts, [(Refusal::Boundary, 4), (Refusal::Seam, 1)]);
-    }
-
-    #[test]
-    fn a_crossed_seam_is_counted() {
-        let drop = parse("(edges: Between(0, 2), seams: Drop)");
-        let (_, report) = try_applied(&drop, sheet_with_a_seam()).unwrap();
-        assert_eq!(report.changed, 1);
-        assert!(report.notes[0].starts_with("seams crossed: 1;"));
-    }
-
-    #[test]
-    fn a_mesh_without_triangles_is_a_problem_of_the_plan() {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let plan = |operation: &FlipEdges, mesh: &Mesh| {
-            MeshOperation::plan(operation, &mut MeshPlan::of(mesh), &cx)
-        };
-        let all = parse("(edges: All)");
-        assert_eq!(plan(&all, &shapes::octahedron()), []);
-        assert_eq!(plan(&all, &Mesh::default()), []);
-        assert!(!plan(&all, &shapes::cube())[0].is_warning);
-        assert!(plan(&parse("(edges: All, on_refusal: Skip)"), &shapes::cube())[0].is_warning);
-    }
-
-    #[test]
-    fn a_recipe_must_name_the_edges_and_only_known_fields() {
-        assert!(ron::from_str::<FlipEdges>("()").is_err());
-        assert!(ron::from_str::<FlipEdges>("(edges: All, seam: Drop)").is_err());
-        let flip = parse("(edges: Random(count: 3, seed: 7))");
-        assert_eq!(flip.seams, Seams::Refuse);
-        assert_eq!(flip.on_refusal, OnRefusal::Error);
-    }
-
-    proptest! {
-        #[test]
-        fn flips_keep_counts_positions_and_the_euler_characteristic(
-            count in 0..60_u32, seed in 0..1000_u64, radius in 0.2..2.0_f64,
-        ) {
-            let edges = EdgeSelection::Or(vec![
-                EdgeSelection::Random { count, of: Box::default(), seed },
-                EdgeSelection::Inside(Region::Sphere { center: op::Vector(1.0, 0.0, 0.0), radius }),
-            ]);
-            let flip = FlipEdges { edges, on_refusal: OnRefusal::Skip, seams: Seams::Refuse };
-            let before = shapes::icosahedron();
-            let (after, report) = try_applied(&flip, before.clone()).unwrap();
-            prop_assert_eq!(after.n_edges(), before.n_edges());
-            prop_assert_eq!(after.positions(), before.positions());
-            prop_assert_eq!(after.euler_characteristic(), 2);
-            prop_assert!(after.is_closed());
-            let refused: u64 = report.refused.iter().map(|r| r.count).sum();
-            prop_assert!(report.changed + refused >= u64::from(count.min(30)));
+impl FlipEdges {
+    fn check(&self) -> Result<(), String> {
+        if (1..=MAX_PASSES).contains(&self.passes) {
+            Ok(())
+        } else {
+            let passes = self.passes;
+            Err(format!(
+                "`passes` must be from 1 to {MAX_PASSES}, not {passes}"
+            ))
         }
     }
 }
+
+/// Flips edges, and counts the seams that this crossed.
+struct Flips {
+    seams: Seams,
+    crossed: u64,
+}
+
+impl Flips {
+    fn flip(&mut self, mesh: &mut Mesh, e: EdgeId) -> Result<(), EditError> {
+        // Asked before the flip: afterwards the seam is gone from the edge.
+        let is_seam = self.seams == Seams::Drop && mesh.is_seam(e);
+        mesh.flip_edge_with(e, self.seams.into())?;
+        self.crossed += u64::from(is_seam);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

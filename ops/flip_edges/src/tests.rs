@@ -1,0 +1,133 @@
+//! The operation: recipes, refusals, seams and plans.
+
+mod planar;
+mod until;
+
+use super::*;
+use mesh::{DVec2, EdgeId, UV, shapes};
+use op::test::{applied, try_applied};
+use op::{Files, Refusal, Region};
+use proptest::prelude::*;
+
+fn parse(text: &str) -> FlipEdges {
+    ron::from_str(text).unwrap()
+}
+
+/// A flat sheet of triangles with a seam of UVs along the edge between vertices 0 and 3.
+fn sheet_with_a_seam() -> Mesh {
+    let positions = shapes::square().positions().to_vec();
+    let (mut mesh, _) = Mesh::from_polygons(positions, &[[0, 1, 2], [0, 2, 3]]).unwrap();
+    let mut uvs = vec![DVec2::ZERO; mesh.n_half_edges()];
+    for h in mesh.face_half_edges(mesh::FaceId::new(1)) {
+        uvs[h.index()] = DVec2::X;
+    }
+    mesh.set(UV, uvs);
+    mesh
+}
+
+#[test]
+fn an_edge_between_two_vertices_joins_the_other_two() {
+    let mesh = applied(&parse("(edges: Between(0, 2))"), {
+        let mut mesh = sheet_with_a_seam();
+        mesh.remove_column(mesh::Domain::Corner, UV.name);
+        mesh
+    });
+    let v = mesh::VertexId::new;
+    assert!(mesh.find_half_edge(v(1), v(3)).is_some());
+    assert!(mesh.find_half_edge(v(0), v(2)).is_none());
+}
+
+#[test]
+fn four_flips_are_none() {
+    let mesh = shapes::icosahedron();
+    let e = EdgeId::new(0);
+    let once = parse("(edges: Tagged(\"it\"))");
+    let mut tagged = mesh.clone();
+    let tag = mesh::Attribute::<EdgeId, bool>::new("it", mesh::Rule::Copy);
+    tagged.set(tag, tagged.edges().map(|other| other == e).collect());
+    let mut flipped = tagged.clone();
+    for _ in 0..4 {
+        flipped = applied(&once, flipped);
+    }
+    assert_eq!(flipped.connectivity().next, tagged.connectivity().next);
+    assert_eq!(flipped.connectivity().origin, tagged.connectivity().origin);
+}
+
+#[test]
+fn a_refused_flip_fails_the_step_and_says_why() {
+    let refused = try_applied(&parse("(edges: Boundary)"), sheet_with_a_seam());
+    let Err(OpError::Refused { reason, .. }) = refused else {
+        panic!("expected a refusal, got {refused:?}");
+    };
+    assert_eq!(reason, Refusal::Boundary);
+}
+
+#[test]
+fn skipped_refusals_are_counted_by_reason() {
+    let skip = parse("(edges: All, on_refusal: Skip)");
+    let (mesh, report) = try_applied(&skip, sheet_with_a_seam()).unwrap();
+    assert_eq!(mesh, sheet_with_a_seam());
+    assert_eq!(report.changed, 0);
+    let counts: Vec<_> = report.refused.iter().map(|r| (r.reason, r.count)).collect();
+    assert_eq!(counts, [(Refusal::Boundary, 4), (Refusal::Seam, 1)]);
+}
+
+#[test]
+fn a_crossed_seam_is_counted() {
+    let drop = parse("(edges: Between(0, 2), seams: Drop)");
+    let (_, report) = try_applied(&drop, sheet_with_a_seam()).unwrap();
+    assert_eq!(report.changed, 1);
+    assert!(report.notes[0].starts_with("seams crossed: 1;"));
+}
+
+#[test]
+fn a_mesh_without_triangles_is_a_problem_of_the_plan() {
+    let files = Files::default();
+    let cx = PlanContext {
+        files: &files,
+        on: None,
+        budget: u64::MAX,
+    };
+    let plan = |operation: &FlipEdges, mesh: &Mesh| {
+        MeshOperation::plan(operation, &mut MeshPlan::of(mesh), &cx)
+    };
+    let all = parse("(edges: All)");
+    assert_eq!(plan(&all, &shapes::octahedron()), []);
+    assert_eq!(plan(&all, &Mesh::default()), []);
+    assert!(!plan(&all, &shapes::cube())[0].is_warning);
+    for skips in ["on_refusal: Skip", "until: Delaunay", "until: Valence"] {
+        let flip = parse(&format!("(edges: All, {skips})"));
+        assert!(plan(&flip, &shapes::cube())[0].is_warning, "{skips}");
+    }
+}
+
+#[test]
+fn a_recipe_must_name_the_edges_and_only_known_fields() {
+    assert!(ron::from_str::<FlipEdges>("()").is_err());
+    assert!(ron::from_str::<FlipEdges>("(edges: All, seam: Drop)").is_err());
+    let flip = parse("(edges: Random(count: 3, seed: 7))");
+    assert_eq!(flip.seams, Seams::Refuse);
+    assert_eq!(flip.on_refusal, OnRefusal::Error);
+    assert_eq!((flip.until, flip.passes), (Until::Once, 100));
+}
+
+proptest! {
+    #[test]
+    fn flips_keep_counts_positions_and_the_euler_characteristic(
+        count in 0..60_u32, seed in 0..1000_u64, radius in 0.2..2.0_f64,
+    ) {
+        let edges = EdgeSelection::Or(vec![
+            EdgeSelection::Random { count, of: Box::default(), seed },
+            EdgeSelection::Inside(Region::Sphere { center: op::Vector(1.0, 0.0, 0.0), radius }),
+        ]);
+        let flip = FlipEdges { edges, ..parse("(edges: All, on_refusal: Skip)") };
+        let before = shapes::icosahedron();
+        let (after, report) = try_applied(&flip, before.clone()).unwrap();
+        prop_assert_eq!(after.n_edges(), before.n_edges());
+        prop_assert_eq!(after.positions(), before.positions());
+        prop_assert_eq!(after.euler_characteristic(), 2);
+        prop_assert!(after.is_closed());
+        let refused: u64 = report.refused.iter().map(|r| r.count).sum();
+        prop_assert!(report.changed + refused >= u64::from(count.min(30)));
+    }
+}

@@ -9,6 +9,7 @@ mod delete_face;
 mod dissolve_edge;
 mod dissolve_vertex;
 mod fill_hole;
+mod extrude;
 mod flip;
 mod poke;
 mod split;

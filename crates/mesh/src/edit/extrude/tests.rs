@@ -1,0 +1,289 @@
+use super::*;
+use crate::{CREASE, Column, Domain, EdgeId, MATERIAL, Rule, UV, Values, shapes};
+use glam::DVec2;
+
+fn faces(numbers: &[usize]) -> Vec<FaceId> {
+    numbers.iter().map(|&i| FaceId::new(i)).collect()
+}
+
+fn corners(mesh: &Mesh, f: FaceId) -> Vec<usize> {
+    mesh.face_vertices(f).map(VertexId::index).collect()
+}
+
+fn counts(mesh: &Mesh) -> [usize; 3] {
+    [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
+}
+
+/// Extrudes upwards by 1 and asks for what holds whatever the faces.
+fn extruded(mesh: &Mesh, numbers: &[usize]) -> (Mesh, Vec<FaceId>) {
+    let mut result = mesh.clone();
+    let sides = result.extrude_faces(&faces(numbers), DVec3::Z).unwrap();
+    assert_eq!(result.defects(), [], "{numbers:?}");
+    let n = sides.len();
+    let [v, e, f] = counts(mesh);
+    assert_eq!(counts(&result), [v + n, e + 2 * n, f + n]);
+    let chi = mesh.euler_characteristic();
+    assert_eq!(result.euler_characteristic(), chi, "{numbers:?}");
+    assert_eq!(result.boundary_loops(), mesh.boundary_loops());
+    assert!(sides.iter().all(|&side| result.degree(side) == 4));
+    let places = |mesh: &Mesh, f| -> Vec<_> {
+        let corners = mesh.face_vertices(f);
+        corners.map(|v| mesh.position(v)).collect()
+    };
+    for f in mesh.faces() {
+        if numbers.contains(&f.index()) {
+            let moved: Vec<_> = places(mesh, f).iter().map(|&p| p + DVec3::Z).collect();
+            assert_eq!(places(&result, f), moved, "{f} of {numbers:?}");
+        } else {
+            assert_eq!(corners(&result, f), corners(mesh, f), "{f} of {numbers:?}");
+            assert_eq!(places(&result, f), places(mesh, f));
+        }
+    }
+    (result, sides)
+}
+
+#[test]
+fn the_top_of_a_cube_moves_up_on_four_sides() {
+    let (mesh, sides) = extruded(&shapes::cube(), &[1]);
+    assert!(mesh.is_closed());
+    assert_eq!((mesh.genus(), mesh.n_components()), (0, 1));
+    assert_eq!(mesh.area(), 32.0);
+    assert!((mesh.volume() - 12.0).abs() < 1e-13);
+    assert_eq!(sides, faces(&[6, 7, 8, 9]));
+}
+
+#[test]
+fn ids_are_given_as_documented() {
+    let (mesh, sides) = extruded(&shapes::cube(), &[1]);
+    // The face was 4, 5, 7, 6.
+    assert_eq!(corners(&mesh, FaceId::new(1)), [8, 9, 10, 11]);
+    let around: Vec<_> = sides.iter().map(|&side| corners(&mesh, side)).collect();
+    assert_eq!(
+        around,
+        [[4, 5, 9, 8], [5, 7, 10, 9], [7, 6, 11, 10], [6, 4, 8, 11]]
+    );
+    let ends = |e| mesh.edge_vertices(EdgeId::new(e)).map(VertexId::index);
+    assert_eq!(
+        (12..20).map(ends).collect::<Vec<_>>(),
+        [
+            [8, 9],
+            [4, 8],
+            [9, 10],
+            [5, 9],
+            [10, 11],
+            [7, 10],
+            [11, 8],
+            [6, 11]
+        ]
+    );
+}
+
+#[test]
+fn the_same_face_can_be_moved_again_and_again() {
+    let mut mesh = shapes::cube();
+    for level in 1..=5 {
+        let sides = mesh.extrude_faces(&faces(&[1]), DVec3::Z).unwrap();
+        assert_eq!(sides.len(), 4);
+        assert_eq!(mesh.defects(), []);
+        assert!((mesh.volume() - 8.0 - 4.0 * f64::from(level)).abs() < 1e-12);
+        assert_eq!(mesh.face_normal(FaceId::new(1)), DVec3::Z);
+    }
+}
+
+#[test]
+fn faces_that_share_an_edge_move_together() {
+    let (mesh, sides) = extruded(&shapes::grid(3, 3), &[4, 5]);
+    assert_eq!(sides.len(), 6);
+    // The edge between them is inside, and still between them.
+    let beside = |e| mesh.edge_faces(e);
+    let pair = [FaceId::new(4), FaceId::new(5)].map(Some);
+    assert!(mesh.edges().any(|e| {
+        let [f, g] = beside(e);
+        [f, g] == pair || [g, f] == pair
+    }));
+}
+
+#[test]
+fn vertices_inside_the_faces_keep_their_ids() {
+    // The four squares in the middle of 4 x 4, around vertex 12.
+    let (mesh, sides) = extruded(&shapes::grid(4, 4), &[5, 6, 9, 10]);
+    assert_eq!(sides.len(), 8);
+    let middle = VertexId::new(12);
+    assert_eq!(mesh.position(middle).z, 1.0);
+    assert_eq!(mesh.valence(middle), 4);
+    assert!(mesh.vertex_faces(middle).all(|f| f.index() < 16));
+}
+
+#[test]
+fn each_fan_at_a_shared_vertex_gets_its_own_copy() {
+    // Opposite squares around the middle vertex, 4.
+    let (mesh, sides) = extruded(&shapes::grid(2, 2), &[0, 3]);
+    assert_eq!(sides.len(), 8);
+    let middle = VertexId::new(4);
+    let copies = mesh
+        .vertices()
+        .filter(|&v| mesh.position(v) == mesh.position(middle) + DVec3::Z);
+    assert_eq!(copies.count(), 2);
+    assert_eq!(mesh.valence(middle), 6);
+}
+
+#[test]
+fn a_whole_sheet_becomes_a_box_that_is_open_below() {
+    let sheet = shapes::grid(2, 1);
+    let (mesh, sides) = extruded(&sheet, &[0, 1]);
+    assert_eq!(sides.len(), 6);
+    assert_eq!((mesh.n_boundary_loops(), mesh.genus()), (1, 0));
+    // The boundary is the old one.
+    for v in sheet.vertices() {
+        assert!(mesh.is_boundary_vertex(v));
+        assert_eq!(mesh.position(v), sheet.position(v));
+    }
+}
+
+#[test]
+fn a_ring_of_faces_moves_on_both_of_its_rims() {
+    let mut ring = shapes::grid(3, 3);
+    ring.delete_face(FaceId::new(4)).unwrap();
+    let (mesh, sides) = extruded(&ring, &[0, 1, 2, 3, 5, 6, 7, 8]);
+    assert_eq!(sides.len(), 16);
+    assert_eq!(mesh.n_boundary_loops(), 2);
+}
+
+#[test]
+fn a_closed_part_only_moves() {
+    let (mesh, sides) = extruded(&shapes::cube(), &[0, 1, 2, 3, 4, 5]);
+    assert_eq!(sides, []);
+    assert!((0..8).all(|v| {
+        let v = VertexId::new(v);
+        mesh.position(v) == shapes::cube().position(v) + DVec3::Z
+    }));
+}
+
+#[test]
+fn every_choice_of_faces_of_small_shapes_is_extruded() {
+    let pillow = {
+        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+        Mesh::from_polygons(positions, &[[0, 1, 2], [0, 2, 1]])
+            .unwrap()
+            .0
+    };
+    let mut parallel = shapes::grid(2, 1);
+    // A face of two sides of the boundary, and a vertex with two edges.
+    parallel.split_edge(EdgeId::new(0), 0.5).unwrap();
+    for shape in [
+        shapes::cube(),
+        shapes::tetrahedron(),
+        shapes::octahedron(),
+        shapes::grid(3, 2),
+        shapes::square(),
+        shapes::fans(&shapes::square()),
+        pillow,
+        parallel,
+    ] {
+        let n = shape.n_faces();
+        for choice in 1..1_usize << n {
+            let chosen: Vec<usize> = (0..n).filter(|i| choice >> i & 1 == 1).collect();
+            extruded(&shape, &chosen);
+        }
+    }
+}
+
+#[test]
+fn every_extrusion_can_be_taken_back_and_done_again() {
+    for shape in [
+        shapes::cube(),
+        shapes::torus(4, 3, 2.0, 1.0),
+        shapes::grid(3, 3),
+        shapes::cylinder(5, true),
+    ] {
+        for f in shape.faces() {
+            let beside = shape.face_half_edges(f).find_map(|h| shape.face(h.twin()));
+            let chosen = [Some(f), beside].into_iter().flatten().collect::<Vec<_>>();
+            let mut mesh = shape.clone();
+            mesh.begin();
+            mesh.extrude_faces(&chosen, DVec3::ONE).unwrap();
+            mesh.rollback();
+            assert_eq!(mesh, shape);
+
+            mesh.begin();
+            mesh.extrude_faces(&chosen, DVec3::ONE).unwrap();
+            let change = mesh.commit().unwrap();
+            let after = mesh.clone();
+            let again = mesh.revert(change);
+            assert_eq!(mesh, shape);
+            mesh.revert(again);
+            assert_eq!(mesh, after);
+        }
+    }
+}
+
+/// A cube whose attributes tell its elements apart.
+fn dressed() -> Mesh {
+    let mut mesh = shapes::cube();
+    let uv = |h: HalfEdgeId| DVec2::new(h.index() as f64, 0.5);
+    mesh.set(UV, mesh.half_edges().map(uv).collect());
+    mesh.set(MATERIAL, (0..6).collect());
+    mesh.set(CREASE, (0..12).map(f64::from).collect());
+    let tags = Column {
+        name: "even".to_owned(),
+        rule: Rule::Copy,
+        values: Values::Tag((0..8).map(|v| v % 2 == 0).collect()),
+    };
+    mesh.insert_column(Domain::Vertex, tags);
+    mesh
+}
+
+#[test]
+fn sides_and_copies_have_the_values_of_what_they_came_from() {
+    let before = dressed();
+    let (mesh, sides) = extruded(&before, &[1]);
+    let top = FaceId::new(1);
+    assert_eq!(mesh.get(MATERIAL).unwrap(), [0, 1, 2, 3, 4, 5, 1, 1, 1, 1]);
+    let uv = mesh.get(UV).unwrap();
+    let old = before.get(UV).unwrap();
+    let creases = mesh.get(CREASE).unwrap();
+    let even = mesh.tag(Domain::Vertex, "even").unwrap();
+    let old_corners = before.face_half_edges(top);
+    for ((h, new), &side) in old_corners.zip(mesh.face_half_edges(top)).zip(&sides) {
+        assert_eq!(uv[new.index()], old[h.index()]);
+        assert_eq!(creases[new.edge().index()], creases[h.edge().index()]);
+        assert_eq!(even[mesh.origin(new).index()], even[mesh.origin(h).index()]);
+        let around: Vec<_> = mesh.face_half_edges(side).map(|h| uv[h.index()]).collect();
+        let (a, b) = (old[h.index()], old[before.next(h).index()]);
+        assert_eq!(around, [a, b, b, a]);
+        assert!(!mesh.is_seam(new.edge()));
+        // The edge upwards from v.
+        let upright = mesh.prev(mesh.face_half_edge(side)).edge();
+        assert_eq!(creases[upright.index()], 0.0);
+    }
+    // What was on other faces stays.
+    for h in before.half_edges().filter(|&h| before.face(h) != Some(top)) {
+        assert_eq!(uv[h.index()], old[h.index()]);
+    }
+}
+
+#[test]
+fn bad_input_is_refused_and_changes_nothing() {
+    let cube = dressed();
+    let refused = |chosen: &[FaceId], offset: DVec3| {
+        let mut mesh = cube.clone();
+        let reason = mesh.extrude_faces(chosen, offset).unwrap_err();
+        assert_eq!(mesh, cube);
+        reason
+    };
+    let (f, missing) = (FaceId::new(2), FaceId::new(6));
+    assert_eq!(refused(&[], DVec3::Z), EditError::Nothing);
+    assert_eq!(refused(&[f, f], DVec3::Z), EditError::TwiceFace(f));
+    assert_eq!(
+        refused(&[f, missing], DVec3::Z),
+        EditError::NoSuchFace(missing)
+    );
+    assert_eq!(
+        refused(&[FaceId::NONE], DVec3::Z),
+        EditError::NoSuchFace(FaceId::NONE)
+    );
+    for x in [f64::NAN, f64::INFINITY] {
+        let reason = refused(&[f], DVec3::splat(x));
+        assert!(matches!(reason, EditError::BadNumber(_)), "{reason:?}");
+    }
+}

@@ -184,6 +184,12 @@ const SAMPLES: &[(&str, &[&str])] = &[
             "(vertices: Vertices([1]))",
             "(vertices: All, on_refusal: Skip)",
             "(vertices: Random(count: 5, seed: 7), on_refusal: Skip, seams: Drop)",
+        "ExtrudeFaces",
+        &[
+            "(faces: Faces([0]), by: Distance(0.5))",
+            r#"(faces: Boundary, by: Offset((0, 0, 1)), tag: "marked")"#,
+            r#"(faces: Random(count: 9, seed: 3), by: Distance(-0.25), scale: 0.5, tag: "new")"#,
+            "(faces: All, by: Offset((1, 2, 3)), scale: 2, turn: [(axis: Z, degrees: 30)])",
         ],
     ),
     (

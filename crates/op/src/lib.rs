@@ -54,6 +54,7 @@ mod report;
 mod selection;
 mod source;
 pub mod test;
+mod turn;
 
 pub use context::{Context, NoProgress, Progress};
 pub use edit::{OnRefusal, edit_each};
@@ -68,3 +69,4 @@ pub use registry::{DuplicateOperation, Entry, Registry, Step};
 pub use report::{Loss, Refused, Report};
 pub use selection::{EdgeSelection, FaceSelection, Region, Select, VertexSelection};
 pub use source::{Source, change_curves, check_name, made, named_object, plan_curves};
+pub use turn::Turn;

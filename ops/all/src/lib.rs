@@ -34,6 +34,7 @@ pub fn registry() -> Registry {
         .with::<delete_faces::DeleteFaces>()
         .with::<dissolve_edges::DissolveEdges>()
         .with::<dissolve_vertices::DissolveVertices>()
+        .with::<extrude_faces::ExtrudeFaces>()
         .with::<loop_subdivide::LoopSubdivide>()
         .with::<vertex_normals::VertexNormals>()
         .with::<save::Save>()

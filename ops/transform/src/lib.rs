@@ -20,7 +20,7 @@ use bezier::{Curve, Patch};
 use glam::DVec3;
 use mesh::{Mesh, Rule, Values};
 use op::{
-    Axis, Context, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Report, Vector,
+    Context, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Report, Turn, Vector,
     named_object,
 };
 use rayon::prelude::*;
@@ -59,16 +59,6 @@ pub struct Transform {
 
 const fn ones() -> Vector {
     Vector(1.0, 1.0, 1.0)
-}
-
-/// One turn around an axis.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Turn {
-    /// The direction of the axis.
-    pub axis: Axis,
-    /// How far, counter-clockwise for someone towards whom the axis points. Multiples of 90 are exact.
-    pub degrees: f64,
 }
 
 /// The point that scaling and turning leave where it is.

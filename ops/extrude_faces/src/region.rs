@@ -1,0 +1,67 @@
+//! Regions: selected faces that share edges.
+
+use glam::DVec3;
+use mesh::{FaceId, Mesh, VertexId};
+
+/// Faces that are connected by edges between them, in order of their ids.
+pub(crate) struct Region {
+    pub(crate) faces: Vec<FaceId>,
+}
+
+impl Region {
+    /// The regions of the marked faces, in order of their lowest faces.
+    pub(crate) fn all(mesh: &Mesh, marked: &[bool]) -> Vec<Self> {
+        let mut left = marked.to_vec();
+        let mut regions = Vec::new();
+        let mut stack = Vec::new();
+        for lowest in mesh.faces() {
+            if !std::mem::take(&mut left[lowest.index()]) {
+                continue;
+            }
+            let mut faces = Vec::new();
+            stack.push(lowest);
+            while let Some(f) = stack.pop() {
+                faces.push(f);
+                for g in mesh.face_half_edges(f).filter_map(|h| mesh.face(h.twin())) {
+                    if std::mem::take(&mut left[g.index()]) {
+                        stack.push(g);
+                    }
+                }
+            }
+            faces.sort_unstable();
+            regions.push(Self { faces });
+        }
+        regions
+    }
+
+    /// The unit vector along the sum of the area vectors of the faces; `None` if they cancel out, as those
+    /// of a closed part do, up to rounding.
+    pub(crate) fn normal(&self, mesh: &Mesh) -> Option<DVec3> {
+        let (sum, area) = self
+            .faces
+            .iter()
+            .map(|&f| mesh.area_vector(f))
+            .fold((DVec3::ZERO, 0.0), |(sum, area), a| {
+                (sum + a, area + a.length())
+            });
+        (sum.length() > 1e-12 * area).then(|| sum.normalize_or_zero())
+    }
+
+    /// The corners of the faces, each once, in order of their ids.
+    pub(crate) fn vertices(&self, mesh: &Mesh) -> Vec<VertexId> {
+        let mut vertices: Vec<_> = self
+            .faces
+            .iter()
+            .flat_map(|&f| mesh.face_vertices(f))
+            .collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        vertices
+    }
+}
+
+/// The mean of some vertices.
+pub(crate) fn center(mesh: &Mesh, vertices: &[VertexId]) -> DVec3 {
+    let sum: DVec3 = vertices.iter().map(|&v| mesh.position(v)).sum();
+    sum / vertices.len() as f64
+}

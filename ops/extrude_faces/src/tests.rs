@@ -1,0 +1,278 @@
+use super::*;
+use mesh::{MATERIAL, UV, shapes};
+use op::Files;
+use op::test::{applied, try_applied};
+
+fn parse(text: &str) -> ExtrudeFaces {
+    // As recipes are read.
+    let options =
+        ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
+    options.from_str(text).unwrap()
+}
+
+fn planned(operation: &ExtrudeFaces, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
+    let files = Files::default();
+    let cx = PlanContext {
+        files: &files,
+        on: None,
+        budget: u64::MAX,
+    };
+    let mut plan = MeshPlan::of(mesh);
+    let problems = MeshOperation::plan(operation, &mut plan, &cx);
+    (plan, problems)
+}
+
+fn top() -> FaceId {
+    FaceId::new(1)
+}
+
+#[test]
+fn a_face_moves_along_its_normal() {
+    let mesh = applied(
+        &parse("(faces: Faces([1]), by: Distance(0.5))"),
+        shapes::cube(),
+    );
+    assert_eq!(mesh.face_center(top()), DVec3::new(0.0, 0.0, 1.5));
+    assert!((mesh.volume() - 10.0).abs() < 1e-13);
+    let inwards = applied(
+        &parse("(faces: Faces([1]), by: Distance(-0.5))"),
+        shapes::cube(),
+    );
+    assert!((inwards.volume() - 6.0).abs() < 1e-13);
+}
+
+#[test]
+fn an_offset_is_the_same_for_all_regions() {
+    let mesh = applied(
+        &parse("(faces: Faces([0, 1]), by: Offset((1, 2, 3)))"),
+        shapes::cube(),
+    );
+    assert_eq!(mesh.face_center(FaceId::new(0)), DVec3::new(1.0, 2.0, 2.0));
+    assert_eq!(mesh.face_center(top()), DVec3::new(1.0, 2.0, 4.0));
+}
+
+#[test]
+fn each_region_has_its_own_normal_and_center() {
+    let mesh = applied(
+        &parse("(faces: Or([Faces([0]), Faces([1])]), by: Distance(1), scale: 0.5)"),
+        shapes::cube(),
+    );
+    for (f, z) in [(0, -2.0), (1, 2.0)] {
+        let f = FaceId::new(f);
+        assert_eq!(mesh.face_center(f), DVec3::new(0.0, 0.0, z));
+        assert!((mesh.face_area(f) - 1.0).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn faces_that_share_an_edge_are_one_region_with_a_mean_normal() {
+    // Front and right: the mean of -y and +x.
+    let (mesh, report) = try_applied(
+        &parse("(faces: Faces([2, 3]), by: Distance(1))"),
+        shapes::cube(),
+    )
+    .unwrap();
+    assert_eq!(report.notes, ["regions: 1, side faces: 6"]);
+    let moved = mesh.face_center(FaceId::new(2)) - DVec3::new(0.0, -1.0, 0.0);
+    let half = 0.5_f64.sqrt();
+    assert!((moved - DVec3::new(half, -half, 0.0)).length() < 1e-15);
+}
+
+#[test]
+fn turns_and_scale_are_about_the_center_of_the_region() {
+    let mesh = applied(
+        &parse("(faces: Faces([3]), by: Distance(2), scale: 0.5, turn: [(axis: Y, degrees: 90)])"),
+        shapes::cube(),
+    );
+    let right = FaceId::new(3);
+    assert_eq!(mesh.face_center(right), DVec3::new(3.0, 0.0, 0.0));
+    assert_eq!(mesh.face_normal(right), DVec3::NEG_Z);
+    assert!((mesh.face_area(right) - 1.0).abs() < 1e-15);
+}
+
+/// A figure of one piece: a body, a head, bent arms and two legs.
+#[test]
+fn a_figure_grows_out_of_a_cube_in_one_closed_piece() {
+    let mut mesh = shapes::cube();
+    for step in [
+        // Neck and head.
+        "(faces: Faces([1]), by: Distance(0.4), scale: 0.5)",
+        "(faces: Faces([1]), by: Distance(0.2))",
+        "(faces: Faces([1]), by: Distance(0.4), scale: 1.8)",
+        "(faces: Faces([1]), by: Distance(0.8))",
+        "(faces: Faces([1]), by: Distance(0.3), scale: 0.6, tag: \"crown\")",
+        // Both arms at once, to the right and to the left, and the right one bent upwards.
+        "(faces: Faces([3, 5]), by: Distance(0.5), scale: 0.4, tag: \"arms\")",
+        "(faces: Faces([3, 5]), by: Distance(1.5), scale: 0.8)",
+        "(faces: Faces([3]), by: Distance(0.5), turn: [(axis: Y, degrees: -60)])",
+        "(faces: Faces([3]), by: Distance(1))",
+        // Hips, whose sides begin at 50, and two legs out of those to the left and right.
+        "(faces: Faces([0]), by: Distance(1))",
+        "(faces: Faces([50, 52]), by: Distance(0.2), scale: 0.5, tag: \"legs\")",
+        "(faces: Faces([50]), by: Offset((-0.4, 0, -0.4)), turn: [(axis: Y, degrees: -90)])",
+        "(faces: Faces([52]), by: Offset((0.4, 0, -0.4)), turn: [(axis: Y, degrees: 90)])",
+        "(faces: Faces([50, 52]), by: Distance(2))",
+    ] {
+        mesh = applied(&parse(step), mesh);
+    }
+    assert!(mesh.is_closed());
+    assert_eq!((mesh.n_components(), mesh.genus()), (1, 0));
+    assert!(mesh.faces().all(|f| mesh.degree(f) == 4));
+    assert!(mesh.face_normal(FaceId::new(3)).z > 0.8);
+    // Sides of faces with a tag have it too, through later steps.
+    let arms = mesh.tag(Domain::Face, "arms").unwrap();
+    assert_eq!(arms.iter().filter(|&&a| a).count(), 2 + 8 + 8 + 4 + 4);
+    let legs = mesh.tag(Domain::Face, "legs").unwrap();
+    assert_eq!(legs.iter().filter(|&&l| l).count(), 2 + 3 * 8);
+    assert_eq!(mesh.face_normal(FaceId::new(50)), DVec3::NEG_Z);
+    assert_eq!(mesh.face_normal(FaceId::new(52)), DVec3::NEG_Z);
+}
+
+#[test]
+fn numbers_are_given_as_documented() {
+    let mesh = applied(
+        &parse("(faces: Faces([5, 3]), by: Distance(1))"),
+        shapes::cube(),
+    );
+    let corners = |f| -> Vec<usize> {
+        mesh.face_vertices(FaceId::new(f))
+            .map(mesh::VertexId::index)
+            .collect()
+    };
+    // 3 was 1, 3, 7, 5 and 5 was 2, 0, 4, 6.
+    assert_eq!(corners(3), [8, 9, 10, 11]);
+    assert_eq!(corners(6), [1, 3, 9, 8]);
+    assert_eq!(corners(5), [12, 13, 14, 15]);
+    assert_eq!(corners(10), [2, 0, 13, 12]);
+}
+
+#[test]
+fn normals_go_and_other_values_stay() {
+    let mut mesh = shapes::cube();
+    mesh.set(VERTEX_NORMAL, vec![DVec3::Z; 8]);
+    mesh.set(CORNER_NORMAL, vec![DVec3::Z; 24]);
+    mesh.set(MATERIAL, (0..6).collect());
+    mesh.set(UV, vec![mesh::DVec2::ONE; 24]);
+    let step = parse("(faces: Faces([4]), by: Distance(1), tag: \"back\")");
+    let (plan, problems) = planned(&step, &mesh);
+    assert_eq!(problems, []);
+    let names: Vec<_> = plan.attributes.iter().map(|a| a.name.as_str()).collect();
+    assert_eq!(names, ["uv", "material", "back"]);
+
+    let (mesh, report) = try_applied(&step, mesh).unwrap();
+    assert_eq!(report.losses.len(), 2);
+    assert_eq!(mesh.get(MATERIAL).unwrap()[6..], [4; 4]);
+    let uv = mesh.get(UV).unwrap();
+    assert!(uv.iter().all(|&uv| uv == mesh::DVec2::ONE));
+    assert_eq!(
+        mesh.tag(Domain::Face, "back").unwrap(),
+        [
+            false, false, false, false, true, false, true, true, true, true
+        ]
+    );
+}
+
+#[test]
+fn a_closed_part_has_no_normal_but_can_be_moved() {
+    let refused = try_applied(
+        &parse("(faces: All, by: Distance(1))"),
+        shapes::torus(9, 7, 2.0, 1.0),
+    );
+    assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+    let moved = applied(
+        &parse("(faces: All, by: Offset((1, 0, 0)))"),
+        shapes::cube(),
+    );
+    assert_eq!(moved.bounds().unwrap()[0], DVec3::new(0.0, -1.0, -1.0));
+    assert_eq!(moved.n_faces(), 6);
+}
+
+#[test]
+fn a_column_that_is_no_tag_is_not_overwritten() {
+    let mut mesh = shapes::cube();
+    mesh.set(MATERIAL, vec![0; 6]);
+    let refused = try_applied(
+        &parse("(faces: All, by: Offset((0, 0, 1)), tag: \"material\")"),
+        mesh,
+    );
+    assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+}
+
+#[test]
+fn bad_numbers_are_refused_before_anything_runs() {
+    let good = parse("(faces: All, by: Offset((0, 0, 1)))");
+    let turn = Turn {
+        axis: op::Axis::X,
+        degrees: f64::NAN,
+    };
+    for (bad, path) in [
+        (
+            ExtrudeFaces {
+                scale: 0.0,
+                ..good.clone()
+            },
+            vec!["scale"],
+        ),
+        (
+            ExtrudeFaces {
+                scale: f64::INFINITY,
+                ..good.clone()
+            },
+            vec!["scale"],
+        ),
+        (
+            ExtrudeFaces {
+                by: By::Distance(f64::NAN),
+                ..good.clone()
+            },
+            vec!["by"],
+        ),
+        (
+            ExtrudeFaces {
+                turn: vec![turn],
+                ..good.clone()
+            },
+            vec!["turn", "0", "degrees"],
+        ),
+    ] {
+        let (_, problems) = planned(&bad, &shapes::cube());
+        assert_eq!(problems[0].path, path);
+        let refused = try_applied(&bad, shapes::cube());
+        assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+    }
+    let far = ExtrudeFaces {
+        by: By::Distance(f64::MAX),
+        scale: 1e300,
+        ..parse("(faces: Faces([0]), by: Distance(1))")
+    };
+    assert!(try_applied(&far, shapes::cube()).is_err());
+}
+
+#[test]
+fn results_lie_within_the_plan() {
+    for text in [
+        "(faces: All, by: Offset((0, 0, 1)))",
+        "(faces: Faces([0]), by: Distance(1))",
+        "(faces: Expect(count: 2, of: Faces([0, 1])), by: Distance(1))",
+        "(faces: Random(count: 3, seed: 1), by: Distance(1))",
+    ] {
+        for shape in [shapes::cube(), shapes::icosahedron(), shapes::grid(2, 2)] {
+            let (plan, _) = planned(&parse(text), &shape);
+            let mesh = applied(&parse(text), shape);
+            assert!(plan.vertices.contains(mesh.n_vertices() as u64));
+            assert!(plan.edges.contains(mesh.n_edges() as u64));
+            assert!(plan.faces.contains(mesh.n_faces() as u64));
+        }
+    }
+}
+
+#[test]
+fn nothing_selected_is_fine() {
+    let (mesh, report) = try_applied(
+        &parse("(faces: Faces([]), by: Distance(1))"),
+        shapes::cube(),
+    )
+    .unwrap();
+    assert_eq!(mesh, shapes::cube());
+    assert_eq!(report.notes, ["nothing was selected"]);
+}

@@ -116,6 +116,14 @@ const SAMPLES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "Reverse",
+        &[
+            "()",
+            "(faces: Faces([0, 1, 2, 3]))",
+            r#"(faces: Tagged("marked"))"#,
+        ],
+    ),
+    (
         "Triangulate",
         &["()", "(faces: Degree(5))", "(faces: Faces([0]))"],
     ),
@@ -184,6 +192,9 @@ const SAMPLES: &[(&str, &[&str])] = &[
             "(vertices: Vertices([1]))",
             "(vertices: All, on_refusal: Skip)",
             "(vertices: Random(count: 5, seed: 7), on_refusal: Skip, seams: Drop)",
+        ],
+    ),
+    (
         "ExtrudeFaces",
         &[
             "(faces: Faces([0]), by: Distance(0.5))",

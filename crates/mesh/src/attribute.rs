@@ -518,6 +518,27 @@ impl Attributes {
         }
     }
 
+    /// Exchanges the values of two elements.
+    pub(crate) fn swap<I: Id>(&mut self, a: I, b: I) {
+        for column in &mut self.columns[I::DOMAIN as usize] {
+            each!(&mut column.values, v => v.swap(a.index(), b.index()));
+        }
+    }
+
+    /// Whether a domain has a column of normals.
+    pub(crate) fn has_normals(&self, domain: Domain) -> bool {
+        self.of(domain).iter().any(|c| c.rule == Rule::Normal)
+    }
+
+    /// Turns the normals of an element over.
+    pub(crate) fn turn_over<I: Id>(&mut self, element: I) {
+        for column in &mut self.columns[I::DOMAIN as usize] {
+            if let Some(normals) = column.normals_mut() {
+                normals[element.index()] = DVec3::ZERO - normals[element.index()];
+            }
+        }
+    }
+
     /// Gives element `to`, which lies between `a` and `b`, the values that the rules say.
     pub(crate) fn mix<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
         for column in &mut self.columns[I::DOMAIN as usize] {
@@ -602,10 +623,25 @@ impl Column {
         }
     }
 
+    /// The values, if they are normals.
+    fn normals_mut(&mut self) -> Option<&mut [DVec3]> {
+        match (self.rule, &mut self.values) {
+            (Rule::Normal, Values::Vec3(normals)) => Some(normals),
+            _ => None,
+        }
+    }
+
     /// Scales the value at `i` to length 1 if the rule asks for that.
     fn normalize(&mut self, i: usize) {
-        if let (Rule::Normal, Values::Vec3(v)) = (self.rule, &mut self.values) {
-            v[i] = v[i].normalize_or_zero();
+        if let Some(normals) = self.normals_mut() {
+            normals[i] = normals[i].normalize_or_zero();
+        }
+    }
+
+    /// Turns all values over if they are normals. A difference, so that 0 stays 0 and not -0.
+    pub(crate) fn turn_over(&mut self) {
+        for normal in self.normals_mut().into_iter().flatten() {
+            *normal = DVec3::ZERO - *normal;
         }
     }
 

@@ -68,6 +68,7 @@ mod journal;
 mod marks;
 mod measure;
 mod mesh;
+mod reverse;
 pub mod shapes;
 mod traverse;
 mod validate;

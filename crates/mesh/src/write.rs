@@ -116,6 +116,23 @@ impl Mesh {
         }
     }
 
+    /// Exchanges the values of two elements, whatever their rules.
+    pub(crate) fn swap_values<I: Id>(&mut self, a: I, b: I) {
+        if !self.attributes.of(I::DOMAIN).is_empty() {
+            self.note_values(a);
+            self.note_values(b);
+            self.attributes.swap(a, b);
+        }
+    }
+
+    /// Turns the normals of an element over.
+    pub(crate) fn turn_over<I: Id>(&mut self, element: I) {
+        if self.attributes.has_normals(I::DOMAIN) {
+            self.note_values(element);
+            self.attributes.turn_over(element);
+        }
+    }
+
     /// Gives element `to`, which lies between `a` and `b` at `t` (0 at `a`, 1 at `b`), the values that
     /// the rules say. Columns that are copied, not interpolated, stay as they are.
     #[inline]

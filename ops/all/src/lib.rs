@@ -21,6 +21,7 @@ pub fn registry() -> Registry {
         .with::<curve_levels::CurveLevels>()
         .with::<move_control_point::MoveControlPoint>()
         .with::<transform::Transform>()
+        .with::<reverse::Reverse>()
         .with::<join::Join>()
         .with::<copy::Copy>()
         .with::<delete::Delete>()

@@ -12,7 +12,6 @@
 //! A point p goes to R S (p - c) + c + m: S scales, R turns, m moves, c is the point of `about`.
 
 mod map;
-mod reverse;
 
 use std::sync::Arc;
 
@@ -20,8 +19,8 @@ use bezier::{Curve, Patch};
 use glam::DVec3;
 use mesh::{Mesh, Rule, Values};
 use op::{
-    Context, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Report, Turn, Vector,
-    named_object,
+    Context, Loss, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Report, Turn,
+    Vector, named_object,
 };
 use rayon::prelude::*;
 use scene::{Geometry, Scene};
@@ -29,7 +28,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::map::Map;
-use crate::reverse::reversed;
 
 /// Scales, turns and moves objects.
 ///
@@ -39,7 +37,7 @@ use crate::reverse::reversed;
 /// Ids do not change. Normals are turned along; other attributes stay as they are. A mirror (one or
 /// three negative factors in `scale`) turns faces over, so that they are counter-clockwise seen from
 /// outside again: the first corner of a face stays the first, the others follow in reverse. In mirrored
-/// patches u and v are exchanged for the same reason.
+/// patches u and v are exchanged for the same reason. Attributes that edits drop are dropped by a mirror.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transform {
@@ -99,12 +97,6 @@ impl Transform {
         problems
     }
 
-    /// Whether left and right are exchanged.
-    fn mirrors(&self) -> bool {
-        let Vector(x, y, z) = self.scale;
-        (x < 0.0) ^ (y < 0.0) ^ (z < 0.0)
-    }
-
     /// The fixed point for an object of these points.
     fn center(&self, points: impl Iterator<Item = DVec3>) -> DVec3 {
         match self.about {
@@ -121,8 +113,8 @@ impl Transform {
         }
     }
 
-    /// Changes one object. Returns the number of its points.
-    fn change(&self, name: &str, geometry: &mut Geometry, map: &Map) -> Result<usize, OpError> {
+    /// Changes one object. The report counts its points.
+    fn change(&self, name: &str, geometry: &mut Geometry, map: &Map) -> Result<Report, OpError> {
         let too_large = || {
             OpError::Parameter(format!(
                 "the coordinates of \"{name}\" would be too large for numbers"
@@ -140,11 +132,18 @@ impl Transform {
                 if !map.only_moves() {
                     turn_normals(mesh, map);
                 }
-                if self.mirrors() {
+                let mut report = Report::changed(mesh.n_vertices());
+                if map.mirrors() {
+                    let columns = mesh.attributes().iter();
+                    let lost = columns.filter(|(_, c)| c.rule == Rule::Drop);
+                    let reason = "a mirror turns the faces over";
+                    report.losses = lost
+                        .map(|(domain, c)| Loss::attribute(name, domain, &c.name, reason))
+                        .collect();
+                    mesh.reverse();
                     mesh.compact();
-                    *mesh = reversed(mesh);
                 }
-                Ok(mesh.n_vertices())
+                Ok(report)
             }
             Geometry::Patches(patches) => {
                 let points = patches
@@ -154,13 +153,13 @@ impl Transform {
                 for patch in &mut *patches {
                     let points = patch.points().map(|row| row.map(|p| map.point(p, center)));
                     let moved = Patch::new(points).map_err(|_| too_large())?;
-                    *patch = if self.mirrors() {
+                    *patch = if map.mirrors() {
                         moved.transposed()
                     } else {
                         moved
                     };
                 }
-                Ok(16 * patches.len())
+                Ok(Report::changed(16 * patches.len()))
             }
             Geometry::Curve(curve) => {
                 let points = || curve.points().iter().map(|p| p.extend(0.0));
@@ -176,7 +175,7 @@ impl Transform {
                 let n = moved.len();
                 *curve = Curve::new(moved.iter().map(|p| p.truncate()).collect())
                     .map_err(|_| too_large())?;
-                Ok(n)
+                Ok(Report::changed(n))
             }
             Geometry::Polylines(lines) => {
                 let center = self.center(lines.iter().flatten().copied());
@@ -186,7 +185,7 @@ impl Transform {
                         return Err(too_large());
                     }
                 }
-                Ok(lines.iter().map(Vec::len).sum())
+                Ok(Report::changed(lines.iter().map(Vec::len).sum()))
             }
         }
     }
@@ -244,15 +243,15 @@ impl Operation for Transform {
             <[String]>::to_vec,
         );
         let map = Map::new(self);
-        let mut points = 0;
+        let mut report = Report::default();
         cx.advance("transform", 0, names.len() as u64)?;
         for (done, name) in (1..).zip(&names) {
             named_object(scene, name)?;
             let (geometry, _) = scene.parts_mut(name).expect("found above");
-            points += self.change(name, geometry, &map)?;
+            report.merge(self.change(name, geometry, &map)?);
             cx.advance("transform", done, names.len() as u64)?;
         }
-        Ok(Report::changed(points))
+        Ok(report)
     }
 }
 

@@ -35,7 +35,8 @@ impl Map {
         self.linear * (p - center) + center + self.shift
     }
 
-    /// Where a unit normal goes: zero stays zero.
+    /// Where a unit normal goes: zero stays zero. A mirror turns it over, as it does the faces;
+    /// reversing them afterwards turns both back.
     ///
     /// By the inverse transpose of R S, which is R S^-1 (Turkowski, "Properties of Surface-Normal
     /// Transformations", 1990). Only the direction counts: the smallest factor that matters
@@ -46,6 +47,7 @@ impl Map {
             return DVec3::ZERO;
         }
         let smallest = DVec3::select(zero, DVec3::INFINITY, self.scale.abs()).min_element();
+        let smallest = if self.mirrors() { -smallest } else { smallest };
         let inverse = DVec3::select(zero, DVec3::ZERO, smallest / self.scale);
         let turned = self.turns * (n * inverse);
         (turned / turned.abs().max_element()).normalize()
@@ -54,6 +56,12 @@ impl Map {
     /// Whether points are neither scaled nor turned.
     pub(crate) fn only_moves(&self) -> bool {
         self.linear == DMat3::IDENTITY
+    }
+
+    /// Whether left and right are exchanged.
+    pub(crate) fn mirrors(&self) -> bool {
+        let DVec3 { x, y, z } = self.scale;
+        (x < 0.0) ^ (y < 0.0) ^ (z < 0.0)
     }
 
     /// The z coordinate of all points of the plane z = 0 afterwards, or `None` if they differ.

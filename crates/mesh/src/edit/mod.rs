@@ -1,23 +1,24 @@
 //! Local edits: one a file. Each checks first and changes after, so that a refused edit leaves every
 //! array as it was.
 
-mod collapse;
-mod delete;
 mod bridge;
+mod collapse;
 mod cut;
+mod delete;
 mod delete_face;
 mod dissolve_edge;
 mod dissolve_vertex;
-mod fill_hole;
 mod extrude;
+mod fill_hole;
 mod flip;
 mod poke;
+mod reverse;
 mod split;
 mod split_face;
 mod split_vertex;
+mod stitch;
 #[cfg(test)]
 mod testing;
-mod stitch;
 #[cfg(test)]
 mod tried;
 

@@ -1,0 +1,189 @@
+//! The same mesh with every face seen from the other side.
+//!
+//! ```text
+//!       c                    c
+//!     /   ^                ^   \         every half-edge keeps its id, its edge and its face,
+//!   /   f   \     --->   /   f   \       and runs the other way:
+//!  v         \          /         v        origin'(h) = target(h)
+//!  a --- h -> b         a <- h --- b       next'(h)   = prev(h)
+//! ```
+//!
+//! The half-edge that leaves a vertex v in a face becomes the one that arrives there, and the one
+//! before it, which arrived, now leaves. So prev(h) stands where h stood for v (and if h was on the
+//! boundary, so is prev(h)), for the first corner of a face, and for the values of a corner.
+//! Reversed twice, every array is as it was.
+
+use crate::attribute::{Attributes, Column, Domain};
+use crate::{Connectivity, HalfEdgeId, Mesh};
+
+impl Mesh {
+    /// The mesh with every face turned over, so that its other side is the outside.
+    ///
+    /// All ids stay, and the first corner of a face stays the first; the others follow in reverse.
+    /// Values of corners stay with their vertex and face. Normals (columns of [`Rule::Normal`]) are
+    /// turned over too, and columns of [`Rule::Drop`] are left out.
+    ///
+    /// [`Rule::Normal`]: crate::Rule::Normal
+    /// [`Rule::Drop`]: crate::Rule::Drop
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let cube = mesh::shapes::cube();
+    /// assert_eq!(cube.reversed().volume(), -cube.volume());
+    /// assert_eq!(cube.reversed().reversed(), cube);
+    /// ```
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let n = self.domain_len(Domain::Corner);
+        let mut prev = vec![HalfEdgeId::NONE; n];
+        for h in self.half_edges() {
+            prev[self.next(h).index()] = h;
+        }
+        let all = || (0..n).map(HalfEdgeId::new);
+        let before = |h: &HalfEdgeId| h.some().map_or(HalfEdgeId::NONE, |h| prev[h.index()]);
+        let old = self.connectivity();
+        let connectivity = Connectivity {
+            origin: all().map(|h| self.target(h)).collect(),
+            face: old.face.clone(),
+            vertex_half_edge: old.vertex_half_edge.iter().map(before).collect(),
+            face_half_edge: old.face_half_edge.iter().map(before).collect(),
+            next: prev,
+        };
+        let mut attributes = Attributes::default();
+        for (domain, column) in self.attributes().iter() {
+            let values = match domain {
+                Domain::Corner => column.values.gather(n, |h| {
+                    let h = HalfEdgeId::new(h);
+                    let source = if self.face(h).is_some() {
+                        self.next(h)
+                    } else {
+                        h
+                    };
+                    Some(source.index())
+                }),
+                _ => column.values.clone(),
+            };
+            let (name, rule) = (column.name.clone(), column.rule);
+            let mut column = Column { name, rule, values };
+            column.turn_over();
+            attributes.insert(domain, column);
+        }
+        attributes.drop_by_rule();
+        let mut reversed = Self {
+            dead_vertices: self.dead_vertices.clone(),
+            dead_edges: self.dead_edges.clone(),
+            dead_faces: self.dead_faces.clone(),
+            ..Self::from_arrays(connectivity, self.positions.clone())
+        };
+        reversed.set_attributes(attributes);
+        reversed
+    }
+
+    /// Turns every face over, as [`reversed`](Self::reversed).
+    pub fn reverse(&mut self) {
+        self.replace(self.reversed());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{CORNER_NORMAL, DVec2, DVec3, FaceId, UV, VERTEX_NORMAL, shapes};
+
+    fn meshes() -> Vec<Mesh> {
+        let isolated = Mesh::from_polygons(vec![DVec3::ZERO], &[[0_u32; 3]; 0])
+            .unwrap()
+            .0;
+        let mut with_dead = shapes::cube();
+        with_dead.delete_face(FaceId::new(1)).unwrap();
+        with_dead.delete_face(FaceId::new(2)).unwrap();
+        vec![
+            Mesh::default(),
+            isolated,
+            shapes::square(),
+            shapes::grid(3, 2),
+            shapes::cube(),
+            shapes::torus(4, 3, 2.0, 0.5),
+            shapes::cylinder(5, false),
+            with_dead,
+        ]
+    }
+
+    /// The mesh with the number of each half-edge as its corner value.
+    fn numbered(mut mesh: Mesh) -> Mesh {
+        let uv = (0..mesh.domain_len(Domain::Corner))
+            .map(|h| DVec2::new(h as f64, 0.0))
+            .collect();
+        mesh.set(UV, uv);
+        mesh
+    }
+
+    #[test]
+    fn the_reversed_mesh_is_valid_and_inside_out() {
+        for mesh in meshes() {
+            let reversed = mesh.reversed();
+            assert_eq!(reversed.defects(), []);
+            assert!((reversed.volume() + mesh.volume()).abs() < 1e-14);
+            assert_eq!(reversed.positions(), mesh.positions());
+            assert_eq!(reversed.n_boundary_loops(), mesh.n_boundary_loops());
+        }
+    }
+
+    #[test]
+    fn reversed_twice_is_the_same_mesh() {
+        for mut mesh in meshes().into_iter().map(numbered) {
+            let twice = mesh.reversed().reversed();
+            // What stands at dead elements means nothing.
+            assert_eq!(twice.is_dense(), mesh.is_dense());
+            mesh.compact();
+            let mut twice = twice;
+            twice.compact();
+            assert_eq!(twice, mesh);
+        }
+    }
+
+    #[test]
+    fn corners_turn_around_their_first_and_keep_their_values() {
+        for mesh in meshes().into_iter().map(numbered) {
+            let reversed = mesh.reversed();
+            for f in mesh.faces() {
+                let corners = |mesh: &Mesh| -> Vec<_> {
+                    let uv = mesh.get(UV).unwrap();
+                    mesh.face_half_edges(f)
+                        .map(|h| (mesh.origin(h), uv[h.index()].x))
+                        .collect()
+                };
+                let mut expected = corners(&mesh);
+                expected[1..].reverse();
+                assert_eq!(corners(&reversed), expected);
+            }
+        }
+    }
+
+    #[test]
+    fn normals_are_turned_over() {
+        let mut mesh = shapes::octahedron();
+        mesh.set(VERTEX_NORMAL, mesh.positions().to_vec());
+        let flat = |mesh: &Mesh| -> Vec<DVec3> {
+            let normal = |h| mesh.face_normal(mesh.face(h).unwrap());
+            mesh.half_edges().map(normal).collect()
+        };
+        mesh.set(CORNER_NORMAL, flat(&mesh));
+        mesh.reverse();
+        assert_eq!(mesh.get(CORNER_NORMAL).unwrap(), flat(&mesh));
+        let inwards: Vec<DVec3> = mesh.positions().iter().map(|&p| -p).collect();
+        assert_eq!(mesh.get(VERTEX_NORMAL).unwrap(), inwards);
+    }
+
+    #[test]
+    fn reversing_in_place_can_be_taken_back() {
+        let before = numbered(shapes::cube());
+        let mut mesh = before.clone();
+        mesh.begin();
+        mesh.reverse();
+        assert_eq!(mesh, before.reversed());
+        mesh.rollback();
+        assert_eq!(mesh, before);
+    }
+}

@@ -212,4 +212,4 @@ impl Rim {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -149,6 +149,50 @@ fn a_ring_of_faces_moves_on_both_of_its_rims() {
     assert_eq!(mesh.n_boundary_loops(), 2);
 }
 
+/// A ring of one face, which lies on both sides of the edge from 0 to 4.
+///
+/// ```text
+///    3 ----------- 2
+///    |   7 --- 6   |
+///    |   |     |   |
+///    |   4 --- 5   |
+///    | /           |
+///    0 ----------- 1
+/// ```
+pub(in crate::edit) fn slit_ring() -> Mesh {
+    let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let outer = [at(0., 0.), at(3., 0.), at(3., 3.), at(0., 3.)];
+    let inner = [at(1., 1.), at(2., 1.), at(2., 2.), at(1., 2.)];
+    let halves = [[0, 1, 2, 6, 5, 4], [0, 4, 7, 6, 2, 3]];
+    let (mut mesh, _) = Mesh::from_polygons([outer, inner].concat(), &halves).unwrap();
+    // Two faces become one: without the edge from 2 to 6.
+    let cut = mesh
+        .find_half_edge(VertexId::new(2), VertexId::new(6))
+        .unwrap();
+    let [f, g] = [cut, cut.twin()].map(|h| mesh.face(h).unwrap());
+    for h in mesh.clone().face_half_edges(g) {
+        mesh.set_face(h, Some(f));
+    }
+    let ends = [cut, cut.twin()].map(|h| (mesh.prev(h), mesh.next(h.twin())));
+    for (before, onward) in ends {
+        mesh.set_next(before, onward);
+        mesh.set_face_half_edge(f, onward);
+    }
+    mesh.kill_face(g);
+    mesh.kill_edge(cut.edge());
+    mesh.compact();
+    assert_eq!(mesh.defects(), []);
+    mesh
+}
+
+#[test]
+fn a_face_on_both_sides_of_an_edge_has_two_rims() {
+    let (mesh, sides) = extruded(&slit_ring(), &[0]);
+    assert_eq!(sides.len(), 8);
+    assert_eq!(mesh.degree(FaceId::new(0)), 10);
+    assert_eq!((mesh.n_boundary_loops(), mesh.genus()), (2, 0));
+}
+
 #[test]
 fn a_closed_part_only_moves() {
     let (mesh, sides) = extruded(&shapes::cube(), &[0, 1, 2, 3, 4, 5]);

@@ -1,0 +1,222 @@
+//! Faces in the place of vertices and edges.
+
+use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
+
+impl Mesh {
+    /// Puts a face into the place of `v`: each edge there is cut at `fraction` of its length from v, and the cuts are
+    /// joined.
+    ///
+    /// ```text
+    ///      \     /              \     /
+    ///       \   /                2---1          1, 2, 3: new vertices at (1 - t) v + t w,
+    ///         v        -->        \ /           w the other end of the edge, t the fraction
+    ///         |                    3
+    ///         |                    |
+    /// ```
+    ///
+    /// `v` dies. Its n edges keep their ids and end at the cuts. New are, in clockwise order from the first
+    /// edge of [`vertex_half_edges`](Self::vertex_half_edges): n vertices, the n edges from each to the one
+    /// after it, and the face, which begins at the first vertex. V, E and F grow by n - 1, n and 1, and each
+    /// face at v gains a corner for each corner that it had there.
+    ///
+    /// Vertex attributes at a cut follow their rules between v and the other end, corners likewise within
+    /// their own face, so that both sides of a seam keep their values; what is copied comes from v. The new
+    /// face has the values of the face to the left of the first edge, and at each corner those of the face
+    /// to the left of the edge there. New edges have zero values.
+    ///
+    /// Returns the new face.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::BoundaryVertex`] if `v` is on the boundary, [`EditError::FewEdges`] if it has fewer than
+    /// three edges, [`EditError::OutsideEdge`] if `fraction` is not strictly between 0 and 1,
+    /// [`EditError::NoSuchVertex`], [`EditError::Full`]. The mesh is unchanged.
+    ///
+    /// # Examples
+    ///
+    /// ```
+    /// let mut mesh = mesh::shapes::cube();
+    /// let v = mesh.vertices().next().unwrap();
+    /// let f = mesh.bevel_vertex(v, 0.25)?;
+    /// assert!(mesh.is_triangle(f));
+    /// # Ok::<(), mesh::EditError>(())
+    /// ```
+    pub fn bevel_vertex(&mut self, v: VertexId, fraction: f64) -> Result<FaceId, EditError> {
+        self.bevel_vertex_with(v, |_| fraction)
+    }
+
+    /// [`bevel_vertex`](Self::bevel_vertex) with a fraction for each edge.
+    ///
+    /// # Errors
+    ///
+    /// As [`bevel_vertex`](Self::bevel_vertex).
+    pub fn bevel_vertex_with(
+        &mut self,
+        v: VertexId,
+        fraction: impl Fn(EdgeId) -> f64,
+    ) -> Result<FaceId, EditError> {
+        self.check_vertex(v)?;
+        let spokes: Vec<HalfEdgeId> = self.vertex_half_edges(v).collect();
+        self.check_end(v, spokes.len())?;
+        let cuts = self.check_cuts(&spokes, fraction)?;
+        let f = self.face(spokes[0]).expect("v is not on the boundary");
+        let new = self.join_cuts(&cuts, f);
+        self.kill_vertex(v);
+        Ok(new)
+    }
+
+    /// Puts a face into the place of `e`: the other edges at its ends are cut at `fraction` of their lengths from
+    /// there, and the cuts are joined.
+    ///
+    /// ```text
+    ///     \               /            \               /
+    ///      \             /              1 ----------- 4
+    ///       a --- e --- b      -->      |             |         at three edges at each end
+    ///      /             \              2 ----------- 3
+    ///     /               \            /               \
+    /// ```
+    ///
+    /// `e` and its ends a, b die. The n other edges at them keep their ids and end at the cuts. New are, in
+    /// clockwise order around e, from the edge after e at a (the origin of its first half) to the last at b: n
+    /// vertices, the n edges from each to the one after it, and the face, which begins at the first
+    /// vertex. V, E and F grow by n - 2, n - 1 and 1. The faces beside e keep their numbers of corners, the
+    /// other ones at its ends gain one for each corner that they had there.
+    ///
+    /// Attributes are as in [`bevel_vertex`](Self::bevel_vertex); the new face has the values of the face to
+    /// the left of the first half of e.
+    ///
+    /// Returns the new face.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::Boundary`] if `e` is on the boundary, [`EditError::BoundaryVertex`] if one of its ends is,
+    /// [`EditError::FewEdges`] if an end has fewer than three edges, [`EditError::DuplicateEdge`] if another
+    /// edge joins the ends, [`EditError::OutsideEdge`] if `fraction` is not strictly between 0 and 1,
+    /// [`EditError::NoSuchEdge`], [`EditError::Full`]. The mesh is unchanged.
+    pub fn bevel_edge(&mut self, e: EdgeId, fraction: f64) -> Result<FaceId, EditError> {
+        self.bevel_edge_with(e, |_| fraction)
+    }
+
+    /// [`bevel_edge`](Self::bevel_edge) with a fraction for each edge that is cut.
+    ///
+    /// # Errors
+    ///
+    /// As [`bevel_edge`](Self::bevel_edge).
+    pub fn bevel_edge_with(
+        &mut self,
+        e: EdgeId,
+        fraction: impl Fn(EdgeId) -> f64,
+    ) -> Result<FaceId, EditError> {
+        self.check_edge(e)?;
+        let [Some(f), Some(_)] = self.edge_faces(e) else {
+            return Err(EditError::Boundary(e));
+        };
+        let [a, b] = self.edge_vertices(e);
+        let mut spokes = Vec::new();
+        for half in e.half_edges() {
+            let first = spokes.len();
+            let mut h = self.next(half.twin());
+            while h != half {
+                if self.target(h) == self.target(half) {
+                    return Err(EditError::DuplicateEdge(a, b));
+                }
+                spokes.push(h);
+                h = self.next(h.twin());
+            }
+            self.check_end(self.origin(half), spokes.len() - first + 1)?;
+        }
+        let cuts = self.check_cuts(&spokes, fraction)?;
+        let new = self.join_cuts(&cuts, f);
+        self.kill_vertex(a);
+        self.kill_vertex(b);
+        self.kill_edge(e);
+        Ok(new)
+    }
+
+    fn check_end(&self, v: VertexId, n_edges: usize) -> Result<(), EditError> {
+        if self.is_boundary_vertex(v) {
+            Err(EditError::BoundaryVertex(v))
+        } else if n_edges < 3 {
+            Err(EditError::FewEdges(v))
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The half-edges with the places where they are cut.
+    fn check_cuts(
+        &self,
+        spokes: &[HalfEdgeId],
+        fraction: impl Fn(EdgeId) -> f64,
+    ) -> Result<Vec<(HalfEdgeId, f64)>, EditError> {
+        self.check_room(2 * spokes.len())?;
+        let cut = |&h: &HalfEdgeId| {
+            let t = fraction(h.edge());
+            if t > 0.0 && t < 1.0 {
+                Ok((h, t))
+            } else {
+                Err(EditError::OutsideEdge(t))
+            }
+        };
+        spokes.iter().map(cut).collect()
+    }
+
+    /// Cuts off what `cuts` leave, and puts a face there with the values of `f`.
+    ///
+    /// They are given clockwise: on the face to the right of each, its twin is followed by the next one, or
+    /// by a half-edge to be left out and then that.
+    fn join_cuts(&mut self, cuts: &[(HalfEdgeId, f64)], f: FaceId) -> FaceId {
+        self.drop_columns_by_rule();
+        let n = cuts.len();
+        let mut ends = Vec::with_capacity(n);
+        for &(h, t) in cuts {
+            let (v, w) = (self.origin(h), self.target(h));
+            let m = self.push_vertex((1.0 - t) * self.position(v) + t * self.position(w));
+            self.copy_values(v, m);
+            self.mix_values(v, w, t, m);
+            self.set_vertex_half_edge(m, Some(h));
+            ends.push(m);
+        }
+        let mut ring = Vec::with_capacity(n);
+        for i in 0..n {
+            let e = self.push_edge(ends[i], ends[(i + 1) % n]);
+            ring.push(e.half_edges());
+        }
+        let new = self.push_face(ring[n - 1][1]);
+        self.copy_values(f, new);
+
+        // The corners at the cuts: to the right of each edge first, while those to the left still have
+        // their old values.
+        for (&(h, t), [along, _]) in cuts.iter().zip(&ring) {
+            let corner = self.next(h.twin());
+            self.copy_values(corner, *along);
+            self.mix_values(corner, h.twin(), t, *along);
+        }
+        for &(h, t) in cuts {
+            self.mix_values(h, self.next(h), t, h);
+        }
+
+        for (i, &[along, back]) in ring.iter().enumerate() {
+            let (h, onward) = (cuts[i].0, cuts[(i + 1) % n].0);
+            let right = self.face(h.twin());
+            let left_out = self.next(h.twin());
+            if let Some(f) = right
+                && left_out != onward
+                && self.face_half_edge(f) == left_out
+            {
+                self.set_face_half_edge(f, along);
+            }
+            self.set_face(along, right);
+            self.set_next(h.twin(), along);
+            self.set_next(along, onward);
+            self.set_face(back, Some(new));
+            self.set_next(back, ring[(i + n - 1) % n][1]);
+            self.copy_values(onward, back);
+            self.set_origin(h, ends[i]);
+        }
+        new
+    }
+}
+
+#[cfg(test)]
+mod tests;

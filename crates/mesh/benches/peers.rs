@@ -1,0 +1,162 @@
+//! How fast are local edits, beside other half-edge meshes in Rust?
+//!
+//! Each flips, and splits, every edge of one torus of a million triangles, in one random order. What a
+//! library checks of its own is part of its edit:
+//!
+//! | | a flip asks for | not for |
+//! | --- | --- | --- |
+//! | this crate | boundary, one face on both sides, ends of two edges, far corners joined or the same, seams | |
+//! | alum | boundary, one face on both sides, ends of one edge | far corners joined: the result has double edges |
+//! | alum, asked before | that, and far corners joined by its own search | far corners the same |
+//! | tri-mesh | boundary, far corners joined | one face on both sides, far corners the same |
+//!
+//! A split puts a vertex on the edge and joins it to the far corners. alum has no such edit: its
+//! `split_edge` leaves quadrilaterals, which two calls of `insert_edge` cut. All positions are `f64`. This
+//! crate also asks an open journal, columns of attributes and dead elements: there are none. alum marks
+//! dead elements too. tri-mesh finds its elements through hash maps.
+//!
+//! At the end the program asks that all who check for double edges flipped equally many edges.
+
+mod common;
+
+use std::time::Duration;
+
+use alum::{EditableTopology, HasIterators};
+use criterion::measurement::WallTime;
+use criterion::{
+    BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main,
+};
+use mesh::{EdgeId, Mesh, VertexId};
+
+type Alum = alum::PolyMeshF64;
+type Group<'a> = BenchmarkGroup<'a, WallTime>;
+
+fn peers(c: &mut Criterion) {
+    let mesh = common::torus();
+    let edges = common::shuffled(mesh.edges().collect());
+    let ends = |&e: &EdgeId| mesh.edge_vertices(e).map(number);
+    let ends: Vec<[u32; 2]> = edges.iter().map(ends).collect();
+
+    let mut group = c.benchmark_group("every edge of 1 M triangles once, random order");
+    group.sample_size(10).warm_up_time(Duration::from_secs(1));
+    group.throughput(Throughput::Elements(edges.len() as u64));
+    let tri_mesh_flips = tri_mesh_edits(&mut group, &tri_mesh_of(&mesh, &ends));
+    let alum_flips = alum_edits(&mut group, &alum_of(&mesh, &ends));
+    let start = Start {
+        mesh,
+        edges,
+        copy: Mesh::clone,
+    };
+    let flips = start.measure(&mut group, "flip, this crate", |mesh, e| {
+        mesh.flip_edge(e).is_ok()
+    });
+    start.measure(&mut group, "split, this crate", |mesh, e| {
+        mesh.split_edge(e, 0.5).is_ok()
+    });
+    group.finish();
+    assert_eq!([alum_flips, tri_mesh_flips], [flips; 2], "the same edges");
+}
+
+/// Returns how many flips were accepted, when asked for double edges before.
+fn alum_edits(group: &mut Group, start: &Start<Alum, alum::EH>) -> usize {
+    start.measure(group, "flip, alum", |mesh, e| mesh.swap_edge_ccw(e).is_ok());
+    start.measure(group, "split, alum", |mesh, e| alum_split(mesh, e).is_ok());
+    start.measure(group, "flip, alum, asked before", |mesh, e| {
+        let (h, twin) = e.halfedges();
+        let [c, d] = [h, twin].map(|h| h.next(mesh).head(mesh));
+        mesh.find_halfedge(c, d).is_none() && mesh.swap_edge_ccw(e).is_ok()
+    })
+}
+
+/// Returns how many flips were accepted.
+fn tri_mesh_edits(group: &mut Group, start: &Start<tri_mesh::Mesh, tri_mesh::HalfEdgeID>) -> usize {
+    start.measure(group, "split, tri-mesh", |mesh, h| {
+        let (v, w) = mesh.edge_positions(h);
+        mesh.split_edge(h, 0.5 * (v + w));
+        true
+    });
+    start.measure(group, "flip, tri-mesh", |mesh, h| mesh.flip_edge(h).is_ok())
+}
+
+/// A mesh to edit, and its edges in the order in which they are edited.
+struct Start<M, E> {
+    mesh: M,
+    edges: Vec<E>,
+    copy: fn(&M) -> M,
+}
+
+impl<M, E: Copy> Start<M, E> {
+    /// Edits every edge of a copy of the mesh. Returns how many edits were accepted.
+    fn measure(&self, group: &mut Group, name: &str, edit: impl Fn(&mut M, E) -> bool) -> usize {
+        let copy = || (self.copy)(&self.mesh);
+        let run = |mut mesh: M| {
+            let n = self.edges.iter().filter(|&&e| edit(&mut mesh, e)).count();
+            (mesh, n)
+        };
+        group.bench_function(name, |b| {
+            b.iter_batched(copy, run, BatchSize::PerIteration);
+        });
+        run(copy()).1
+    }
+}
+
+fn number(v: VertexId) -> u32 {
+    u32::try_from(v.index()).expect("ids have 32 bits")
+}
+
+/// The mesh, and the edges between these ends, in alum.
+fn alum_of(mesh: &Mesh, ends: &[[u32; 2]]) -> Start<Alum, alum::EH> {
+    let mut copy = Alum::with_capacity(mesh.n_vertices(), mesh.n_edges(), mesh.n_faces());
+    for p in mesh.positions() {
+        copy.add_vertex(alum::DVec3(p.x, p.y, p.z)).expect("room");
+    }
+    for f in mesh.faces() {
+        let corners: Vec<alum::VH> = mesh.face_vertices(f).map(|v| number(v).into()).collect();
+        copy.add_face(&corners).expect("a manifold");
+    }
+    let edge = |&[v, w]: &[u32; 2]| copy.find_halfedge(v.into(), w.into()).expect("an edge");
+    let edges = ends.iter().map(|ends| edge(ends).edge()).collect();
+    Start {
+        edges,
+        mesh: copy,
+        copy: |mesh| mesh.try_clone().expect("nothing is borrowed"),
+    }
+}
+
+/// Puts a vertex on the middle of an edge between triangles, and joins it to their far corners.
+fn alum_split(mesh: &mut Alum, e: alum::EH) -> Result<(), alum::Error> {
+    let (h, twin) = e.halfedges();
+    let middle = (mesh.point(h.tail(mesh))? + mesh.point(h.head(mesh))?) * 0.5;
+    let m = mesh.add_vertex(middle)?;
+    let to_middle = mesh.split_edge(h, m, false)?;
+    for into in [to_middle, twin] {
+        mesh.insert_edge(into, into.prev(mesh), None)?;
+    }
+    Ok(())
+}
+
+/// The mesh, and the edges between these ends, in tri-mesh.
+fn tri_mesh_of(mesh: &Mesh, ends: &[[u32; 2]]) -> Start<tri_mesh::Mesh, tri_mesh::HalfEdgeID> {
+    let corners = mesh.faces().flat_map(|f| mesh.face_vertices(f).map(number));
+    let place = |p: &mesh::DVec3| tri_mesh::vec3(p.x, p.y, p.z);
+    let copy = tri_mesh::Mesh::new(&three_d_asset::TriMesh {
+        positions: three_d_asset::Positions::F64(mesh.positions().iter().map(place).collect()),
+        indices: three_d_asset::Indices::U32(corners.collect()),
+        ..three_d_asset::TriMesh::default()
+    });
+    let mut vertices: Vec<tri_mesh::VertexID> = copy.vertex_iter().collect();
+    vertices.sort_unstable();
+    let edge = |ends: &[u32; 2]| {
+        let [v, w] = ends.map(|v| vertices[v as usize]);
+        copy.connecting_edge(v, w).expect("an edge")
+    };
+    let edges = ends.iter().map(edge).collect();
+    Start {
+        edges,
+        mesh: copy,
+        copy: tri_mesh::Mesh::clone,
+    }
+}
+
+criterion_group!(benches, peers);
+criterion_main!(benches);

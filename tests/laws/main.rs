@@ -1,6 +1,8 @@
 //! Laws that hold for everything in the workspace: every operation on every fixture, every schema,
 //! every sequence of edits.
 
+mod all_edits;
+mod any_edit;
 mod cancelling;
 mod cube_diagonals;
 mod every_op;

@@ -31,7 +31,8 @@
 //!    [`face_half_edge`](Mesh::face_half_edge).
 //! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex leaves it, and is the boundary one
 //!    if there is one; only an isolated vertex has none.
-//! 7. The half-edges that leave a vertex are all reached by walking around it: one fan.
+//! 7. The half-edges that leave a vertex are all reached by walking around it, past one gap at most: one
+//!    fan.
 //! 8. Positions are finite.
 //! 9. A column of an attribute has one value for each element of its domain.
 //!

@@ -34,7 +34,8 @@ pub enum Defect {
     VertexHalfEdge(VertexId),
     /// The half-edge of a boundary vertex is not the boundary one.
     NotBoundaryFirst(VertexId),
-    /// The half-edges that leave a vertex are not all reached by walking around it.
+    /// The half-edges that leave a vertex are not all reached by walking around it, or there is more than
+    /// one gap on the way.
     SeveralFans(VertexId),
     /// A position is infinite or not a number.
     NotFinite(VertexId),
@@ -200,10 +201,10 @@ impl Mesh {
 
     fn check_vertices(&self, defects: &mut Vec<Defect>) {
         let mut leaving = vec![0_usize; self.positions.len()];
-        let mut on_boundary = vec![false; self.positions.len()];
+        let mut gaps = vec![0_usize; self.positions.len()];
         for h in self.half_edges() {
             leaving[self.origin(h).index()] += 1;
-            on_boundary[self.origin(h).index()] |= self.face(h).is_none();
+            gaps[self.origin(h).index()] += usize::from(self.face(h).is_none());
         }
         for v in self.vertices() {
             if !self.position(v).is_finite() {
@@ -220,7 +221,7 @@ impl Mesh {
                 defects.push(Defect::VertexHalfEdge(v));
                 continue;
             }
-            if on_boundary[v.index()] && self.face(first).is_some() {
+            if gaps[v.index()] > 0 && self.face(first).is_some() {
                 defects.push(Defect::NotBoundaryFirst(v));
             }
             let mut h = first;
@@ -229,7 +230,8 @@ impl Mesh {
                 h = self.next(h.twin());
                 steps += 1;
             }
-            if h != first || steps != n {
+            // A walk around the vertex passes over gaps, so fans that are linked are seen by their number.
+            if h != first || steps != n || gaps[v.index()] > 1 {
                 defects.push(Defect::SeveralFans(v));
             }
         }
@@ -407,6 +409,24 @@ mod tests {
         }
         mesh.set_vertex_half_edge(VertexId::new(3), None);
         assert_eq!(mesh.defects(), [Defect::SeveralFans(v)]);
+    }
+
+    #[test]
+    fn a_vertex_between_two_fans_that_are_linked_is_found() {
+        // The middle of a 2 x 2 grid without two faces that lie across from each other.
+        let mut mesh = shapes::grid(2, 2);
+        let v = VertexId::new(4);
+        let around: Vec<_> = mesh.vertex_half_edges(v).collect();
+        for h in [around[0], around[2]] {
+            let f = mesh.face(h).unwrap();
+            mesh.dead_faces.add(f.index());
+            let sides: Vec<_> = mesh.face_half_edges(f).collect();
+            for side in sides {
+                mesh.set_face(side, None);
+            }
+        }
+        mesh.set_vertex_half_edge(v, Some(around[0]));
+        assert!(mesh.defects().contains(&Defect::SeveralFans(v)));
     }
 
     #[test]

@@ -1,20 +1,20 @@
 //! Local edits: one a file. Each checks first and changes after, so that a refused edit leaves every
 //! array as it was.
 
+mod bevel;
 mod bridge;
 mod collapse;
 mod cut;
 mod delete;
-mod bevel;
 mod delete_face;
 mod dissolve_edge;
 mod dissolve_vertex;
 mod extrude;
 mod fill_hole;
 mod flip;
+mod inset;
 mod poke;
 mod reverse;
-mod inset;
 mod split;
 mod split_face;
 mod split_vertex;

@@ -24,12 +24,11 @@ impl Mesh {
     /// and zero otherwise; the corners at m have the mean of the corner values of the face, the other
     /// ones keep theirs; new faces take the values of `f`, new edges have zero values.
     ///
-    /// A face that passes a vertex twice is joined to it twice.
-    ///
     /// Returns m. [`dissolve_vertex`](Self::dissolve_vertex) takes it out again.
     ///
     /// # Errors
     ///
+    /// [`EditError::PinchedFace`] if the face passes a vertex twice, which would be joined to m twice,
     /// [`EditError::NoSuchFace`], [`EditError::BadNumber`] if the mean of the corners is not finite,
     /// [`EditError::Full`]. The mesh is unchanged.
     ///
@@ -59,10 +58,13 @@ impl Mesh {
             return Err(EditError::BadNumber(x));
         }
         let sides: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
+        let corners: Vec<VertexId> = sides.iter().map(|&h| self.origin(h)).collect();
+        if passes_twice(&corners) {
+            return Err(EditError::PinchedFace(f));
+        }
         self.check_room(2 * sides.len())?;
 
         self.drop_columns_by_rule();
-        let corners: Vec<VertexId> = sides.iter().map(|&h| self.origin(h)).collect();
         let m = self.push_vertex(position);
         self.average_values(&corners, m);
         let spokes: Vec<HalfEdgeId> = corners
@@ -90,6 +92,13 @@ impl Mesh {
         }
         Ok(m)
     }
+}
+
+/// Whether a vertex comes twice.
+fn passes_twice(corners: &[VertexId]) -> bool {
+    let mut sorted = corners.to_vec();
+    sorted.sort_unstable();
+    sorted.windows(2).any(|pair| pair[0] == pair[1])
 }
 
 #[cfg(test)]

@@ -17,16 +17,14 @@ impl Mesh {
     /// second half and `x` are on the new one. The corners of the new edge have the values of the corners that
     /// they come from, the new face those of the old one, the edge zero values.
     ///
-    /// Two faces with more than three corners may then share more than one edge, and two vertices may be
-    /// joined twice if they were joined outside the face.
-    ///
     /// Returns the new edge.
     ///
     /// # Errors
     ///
     /// [`EditError::Elsewhere`] if `x` has no face or `y` is not on it, [`EditError::Adjacent`] if the
-    /// corners are the same or neighbours, [`EditError::NoSuchHalfEdge`], [`EditError::Full`]. The mesh
-    /// is unchanged.
+    /// corners are the same, neighbours, or of one vertex, [`EditError::DuplicateEdge`] if the vertices
+    /// share an edge outside the face, [`EditError::NoSuchHalfEdge`], [`EditError::Full`]. The mesh is
+    /// unchanged.
     ///
     /// # Examples
     ///
@@ -47,8 +45,12 @@ impl Mesh {
         if self.face(y) != self.face(x) {
             return Err(EditError::Elsewhere(y));
         }
-        if x == y || self.next(x) == y || self.next(y) == x {
+        let (v, w) = (self.origin(x), self.origin(y));
+        if v == w || self.next(x) == y || self.next(y) == x {
             return Err(EditError::Adjacent(x, y));
+        }
+        if self.share_an_edge(x, y) {
+            return Err(EditError::DuplicateEdge(v, w));
         }
         self.check_room(2)?;
         self.drop_columns_by_rule();

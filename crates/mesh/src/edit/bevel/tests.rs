@@ -323,7 +323,7 @@ fn an_edge_beside_one_with_the_same_ends_is_refused_and_their_end_is_not() {
     };
     let [c, d] = [2, 3].map(VertexId::new);
     let (x, y) = (corner(c).unwrap(), corner(d).unwrap());
-    let e = doubled.split_face(x, y).unwrap();
+    let e = doubled.insert_edge(x, y, x);
 
     let mut mesh = doubled.clone();
     let refused = mesh.bevel_edge(e, 0.25).unwrap_err();

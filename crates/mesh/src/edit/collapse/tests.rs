@@ -620,7 +620,13 @@ fn edit_somewhere(mesh: &mut Mesh, numbers: &mut Numbers) {
         0..=2 => drop(mesh.flip_edge(h.edge())),
         3 => drop(mesh.split_edge(h.edge(), 0.5)),
         4 if mesh.n_faces() > 1 => drop(mesh.face(h).map(|f| mesh.delete_face(f))),
-        5 => drop(mesh.split_face(h, mesh.next(mesh.next(h)))),
+        // Joins corners whether they are joined outside the face or not.
+        5 if mesh.face(h).is_some_and(|f| mesh.degree(f) > 3) => {
+            let opposite = mesh.next(mesh.next(h));
+            if mesh.origin(h) != mesh.origin(opposite) {
+                mesh.insert_edge(h, opposite, h);
+            }
+        }
         _ => drop(mesh.collapse_edge(h.edge())),
     }
 }

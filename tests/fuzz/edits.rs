@@ -1,0 +1,69 @@
+//! Any edits in any order on any shape: the mesh stays valid, and everything can be taken back.
+//!
+//! The first byte chooses a shape; each six after it are an edit.
+
+#![no_main]
+
+#[path = "../laws/any_edit.rs"]
+mod any_edit;
+
+use libfuzzer_sys::fuzz_target;
+use mesh::{COLOR, CREASE, DVec2, DVec4, MATERIAL, Mesh, UV, shapes};
+
+use any_edit::{Code, edit_and_check};
+
+/// Larger meshes are left alone, so that a run stays short.
+const MAX_FACES: usize = 100;
+
+fuzz_target!(|bytes: &[u8]| {
+    let Some((&shape, edits)) = bytes.split_first() else {
+        return;
+    };
+    let start = dressed(start(shape));
+    let mut mesh = start.clone();
+    mesh.begin();
+    let (codes, _) = edits.as_chunks::<6>();
+    for &code in codes {
+        edit_and_check(&mut mesh, Code::from_bytes(code));
+        if mesh.n_faces() > MAX_FACES {
+            break;
+        }
+    }
+    mesh.rollback();
+    assert!(mesh == start, "the start does not come back");
+});
+
+fn start(shape: u8) -> Mesh {
+    match shape % 12 {
+        0 => shapes::square(),
+        1 => shapes::grid(3, 2),
+        2 => shapes::fans(&shapes::grid(3, 2)),
+        3 => shapes::cube(),
+        4 => shapes::fans(&shapes::cube()),
+        5 => shapes::tetrahedron(),
+        6 => shapes::octahedron(),
+        7 => shapes::torus(4, 3, 2.0, 1.0),
+        8 => shapes::cylinder(5, true),
+        9 => shapes::cylinder(3, false),
+        10 => shapes::fans(&shapes::torus(4, 3, 2.0, 1.0)),
+        _ => shapes::icosahedron(),
+    }
+}
+
+/// The mesh with values on every domain; UVs change at the first face.
+fn dressed(mut mesh: Mesh) -> Mesh {
+    let uv = |h| {
+        let chart = if mesh.face(h).is_some_and(|f| f.index() == 0) {
+            10.0
+        } else {
+            0.0
+        };
+        mesh.position(mesh.origin(h)).truncate() + DVec2::splat(chart)
+    };
+    let uvs = mesh.half_edges().map(uv).collect();
+    mesh.set(UV, uvs);
+    mesh.set(COLOR, vec![DVec4::ONE; mesh.n_vertices()]);
+    mesh.set(MATERIAL, vec![1; mesh.n_faces()]);
+    mesh.set(CREASE, vec![0.5; mesh.n_edges()]);
+    mesh
+}

@@ -204,6 +204,38 @@ const SAMPLES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "InsetFaces",
+        &[
+            "(faces: All, fraction: 0.25)",
+            "(faces: Degree(4), fraction: 0.5, on_refusal: Skip)",
+            "(faces: Expect(count: 2, of: Random(count: 2, seed: 5)), fraction: 0.125)",
+        ],
+    ),
+    (
+        "BevelFaces",
+        &[
+            "(faces: All, inset: 0.25, height: 0.5)",
+            "(faces: Faces([0]), inset: 0.5, height: -0.25)",
+            "(faces: Boundary, inset: 0.75, height: 0, on_refusal: Skip)",
+        ],
+    ),
+    (
+        "BevelEdges",
+        &[
+            "(edges: Between(0, 2), fraction: 0.25)",
+            "(edges: All, fraction: 0.25, on_refusal: Skip)",
+            "(edges: Random(count: 20, seed: 2), fraction: 0.75, on_refusal: Skip)",
+        ],
+    ),
+    (
+        "BevelVertices",
+        &[
+            "(vertices: All, fraction: 0.25)",
+            "(vertices: All, fraction: 0.5, on_refusal: Skip)",
+            "(vertices: Vertices([0]), fraction: 0.75)",
+        ],
+    ),
+    (
         "LoopSubdivide",
         &["(levels: 0)", "(levels: 1)", "(levels: 2)"],
     ),

@@ -42,6 +42,7 @@
 //! assert_eq!(lifted.position(lifted.vertices().next().unwrap()), DVec3::new(0.0, 0.0, 2.0));
 //! ```
 
+mod bevel;
 mod context;
 mod edit;
 mod error;
@@ -56,6 +57,7 @@ mod source;
 pub mod test;
 mod turn;
 
+pub use bevel::Cuts;
 pub use context::{Context, NoProgress, Progress};
 pub use edit::{OnRefusal, edit_each};
 pub use error::{OpError, Refusal};

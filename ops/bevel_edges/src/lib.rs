@@ -102,14 +102,15 @@ impl MeshOperation for BevelEdges {
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         self.check().map_err(OpError::Parameter)?;
         let edges = self.edges.resolve(mesh, cx)?;
-        mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
-        mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
         let mut cuts = Cuts::default();
-        edit_each(mesh, &edges, self.on_refusal, "bevel", cx, |mesh, e| {
+        let report = edit_each(mesh, &edges, self.on_refusal, "bevel", cx, |mesh, e| {
             let f = mesh.bevel_edge_with(e, |e| cuts.fraction(e, self.fraction))?;
             cuts.cut(mesh, f, self.fraction);
             Ok(())
-        })
+        })?;
+        mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
+        mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
+        Ok(report)
     }
 }
 

@@ -94,11 +94,12 @@ impl MeshOperation for BevelFaces {
             return Err(OpError::Parameter(problem.message.clone()));
         }
         let faces = self.faces.resolve(mesh, cx)?;
+        let report = edit_each(mesh, &faces, self.on_refusal, "bevel", cx, |mesh, f| {
+            mesh.bevel_face(f, self.inset, self.height).map(drop)
+        })?;
         mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
         mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
-        edit_each(mesh, &faces, self.on_refusal, "bevel", cx, |mesh, f| {
-            mesh.bevel_face(f, self.inset, self.height).map(drop)
-        })
+        Ok(report)
     }
 }
 

@@ -96,14 +96,15 @@ impl MeshOperation for BevelVertices {
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         self.check().map_err(OpError::Parameter)?;
         let vertices = self.vertices.resolve(mesh, cx)?;
-        mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
-        mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
         let mut cuts = Cuts::default();
-        edit_each(mesh, &vertices, self.on_refusal, "bevel", cx, |mesh, v| {
+        let report = edit_each(mesh, &vertices, self.on_refusal, "bevel", cx, |mesh, v| {
             let f = mesh.bevel_vertex_with(v, |e| cuts.fraction(e, self.fraction))?;
             cuts.cut(mesh, f, self.fraction);
             Ok(())
-        })
+        })?;
+        mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
+        mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
+        Ok(report)
     }
 }
 

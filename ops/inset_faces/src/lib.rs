@@ -90,11 +90,12 @@ impl MeshOperation for InsetFaces {
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         self.check().map_err(OpError::Parameter)?;
         let faces = self.faces.resolve(mesh, cx)?;
+        let report = edit_each(mesh, &faces, self.on_refusal, "inset", cx, |mesh, f| {
+            mesh.inset_face(f, self.fraction).map(drop)
+        })?;
         mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
         mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
-        edit_each(mesh, &faces, self.on_refusal, "inset", cx, |mesh, f| {
-            mesh.inset_face(f, self.fraction).map(drop)
-        })
+        Ok(report)
     }
 }
 

@@ -18,9 +18,9 @@ use serde::{Deserialize, Serialize};
 
 /// Puts faces into the place of vertices.
 ///
-/// Each edge at a vertex is cut at a fraction of the length that it had before the step, and a face with as many
-/// corners as the vertex had edges joins the cuts. Where both ends of an edge are selected the fraction must be
-/// below a half: with a third, a cube becomes a truncated one.
+/// Each edge at a vertex is cut at a fraction of the length that it had before the step, and a face with
+/// as many corners as the vertex had edges joins the cuts. Where both ends of an edge are selected the
+/// fraction must be below a half: with a quarter, a cube becomes a truncated one.
 ///
 /// The vertices are gone, so that the numbers of those behind them close up; the new ones are numbered
 /// behind all others, in order of the selected vertices and clockwise around each. Faces keep their

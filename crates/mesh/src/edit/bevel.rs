@@ -3,8 +3,8 @@
 use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
-    /// Puts a face into the place of `v`: each edge there is cut at `fraction` of its length from v, and the cuts are
-    /// joined.
+    /// Puts a face into the place of `v`: each edge there is cut at `fraction` of its length from v, and
+    /// the cuts are joined.
     ///
     /// ```text
     ///      \     /              \     /
@@ -65,8 +65,8 @@ impl Mesh {
         Ok(new)
     }
 
-    /// Puts a face into the place of `e`: the other edges at its ends are cut at `fraction` of their lengths from
-    /// there, and the cuts are joined.
+    /// Puts a face into the place of `e`: the other edges at its ends are cut at `fraction` of their
+    /// lengths from there, and the cuts are joined.
     ///
     /// ```text
     ///     \               /            \               /

@@ -236,6 +236,42 @@ const SAMPLES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "Stitch",
+        &[
+            "(distance: 0)",
+            "(distance: 0.5)",
+            "(distance: 0.001, on_refusal: Skip)",
+            "(distance: 100, on_refusal: Skip)",
+        ],
+    ),
+    (
+        "Cut",
+        &[
+            "(edges: All)",
+            "(edges: All, on_refusal: Skip)",
+            "(edges: Sharp(above: 30))",
+            "(edges: EdgesOf(Faces([0])), on_refusal: Skip)",
+            "(edges: Random(count: 9, seed: 7), on_refusal: Skip)",
+        ],
+    ),
+    (
+        "FillHoles",
+        &[
+            "()",
+            "(with: Face)",
+            "(around: Vertices([0]), with: Face, on_refusal: Skip)",
+            "(around: Boundary, max_edges: 4, on_refusal: Skip)",
+        ],
+    ),
+    (
+        "BridgeLoops",
+        &[
+            "(first: 0, second: 5)",
+            "(first: 0, second: 3)",
+            "(first: 3, second: 0)",
+        ],
+    ),
+    (
         "LoopSubdivide",
         &["(levels: 0)", "(levels: 1)", "(levels: 2)"],
     ),

@@ -1,0 +1,162 @@
+use super::*;
+use mesh::{DVec2, DVec3, EdgeId, UV, shapes};
+use op::test::{applied, try_applied};
+
+fn parse(text: &str) -> Stitch {
+    ron::from_str(text).unwrap()
+}
+
+/// The mesh cut along all its inner edges.
+fn apart(mut mesh: Mesh) -> Mesh {
+    let inner: Vec<EdgeId> = mesh
+        .edges()
+        .filter(|&e| !mesh.is_boundary_edge(e))
+        .collect();
+    mesh.cut_edges(&inner).unwrap();
+    mesh
+}
+
+fn counts(mesh: &Mesh) -> [usize; 4] {
+    [
+        mesh.n_vertices(),
+        mesh.n_edges(),
+        mesh.n_faces(),
+        mesh.n_boundary_loops(),
+    ]
+}
+
+#[test]
+fn faces_that_were_cut_apart_are_one_mesh_again() {
+    for mesh in [
+        shapes::grid(4, 3),
+        shapes::fans(&shapes::grid(3, 3)),
+        shapes::cube(),
+        shapes::icosahedron(),
+        shapes::torus(5, 4, 2.0, 1.0),
+        shapes::cylinder(6, true),
+        shapes::uv_sphere(8, 5),
+    ] {
+        let cut = apart(mesh.clone());
+        assert_eq!(cut.n_components(), mesh.n_faces());
+        let stitched = applied(&parse("(distance: 0)"), cut);
+        assert_eq!(counts(&stitched), counts(&mesh));
+        assert_eq!(stitched.positions(), mesh.positions());
+        for f in mesh.faces() {
+            let corners = |m: &Mesh| m.face_vertices(f).min();
+            assert_eq!(corners(&stitched), corners(&mesh));
+            assert_eq!(stitched.degree(f), mesh.degree(f));
+        }
+    }
+}
+
+#[test]
+fn edges_a_little_apart_are_glued_within_the_distance_only() {
+    let mut mesh = apart(shapes::grid(3, 3));
+    // Each face by another bit, at most 0.001 in each coordinate.
+    let faces: Vec<_> = mesh.faces().collect();
+    for (i, f) in faces.into_iter().enumerate() {
+        let shift = DVec3::new((i % 3) as f64, (i / 3) as f64, (i % 2) as f64) * 0.0005;
+        let corners: Vec<_> = mesh.face_vertices(f).collect();
+        for v in corners {
+            mesh.set_position(v, mesh.position(v) + shift);
+        }
+    }
+    let whole = applied(&parse("(distance: 0.01)"), mesh.clone());
+    assert_eq!(counts(&whole), counts(&shapes::grid(3, 3)));
+    let (same, report) = try_applied(&parse("(distance: 1e-6)"), mesh.clone()).unwrap();
+    assert_eq!(same, mesh);
+    assert_eq!(report.changed, 0);
+    assert_eq!(report.notes.len(), 1);
+}
+
+#[test]
+fn two_spots_that_touch_are_not_joined_as_weld_would() {
+    // Two squares that meet in a corner.
+    let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let positions = [0.0, 1.0]
+        .iter()
+        .flat_map(|&d| [(0., 0.), (1., 0.), (1., 1.), (0., 1.)].map(|(x, y)| at(x + d, y + d)));
+    let (mesh, _) =
+        Mesh::from_polygons(positions.collect(), &[[0, 1, 2, 3], [4, 5, 6, 7]]).unwrap();
+    assert_eq!(applied(&parse("(distance: 0.1)"), mesh.clone()), mesh);
+}
+
+#[test]
+fn an_edge_with_several_partners_is_refused_or_counted() {
+    // Three pages that meet in a line, each with its own vertices.
+    let page = |x: f64, y: f64| {
+        [
+            DVec3::ZERO,
+            DVec3::new(x, y, 0.0),
+            DVec3::new(x, y, 1.0),
+            DVec3::Z,
+        ]
+    };
+    let positions = [page(1., 0.), page(0., 1.), page(-1., 0.)].concat();
+    // The second one is turned the other way around, so that both others fit it.
+    let polygons = [[0, 1, 2, 3], [7, 6, 5, 4], [8, 9, 10, 11]];
+    let (mesh, _) = Mesh::from_polygons(positions, &polygons).unwrap();
+    let refused = try_applied(&parse("(distance: 0)"), mesh.clone());
+    let Err(OpError::Refused { reason, .. }) = refused else {
+        panic!("expected a refusal, got {refused:?}");
+    };
+    assert_eq!(reason, Refusal::NonManifold);
+    let skip = parse("(distance: 0, on_refusal: Skip)");
+    let (same, report) = try_applied(&skip, mesh.clone()).unwrap();
+    assert_eq!(same, mesh);
+    assert_eq!((report.changed, report.refused[0].count), (0, 1));
+}
+
+#[test]
+fn uvs_that_differ_become_a_seam() {
+    let mut mesh = apart(shapes::grid(2, 1));
+    let uv = |h| DVec2::splat(mesh.face(h).map_or(0.0, |f| f.index() as f64));
+    mesh.set(UV, mesh.half_edges().map(uv).collect());
+    let stitched = applied(&parse("(distance: 0)"), mesh);
+    assert_eq!(stitched.edges().filter(|&e| stitched.is_seam(e)).count(), 1);
+}
+
+#[test]
+fn the_sides_of_a_thin_face_are_refused() {
+    let mut mesh = shapes::square();
+    for p in mesh.positions_mut() {
+        p.y *= 0.001;
+    }
+    let skip = parse("(distance: 0.01, on_refusal: Skip)");
+    let (same, report) = try_applied(&skip, mesh.clone()).unwrap();
+    assert_eq!(same, mesh);
+    assert_eq!(report.refused[0].reason, Refusal::SameFace);
+}
+
+#[test]
+fn coordinates_far_away_and_in_one_place_do_no_harm() {
+    for (scale, distance) in [(0.0, "0"), (1e300, "1e290"), (1e-300, "0"), (1.0, "1e300")] {
+        let mut mesh = apart(shapes::cube());
+        for p in mesh.positions_mut() {
+            *p *= scale;
+        }
+        let skip = parse(&format!("(distance: {distance}, on_refusal: Skip)"));
+        let (after, _) = try_applied(&skip, mesh).unwrap();
+        assert_eq!(after.n_faces(), 6);
+        assert_eq!(after.is_closed(), scale > 0.0 && distance != "1e300");
+    }
+}
+
+#[test]
+fn a_distance_that_is_none_is_refused_before_anything_runs() {
+    for distance in [-1.0, f64::NAN, f64::INFINITY] {
+        let stitch = Stitch {
+            distance,
+            on_refusal: OnRefusal::Skip,
+        };
+        let refused = try_applied(&stitch, shapes::square());
+        assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+    }
+}
+
+#[test]
+fn a_recipe_must_give_the_distance() {
+    assert!(ron::from_str::<Stitch>("()").is_err());
+    assert!(ron::from_str::<Stitch>("(distance: 0, weld: true)").is_err());
+    assert_eq!(parse("(distance: 1e-6)").on_refusal, OnRefusal::Error);
+}

@@ -4,7 +4,7 @@ use glam::DVec3;
 use mesh::Mesh;
 use proptest::prelude::*;
 
-use crate::any_edit::{Code, KINDS, edit_and_check};
+use crate::any_edit::{Code, edit_and_check};
 use crate::fixtures;
 
 /// How long a sequence is.
@@ -25,12 +25,7 @@ fn meshes() -> Vec<Mesh> {
 }
 
 fn code() -> impl Strategy<Value = Code> {
-    (0..KINDS, any::<u16>(), any::<u16>(), -3..4_i8).prop_map(|(kind, a, b, place)| Code {
-        kind,
-        a,
-        b,
-        place,
-    })
+    any::<[u8; 6]>().prop_map(Code::from_bytes)
 }
 
 proptest! {

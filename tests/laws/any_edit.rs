@@ -3,24 +3,24 @@
 use mesh::{DVec3, Domain, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, Seams, VertexId};
 
 /// How many kinds of edits there are.
-pub const KINDS: u8 = 27;
+const KINDS: u8 = 27;
 
-/// An edit: its kind, below [`KINDS`], and numbers that choose its elements and places.
+/// An edit: its kind, and numbers that choose its elements and places.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Code {
+pub(crate) struct Code {
     /// Which edit.
-    pub kind: u8,
+    pub(crate) kind: u8,
     /// Chooses the first element.
-    pub a: u16,
+    pub(crate) a: u16,
     /// Chooses a second one.
-    pub b: u16,
+    pub(crate) b: u16,
     /// A small whole number, for a place.
-    pub place: i8,
+    pub(crate) place: i8,
 }
 
 impl Code {
     /// The edit that six bytes stand for.
-    pub const fn from_bytes([kind, a0, a1, b0, b1, place]: [u8; 6]) -> Self {
+    pub(crate) const fn from_bytes([kind, a0, a1, b0, b1, place]: [u8; 6]) -> Self {
         Self {
             kind: kind % KINDS,
             a: u16::from_le_bytes([a0, a1]),
@@ -30,7 +30,7 @@ impl Code {
     }
 
     /// Whether the edit is one that may join two vertices by a second edge, as its documentation says.
-    pub const fn may_join_twice(self) -> bool {
+    pub(crate) const fn may_join_twice(self) -> bool {
         matches!(self.kind, SPLIT | CUT)
     }
 }
@@ -43,7 +43,7 @@ const CUT: u8 = 19;
 /// # Errors
 ///
 /// Why the edit was refused.
-pub fn edit(mesh: &mut Mesh, code: Code) -> Result<(), EditError> {
+pub(crate) fn edit(mesh: &mut Mesh, code: Code) -> Result<(), EditError> {
     let Code { kind, a, b, place } = code;
     let e = EdgeId::new(pick(mesh, Domain::Edge, a));
     let f = FaceId::new(pick(mesh, Domain::Face, a));
@@ -161,7 +161,7 @@ fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
 /// # Panics
 ///
 /// If a promise is broken.
-pub fn edit_and_check(mesh: &mut Mesh, code: Code) {
+pub(crate) fn edit_and_check(mesh: &mut Mesh, code: Code) {
     let before = mesh.clone();
     let done = edit(mesh, code);
     assert_eq!(mesh.defects(), [], "after {code:?}: {done:?}");

@@ -21,8 +21,6 @@ mod split_vertex;
 mod stitch;
 #[cfg(test)]
 mod testing;
-#[cfg(test)]
-mod tried;
 
 pub use flip::Seams;
 

@@ -1,10 +1,12 @@
 //! What the tests of the edits share.
 
+use std::fmt::Debug;
+
 use glam::{DVec2, DVec3, DVec4};
 
 use crate::{
-    COLOR, Column, Domain, EditError, HalfEdgeId, MATERIAL, Mesh, Rule, UV, Values, VertexId,
-    shapes,
+    COLOR, Column, Domain, EdgeId, EditError, HalfEdgeId, MATERIAL, Mesh, Rule, UV, Values,
+    VertexId, shapes,
 };
 
 /// Closed and open meshes of triangles, squares and larger faces, with attributes on some of them.
@@ -117,32 +119,77 @@ pub(super) fn polygons(mesh: &Mesh) -> Vec<Vec<usize>> {
     mesh.faces().map(corners).collect()
 }
 
-/// Does an edit, takes it back, does it again, and reverts and redoes that: each time the mesh must be
-/// bit-identical to what it was. Returns the edited mesh; a refusal must leave the mesh unchanged.
+/// [`tried`] for the edited mesh alone.
 pub(super) fn undone_and_redone(
     before: &Mesh,
     edit: impl Fn(&mut Mesh) -> Result<(), EditError>,
 ) -> Result<Mesh, EditError> {
-    let mut mesh = before.clone();
-    let done = edit(&mut mesh);
-    assert_eq!(mesh.defects(), [], "after {done:?}");
-    if done.is_err() {
-        assert_eq!(&mesh, before, "a refused edit changes nothing");
+    tried(before, edit).map(|(mesh, ())| mesh)
+}
+
+/// Tries an edit. A refusal must leave every array as it was; an edit must leave a valid mesh
+/// without new pairs of parallel edges, and must be taken back, done again and taken back again to the
+/// same bytes.
+pub(super) fn tried<T: Debug>(
+    mesh: &Mesh,
+    edit: impl Fn(&mut Mesh) -> Result<T, EditError>,
+) -> Result<(Mesh, T), EditError> {
+    let mut rolled_back = mesh.clone();
+    rolled_back.begin();
+    let result = edit(&mut rolled_back);
+    if result.is_err() {
+        assert_eq!(&rolled_back, mesh, "refused, but changed: {result:?}");
     }
-    done?;
-    let after = mesh;
-    let mut mesh = before.clone();
-    mesh.begin();
-    edit(&mut mesh)?;
-    assert_eq!(mesh, after);
-    mesh.rollback();
-    assert_eq!(&mesh, before);
-    mesh.begin();
-    edit(&mut mesh)?;
-    let change = mesh.commit().expect("the outermost level");
-    let again = mesh.revert(change);
-    assert_eq!(&mesh, before);
-    mesh.revert(again);
-    assert_eq!(mesh, after);
-    Ok(after)
+    let edited = rolled_back.clone();
+    rolled_back.rollback();
+    assert_eq!(&rolled_back, mesh, "rolled back");
+    let made = result?;
+    assert_eq!(edited.defects(), [], "after {made:?}");
+    assert!(n_parallel(&edited) <= n_parallel(mesh), "after {made:?}");
+
+    let mut reverted = mesh.clone();
+    reverted.begin();
+    edit(&mut reverted).expect("the same edit of the same mesh");
+    assert_eq!(reverted, edited, "the same edit of the same mesh");
+    let mut change = reverted.commit().expect("one level");
+    for expected in [mesh, &edited, mesh, &edited] {
+        change = reverted.revert(change);
+        assert_eq!(&reverted, expected, "reverted");
+    }
+    Ok((reverted, made))
+}
+
+/// How many edges join two vertices that an edge before joins.
+pub(super) fn n_parallel(mesh: &Mesh) -> usize {
+    let mut ends: Vec<[VertexId; 2]> = mesh.edges().map(|e| mesh.edge_vertices(e)).collect();
+    for pair in &mut ends {
+        pair.sort_unstable();
+    }
+    ends.sort_unstable();
+    ends.windows(2).filter(|pair| pair[0] == pair[1]).count()
+}
+
+/// The half-edge from the vertex of number `v` to that of number `w`.
+pub(super) fn half_edge(mesh: &Mesh, v: usize, w: usize) -> HalfEdgeId {
+    mesh.find_half_edge(VertexId::new(v), VertexId::new(w))
+        .expect("an edge")
+}
+
+/// The mesh with an edge opened between ends that stay: a hole of two edges. Both ends must be inside.
+pub(super) fn with_slit(mut mesh: Mesh, e: EdgeId) -> Mesh {
+    let [_, old] = e.half_edges();
+    let (before, after, face) = (mesh.prev(old), mesh.next(old), mesh.face(old).unwrap());
+    let new = mesh.push_edge(mesh.target(old), mesh.origin(old));
+    let [out, kept] = new.half_edges();
+    mesh.set_next(before, kept);
+    mesh.set_next(kept, after);
+    mesh.set_face(kept, Some(face));
+    mesh.set_face_half_edge(face, kept);
+    mesh.set_face(old, None);
+    mesh.set_next(old, out);
+    mesh.set_next(out, old);
+    mesh.set_vertex_half_edge(mesh.origin(old), Some(old));
+    mesh.set_vertex_half_edge(mesh.origin(out), Some(out));
+    assert_eq!(mesh.defects(), []);
+    mesh
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::edit::tried::tried;
+use crate::edit::testing::tried;
 use crate::{MATERIAL, UV, VertexId, shapes};
 use glam::{DVec2, DVec3};
 

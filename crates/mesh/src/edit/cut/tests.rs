@@ -1,5 +1,5 @@
 use super::*;
-use crate::edit::tried::{half_edge, polygons, tried};
+use crate::edit::testing::{half_edge, polygons, tried};
 use crate::{CREASE, Domain, FaceId, MATERIAL, UV, VERTEX_NORMAL, shapes};
 use glam::{DVec2, DVec3};
 

@@ -1,6 +1,6 @@
 use super::ears::EXACT;
 use super::*;
-use crate::edit::tried::{half_edge, polygons, tried, with_slit};
+use crate::edit::testing::{half_edge, polygons, tried, with_slit};
 use crate::{EdgeId, MATERIAL, UV, shapes};
 use glam::{DVec2, DVec3};
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::edit::tried::{half_edge, polygons, tried, with_slit};
+use crate::edit::testing::{half_edge, polygons, tried, with_slit};
 use crate::{CREASE, FaceId, UV, shapes};
 use glam::{DVec2, DVec3};
 

@@ -29,14 +29,13 @@ impl Code {
         }
     }
 
-    /// Whether the edit is one that may join two vertices by a second edge, as its documentation says.
+    /// Whether the edit may join two vertices by a second edge, as its documentation says.
     pub(crate) const fn may_join_twice(self) -> bool {
-        matches!(self.kind, SPLIT | CUT)
+        self.kind == SPLIT
     }
 }
 
 const SPLIT: u8 = 1;
-const CUT: u8 = 19;
 
 /// Does the edit. Numbers beyond the last element, and dead elements, are tried too.
 ///
@@ -90,7 +89,7 @@ pub(crate) fn edit(mesh: &mut Mesh, code: Code) -> Result<(), EditError> {
             let h = hole(mesh, h);
             mesh.stitch_edges(h, later(mesh, h, 1)).map(drop)
         }
-        CUT => {
+        19 => {
             let edges = some(mesh, Domain::Edge, a, b, EdgeId::new);
             mesh.cut_edges(&edges).map(drop)
         }

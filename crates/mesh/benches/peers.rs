@@ -1,7 +1,7 @@
 //! How fast are local edits, beside other half-edge meshes in Rust?
 //!
-//! Each flips, and splits, every edge of one torus of a million triangles, in one random order. What a
-//! library checks of its own is part of its edit:
+//! Each flips, splits, and collapses where it may, every edge of one torus of a million triangles, in one
+//! random order. What a library checks of its own is part of its edit:
 //!
 //! | | a flip asks for | not for |
 //! | --- | --- | --- |
@@ -11,9 +11,11 @@
 //! | tri-mesh | boundary, far corners joined | one face on both sides, far corners the same |
 //!
 //! A split puts a vertex on the edge and joins it to the far corners. alum has no such edit: its
-//! `split_edge` leaves quadrilaterals, which two calls of `insert_edge` cut. All positions are `f64`. This
-//! crate also asks an open journal, columns of attributes and dead elements: there are none. alum marks
-//! dead elements too. tri-mesh finds its elements through hash maps.
+//! `split_edge` leaves quadrilaterals, which two calls of `insert_edge` cut. A collapse moves one end to
+//! the other if the link condition allows it; this crate moves both to the middle. tri-mesh collapses
+//! without asking. All positions are `f64`. This crate fetches memory for the edits to come, and asks for
+//! an open journal, columns of attributes and dead elements: there are none. alum marks dead elements too.
+//! tri-mesh finds its elements through hash maps.
 //!
 //! At the end the program asks that all who check for double edges flipped equally many edges.
 
@@ -47,21 +49,39 @@ fn peers(c: &mut Criterion) {
         edges,
         copy: Mesh::clone,
     };
-    let flips = start.measure(&mut group, "flip, this crate", |mesh, e| {
-        mesh.flip_edge(e).is_ok()
+    let flips = start.measure(&mut group, "flip, this crate", |mesh, edges, i| {
+        mesh.fetch_ahead(edges, i);
+        mesh.flip_edge(edges[i]).is_ok()
     });
-    start.measure(&mut group, "split, this crate", |mesh, e| {
-        mesh.split_edge(e, 0.5).is_ok()
+    start.measure(&mut group, "split, this crate", |mesh, edges, i| {
+        mesh.fetch_ahead(edges, i);
+        mesh.split_edge(edges[i], 0.5).is_ok()
     });
+    let n = start.measure(&mut group, "collapse, this crate", |mesh, edges, i| {
+        mesh.fetch_ahead(edges, i);
+        mesh.collapse_edge(edges[i]).is_ok()
+    });
+    println!("collapses of this crate: {n}");
     group.finish();
     assert_eq!([alum_flips, tri_mesh_flips], [flips; 2], "the same edges");
 }
 
 /// Returns how many flips were accepted, when asked for double edges before.
 fn alum_edits(group: &mut Group, start: &Start<Alum, alum::EH>) -> usize {
-    start.measure(group, "flip, alum", |mesh, e| mesh.swap_edge_ccw(e).is_ok());
-    start.measure(group, "split, alum", |mesh, e| alum_split(mesh, e).is_ok());
-    start.measure(group, "flip, alum, asked before", |mesh, e| {
+    start.measure(group, "flip, alum", |mesh, edges, i| {
+        mesh.swap_edge_ccw(edges[i]).is_ok()
+    });
+    start.measure(group, "split, alum", |mesh, edges, i| {
+        alum_split(mesh, edges[i]).is_ok()
+    });
+    let n = start.measure(group, "collapse, alum", |mesh, edges, i| {
+        let (h, _) = edges[i].halfedges();
+        matches!(mesh.try_check_edge_collapse(h), Ok(true))
+            && mesh.try_collapse_edge(h, &mut Vec::new()).is_ok()
+    });
+    println!("collapses of alum: {n}");
+    start.measure(group, "flip, alum, asked before", |mesh, edges, i| {
+        let e = edges[i];
         let (h, twin) = e.halfedges();
         let [c, d] = [h, twin].map(|h| h.next(mesh).head(mesh));
         mesh.find_halfedge(c, d).is_none() && mesh.swap_edge_ccw(e).is_ok()
@@ -70,12 +90,15 @@ fn alum_edits(group: &mut Group, start: &Start<Alum, alum::EH>) -> usize {
 
 /// Returns how many flips were accepted.
 fn tri_mesh_edits(group: &mut Group, start: &Start<tri_mesh::Mesh, tri_mesh::HalfEdgeID>) -> usize {
-    start.measure(group, "split, tri-mesh", |mesh, h| {
+    start.measure(group, "split, tri-mesh", |mesh, edges, i| {
+        let h = edges[i];
         let (v, w) = mesh.edge_positions(h);
         mesh.split_edge(h, 0.5 * (v + w));
         true
     });
-    start.measure(group, "flip, tri-mesh", |mesh, h| mesh.flip_edge(h).is_ok())
+    start.measure(group, "flip, tri-mesh", |mesh, edges, i| {
+        mesh.flip_edge(edges[i]).is_ok()
+    })
 }
 
 /// A mesh to edit, and its edges in the order in which they are edited.
@@ -86,11 +109,19 @@ struct Start<M, E> {
 }
 
 impl<M, E: Copy> Start<M, E> {
-    /// Edits every edge of a copy of the mesh. Returns how many edits were accepted.
-    fn measure(&self, group: &mut Group, name: &str, edit: impl Fn(&mut M, E) -> bool) -> usize {
+    /// Edits every edge of a copy of the mesh, given by its place in the list. Returns how many edits
+    /// were accepted.
+    fn measure(
+        &self,
+        group: &mut Group,
+        name: &str,
+        edit: impl Fn(&mut M, &[E], usize) -> bool,
+    ) -> usize {
         let copy = || (self.copy)(&self.mesh);
         let run = |mut mesh: M| {
-            let n = self.edges.iter().filter(|&&e| edit(&mut mesh, e)).count();
+            let n = (0..self.edges.len())
+                .filter(|&i| edit(&mut mesh, &self.edges, i))
+                .count();
             (mesh, n)
         };
         group.bench_function(name, |b| {

@@ -41,7 +41,7 @@ pub enum Refusal {
     OutsideEdge,
     /// A coordinate or length is not finite or out of its range.
     BadNumber,
-    /// The faces around a vertex would fall into two fans, or a face would visit a vertex twice.
+    /// The faces around a vertex would fall into two fans.
     Pinch,
     /// The faces are only a part of their component.
     PartOfComponent,
@@ -73,14 +73,14 @@ impl From<EditError> for Refusal {
             EditError::DuplicateEdge(..) => Self::DuplicateEdge,
             EditError::FewEdges(_) => Self::FewEdges,
             EditError::FewCorners(_) => Self::FewCorners,
-            EditError::RepeatedVertex(_) => Self::RepeatedVertex,
+            EditError::RepeatedVertex(_) | EditError::VisitsTwice(..) => Self::RepeatedVertex,
             EditError::Vanishes(_) => Self::Vanishes,
             EditError::Link(..) => Self::Link,
             EditError::JoinsBoundaries(_) => Self::JoinsBoundaries,
             EditError::Seam(_) => Self::Seam,
             EditError::OutsideEdge(_) => Self::OutsideEdge,
             EditError::BadNumber(_) => Self::BadNumber,
-            EditError::Pinch(_) | EditError::PinchedFace(_) => Self::Pinch,
+            EditError::Pinch(_) => Self::Pinch,
             EditError::PartOfComponent(_) => Self::PartOfComponent,
             EditError::Full => Self::Full,
             _ => Self::WrongPlace,

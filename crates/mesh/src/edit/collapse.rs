@@ -42,13 +42,13 @@ impl Mesh {
     /// - [`EditError::Link`] if the ends have a neighbour in common that no triangle beside `e` has: it
     ///   would be joined to v twice. Also where `e` is a side of a hole of three.
     /// - [`EditError::DuplicateEdge`] if the ends are joined by a second edge.
-    /// - [`EditError::PinchedFace`] if a face that is not beside `e` has both ends: it would visit v
+    /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends: it would visit v
     ///   twice.
     /// - [`EditError::Vanishes`] for the sides of a lone triangle, and where two faces would be left
     ///   back to back, as of a tetrahedron, or nothing.
-    /// - [`EditError::SameFace`] if one face is on both sides of `e`, [`EditError::SameOpposite`] if
-    ///   two triangles beside it share a second edge. Both could shrink, but there are no such edges
-    ///   in the meshes that polygons are made into.
+    /// - [`EditError::SameFace`] if one face is on both sides of `e`, or would be on both sides of an
+    ///   edge that two become; [`EditError::SameOpposite`] if two triangles beside `e` share a second
+    ///   edge. Such edges could shrink, but only edits make them.
     /// - [`EditError::NoSuchEdge`].
     ///
     /// The mesh is unchanged.
@@ -162,13 +162,16 @@ impl Mesh {
         let mut h = self.next(ab);
         while h != ba {
             vertices.push(self.target(h));
-            self.face(h).into_iter().for_each(|f| faces.push(f));
+            if let Some(f) = self.face(h) {
+                faces.push(f);
+            }
             h = self.next(h.twin());
         }
         vertices.sort();
         faces.sort();
         let mut shared = [0; 2];
         let mut valence = vertices.len();
+        let mut pinched = None;
         let mut h = self.next(ba);
         while h != ab {
             let x = self.target(h);
@@ -181,10 +184,8 @@ impl Mesh {
             } else if vertices.has(x) {
                 return Err(EditError::Link(e, x));
             }
-            let beside = self.face(h);
-            if let Some(p) = beside.filter(|&p| beside != f && beside != g && faces.has(p)) {
-                return Err(EditError::PinchedFace(p));
-            }
+            let other = self.face(h).filter(|&p| Some(p) != f && Some(p) != g);
+            pinched = pinched.or(other.filter(|&p| faces.has(p)));
             valence += 1;
             h = self.next(h.twin());
         }
@@ -201,6 +202,9 @@ impl Mesh {
                 return Err(EditError::Link(e, self.target(self.next(h))));
             }
         }
+        if let Some(p) = pinched {
+            return Err(EditError::VisitsTwice(p, a.min(b)));
+        }
         let vanishing = apexes.iter().flatten().count();
         let left = valence.saturating_sub(vanishing);
         if vanishing > 0 && left == 2 && at_boundary == [false; 2] && self.would_fold(e, apexes) {
@@ -209,24 +213,27 @@ impl Mesh {
         Ok(())
     }
 
-    /// Refuses if the two edges of a triangle beside `e` that would become one have the same beyond
-    /// them, or the other triangle.
+    /// Refuses if one face, or none, would be on both sides of what two edges of a triangle beside `e`
+    /// become, or if two triangles beside it share such an edge.
     fn check_outer_faces(&self, e: EdgeId) -> Result<(), EditError> {
         for h in e.half_edges() {
             if !self.is_beside_triangle(h) {
                 continue;
             }
-            let across = h.twin();
-            let other = self
-                .face(across)
-                .filter(|_| self.is_beside_triangle(across));
+            let beside = self.face(h.twin());
+            let is_triangle = self.is_beside_triangle(h.twin());
             let after = self.next(h);
             let outer = [after, self.next(after)].map(|h| self.face(h.twin()));
             match outer {
                 [None, None] => return Err(EditError::Vanishes(e)),
-                [x, y] if x == y && x == other => return Err(EditError::Vanishes(e)),
-                [Some(p), y] if Some(p) == y => return Err(EditError::PinchedFace(p)),
-                _ if other.is_some() && outer.contains(&other) => {
+                [x, y] if x == y && x == beside => {
+                    return Err(if is_triangle {
+                        EditError::Vanishes(e)
+                    } else {
+                        EditError::SameFace(e)
+                    });
+                }
+                _ if is_triangle && outer.contains(&beside) => {
                     return Err(EditError::SameOpposite(e, self.target(after)));
                 }
                 _ => {}
@@ -302,7 +309,9 @@ impl Mesh {
             }
         }
         self.kill_edge(x.edge());
-        lens.into_iter().for_each(|f| self.kill_face(f));
+        if let Some(f) = lens {
+            self.kill_face(f);
+        }
     }
 
     /// Gives the corners at both ends of `e` their values for when it has shrunk to the place `t` on it.
@@ -339,36 +348,36 @@ impl Mesh {
 
 /// A set of ids, on the stack while it is small.
 struct Few<I> {
-    few: [I; 16],
+    on_stack: [I; 16],
     n: usize,
     /// All of them, once they are more.
-    many: Vec<I>,
+    on_heap: Vec<I>,
 }
 
 impl<I: Id + Ord> Few<I> {
     fn new() -> Self {
         Self {
-            few: [I::NONE; 16],
+            on_stack: [I::NONE; 16],
             n: 0,
-            many: Vec::new(),
+            on_heap: Vec::new(),
         }
     }
 
     fn push(&mut self, id: I) {
-        if let Some(slot) = self.few.get_mut(self.n) {
+        if let Some(slot) = self.on_stack.get_mut(self.n) {
             *slot = id;
         } else {
-            if self.many.is_empty() {
-                self.many.extend(self.few);
+            if self.on_heap.is_empty() {
+                self.on_heap.extend(self.on_stack);
             }
-            self.many.push(id);
+            self.on_heap.push(id);
         }
         self.n += 1;
     }
 
     /// To be called between the last `push` and the first question.
     fn sort(&mut self) {
-        self.many.sort_unstable();
+        self.on_heap.sort_unstable();
     }
 
     fn len(&self) -> usize {
@@ -376,18 +385,18 @@ impl<I: Id + Ord> Few<I> {
     }
 
     fn has(&self, id: I) -> bool {
-        if self.many.is_empty() {
-            self.few[..self.n].contains(&id)
+        if self.on_heap.is_empty() {
+            self.on_stack[..self.n].contains(&id)
         } else {
-            self.many.binary_search(&id).is_ok()
+            self.on_heap.binary_search(&id).is_ok()
         }
     }
 
     fn count(&self, id: I) -> usize {
-        let all = if self.many.is_empty() {
-            &self.few[..self.n]
+        let all = if self.on_heap.is_empty() {
+            &self.on_stack[..self.n]
         } else {
-            &self.many
+            &self.on_heap
         };
         all.iter().filter(|&&x| x == id).count()
     }

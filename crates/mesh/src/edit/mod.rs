@@ -101,9 +101,6 @@ pub enum EditError {
     /// The edit would leave two fans of faces at a vertex.
     #[error("the faces around {0} would fall into two fans")]
     Pinch(VertexId),
-    /// The edit would bring two corners of the face to the same vertex.
-    #[error("{0} would visit one vertex twice")]
-    PinchedFace(FaceId),
     /// The corner is not one of that face, or not one of that vertex.
     #[error("{0} does not begin a side of the same face or vertex")]
     Elsewhere(HalfEdgeId),

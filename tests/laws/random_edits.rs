@@ -15,6 +15,8 @@ enum Edit {
     /// At so many quarters of the edge; 0 and 4 are no places on it.
     Split(usize, u8),
     DeleteFace(usize),
+    /// To so many quarters of the edge; 5 is no place on it.
+    Collapse(usize, u8),
     Compact,
 }
 
@@ -23,6 +25,7 @@ fn edit() -> impl Strategy<Value = Edit> {
         5 => any::<usize>().prop_map(Edit::Flip),
         4 => (any::<usize>(), 0..=4_u8).prop_map(|(e, quarters)| Edit::Split(e, quarters)),
         3 => any::<usize>().prop_map(Edit::DeleteFace),
+        4 => (any::<usize>(), 0..=5_u8).prop_map(|(e, quarters)| Edit::Collapse(e, quarters)),
         1 => Just(Edit::Compact),
     ]
 }
@@ -75,6 +78,10 @@ fn step(mesh: &mut Mesh, oracle: &mut Polygons, edit: Edit) -> Result<(), TestCa
             made.map(|m| assert_eq!(m.index() + 1, mesh.positions().len()))
         }
         Edit::DeleteFace(f) => mesh.delete_face(face(mesh, f)),
+        Edit::Collapse(e, quarters) => {
+            let t = f64::from(quarters) / 4.0;
+            mesh.collapse_edge_at(edge(mesh, e), t).map(drop)
+        }
         Edit::Compact => {
             mesh.compact();
             prop_assert!(mesh.is_dense());
@@ -145,7 +152,12 @@ fn expected(mesh: &Mesh, oracle: &Polygons, edit: Edit) -> (Result<Polygons, Edi
             let rims = i64::try_from(rims).expect("a few");
             (oracle.delete(&corners(mesh, f)), euler - 1 + rims)
         }
-        Edit::Compact => (Ok(oracle.clone()), euler),
+        Edit::Collapse(e, quarters) => {
+            let (e, t) = (edge(mesh, e), f64::from(quarters) / 4.0);
+            let collapsed = ends(mesh, e).and_then(|ends| oracle.collapse(ends, t, e));
+            (collapsed, euler)
+        }
+        Edit::Compact => (Ok(oracle.compact()), euler),
     }
 }
 
@@ -196,11 +208,12 @@ fn lowest_first(mut face: Vec<u32>) -> Vec<u32> {
     face
 }
 
-/// A mesh as a list of faces in any order. Vertices are never taken away, so their numbers are those of
-/// the mesh.
+/// A mesh as a list of faces in any order. The numbers of vertices are those of the mesh.
 #[derive(Clone, Debug, PartialEq)]
 struct Polygons {
     positions: Vec<DVec3>,
+    /// The vertices that collapses took away.
+    gone: Vec<u32>,
     /// Sorted, each beginning at its lowest vertex.
     faces: Vec<Vec<u32>>,
 }
@@ -208,13 +221,37 @@ struct Polygons {
 impl Polygons {
     fn of(mesh: &Mesh) -> Self {
         let faces = mesh.faces().map(|f| corners(mesh, f)).collect();
-        Self::new(mesh.positions().to_vec(), faces)
+        let all = (0..mesh.positions().len()).map(VertexId::new);
+        let gone = all.filter(|&v| !mesh.has_vertex(v)).map(number).collect();
+        Self::new(mesh.positions().to_vec(), gone, faces)
     }
 
-    fn new(positions: Vec<DVec3>, faces: Vec<Vec<u32>>) -> Self {
+    fn new(positions: Vec<DVec3>, gone: Vec<u32>, faces: Vec<Vec<u32>>) -> Self {
         let mut faces: Vec<_> = faces.into_iter().map(lowest_first).collect();
         faces.sort();
-        Self { positions, faces }
+        Self {
+            positions,
+            gone,
+            faces,
+        }
+    }
+
+    fn with_faces(&self, faces: Vec<Vec<u32>>) -> Self {
+        Self::new(self.positions.clone(), self.gone.clone(), faces)
+    }
+
+    /// Without the vertices that are gone: the others are numbered anew.
+    fn compact(&self) -> Self {
+        let lower = |v: u32| self.gone.iter().filter(|&&w| w < v).count();
+        let renumbered = |&v: &u32| v - u32::try_from(lower(v)).expect("fewer than v");
+        let is_left = |(v, _): &(u32, &DVec3)| !self.gone.contains(v);
+        let left = (0..).zip(&self.positions).filter(is_left);
+        let faces = self.faces.iter();
+        Self::new(
+            left.map(|(_, &p)| p).collect(),
+            Vec::new(),
+            faces.map(|f| f.iter().map(renumbered).collect()).collect(),
+        )
     }
 
     /// The face with a side from a to b.
@@ -223,27 +260,39 @@ impl Polygons {
         self.faces.iter().position(has_side)
     }
 
-    /// With the edge between two triangles turned. Reasons are given in the order of the checks.
+    /// With the edge between two faces turned: each end moves on by one corner. Reasons are given in the
+    /// order of the checks.
     fn flip(&self, [a, b]: [u32; 2], e: EdgeId) -> Result<Self, EditError> {
         let (Some(f), Some(g)) = (self.with_side(a, b), self.with_side(b, a)) else {
             return Err(EditError::Boundary(e));
         };
-        let opposite = |f: usize| match self.faces[f][..] {
-            [x, y, z] => Ok(x + y + z - a - b),
-            _ => Err(EditError::NotTriangle(FaceId::new(f))),
+        if f == g {
+            return Err(EditError::SameFace(e));
+        }
+        // From a and b on one face and from b and a on the other: c and d come after them.
+        let from = |f: usize, start: (u32, u32)| {
+            let mut face = self.faces[f].clone();
+            let place = sides(&face).position(|side| side == start);
+            face.rotate_left(place.expect("the face has this side"));
+            face.split_off(2)
         };
-        let (c, d) = (opposite(f)?, opposite(g)?);
+        let (mut left, mut right) = (from(f, (a, b)), from(g, (b, a)));
+        let (c, d) = (left[0], right[0]);
         let v = |v: u32| VertexId::new(v as usize);
         if c == d {
             return Err(EditError::SameOpposite(e, v(c)));
         }
+        if left.last() == Some(&d) || right.last() == Some(&c) {
+            return Err(EditError::FewEdges(v(a)));
+        }
         if self.with_side(c, d).or(self.with_side(d, c)).is_some() {
             return Err(EditError::DuplicateEdge(v(c), v(d)));
         }
+        left.extend([a, d]);
+        right.extend([b, c]);
         let mut faces = self.faces.clone();
-        faces[f] = vec![d, c, a];
-        faces[g] = vec![c, d, b];
-        Ok(Self::new(self.positions.clone(), faces))
+        (faces[f], faces[g]) = (left, right);
+        Ok(self.with_faces(faces))
     }
 
     /// With a vertex on the edge from a to b, joined to the far corners of triangles.
@@ -272,7 +321,7 @@ impl Polygons {
                 }
             }
         }
-        Ok(Self::new(positions, faces))
+        Ok(Self::new(positions, self.gone.clone(), faces))
     }
 
     /// Without a face, unless one of its vertices would then have two fans of faces.
@@ -280,11 +329,136 @@ impl Polygons {
         let place = self.faces.iter().position(|f| f == face);
         let mut faces = self.faces.clone();
         faces.remove(place.expect("the mesh has the face, so the list has it"));
-        let rest = Self::new(self.positions.clone(), faces);
+        let rest = self.with_faces(faces);
         match face.iter().find(|&&v| rest.n_fans(v) > 1) {
             Some(&v) => Err(EditError::Pinch(VertexId::new(v as usize))),
             None => Ok(rest),
         }
+    }
+
+    /// With the edge from a to b shrunk, if the surface keeps its shape and no elements of it come to
+    /// coincide. Reasons are given in the order of the checks.
+    fn collapse(&self, [a, b]: [u32; 2], t: f64, e: EdgeId) -> Result<Self, EditError> {
+        if t > 1.0 {
+            return Err(EditError::OutsideEdge(t));
+        }
+        let beside = [self.with_side(a, b), self.with_side(b, a)];
+        if beside[0] == beside[1] {
+            return Err(EditError::SameFace(e));
+        }
+        let (v, gone) = (a.min(b), a.max(b));
+        let mut after = self.clone();
+        after.positions[v as usize] =
+            (1.0 - t) * self.positions[a as usize] + t * self.positions[b as usize];
+        after.gone.push(gone);
+        after.gone.sort_unstable();
+        for corner in after.faces.iter_mut().flatten().filter(|v| **v == gone) {
+            *corner = v;
+        }
+        for face in &mut after.faces {
+            face.dedup();
+            if face.last() == face.first() {
+                face.pop();
+            }
+        }
+        after.faces.retain(|face| face.len() > 2);
+        let vanished = self.faces.len() - after.faces.len();
+        let after = Self::new(after.positions, after.gone, after.faces);
+        if after.is_like(self, vanished) {
+            return Ok(after);
+        }
+
+        let is_open = |v| {
+            self.all_sides()
+                .any(|(x, y)| x == v && self.with_side(y, x).is_none())
+        };
+        if !beside.contains(&None) && is_open(a) && is_open(b) {
+            return Err(EditError::JoinsBoundaries(e));
+        }
+        let is_apex = |&v: &u32| {
+            let mut triangles = beside.iter().flatten().map(|&f| &self.faces[f]);
+            triangles.any(|face| face.len() == 3 && face.contains(&v))
+        };
+        let joined = |v, w| self.with_side(v, w).or(self.with_side(w, v)).is_some();
+        let mut others = (0..v_count(&self.positions)).filter(|v| !is_apex(v));
+        if let Some(x) = others.find(|&x| joined(a, x) && joined(b, x)) {
+            return Err(EditError::Link(e, VertexId::new(x as usize)));
+        }
+        let has_both = |f: &usize| self.faces[*f].contains(&a) && self.faces[*f].contains(&b);
+        let mut apart = (0..self.faces.len()).filter(|&f| !beside.contains(&Some(f)));
+        if let Some(f) = apart.find(has_both) {
+            return Err(EditError::VisitsTwice(
+                FaceId::new(f),
+                VertexId::new(v as usize),
+            ));
+        }
+        Err(EditError::Vanishes(e))
+    }
+
+    /// Whether this is a manifold of the same shape as `before`, with one vertex less, so many faces less
+    /// and one edge less and another for each of these; and no more elements coincide.
+    fn is_like(&self, before: &Self, vanished: usize) -> bool {
+        let [mine, other] = [self, before].map(|polygons| {
+            // Corners of a face at one vertex, edges within one face, and faces back to back.
+            let mut odd = [0; 3];
+            for face in &polygons.faces {
+                let mut once = face.clone();
+                once.sort_unstable();
+                once.dedup();
+                odd[0] += face.len() - once.len();
+                let within = |&(x, y): &(u32, u32)| sides(face).any(|side| side == (y, x));
+                odd[1] += sides(face).filter(within).count();
+                let back = lowest_first(face.iter().rev().copied().collect());
+                odd[2] += polygons.faces.iter().filter(|f| **f == back).count();
+            }
+            odd
+        });
+        let (edges, edges_before) = (self.edges(), before.edges());
+        let mut ways: Vec<_> = self.all_sides().collect();
+        ways.sort_unstable();
+        ways.windows(2).all(|pair| pair[0] != pair[1])
+            && edges.len() + 1 + vanished == edges_before.len()
+            && self.n_vertices() + 1 == before.n_vertices()
+            && self.n_holes() == before.n_holes()
+            && (0..v_count(&self.positions)).all(|v| self.n_fans(v) <= 1)
+            && mine.iter().zip(other).all(|(&mine, other)| mine <= other)
+    }
+
+    fn all_sides(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.faces.iter().flat_map(|face| sides(face))
+    }
+
+    /// The edges, each with its lower vertex first.
+    fn edges(&self) -> Vec<(u32, u32)> {
+        let mut edges: Vec<_> = self
+            .all_sides()
+            .map(|(x, y)| (x.min(y), x.max(y)))
+            .collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges
+    }
+
+    /// How many vertices have a face.
+    fn n_vertices(&self) -> usize {
+        let mut used = self.faces.concat();
+        used.sort_unstable();
+        used.dedup();
+        used.len()
+    }
+
+    /// How many loops the sides without another side form.
+    fn n_holes(&self) -> usize {
+        let is_open = |&(x, y): &(u32, u32)| self.with_side(y, x).is_none();
+        let mut open: Vec<_> = self.all_sides().filter(is_open).collect();
+        let mut n = 0;
+        while let Some((_, mut end)) = open.pop() {
+            while let Some(i) = open.iter().position(|&(x, _)| x == end) {
+                end = open.swap_remove(i).1;
+            }
+            n += 1;
+        }
+        n
     }
 
     /// How many groups the faces at a vertex form, where faces that share an edge at it are together.
@@ -310,6 +484,10 @@ impl Polygons {
         }
         fans.len()
     }
+}
+
+fn v_count(positions: &[DVec3]) -> u32 {
+    u32::try_from(positions.len()).expect("a small mesh")
 }
 
 /// The sides of a polygon: each corner with the next one.

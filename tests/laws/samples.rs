@@ -272,6 +272,18 @@ const SAMPLES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "CollapseEdges",
+        &[
+            "(edges: All, on_refusal: Skip)",
+            "(edges: Between(0, 1))",
+            "(edges: Between(1, 0), at: 0.125)",
+            "(edges: Boundary, at: 1, on_refusal: Skip)",
+            "(edges: Longest(count: 1), at: 0)",
+            "(edges: Random(count: 9, seed: 7), on_refusal: Skip)",
+            r#"(edges: Tagged("marked"), on_refusal: Skip)"#,
+        ],
+    ),
+    (
         "LoopSubdivide",
         &["(levels: 0)", "(levels: 1)", "(levels: 2)"],
     ),

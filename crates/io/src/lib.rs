@@ -47,7 +47,6 @@ mod obj;
 mod peek;
 mod save;
 mod text;
-mod triangulate;
 
 use std::path::{Path, PathBuf};
 

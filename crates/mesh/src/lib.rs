@@ -68,10 +68,13 @@ mod id;
 mod journal;
 mod marks;
 mod measure;
+pub mod merge;
 mod mesh;
+mod part;
 mod reverse;
 pub mod shapes;
 mod traverse;
+pub mod triangulate;
 mod validate;
 mod write;
 
@@ -81,7 +84,7 @@ pub use attribute::{
 };
 pub use build::{BuildError, BuildReport, Built, NonManifold, build};
 pub use compact::Renumbering;
-pub use edit::{EditError, Seams};
+pub use edit::{Bisection, EditError, Seams};
 pub use glam::{DVec2, DVec3, DVec4};
 pub use id::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
 pub use journal::Change;

@@ -4,9 +4,8 @@
 //! follow those of the faces before it, in the order of [`Cut::diagonals`]; the first half of each runs
 //! from its lower corner.
 
+use mesh::triangulate::Cut;
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
-
-use crate::cut::Cut;
 
 /// The mesh with its faces cut; `n_diagonals` is the number of all diagonals. Ids must fit.
 pub(crate) fn assemble(mesh: &Mesh, cuts: &[Cut], n_diagonals: usize) -> Mesh {

@@ -8,10 +8,9 @@
 //!
 //! A half-edge mesh can have them, but a file of triangles cannot: read again, it falls apart there.
 
+use mesh::triangulate::Cut;
 use mesh::{FaceId, Mesh, VertexId};
 use rayon::prelude::*;
-
-use crate::cut::Cut;
 
 /// A diagonal: its vertices, lower first, and its face.
 type Diagonal = ([VertexId; 2], FaceId);

@@ -14,10 +14,10 @@
 //! was closed stays closed even where two diagonals join the same two vertices.
 
 mod assemble;
-mod cut;
 mod doubles;
 
 use mesh::Mesh;
+use mesh::triangulate::{Cut, Cutter};
 use op::{
     Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Refusal,
     Report, Select,
@@ -25,8 +25,6 @@ use op::{
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use cut::{Cut, Cutter};
 
 /// Cuts polygons into triangles.
 ///

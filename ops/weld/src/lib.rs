@@ -12,15 +12,11 @@
 //! at 0.9 times the distance always merge, wherever they lie, and two at 1.1 times only through others
 //! between them. Neither depends on the order of vertices or on the number of threads.
 
-mod cluster;
-mod union_find;
-
-use mesh::{Built, EdgeId, FaceId, HalfEdgeId, Mesh, NonManifold, Sources, VertexId};
+use mesh::Mesh;
+use mesh::merge::clusters;
 use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-pub use cluster::clusters;
 
 /// Merges vertices that lie near each other, and joins the faces at them.
 ///
@@ -78,126 +74,21 @@ impl MeshOperation for Weld {
         let lowest = clusters(mesh.positions(), self.distance, &|done, total| {
             cx.advance("weld", done, total)
         })?;
-        let merged = (0..).zip(&lowest).filter(|&(v, &low)| v != low).count();
-        if merged == 0 {
+        if (0..).zip(&lowest).all(|(v, &low): (u32, _)| v == low) {
             return Ok(Report::default());
         }
-        let polygons = Polygons::of(mesh, &lowest);
-        let built = mesh::build(
-            polygons.positions.clone(),
-            &polygons.offsets,
-            &polygons.corners,
-            NonManifold::Split,
-        )?;
-        let mut report = Report::changed(merged).note(format!("merged {merged} vertices"));
-        if polygons.reduced > 0 {
-            let n = polygons.reduced;
+        let merged = mesh.merge_clusters(&lowest)?;
+        let n = merged.vertices;
+        let mut report = Report::changed(n).note(format!("merged {n} vertices"));
+        if merged.smaller_faces > 0 {
+            let n = merged.smaller_faces;
             report = report.note(format!("faces that lost corners: {n}"));
         }
-        if !built.report.is_clean() {
-            report = report.note(built.report.summary());
+        if !merged.report.is_clean() {
+            report = report.note(merged.report.summary());
         }
-        mesh.replace(polygons.with_attributes(mesh, built));
         Ok(report)
     }
-}
-
-/// The faces of a mesh over the vertices that are left.
-struct Polygons {
-    /// The vertices that are left, by their old numbers.
-    kept: Vec<VertexId>,
-    positions: Vec<mesh::DVec3>,
-    offsets: Vec<u32>,
-    corners: Vec<u32>,
-    /// For each corner the half-edge that it was.
-    half_edges: Vec<HalfEdgeId>,
-    /// How many faces have fewer corners than before, but enough.
-    reduced: usize,
-}
-
-impl Polygons {
-    /// `lowest` has for each vertex the lowest number of those that it merges with.
-    fn of(mesh: &Mesh, lowest: &[u32]) -> Self {
-        let mut kept = Vec::new();
-        let mut number = vec![0; lowest.len()];
-        for (v, (&low, i)) in lowest.iter().zip(0_u32..).enumerate() {
-            // The lowest one comes before all others of its cluster.
-            if low == i {
-                number[v] = to_u32(kept.len());
-                kept.push(VertexId::new(v));
-            } else {
-                number[v] = number[low as usize];
-            }
-        }
-        let positions = kept.iter().map(|&v| mesh.position(v)).collect();
-        let mut offsets = vec![0];
-        let (mut corners, mut half_edges) = (Vec::new(), Vec::new());
-        let mut reduced = 0;
-        for f in mesh.faces() {
-            let first = corners.len();
-            let mut is_smaller = false;
-            for h in mesh.face_half_edges(f) {
-                let [v, w] = [mesh.origin(h), mesh.target(h)].map(|v| number[v.index()]);
-                // A side that shrinks to a point goes, and the corner at its origin with it.
-                if v == w {
-                    is_smaller = true;
-                } else {
-                    corners.push(v);
-                    half_edges.push(h);
-                }
-            }
-            reduced += usize::from(is_smaller && corners.len() - first >= 3);
-            // No more corners than before, and those had ids.
-            offsets.push(to_u32(corners.len()));
-        }
-        Self {
-            kept,
-            positions,
-            offsets,
-            corners,
-            half_edges,
-            reduced,
-        }
-    }
-
-    /// The built mesh with the attributes of the old one.
-    fn with_attributes(self, old: &Mesh, built: Built) -> Mesh {
-        let mut mesh = built.mesh;
-        let mut vertices = self.kept;
-        // Copies stand behind all others, in this order.
-        for (original, _) in &built.report.split_vertices {
-            vertices.push(vertices[original.index()]);
-        }
-        let mut corners = vec![HalfEdgeId::NONE; mesh.n_half_edges()];
-        let mut edges = vec![EdgeId::NONE; mesh.n_edges()];
-        for (&old_h, &h) in self.half_edges.iter().zip(&built.half_edge_of_corner) {
-            if h != HalfEdgeId::NONE {
-                corners[h.index()] = old_h;
-                // `NONE` is above all ids.
-                let edge = &mut edges[h.edge().index()];
-                *edge = old_h.edge().min(*edge);
-            }
-        }
-        let faces: Vec<FaceId> = old
-            .faces()
-            .zip(&built.face_of_polygon)
-            .filter(|&(_, &f)| f != FaceId::NONE)
-            .map(|(old_f, _)| old_f)
-            .collect();
-        let mut attributes = old.attributes().gathered(Sources {
-            vertices: &vertices,
-            corners: &corners,
-            edges: &edges,
-            faces: &faces,
-        });
-        attributes.drop_by_rule();
-        mesh.set_attributes(attributes);
-        mesh
-    }
-}
-
-fn to_u32(n: usize) -> u32 {
-    u32::try_from(n).expect("ids of a mesh fit 32 bits")
 }
 
 #[cfg(test)]

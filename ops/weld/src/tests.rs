@@ -1,7 +1,10 @@
 //! Tests of the operation.
 
 use super::*;
-use mesh::{Attribute, CREASE, DVec2, DVec3, Domain, MATERIAL, Rule, UV, Value, Values, shapes};
+use mesh::{
+    Attribute, CREASE, DVec2, DVec3, Domain, FaceId, MATERIAL, Rule, UV, Value, Values, VertexId,
+    shapes,
+};
 use op::test::{applied, try_applied};
 use op::{Files, NoProgress, Progress};
 
@@ -14,9 +17,10 @@ fn torn(mesh: &Mesh) -> Mesh {
     let mut positions = Vec::new();
     let mut polygons = Vec::new();
     for f in mesh.faces() {
-        let first = to_u32(positions.len());
+        let first = u32::try_from(positions.len()).unwrap();
         positions.extend(mesh.face_vertices(f).map(|v| mesh.position(v)));
-        polygons.push((first..to_u32(positions.len())).collect::<Vec<_>>());
+        let end = u32::try_from(positions.len()).unwrap();
+        polygons.push((first..end).collect::<Vec<_>>());
     }
     Mesh::from_polygons(positions, &polygons).unwrap().0
 }

@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec2, DVec4};
 use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf_json::buffer::{Target, View};
 use gltf_json::material::{AlphaMode, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Asset, Buffer, Index, Node, Root};
+use mesh::triangulate::Cutter;
 use mesh::{Domain, Mesh};
 use scene::{Geometry, Material, Object, Scene};
 use serde_json::json;
@@ -18,7 +19,6 @@ use super::split::{Corners, Split, SplitVertex, split};
 use crate::dense::dense;
 use crate::error::Unwritable;
 use crate::loss::Losses;
-use crate::triangulate::triangulate;
 use crate::{WriteOptions, Written};
 
 /// The files that hold `scene`, to be renamed in this order, and what they do not hold.
@@ -442,6 +442,7 @@ fn triangles_by_material(
     let exists = |m: i32| usize::try_from(m).is_ok_and(|m| m < object.materials.len());
     let mut by_material: BTreeMap<i32, Vec<u32>> = BTreeMap::new();
     let mut unknown = 0;
+    let mut cutter = Cutter::default();
     for f in mesh.faces() {
         let material = materials.map_or(-1, |materials| materials[f.index()]);
         let material = if exists(material) {
@@ -459,9 +460,8 @@ fn triangles_by_material(
             indices.extend([a, b, c]);
             continue;
         }
-        let points: Vec<DVec3> = mesh.face_vertices(f).map(|v| mesh.position(v)).collect();
-        for triangle in triangulate(&points) {
-            indices.extend(triangle.map(|k| corners[k]));
+        for triangle in cutter.cut(mesh, f).triangles() {
+            indices.extend(triangle.map(|k| corners[k as usize]));
         }
     }
     losses.add(

@@ -2,9 +2,11 @@
 //! array as it was.
 
 mod bevel;
+mod bisect;
 mod bridge;
 mod collapse;
 mod cut;
+mod cut_face;
 mod delete;
 mod delete_face;
 mod dissolve_edge;
@@ -21,7 +23,9 @@ mod split_vertex;
 mod stitch;
 #[cfg(test)]
 mod testing;
+mod triangulate_face;
 
+pub use bisect::Bisection;
 pub use flip::Seams;
 
 use crate::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};

@@ -79,7 +79,9 @@ impl Mesh {
             // Written above: what follows a half-edge now came before it.
             self.set_face_half_edge(f, self.next(first));
             let corners: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
-            corners.into_iter().for_each(|h| self.turn_over(h));
+            for h in corners {
+                self.turn_over(h);
+            }
         }
         Ok(())
     }

@@ -48,10 +48,27 @@ impl Mesh {
         }
         self.check_room(6)?;
         let [am, ma] = e.half_edges();
-        let (a, b) = (self.origin(am), self.origin(ma));
-        let (after_b, before_b) = (self.next(am), self.prev(ma));
         let cuts = [am, ma].map(|h| self.face(h).is_some_and(|f| self.is_triangle(f)));
 
+        let [mb, bm] = self.insert_vertex(e, t).half_edges();
+        // The cuts to the far corners: b's part of each triangle becomes a new face.
+        if cuts[0] {
+            let opposite = self.next(self.next(mb));
+            self.insert_edge(mb, opposite, mb);
+        }
+        if cuts[1] {
+            let opposite = self.next(self.next(ma));
+            self.insert_edge(ma, opposite, bm);
+        }
+        Ok(self.origin(mb))
+    }
+
+    /// Puts a vertex m on `e`, from a to b, and lets the faces beside it gain a corner, triangles too. `e`
+    /// becomes a-m. Returns the new edge m-b, whose first half begins at m. There must be room for it.
+    pub(super) fn insert_vertex(&mut self, e: EdgeId, t: f64) -> EdgeId {
+        let [am, ma] = e.half_edges();
+        let (a, b) = (self.origin(am), self.origin(ma));
+        let (after_b, before_b) = (self.next(am), self.prev(ma));
         self.drop_columns_by_rule();
         let m = self.push_vertex((1.0 - t) * self.position(a) + t * self.position(b));
         self.mix_values(a, b, t, m);
@@ -81,16 +98,7 @@ impl Mesh {
         if self.vertex_half_edge(b) == Some(ma) {
             self.set_vertex_half_edge(b, Some(bm));
         }
-
-        // The cuts to the far corners: b's part of each triangle becomes a new face.
-        if cuts[0] {
-            let opposite = self.next(after_b);
-            self.insert_edge(mb, opposite, mb);
-        }
-        if cuts[1] {
-            self.insert_edge(ma, before_b, bm);
-        }
-        Ok(m)
+        new
     }
 
     /// Marks all isolated vertices dead and returns how many there were.

@@ -16,9 +16,9 @@
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-use mesh::DVec3;
+use crate::DVec3;
 
-use crate::union_find::UnionFind;
+use super::union_find::UnionFind;
 
 /// Boxes of at most this many points are not cut: comparing all pairs is faster.
 const LEAF: usize = 8;

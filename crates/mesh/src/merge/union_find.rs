@@ -8,20 +8,20 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 /// below its child, so that no cycle can arise; a join is one compare-and-swap at a root, tried again if
 /// another thread was first. Anderson and Woll, "Wait-free Parallel Algorithms for the Union-Find
 /// Problem", 1991.
-pub(crate) struct UnionFind {
+pub(super) struct UnionFind {
     parent: Vec<AtomicU32>,
 }
 
 impl UnionFind {
     /// Numbers below `n`, each alone.
-    pub(crate) fn new(n: u32) -> Self {
+    pub(super) fn new(n: u32) -> Self {
         Self {
             parent: (0..n).map(AtomicU32::new).collect(),
         }
     }
 
     /// The root of the set of `v`: its lowest number, once no other thread joins.
-    pub(crate) fn root(&self, mut v: u32) -> u32 {
+    pub(super) fn root(&self, mut v: u32) -> u32 {
         loop {
             let parent = self.parent[v as usize].load(Relaxed);
             if parent == v {
@@ -35,7 +35,7 @@ impl UnionFind {
     }
 
     /// Joins the sets of `a` and `b`.
-    pub(crate) fn join(&self, a: u32, b: u32) {
+    pub(super) fn join(&self, a: u32, b: u32) {
         let (mut a, mut b) = (self.root(a), self.root(b));
         while a != b {
             let (low, high) = (a.min(b), a.max(b));
@@ -51,7 +51,7 @@ impl UnionFind {
     }
 
     /// The lowest number of each set, for all its members.
-    pub(crate) fn into_lowest(self) -> Vec<u32> {
+    pub(super) fn into_lowest(self) -> Vec<u32> {
         let mut lowest: Vec<u32> = self.parent.into_iter().map(AtomicU32::into_inner).collect();
         // Parents are below their children, so theirs is final already.
         for v in 0..lowest.len() {

@@ -1,13 +1,28 @@
-//! How one face is cut: which of its corners make triangles.
+//! Which diagonals cut a polygon into triangles.
+//!
+//! ```text
+//!    d ------- c          d ------- c          .---.                  .---.
+//!    |         |          |      /  |         /     \                /|\   \
+//!    |    f    |   -->    |   /     |        .       .      -->     . | \   .
+//!    |         |          | /       |         \     /                \|  \ /
+//!    a ------- b          a ------- b          '---'                  '---'
+//! ```
+//!
+//! A quadrilateral is cut along its shorter diagonal, a larger polygon by ears, improved until it is a
+//! Delaunay triangulation inside its sides; what cannot be cut this way becomes a fan. [`Cutter`] tells
+//! all that is to know. Cutting one face of a mesh is [`Mesh::triangulate_face`].
 //!
 //! Corners are counted from 0 along the face. A triangle is written with its corners in rising order,
 //! which is also its direction.
 
+mod avoid;
+
 use earcut::{Earcut, Refiner};
-use mesh::{DVec3, FaceId, Mesh};
+
+use crate::{DVec3, FaceId, Mesh};
 
 /// Three corners of a face, rising.
-pub(crate) type Triangle = [u32; 3];
+pub type Triangle = [u32; 3];
 
 /// Lengths, areas and turns that differ by less than this, relatively, are taken as equal.
 const TOLERANCE: f64 = 1e-12;
@@ -16,8 +31,8 @@ const MOST_CORNERS: usize = 10_000_000;
 
 /// How a face is cut.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Cut {
-    /// Not at all.
+pub enum Cut {
+    /// Not at all: it is a triangle.
     Keep,
     /// A quadrilateral.
     Quad {
@@ -37,7 +52,7 @@ pub(crate) enum Cut {
 
 impl Cut {
     /// How many edges it adds, and faces.
-    pub(crate) fn n_diagonals(&self) -> usize {
+    pub fn n_diagonals(&self) -> usize {
         match self {
             Self::Keep => 0,
             Self::Quad { .. } => 1,
@@ -45,12 +60,13 @@ impl Cut {
         }
     }
 
-    pub(crate) fn is_fan(&self) -> bool {
+    /// Whether the triangles are a fan for want of anything better.
+    pub fn is_fan(&self) -> bool {
         matches!(self, Self::Polygon { is_fan: true, .. })
     }
 
     /// The triangles, in order; none if it is not cut.
-    pub(crate) fn triangles(&self) -> &[Triangle] {
+    pub fn triangles(&self) -> &[Triangle] {
         match self {
             Self::Keep => &[],
             Self::Quad {
@@ -61,8 +77,8 @@ impl Cut {
         }
     }
 
-    /// The diagonals: pairs of corners, lower first, in order.
-    pub(crate) fn diagonals(&self, into: &mut Vec<[u32; 2]>) {
+    /// Puts the diagonals into a list, which is emptied first: pairs of corners, lower first, in order.
+    pub fn diagonals(&self, into: &mut Vec<[u32; 2]>) {
         into.clear();
         // Each triangle below a diagonal has it as the side from its last to its first corner; one
         // triangle has a side of the face there instead.
@@ -75,8 +91,29 @@ impl Cut {
 }
 
 /// Cuts faces, one after another, with buffers that are used again.
+///
+/// A quadrilateral is cut along its shorter diagonal; if both are equally long (squares of lengths
+/// within 1e-12 of each other) along the one at its lowest vertex. But a diagonal with a triangle that
+/// has no area or is turned over, seen along the normal of the face, is taken only if the other one is no
+/// better: a quadrilateral with a reflex corner is cut there.
+///
+/// A larger face is projected along its normal and cut by ears (Held, "FIST: Fast Industrial-Strength
+/// Triangulation of Polygons", 2001, as the crate `earcut` does it), and then diagonals are turned until
+/// it is a Delaunay triangulation inside its sides. A face that has no area or whose sides cross may
+/// not be cut this way: then it becomes a fan around its lowest vertex.
+///
+/// # Examples
+///
+/// ```
+/// use mesh::triangulate::Cutter;
+///
+/// let prism = mesh::shapes::cylinder(5, true);
+/// let mut cutter = Cutter::default();
+/// let n: usize = prism.faces().map(|f| cutter.cut(&prism, f).n_diagonals()).sum();
+/// assert_eq!(n, 5 * 1 + 2 * 2);
+/// ```
 #[derive(Default)]
-pub(crate) struct Cutter {
+pub struct Cutter {
     points: Vec<DVec3>,
     flat: Vec<[f64; 2]>,
     indices: Vec<u32>,
@@ -85,7 +122,8 @@ pub(crate) struct Cutter {
 }
 
 impl Cutter {
-    pub(crate) fn cut(&mut self, mesh: &Mesh, f: FaceId) -> Cut {
+    /// How `f` is cut.
+    pub fn cut(&mut self, mesh: &Mesh, f: FaceId) -> Cut {
         self.points.clear();
         let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
         self.points.extend(corners);
@@ -108,6 +146,28 @@ impl Cutter {
                 is_fan: true,
             },
         }
+    }
+
+    /// How `f` is cut without the diagonals that are not allowed; `None` if there is no way.
+    ///
+    /// If [`cut`](Self::cut) takes one of those, it is the cut whose diagonals have the smallest sum of
+    /// squared lengths, with triangles that all face the way of `f`, unless those of `cut` do not either.
+    /// That takes time with the third power of the corners, so that more than 256 of them are no way.
+    pub fn cut_where(
+        &mut self,
+        mesh: &Mesh,
+        f: FaceId,
+        allowed: impl Fn([u32; 2]) -> bool,
+    ) -> Option<Cut> {
+        let cut = self.cut(mesh, f);
+        let mut diagonals = Vec::new();
+        cut.diagonals(&mut diagonals);
+        if diagonals.into_iter().all(&allowed) {
+            return Some(cut);
+        }
+        let triangles = avoid::shortest(&self.points, cut.triangles(), allowed)?;
+        let is_fan = cut.is_fan();
+        Some(Cut::Polygon { triangles, is_fan })
     }
 
     /// Cuts the points by ears; `None` if what comes out does not cover them.

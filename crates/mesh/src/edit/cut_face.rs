@@ -1,0 +1,132 @@
+//! Cutting a face along several diagonals at once.
+
+use crate::{EdgeId, FaceId, HalfEdgeId, Mesh};
+
+/// The parts of a polygon with `n` corners that diagonals leave, each as its half-edges in order. Corners
+/// are counted from 0 along the face. Half-edges below `n` are the sides, each from the corner of its
+/// number; n + 2k is diagonal k from its first corner to its second, n + 2k + 1 is the way back.
+///
+/// ```text
+///    3 --- 2 --- 2        n = 4, diagonals [[0, 2]]:
+///    |         / |        parts [0, 1, 5] and [2, 3, 4]
+///    3    4/5    1
+///    | /         |
+///    0 --- 0 --- 1
+/// ```
+///
+/// They come in order of their lowest half-edge, and begin with it. `None` if diagonals cross, or a part
+/// would have fewer than three sides.
+pub(super) fn parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>> {
+    // The half-edges that leave each corner inside the polygon, counter-clockwise from its side: those to
+    // the nearest corners ahead come first.
+    let mut leaving: Vec<(usize, usize, usize)> = Vec::with_capacity(2 * diagonals.len());
+    for (k, diagonal) in diagonals.iter().enumerate() {
+        let [a, b] = diagonal.map(|corner| corner as usize);
+        leaving.push((a, (b + n - a) % n, n + 2 * k));
+        leaving.push((b, (a + n - b) % n, n + 2 * k + 1));
+    }
+    leaving.sort_unstable();
+    // What arrives at a corner goes on along the half-edge clockwise of it.
+    let mut next: Vec<usize> = (1..=n).map(|i| i % n).collect();
+    next.resize(n + leaving.len(), 0);
+    let twin = |h: usize| n + ((h - n) ^ 1);
+    let mut clockwise = 0;
+    for (i, &(corner, _, h)) in leaving.iter().enumerate() {
+        let is_first = i == 0 || leaving[i - 1].0 != corner;
+        next[twin(h)] = if is_first { corner } else { clockwise };
+        // Until another one follows, the side that arrives goes on here.
+        next[(corner + n - 1) % n] = h;
+        clockwise = h;
+    }
+
+    let mut parts = Vec::with_capacity(diagonals.len() + 1);
+    let mut is_used = vec![false; next.len()];
+    for start in 0..next.len() {
+        let mut part = Vec::new();
+        let mut h = start;
+        while !is_used[h] {
+            is_used[h] = true;
+            part.push(h);
+            h = next[h];
+        }
+        if !part.is_empty() {
+            parts.push(part);
+        }
+    }
+    // Euler's formula: crossing diagonals would join parts.
+    let is_flat = parts.len() == diagonals.len() + 1;
+    (is_flat && parts.iter().all(|part| part.len() >= 3)).then_some(parts)
+}
+
+impl Mesh {
+    /// Cuts the face of `sides`, all its half-edges from [`Mesh::face_half_edge`] on, into [`parts`].
+    ///
+    /// The diagonals become edges in their order, each from its first corner to its second. The first part
+    /// keeps the face and its first corner, the others are new faces in their order with the values of the
+    /// old one. Corners at diagonals have the values of the corners they come from; edges have zero values.
+    ///
+    /// Returns the faces. There must be room.
+    pub(super) fn cut_face(
+        &mut self,
+        sides: &[HalfEdgeId],
+        diagonals: &[[u32; 2]],
+        parts: &[Vec<usize>],
+    ) -> Vec<FaceId> {
+        self.drop_columns_by_rule();
+        let f = self.face(sides[0]).expect("the sides of a face");
+        let mut half_edges = sides.to_vec();
+        for diagonal in diagonals {
+            let [x, y] = diagonal.map(|corner| sides[corner as usize]);
+            let e: EdgeId = self.push_edge(self.origin(x), self.origin(y));
+            let [xy, yx] = e.half_edges();
+            self.copy_values(x, xy);
+            self.copy_values(y, yx);
+            half_edges.extend([xy, yx]);
+        }
+        let mut faces = Vec::with_capacity(parts.len());
+        for part in parts {
+            let around: Vec<HalfEdgeId> = part.iter().map(|&h| half_edges[h]).collect();
+            let face = if faces.is_empty() {
+                f
+            } else {
+                let new = self.push_face(around[0]);
+                self.copy_values(f, new);
+                new
+            };
+            for (i, &h) in around.iter().enumerate() {
+                self.set_next(h, around[(i + 1) % around.len()]);
+                self.set_face(h, Some(face));
+            }
+            faces.push(face);
+        }
+        faces
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_come_in_order_of_their_lowest_half_edge() {
+        assert_eq!(parts(3, &[]).unwrap(), [[0, 1, 2]]);
+        assert_eq!(parts(4, &[[0, 2]]).unwrap(), [[0, 1, 5], [2, 3, 4]]);
+        assert_eq!(parts(4, &[[2, 0]]).unwrap(), [[0, 1, 4], [2, 3, 5]]);
+        // A triangle inside a hexagon has no side of it.
+        let inner = parts(6, &[[0, 2], [2, 4], [0, 4]]).unwrap();
+        assert_eq!(inner, [[0, 1, 7], [2, 3, 9], [4, 5, 10], [6, 8, 11]]);
+    }
+
+    #[test]
+    fn diagonals_that_cross_or_repeat_or_follow_a_side_are_no_parts() {
+        for diagonals in [
+            vec![[0, 2], [1, 3]],
+            vec![[0, 2], [2, 0]],
+            vec![[0, 1]],
+            vec![[4, 0]],
+            vec![[1, 4], [0, 2], [2, 4]],
+        ] {
+            assert_eq!(parts(5, &diagonals), None, "{diagonals:?}");
+        }
+    }
+}

@@ -213,7 +213,7 @@ fn pillow() -> Mesh {
     of(positions, &[[0, 1, 2], [0, 2, 1]])
 }
 
-fn of(positions: Vec<DVec3>, faces: &[impl AsRef<[u32]>]) -> Mesh {
+fn of(positions: Vec<DVec3>, faces: &[impl AsRef<[u32]> + Sync]) -> Mesh {
     let (mesh, _) = Mesh::from_polygons(positions, faces).expect("the faces name their points");
     mesh
 }

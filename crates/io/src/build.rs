@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::DVec3;
-use mesh::{BuildReport, Built};
+use mesh::Built;
 
 use crate::ReadOptions;
 use crate::error::ReadError;
@@ -29,23 +29,16 @@ pub(crate) fn build_mesh(
                 source,
             }
         })?;
-    let BuildReport {
-        split_edges,
-        split_vertices,
-        dropped_faces,
-    } = &built.report;
-    if let Some([v, w]) = split_edges.first() {
-        let what = format!("non-manifold edges split (first {v}-{w})");
-        notes.changed(split_edges.len(), None, what);
+    for (count, what) in built.report.changes() {
+        notes.changed(count, None, what);
     }
-    if let Some((v, _)) = split_vertices.first() {
-        let what = format!("copies made of non-manifold vertices (first {v})");
-        notes.changed(split_vertices.len(), None, what);
-    }
-    if let Some(f) = dropped_faces.first() {
-        let what =
-            format!("faces left out that visit a vertex twice (first: face {f} of the file)");
-        notes.left_out(dropped_faces.len(), None, what);
+    let dropped = &built.report.dropped_faces;
+    if let Some(f) = dropped.first() {
+        let what = match dropped.len() {
+            1 => format!("face left out that visits a vertex twice (face {f} of the file)"),
+            _ => format!("faces left out that visit a vertex twice (first: face {f} of the file)"),
+        };
+        notes.left_out(dropped.len(), None, what);
     }
     Ok(built)
 }

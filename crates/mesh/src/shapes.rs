@@ -258,7 +258,7 @@ pub fn fans(mesh: &Mesh) -> Mesh {
 }
 
 /// A mesh of polygons that are known to be a manifold.
-fn of(positions: Vec<DVec3>, polygons: &[impl AsRef<[u32]>]) -> Mesh {
+fn of(positions: Vec<DVec3>, polygons: &[impl AsRef<[u32]> + Sync]) -> Mesh {
     let (mesh, report) =
         Mesh::from_polygons(positions, polygons).expect("the polygons of a shape are valid");
     debug_assert!(report.is_clean(), "the polygons of a shape are a manifold");

@@ -33,7 +33,8 @@ pub struct Load {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Policy {
-    /// Split edges and vertices until they do, and list it.
+    /// Reverse faces where that makes neighbors agree, split edges and vertices until the rest is a
+    /// manifold, and list it.
     #[default]
     Split,
     /// Fail.

@@ -18,10 +18,11 @@ use serde::{Deserialize, Serialize};
 
 /// Makes a mesh of points and faces.
 ///
-/// Point i becomes vertex i and polygon i becomes face i. Faces that do not form a manifold are split
-/// until they do: an edge keeps two faces that run opposite ways along it, a vertex keeps one fan of
-/// faces, and copies of the vertices, behind all others, take the rest. The report names what was
-/// split, and so does the check of the recipe.
+/// Point i becomes vertex i and polygon i becomes face i. Faces that run the other way round than most
+/// of those they hang together with are reversed, where that makes all of them agree. Faces that do not
+/// form a manifold are split until they do: an edge keeps two faces that run opposite ways along it, a
+/// vertex keeps one fan of faces, and copies of the vertices, behind all others, take the rest. The
+/// report names what was reversed and split, and so does the check of the recipe.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Polygons {
@@ -35,7 +36,7 @@ pub struct Polygons {
 }
 
 impl Polygons {
-    /// The mesh and what was split, or the first problem.
+    /// The mesh and what was done to make it a manifold, or the first problem.
     fn build(&self) -> Result<(Mesh, BuildReport), Problem> {
         let points: Vec<DVec3> = self.points.iter().map(|&p| p.into()).collect();
         if let Some(i) = points.iter().position(|p| !p.is_finite()) {
@@ -73,12 +74,12 @@ impl Polygons {
         Err(Problem::error(message).at(["faces", &at_face, &i.to_string()]))
     }
 
-    /// The source, the mesh and what was split.
+    /// The source, the mesh, and what was done to make it a manifold.
     fn source(&self) -> (Source<'_>, Mesh, BuildReport) {
         match self.build() {
-            Ok((mesh, split)) => {
+            Ok((mesh, done)) => {
                 let source = Source::new(&self.name, MeshPlan::of(&mesh));
-                (source, mesh, split)
+                (source, mesh, done)
             }
             Err(problem) => {
                 let source = Source::new(&self.name, MeshPlan::unknown()).with(problem);
@@ -93,9 +94,12 @@ impl Operation for Polygons {
     const SUMMARY: &'static str = "Make a mesh of points and faces";
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
-        let (mut source, _, split) = self.source();
-        if !split.is_clean() {
-            let message = format!("the faces are not a manifold: {}", split.summary());
+        let (mut source, _, done) = self.source();
+        if !done.is_clean() {
+            let message = format!(
+                "the faces are no manifold as they stand: {}",
+                done.summary()
+            );
             source = source.with(Problem::warning(message).at(["faces"]));
         }
         source.plan(plan)
@@ -103,12 +107,12 @@ impl Operation for Polygons {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("build", 0, 1)?;
-        let (source, mesh, split) = self.source();
+        let (source, mesh, done) = self.source();
         let report = source.insert(scene, cx, || mesh)?;
-        Ok(if split.is_clean() {
+        Ok(if done.is_clean() {
             report
         } else {
-            report.note(split.summary())
+            report.note(done.summary())
         })
     }
 }
@@ -164,10 +168,7 @@ mod tests {
         );
         assert_eq!(op::made(&step).n_vertices(), 6);
         let report = op::test::run(&step, &mut Scene::new()).unwrap();
-        assert_eq!(
-            report.notes,
-            ["1 copies made of non-manifold vertices (first v0)"]
-        );
+        assert_eq!(report.notes, ["1 copy made of a non-manifold vertex (v0)"]);
         let files = op::Files::default();
         let cx = PlanContext {
             files: &files,
@@ -176,6 +177,20 @@ mod tests {
         };
         let problems = step.plan(&mut Plan::default(), &cx);
         assert!(problems.len() == 1 && problems[0].is_warning);
+    }
+
+    #[test]
+    fn a_face_that_runs_the_other_way_is_reversed_with_a_note() {
+        let step = step(
+            r#"(name: "kite", points: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)],
+                faces: [[0, 1, 2], [0, 3, 2]])"#,
+        );
+        assert_eq!(op::made(&step).n_edges(), 5);
+        let report = op::test::run(&step, &mut Scene::new()).unwrap();
+        assert_eq!(
+            report.notes,
+            ["1 face reversed to agree with its neighbors (face 1)"]
+        );
     }
 
     #[test]

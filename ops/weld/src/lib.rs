@@ -12,8 +12,8 @@
 //! at 0.9 times the distance always merge, wherever they lie, and two at 1.1 times only through others
 //! between them. Neither depends on the order of vertices or on the number of threads.
 
-use mesh::Mesh;
 use mesh::merge::clusters;
+use mesh::{Mesh, VERTEX_NORMAL};
 use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -26,8 +26,10 @@ use serde::{Deserialize, Serialize};
 /// one, with the values of the first. Corner values stay with their corners: seams of UVs are kept.
 ///
 /// A face loses corners that merge with the next one around it, and goes if fewer than three are left or
-/// if it would visit a vertex twice. Where the result would not be a manifold it is split and counted:
-/// of three faces at one edge the third gets its own. If no vertices merge, nothing changes at all.
+/// if it would visit a vertex twice. Where faces that hang together then run different ways round, the
+/// smaller number of them is reversed if that makes all agree; they are counted, and normals of vertices
+/// and corners are dropped. Where the result would still not be a manifold it is split and counted: of
+/// three faces at one edge the third gets its own. If no vertices merge, nothing changes at all.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Weld {
@@ -57,6 +59,10 @@ impl MeshOperation for Weld {
         if let Err(message) = self.check() {
             return vec![Problem::error(message).at(["distance"])];
         }
+        // Where faces are reversed, normals go.
+        for attribute in &mut plan.attributes {
+            attribute.certain &= attribute.name != VERTEX_NORMAL.name;
+        }
         plan.vertices.min = plan.vertices.min.min(1);
         plan.edges = plan.edges.or_less();
         plan.faces = plan.faces.or_less();
@@ -79,7 +85,8 @@ impl MeshOperation for Weld {
         }
         let merged = mesh.merge_clusters(&lowest)?;
         let n = merged.vertices;
-        let mut report = Report::changed(n).note(format!("merged {n} vertices"));
+        let vertices = if n == 1 { "vertex" } else { "vertices" };
+        let mut report = Report::changed(n).note(format!("merged {n} {vertices}"));
         if merged.smaller_faces > 0 {
             let n = merged.smaller_faces;
             report = report.note(format!("faces that lost corners: {n}"));

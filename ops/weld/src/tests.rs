@@ -2,8 +2,8 @@
 
 use super::*;
 use mesh::{
-    Attribute, CREASE, DVec2, DVec3, Domain, FaceId, MATERIAL, Rule, UV, Value, Values, VertexId,
-    shapes,
+    Attribute, CREASE, DVec2, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, MATERIAL, Rule, UV, Value,
+    Values, VertexId, shapes,
 };
 use op::test::{applied, try_applied};
 use op::{Files, NoProgress, Progress};
@@ -164,10 +164,62 @@ fn three_squares_at_one_edge_are_split_and_counted() {
     assert_eq!(welded.n_vertices(), 10);
     assert_eq!(report.notes.len(), 2);
     assert!(
-        report.notes[1].contains("1 non-manifold edges split"),
+        report.notes[1].contains("1 non-manifold edge split"),
         "{}",
         report.notes[1]
     );
+}
+
+#[test]
+fn squares_that_run_different_ways_round_agree_after_welding() {
+    // Two squares of a row, the second seen from below.
+    let squares = [0.0, 1.0].map(|x| {
+        [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0), (x, 1.0)].map(|(x, y)| DVec3::new(x, y, 0.0))
+    });
+    let polygons = [[0, 1, 2, 3], [7, 6, 5, 4]];
+    let (mut mesh, _) = Mesh::from_polygons(squares.concat(), &polygons).unwrap();
+
+    mesh.set(VERTEX_NORMAL, vec![DVec3::Z; 8]);
+    mesh.set(CREASE, (0..8).map(f64::from).collect());
+    let corner_places: Vec<DVec3> = mesh
+        .half_edges()
+        .map(|h| mesh.position(mesh.origin(h)))
+        .collect();
+    let place = Attribute::<HalfEdgeId, DVec3>::new("place", Rule::Copy);
+    mesh.set(place, corner_places);
+    let middle = |mesh: &Mesh, e: EdgeId| {
+        let [v, w] = mesh.edge_vertices(e).map(|v| mesh.position(v));
+        (v + w) / 2.0
+    };
+
+    let (welded, report) = try_applied(&weld(0.0), mesh.clone()).unwrap();
+    assert_eq!(welded.defects(), []);
+    assert_eq!((welded.n_vertices(), welded.n_edges()), (6, 7));
+    assert!(welded.faces().all(|f| welded.face_normal(f) == DVec3::Z));
+    assert_eq!(
+        report.notes,
+        [
+            "merged 2 vertices",
+            "1 face reversed to agree with its neighbors (face 1)"
+        ]
+    );
+    assert!(welded.get(VERTEX_NORMAL).is_none());
+    // Values of edges and corners stay at their places.
+    for e in welded.edges() {
+        let first = mesh
+            .edges()
+            .find(|&old| middle(&mesh, old) == middle(&welded, e));
+        assert_eq!(
+            values(&welded, CREASE)[e.index()],
+            first.unwrap().index() as f64
+        );
+    }
+    for h in welded.half_edges().filter(|&h| welded.face(h).is_some()) {
+        assert_eq!(
+            values(&welded, place)[h.index()],
+            welded.position(welded.origin(h))
+        );
+    }
 }
 
 #[test]
@@ -192,7 +244,7 @@ fn small_faces_lose_corners_or_go() {
         [
             "merged 2 vertices",
             "faces that lost corners: 1",
-            "1 degenerate faces left out (first: face 1)"
+            "1 degenerate face left out (face 1)"
         ]
     );
 }
@@ -210,7 +262,7 @@ fn a_face_that_visits_a_vertex_twice_goes() {
     let (welded, report) = try_applied(&weld(0.01), flat(&points, &[&[0, 1, 2, 3, 4, 5]])).unwrap();
     assert_eq!((welded.n_faces(), welded.n_vertices()), (0, 5));
     assert!(
-        report.notes[1].contains("1 degenerate faces"),
+        report.notes[1].contains("1 degenerate face"),
         "{:?}",
         report.notes
     );

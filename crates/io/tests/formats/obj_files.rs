@@ -234,6 +234,35 @@ fn an_edge_of_three_faces_is_split_and_said() {
 }
 
 #[test]
+fn a_face_that_runs_the_other_way_is_reversed_and_said() {
+    let folder = Folder::new();
+    let points = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\n";
+    let uvs = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 2 0\nvt 2 1\n";
+    let faces = "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 2/2 3/3 6/6 5/5\n";
+    let path = folder.with("row.obj", format!("{points}{uvs}{faces}"));
+    let loaded = read(&path).unwrap();
+    let mesh = loaded.objects[0].as_mesh().unwrap();
+    assert!(mesh.defects().is_empty());
+    assert_eq!((mesh.n_faces(), mesh.n_vertices()), (3, 6));
+    assert!(mesh.faces().all(|f| mesh.face_normal(f).z == 1.0));
+    let [note] = &loaded.notes[..] else {
+        panic!("one note, not {:?}", loaded.notes);
+    };
+    assert_eq!(
+        note.to_string(),
+        format!(
+            "{}: 1 face reversed to agree with its neighbors (face 2)",
+            path.display()
+        )
+    );
+    // Texture coordinates stay with their vertices.
+    let uvs = mesh.get(UV).unwrap();
+    for h in mesh.half_edges().filter(|&h| mesh.face(h).is_some()) {
+        assert_eq!(uvs[h.index()], mesh.position(mesh.origin(h)).truncate());
+    }
+}
+
+#[test]
 fn missing_materials_are_notes_and_escaping_ones_errors() {
     let folder = Folder::new();
     let body = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";

@@ -15,7 +15,10 @@ mod cluster;
 mod union_find;
 
 use crate::build::{BuildError, BuildReport, Built, NonManifold, build};
-use crate::{DVec3, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
+use crate::{
+    CORNER_NORMAL, DVec3, Domain, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, Sources,
+    VERTEX_NORMAL, VertexId,
+};
 
 pub use cluster::clusters;
 
@@ -88,8 +91,10 @@ impl Mesh {
     /// order and values, and corners theirs, so that seams are kept.
     ///
     /// A face loses corners that merge with the next one around it, and goes if fewer than three are left
-    /// or if it would visit a vertex twice. Where the result would not be a manifold it is split, as
-    /// [`build`] does: of three faces at one edge the third gets its own.
+    /// or if it would visit a vertex twice. Where faces that hang together then run different ways round,
+    /// the smaller number of them is reversed if that makes all agree, and normals are dropped. Where the
+    /// result would still not be a manifold it is split, as [`build`] does: of three faces at one edge the
+    /// third gets its own.
     ///
     /// # Errors
     ///
@@ -184,6 +189,8 @@ impl Polygons {
 
     /// The built mesh with the attributes of the old one.
     fn with_attributes(self, old: &Mesh, built: Built) -> Mesh {
+        let edges_of_sides = built.edges_of_sides(&self.offsets);
+        let has_reversed = !built.report.reversed_faces.is_empty();
         let mut mesh = built.mesh;
         let mut vertices = self.kept;
         // Copies stand behind all others, in this order.
@@ -192,11 +199,12 @@ impl Polygons {
         }
         let mut corners = vec![HalfEdgeId::NONE; mesh.n_half_edges()];
         let mut edges = vec![EdgeId::NONE; mesh.n_edges()];
-        for (&old_h, &h) in self.half_edges.iter().zip(&built.half_edge_of_corner) {
+        let sides = edges_of_sides.iter().zip(&built.half_edge_of_corner);
+        for (&old_h, (&e, &h)) in self.half_edges.iter().zip(sides) {
             if h != HalfEdgeId::NONE {
                 corners[h.index()] = old_h;
                 // `NONE` is above all ids.
-                let edge = &mut edges[h.edge().index()];
+                let edge = &mut edges[e.index()];
                 *edge = old_h.edge().min(*edge);
             }
         }
@@ -213,6 +221,11 @@ impl Polygons {
             faces: &faces,
         });
         attributes.drop_by_rule();
+        if has_reversed {
+            // They would point to the other side of the faces that were reversed.
+            attributes.remove(Domain::Vertex, VERTEX_NORMAL.name);
+            attributes.remove(Domain::Corner, CORNER_NORMAL.name);
+        }
         mesh.set_attributes(attributes);
         mesh
     }

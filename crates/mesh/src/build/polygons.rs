@@ -1,0 +1,245 @@
+//! The polygons that a mesh is built from: checking them, and finding one's way around each.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::BuildError;
+use crate::blocks::BLOCK;
+
+/// Where there is no corner.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// The polygons: polygon f has the corners from `offsets[f]` to `offsets[f + 1]`, and `corners` has
+/// the vertex of each.
+///
+/// A corner also stands for the side from it to the next corner of its polygon.
+pub(super) struct Polygons<'a> {
+    pub(super) offsets: &'a [u32],
+    pub(super) corners: &'a [u32],
+    /// For each corner its polygon; `None` if all are triangles.
+    face_of_corner: Option<Vec<u32>>,
+}
+
+impl<'a> Polygons<'a> {
+    pub(super) fn new(offsets: &'a [u32], corners: &'a [u32]) -> Self {
+        let triangles = corners.len() == 3 * (offsets.len() - 1)
+            && offsets.par_windows(2).all(|w| w[1] - w[0] == 3);
+        Self {
+            offsets,
+            corners,
+            face_of_corner: (!triangles).then(|| faces_of_corners(offsets)),
+        }
+    }
+
+    /// The number of polygons.
+    pub(super) fn n(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    #[inline]
+    pub(super) fn face(&self, c: u32) -> u32 {
+        match &self.face_of_corner {
+            None => c / 3,
+            Some(faces) => faces[c as usize],
+        }
+    }
+
+    /// The first corner of the polygon of `c`, and the one behind its last.
+    #[inline]
+    fn ends(&self, c: u32) -> (u32, u32) {
+        let f = self.face(c);
+        match self.face_of_corner {
+            None => (3 * f, 3 * f + 3),
+            Some(_) => (self.offsets[f as usize], self.offsets[f as usize + 1]),
+        }
+    }
+
+    #[inline]
+    pub(super) fn next(&self, c: u32) -> u32 {
+        let (first, end) = self.ends(c);
+        if c + 1 == end { first } else { c + 1 }
+    }
+
+    #[inline]
+    pub(super) fn prev(&self, c: u32) -> u32 {
+        let (first, end) = self.ends(c);
+        if c == first { end - 1 } else { c - 1 }
+    }
+
+    /// The corners before and after `c` in its polygon.
+    #[inline]
+    pub(super) fn around(&self, c: u32) -> (u32, u32) {
+        let (first, end) = self.ends(c);
+        let prev = if c == first { end - 1 } else { c - 1 };
+        (prev, if c + 1 == end { first } else { c + 1 })
+    }
+
+    /// The vertex of a corner: where its side begins.
+    #[inline]
+    pub(super) fn origin(&self, c: u32) -> u32 {
+        self.corners[c as usize]
+    }
+}
+
+fn faces_of_corners(offsets: &[u32]) -> Vec<u32> {
+    let mut face_of_corner = bytemuck::zeroed_vec(offsets[offsets.len() - 1] as usize);
+    let blocks = offsets[1..].chunks(BLOCK).zip(offsets.chunks(BLOCK));
+    let lengths = blocks.map(|(ends, firsts)| (ends[ends.len() - 1] - firsts[0]) as usize);
+    pieces(&mut face_of_corner, lengths)
+        .into_par_iter()
+        .zip(offsets.par_chunks(BLOCK))
+        .enumerate()
+        .for_each(|(block, (faces, firsts))| {
+            // Backwards, so that each polygon fills what those behind it have left.
+            let mut free = faces;
+            for (i, first) in firsts.iter().enumerate().rev() {
+                let Some(of_polygon) = free.split_off_mut((first - firsts[0]) as usize..) else {
+                    continue;
+                };
+                of_polygon.fill(to_id(block * BLOCK + i));
+            }
+        });
+    face_of_corner
+}
+
+/// Cuts a slice from its start into pieces of these lengths, for tasks that fill them.
+pub(super) fn pieces<T>(
+    mut slice: &mut [T],
+    lengths: impl IntoIterator<Item = usize>,
+) -> Vec<&mut [T]> {
+    let lengths = lengths.into_iter();
+    lengths
+        .map(|n| slice.split_off_mut(..n).expect("pieces of this slice"))
+        .collect()
+}
+
+/// For each number the sum of those before it.
+pub(super) fn sums_before(numbers: &[usize]) -> Vec<usize> {
+    let sums = numbers.iter().scan(0, |sum, n| {
+        *sum += n;
+        Some(*sum - n)
+    });
+    sums.collect()
+}
+
+/// Offsets and corners of polygons that are given as lists.
+///
+/// # Errors
+///
+/// If there are too many corners.
+pub(super) fn flatten(
+    polygons: &[impl AsRef<[u32]> + Sync],
+) -> Result<(Vec<u32>, Vec<u32>), BuildError> {
+    let lengths: Vec<usize> = polygons
+        .par_chunks(BLOCK)
+        .map(|block| block.iter().map(|polygon| polygon.as_ref().len()).sum())
+        .collect();
+    let n_corners = lengths.iter().sum();
+    to_u32(n_corners, "corners")?;
+    let mut offsets = bytemuck::zeroed_vec(polygons.len() + 1);
+    let mut corners = bytemuck::zeroed_vec(n_corners);
+    let firsts = sums_before(&lengths);
+    offsets[1..]
+        .par_chunks_mut(BLOCK)
+        .zip(pieces(&mut corners, lengths))
+        .zip(polygons.par_chunks(BLOCK))
+        .zip(firsts)
+        .for_each(|(((ends, corners), polygons), first)| {
+            let mut filled = 0;
+            for (end, polygon) in ends.iter_mut().zip(polygons) {
+                let polygon = polygon.as_ref();
+                corners[filled..filled + polygon.len()].copy_from_slice(polygon);
+                filled += polygon.len();
+                *end = to_id(first + filled);
+            }
+        });
+    Ok((offsets, corners))
+}
+
+/// Checks the input and returns the degenerate polygons.
+///
+/// # Errors
+///
+/// [`BuildError`] for whatever else than [`BuildError::NonManifold`].
+pub(super) fn check(
+    positions: &[DVec3],
+    offsets: &[u32],
+    corners: &[u32],
+) -> Result<Vec<usize>, BuildError> {
+    // Half-edges are numbered below 2^32 - 1, and each corner may need an edge of its own.
+    to_u32(positions.len().saturating_add(corners.len()), "vertices")?;
+    to_u32(corners.len().saturating_mul(2), "half-edges")?;
+    let rising = offsets.first() == Some(&0)
+        && offsets
+            .last()
+            .is_some_and(|&last| last as usize == corners.len())
+        && offsets.is_sorted();
+    if !rising {
+        return Err(BuildError::BadOffsets(corners.len()));
+    }
+    if let Some(i) = first_of(positions, |p| !p.is_finite()) {
+        return Err(BuildError::NotFinite(i));
+    }
+    let n_vertices = positions.len();
+    if let Some(c) = first_of(corners, |&v| v as usize >= n_vertices) {
+        let face = offsets.partition_point(|&offset| offset as usize <= c) - 1;
+        return Err(BuildError::NoSuchVertex {
+            face,
+            vertex: corners[c],
+            n_vertices,
+        });
+    }
+    let degenerate = offsets[1..]
+        .par_chunks(BLOCK)
+        .zip(offsets.par_chunks(BLOCK))
+        .enumerate()
+        .map(|(block, (ends, firsts))| {
+            let polygons = (block * BLOCK..).zip(firsts.iter().zip(ends));
+            polygons
+                .filter(|(_, (first, end))| {
+                    visits_twice(&corners[**first as usize..**end as usize])
+                })
+                .map(|(face, _)| face)
+                .collect()
+        });
+    let degenerate: Vec<Vec<usize>> = degenerate.collect();
+    Ok(degenerate.concat())
+}
+
+/// The place of the first value that is bad. Looks at whole blocks, which is fast where none is.
+fn first_of<T: Sync>(values: &[T], is_bad: impl Fn(&T) -> bool + Sync) -> Option<usize> {
+    let blocks = values.par_chunks(BLOCK);
+    let has_bad = |block: &[T]| block.iter().fold(false, |bad, value| bad | is_bad(value));
+    let block = blocks.position_first(has_bad)? * BLOCK;
+    Some(block + values[block..].iter().position(is_bad)?)
+}
+
+/// Whether a polygon has fewer than three corners or two at one vertex.
+fn visits_twice(polygon: &[u32]) -> bool {
+    match polygon {
+        [a, b, c] => a == b || b == c || c == a,
+        _ if polygon.len() < 3 => true,
+        _ if polygon.len() <= 16 => polygon
+            .iter()
+            .enumerate()
+            .any(|(i, v)| polygon[..i].contains(v)),
+        _ => {
+            let mut sorted = polygon.to_vec();
+            sorted.sort_unstable();
+            sorted.windows(2).any(|w| w[0] == w[1])
+        }
+    }
+}
+
+/// A count that fits the ids, which end at 2³² − 2.
+pub(super) fn to_u32(n: usize, what: &'static str) -> Result<u32, BuildError> {
+    u32::try_from(n)
+        .ok()
+        .filter(|&n| n < NONE)
+        .ok_or(BuildError::TooLarge(n, what))
+}
+
+/// A number of something that was counted before.
+pub(super) fn to_id(n: usize) -> u32 {
+    u32::try_from(n).expect("checked before")
+}

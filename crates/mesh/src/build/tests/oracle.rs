@@ -1,0 +1,214 @@
+//! A second builder, slow and simple, that must agree with the real one on any polygons.
+
+use std::collections::BTreeMap;
+
+use super::*;
+use crate::{Connectivity, VertexId};
+
+/// Random numbers below n: a linear congruential generator.
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    pub(super) fn below(&mut self, n: usize) -> usize {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        usize::try_from(self.0 >> 33).unwrap() % n
+    }
+
+    /// Up to `most` polygons of 1 to 6 corners over so many vertices.
+    fn soup(&mut self, n_vertices: usize, most: usize) -> Vec<Vec<u32>> {
+        let n = self.below(most + 1);
+        let mut polygon = || {
+            let degree = if self.below(3) == 0 {
+                1 + self.below(6)
+            } else {
+                3
+            };
+            let corner = |_| u32::try_from(self.below(n_vertices)).unwrap();
+            (0..degree).map(corner).collect()
+        };
+        (0..n).map(|_| polygon()).collect()
+    }
+}
+
+/// What the builder should make of polygons that keep their orientation: its arrays and the vertex
+/// that each vertex is a copy of or is itself.
+fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usize>) {
+    let is_fine = |p: &&Vec<u32>| {
+        let different: std::collections::BTreeSet<_> = p.iter().collect();
+        p.len() >= 3 && different.len() == p.len()
+    };
+    let polygons: Vec<&Vec<u32>> = polygons.iter().filter(is_fine).collect();
+    // A corner is a polygon and a place in it.
+    let corners: Vec<(usize, usize)> = (0..polygons.len())
+        .flat_map(|f| (0..polygons[f].len()).map(move |i| (f, i)))
+        .collect();
+    let at = |c: (usize, usize)| corners.binary_search(&c).unwrap();
+    let next: Vec<usize> = corners
+        .iter()
+        .map(|&(f, i)| at((f, (i + 1) % polygons[f].len())))
+        .collect();
+    let mut prev = vec![0; corners.len()];
+    for (c, &n) in next.iter().enumerate() {
+        prev[n] = c;
+    }
+    let vertex = |c: usize| polygons[corners[c].0][corners[c].1] as usize;
+
+    let mut sides: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
+    for (c, &next) in next.iter().enumerate() {
+        sides.entry((vertex(c), vertex(next))).or_default().push(c);
+    }
+    let twin: Vec<Option<usize>> = (0..corners.len())
+        .map(|c| {
+            let (a, b) = (vertex(c), vertex(next[c]));
+            let rank = sides[&(a, b)].iter().position(|&d| d == c).unwrap();
+            sides.get(&(b, a)).and_then(|back| back.get(rank)).copied()
+        })
+        .collect();
+
+    // Corners that share an edge at their vertex have one vertex: the lowest corner names the fan.
+    let mut fan: Vec<usize> = (0..corners.len()).collect();
+    loop {
+        let before = fan.clone();
+        for (c, twin) in twin.iter().enumerate() {
+            if let Some(t) = twin {
+                let low = fan[c].min(fan[next[*t]]);
+                (fan[c], fan[next[*t]]) = (low, low);
+            }
+        }
+        if fan == before {
+            break;
+        }
+    }
+    let mut sources: Vec<usize> = (0..n_vertices).collect();
+    let mut vertex_of_fan = BTreeMap::new();
+    for v in 0..n_vertices {
+        let fans = (0..corners.len()).filter(|&c| vertex(c) == v && fan[c] == c);
+        for (i, fan) in fans.enumerate() {
+            if i > 0 {
+                sources.push(v);
+            }
+            vertex_of_fan.insert(fan, if i == 0 { v } else { sources.len() - 1 });
+        }
+    }
+    let origin_of = |c: usize| vertex_of_fan[&fan[c]];
+
+    let mut half_edge = vec![HalfEdgeId::NONE; corners.len()];
+    let mut arrays = Connectivity::default();
+    let mut owners = Vec::new();
+    for c in 0..corners.len() {
+        if half_edge[c] == HalfEdgeId::NONE {
+            half_edge[c] = HalfEdgeId::new(2 * owners.len());
+            if let Some(t) = twin[c] {
+                half_edge[t] = half_edge[c].twin();
+            }
+            owners.push(c);
+        }
+    }
+    // On the boundary the next half-edge is the one without a face that leaves the vertex.
+    let mut boundary = BTreeMap::new();
+    for &c in owners.iter().filter(|&&c| twin[c].is_none()) {
+        boundary.insert(origin_of(next[c]), half_edge[c].twin());
+    }
+    for &c in &owners {
+        let face = |c: usize| FaceId::new(corners[c].0);
+        arrays.next.push(half_edge[next[c]]);
+        arrays.origin.push(VertexId::new(origin_of(c)));
+        arrays.origin.push(VertexId::new(origin_of(next[c])));
+        arrays.face.push(face(c));
+        arrays
+            .next
+            .push(twin[c].map_or_else(|| boundary[&origin_of(c)], |t| half_edge[next[t]]));
+        arrays.face.push(twin[c].map_or(FaceId::NONE, face));
+    }
+    for v in 0..sources.len() {
+        let first = (0..corners.len()).find(|&c| origin_of(c) == v);
+        let first = first.map_or(HalfEdgeId::NONE, |c| half_edge[c]);
+        arrays
+            .vertex_half_edge
+            .push(boundary.get(&v).copied().unwrap_or(first));
+    }
+    arrays.face_half_edge = (0..polygons.len()).map(|f| half_edge[at((f, 0))]).collect();
+    (arrays, sources)
+}
+
+#[test]
+fn any_polygons_become_what_the_slow_builder_makes_of_them() {
+    let mut random = Random(1);
+    for round in 0..600 {
+        let n = 3 + random.below(if round % 5 == 0 { 40 } else { 8 });
+        let polygons = random.soup(n, if round % 5 == 0 { 60 } else { 12 });
+        let (offsets, corners) = flatten(&polygons).unwrap();
+        let built = build(points(n), &offsets, &corners, NonManifold::SplitAsGiven).unwrap();
+        let (arrays, sources) = expected(n, &polygons);
+        assert_eq!(built.mesh.connectivity(), &arrays, "{polygons:?}");
+        assert_eq!(built.mesh.defects(), []);
+        let copies = built.report.split_vertices.iter().map(|(v, _)| v.index());
+        assert!(copies.eq(sources[n..].iter().copied()));
+        for (v, &source) in sources.iter().enumerate() {
+            assert_eq!(built.mesh.position(VertexId::new(v)), points(n)[source]);
+        }
+    }
+}
+
+#[test]
+fn crowded_vertices_are_paired_as_those_of_few_faces() {
+    // More corners at a vertex than are compared one with each other, several sides at most edges.
+    let mut random = Random(2);
+    for _ in 0..20 {
+        let polygons = random.soup(7, 150);
+        let (arrays, _) = expected(7, &polygons);
+        let (offsets, corners) = flatten(&polygons).unwrap();
+        let built = build(points(7), &offsets, &corners, NonManifold::SplitAsGiven).unwrap();
+        assert_eq!(built.mesh.connectivity(), &arrays, "{polygons:?}");
+    }
+}
+
+#[test]
+fn edges_with_too_many_sides_are_the_ones_that_are_listed() {
+    let mut random = Random(3);
+    for round in 0..300 {
+        // Few enough that edges with one side, two and more all come.
+        let polygons = random.soup(5, if round % 3 == 0 { 100 } else { 10 });
+        let polygons: Vec<_> = polygons.into_iter().filter(|p| p.len() == 3).collect();
+        let mut counts: BTreeMap<[u32; 2], [usize; 2]> = BTreeMap::new();
+        for p in polygons
+            .iter()
+            .filter(|p| p[0] != p[1] && p[1] != p[2] && p[2] != p[0])
+        {
+            for [a, b] in [[p[0], p[1]], [p[1], p[2]], [p[2], p[0]]] {
+                counts.entry([a.min(b), a.max(b)]).or_default()[usize::from(a < b)] += 1;
+            }
+        }
+        let crowded = counts.iter().filter(|(_, [a, b])| a.max(b) > &1);
+        let crowded: Vec<_> = crowded
+            .map(|(edge, _)| edge.map(|v| VertexId::new(v as usize)))
+            .collect();
+        let (offsets, corners) = flatten(&polygons).unwrap();
+        let built = build(points(5), &offsets, &corners, NonManifold::SplitAsGiven).unwrap();
+        assert_eq!(built.report.split_edges, crowded, "{polygons:?}");
+    }
+}
+
+#[test]
+fn the_same_arrays_come_of_any_number_of_threads() {
+    let mut random = Random(4);
+    let mut polygons: Vec<Vec<u32>> = random.soup(30_000, 60_000);
+    polygons.extend((0..20_000).map(|i| vec![i, i + 1, i + 2]));
+    let (offsets, corners) = flatten(&polygons).unwrap();
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let build = || build(points(30_000), &offsets, &corners, NonManifold::Split).unwrap();
+        pool.build().unwrap().install(build)
+    };
+    let one = with(1);
+    assert!(!one.report.reversed_faces.is_empty() && !one.report.split_vertices.is_empty());
+    for threads in [2, 8] {
+        let many = with(threads);
+        assert_eq!(one.mesh, many.mesh);
+        assert_eq!(one.report, many.report);
+        assert_eq!(one.half_edge_of_corner, many.half_edge_of_corner);
+    }
+}

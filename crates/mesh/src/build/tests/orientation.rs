@@ -1,0 +1,197 @@
+//! Polygons that do not agree which way round they run.
+
+use super::oracle::Random;
+use super::*;
+use crate::{VertexId, shapes};
+
+/// Turns each listed polygon round, its first corner staying the first.
+fn reversed(offsets: &[u32], corners: &[u32], faces: &[usize]) -> Vec<u32> {
+    let mut corners = corners.to_vec();
+    for &f in faces {
+        corners[offsets[f] as usize + 1..offsets[f + 1] as usize].reverse();
+    }
+    corners
+}
+
+/// Checks where corners and sides went.
+fn check_maps(offsets: &[u32], corners: &[u32], built: &Built) {
+    let edges = built.edges_of_sides(offsets);
+    for (f, w) in offsets.windows(2).enumerate() {
+        let polygon = w[0] as usize..w[1] as usize;
+        for c in polygon.clone() {
+            let next = if c + 1 == polygon.end {
+                polygon.start
+            } else {
+                c + 1
+            };
+            let h = built.half_edge_of_corner[c];
+            assert_eq!(built.mesh.face(h), Some(built.face_of_polygon[f]));
+            let at = built.mesh.position(built.mesh.origin(h));
+            assert_eq!(at, built.mesh.position(VertexId::new(corners[c] as usize)));
+            let mut ends = built
+                .mesh
+                .edge_vertices(edges[c])
+                .map(|v| built.mesh.position(v));
+            if ends[0] != at {
+                ends.reverse();
+            }
+            let other = built.mesh.position(VertexId::new(corners[next] as usize));
+            assert_eq!(ends, [at, other]);
+        }
+    }
+}
+
+#[test]
+fn of_two_triangles_that_run_the_same_way_the_second_is_turned() {
+    let (mesh, report) = mesh(4, &[&[0, 1, 2], &[0, 1, 3]]);
+    assert_eq!(report.reversed_faces, [1]);
+    assert_eq!(
+        report.summary(),
+        "1 face reversed to agree with its neighbors (face 1)"
+    );
+    let corners = mesh.face_vertices(FaceId::new(1)).map(VertexId::index);
+    assert_eq!(corners.collect::<Vec<_>>(), [0, 3, 1]);
+    assert_eq!((mesh.n_vertices(), mesh.n_edges()), (4, 5));
+}
+
+#[test]
+fn turned_faces_of_any_shape_are_turned_back() {
+    let mut random = Random(7);
+    let shapes = [
+        shapes::cube(),
+        shapes::icosahedron(),
+        shapes::torus(7, 5, 2.0, 1.0),
+        shapes::fans(&shapes::torus(40, 30, 2.0, 1.0)),
+        shapes::uv_sphere(40, 9),
+        shapes::cylinder(9, true),
+        shapes::cylinder(9, false),
+        shapes::grid(6, 5),
+    ];
+    for shape in shapes {
+        let (offsets, corners) = polygons_of(&shape);
+        let n = shape.n_faces();
+        let positions = || shape.positions().to_vec();
+        let build =
+            |corners: &[u32]| build(positions(), &offsets, corners, NonManifold::Split).unwrap();
+        let original = build(&corners);
+        assert!(original.report.is_clean());
+        for share in [20, 3, 2, 1] {
+            let turned: Vec<usize> = (0..n)
+                .filter(|_| random.below(share.max(2)) == 0 || share == 1)
+                .collect();
+            let given = reversed(&offsets, &corners, &turned);
+            let built = build(&given);
+            assert_eq!(built.mesh.defects(), []);
+            check_maps(&offsets, &given, &built);
+
+            // All are in one part: the majority stays as it is given, and so does face 0 in a draw.
+            let others: Vec<usize> = (0..n).filter(|f| !turned.contains(f)).collect();
+            let few = turned.len() < others.len() || turned.len() == others.len() && others[0] == 0;
+            let (expected, whole) = if few {
+                (turned, corners.clone())
+            } else {
+                (
+                    others,
+                    reversed(&offsets, &corners, &(0..n).collect::<Vec<_>>()),
+                )
+            };
+            assert_eq!(built.report.reversed_faces, expected);
+            assert_eq!(built.mesh, build(&whole).mesh);
+            assert_eq!(built.report.is_clean(), expected.is_empty());
+            assert!(built.report.split_edges.is_empty() && built.report.split_vertices.is_empty());
+        }
+    }
+}
+
+#[test]
+fn half_of_the_faces_are_turned_as_the_first_one_runs() {
+    // A strip of four triangles, of which the first two run the other way.
+    let strip: [&[u32]; 4] = [&[0, 2, 1], &[1, 2, 3], &[2, 3, 4], &[3, 5, 4]];
+    let (_, report) = mesh(6, &strip);
+    assert_eq!(report.reversed_faces, [2, 3]);
+}
+
+#[test]
+fn a_moebius_strip_stays_as_it_is_and_is_split() {
+    // Quadrilaterals around a ring, with a half turn at the end.
+    let n = 8;
+    let strip: Vec<Vec<u32>> = (0..n)
+        .map(|i| {
+            let end = if i + 1 == n {
+                [1, 0]
+            } else {
+                [2 * i + 2, 2 * i + 3]
+            };
+            vec![2 * i, end[0], end[1], 2 * i + 1]
+        })
+        .collect();
+    let (offsets, corners) = flatten(&strip).unwrap();
+    let built = |way| build(points(2 * n as usize), &offsets, &corners, way).unwrap();
+    let strip = built(NonManifold::Split);
+    assert_eq!(strip.mesh.defects(), []);
+    assert_eq!(strip.report.unorientable, [0]);
+    assert!(strip.report.reversed_faces.is_empty() && !strip.report.is_clean());
+    assert_eq!(
+        strip.report.split_edges,
+        [[VertexId::new(0), VertexId::new(1)]]
+    );
+    assert_eq!(strip.mesh, built(NonManifold::SplitAsGiven).mesh);
+    assert_eq!(
+        strip.report.summary(),
+        "1 part has no consistent orientation (from face 0), 1 non-manifold edge split (v0-v1), \
+         2 copies made of non-manifold vertices (first v0)"
+    );
+}
+
+#[test]
+fn each_part_follows_its_own_majority() {
+    // The second tetrahedron has three faces turned, the first one.
+    let (offsets, corners) = polygons_of(&shapes::tetrahedron());
+    let one = reversed(&offsets, &corners, &[2]);
+    let three = reversed(&offsets, &corners, &[0, 1, 3]);
+    let corners: Vec<u32> = one
+        .iter()
+        .copied()
+        .chain(three.iter().map(|v| v + 4))
+        .collect();
+    let offsets: Vec<u32> = (0..=24).step_by(3).collect();
+    let built = build(points(8), &offsets, &corners, NonManifold::Split).unwrap();
+    assert_eq!(built.report.reversed_faces, [2, 6]);
+    assert!(built.mesh.is_closed());
+    check_maps(&offsets, &corners, &built);
+}
+
+#[test]
+fn an_edge_of_three_faces_joins_no_parts() {
+    // Three wings of two triangles each at the edge 0-1; the outer triangle of the second is turned.
+    let wings: [&[u32]; 6] = [
+        &[0, 1, 2],
+        &[2, 1, 3], // first
+        &[1, 0, 4],
+        &[4, 1, 5], // second
+        &[0, 1, 6],
+        &[6, 1, 7], // third
+    ];
+    let (mesh, report) = mesh(8, &wings);
+    assert_eq!(report.reversed_faces, [3]);
+    assert_eq!(report.split_edges, [[VertexId::new(0), VertexId::new(1)]]);
+    assert_eq!(report.unorientable, [0_usize; 0]);
+    assert_eq!((mesh.n_components(), mesh.n_faces()), (2, 6));
+}
+
+#[test]
+fn faces_are_numbered_as_in_the_input_though_others_were_left_out() {
+    let corners = [0, 0, 1, 0, 1, 2, 0, 1, 3, 1, 2];
+    let offsets = [0, 3, 6, 9, 11];
+    let built = build(points(4), &offsets, &corners, NonManifold::Split).unwrap();
+    assert_eq!(built.report.dropped_faces, [0, 3]);
+    assert_eq!(built.report.reversed_faces, [2]);
+    let edges = built.edges_of_sides(&offsets);
+    assert_eq!(edges[0], EdgeId::NONE);
+    // The side from 0 to 1, seen from both polygons.
+    assert_eq!(edges[3], edges[6]);
+    assert_ne!(
+        built.half_edge_of_corner[3].edge(),
+        built.half_edge_of_corner[6].edge()
+    );
+}

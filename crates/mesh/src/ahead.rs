@@ -111,7 +111,7 @@ mod tests {
         let mut edges: Vec<EdgeId> = (0..100).map(EdgeId::new).collect();
         edges.push(EdgeId::NONE);
         edges.push(EdgeId::new(u32::MAX as usize - 1));
-        for i in 0..edges.len() + 1 {
+        for i in 0..=edges.len() {
             mesh.fetch_ahead(&edges, i);
         }
         mesh.reserve(10, 20, 30);

@@ -582,7 +582,9 @@ impl Attributes {
             if matches!(column.rule, Rule::Interpolate | Rule::Normal) {
                 let weight = 1.0 / from.len().max(1) as f64;
                 let weights = |_: usize, add: &mut dyn FnMut(usize, f64)| {
-                    from.iter().for_each(|i| add(i.index(), weight));
+                    for i in from {
+                        add(i.index(), weight);
+                    }
                 };
                 let mean = column.values.blend(1, weights);
                 column.values.set(to.index(), &mean);

@@ -398,17 +398,15 @@ impl Mesh {
                 }
                 Entry::Mark(domain, i)
             }
-            Entry::Column(domain, old) => match self.attributes.remove(domain, &old.name) {
-                Some(column) => {
-                    self.attributes.insert(domain, *old);
-                    Entry::Column(domain, column.into())
+            Entry::Column(domain, old) => {
+                let name = old.name.clone();
+                let replaced = self.attributes.remove(domain, &name);
+                self.attributes.insert(domain, *old);
+                match replaced {
+                    Some(column) => Entry::Column(domain, column.into()),
+                    None => Entry::NoColumn(domain, name.into()),
                 }
-                None => {
-                    let name = old.name.clone().into();
-                    self.attributes.insert(domain, *old);
-                    Entry::NoColumn(domain, name)
-                }
-            },
+            }
             Entry::NoColumn(domain, name) => {
                 Entry::Column(domain, self.attributes.remove(domain, &name)?.into())
             }

@@ -38,10 +38,20 @@
 //!
 //! # Editing
 //!
-//! Local edits ([`Mesh::flip_edge`], [`Mesh::split_edge`], [`Mesh::delete_face`]) check first and
-//! change after: an `Err` means that nothing changed. Removed elements are marked dead, and no id is
-//! used again until [`Mesh::compact`] renumbers. Operations over a whole mesh build new arrays
-//! ([`Mesh::from_arrays`]) or polygons ([`build()`]).
+//! Local edits check first and change after: an `Err` means that nothing changed.
+//!
+//! | on | edits |
+//! | --- | --- |
+//! | edges | [`flip_edge`](Mesh::flip_edge), [`split_edge`](Mesh::split_edge), [`collapse_edge`](Mesh::collapse_edge), [`dissolve_edge`](Mesh::dissolve_edge), [`delete_edge`](Mesh::delete_edge), [`bevel_edge`](Mesh::bevel_edge), [`cut_edges`](Mesh::cut_edges), [`stitch_edges`](Mesh::stitch_edges) |
+//! | faces | [`split_face`](Mesh::split_face), [`connect_vertices`](Mesh::connect_vertices), [`poke_face`](Mesh::poke_face), [`triangulate_face`](Mesh::triangulate_face), [`delete_faces`](Mesh::delete_faces), [`extrude_faces`](Mesh::extrude_faces), [`inset_face`](Mesh::inset_face), [`bevel_face`](Mesh::bevel_face), [`reverse_faces`](Mesh::reverse_faces) |
+//! | vertices | [`split_vertex`](Mesh::split_vertex), [`dissolve_vertex`](Mesh::dissolve_vertex), [`delete_vertex`](Mesh::delete_vertex), [`bevel_vertex`](Mesh::bevel_vertex), [`set_position`](Mesh::set_position) |
+//! | holes | [`fill_hole`](Mesh::fill_hole), [`fill_hole_triangles`](Mesh::fill_hole_triangles), [`bridge_loops`](Mesh::bridge_loops) |
+//! | whole meshes | [`bisect`](Mesh::bisect), [`reverse`](Mesh::reverse), [`separated`](Mesh::separated), [`merge_vertices`](Mesh::merge_vertices) |
+//!
+//! Removed elements are marked dead, and no id is used again until [`Mesh::compact`] renumbers.
+//! [`Mesh::begin`], [`Mesh::rollback`] and [`Mesh::commit`] take edits back, one or many, and
+//! [`Mesh::revert`] undoes and redoes them later. Operations over a whole mesh build new arrays
+//! ([`Mesh::from_arrays`]) or polygons ([`build()`]) and put them in place with [`Mesh::replace`].
 //!
 //! # Examples
 //!

@@ -201,11 +201,11 @@ fn corners(mesh: &Mesh, f: FaceId) -> Vec<u32> {
     lowest_first(mesh.face_vertices(f).map(number).collect())
 }
 
-/// The same loop of vertices, beginning at the lowest number.
-fn lowest_first(mut face: Vec<u32>) -> Vec<u32> {
-    let low = (0..face.len()).min_by_key(|&i| face[i]).unwrap_or(0);
-    face.rotate_left(low);
-    face
+/// The same loop of vertices in the order that comes first of all its turns: a face may visit its lowest
+/// vertex twice.
+fn lowest_first(face: Vec<u32>) -> Vec<u32> {
+    let turned = |i: usize| [&face[i..], &face[..i]].concat();
+    (0..face.len()).map(turned).min().unwrap_or(face)
 }
 
 /// A mesh as a list of faces in any order. The numbers of vertices are those of the mesh.

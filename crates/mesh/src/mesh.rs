@@ -4,7 +4,9 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use crate::attribute::{Attribute, Attributes, Column, Domain, Value, Values};
+use crate::attribute::{
+    Attribute, Attributes, CORNER_NORMAL, Column, Domain, VERTEX_NORMAL, Value, Values,
+};
 use crate::journal::{Entry, Journal};
 use crate::marks::Marks;
 use crate::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
@@ -308,6 +310,12 @@ impl Mesh {
             journal.note(|| Entry::Column(domain, column.clone().into()));
         }
         removed
+    }
+
+    /// Takes the normals of vertices and corners away: they are wrong where the shape has changed.
+    pub fn remove_normals(&mut self) {
+        self.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
+        self.remove_column(Domain::Corner, CORNER_NORMAL.name);
     }
 
     /// The marks of a tag, by index of its elements.

@@ -4,7 +4,7 @@ use mesh::{EditError, Mesh};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Context, OpError, Report};
+use crate::{Context, OpError, Range, Report};
 
 /// What to do when an edit of a selected element is refused.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
@@ -15,6 +15,17 @@ pub enum OnRefusal {
     Error,
     /// Leave that element as it is, count it, and go on.
     Skip,
+}
+
+impl OnRefusal {
+    /// How many of so many selected elements are edited: all, or perhaps fewer where refusals are skipped.
+    #[must_use]
+    pub fn done(self, selected: Range) -> Range {
+        match self {
+            Self::Error => selected,
+            Self::Skip => selected.or_less(),
+        }
+    }
 }
 
 /// Edits the elements one after another, each judged at its moment.

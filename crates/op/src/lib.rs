@@ -63,7 +63,7 @@ pub use edit::{OnRefusal, edit_each};
 pub use error::{OpError, Refusal};
 pub use files::{FileError, Files};
 pub use operation::{MeshOperation, Operation};
-pub use parameter::{Axis, Vector};
+pub use parameter::{Axis, Vector, check_fraction};
 pub use plan::{
     MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
 };

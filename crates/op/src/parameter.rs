@@ -31,3 +31,16 @@ pub enum Axis {
     /// The z axis.
     Z,
 }
+
+/// Checks a parameter that must lie between 0 and 1, neither included.
+///
+/// # Errors
+///
+/// A message that names the parameter, `field`, and its value.
+pub fn check_fraction(field: &str, value: f64) -> Result<(), String> {
+    if value > 0.0 && value < 1.0 {
+        Ok(())
+    } else {
+        Err(format!("`{field}` must lie between 0 and 1, not {value}"))
+    }
+}

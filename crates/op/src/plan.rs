@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use mesh::{Domain, Rule};
+use mesh::{CORNER_NORMAL, Domain, Rule, VERTEX_NORMAL};
 
 use crate::Files;
 
@@ -194,6 +194,12 @@ impl MeshPlan {
     pub fn drop_attribute(&mut self, domain: Domain, name: &str) {
         self.attributes
             .retain(|a| a.domain != domain || a.name != name);
+    }
+
+    /// Takes the normals of vertices and corners out: for operations that change the shape.
+    pub fn drop_normals(&mut self) {
+        self.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
+        self.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
     }
 
     /// The bytes that the mesh takes. A value of an attribute takes from 1 byte, a tag, to 32.

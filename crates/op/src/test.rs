@@ -3,7 +3,10 @@
 use mesh::Mesh;
 use scene::{Object, Scene};
 
-use crate::{Context, Files, NoProgress, OpError, Operation, Report};
+use crate::{
+    Context, Files, MeshOperation, MeshPlan, NoProgress, OpError, Operation, PlanContext, Problem,
+    Refusal, Report,
+};
 
 /// The mesh after `operation`.
 ///
@@ -52,4 +55,40 @@ pub fn run(operation: &impl Operation, scene: &mut Scene) -> Result<Report, OpEr
         ..Files::default()
     };
     operation.apply(scene, &mut Context::new(&NoProgress, &files))
+}
+
+/// What `operation` says of a mesh before it runs: the plan after it, and the problems.
+pub fn planned(operation: &impl MeshOperation, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
+    let files = Files::default();
+    let cx = PlanContext {
+        files: &files,
+        on: None,
+        budget: u64::MAX,
+    };
+    let mut plan = MeshPlan::of(mesh);
+    let problems = MeshOperation::plan(operation, &mut plan, &cx);
+    (plan, problems)
+}
+
+/// Whether the counts and degrees of `after`, which `operation` made of `before`, are within its plan.
+pub fn is_as_planned(operation: &impl MeshOperation, before: &Mesh, after: &Mesh) -> bool {
+    let (plan, _) = planned(operation, before);
+    plan.vertices.contains(after.n_vertices() as u64)
+        && plan.edges.contains(after.n_edges() as u64)
+        && plan.faces.contains(after.n_faces() as u64)
+        && after
+            .faces()
+            .all(|f| plan.degrees.contains(after.degree(f) as u64))
+}
+
+/// The reason for which `operation` is refused.
+///
+/// # Panics
+///
+/// If it is done, or fails in another way.
+pub fn refused(operation: &impl Operation, mesh: Mesh) -> Refusal {
+    match try_applied(operation, mesh) {
+        Err(OpError::Refused { reason, .. }) => reason,
+        other => panic!("expected a refusal, got {other:?}"),
+    }
 }

@@ -8,10 +8,10 @@
 //!     /               \            /               \
 //! ```
 
-use mesh::{CORNER_NORMAL, Domain, Mesh, VERTEX_NORMAL};
+use mesh::Mesh;
 use op::{
     Context, Cuts, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext,
-    Problem, Range, Report, Select, edit_each,
+    Problem, Range, Report, Select, check_fraction, edit_each,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -46,31 +46,15 @@ pub struct BevelEdges {
     pub on_refusal: OnRefusal,
 }
 
-impl BevelEdges {
-    fn check(&self) -> Result<(), String> {
-        if self.fraction > 0.0 && self.fraction < 1.0 {
-            Ok(())
-        } else {
-            let fraction = self.fraction;
-            Err(format!(
-                "`fraction` must lie between 0 and 1, not {fraction}"
-            ))
-        }
-    }
-}
-
 impl MeshOperation for BevelEdges {
     const NAME: &'static str = "BevelEdges";
     const SUMMARY: &'static str = "Put faces into the place of edges";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = self.check() {
+        if let Err(message) = check_fraction("fraction", self.fraction) {
             return vec![Problem::error(message).at(["fraction"])];
         }
-        let done = match self.on_refusal {
-            OnRefusal::Error => self.edges.count(plan),
-            OnRefusal::Skip => self.edges.count(plan).or_less(),
-        };
+        let done = self.on_refusal.done(self.edges.count(plan));
         if done.max > 0 {
             // Four cuts at least. Old vertices go with the first of their edges, and all together have two
             // ends of each edge; new ones have three edges.
@@ -94,13 +78,12 @@ impl MeshOperation for BevelEdges {
             plan.edges = grow(plan.edges, 1);
             plan.faces = plan.faces.plus(done);
         }
-        plan.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
-        plan.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
+        plan.drop_normals();
         Vec::new()
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        self.check().map_err(OpError::Parameter)?;
+        check_fraction("fraction", self.fraction).map_err(OpError::Parameter)?;
         let edges = self.edges.resolve(mesh, cx)?;
         let mut cuts = Cuts::default();
         let report = edit_each(mesh, &edges, self.on_refusal, "bevel", cx, |mesh, e| {
@@ -108,8 +91,7 @@ impl MeshOperation for BevelEdges {
             cuts.cut(mesh, f, self.fraction);
             Ok(())
         })?;
-        mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
-        mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
+        mesh.remove_normals();
         Ok(report)
     }
 }
@@ -118,23 +100,11 @@ impl MeshOperation for BevelEdges {
 mod tests {
     use super::*;
     use mesh::{FaceId, shapes};
-    use op::Files;
-    use op::test::{applied, try_applied};
+
+    use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> BevelEdges {
         ron::from_str(text).unwrap()
-    }
-
-    fn planned(step: &BevelEdges, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let mut plan = MeshPlan::of(mesh);
-        let problems = MeshOperation::plan(step, &mut plan, &cx);
-        (plan, problems)
     }
 
     #[test]

@@ -6,10 +6,10 @@
 //!    + ------ f ------ +    -->   + ---------- +           higher by the height
 //! ```
 
-use mesh::{CORNER_NORMAL, Domain, Mesh, VERTEX_NORMAL};
+use mesh::Mesh;
 use op::{
     Context, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select, edit_each,
+    Range, Report, Select, check_fraction, edit_each,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -46,8 +46,7 @@ pub struct BevelFaces {
 impl BevelFaces {
     fn problems(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
-        if !(self.inset > 0.0 && self.inset < 1.0) {
-            let message = format!("`inset` must lie between 0 and 1, not {}", self.inset);
+        if let Err(message) = check_fraction("inset", self.inset) {
             problems.push(Problem::error(message).at(["inset"]));
         }
         if !self.height.is_finite() {
@@ -67,10 +66,7 @@ impl MeshOperation for BevelFaces {
         if !problems.is_empty() {
             return problems;
         }
-        let done = match self.on_refusal {
-            OnRefusal::Error => self.faces.count(plan),
-            OnRefusal::Skip => self.faces.count(plan).or_less(),
-        };
+        let done = self.on_refusal.done(self.faces.count(plan));
         // All faces together have no more corners than there are half-edges.
         let half_edges = Range {
             min: u64::MAX,
@@ -84,8 +80,7 @@ impl MeshOperation for BevelFaces {
             plan.degrees.min = plan.degrees.min.min(4);
             plan.degrees.max = plan.degrees.max.max(4);
         }
-        plan.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
-        plan.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
+        plan.drop_normals();
         Vec::new()
     }
 
@@ -97,8 +92,7 @@ impl MeshOperation for BevelFaces {
         let report = edit_each(mesh, &faces, self.on_refusal, "bevel", cx, |mesh, f| {
             mesh.bevel_face(f, self.inset, self.height).map(drop)
         })?;
-        mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
-        mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
+        mesh.remove_normals();
         Ok(report)
     }
 }
@@ -107,23 +101,11 @@ impl MeshOperation for BevelFaces {
 mod tests {
     use super::*;
     use mesh::{FaceId, shapes};
-    use op::Files;
-    use op::test::{applied, try_applied};
+
+    use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> BevelFaces {
         ron::from_str(text).unwrap()
-    }
-
-    fn planned(step: &BevelFaces, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let mut plan = MeshPlan::of(mesh);
-        let problems = MeshOperation::plan(step, &mut plan, &cx);
-        (plan, problems)
     }
 
     #[test]

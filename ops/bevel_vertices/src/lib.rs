@@ -8,10 +8,10 @@
 //!         |                    |
 //! ```
 
-use mesh::{CORNER_NORMAL, Domain, Mesh, VERTEX_NORMAL};
+use mesh::Mesh;
 use op::{
     Context, Cuts, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range,
-    Report, Select, VertexSelection, edit_each,
+    Report, Select, VertexSelection, check_fraction, edit_each,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -44,31 +44,15 @@ pub struct BevelVertices {
     pub on_refusal: OnRefusal,
 }
 
-impl BevelVertices {
-    fn check(&self) -> Result<(), String> {
-        if self.fraction > 0.0 && self.fraction < 1.0 {
-            Ok(())
-        } else {
-            let fraction = self.fraction;
-            Err(format!(
-                "`fraction` must lie between 0 and 1, not {fraction}"
-            ))
-        }
-    }
-}
-
 impl MeshOperation for BevelVertices {
     const NAME: &'static str = "BevelVertices";
     const SUMMARY: &'static str = "Put faces into the place of vertices";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = self.check() {
+        if let Err(message) = check_fraction("fraction", self.fraction) {
             return vec![Problem::error(message).at(["fraction"])];
         }
-        let done = match self.on_refusal {
-            OnRefusal::Error => self.vertices.count(plan),
-            OnRefusal::Skip => self.vertices.count(plan).or_less(),
-        };
+        let done = self.on_refusal.done(self.vertices.count(plan));
         if done.max > 0 {
             // Each edge is cut at both ends at most, and each vertex has three.
             let cuts = Range {
@@ -88,13 +72,12 @@ impl MeshOperation for BevelVertices {
             plan.edges = plan.edges.plus(cuts);
             plan.faces = plan.faces.plus(done);
         }
-        plan.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
-        plan.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
+        plan.drop_normals();
         Vec::new()
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        self.check().map_err(OpError::Parameter)?;
+        check_fraction("fraction", self.fraction).map_err(OpError::Parameter)?;
         let vertices = self.vertices.resolve(mesh, cx)?;
         let mut cuts = Cuts::default();
         let report = edit_each(mesh, &vertices, self.on_refusal, "bevel", cx, |mesh, v| {
@@ -102,8 +85,7 @@ impl MeshOperation for BevelVertices {
             cuts.cut(mesh, f, self.fraction);
             Ok(())
         })?;
-        mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
-        mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
+        mesh.remove_normals();
         Ok(report)
     }
 }
@@ -112,23 +94,11 @@ impl MeshOperation for BevelVertices {
 mod tests {
     use super::*;
     use mesh::{FaceId, shapes};
-    use op::Files;
-    use op::test::{applied, try_applied};
+
+    use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> BevelVertices {
         ron::from_str(text).unwrap()
-    }
-
-    fn planned(step: &BevelVertices, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let mut plan = MeshPlan::of(mesh);
-        let problems = MeshOperation::plan(step, &mut plan, &cx);
-        (plan, problems)
     }
 
     #[test]

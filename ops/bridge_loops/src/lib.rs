@@ -10,7 +10,7 @@
 //!      '-------'               '-------'
 //! ```
 
-use mesh::{CORNER_NORMAL, Domain, Mesh, VERTEX_NORMAL, VertexId};
+use mesh::{Mesh, VertexId};
 use op::{
     Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Refusal, Report,
     Select, VertexSelection,
@@ -66,8 +66,7 @@ impl MeshOperation for BridgeLoops {
         plan.faces = plan.faces.plus(band);
         plan.degrees.min = plan.degrees.min.min(3);
         plan.degrees.max = plan.degrees.max.max(4);
-        plan.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
-        plan.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
+        plan.drop_normals();
         problems
     }
 
@@ -80,8 +79,7 @@ impl MeshOperation for BridgeLoops {
             unreachable!("vertices on the boundary have edges");
         };
         let band = mesh.bridge_loops(h, mesh.prev(after))?;
-        mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
-        mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
+        mesh.remove_normals();
         Ok(Report::changed(band.len()))
     }
 }
@@ -100,7 +98,7 @@ fn boundary_vertex(mesh: &Mesh, number: u32, cx: &Context) -> Result<VertexId, O
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, FaceId, shapes};
+    use mesh::{DVec3, FaceId, VERTEX_NORMAL, shapes};
     use op::test::{applied, try_applied};
 
     fn parse(text: &str) -> BridgeLoops {

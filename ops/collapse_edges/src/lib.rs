@@ -8,7 +8,7 @@
 //!        d               d
 //! ```
 
-use mesh::{Domain, EdgeId, Mesh};
+use mesh::Mesh;
 use op::{
     Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
     Range, Report, Select, edit_each,
@@ -54,24 +54,6 @@ const fn half() -> f64 {
 }
 
 impl CollapseEdges {
-    /// Where the vertex goes on `e`, measured from the origin of its first half.
-    fn place_on(&self, mesh: &Mesh, e: EdgeId) -> f64 {
-        if !mesh.has_edge(e) {
-            // Taken away by an earlier collapse; the edit refuses it.
-            return self.at;
-        }
-        let [a, b] = mesh.edge_vertices(e);
-        let start = match self.edges {
-            EdgeSelection::Between(v, _) => v as usize,
-            _ => a.min(b).index(),
-        };
-        if start == a.index() {
-            self.at
-        } else {
-            1.0 - self.at
-        }
-    }
-
     fn is_at_allowed(&self) -> bool {
         (0.0..=1.0).contains(&self.at)
     }
@@ -80,9 +62,6 @@ impl CollapseEdges {
         format!("`at` must lie from 0 to 1, not {}", self.at)
     }
 }
-
-/// The domains of the normals, which are wrong when vertices have moved.
-const NORMALS: [Domain; 2] = [Domain::Vertex, Domain::Corner];
 
 impl MeshOperation for CollapseEdges {
     const NAME: &'static str = "CollapseEdges";
@@ -94,10 +73,7 @@ impl MeshOperation for CollapseEdges {
         }
         // One that is refused is an error, unless it is skipped.
         let selected = self.edges.count(plan);
-        let n = match self.on_refusal {
-            OnRefusal::Error => selected,
-            OnRefusal::Skip => selected.or_less(),
-        };
+        let n = self.on_refusal.done(selected);
         // On each side of an edge a triangle vanishes, and two edges become one; larger faces and holes stay.
         let least = u64::from(plan.is_triangles());
         let faces = n.times(Range { min: least, max: 2 });
@@ -105,9 +81,7 @@ impl MeshOperation for CollapseEdges {
         plan.edges = plan.edges.minus(n.plus(faces));
         plan.faces = plan.faces.minus(faces);
         plan.degrees.min = plan.degrees.min.min(3);
-        for domain in NORMALS {
-            plan.drop_attribute(domain, "normal");
-        }
+        plan.drop_normals();
         Vec::new()
     }
 
@@ -117,11 +91,9 @@ impl MeshOperation for CollapseEdges {
         }
         let edges = self.edges.resolve(mesh, cx)?;
         cx.advance("collapse", 0, edges.len() as u64)?;
-        for domain in NORMALS {
-            mesh.remove_column(domain, "normal");
-        }
+        mesh.remove_normals();
         edit_each(mesh, &edges, self.on_refusal, "collapse", cx, |mesh, e| {
-            let t = self.place_on(mesh, e);
+            let t = self.edges.place_on(mesh, e, self.at);
             mesh.collapse_edge_at(e, t).map(drop)
         })
     }
@@ -131,24 +103,12 @@ impl MeshOperation for CollapseEdges {
 mod tests {
     use super::*;
     use mesh::{DVec3, VERTEX_NORMAL, VertexId, shapes};
-    use op::test::{applied, try_applied};
-    use op::{Files, Refusal};
+    use op::Refusal;
+    use op::test::{applied, planned, try_applied};
     use proptest::prelude::*;
 
     fn parse(text: &str) -> CollapseEdges {
         ron::from_str(text).unwrap()
-    }
-
-    fn planned(operation: &CollapseEdges, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let mut plan = MeshPlan::of(mesh);
-        let problems = MeshOperation::plan(operation, &mut plan, &cx);
-        (plan, problems)
     }
 
     #[test]

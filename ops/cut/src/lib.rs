@@ -42,10 +42,7 @@ impl MeshOperation for Cut {
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let n = self.edges.count(plan);
-        let cut = match self.on_refusal {
-            OnRefusal::Error => n,
-            OnRefusal::Skip => n.or_less(),
-        };
+        let cut = self.on_refusal.done(n);
         plan.edges = plan.edges.plus(cut);
         // A vertex gets at most one copy for each cut that ends there.
         let copies = Range::at_most(n.max.saturating_mul(2));

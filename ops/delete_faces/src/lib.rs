@@ -48,10 +48,7 @@ impl MeshOperation for DeleteFaces {
         if chosen.max == 0 {
             return Vec::new();
         }
-        let gone = match self.on_refusal {
-            OnRefusal::Error => chosen,
-            OnRefusal::Skip => chosen.or_less(),
-        };
+        let gone = self.on_refusal.done(chosen);
         plan.faces = plan.faces.minus(gone);
         plan.edges = plan.edges.or_less();
         if plan.faces.max == 0 {
@@ -119,35 +116,12 @@ fn one_by_one(mesh: &mut Mesh, faces: Vec<FaceId>, cx: &Context) -> Result<Repor
 mod tests {
     use super::*;
     use mesh::shapes;
-    use op::test::{applied, try_applied};
-    use op::{Files, Refusal};
+    use op::Refusal;
+    use op::test::{applied, is_as_planned, planned, try_applied};
     use proptest::prelude::*;
-
-    fn planned(operation: &DeleteFaces, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let mut plan = MeshPlan::of(mesh);
-        let problems = MeshOperation::plan(operation, &mut plan, &cx);
-        (plan, problems)
-    }
 
     fn parse(text: &str) -> DeleteFaces {
         ron::from_str(text).unwrap()
-    }
-
-    /// The counts of vertices, edges and faces are within the plan, and the degrees.
-    fn is_as_planned(operation: &DeleteFaces, before: &Mesh, after: &Mesh) -> bool {
-        let (plan, _) = planned(operation, before);
-        plan.vertices.contains(after.n_vertices() as u64)
-            && plan.edges.contains(after.n_edges() as u64)
-            && plan.faces.contains(after.n_faces() as u64)
-            && after
-                .faces()
-                .all(|f| plan.degrees.contains(after.degree(f) as u64))
     }
 
     fn counts(mesh: &Mesh) -> [usize; 3] {

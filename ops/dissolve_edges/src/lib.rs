@@ -62,10 +62,7 @@ impl MeshOperation for DissolveEdges {
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let chosen = self.edges.count(plan);
-        let n = match self.on_refusal {
-            OnRefusal::Error => chosen,
-            OnRefusal::Skip => chosen.or_less(),
-        };
+        let n = self.on_refusal.done(chosen);
         // n edges merge n + 1 faces at most, and each takes two sides.
         let sides = plan.degrees.max.saturating_sub(2);
         let merged = n.max.saturating_mul(sides).saturating_add(plan.degrees.max);
@@ -90,42 +87,16 @@ impl MeshOperation for DissolveEdges {
 mod tests {
     use super::*;
     use mesh::{DVec2, UV, shapes};
-    use op::test::{applied, try_applied};
-    use op::{Files, Range, Refusal};
+    use op::test::{applied, is_as_planned, planned, try_applied};
+    use op::{Range, Refusal};
     use proptest::prelude::*;
-
-    fn planned(operation: &DissolveEdges, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let mut plan = MeshPlan::of(mesh);
-        let problems = MeshOperation::plan(operation, &mut plan, &cx);
-        (plan, problems)
-    }
 
     fn parse(text: &str) -> DissolveEdges {
         ron::from_str(text).unwrap()
     }
 
-    /// The counts of vertices, edges and faces are within the plan, and the degrees.
-    fn is_as_planned(operation: &DissolveEdges, before: &Mesh, after: &Mesh) -> bool {
-        let (plan, _) = planned(operation, before);
-        plan.vertices.contains(after.n_vertices() as u64)
-            && plan.edges.contains(after.n_edges() as u64)
-            && plan.faces.contains(after.n_faces() as u64)
-            && after
-                .faces()
-                .all(|f| plan.degrees.contains(after.degree(f) as u64))
-    }
-
     fn refused(text: &str, mesh: Mesh) -> Refusal {
-        match try_applied(&parse(text), mesh) {
-            Err(OpError::Refused { reason, .. }) => reason,
-            other => panic!("expected a refusal, got {other:?}"),
-        }
+        op::test::refused(&parse(text), mesh)
     }
 
     #[test]

@@ -8,7 +8,7 @@
 //!    +-----+-----+          +-----+-----+          +-----------+          +-----------+
 //! ```
 
-use mesh::{Domain, Mesh, VERTEX_NORMAL};
+use mesh::Mesh;
 use op::{
     Context, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range, Report,
     Select, VertexSelection, edit_each,
@@ -65,16 +65,12 @@ impl MeshOperation for DissolveVertices {
     const SUMMARY: &'static str = "Take vertices out and merge the faces around them";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        plan.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
-        plan.drop_attribute(Domain::Corner, VERTEX_NORMAL.name);
+        plan.drop_normals();
         let chosen = self.vertices.count(plan);
         if chosen.max == 0 {
             return Vec::new();
         }
-        let n = match self.on_refusal {
-            OnRefusal::Error => chosen,
-            OnRefusal::Skip => chosen.or_less(),
-        };
+        let n = self.on_refusal.done(chosen);
         plan.vertices = plan.vertices.minus(n);
         // At least one edge goes with each vertex; some face with its sides is always left.
         plan.edges = Range {
@@ -96,8 +92,7 @@ impl MeshOperation for DissolveVertices {
         let report = edit_each(mesh, &vertices, self.on_refusal, word, cx, |mesh, v| {
             mesh.dissolve_vertex_with(v, seams).map(drop)
         })?;
-        mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
-        mesh.remove_column(Domain::Corner, VERTEX_NORMAL.name);
+        mesh.remove_normals();
         Ok(report)
     }
 }
@@ -105,43 +100,17 @@ impl MeshOperation for DissolveVertices {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec2, DVec3, UV, shapes};
-    use op::test::{applied, try_applied};
-    use op::{Files, Refusal};
+    use mesh::{DVec2, DVec3, UV, VERTEX_NORMAL, shapes};
+    use op::Refusal;
+    use op::test::{applied, is_as_planned, try_applied};
     use proptest::prelude::*;
-
-    fn planned(operation: &DissolveVertices, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let mut plan = MeshPlan::of(mesh);
-        let problems = MeshOperation::plan(operation, &mut plan, &cx);
-        (plan, problems)
-    }
 
     fn parse(text: &str) -> DissolveVertices {
         ron::from_str(text).unwrap()
     }
 
-    /// The counts of vertices, edges and faces are within the plan, and the degrees.
-    fn is_as_planned(operation: &DissolveVertices, before: &Mesh, after: &Mesh) -> bool {
-        let (plan, _) = planned(operation, before);
-        plan.vertices.contains(after.n_vertices() as u64)
-            && plan.edges.contains(after.n_edges() as u64)
-            && plan.faces.contains(after.n_faces() as u64)
-            && after
-                .faces()
-                .all(|f| plan.degrees.contains(after.degree(f) as u64))
-    }
-
     fn refused(text: &str, mesh: Mesh) -> Refusal {
-        match try_applied(&parse(text), mesh) {
-            Err(OpError::Refused { reason, .. }) => reason,
-            other => panic!("expected a refusal, got {other:?}"),
-        }
+        op::test::refused(&parse(text), mesh)
     }
 
     #[test]

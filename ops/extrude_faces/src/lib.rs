@@ -14,7 +14,7 @@
 mod region;
 
 use glam::{DMat3, DVec3};
-use mesh::{CORNER_NORMAL, Column, Domain, FaceId, Mesh, Rule, VERTEX_NORMAL, Values};
+use mesh::{Column, Domain, FaceId, Mesh, Rule, Values};
 use op::{
     Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report,
     Select, Turn, Vector,
@@ -152,8 +152,7 @@ impl MeshOperation for ExtrudeFaces {
                 max: plan.degrees.max.max(4),
             };
         }
-        plan.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
-        plan.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
+        plan.drop_normals();
         if let Some(tag) = &self.tag {
             plan.provide(Domain::Face, tag);
         }
@@ -170,8 +169,7 @@ impl MeshOperation for ExtrudeFaces {
         let turned_and_scaled = Turn::all(&self.turn) * self.scale;
         cx.advance("extrude", 0, regions.len() as u64)?;
 
-        mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
-        mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
+        mesh.remove_normals();
         let (mut n_faces, mut n_sides) = (0, 0);
         for (done, region) in (1..).zip(&regions) {
             let offset = self.offset(mesh, region)?;

@@ -1,25 +1,12 @@
 use super::*;
-use mesh::{MATERIAL, UV, shapes};
-use op::Files;
-use op::test::{applied, try_applied};
+use mesh::{CORNER_NORMAL, MATERIAL, UV, VERTEX_NORMAL, shapes};
+use op::test::{applied, planned, try_applied};
 
 fn parse(text: &str) -> ExtrudeFaces {
     // As recipes are read.
     let options =
         ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
     options.from_str(text).unwrap()
-}
-
-fn planned(operation: &ExtrudeFaces, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-    let files = Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
-    let mut plan = MeshPlan::of(mesh);
-    let problems = MeshOperation::plan(operation, &mut plan, &cx);
-    (plan, problems)
 }
 
 fn top() -> FaceId {

@@ -103,8 +103,7 @@ impl MeshOperation for FillHoles {
             self.fill(mesh, h)
         })?;
         if report.changed > 0 {
-            mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
-            mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
+            mesh.remove_normals();
         }
         if chosen > holes.len() {
             let n = chosen - holes.len();

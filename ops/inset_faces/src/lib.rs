@@ -10,10 +10,10 @@
 //!    + ------------- +              + ------------- +
 //! ```
 
-use mesh::{CORNER_NORMAL, Domain, Mesh, VERTEX_NORMAL};
+use mesh::Mesh;
 use op::{
     Context, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select, edit_each,
+    Range, Report, Select, check_fraction, edit_each,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -44,31 +44,15 @@ pub struct InsetFaces {
     pub on_refusal: OnRefusal,
 }
 
-impl InsetFaces {
-    fn check(&self) -> Result<(), String> {
-        if self.fraction > 0.0 && self.fraction < 1.0 {
-            Ok(())
-        } else {
-            let fraction = self.fraction;
-            Err(format!(
-                "`fraction` must lie between 0 and 1, not {fraction}"
-            ))
-        }
-    }
-}
-
 impl MeshOperation for InsetFaces {
     const NAME: &'static str = "InsetFaces";
     const SUMMARY: &'static str = "Put a smaller copy into faces, with a ring of faces around it";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = self.check() {
+        if let Err(message) = check_fraction("fraction", self.fraction) {
             return vec![Problem::error(message).at(["fraction"])];
         }
-        let done = match self.on_refusal {
-            OnRefusal::Error => self.faces.count(plan),
-            OnRefusal::Skip => self.faces.count(plan).or_less(),
-        };
+        let done = self.on_refusal.done(self.faces.count(plan));
         // All faces together have no more corners than there are half-edges.
         let half_edges = Range {
             min: u64::MAX,
@@ -82,19 +66,17 @@ impl MeshOperation for InsetFaces {
             plan.degrees.min = plan.degrees.min.min(4);
             plan.degrees.max = plan.degrees.max.max(4);
         }
-        plan.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
-        plan.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
+        plan.drop_normals();
         Vec::new()
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        self.check().map_err(OpError::Parameter)?;
+        check_fraction("fraction", self.fraction).map_err(OpError::Parameter)?;
         let faces = self.faces.resolve(mesh, cx)?;
         let report = edit_each(mesh, &faces, self.on_refusal, "inset", cx, |mesh, f| {
             mesh.inset_face(f, self.fraction).map(drop)
         })?;
-        mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
-        mesh.remove_column(Domain::Corner, CORNER_NORMAL.name);
+        mesh.remove_normals();
         Ok(report)
     }
 }
@@ -102,24 +84,12 @@ impl MeshOperation for InsetFaces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{FaceId, shapes};
-    use op::Files;
-    use op::test::{applied, try_applied};
+    use mesh::{FaceId, VERTEX_NORMAL, shapes};
+
+    use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> InsetFaces {
         ron::from_str(text).unwrap()
-    }
-
-    fn planned(step: &InsetFaces, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let mut plan = MeshPlan::of(mesh);
-        let problems = MeshOperation::plan(step, &mut plan, &cx);
-        (plan, problems)
     }
 
     #[test]

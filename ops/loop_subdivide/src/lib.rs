@@ -38,7 +38,7 @@ mod meter;
 mod positions;
 mod topology;
 
-use mesh::{CORNER_NORMAL, Domain, FaceId, Mesh, VERTEX_NORMAL};
+use mesh::{FaceId, Mesh};
 use op::{
     Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Progress, Range, Refusal,
     Report,
@@ -104,8 +104,7 @@ impl MeshOperation for LoopSubdivide {
             problems.push(Problem::error(message).help("cut the faces into triangles before"));
         }
         plan.degrees = Range::exactly(3);
-        plan.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
-        plan.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
+        plan.drop_normals();
 
         let mut levels = self.levels.min(MAX_LEVELS);
         let least = Counts::least_of(plan);

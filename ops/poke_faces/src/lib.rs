@@ -8,7 +8,7 @@
 //!    a ------- b          a ------- b
 //! ```
 
-use mesh::{Domain, Mesh, VERTEX_NORMAL};
+use mesh::Mesh;
 use op::{
     Context, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
     Range, Report, Select, edit_each,
@@ -51,10 +51,7 @@ impl MeshOperation for PokeFaces {
             return vec![Problem::error(self.offset_message()).at(["offset"])];
         }
         let chosen = self.faces.count(plan);
-        let n = match self.on_refusal {
-            OnRefusal::Error => chosen,
-            OnRefusal::Skip => chosen.or_less(),
-        };
+        let n = self.on_refusal.done(chosen);
         // All faces together have no more corners than there are half-edges.
         let corners = n.times(plan.degrees).capped(Range {
             min: u64::MAX,
@@ -77,8 +74,7 @@ impl MeshOperation for PokeFaces {
         plan.edges = plan.edges.plus(corners);
         plan.faces = plan.faces.plus(cuts);
         if self.offset != 0.0 {
-            plan.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
-            plan.drop_attribute(Domain::Corner, VERTEX_NORMAL.name);
+            plan.drop_normals();
         }
         Vec::new()
     }
@@ -93,8 +89,7 @@ impl MeshOperation for PokeFaces {
             mesh.poke_face_at(f, middle).map(drop)
         })?;
         if self.offset != 0.0 {
-            mesh.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
-            mesh.remove_column(Domain::Corner, VERTEX_NORMAL.name);
+            mesh.remove_normals();
         }
         Ok(report)
     }
@@ -109,36 +104,13 @@ impl PokeFaces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, VertexId, shapes};
-    use op::Files;
-    use op::test::{applied, try_applied};
-    use proptest::prelude::*;
+    use mesh::{DVec3, VERTEX_NORMAL, VertexId, shapes};
 
-    fn planned(operation: &PokeFaces, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let mut plan = MeshPlan::of(mesh);
-        let problems = MeshOperation::plan(operation, &mut plan, &cx);
-        (plan, problems)
-    }
+    use op::test::{applied, is_as_planned, planned, try_applied};
+    use proptest::prelude::*;
 
     fn parse(text: &str) -> PokeFaces {
         ron::from_str(text).unwrap()
-    }
-
-    /// The counts of vertices, edges and faces are within the plan, and the degrees.
-    fn is_as_planned(operation: &PokeFaces, before: &Mesh, after: &Mesh) -> bool {
-        let (plan, _) = planned(operation, before);
-        plan.vertices.contains(after.n_vertices() as u64)
-            && plan.edges.contains(after.n_edges() as u64)
-            && plan.faces.contains(after.n_faces() as u64)
-            && after
-                .faces()
-                .all(|f| plan.degrees.contains(after.degree(f) as u64))
     }
 
     #[test]

@@ -8,10 +8,10 @@
 //!        d                 d
 //! ```
 
-use mesh::{EdgeId, Mesh};
+use mesh::Mesh;
 use op::{
     Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select, edit_each,
+    Range, Report, Select, check_fraction, edit_each,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -44,44 +44,13 @@ const fn half() -> f64 {
     0.5
 }
 
-impl SplitEdges {
-    /// The number of the vertex at which `at` is 0, if `edges` says so.
-    fn named_start(&self) -> Option<usize> {
-        if let EdgeSelection::Between(v, _) = self.edges {
-            Some(v as usize)
-        } else {
-            None
-        }
-    }
-
-    /// Where the vertex goes on `e`, measured from the origin of its first half.
-    fn place_on(&self, mesh: &Mesh, e: EdgeId) -> f64 {
-        let [a, b] = mesh.edge_vertices(e);
-        let start = self.named_start().unwrap_or(a.min(b).index());
-        if start == a.index() {
-            self.at
-        } else {
-            // 1 - at rounds to 1 where `at` is tiny, and 1 is no place on an edge.
-            (1.0 - self.at).min(1.0_f64.next_down())
-        }
-    }
-
-    fn is_at_allowed(&self) -> bool {
-        self.at > 0.0 && self.at < 1.0
-    }
-
-    fn at_message(&self) -> String {
-        format!("`at` must lie between 0 and 1, not {}", self.at)
-    }
-}
-
 impl MeshOperation for SplitEdges {
     const NAME: &'static str = "SplitEdges";
     const SUMMARY: &'static str = "Put a vertex on edges and join it to the far corners";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if !self.is_at_allowed() {
-            return vec![Problem::error(self.at_message()).at(["at"])];
+        if let Err(message) = check_fraction("at", self.at) {
+            return vec![Problem::error(message).at(["at"])];
         }
         // Between this many and that many for each split: boundary edges and edges of larger faces
         // give fewer cuts.
@@ -107,12 +76,12 @@ impl MeshOperation for SplitEdges {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        if !self.is_at_allowed() {
-            return Err(OpError::Parameter(self.at_message()));
-        }
+        check_fraction("at", self.at).map_err(OpError::Parameter)?;
         let edges = self.edges.resolve(mesh, cx)?;
         edit_each(mesh, &edges, self.on_refusal, "split", cx, |mesh, e| {
-            let t = self.place_on(mesh, e);
+            // 1 - at rounds to 1 where `at` is tiny, and 1 is no place on an edge.
+            let t = self.edges.place_on(mesh, e, self.at);
+            let t = t.min(1.0_f64.next_down());
             mesh.split_edge(e, t).map(drop)
         })
     }
@@ -122,24 +91,12 @@ impl MeshOperation for SplitEdges {
 mod tests {
     use super::*;
     use mesh::{DVec3, VertexId, shapes};
-    use op::Files;
-    use op::test::{applied, try_applied};
+
+    use op::test::{applied, planned, try_applied};
     use proptest::prelude::*;
 
     fn parse(text: &str) -> SplitEdges {
         ron::from_str(text).unwrap()
-    }
-
-    fn planned(operation: &SplitEdges, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let mut plan = MeshPlan::of(mesh);
-        let problems = MeshOperation::plan(operation, &mut plan, &cx);
-        (plan, problems)
     }
 
     #[test]

@@ -105,42 +105,16 @@ fn vertex(number: u32) -> VertexId {
 mod tests {
     use super::*;
     use mesh::shapes;
-    use op::test::{applied, try_applied};
-    use op::{Files, Refusal};
+    use op::Refusal;
+    use op::test::{applied, is_as_planned, planned, try_applied};
     use proptest::prelude::*;
-
-    fn planned(operation: &SplitFaces, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
-        let files = Files::default();
-        let cx = PlanContext {
-            files: &files,
-            on: None,
-            budget: u64::MAX,
-        };
-        let mut plan = MeshPlan::of(mesh);
-        let problems = MeshOperation::plan(operation, &mut plan, &cx);
-        (plan, problems)
-    }
 
     fn parse(text: &str) -> SplitFaces {
         ron::from_str(text).unwrap()
     }
 
-    /// The counts of vertices, edges and faces are within the plan, and the degrees.
-    fn is_as_planned(operation: &SplitFaces, before: &Mesh, after: &Mesh) -> bool {
-        let (plan, _) = planned(operation, before);
-        plan.vertices.contains(after.n_vertices() as u64)
-            && plan.edges.contains(after.n_edges() as u64)
-            && plan.faces.contains(after.n_faces() as u64)
-            && after
-                .faces()
-                .all(|f| plan.degrees.contains(after.degree(f) as u64))
-    }
-
     fn refused(text: &str, mesh: Mesh) -> Refusal {
-        match try_applied(&parse(text), mesh) {
-            Err(OpError::Refused { reason, .. }) => reason,
-            other => panic!("expected a refusal, got {other:?}"),
-        }
+        op::test::refused(&parse(text), mesh)
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub const MATERIAL: Attribute<FaceId, i32> = Attribute::new("material", Rule::Co
 pub const SMOOTHING: Attribute<FaceId, i32> = Attribute::new("smoothing", Rule::Copy);
 /// The sharpness of an edge, from 0 (smooth) to 10 (infinitely sharp).
 pub const CREASE: Attribute<EdgeId, f64> = Attribute::new("crease", Rule::Copy);
+/// The sharpness of a vertex, from 0 (smooth) to 10 (infinitely sharp).
+pub const CORNER: Attribute<VertexId, f64> = Attribute::new("corner", Rule::Copy);
 
 /// What the values of a column belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

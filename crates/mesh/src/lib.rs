@@ -89,8 +89,8 @@ mod validate;
 mod write;
 
 pub use attribute::{
-    Attribute, Attributes, COLOR, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Rule, SMOOTHING,
-    Sources, UV, VERTEX_NORMAL, Value, Values,
+    Attribute, Attributes, COLOR, CORNER, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Rule,
+    SMOOTHING, Sources, UV, VERTEX_NORMAL, Value, Values,
 };
 pub use build::{BuildError, BuildReport, Built, NonManifold, build};
 pub use compact::Renumbering;

@@ -87,6 +87,7 @@ mod traverse;
 pub mod triangulate;
 mod validate;
 mod write;
+mod zeroed;
 
 pub use attribute::{
     Attribute, Attributes, COLOR, CORNER, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Rule,
@@ -102,3 +103,4 @@ pub use measure::angle_between;
 pub use mesh::{Connectivity, Mesh};
 pub use traverse::Orbit;
 pub use validate::Defect;
+pub use zeroed::zeroed;

@@ -1,22 +1,180 @@
-//! Subdivision surfaces.
+//! Subdivision surfaces: from a coarse mesh to ever finer ones.
+//!
+//! Every level puts new vertices on edges and in faces, joins them to smaller faces, and, where the scheme
+//! is smooth, moves each vertex to a mean of those around it. [`Rules`] name the scheme and its choices;
+//! [`subdivide`] makes so many levels.
+//!
+//! | scheme | faces become | old vertices | limit surface |
+//! | --- | --- | --- | --- |
+//! | [`Loop`](Scheme::Loop) | 4 triangles each | move | smooth, curvature continuous away from valence ≠ 6 |
+//! | [`CatmullClark`](Scheme::CatmullClark) | a quad for each corner | move | smooth, curvature continuous away from valence ≠ 4 |
+//! | [`Midpoint`](Scheme::Midpoint) | 4 triangles, or a quad for each corner | stay | the mesh itself |
+//! | [`Butterfly`](Scheme::Butterfly) | 4 triangles each | stay | smooth, through all vertices |
+//! | [`Sqrt3`](Scheme::Sqrt3) | 3 triangles each, turned | move | smooth |
+//! | [`DooSabin`](Scheme::DooSabin) | one, and one for each old edge and vertex | are cut off | smooth |
+//!
+//! A level is not a sequence of edits: its arrays are computed in closed form from the old ones, each
+//! element by itself, in parallel, with the same bytes for any number of threads. How the numbers of new
+//! elements follow from the old is written in the modules `halves`, `triangles` and `quads`; the means are
+//! in `masks`, creases in `sharpness`.
+//!
+//! # Examples
+//!
+//! ```
+//! use subdivision::{Rules, Scheme};
+//!
+//! let rules = Rules::of(Scheme::CatmullClark);
+//! let mesh = subdivision::subdivide(&mesh::shapes::cube(), rules, 2, &op::NoProgress)?;
+//! assert_eq!((mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()), (98, 192, 96));
+//! # Ok::<(), op::OpError>(())
+//! ```
 
+mod attributes;
+mod forecast;
+mod halves;
+mod level;
+mod masks;
+mod meter;
+mod operation;
+mod quads;
 mod rules;
+mod sharpness;
+mod triangles;
 
+pub use operation::{MAX_LEVELS, Step};
 pub use rules::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split};
 
-use mesh::Mesh;
-use op::{OpError, Progress};
+use mesh::{FaceId, Mesh};
+use op::{OpError, Progress, Refusal};
+use rayon::prelude::*;
 
-/// So many levels.
+use forecast::Size;
+use masks::{CatmullClarkMasks, LoopMasks, MidpointMasks};
+use meter::Meter;
+use quads::Quads;
+use sharpness::Sharpness;
+use triangles::Triangles;
+
+/// The mesh after so many levels.
+///
+/// Ids: with Loop, Butterfly and Midpoint old vertices keep their numbers, the vertex on edge e is V + e,
+/// edge e becomes edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3, or, in quads, one for each
+/// corner in order; the center of face f is V + E + f. A mesh with dead elements is compacted first, and
+/// the ids are those of the compacted mesh.
+///
+/// Vertex attributes are smoothed with the weights of the positions; corner values by
+/// [`Rules::face_varying`]; parts of an edge or a face take the values of the whole. Normals are left out,
+/// because they would be wrong. Sharpness ([`mesh::CREASE`], [`mesh::CORNER`]) shapes Loop and Catmull-Clark
+/// surfaces and fades with the levels; other schemes hand it on.
+///
+/// Progress is reported from the threads that work.
 ///
 /// # Errors
 ///
-/// [`OpError`].
+/// [`OpError::Refused`] with [`Refusal::NotTriangle`] if the scheme needs triangles and a face has more
+/// corners, [`OpError::Budget`] if the elements would outnumber the ids, [`OpError::Cancelled`].
 pub fn subdivide(
-    _mesh: &Mesh,
-    _rules: &Rules,
-    _levels: u32,
-    _progress: &dyn Progress,
+    mesh: &Mesh,
+    rules: Rules,
+    levels: u32,
+    progress: &dyn Progress,
 ) -> Result<Mesh, OpError> {
-    Err(OpError::Cancelled)
+    let mut mesh = mesh.clone();
+    mesh.compact();
+    check_faces(&mesh, rules.scheme)?;
+    let size = Size::of(&mesh);
+    size.check(rules.scheme, levels, u64::MAX)
+        .map_err(|too_large| OpError::Budget(too_large.to_string()))?;
+    let meter = Meter::new(progress, rules.scheme.name(), work(size, rules, levels));
+    for level in 0..levels {
+        mesh = finer(&mesh, rules, level, &meter)?;
+    }
+    Ok(mesh)
 }
+
+/// What so many levels add to the meter.
+fn work(size: Size, rules: Rules, levels: u32) -> u64 {
+    let mut size = size;
+    (0..levels).fold(0, |sum: u64, level| {
+        let work = size.work(rules.scheme, level);
+        size = size.after(rules.scheme, level);
+        sum.saturating_add(work)
+    })
+}
+
+/// Level number `level` (from 0) of a dense mesh whose faces the scheme takes and whose next level fits.
+fn finer(mesh: &Mesh, rules: Rules, level: u32, meter: &Meter) -> Result<Mesh, OpError> {
+    let sharpness = Sharpness::of(mesh, rules);
+    let face_varying = rules.face_varying;
+    match rules.scheme {
+        Scheme::Loop(weights) => {
+            let masks = LoopMasks {
+                mesh,
+                sharpness,
+                weights,
+            };
+            let sharpness = Some(sharpness);
+            level::finer(
+                mesh,
+                &Triangles(mesh),
+                &masks,
+                sharpness,
+                face_varying,
+                meter,
+            )
+        }
+        Scheme::CatmullClark => {
+            let masks = CatmullClarkMasks { mesh, sharpness };
+            let sharpness = Some(sharpness);
+            level::finer(
+                mesh,
+                &Quads::new(mesh),
+                &masks,
+                sharpness,
+                face_varying,
+                meter,
+            )
+        }
+        Scheme::Midpoint(split) => {
+            let masks = MidpointMasks { mesh, split };
+            match split {
+                Split::Triangles => {
+                    level::finer(mesh, &Triangles(mesh), &masks, None, face_varying, meter)
+                }
+                Split::Quads => {
+                    level::finer(mesh, &Quads::new(mesh), &masks, None, face_varying, meter)
+                }
+            }
+        }
+        Scheme::Butterfly | Scheme::Sqrt3 | Scheme::DooSabin => todo!("level {level}"),
+    }
+}
+
+fn check_faces(mesh: &Mesh, scheme: Scheme) -> Result<(), OpError> {
+    if !scheme.needs_triangles() {
+        return Ok(());
+    }
+    let is_polygon = |i: usize| !mesh.is_triangle(FaceId::new(i));
+    match (0..mesh.n_faces())
+        .into_par_iter()
+        .position_first(is_polygon)
+        .map(FaceId::new)
+    {
+        None => Ok(()),
+        Some(f) => Err(OpError::refused(
+            Refusal::NotTriangle,
+            format!(
+                "{} needs triangles, but {f} has {} corners",
+                scheme.name(),
+                mesh.degree(f)
+            ),
+        )),
+    }
+}
+
+#[cfg(test)]
+mod fixtures;
+#[cfg(test)]
+mod oracle;
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,6 @@
 //! What can be chosen about a subdivision surface.
 
+use op::Range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -110,4 +111,39 @@ pub enum FaceVarying {
     /// Linear everywhere: each new value is a mean within its own old face.
     #[default]
     All,
+}
+
+impl Scheme {
+    /// Its name, as sentences begin with.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Loop(_) => "Loop subdivision",
+            Self::CatmullClark => "Catmull-Clark subdivision",
+            Self::Midpoint(_) => "Midpoint subdivision",
+            Self::Butterfly => "Butterfly subdivision",
+            Self::Sqrt3 => "Sqrt3 subdivision",
+            Self::DooSabin => "Doo-Sabin subdivision",
+        }
+    }
+
+    /// Whether it takes triangles only.
+    pub const fn needs_triangles(self) -> bool {
+        matches!(
+            self,
+            Self::Loop(_) | Self::Midpoint(Split::Triangles) | Self::Butterfly | Self::Sqrt3
+        )
+    }
+
+    /// How many corners faces have after a level, of those that have so many before it.
+    pub(crate) fn degrees_after(self, degrees: Range) -> Range {
+        match self {
+            Self::CatmullClark | Self::Midpoint(Split::Quads) => Range::exactly(4),
+            // Faces around vertices have as many corners as those have edges.
+            Self::DooSabin => Range {
+                min: 3,
+                max: u64::MAX,
+            },
+            _ => degrees,
+        }
+    }
 }

@@ -51,7 +51,7 @@ fn five_million_triangles(c: &mut Criterion) {
 fn subdivided(mesh: &Mesh, levels: u32) -> Mesh {
     let files = Files::default();
     let mut mesh = mesh.clone();
-    LoopSubdivide { levels }
+    LoopSubdivide::levels(levels)
         .apply(&mut mesh, &mut Context::new(&NoProgress, &files))
         .expect("a mesh of triangles");
     mesh

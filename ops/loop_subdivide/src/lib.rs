@@ -28,30 +28,13 @@
 //! boundary is a cubic B-spline curve that does not depend on the inside. Away from old vertices of
 //! valence other than 6 the limit surface has continuous curvature.
 //!
-//! [`LoopSubdivide`] is the operation; [`subdivide`] makes one level of a mesh that is at hand. A
-//! level is not a sequence of edits: its arrays are computed in closed form from the old ones (module
-//! `topology`), each element by itself, in parallel, with the same bytes for any number of threads.
+//! The crate `subdivision` does the work, for this scheme and the others.
 
-mod attributes;
-mod forecast;
-mod meter;
-mod positions;
-mod topology;
-
-use mesh::{FaceId, Mesh};
-use op::{
-    Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Progress, Range, Refusal,
-    Report,
-};
-use rayon::prelude::*;
+use mesh::Mesh;
+use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use forecast::Counts;
-use meter::{Meter, Through};
-
-/// The most levels that a step may ask for: a single triangle fills the ids before.
-const MAX_LEVELS: u32 = 16;
+use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Step};
 
 /// Cuts every triangle into four and smooths, as often as `levels` says.
 ///
@@ -60,9 +43,9 @@ const MAX_LEVELS: u32 = 16;
 /// their numbers, and the vertex on edge e is V + e. The mesh must consist of triangles.
 ///
 /// Vertex attributes are smoothed with the weights of the positions; texture coordinates and other
-/// corner values are interpolated within their own triangle, so that seams stay seams; halves of an
-/// edge and parts of a triangle take the values of the whole. Normals are dropped, because they would
-/// be wrong. The sharpness of creases is handed on, but this operation smooths across them.
+/// corner values as `face_varying` says, so that seams stay seams; halves of an edge and parts of a
+/// triangle take the values of the whole. Normals are dropped, because they would be wrong. Edges and
+/// vertices that `Crease` made sharp stay so for as many levels as their sharpness says.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoopSubdivide {
@@ -70,6 +53,18 @@ pub struct LoopSubdivide {
     #[serde(default = "one")]
     #[schemars(range(min = 0, max = 16))]
     pub levels: u32,
+    /// The weights at old vertices.
+    #[serde(default)]
+    pub weights: LoopWeights,
+    /// What holds where the mesh ends.
+    #[serde(default)]
+    pub boundary: Boundary,
+    /// How the sharpness of creases decreases.
+    #[serde(default)]
+    pub creasing: Creasing,
+    /// How texture coordinates and other corner values are smoothed.
+    #[serde(default)]
+    pub face_varying: FaceVarying,
 }
 
 const fn one() -> u32 {
@@ -79,146 +74,49 @@ const fn one() -> u32 {
 impl Default for LoopSubdivide {
     /// One level.
     fn default() -> Self {
-        Self { levels: one() }
+        Self::levels(1)
+    }
+}
+
+impl LoopSubdivide {
+    /// So many levels, with the defaults of everything else.
+    pub fn levels(levels: u32) -> Self {
+        Self {
+            levels,
+            weights: LoopWeights::default(),
+            boundary: Boundary::default(),
+            creasing: Creasing::default(),
+            face_varying: FaceVarying::default(),
+        }
+    }
+
+    fn step(&self) -> Step {
+        Step {
+            name: Self::NAME,
+            rules: Rules {
+                scheme: Scheme::Loop(self.weights),
+                boundary: self.boundary,
+                creasing: self.creasing,
+                face_varying: self.face_varying,
+            },
+            levels: self.levels,
+        }
     }
 }
 
 impl MeshOperation for LoopSubdivide {
     const NAME: &'static str = "LoopSubdivide";
+    const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Cut every triangle into four and smooth";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        if self.levels == 0 {
-            return problems;
-        }
-        if self.levels > MAX_LEVELS {
-            problems.push(Problem::error(self.too_many_levels()).at(["levels"]));
-        }
-        if plan.degrees.min > 3 && plan.faces.max > 0 {
-            let message = format!(
-                "{} needs triangles, but the faces have at least {} corners",
-                Self::NAME,
-                plan.degrees.min
-            );
-            problems.push(Problem::error(message).help("cut the faces into triangles before"));
-        }
-        plan.degrees = Range::exactly(3);
-        plan.drop_normals();
-
-        let mut levels = self.levels.min(MAX_LEVELS);
-        let least = Counts::least_of(plan);
-        if let Err(too_large) = least.check(levels, cx.budget) {
-            problems.push(
-                Problem::error(too_large.message())
-                    .at(["levels"])
-                    .help(too_large.help()),
-            );
-            // The plan goes on with what fits, so that later steps are not blamed for this one.
-            levels = too_large.fits.unwrap_or(0);
-        }
-        for _ in 0..levels {
-            plan.vertices = plan.vertices.plus(plan.edges);
-            plan.edges = plan.edges.by(2).plus(plan.faces.by(3));
-            plan.faces = plan.faces.by(4);
-        }
-        problems
+        self.step().plan(plan, cx)
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        if self.levels > MAX_LEVELS {
-            return Err(OpError::Parameter(self.too_many_levels()));
-        }
-        cx.advance("Loop subdivision", 0, 1)?;
-        if self.levels == 0 {
-            return Ok(Report::default());
-        }
-        mesh.compact();
-        check_triangles(mesh)?;
-        let counts = Counts::of(mesh);
-        counts
-            .check(self.levels, cx.budget)
-            .map_err(|too_large| OpError::Budget(too_large.to_string()))?;
-
-        let total = (0..self.levels).map(|level| counts.after(level).work());
-        let through = Through(cx);
-        let meter = Meter::new(&through, total.sum());
-        for _ in 0..self.levels {
-            mesh.replace(finer(mesh, &meter)?);
-        }
-        Ok(Report::changed(mesh.n_faces()))
+        self.step().apply(mesh, cx)
     }
 }
 
-impl LoopSubdivide {
-    fn too_many_levels(&self) -> String {
-        let levels = self.levels;
-        format!("levels must lie between 0 and {MAX_LEVELS}, not {levels}")
-    }
-}
-
-/// One level of Loop subdivision, with the ids, the weights and the attributes of [`LoopSubdivide`].
-///
-/// A mesh with dead elements is compacted first, and the ids are those of the compacted mesh.
-/// Progress is reported from the threads that work.
-///
-/// # Errors
-///
-/// [`OpError::Refused`] with [`Refusal::NotTriangle`] if a face has more than three corners,
-/// [`OpError::Budget`] if the elements would outnumber the ids, [`OpError::Cancelled`].
-///
-/// # Examples
-///
-/// ```
-/// let mesh = loop_subdivide::subdivide(&mesh::shapes::icosahedron(), &op::NoProgress)?;
-/// assert_eq!((mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()), (42, 120, 80));
-/// # Ok::<(), op::OpError>(())
-/// ```
-pub fn subdivide(mesh: &Mesh, progress: &dyn Progress) -> Result<Mesh, OpError> {
-    if !mesh.is_dense() {
-        let mut dense = mesh.clone();
-        dense.compact();
-        return subdivide(&dense, progress);
-    }
-    check_triangles(mesh)?;
-    let counts = Counts::of(mesh);
-    counts
-        .check(1, u64::MAX)
-        .map_err(|too_large| OpError::Budget(too_large.to_string()))?;
-    finer(mesh, &Meter::new(progress, counts.work()))
-}
-
-/// One level over a dense mesh of triangles whose next level fits.
-fn finer(mesh: &Mesh, meter: &Meter) -> Result<Mesh, OpError> {
-    let connectivity = topology::finer(mesh, meter)?;
-    let positions = positions::finer(mesh, meter)?;
-    let attributes = attributes::finer(mesh, meter)?;
-    let mut finer = Mesh::from_arrays(connectivity, positions);
-    finer.set_attributes(attributes);
-    Ok(finer)
-}
-
-fn check_triangles(mesh: &Mesh) -> Result<(), OpError> {
-    let is_polygon = |i: usize| !mesh.is_triangle(FaceId::new(i));
-    match (0..mesh.n_faces())
-        .into_par_iter()
-        .position_first(is_polygon)
-        .map(FaceId::new)
-    {
-        None => Ok(()),
-        Some(f) => Err(OpError::refused(
-            Refusal::NotTriangle,
-            format!(
-                "Loop subdivision needs triangles, but {f} has {} corners",
-                mesh.degree(f)
-            ),
-        )),
-    }
-}
-
-#[cfg(test)]
-mod fixtures;
-#[cfg(test)]
-mod oracle;
 #[cfg(test)]
 mod tests;

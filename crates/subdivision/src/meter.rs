@@ -11,14 +11,16 @@ pub(crate) const BLOCK: usize = 4096;
 /// Adds up the work of all threads and tells the listener.
 pub(crate) struct Meter<'a> {
     listener: &'a dyn Progress,
+    what: &'static str,
     done: AtomicU64,
     total: u64,
 }
 
 impl<'a> Meter<'a> {
-    pub(crate) fn new(listener: &'a dyn Progress, total: u64) -> Self {
+    pub(crate) fn new(listener: &'a dyn Progress, what: &'static str, total: u64) -> Self {
         Self {
             listener,
+            what,
             done: AtomicU64::new(0),
             total,
         }
@@ -27,11 +29,20 @@ impl<'a> Meter<'a> {
     /// Counts `n` more elements as done.
     pub(crate) fn add(&self, n: usize) -> Result<(), OpError> {
         let done = self.done.fetch_add(n as u64, Relaxed) + n as u64;
-        if self.listener.advance("Loop subdivision", done, self.total) {
+        if self
+            .listener
+            .advance(self.what, done.min(self.total), self.total)
+        {
             Ok(())
         } else {
             Err(OpError::Cancelled)
         }
+    }
+
+    /// All is done.
+    pub(crate) fn finish(&self) -> Result<(), OpError> {
+        self.done.store(self.total, Relaxed);
+        self.add(0)
     }
 }
 

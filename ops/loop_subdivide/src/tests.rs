@@ -2,12 +2,15 @@
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-use mesh::{DVec2, DVec3, Mesh, UV, shapes};
+use mesh::{DVec2, DVec3, Mesh, UV, VERTEX_NORMAL, shapes};
 use op::{Context, Files, MeshOperation, MeshPlan, NoProgress, OpError, PlanContext, Progress};
 
-use super::once;
-use crate::fixtures::{self, sheet};
-use crate::{LoopSubdivide, subdivide};
+use crate::LoopSubdivide;
+
+/// One level, by the operation.
+fn once(mesh: &Mesh) -> Mesh {
+    op::test::applied(&LoopSubdivide::default(), mesh.clone())
+}
 
 #[test]
 fn the_bytes_are_the_same_for_any_number_of_threads() {
@@ -19,7 +22,7 @@ fn the_bytes_are_the_same_for_any_number_of_threads() {
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().unwrap();
-        pool.install(|| op::test::applied(&LoopSubdivide { levels: 6 }, mesh.clone()))
+        pool.install(|| op::test::applied(&LoopSubdivide::levels(6), mesh.clone()))
     };
     let one = with(1);
     assert_eq!(one.n_faces(), 20 << 12);
@@ -37,29 +40,10 @@ fn the_bytes_are_the_same_for_any_number_of_threads() {
 
 #[test]
 fn levels_follow_one_another_and_none_changes_nothing() {
-    let mesh = sheet(3, 2);
-    let apply = |levels| op::test::applied(&LoopSubdivide { levels }, mesh.clone());
+    let mesh = shapes::fans(&shapes::grid(3, 2));
+    let apply = |levels| op::test::applied(&LoopSubdivide::levels(levels), mesh.clone());
     assert!(apply(0) == mesh);
     assert!(apply(3) == once(&once(&once(&mesh))));
-}
-
-#[test]
-fn the_plan_is_the_result_on_every_fixture() {
-    let files = Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
-    for (name, mesh) in fixtures::all() {
-        for levels in 0..3 {
-            let operation = LoopSubdivide { levels };
-            let mut plan = MeshPlan::of(&mesh);
-            assert_eq!(operation.plan(&mut plan, &cx), [], "{name}");
-            let new = op::test::applied(&operation, mesh.clone());
-            assert_eq!(plan, MeshPlan::of(&new), "{name}");
-        }
-    }
 }
 
 #[test]
@@ -68,12 +52,11 @@ fn polygons_are_refused_and_the_first_is_named() {
     let points = vec![at(0., 0.), at(1., 0.), at(1., 1.), at(0., 1.), at(2., 0.)];
     let polygons = [vec![1, 4, 2], vec![0, 1, 2, 3]];
     let (mesh, _) = Mesh::from_polygons(points, &polygons).unwrap();
-    let error = subdivide(&mesh, &NoProgress).unwrap_err();
+    let error = op::test::try_applied(&LoopSubdivide::default(), mesh).unwrap_err();
     assert_eq!(
         error.to_string(),
         "Loop subdivision needs triangles, but f1 has 4 corners"
     );
-    let error = op::test::try_applied(&LoopSubdivide::default(), mesh).unwrap_err();
     let OpError::Refused { reason, .. } = error else {
         panic!("{error}")
     };
@@ -95,7 +78,7 @@ fn a_plan_knows_that_squares_will_be_refused() {
 
 #[test]
 fn fourteen_levels_of_an_icosahedron_are_refused_before_anything_runs() {
-    let operation = LoopSubdivide { levels: 14 };
+    let operation = LoopSubdivide::levels(14);
     let error = op::test::try_applied(&operation, shapes::icosahedron()).unwrap_err();
     assert!(matches!(error, OpError::Budget(_)));
     assert!(error.to_string().ends_with("level 13 fits"), "{error}");
@@ -127,8 +110,8 @@ fn the_budget_is_kept_by_the_plan_and_by_the_operation() {
             on: None,
             budget,
         };
-        let problems = LoopSubdivide { levels }.plan(&mut MeshPlan::of(&mesh), &plan_cx);
-        let done = MeshOperation::apply(&LoopSubdivide { levels }, &mut mesh, &mut cx);
+        let problems = LoopSubdivide::levels(levels).plan(&mut MeshPlan::of(&mesh), &plan_cx);
+        let done = MeshOperation::apply(&LoopSubdivide::levels(levels), &mut mesh, &mut cx);
         assert_eq!(done.is_ok(), problems.is_empty());
         done
     };
@@ -139,7 +122,7 @@ fn the_budget_is_kept_by_the_plan_and_by_the_operation() {
 
 #[test]
 fn levels_out_of_range_are_an_error() {
-    let operation = LoopSubdivide { levels: u32::MAX };
+    let operation = LoopSubdivide::levels(u32::MAX);
     let error = op::test::try_applied(&operation, Mesh::default()).unwrap_err();
     assert!(matches!(error, OpError::Parameter(_)));
     let files = Files::default();
@@ -185,7 +168,7 @@ fn it_can_be_cancelled_at_any_call_and_otherwise_arrives_at_the_end() {
     let run = |listener: &StopAfter| {
         let mut mesh = shapes::icosahedron();
         let mut cx = Context::new(listener, &files);
-        MeshOperation::apply(&LoopSubdivide { levels: 6 }, &mut mesh, &mut cx)
+        MeshOperation::apply(&LoopSubdivide::levels(6), &mut mesh, &mut cx)
     };
     let free = StopAfter::new(u64::MAX);
     run(&free).unwrap();
@@ -203,8 +186,18 @@ fn it_can_be_cancelled_at_any_call_and_otherwise_arrives_at_the_end() {
 #[test]
 fn a_recipe_can_leave_the_levels_out_and_nothing_else_is_taken() {
     let parsed = |text| ron::from_str::<LoopSubdivide>(text);
-    assert_eq!(parsed("(levels: 3)"), Ok(LoopSubdivide { levels: 3 }));
-    assert_eq!(parsed("()"), Ok(LoopSubdivide { levels: 1 }));
+    assert_eq!(parsed("(levels: 3)"), Ok(LoopSubdivide::levels(3)));
+    assert_eq!(parsed("()"), Ok(LoopSubdivide::levels(1)));
     assert!(parsed("(level: 3)").is_err());
     assert!(parsed("(levels: -1)").is_err());
+}
+
+#[test]
+fn normals_are_dropped_and_reported() {
+    let mut mesh = shapes::octahedron();
+    mesh.set(VERTEX_NORMAL, mesh.positions().to_vec());
+    let (new, report) = op::test::try_applied(&LoopSubdivide::default(), mesh).unwrap();
+    assert_eq!(new.get(VERTEX_NORMAL), None);
+    assert_eq!(report.losses.len(), 1);
+    assert_eq!(report.changed, 32);
 }

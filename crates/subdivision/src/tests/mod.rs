@@ -1,18 +1,19 @@
-//! Laws of Loop subdivision, and comparisons with two other ways to compute it.
+//! Laws, and comparisons of Loop subdivision with two other ways to compute it.
 
 mod attributes;
 mod laws;
-mod operation;
 mod other_ways;
+mod plan;
 
 use mesh::{DVec3, Mesh, VertexId};
 use op::NoProgress;
 
-use crate::subdivide;
+use crate::{LoopWeights, Rules, Scheme, subdivide};
 
 /// One level, checked.
 pub(crate) fn once(mesh: &Mesh) -> Mesh {
-    let new = subdivide(mesh, &NoProgress).unwrap();
+    let rules = Rules::of(Scheme::Loop(LoopWeights::Warren));
+    let new = subdivide(mesh, rules, 1, &NoProgress).unwrap();
     assert_eq!(new.defects(), []);
     new
 }

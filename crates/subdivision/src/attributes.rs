@@ -1,0 +1,118 @@
+//! The attributes of the next level.
+
+use mesh::{Attributes, CORNER, CREASE, Column, Domain, Mesh, Rule, Value, Values};
+use op::OpError;
+
+use crate::FaceVarying;
+use crate::level::{Place, Topology};
+use crate::masks::Masks;
+use crate::meter::Meter;
+use crate::sharpness::Sharpness;
+
+/// Where the values of the next level come from.
+pub(crate) struct From<'a, T, M> {
+    pub(crate) mesh: &'a Mesh,
+    pub(crate) topology: &'a T,
+    pub(crate) masks: &'a M,
+    /// How creases fade; `None` hands their numbers on.
+    pub(crate) sharpness: Option<Sharpness<'a>>,
+    pub(crate) face_varying: FaceVarying,
+}
+
+/// Whether the next level has this column too.
+pub(crate) fn is_carried(column: &Column) -> bool {
+    matches!(column.rule, Rule::Interpolate | Rule::Copy)
+}
+
+impl<T: Topology, M: Masks> From<'_, T, M> {
+    /// The columns of the next level, by their rules:
+    ///
+    /// - vertices: [`Rule::Interpolate`] with the masks of the positions; [`Rule::Copy`] keeps the values
+    ///   of old vertices, new ones have zero;
+    /// - corners: likewise, by the choice of [`FaceVarying`] within their own faces, so both sides of a
+    ///   seam stay apart;
+    /// - edges: parts of an old one as that, others zero;
+    /// - faces: parts of an old one as that.
+    ///
+    /// Columns of [`Rule::Normal`] and [`Rule::Drop`] are left out. Sharpness fades.
+    pub(crate) fn attributes(&self, finer: &Mesh, meter: &Meter) -> Result<Attributes, OpError> {
+        let mut new = Attributes::default();
+        let columns = self.mesh.attributes().iter();
+        for (domain, column) in columns.filter(|(_, c)| is_carried(c)) {
+            // Asks whether to go on.
+            meter.add(0)?;
+            let n = finer.domain_len(domain);
+            let values = match domain {
+                Domain::Vertex => self.vertex_values(column, n, meter)?,
+                Domain::Corner => self.corner_values(column, n),
+                Domain::Edge => self.edge_values(column, n),
+                Domain::Face => column.values.gather(n, |i| self.topology.face(i)),
+            };
+            let name = column.name.clone();
+            let rule = column.rule;
+            new.insert(domain, Column { name, rule, values });
+        }
+        Ok(new)
+    }
+
+    fn vertex_values(&self, column: &Column, n: usize, meter: &Meter) -> Result<Values, OpError> {
+        if column.rule == Rule::Copy {
+            return Ok(match (&self.sharpness, &column.values) {
+                (Some(sharpness), Values::Float(old)) if column.name == CORNER.name => {
+                    f64::wrap(sharpness.next_vertices(old, n))
+                }
+                _ => column
+                    .values
+                    .gather(n, |i| (i < self.mesh.n_vertices()).then_some(i)),
+            });
+        }
+        Ok(match &column.values {
+            Values::Float(v) => Values::Float(self.masks.values(v, meter)?),
+            Values::Vec2(v) => Values::Vec2(self.masks.values(v, meter)?),
+            Values::Vec3(v) => Values::Vec3(self.masks.values(v, meter)?),
+            Values::Vec4(v) => Values::Vec4(self.masks.values(v, meter)?),
+            whole @ (Values::Int(_) | Values::Tag(_)) => whole.blend(n, |i, add| {
+                self.masks.mask(i, &mut |source, w| add(source, w));
+            }),
+        })
+    }
+
+    fn edge_values(&self, column: &Column, n: usize) -> Values {
+        match (&self.sharpness, &column.values) {
+            (Some(sharpness), Values::Float(old)) if column.name == CREASE.name => {
+                f64::wrap(sharpness.next_edges(old, n))
+            }
+            _ => column.values.gather(n, |i| self.topology.edge(i)),
+        }
+    }
+
+    fn corner_values(&self, column: &Column, n: usize) -> Values {
+        if column.rule == Rule::Copy {
+            return column.values.gather(n, |i| match self.topology.corner(i) {
+                Place::At(h) => Some(h.index()),
+                _ => None,
+            });
+        }
+        column
+            .values
+            .blend(n, |i, add| linear(self.mesh, self.topology.corner(i), add))
+    }
+}
+
+/// Adds the old corners that a new one is the mean of, all in its own old face.
+fn linear(mesh: &Mesh, place: Place, add: &mut dyn FnMut(usize, f64)) {
+    match place {
+        Place::At(h) => add(h.index(), 1.0),
+        Place::On(h) => {
+            add(h.index(), 0.5);
+            add(mesh.next(h).index(), 0.5);
+        }
+        Place::In(f) => {
+            let part = 1.0 / mesh.degree(f) as f64;
+            for h in mesh.face_half_edges(f) {
+                add(h.index(), part);
+            }
+        }
+        Place::Outside => {}
+    }
+}

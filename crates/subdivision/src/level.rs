@@ -1,0 +1,64 @@
+//! One level: the connectivity by a topology, the values at vertices by masks, the attributes by both.
+
+use mesh::{Connectivity, HalfEdgeId, Mesh};
+use op::OpError;
+
+use crate::attributes;
+use crate::masks::Masks;
+use crate::meter::Meter;
+use crate::{FaceVarying, sharpness::Sharpness};
+
+/// How the elements of the next level lie in a dense mesh.
+pub(crate) trait Topology: Sync {
+    /// The connectivity of the next level.
+    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, OpError>;
+
+    /// Where the corner of new half-edge `i` lies in the old mesh.
+    fn corner(&self, i: usize) -> Place;
+
+    /// The old edge that new edge `i` is a part of.
+    fn edge(&self, i: usize) -> Option<usize>;
+
+    /// The old face that new face `i` is a part of.
+    fn face(&self, i: usize) -> Option<usize>;
+}
+
+/// Where a corner of the next level lies in an old face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// At the origin of this half-edge.
+    At(HalfEdgeId),
+    /// In the middle of this half-edge.
+    On(HalfEdgeId),
+    /// In the center of this face.
+    In(mesh::FaceId),
+    /// Nowhere: the half-edge is on the boundary.
+    Outside,
+}
+
+/// One level of a dense mesh. Creases fade by the rules of `sharpness`, if there are any; without them the
+/// numbers are handed on.
+pub(crate) fn finer<'a>(
+    mesh: &'a Mesh,
+    topology: &impl Topology,
+    masks: &impl Masks,
+    sharpness: Option<Sharpness<'a>>,
+    face_varying: FaceVarying,
+    meter: &Meter,
+) -> Result<Mesh, OpError> {
+    let connectivity = topology.connectivity(meter)?;
+    let positions = masks.values(mesh.positions(), meter)?;
+    let mut finer = Mesh::from_arrays(connectivity, positions);
+    if mesh.attributes().iter().next().is_some() {
+        let from = attributes::From {
+            mesh,
+            topology,
+            masks,
+            sharpness,
+            face_varying,
+        };
+        let attributes = from.attributes(&finer, meter)?;
+        finer.set_attributes(attributes);
+    }
+    Ok(finer)
+}

@@ -1,0 +1,94 @@
+//! The masks: which old vertices a new one is a mean of.
+
+mod catmull_clark;
+mod loop_masks;
+mod midpoint;
+
+pub(crate) use catmull_clark::CatmullClarkMasks;
+pub(crate) use loop_masks::LoopMasks;
+pub(crate) use midpoint::MidpointMasks;
+
+use std::ops::{Add, Mul};
+
+use mesh::{Mesh, Value, VertexId};
+use op::OpError;
+use rayon::prelude::*;
+
+use crate::meter::{BLOCK, Meter};
+use crate::sharpness::{Sharpness, VertexRule};
+
+/// A value of which there are weighted sums.
+pub(crate) trait Number: Value + Add<Output = Self> + Mul<f64, Output = Self> {}
+
+impl<T: Value + Add<Output = T> + Mul<f64, Output = T>> Number for T {}
+
+/// The masks of a scheme on one mesh.
+pub(crate) trait Masks: Sync {
+    /// How many vertices the next level has.
+    fn n_vertices(&self) -> usize;
+
+    /// Calls `add` with old vertices that new vertex `i` is a sum of, and their weights, in a fixed order.
+    /// The weights sum to 1; a vertex may come more than once.
+    fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64));
+
+    /// The values at the vertices of the next level. Equal to the sums of [`mask`](Self::mask) but for
+    /// rounding.
+    fn values<T: Number>(&self, old: &[T], meter: &Meter) -> Result<Vec<T>, OpError> {
+        let mut new: Vec<T> = mesh::zeroed(self.n_vertices());
+        fill(&mut new, 0, meter, |i| {
+            let mut sum = T::default();
+            self.mask(i, &mut |source, w| sum = sum + old[source] * w);
+            sum
+        })?;
+        Ok(new)
+    }
+}
+
+/// Computes values in parallel: the i-th of `new` is `value(start + i)`.
+pub(crate) fn fill<T: Number>(
+    new: &mut [T],
+    start: usize,
+    meter: &Meter,
+    value: impl Fn(usize) -> T + Sync,
+) -> Result<(), OpError> {
+    new.par_chunks_mut(BLOCK)
+        .enumerate()
+        .try_for_each(|(block, new)| {
+            for (i, slot) in (start + block * BLOCK..).zip(new.iter_mut()) {
+                *slot = value(i);
+            }
+            meter.add(new.len())
+        })
+}
+
+/// Adds the mask of an old vertex: `smooth(weight, add)` adds the one that holds where nothing is sharp,
+/// scaled; the others are the same for all schemes. An isolated vertex stays.
+#[inline]
+fn at_vertex<A: FnMut(usize, f64)>(
+    mesh: &Mesh,
+    sharpness: &Sharpness,
+    v: VertexId,
+    add: &mut A,
+    smooth: impl Fn(f64, &mut A),
+) {
+    let Some(h) = mesh.vertex_half_edge(v) else {
+        return add(v.index(), 1.0);
+    };
+    let part = |rule: VertexRule, weight: f64, add: &mut A| match rule {
+        VertexRule::Smooth => smooth(weight, add),
+        VertexRule::Crease([a, b]) => {
+            add(v.index(), 0.75 * weight);
+            add(mesh.target(a).index(), 0.125 * weight);
+            add(mesh.target(b).index(), 0.125 * weight);
+        }
+        VertexRule::Corner => add(v.index(), weight),
+    };
+    let blend = sharpness.at_vertex(v, h);
+    match blend.next {
+        None => part(blend.now, 1.0, add),
+        Some((next, weight)) => {
+            part(blend.now, weight, add);
+            part(next, 1.0 - weight, add);
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! The connectivity of the next level where every face with n corners becomes n quads.
+//!
+//! Corners are numbered face by face, c(h) is the number of the one at the origin of half-edge h. Edges are
+//! cut in two as in [`halves`](crate::halves), each part of a face is the quad at one corner, and
+//! between two of them an edge runs from the middle of an old one to the center, a spoke:
+//!
+//! ```text
+//!     . <------------ .
+//!     |               |             quad at corner c(h)      = face c(h)
+//!     |       |       |             spoke of h               = edge 2E + c(h)
+//!     |       |       |               its first half out(h)  runs from x to the center m, in face c(h)
+//!     | - - - m - - - |
+//!     |       ↑       |             next(first(h))    = out(h); on the boundary second(h)
+//!     |  c(h) | out(h)|             next(second(h))   = first(next(h)), everywhere
+//!     |       |       |             next(out(h))      = twin of out(prev(h))
+//!     a ----> x ----> b             next(out(h) twin) = second(h)
+//!     first(h)  second(h)
+//! ```
+//!
+//! The vertex on edge e is V + e, the center of face f is V + E + f. An old vertex and one on an edge leave
+//! as they do there, a center along the spoke of the first half-edge of its face.
+//!
+//! In a mesh of quads the corners of face f are 4f to 4f + 3, and which of them a half-edge has is seen from
+//! the half-edges next to it. Otherwise the numbers are listed first; that happens on the first level only,
+//! where the mesh is small. After Dupuy and Vanhoey, "A Halfedge Refinement Rule for Parallel Catmull-Clark
+//! Subdivision", 2021, for edges in pairs.
+
+use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
+use op::OpError;
+use rayon::prelude::*;
+
+use crate::halves::{Parts, Rest, first, on_edge, place, second, split_edges};
+use crate::level::{Place, Topology};
+use crate::meter::{BLOCK, Meter};
+
+/// A dense mesh whose faces are cut into quads.
+pub(crate) struct Quads<'a> {
+    mesh: &'a Mesh,
+    n_vertices: usize,
+    n_edges: usize,
+    n_faces: usize,
+    n_corners: usize,
+    /// The corners of the half-edges, where not all faces are quads.
+    listed: Option<Listed>,
+}
+
+struct Listed {
+    /// The corner of each half-edge; 0 for those without a face.
+    corner: Vec<u32>,
+    /// The half-edge of each corner.
+    half_edge: Vec<HalfEdgeId>,
+}
+
+impl<'a> Quads<'a> {
+    pub(crate) fn new(mesh: &'a Mesh) -> Self {
+        let n_faces = mesh.n_faces();
+        let is_quad = |f: usize| {
+            let h = mesh.face_half_edge(FaceId::new(f));
+            let opposite = mesh.next(mesh.next(h));
+            opposite != h && mesh.next(mesh.next(opposite)) == h
+        };
+        let listed = (!(0..n_faces).into_par_iter().all(is_quad)).then(|| Listed::of(mesh));
+        Self {
+            mesh,
+            n_vertices: mesh.n_vertices(),
+            n_edges: mesh.n_edges(),
+            n_faces,
+            n_corners: listed.as_ref().map_or(4 * n_faces, |l| l.half_edge.len()),
+            listed,
+        }
+    }
+
+    /// The corners before, at and after the origin of half-edge `h` of face `f`.
+    #[inline]
+    fn corners(&self, h: HalfEdgeId, f: FaceId) -> [usize; 3] {
+        if let Some(listed) = &self.listed {
+            let corner = |h: HalfEdgeId| listed.corner[h.index()] as usize;
+            return [
+                corner(self.mesh.prev(h)),
+                corner(h),
+                corner(self.mesh.next(h)),
+            ];
+        }
+        let start = self.mesh.face_half_edge(f);
+        let k = if h == start {
+            0
+        } else if self.mesh.next(start) == h {
+            1
+        } else if self.mesh.next(h) == start {
+            3
+        } else {
+            2
+        };
+        [k + 3, k, k + 1].map(|k| 4 * f.index() + k % 4)
+    }
+
+    /// The half-edges of face `f` and their corners.
+    #[inline]
+    fn face_corner(&self, c: usize) -> (HalfEdgeId, FaceId) {
+        if let Some(listed) = &self.listed {
+            let h = listed.half_edge[c];
+            return (h, self.mesh.connectivity().face[h.index()]);
+        }
+        let f = FaceId::new(c / 4);
+        let start = self.mesh.face_half_edge(f);
+        ((0..c % 4).fold(start, |h, _| self.mesh.next(h)), f)
+    }
+
+    /// The half of the spoke of corner `c` that runs to the center.
+    #[inline]
+    fn out(&self, c: usize) -> HalfEdgeId {
+        HalfEdgeId::new(4 * self.n_edges + 2 * c)
+    }
+
+    #[inline]
+    fn parts(&self, h: HalfEdgeId) -> Parts {
+        let after = first(self.mesh.next(h));
+        let Some(f) = self.mesh.face(h) else {
+            return ([second(h), after], [FaceId::NONE; 2]);
+        };
+        let [_, c, next] = self.corners(h, f);
+        ([self.out(c), after], [FaceId::new(c), FaceId::new(next)])
+    }
+
+    /// Writes the spokes, two half-edges for each corner, and the half-edges of the faces and centers.
+    fn draw_spokes(&self, new: &mut Rest, meter: &Meter) -> Result<(), OpError> {
+        (
+            new.next.par_chunks_mut(2 * BLOCK),
+            new.origin.par_chunks_mut(2 * BLOCK),
+            new.face.par_chunks_mut(2 * BLOCK),
+            new.face_half_edge.par_chunks_mut(BLOCK),
+        )
+            .into_par_iter()
+            .enumerate()
+            .try_for_each(|(block, (next, origin, face, starts))| {
+                let next = next.as_chunks_mut::<2>().0.iter_mut();
+                let origin = origin.as_chunks_mut::<2>().0.iter_mut();
+                let face = face.as_chunks_mut::<2>().0.iter_mut();
+                let n = starts.len();
+                let arrays = next.zip(origin).zip(face).zip(starts);
+                for (c, (((next, origin), face), start)) in (block * BLOCK..).zip(arrays) {
+                    let (h, f) = self.face_corner(c);
+                    let [before, _, after] = self.corners(h, f);
+                    let center = VertexId::new(self.n_vertices + self.n_edges + f.index());
+                    *next = [self.out(before).twin(), second(h)];
+                    *origin = [on_edge(self.mesh, h), center];
+                    *face = [FaceId::new(c), FaceId::new(after)];
+                    *start = first(h);
+                }
+                meter.add(n)
+            })?;
+
+        let in_face = |(f, leaving): (usize, &mut HalfEdgeId)| {
+            let f = FaceId::new(f);
+            let [_, c, _] = self.corners(self.mesh.face_half_edge(f), f);
+            *leaving = self.out(c).twin();
+        };
+        new.vertex_half_edge
+            .par_iter_mut()
+            .with_min_len(BLOCK)
+            .enumerate()
+            .for_each(in_face);
+        Ok(())
+    }
+}
+
+impl Listed {
+    fn of(mesh: &Mesh) -> Self {
+        let mut corner = vec![0; mesh.n_half_edges()];
+        let mut half_edge = Vec::with_capacity(mesh.n_half_edges());
+        for f in mesh.faces() {
+            for h in mesh.face_half_edges(f) {
+                corner[h.index()] = u32::try_from(half_edge.len()).expect("fewer than half-edges");
+                half_edge.push(h);
+            }
+        }
+        Self { corner, half_edge }
+    }
+}
+
+impl Topology for Quads<'_> {
+    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, OpError> {
+        let added = [self.n_faces, self.n_corners, self.n_corners];
+        let rest = |mut rest: Rest| self.draw_spokes(&mut rest, meter);
+        split_edges(self.mesh, added, |h| self.parts(h), rest, meter)
+    }
+
+    fn corner(&self, i: usize) -> Place {
+        let n_halves = 4 * self.n_edges;
+        if i < n_halves {
+            return place(self.mesh, i);
+        }
+        let (h, f) = self.face_corner((i - n_halves) / 2);
+        if i.is_multiple_of(2) {
+            Place::On(h)
+        } else {
+            Place::In(f)
+        }
+    }
+
+    fn edge(&self, i: usize) -> Option<usize> {
+        (i < 2 * self.n_edges).then_some(i / 2)
+    }
+
+    fn face(&self, i: usize) -> Option<usize> {
+        Some(self.face_corner(i).1.index())
+    }
+}

@@ -1,0 +1,47 @@
+//! What a step foresees is what it makes.
+
+use mesh::{CREASE, Mesh, UV};
+use op::{Context, Files, MeshPlan, NoProgress, PlanContext};
+
+use crate::fixtures;
+use crate::{LoopWeights, Rules, Scheme, Split, Step};
+
+const SCHEMES: [Scheme; 4] = [
+    Scheme::Loop(LoopWeights::Warren),
+    Scheme::CatmullClark,
+    Scheme::Midpoint(Split::Triangles),
+    Scheme::Midpoint(Split::Quads),
+];
+
+#[test]
+fn counts_are_foreseen_exactly_for_every_scheme_on_every_fixture() {
+    let files = Files::default();
+    let cx = PlanContext {
+        files: &files,
+        on: None,
+        budget: u64::MAX,
+    };
+    for (name, mut mesh) in fixtures::all() {
+        mesh.set(UV, vec![mesh::DVec2::X; mesh.n_half_edges()]);
+        mesh.set(CREASE, vec![1.5; mesh.n_edges()]);
+        for scheme in SCHEMES {
+            for levels in 0..3 {
+                let step = Step {
+                    name: "Test",
+                    rules: Rules::of(scheme),
+                    levels,
+                };
+                let mut plan = MeshPlan::of(&mesh);
+                assert_eq!(step.plan(&mut plan, &cx), [], "{name} {scheme:?}");
+                let mut new: Mesh = mesh.clone();
+                let mut cx = Context::new(&NoProgress, &files);
+                step.apply(&mut new, &mut cx).unwrap();
+                if new.n_faces() == 0 {
+                    plan.degrees = MeshPlan::of(&new).degrees;
+                }
+                assert_eq!(plan, MeshPlan::of(&new), "{name} {scheme:?} {levels}");
+                assert_eq!(new.defects(), [], "{name} {scheme:?} {levels}");
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! The connectivity of the next level where every triangle becomes four.
+//!
+//! Edges are cut in two as in [`halves`](crate::halves). Counted from its first half-edge, face f has the
+//! half-edges h0, h1, h2. The triangle at the origin of hk becomes face 4f + k, the middle one face 4f + 3.
+//! The edge between the two is 2E + 3f + k; its first half cuts the corner, the second lies in the middle:
+//!
+//! ```text
+//!                  v2
+//!                 /  \
+//!      first(h2) /    \ second(h1)       h0 runs from v0 to v1, x0 = V + (edge of h0) lies on it
+//!               / cut 2\
+//!             x2 ------ x1               next(first(hk))    = cut k; on the boundary second(hk)
+//!            /  \  3  /  \               next(second(hk))   = first(next(hk)), everywhere
+//!           /    \   /    \              next(cut k)        = second(h(k-1))
+//!          / cut 0\ / cut 1\             next(cut k's twin) = cut (k+1)'s twin
+//!        v0 ------ x0 ------ v1
+//!         first(h0)  second(h0)
+//! ```
+//!
+//! One task for each old face writes six half-edges and four faces.
+
+use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh};
+use op::OpError;
+use rayon::prelude::*;
+
+use crate::halves::{Parts, Rest, first, on_edge, place, second, split_edges};
+use crate::level::{Place, Topology};
+use crate::meter::{BLOCK, Meter};
+
+/// A dense mesh of triangles, each of which is cut into four.
+pub(crate) struct Triangles<'a>(pub(crate) &'a Mesh);
+
+impl Triangles<'_> {
+    /// The half-edge that cuts corner `k` of face `f`.
+    #[inline]
+    fn cut(&self, f: FaceId, k: usize) -> HalfEdgeId {
+        HalfEdgeId::new(4 * self.0.n_edges() + 6 * f.index() + 2 * k)
+    }
+
+    #[inline]
+    fn parts(&self, h: HalfEdgeId) -> Parts {
+        let next = self.0.next(h);
+        let Some(f) = self.0.face(h) else {
+            return ([second(h), first(next)], [FaceId::NONE; 2]);
+        };
+        let start = self.0.face_half_edge(f);
+        let k = if h == start {
+            0
+        } else if next == start {
+            2
+        } else {
+            1
+        };
+        let corner = |k: usize| FaceId::new(4 * f.index() + k);
+        let after_k = if k == 2 { 0 } else { k + 1 };
+        ([self.cut(f, k), first(next)], [corner(k), corner(after_k)])
+    }
+
+    /// Writes the edges inside old faces, six half-edges for each face, and the new faces.
+    fn cut_faces(&self, new: &mut Rest, meter: &Meter) -> Result<(), OpError> {
+        (
+            new.next.par_chunks_mut(6 * BLOCK),
+            new.origin.par_chunks_mut(6 * BLOCK),
+            new.face.par_chunks_mut(6 * BLOCK),
+            new.face_half_edge.par_chunks_mut(4 * BLOCK),
+        )
+            .into_par_iter()
+            .enumerate()
+            .try_for_each(|(block, (next, origin, face, starts))| {
+                let next = next.as_chunks_mut::<6>().0.iter_mut();
+                let origin = origin.as_chunks_mut::<6>().0.iter_mut();
+                let face = face.as_chunks_mut::<6>().0.iter_mut();
+                let starts = starts.as_chunks_mut::<4>().0;
+                let n = starts.len();
+                let arrays = next.zip(origin).zip(face).zip(starts);
+                for (f, (((next, origin), face), starts)) in (block * BLOCK..).zip(arrays) {
+                    let f = FaceId::new(f);
+                    let h0 = self.0.face_half_edge(f);
+                    let h1 = self.0.next(h0);
+                    let h2 = self.0.next(h1);
+                    let [x0, x1, x2] = [h0, h1, h2].map(|h| on_edge(self.0, h));
+                    let [c0, c1, c2] = [0, 1, 2].map(|k| self.cut(f, k));
+                    let [f0, f1, f2, f3] = [0, 1, 2, 3].map(|k| FaceId::new(4 * f.index() + k));
+                    *next = [
+                        second(h2),
+                        c1.twin(),
+                        second(h0),
+                        c2.twin(),
+                        second(h1),
+                        c0.twin(),
+                    ];
+                    *origin = [x0, x2, x1, x0, x2, x1];
+                    *face = [f0, f3, f1, f3, f2, f3];
+                    *starts = [first(h0), first(h1), first(h2), c0.twin()];
+                }
+                meter.add(n)
+            })
+    }
+}
+
+impl Topology for Triangles<'_> {
+    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, OpError> {
+        let n_faces = self.0.n_faces();
+        let added = [0, 3 * n_faces, 4 * n_faces];
+        let rest = |mut rest: Rest| self.cut_faces(&mut rest, meter);
+        split_edges(self.0, added, |h| self.parts(h), rest, meter)
+    }
+
+    fn corner(&self, i: usize) -> Place {
+        let n_halves = 4 * self.0.n_edges();
+        if i < n_halves {
+            return place(self.0, i);
+        }
+        // Cut k runs from the middle of half-edge k to that of half-edge k - 1.
+        let (f, i) = ((i - n_halves) / 6, (i - n_halves) % 6);
+        let start = self.0.face_half_edge(FaceId::new(f));
+        let k = (i / 2 + if i % 2 == 0 { 0 } else { 2 }) % 3;
+        Place::On((0..k).fold(start, |h, _| self.0.next(h)))
+    }
+
+    fn edge(&self, i: usize) -> Option<usize> {
+        (i < 2 * self.0.n_edges()).then_some(i / 2)
+    }
+
+    fn face(&self, i: usize) -> Option<usize> {
+        Some(i / 4)
+    }
+}

@@ -6,6 +6,8 @@
 //! memory to the refined mesh in memory, the faces a second, the bytes of the result, and what a second of
 //! copying and of filling new memory would make of them.
 
+#![expect(clippy::print_stdout, reason = "this is its report")]
+
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 

@@ -2,12 +2,14 @@
 
 use mesh::{Attributes, CORNER, CREASE, Column, Domain, Mesh, Rule, Value, Values};
 use op::OpError;
+use rayon::prelude::*;
 
-use crate::FaceVarying;
+use crate::face_varying::Field;
 use crate::level::{Place, Topology};
-use crate::masks::Masks;
-use crate::meter::Meter;
+use crate::masks::{Masks, Number};
+use crate::meter::{BLOCK, Meter};
 use crate::sharpness::Sharpness;
+use crate::{FaceVarying, Rules};
 
 /// Where the values of the next level come from.
 pub(crate) struct From<'a, T, M> {
@@ -16,7 +18,7 @@ pub(crate) struct From<'a, T, M> {
     pub(crate) masks: &'a M,
     /// How creases fade; `None` hands their numbers on.
     pub(crate) sharpness: Option<Sharpness<'a>>,
-    pub(crate) face_varying: FaceVarying,
+    pub(crate) rules: Rules,
 }
 
 /// Whether the next level has this column too.
@@ -29,8 +31,7 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
     ///
     /// - vertices: [`Rule::Interpolate`] with the masks of the positions; [`Rule::Copy`] keeps the values
     ///   of old vertices, new ones have zero;
-    /// - corners: likewise, by the choice of [`FaceVarying`] within their own faces, so both sides of a
-    ///   seam stay apart;
+    /// - corners: likewise, by the choice of [`FaceVarying`], each piece between seams by itself;
     /// - edges: parts of an old one as that, others zero;
     /// - faces: parts of an old one as that.
     ///
@@ -93,9 +94,35 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
                 _ => None,
             });
         }
+        if let (Some(sharpness), true) =
+            (self.sharpness, self.rules.face_varying != FaceVarying::All)
+        {
+            match &column.values {
+                Values::Float(v) => return self.smooth_corners(sharpness, v, n),
+                Values::Vec2(v) => return self.smooth_corners(sharpness, v, n),
+                Values::Vec3(v) => return self.smooth_corners(sharpness, v, n),
+                Values::Vec4(v) => return self.smooth_corners(sharpness, v, n),
+                Values::Int(_) | Values::Tag(_) => {}
+            }
+        }
         column
             .values
             .blend(n, |i, add| linear(self.mesh, self.topology.corner(i), add))
+    }
+
+    fn smooth_corners<V: Number>(&self, sharpness: Sharpness, old: &[V], n: usize) -> Values {
+        let Rules {
+            scheme,
+            face_varying,
+            ..
+        } = self.rules;
+        let field = Field::new(self.mesh, sharpness, scheme, face_varying, old);
+        let mut new: Vec<V> = mesh::zeroed(n);
+        new.par_iter_mut()
+            .with_min_len(BLOCK)
+            .enumerate()
+            .for_each(|(i, value)| *value = field.value(self.topology.corner(i)));
+        V::wrap(new)
     }
 }
 

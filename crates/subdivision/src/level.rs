@@ -3,10 +3,11 @@
 use mesh::{Connectivity, HalfEdgeId, Mesh};
 use op::OpError;
 
+use crate::Rules;
 use crate::attributes;
 use crate::masks::Masks;
 use crate::meter::Meter;
-use crate::{FaceVarying, sharpness::Sharpness};
+use crate::sharpness::Sharpness;
 
 /// How the elements of the next level lie in a dense mesh.
 pub(crate) trait Topology: Sync {
@@ -43,7 +44,7 @@ pub(crate) fn finer<'a>(
     topology: &impl Topology,
     masks: &impl Masks,
     sharpness: Option<Sharpness<'a>>,
-    face_varying: FaceVarying,
+    rules: Rules,
     meter: &Meter,
 ) -> Result<Mesh, OpError> {
     let connectivity = topology.connectivity(meter)?;
@@ -55,7 +56,7 @@ pub(crate) fn finer<'a>(
             topology,
             masks,
             sharpness,
-            face_varying,
+            rules,
         };
         let attributes = from.attributes(&finer, meter)?;
         finer.set_attributes(attributes);

@@ -30,6 +30,7 @@
 //! ```
 
 mod attributes;
+mod face_varying;
 mod forecast;
 mod halves;
 mod level;
@@ -105,7 +106,6 @@ fn work(size: Size, rules: Rules, levels: u32) -> u64 {
 /// Level number `level` (from 0) of a dense mesh whose faces the scheme takes and whose next level fits.
 fn finer(mesh: &Mesh, rules: Rules, level: u32, meter: &Meter) -> Result<Mesh, OpError> {
     let sharpness = Sharpness::of(mesh, rules);
-    let face_varying = rules.face_varying;
     match rules.scheme {
         Scheme::Loop(weights) => {
             let masks = LoopMasks {
@@ -114,36 +114,20 @@ fn finer(mesh: &Mesh, rules: Rules, level: u32, meter: &Meter) -> Result<Mesh, O
                 weights,
             };
             let sharpness = Some(sharpness);
-            level::finer(
-                mesh,
-                &Triangles(mesh),
-                &masks,
-                sharpness,
-                face_varying,
-                meter,
-            )
+            level::finer(mesh, &Triangles(mesh), &masks, sharpness, rules, meter)
         }
         Scheme::CatmullClark => {
             let masks = CatmullClarkMasks { mesh, sharpness };
             let sharpness = Some(sharpness);
-            level::finer(
-                mesh,
-                &Quads::new(mesh),
-                &masks,
-                sharpness,
-                face_varying,
-                meter,
-            )
+            level::finer(mesh, &Quads::new(mesh), &masks, sharpness, rules, meter)
         }
         Scheme::Midpoint(split) => {
             let masks = MidpointMasks { mesh, split };
             match split {
                 Split::Triangles => {
-                    level::finer(mesh, &Triangles(mesh), &masks, None, face_varying, meter)
+                    level::finer(mesh, &Triangles(mesh), &masks, None, rules, meter)
                 }
-                Split::Quads => {
-                    level::finer(mesh, &Quads::new(mesh), &masks, None, face_varying, meter)
-                }
+                Split::Quads => level::finer(mesh, &Quads::new(mesh), &masks, None, rules, meter),
             }
         }
         Scheme::Butterfly | Scheme::Sqrt3 | Scheme::DooSabin => todo!("level {level}"),

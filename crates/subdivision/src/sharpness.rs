@@ -63,6 +63,23 @@ struct SemiSharp {
     n: usize,
 }
 
+/// How much of this level's rule is left where elements become smooth within the level: the mean of the
+/// sharpness that ends, out of pairs of this level's and the next.
+pub(crate) fn fading(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let (mut sum, mut n) = (0.0, 0_u32);
+    for [now, next] in pairs {
+        if now > 0.0 && next <= 0.0 {
+            sum += now;
+            n += 1;
+        }
+    }
+    if n == 0 {
+        0.0
+    } else {
+        (sum / f64::from(n)).min(1.0)
+    }
+}
+
 impl<'a> Sharpness<'a> {
     pub(crate) fn of(mesh: &'a Mesh, rules: Rules) -> Self {
         fn used(values: &[f64]) -> Option<&[f64]> {
@@ -101,7 +118,7 @@ impl<'a> Sharpness<'a> {
 
     /// The sharpness of a vertex that half-edge `h` leaves, the boundary one if there is one.
     #[inline]
-    fn vertex(&self, v: VertexId, h: HalfEdgeId) -> f64 {
+    pub(crate) fn vertex(&self, v: VertexId, h: HalfEdgeId) -> f64 {
         if self.mesh.face(h).is_none() {
             let is_corner = match self.boundary {
                 Boundary::EdgesOnly => false,
@@ -166,23 +183,9 @@ impl<'a> Sharpness<'a> {
         if std::mem::discriminant(&now) == std::mem::discriminant(&next) {
             return Blend { now, next: None };
         }
-        // The mean of what becomes smooth in this level.
-        let (mut sum, mut n) = (0.0, 0_u32);
-        let mut fade = |now: f64, next: f64| {
-            if now > 0.0 && next <= 0.0 {
-                sum += now;
-                n += 1;
-            }
-        };
-        fade(self.vertex(v, h), next_at);
-        for h in self.mesh.vertex_half_edges(v) {
-            fade(self.edge(h.edge()), next_on(h));
-        }
-        let weight = if n == 0 {
-            0.0
-        } else {
-            (sum / f64::from(n)).min(1.0)
-        };
+        let edges = self.mesh.vertex_half_edges(v);
+        let edges = edges.map(|h| [self.edge(h.edge()), next_on(h)]);
+        let weight = fading(edges.chain([[self.vertex(v, h), next_at]]));
         Blend {
             now,
             next: Some((next, weight)),
@@ -216,8 +219,9 @@ impl<'a> Sharpness<'a> {
         found
     }
 
+    /// What is left of the sharpness of a vertex on the next level.
     #[expect(clippy::unused_self, reason = "reads like its neighbors")]
-    fn decreased(&self, s: f64) -> f64 {
+    pub(crate) fn decreased(&self, s: f64) -> f64 {
         if s >= INFINITE {
             INFINITE
         } else {
@@ -226,7 +230,7 @@ impl<'a> Sharpness<'a> {
     }
 
     /// The sharpness of the half of an edge at the origin of `h`, on the next level.
-    fn of_half(&self, h: HalfEdgeId) -> f64 {
+    pub(crate) fn of_half(&self, h: HalfEdgeId) -> f64 {
         self.of_half_with(h, self.semi_sharp(self.mesh.origin(h)))
     }
 

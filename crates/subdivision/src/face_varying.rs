@@ -1,0 +1,365 @@
+//! Corner values, smoothed piece by piece: texture coordinates with seams.
+//!
+//! Around a vertex the corners that have one value are a piece, and the edges between pieces are seams. Inside
+//! a piece values are smoothed as positions are; along its border the piece is smoothed as along a boundary,
+//! by its own values alone, or is linear:
+//!
+//! ```text
+//!            \   |   /                     a: the value at v in the upper piece becomes
+//!         ---- \ | / ----                     3/4 a + 1/8 (values at both ends of the seam, in this piece)
+//!         b ==== v ==== c    seam             or stays, where the choice says that v is a corner of it
+//!         ---- / | \ ----
+//!            /   |   \
+//! ```
+//!
+//! [`FaceVarying`] chooses what is a corner. The rules are OpenSubdiv's face-varying interpolation, taken
+//! anew on each level, so that two levels are one level twice. (OpenSubdiv decides once whether the
+//! sharpness of one of two pieces sharpens the other and hands the verdict on; where both pieces are
+//! semi-sharp, by different numbers, that may differ for a level.)
+
+use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
+use rayon::prelude::*;
+
+use crate::level::Place;
+use crate::masks::Number;
+use crate::sharpness::{INFINITE, Sharpness, VertexRule, fading};
+use crate::{FaceVarying, Scheme};
+
+/// A column of corner values that is smoothed.
+pub(crate) struct Field<'a, T> {
+    mesh: &'a Mesh,
+    sharpness: Sharpness<'a>,
+    scheme: Scheme,
+    choice: FaceVarying,
+    values: &'a [T],
+    /// For each edge whether the values of its two sides differ at either end.
+    seams: Vec<bool>,
+}
+
+/// What becomes of the value of a piece at a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    /// It stays, on every level.
+    Corner,
+    /// It stays as long as an edge inside the piece, or the vertex, is sharp.
+    SemiSharp,
+    /// It stays as long as an edge inside the other piece is sharp.
+    Dependent,
+    /// It is smoothed along the border of the piece.
+    Crease,
+}
+
+/// On which level sharpness is asked for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum When {
+    Now,
+    Next,
+}
+
+/// The corners around a vertex that have one value.
+struct Piece {
+    /// Counter-clockwise the first and the last of them.
+    ends: [HalfEdgeId; 2],
+    size: usize,
+    /// Half-edges from the vertex along the edges inside.
+    inside: Vec<HalfEdgeId>,
+    /// Whether it is not one run of corners without seams.
+    is_torn: bool,
+}
+
+/// The pieces around a vertex.
+struct Around {
+    vertex: VertexId,
+    half_edge: HalfEdgeId,
+    is_inner: bool,
+    pieces: Vec<Piece>,
+}
+
+impl<'a, T: Number> Field<'a, T> {
+    pub(crate) fn new(
+        mesh: &'a Mesh,
+        sharpness: Sharpness<'a>,
+        scheme: Scheme,
+        choice: FaceVarying,
+        values: &'a [T],
+    ) -> Self {
+        let differ = |a: HalfEdgeId, b: HalfEdgeId| values[a.index()] != values[b.index()];
+        let is_seam = |e: usize| {
+            let [h, twin] = EdgeId::new(e).half_edges();
+            !mesh.is_boundary_edge(h.edge())
+                && (differ(h, mesh.next(twin)) || differ(twin, mesh.next(h)))
+        };
+        Self {
+            mesh,
+            sharpness,
+            scheme,
+            choice,
+            values,
+            seams: (0..mesh.n_edges()).into_par_iter().map(is_seam).collect(),
+        }
+    }
+
+    /// The value of a corner of the next level.
+    pub(crate) fn value(&self, place: Place) -> T {
+        match place {
+            Place::At(h) => self.at(h),
+            Place::On(h) => self.on(h),
+            Place::In(f) => self.center(f),
+            Place::Outside => T::default(),
+        }
+    }
+
+    fn of(&self, h: HalfEdgeId) -> T {
+        self.values[h.index()]
+    }
+
+    /// The value at the far end of a half-edge, in a face beside it.
+    fn far(&self, h: HalfEdgeId) -> T {
+        if self.mesh.face(h).is_some() {
+            self.of(self.mesh.next(h))
+        } else {
+            self.of(h.twin())
+        }
+    }
+
+    fn center(&self, f: FaceId) -> T {
+        let mut sum = T::default();
+        for h in self.mesh.face_half_edges(f) {
+            sum = sum + self.of(h);
+        }
+        sum * (1.0 / self.mesh.degree(f) as f64)
+    }
+
+    /// The value in the middle of a half-edge, in its face.
+    fn on(&self, h: HalfEdgeId) -> T {
+        let e = h.edge();
+        let sharp = if self.seams[e.index()] {
+            1.0
+        } else {
+            self.sharpness.weight_at_edge(e)
+        };
+        if sharp >= 1.0 {
+            return (self.of(h) + self.of(self.mesh.next(h))) * 0.5;
+        }
+        // From both sides in one order, so that they get the same bits.
+        let halves = e.half_edges();
+        let ends = self.of(halves[0]) + self.of(self.mesh.next(halves[0]));
+        let [smooth_end, sides] = if self.scheme == Scheme::CatmullClark {
+            let center = |h| self.mesh.face(h).map_or(T::default(), |f| self.center(f));
+            let [f, g] = halves.map(center);
+            [ends * 0.25, (f + g) * 0.25]
+        } else {
+            let opposite = |h| self.of(self.mesh.next(self.mesh.next(h)));
+            let [c, d] = halves.map(opposite);
+            [ends * 0.375, (c + d) * 0.125]
+        };
+        ends * (0.5 * sharp) + (smooth_end + sides) * (1.0 - sharp)
+    }
+
+    /// The value at the origin of a half-edge, in its face.
+    fn at(&self, h: HalfEdgeId) -> T {
+        let v = self.mesh.origin(h);
+        let start = self.mesh.vertex_half_edge(v).expect("a vertex of a face");
+        let is_boundary = self.mesh.face(start).is_none();
+        let mut spokes = self.mesh.vertex_half_edges(v);
+        let is_regular = spokes.all(|h| !self.seams[h.edge().index()])
+            && !(is_boundary && self.is_irregular_boundary(v, start));
+        if is_regular {
+            return self.regular(v, start, self.of(h));
+        }
+        self.pieces(v, start).value(self, h)
+    }
+
+    /// Whether the values at a boundary vertex without seams do not move as positions do.
+    fn is_irregular_boundary(&self, v: VertexId, start: HalfEdgeId) -> bool {
+        match self.choice {
+            FaceVarying::None => false,
+            FaceVarying::Boundaries => true,
+            _ => self.mesh.valence(v) == 2 && self.sharpness.vertex(v, start) < INFINITE,
+        }
+    }
+
+    /// The value at a vertex around which there is one: smoothed as positions are.
+    fn regular(&self, v: VertexId, start: HalfEdgeId, own: T) -> T {
+        let blend = self.sharpness.at_vertex(v, start);
+        let by_rule = |rule: VertexRule| match rule {
+            VertexRule::Corner => own,
+            VertexRule::Crease([a, b]) => own * 0.75 + (self.far(a) + self.far(b)) * 0.125,
+            VertexRule::Smooth => self.smooth(v, own),
+        };
+        match blend.next {
+            None => by_rule(blend.now),
+            Some((next, weight)) => by_rule(blend.now) * weight + by_rule(next) * (1.0 - weight),
+        }
+    }
+
+    fn smooth(&self, v: VertexId, own: T) -> T {
+        let valence = self.mesh.valence(v);
+        let n = valence as f64;
+        let mut sum = T::default();
+        if let Scheme::Loop(weights) = self.scheme {
+            for h in self.mesh.vertex_half_edges(v) {
+                sum = sum + self.far(h);
+            }
+            let u = weights.of(valence);
+            return own * (1.0 - n * u) + sum * u;
+        }
+        for h in self.mesh.vertex_half_edges(v) {
+            sum = sum + self.far(h);
+            if let Some(f) = self.mesh.face(h) {
+                sum = sum + self.center(f);
+            }
+        }
+        own * ((n - 2.0) / n) + sum * (1.0 / (n * n))
+    }
+
+    /// The pieces around a vertex.
+    fn pieces(&self, v: VertexId, start: HalfEdgeId) -> Around {
+        // Counter-clockwise; at the boundary from one end to the other.
+        let corners = self.mesh.vertex_half_edges(v);
+        let mut ring: Vec<HalfEdgeId> = corners.filter(|&h| self.mesh.face(h).is_some()).collect();
+        ring.reverse();
+        let is_inner = self.mesh.face(start).is_some();
+        // The edge of a corner lies between it and the one before.
+        let is_seam = |h: &HalfEdgeId| self.seams[h.edge().index()];
+        let n_seams = ring.iter().filter(|h| is_seam(h)).count();
+        let is_dart =
+            is_inner && n_seams == 1 && ring.iter().all(|&h| self.of(h) == self.of(ring[0]));
+        if is_dart {
+            let seam = ring.iter().position(is_seam).expect("counted above");
+            ring.rotate_left(seam);
+        }
+        let before = |i: usize| match i {
+            0 if is_dart || !is_inner => None,
+            0 => Some(ring.len() - 1),
+            i => Some(i - 1),
+        };
+        let mut pieces: Vec<Piece> = Vec::new();
+        for i in 0..ring.len() {
+            let same = |h: HalfEdgeId| self.of(h) == self.of(ring[i]);
+            if ring[..i].iter().any(|&h| same(h)) {
+                continue;
+            }
+            let members: Vec<usize> = (0..ring.len()).filter(|&j| same(ring[j])).collect();
+            let joined = |&j: &usize| before(j).is_some_and(|b| same(ring[b]));
+            let starts: Vec<usize> = members.iter().copied().filter(|j| !joined(j)).collect();
+            let inside: Vec<HalfEdgeId> = members
+                .iter()
+                .filter(|j| joined(j))
+                .map(|&j| ring[j])
+                .collect();
+            let first = starts.first().copied().unwrap_or(0);
+            let last = (first + members.len() - 1) % ring.len();
+            pieces.push(Piece {
+                ends: [ring[first], ring[last]],
+                size: members.len(),
+                is_torn: starts.len() != 1 || inside.iter().any(is_seam),
+                inside,
+            });
+        }
+        Around {
+            vertex: v,
+            half_edge: start,
+            is_inner,
+            pieces,
+        }
+    }
+}
+
+impl Around {
+    /// The value of the corner of `h`.
+    fn value<T: Number>(&self, field: &Field<T>, h: HalfEdgeId) -> T {
+        let own = field.of(h);
+        let is_own = |piece: &Piece| field.of(piece.ends[0]) == own;
+        let Some(i) = self.pieces.iter().position(is_own) else {
+            return own; // It is no number.
+        };
+        let piece = &self.pieces[i];
+        let crease = || {
+            let [first, last] = piece.ends;
+            let ends = field.of(field.mesh.next(first)) + field.of(field.mesh.prev(last));
+            own * 0.75 + ends * 0.125
+        };
+        let state = self.state(field, i, When::Now);
+        match state {
+            State::Corner => own,
+            State::Crease => crease(),
+            State::SemiSharp | State::Dependent => {
+                if self.state(field, i, When::Next) != State::Crease {
+                    return own;
+                }
+                let from = match state {
+                    State::Dependent => &self.pieces[1 - i],
+                    _ => piece,
+                };
+                let weight = self.weight(field, from);
+                own * weight + crease() * (1.0 - weight)
+            }
+        }
+    }
+
+    fn state<T: Number>(&self, field: &Field<T>, i: usize, when: When) -> State {
+        let (choice, n) = (field.choice, self.pieces.len());
+        let own = self.sharpness(field, when);
+        let inside = |piece: &Piece, test: fn(f64) -> bool| {
+            let mut edges = piece.inside.iter();
+            edges.any(|&h| test(field.edge_sharpness(h, when)))
+        };
+        let is_hard = |piece: &Piece| inside(piece, |s| s >= INFINITE);
+        let is_semi = |piece: &Piece| inside(piece, |s| s > 0.0 && s < INFINITE);
+        let is_plus = matches!(
+            choice,
+            FaceVarying::CornersPlus1 | FaceVarying::CornersPlus2
+        );
+        let is_plus_2 = choice == FaceVarying::CornersPlus2;
+        let any = |test: &dyn Fn(&Piece) -> bool| self.pieces.iter().any(test);
+
+        let all_are_corners = choice == FaceVarying::Boundaries
+            || own >= INFINITE
+            || is_plus && n > 2
+            || is_plus && n == 2 && any(&|p| p.is_torn || is_hard(p))
+            || is_plus_2 && n == 1 && self.is_inner
+            || is_plus_2 && n == 2 && any(&|p| p.size == 1);
+        let piece = &self.pieces[i];
+        if all_are_corners
+            || piece.is_torn
+            || is_hard(piece)
+            || piece.size == 1 && choice != FaceVarying::None
+        {
+            State::Corner
+        } else if own > 0.0 || is_semi(piece) {
+            State::SemiSharp
+        } else if is_plus && n == 2 && is_semi(&self.pieces[1 - i]) {
+            State::Dependent
+        } else {
+            State::Crease
+        }
+    }
+
+    fn sharpness<T: Number>(&self, field: &Field<T>, when: When) -> f64 {
+        let now = field.sharpness.vertex(self.vertex, self.half_edge);
+        match when {
+            When::Now => now,
+            When::Next => field.sharpness.decreased(now),
+        }
+    }
+
+    /// How much of this level's rule is left where a piece becomes smooth within the level: the mean of
+    /// the sharpness that ends.
+    fn weight<T: Number>(&self, field: &Field<T>, piece: &Piece) -> f64 {
+        let edges = piece.inside.iter();
+        let edges = edges.map(|&h| [When::Now, When::Next].map(|w| field.edge_sharpness(h, w)));
+        let vertex = [When::Now, When::Next].map(|when| self.sharpness(field, when));
+        fading(edges.chain([vertex]))
+    }
+}
+
+impl<T> Field<'_, T> {
+    /// The sharpness of an edge at the origin of `h`.
+    fn edge_sharpness(&self, h: HalfEdgeId, when: When) -> f64 {
+        match when {
+            When::Now => self.sharpness.edge(h.edge()),
+            When::Next => self.sharpness.of_half(h),
+        }
+    }
+}

@@ -96,7 +96,7 @@ pub use attribute::{
 pub use build::{BuildError, BuildReport, Built, NonManifold, build};
 pub use compact::Renumbering;
 pub use edit::{Bisection, EditError, Seams};
-pub use glam::{DVec2, DVec3, DVec4};
+pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use id::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
 pub use journal::Change;
 pub use measure::angle_between;

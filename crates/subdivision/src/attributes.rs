@@ -8,7 +8,7 @@ use crate::face_varying::Field;
 use crate::level::{Place, Topology};
 use crate::masks::{Masks, Number};
 use crate::meter::{BLOCK, Meter};
-use crate::sharpness::Sharpness;
+use crate::sharpness::{Sharpness, next_vertices};
 use crate::{FaceVarying, Rules};
 
 /// Where the values of the next level come from.
@@ -59,8 +59,8 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
     fn vertex_values(&self, column: &Column, n: usize, meter: &Meter) -> Result<Values, OpError> {
         if column.rule == Rule::Copy {
             return Ok(match (&self.sharpness, &column.values) {
-                (Some(sharpness), Values::Float(old)) if column.name == CORNER.name => {
-                    f64::wrap(sharpness.next_vertices(old, n))
+                (Some(_), Values::Float(old)) if column.name == CORNER.name => {
+                    f64::wrap(next_vertices(old, n))
                 }
                 _ => column
                     .values

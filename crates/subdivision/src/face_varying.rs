@@ -22,7 +22,7 @@ use rayon::prelude::*;
 
 use crate::level::Place;
 use crate::masks::Number;
-use crate::sharpness::{INFINITE, Sharpness, VertexRule, fading};
+use crate::sharpness::{INFINITE, Sharpness, VertexRule, decreased, fading};
 use crate::{FaceVarying, Scheme};
 
 /// A column of corner values that is smoothed.
@@ -182,7 +182,7 @@ impl<'a, T: Number> Field<'a, T> {
     /// The value at a vertex around which there is one: smoothed as positions are.
     fn regular(&self, v: VertexId, start: HalfEdgeId, own: T) -> T {
         let blend = self.sharpness.at_vertex(v, start);
-        let by_rule = |rule: VertexRule| match rule {
+        let by_rule = |rule: VertexRule<HalfEdgeId>| match rule {
             VertexRule::Corner => own,
             VertexRule::Crease([a, b]) => own * 0.75 + (self.far(a) + self.far(b)) * 0.125,
             VertexRule::Smooth => self.smooth(v, own),
@@ -340,7 +340,7 @@ impl Around {
         let now = field.sharpness.vertex(self.vertex, self.half_edge);
         match when {
             When::Now => now,
-            When::Next => field.sharpness.decreased(now),
+            When::Next => decreased(now),
         }
     }
 

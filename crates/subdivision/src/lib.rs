@@ -34,6 +34,7 @@ mod face_varying;
 mod forecast;
 mod halves;
 mod level;
+mod limit;
 mod masks;
 mod meter;
 mod operation;
@@ -42,6 +43,7 @@ mod rules;
 mod sharpness;
 mod triangles;
 
+pub use limit::{Limit, limit};
 pub use operation::{MAX_LEVELS, Step};
 pub use rules::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split};
 

@@ -10,7 +10,7 @@ pub(crate) use midpoint::MidpointMasks;
 
 use std::ops::{Add, Mul};
 
-use mesh::{Mesh, Value, VertexId};
+use mesh::{HalfEdgeId, Mesh, Value, VertexId};
 use op::OpError;
 use rayon::prelude::*;
 
@@ -74,7 +74,7 @@ fn at_vertex<A: FnMut(usize, f64)>(
     let Some(h) = mesh.vertex_half_edge(v) else {
         return add(v.index(), 1.0);
     };
-    let part = |rule: VertexRule, weight: f64, add: &mut A| match rule {
+    let part = |rule: VertexRule<HalfEdgeId>, weight: f64, add: &mut A| match rule {
         VertexRule::Smooth => smooth(weight, add),
         VertexRule::Crease([a, b]) => {
             add(v.index(), 0.75 * weight);

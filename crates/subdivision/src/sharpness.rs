@@ -36,31 +36,99 @@ pub(crate) struct Sharpness<'a> {
     vertices: Option<&'a [f64]>,
 }
 
-/// How a vertex moves.
+/// How a vertex moves. Edges around it are named by `K`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum VertexRule {
+pub(crate) enum VertexRule<K> {
     /// By the mask of the scheme.
     Smooth,
-    /// Along the crease between the targets of these half-edges, which leave the vertex.
-    Crease([HalfEdgeId; 2]),
+    /// Along the crease over these two edges.
+    Crease([K; 2]),
     /// Not at all.
     Corner,
 }
 
 /// The rule of a vertex, and what it changes to within the level.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Blend {
+pub(crate) struct Blend<K> {
     /// The rule by the sharpness of this level.
-    pub(crate) now: VertexRule,
+    pub(crate) now: VertexRule<K>,
     /// The rule by that of the next, and the weight of the one of this level.
-    pub(crate) next: Option<(VertexRule, f64)>,
+    pub(crate) next: Option<(VertexRule<K>, f64)>,
 }
 
-/// The semi-sharp edges at a vertex.
+impl<K: Copy> VertexRule<K> {
+    /// The rule by the sharpness of the vertex and of the edges around it.
+    pub(crate) fn of(at: f64, edges: impl Iterator<Item = (K, f64)>) -> Self {
+        if at > 0.0 {
+            return Self::Corner;
+        }
+        let mut sharp = edges.filter(|&(_, s)| s > 0.0).map(|(k, _)| k);
+        match (sharp.next(), sharp.next(), sharp.next()) {
+            (Some(a), Some(b), None) => Self::Crease([a, b]),
+            (_, _, None) => Self::Smooth,
+            _ => Self::Corner,
+        }
+    }
+}
+
+impl<K: Copy> Blend<K> {
+    /// The rule by the sharpness of the vertex and of the edges around it, on this level and the next.
+    pub(crate) fn of(at: [f64; 2], edges: impl Iterator<Item = (K, [f64; 2])> + Clone) -> Self {
+        let rule = |i: usize| VertexRule::of(at[i], edges.clone().map(|(k, s)| (k, s[i])));
+        let now = rule(0);
+        let unchanged = Self { now, next: None };
+        if matches!(now, VertexRule::Smooth) {
+            return unchanged;
+        }
+        let next = rule(1);
+        if std::mem::discriminant(&now) == std::mem::discriminant(&next) {
+            return unchanged;
+        }
+        let weight = fading(edges.map(|(_, s)| s).chain([at]));
+        Self {
+            now,
+            next: Some((next, weight)),
+        }
+    }
+}
+
+/// The semi-sharp edges at a vertex: the sum of their sharpness and how many there are.
 #[derive(Clone, Copy, Default)]
-struct SemiSharp {
+pub(crate) struct SemiSharp {
     sum: f64,
     n: usize,
+}
+
+impl SemiSharp {
+    /// Of edges of such sharpness. Without Chaikin's rule nothing is asked of them.
+    pub(crate) fn of(creasing: Creasing, edges: impl Iterator<Item = f64>) -> Self {
+        let mut found = Self::default();
+        if creasing == Creasing::Chaikin {
+            for s in edges.filter(|&s| s > 0.0 && s < INFINITE) {
+                found.sum += s;
+                found.n += 1;
+            }
+        }
+        found
+    }
+
+    /// What the half of an edge of sharpness `s` at this vertex has on the next level.
+    pub(crate) fn half_of(self, s: f64) -> f64 {
+        if s <= 0.0 || s >= INFINITE || self.n < 2 {
+            return decreased(s);
+        }
+        let others = (self.sum - s) / (self.n - 1) as f64;
+        (0.75 * s + 0.25 * others - 1.0).max(0.0)
+    }
+}
+
+/// What is left of sharpness on the next level.
+pub(crate) fn decreased(s: f64) -> f64 {
+    if s >= INFINITE {
+        INFINITE
+    } else {
+        (s - 1.0).max(0.0)
+    }
 }
 
 /// How much of this level's rule is left where elements become smooth within the level: the mean of the
@@ -157,7 +225,7 @@ impl<'a> Sharpness<'a> {
 
     /// How vertex `v` moves, which half-edge `h` leaves: the boundary one if there is one.
     #[inline]
-    pub(crate) fn at_vertex(&self, v: VertexId, h: HalfEdgeId) -> Blend {
+    pub(crate) fn at_vertex(&self, v: VertexId, h: HalfEdgeId) -> Blend<HalfEdgeId> {
         if !self.is_plain() {
             return self.with_creases(v, h);
         }
@@ -171,76 +239,25 @@ impl<'a> Sharpness<'a> {
         Blend { now, next: None }
     }
 
-    fn with_creases(&self, v: VertexId, h: HalfEdgeId) -> Blend {
-        let now = self.rule(v, self.vertex(v, h), |h| self.edge(h.edge()));
-        if now == VertexRule::Smooth {
-            return Blend { now, next: None };
-        }
+    fn with_creases(&self, v: VertexId, h: HalfEdgeId) -> Blend<HalfEdgeId> {
         let semi_sharp = self.semi_sharp(v);
-        let next_at = self.decreased(self.vertex(v, h));
-        let next_on = |h: HalfEdgeId| self.of_half_with(h, semi_sharp);
-        let next = self.rule(v, next_at, next_on);
-        if std::mem::discriminant(&now) == std::mem::discriminant(&next) {
-            return Blend { now, next: None };
-        }
-        let edges = self.mesh.vertex_half_edges(v);
-        let edges = edges.map(|h| [self.edge(h.edge()), next_on(h)]);
-        let weight = fading(edges.chain([[self.vertex(v, h), next_at]]));
-        Blend {
-            now,
-            next: Some((next, weight)),
-        }
-    }
-
-    /// The rule of a vertex by its sharpness and that of the edges around it.
-    fn rule(&self, v: VertexId, at: f64, on: impl Fn(HalfEdgeId) -> f64) -> VertexRule {
-        if at > 0.0 {
-            return VertexRule::Corner;
-        }
-        let mut sharp = self.mesh.vertex_half_edges(v).filter(|&h| on(h) > 0.0);
-        match (sharp.next(), sharp.next(), sharp.next()) {
-            (Some(a), Some(b), None) => VertexRule::Crease([a, b]),
-            (_, _, None) => VertexRule::Smooth,
-            _ => VertexRule::Corner,
-        }
+        let at = self.vertex(v, h);
+        let edges = self.mesh.vertex_half_edges(v).map(|h| {
+            let s = self.edge(h.edge());
+            (h, [s, semi_sharp.half_of(s)])
+        });
+        Blend::of([at, decreased(at)], edges)
     }
 
     fn semi_sharp(&self, v: VertexId) -> SemiSharp {
-        let mut found = SemiSharp::default();
-        if self.creasing == Creasing::Chaikin {
-            for h in self.mesh.vertex_half_edges(v) {
-                let s = self.edge(h.edge());
-                if s > 0.0 && s < INFINITE {
-                    found.sum += s;
-                    found.n += 1;
-                }
-            }
-        }
-        found
-    }
-
-    /// What is left of the sharpness of a vertex on the next level.
-    #[expect(clippy::unused_self, reason = "reads like its neighbors")]
-    pub(crate) fn decreased(&self, s: f64) -> f64 {
-        if s >= INFINITE {
-            INFINITE
-        } else {
-            (s - 1.0).max(0.0)
-        }
+        let edges = self.mesh.vertex_half_edges(v);
+        SemiSharp::of(self.creasing, edges.map(|h| self.edge(h.edge())))
     }
 
     /// The sharpness of the half of an edge at the origin of `h`, on the next level.
     pub(crate) fn of_half(&self, h: HalfEdgeId) -> f64 {
-        self.of_half_with(h, self.semi_sharp(self.mesh.origin(h)))
-    }
-
-    fn of_half_with(&self, h: HalfEdgeId, around: SemiSharp) -> f64 {
-        let s = self.edge(h.edge());
-        if s <= 0.0 || s >= INFINITE || around.n < 2 {
-            return self.decreased(s);
-        }
-        let others = (around.sum - s) / (around.n - 1) as f64;
-        (0.75 * s + 0.25 * others - 1.0).max(0.0)
+        let around = self.semi_sharp(self.mesh.origin(h));
+        around.half_of(self.edge(h.edge()))
     }
 
     /// The stored sharpness of the `n` edges of the next level: both halves of each edge, then those
@@ -256,7 +273,7 @@ impl<'a> Sharpness<'a> {
                     // Half 2e of edge e lies at the origin of half-edge 2e, and so on.
                     let h = HalfEdgeId::new(i);
                     *s = if self.mesh.is_boundary_edge(h.edge()) {
-                        self.decreased(self.stored(h.edge()))
+                        decreased(self.stored(h.edge()))
                     } else {
                         self.of_half(h)
                     };
@@ -264,14 +281,14 @@ impl<'a> Sharpness<'a> {
         }
         new
     }
+}
 
-    /// The stored sharpness of the `n` vertices of the next level: the old ones, then new ones, which
-    /// are smooth.
-    pub(crate) fn next_vertices(&self, old: &[f64], n: usize) -> Vec<f64> {
-        let mut new = mesh::zeroed(n);
-        for (new, old) in new.iter_mut().zip(old) {
-            *new = self.decreased(old.max(0.0));
-        }
-        new
+/// The stored sharpness of the `n` vertices of the next level: the old ones, then new ones, which are
+/// smooth.
+pub(crate) fn next_vertices(old: &[f64], n: usize) -> Vec<f64> {
+    let mut new = mesh::zeroed(n);
+    for (new, old) in new.iter_mut().zip(old) {
+        *new = decreased(old.max(0.0));
     }
+    new
 }

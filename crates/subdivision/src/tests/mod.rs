@@ -2,6 +2,7 @@
 
 mod attributes;
 mod laws;
+mod limit;
 mod other_ways;
 mod plan;
 

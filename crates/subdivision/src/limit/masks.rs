@@ -1,0 +1,249 @@
+//! The limit masks of a settled star.
+
+use std::f64::consts::{PI, TAU};
+
+use mesh::{DMat3, DVec3};
+
+use super::star::Star;
+use crate::sharpness::VertexRule;
+
+/// So many levels bring a dart to where it stands still: what is left shrinks by more than a third each.
+const TO_STANDSTILL: usize = 96;
+
+/// Spokes with one tangent plane: `n_faces` faces from spoke `first` on, counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Plane {
+    first: usize,
+    n_faces: usize,
+    /// Whether the last spoke is the first again.
+    is_closed: bool,
+}
+
+impl Plane {
+    /// The first of a star: that of face 0.
+    pub(crate) fn first_of(star: &Star) -> Self {
+        Self::of_face(star, 0)
+    }
+
+    /// The faces around number `face` up to the next sharp spokes.
+    pub(crate) fn of_face(star: &Star, face: usize) -> Self {
+        let n = star.spokes.len();
+        let is_sharp = |i: usize| star.sharp[i % n] > 0.0;
+        let n_sharp = star.sharp.iter().filter(|&&s| s > 0.0).count();
+        if star.is_inner && n_sharp < 2 {
+            return Self {
+                first: star.sharp.iter().position(|&s| s > 0.0).unwrap_or(0),
+                n_faces: n,
+                is_closed: true,
+            };
+        }
+        let back = (0..n).find(|&i| is_sharp(face + n - i)).unwrap_or(0);
+        let first = (face + n - back) % n;
+        let n_faces = (1..n).find(|&i| is_sharp(first + i)).unwrap_or(n);
+        Self {
+            first,
+            n_faces,
+            is_closed: false,
+        }
+    }
+}
+
+impl Star {
+    /// Where the vertex goes.
+    pub(crate) fn limit(&self) -> DVec3 {
+        match self.rule() {
+            VertexRule::Corner => self.center,
+            VertexRule::Crease([i, j]) => {
+                2.0 / 3.0 * self.center + (self.spokes[i] + self.spokes[j]) / 6.0
+            }
+            VertexRule::Smooth if self.sharp.iter().any(|&s| s > 0.0) => {
+                let mut star = self.clone();
+                for _ in 0..TO_STANDSTILL {
+                    star.refine();
+                }
+                star.center
+            }
+            VertexRule::Smooth => self.smooth_limit(),
+        }
+    }
+
+    fn smooth_limit(&self) -> DVec3 {
+        let n = self.spokes.len() as f64;
+        let spokes: DVec3 = self.spokes.iter().sum();
+        if let Some(weights) = self.loop_weights {
+            let w = 1.0 / (n + 3.0 / (8.0 * weights.of(self.spokes.len())));
+            return (1.0 - n * w) * self.center + w * spokes;
+        }
+        let opposite: DVec3 = self.opposite.iter().sum();
+        (n * n * self.center + 4.0 * spokes + opposite) / (n * (n + 5.0))
+    }
+
+    /// Two vectors that span the tangent plane of some faces, counter-clockwise seen from outside.
+    pub(crate) fn tangents(&self, plane: Plane) -> [DVec3; 2] {
+        match self.rule() {
+            VertexRule::Smooth if self.sharp.iter().any(|&s| s > 0.0) => self.dart_tangents(),
+            VertexRule::Smooth => self.smooth_tangents(),
+            VertexRule::Crease(_) => self.crease_tangents(plane),
+            VertexRule::Corner => self.corner_tangents(plane),
+        }
+    }
+
+    /// Spoke number `i` from the first of the plane.
+    fn spoke(&self, plane: Plane, i: usize) -> DVec3 {
+        self.spokes[(plane.first + i) % self.spokes.len()]
+    }
+
+    fn smooth_tangents(&self) -> [DVec3; 2] {
+        let n = self.spokes.len() as f64;
+        let theta = TAU / n;
+        // The weight of the opposite corners beside that of the spokes.
+        let scale = if self.loop_weights.is_some() {
+            0.0
+        } else {
+            1.0 / (16.0 * quad_eigenvalue(theta) - 4.0)
+        };
+        let mut tangents = [DVec3::ZERO; 2];
+        for (i, spoke) in self.spokes.iter().enumerate() {
+            let [here, next] = [i, i + 1].map(|i| libm::sincos(i as f64 * theta));
+            tangents[0] += here.1 * spoke;
+            tangents[1] += here.0 * spoke;
+            if let Some(opposite) = self.opposite.get(i) {
+                tangents[0] += scale * (here.1 + next.1) * opposite;
+                tangents[1] += scale * (here.0 + next.0) * opposite;
+            }
+        }
+        tangents
+    }
+
+    /// Along the crease, and across it into the k faces of the plane. With θ = π/k the second is the left
+    /// eigenvector that has sin(iθ) at spoke i inside, m (sin(iθ) + sin((i+1)θ)) at the corners opposite, and
+    /// what follows from that at both ends of the crease and in the center. (The literature gives it for
+    /// k ≤ 3 and for other rules along the crease.)
+    fn crease_tangents(&self, plane: Plane) -> [DVec3; 2] {
+        let k = plane.n_faces;
+        let [first, last] = [0, k].map(|i| self.spoke(plane, i));
+        let along = first - last;
+        if k == 1 {
+            return [along, first + last - 2.0 * self.center];
+        }
+        let theta = PI / k as f64;
+        let (sin, cos) = libm::sincos(theta);
+        // The sum of the sines.
+        let sines = (1.0 + cos) / sin;
+        let (m, end) = if self.loop_weights.is_some() {
+            (0.0, -cos * sines / (1.0 + 2.0 * cos))
+        } else {
+            let lambda = quad_eigenvalue(theta);
+            let m = 1.0 / (16.0 * lambda - 4.0);
+            let end = sin * (1.0 + 4.0 * m) / 16.0 - sines * (1.0 + 2.0 * m) / 8.0;
+            (m, end / (lambda - 0.25))
+        };
+        let mut across = end * (first + last) - (2.0 * end + sines * (1.0 + 2.0 * m)) * self.center;
+        let n = self.spokes.len();
+        for i in 0..k {
+            let [here, next] = [i, i + 1].map(|i| libm::sin(i as f64 * theta));
+            if i > 0 {
+                across += here * self.spoke(plane, i);
+            }
+            if let Some(opposite) = self.opposite.get((plane.first + i) % n) {
+                across += m * (here + next) * opposite;
+            }
+        }
+        [along, across]
+    }
+
+    /// Along the first and the last edge, which at a corner are tangents of the curves there; turned about
+    /// where the corner is concave. Where that gives no plane, and around a cone, which has none, the
+    /// plane whose normal is the mean of the faces'.
+    fn corner_tangents(&self, plane: Plane) -> [DVec3; 2] {
+        let arm = |i: usize| self.spoke(plane, i) - self.center;
+        let faces = 0..plane.n_faces;
+        let mean: DVec3 = faces.map(|i| arm(i).cross(arm(i + 1))).sum();
+        let [first, last] = [arm(0), arm(plane.n_faces)];
+        let turn = first.cross(last).dot(mean);
+        if plane.n_faces == 1 {
+            return [first, last];
+        }
+        let is_plane = turn.abs() > 1e-9 * first.length() * last.length() * mean.length();
+        if plane.is_closed || !is_plane {
+            let n = mean.normalize_or_zero();
+            let along = first - first.dot(n) * n;
+            return [along, n.cross(along)];
+        }
+        if turn > 0.0 {
+            [first, last]
+        } else {
+            [last, first]
+        }
+    }
+
+    /// The plane that the neighborhood of a dart flattens into.
+    fn dart_tangents(&self) -> [DVec3; 2] {
+        let plane = Plane::first_of(self);
+        let [along, across] = self.corner_tangents(plane);
+        let along = along.normalize_or_zero();
+        let normal = along.cross(across).normalize_or_zero();
+        let frame = DMat3::from_cols(along, normal.cross(along), normal);
+        // The neighborhood shrinks by different factors along different directions, so that after some levels
+        // only the slowest could be seen. Orthogonal iteration keeps all: after each level the columns x, y
+        // and z are made orthonormal, and the product of the triangular matrices that undo that, whose
+        // rows come to lie in the plane, is kept as 1 b c / 0 1 e / 0 0 1 with the scales s and s q.
+        let mut star = self.clone();
+        let to_frame = frame.transpose();
+        for p in star.points() {
+            *p = to_frame * (*p - self.center);
+        }
+        star.center = DVec3::ZERO;
+        let (mut b, mut c, mut e) = (0.0, 0.0, 0.0);
+        let (mut s, mut q) = (1.0, 1.0);
+        for _ in 0..TO_STANDSTILL {
+            star.refine();
+            let center = std::mem::take(&mut star.center);
+            for p in star.points() {
+                *p -= center;
+            }
+            let [x, y, z] = orthonormalize(&mut star);
+            if x.x <= 0.0 || y.y <= 0.0 {
+                break;
+            }
+            c += (y.x * s * e + z.x * s * q) / x.x;
+            b += y.x * s / x.x;
+            e += z.y * q / y.y;
+            s *= y.y / x.x;
+            q *= z.z / y.y;
+        }
+        let slowest = frame * DVec3::new(1.0, b, c).normalize();
+        let normal = frame * DVec3::new(b * e - c, -e, 1.0);
+        [slowest, normal.cross(slowest)]
+    }
+
+    /// All points around the center.
+    fn points(&mut self) -> impl Iterator<Item = &mut DVec3> {
+        self.spokes.iter_mut().chain(&mut self.opposite)
+    }
+}
+
+/// The eigenvalue of Catmull-Clark subdivision whose vectors turn by `theta` from spoke to spoke.
+fn quad_eigenvalue(theta: f64) -> f64 {
+    let (cos, half) = (libm::cos(theta), libm::cos(theta / 2.0));
+    (5.0 + cos + half * (2.0 * (9.0 + cos)).sqrt()) / 16.0
+}
+
+/// Makes the columns of coordinates orthonormal (Gram and Schmidt), and returns the columns of the upper
+/// triangular matrix that turns them back.
+fn orthonormalize(star: &mut Star) -> [DVec3; 3] {
+    let mut columns = [DVec3::ZERO; 3];
+    for j in 0..3 {
+        for i in 0..j {
+            let dot: f64 = star.points().map(|p| p[i] * p[j]).sum();
+            star.points().for_each(|p| p[j] -= dot * p[i]);
+            columns[j][i] = dot;
+        }
+        let length = star.points().map(|p| p[j] * p[j]).sum::<f64>().sqrt();
+        if length > 0.0 {
+            star.points().for_each(|p| p[j] /= length);
+        }
+        columns[j][j] = length;
+    }
+    columns
+}

@@ -1,0 +1,210 @@
+//! The limit surface at the vertices of a mesh: where they go if subdivision never ends, and the plane
+//! that touches the surface there.
+//!
+//! Where nothing is sharp, or what is sharp stays so, the limit is a mask over the neighborhood: the left
+//! eigenvectors of the matrix that makes the next level's neighborhood (Halstead, Kass and DeRose, "Efficient,
+//! Fair Interpolation using Catmull-Clark Surfaces", 1993; Hoppe et al., "Piecewise Smooth Surface
+//! Reconstruction", 1994; Biermann, Levin and Zorin, "Piecewise Smooth Subdivision Surfaces with Normal
+//! Control", 2000). Where sharpness ends on a later level the neighborhood is refined up to that level. At a
+//! dart, where one sharp edge ends, there is no closed form: the neighborhood is refined until it stands
+//! still.
+
+mod masks;
+mod star;
+
+use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, VertexId};
+use op::{OpError, Progress};
+use rayon::prelude::*;
+
+use crate::meter::{BLOCK, Meter};
+use crate::sharpness::Sharpness;
+use crate::{Rules, Scheme, check_faces};
+use masks::Plane;
+use star::Star;
+
+/// The limit surface at the vertices of a mesh.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Limit {
+    /// Where each vertex goes.
+    pub positions: Vec<DVec3>,
+    /// Two vectors that span the tangent plane at each vertex, of any length. Their cross product points
+    /// outside. At a crease inside the mesh they belong to one of its sides; for an isolated vertex they
+    /// are zero.
+    pub tangents: Vec<[DVec3; 2]>,
+    /// Where faces meet sharply inside the mesh, the unit normal of each corner by its half-edge, zero for
+    /// half-edges without a face. `None` if one normal for each vertex says it all.
+    pub corner_normals: Option<Vec<DVec3>>,
+}
+
+impl Limit {
+    /// The unit normal at each vertex, from the tangents; zero where they span no plane.
+    pub fn normals(&self) -> Vec<DVec3> {
+        self.tangents.iter().map(normal).collect()
+    }
+}
+
+fn normal([a, b]: &[DVec3; 2]) -> DVec3 {
+    a.normalize_or_zero()
+        .cross(b.normalize_or_zero())
+        .normalize_or_zero()
+}
+
+/// The limit surface at the vertices of a mesh, for [`Scheme::Loop`] and [`Scheme::CatmullClark`].
+///
+/// A mesh with dead elements is compacted first, and the numbers are those of the compacted mesh.
+///
+/// # Errors
+///
+/// Those of [`subdivide`](crate::subdivide), and [`OpError::Parameter`] for other schemes.
+///
+/// # Examples
+///
+/// ```
+/// use subdivision::{Rules, Scheme};
+///
+/// let cube = mesh::shapes::cube();
+/// let limit = subdivision::limit(&cube, Rules::of(Scheme::CatmullClark), &op::NoProgress)?;
+/// // Valence 3: 3/8 of the corner, and 4/24 and 1/24 of its neighbors and the corners opposite.
+/// assert!((limit.positions[7] - mesh::DVec3::splat(0.5)).length() < 1e-15);
+/// # Ok::<(), op::OpError>(())
+/// ```
+pub fn limit(mesh: &Mesh, rules: Rules, progress: &dyn Progress) -> Result<Limit, OpError> {
+    if !mesh.is_dense() {
+        let mut dense = mesh.clone();
+        dense.compact();
+        return limit(&dense, rules, progress);
+    }
+    if !has_limit(rules.scheme) {
+        let message = format!("the limit of {} is not known", rules.scheme.name());
+        return Err(OpError::Parameter(message));
+    }
+    check_faces(mesh, rules.scheme)?;
+    let meter = Meter::new(progress, "limit surface", mesh.n_vertices() as u64);
+    At::new(mesh, rules).limit(&meter)
+}
+
+/// Whether there are limit masks for a scheme.
+pub(crate) fn has_limit(scheme: Scheme) -> bool {
+    matches!(scheme, Scheme::Loop(_) | Scheme::CatmullClark)
+}
+
+/// The largest distance from a vertex of a dense mesh to its limit.
+pub(crate) fn distance(mesh: &Mesh, rules: Rules, meter: &Meter) -> Result<f64, OpError> {
+    let at = At::new(mesh, rules);
+    let blocks = mesh.n_vertices().div_ceil(BLOCK);
+    let largest = |block: usize| {
+        let (mut star, mut largest) = (Star::default(), 0.0_f64);
+        for i in block * BLOCK..mesh.n_vertices().min((block + 1) * BLOCK) {
+            let v = VertexId::new(i);
+            if at.settled(&mut star, v) {
+                largest = largest.max(star.limit().distance(mesh.position(v)));
+            }
+        }
+        meter.add(0)?;
+        Ok(largest)
+    };
+    let blocks: Result<Vec<f64>, OpError> = (0..blocks).into_par_iter().map(largest).collect();
+    Ok(blocks?.into_iter().fold(0.0, f64::max))
+}
+
+/// What is known at one vertex.
+#[derive(Clone, Copy, Default)]
+struct AtVertex {
+    position: DVec3,
+    tangents: [DVec3; 2],
+    /// Whether the faces around it have different tangent planes.
+    is_sharp: bool,
+}
+
+/// A mesh and its rules.
+struct At<'a> {
+    mesh: &'a Mesh,
+    rules: Rules,
+    sharpness: Sharpness<'a>,
+}
+
+impl<'a> At<'a> {
+    fn new(mesh: &'a Mesh, rules: Rules) -> Self {
+        Self {
+            mesh,
+            rules,
+            sharpness: Sharpness::of(mesh, rules),
+        }
+    }
+
+    fn limit(&self, meter: &Meter) -> Result<Limit, OpError> {
+        let mut found = vec![AtVertex::default(); self.mesh.n_vertices()];
+        found
+            .par_chunks_mut(BLOCK)
+            .enumerate()
+            .try_for_each(|(block, found)| {
+                let mut star = Star::default();
+                for (i, found) in (block * BLOCK..).zip(found.iter_mut()) {
+                    *found = self.vertex(&mut star, VertexId::new(i));
+                }
+                meter.add(found.len())
+            })?;
+        let is_sharp = |at: &AtVertex| at.is_sharp;
+        let corner_normals = found
+            .par_iter()
+            .any(is_sharp)
+            .then(|| self.corner_normals(&found));
+        Ok(Limit {
+            positions: found.par_iter().map(|at| at.position).collect(),
+            tangents: found.par_iter().map(|at| at.tangents).collect(),
+            corner_normals,
+        })
+    }
+
+    /// Reads the star of `v` and refines it until it is settled; `false` for an isolated vertex.
+    fn settled(&self, star: &mut Star, v: VertexId) -> bool {
+        let Some(start) = self.mesh.vertex_half_edge(v) else {
+            return false;
+        };
+        star.read(self.mesh, &self.sharpness, self.rules, v, start);
+        while !star.is_settled() {
+            star.refine();
+        }
+        true
+    }
+
+    fn vertex(&self, star: &mut Star, v: VertexId) -> AtVertex {
+        if !self.settled(star, v) {
+            return AtVertex {
+                position: self.mesh.position(v),
+                ..AtVertex::default()
+            };
+        }
+        let is_sharp = star.is_inner && star.sharp.iter().filter(|&&s| s > 0.0).count() > 1
+            || !star.is_inner && star.sharp.iter().filter(|&&s| s > 0.0).count() > 2;
+        AtVertex {
+            position: star.limit(),
+            tangents: star.tangents(Plane::first_of(star)),
+            is_sharp,
+        }
+    }
+
+    fn corner_normals(&self, found: &[AtVertex]) -> Vec<DVec3> {
+        let corner = |i: usize| {
+            let h = HalfEdgeId::new(i);
+            if self.mesh.connectivity().face[i] == FaceId::NONE {
+                return DVec3::ZERO;
+            }
+            let v = self.mesh.origin(h);
+            let at = &found[v.index()];
+            if !at.is_sharp {
+                return normal(&at.tangents);
+            }
+            let mut star = Star::default();
+            self.settled(&mut star, v);
+            // Stars are counter-clockwise, circulators clockwise.
+            let place = self.mesh.vertex_half_edges(v).position(|other| other == h);
+            let place = star.spokes.len() - 1 - place.expect("a half-edge that leaves its origin");
+            normal(&star.tangents(Plane::of_face(&star, place)))
+        };
+        (0..self.mesh.n_half_edges())
+            .into_par_iter()
+            .map(corner)
+            .collect()
+    }
+}

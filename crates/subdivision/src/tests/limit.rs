@@ -1,0 +1,232 @@
+//! The limit surface: the same from every level, and where known surfaces lie.
+
+use mesh::{CORNER, CREASE, DVec3, Mesh, VertexId, shapes};
+use op::{NoProgress, OpError};
+
+use crate::fixtures;
+use crate::{Boundary, Creasing, Limit, LoopWeights, Rules, Scheme, limit, subdivide};
+
+const SCHEMES: [Scheme; 3] = [
+    Scheme::Loop(LoopWeights::Warren),
+    Scheme::Loop(LoopWeights::Loop),
+    Scheme::CatmullClark,
+];
+
+fn of(mesh: &Mesh, rules: Rules) -> Limit {
+    limit(mesh, rules, &NoProgress).unwrap()
+}
+
+/// Every fixture, as it is and with several patterns of sharpness.
+fn sharpened() -> Vec<(String, Mesh)> {
+    let patterns: [&[f64]; 4] = [
+        &[0.0],
+        &[0.0, 0.0, 10.0],
+        &[0.0, 0.0, 0.0, 2.5, 0.0, 0.3, 0.0],
+        &[10.0, 1.7, 0.0, 0.0, 0.0],
+    ];
+    let mut meshes = Vec::new();
+    for (name, mesh) in fixtures::all() {
+        for (i, pattern) in patterns.iter().enumerate() {
+            let mut mesh = mesh.clone();
+            let n = mesh.n_edges();
+            mesh.set(CREASE, pattern.iter().copied().cycle().take(n).collect());
+            let at = [0.0, 0.0, 0.0, 0.0, 1.5, 0.0, 0.0, 0.0, 10.0];
+            let at: &[f64] = if i > 1 { &at } else { &[0.0] };
+            let n = mesh.n_vertices();
+            mesh.set(CORNER, at.iter().copied().cycle().take(n).collect());
+            meshes.push((format!("{name} {i}"), mesh));
+        }
+    }
+    meshes
+}
+
+fn rules() -> impl Iterator<Item = Rules> {
+    SCHEMES.into_iter().flat_map(|scheme| {
+        [
+            Boundary::EdgesOnly,
+            Boundary::EdgesAndCorners,
+            Boundary::Fixed,
+        ]
+        .map(|boundary| Rules {
+            boundary,
+            ..Rules::of(scheme)
+        })
+    })
+}
+
+#[test]
+fn a_level_does_not_change_the_limit() {
+    for (name, mesh) in sharpened() {
+        for rules in rules() {
+            let finer = subdivide(&mesh, rules, 1, &NoProgress).unwrap();
+            let (coarse, fine) = (of(&mesh, rules), of(&finer, rules));
+            for v in mesh.vertices() {
+                let [a, b] = [&coarse, &fine].map(|l| l.positions[v.index()]);
+                let far = a.distance(b);
+                assert!(far < 1e-13, "{name} {rules:?} {v}: {far:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn vertices_come_to_their_limits() {
+    for (name, mesh) in sharpened() {
+        for rules in rules().filter(|r| r.boundary == Boundary::EdgesAndCorners) {
+            let limit = of(&mesh, rules);
+            let fine = subdivide(&mesh, rules, 5, &NoProgress).unwrap();
+            for v in mesh.vertices() {
+                let far = limit.positions[v.index()].distance(fine.position(v));
+                assert!(far < 2e-2, "{name} {rules:?} {v}: {far:e}");
+            }
+        }
+    }
+}
+
+/// The mean normal of the faces around a vertex.
+fn mean_normal(mesh: &Mesh, v: VertexId) -> DVec3 {
+    let faces = mesh
+        .vertex_half_edges(v)
+        .filter(|&h| mesh.face(h).is_some());
+    let normal = |h| {
+        let [a, b] = [mesh.next(h), mesh.prev(h)].map(|h| mesh.position(mesh.origin(h)));
+        let p = mesh.position(v);
+        (a - p)
+            .normalize_or_zero()
+            .cross((b - p).normalize_or_zero())
+    };
+    faces.map(normal).sum::<DVec3>().normalize_or_zero()
+}
+
+#[test]
+fn normals_are_those_of_ever_smaller_faces() {
+    // Smooth everywhere but at the boundary.
+    for (name, mesh) in fixtures::all() {
+        if name == "pillow" {
+            continue; // It is flat: its limit has two sides and no normal.
+        }
+        for rules in rules().filter(|r| r.boundary == Boundary::EdgesOnly) {
+            let normals = of(&mesh, rules).normals();
+            let fine = subdivide(&mesh, rules, 5, &NoProgress).unwrap();
+            for v in mesh.vertices() {
+                let [a, b] = [normals[v.index()], mean_normal(&fine, v)];
+                if a == DVec3::ZERO {
+                    assert!(mesh.vertex_half_edge(v).is_none(), "{name} {rules:?} {v}");
+                    continue;
+                }
+                assert!(a.dot(b) > 0.99, "{name} {rules:?} {v}: {a} {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn normals_do_not_change_with_a_level_either() {
+    for (name, mesh) in sharpened() {
+        if name.starts_with("pillow") {
+            continue;
+        }
+        for rules in rules() {
+            let finer = subdivide(&mesh, rules, 1, &NoProgress).unwrap();
+            let [coarse, fine] = [&mesh, &finer].map(|m| of(m, rules).normals());
+            for v in mesh.vertices() {
+                if is_corner(&mesh, rules, v) {
+                    continue; // Where a corner has no plane, neither has the mean.
+                }
+                let far = coarse[v.index()].distance(fine[v.index()]);
+                assert!(far < 1e-9, "{name} {rules:?} {v}: {far:e}");
+            }
+        }
+    }
+}
+
+fn is_corner(mesh: &Mesh, rules: Rules, v: VertexId) -> bool {
+    let sharp = mesh.vertex_half_edges(v).filter(|h| {
+        mesh.is_boundary_edge(h.edge()) || mesh.get(CREASE).unwrap()[h.edge().index()] > 0.0
+    });
+    let is_rim = mesh.is_boundary_vertex(v);
+    let at = mesh.get(CORNER).unwrap()[v.index()];
+    let fixed = is_rim
+        && match rules.boundary {
+            Boundary::EdgesOnly => false,
+            Boundary::EdgesAndCorners => mesh.valence(v) == 2,
+            Boundary::Fixed => true,
+        };
+    sharp.count() > 2 || at > 0.0 || fixed
+}
+
+#[test]
+fn the_two_sides_of_a_crease_have_two_normals() {
+    // All edges of a cube are sharp: its limit is the cube, and its corners have the faces' normals.
+    let mut cube = shapes::cube();
+    cube.set(CREASE, vec![10.0; 12]);
+    let found = of(&cube, Rules::of(Scheme::CatmullClark));
+    assert_eq!(found.positions, cube.positions());
+    let normals = found.corner_normals.unwrap();
+    for h in cube.half_edges() {
+        let normal = cube.face_normal(cube.face(h).unwrap());
+        assert!(normals[h.index()].distance(normal) < 1e-15, "{h}");
+    }
+    assert_eq!(
+        of(&shapes::cube(), Rules::of(Scheme::CatmullClark)).corner_normals,
+        None
+    );
+}
+
+#[test]
+fn a_regular_loop_patch_has_the_value_of_the_box_spline() {
+    // The quartic box spline takes 1/2 at its center and 1/12 at the six points around it.
+    let mut mesh = fixtures::sheet(6, 6);
+    let inner = mesh
+        .vertices()
+        .find(|&v| !mesh.is_boundary_vertex(v) && mesh.position(v).length() < 0.3);
+    let v = inner.unwrap();
+    mesh.positions_mut()[v.index()].z = 1.0;
+    let found = of(&mesh, Rules::of(Scheme::Loop(LoopWeights::Loop)));
+    assert!((found.positions[v.index()].z - 0.5).abs() < 1e-15);
+    for w in mesh.vertex_neighbors(v) {
+        assert!((found.positions[w.index()].z - 1.0 / 12.0).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn a_regular_grid_has_the_values_of_the_bicubic_spline() {
+    let mut mesh = shapes::grid(6, 6);
+    let v = mesh
+        .vertices()
+        .find(|&v| mesh.position(v).length() < 0.01)
+        .unwrap();
+    mesh.positions_mut()[v.index()].z = 1.0;
+    let found = of(&mesh, Rules::of(Scheme::CatmullClark));
+    let z = |v: VertexId| found.positions[v.index()].z;
+    assert!((z(v) - 4.0 / 9.0).abs() < 1e-15);
+    for h in mesh.vertex_half_edges(v) {
+        assert!((z(mesh.target(h)) - 1.0 / 9.0).abs() < 1e-15);
+        let opposite = mesh.target(mesh.next(h));
+        assert!((z(opposite) - 1.0 / 36.0).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn a_neighbor_less_sharp_than_itself_makes_chaikin_creases_settle_too() {
+    let mut mesh = shapes::icosahedron();
+    mesh.set(CREASE, (0..30).map(|e| f64::from(e % 10)).collect());
+    let rules = Rules {
+        creasing: Creasing::Chaikin,
+        ..Rules::of(Scheme::Loop(LoopWeights::Warren))
+    };
+    let fine = subdivide(&mesh, rules, 1, &NoProgress).unwrap();
+    let [a, b] = [&mesh, &fine].map(|m| of(m, rules));
+    for v in mesh.vertices() {
+        assert!(
+            a.positions[v.index()].distance(b.positions[v.index()]) < 1e-12,
+            "{v}"
+        );
+    }
+}
+
+#[test]
+fn schemes_without_masks_are_refused() {
+    let error = limit(&shapes::cube(), Rules::of(Scheme::DooSabin), &NoProgress).unwrap_err();
+    assert!(matches!(error, OpError::Parameter(_)), "{error}");
+}

@@ -21,6 +21,8 @@ pub const UV: Attribute<HalfEdgeId, DVec2> = Attribute::new("uv", Rule::Interpol
 pub const VERTEX_NORMAL: Attribute<VertexId, DVec3> = Attribute::new("normal", Rule::Normal);
 /// Unit normals of corners: normals that differ between the faces around a vertex.
 pub const CORNER_NORMAL: Attribute<HalfEdgeId, DVec3> = Attribute::new("normal", Rule::Normal);
+/// Unit tangents of vertices, along one direction of the surface.
+pub const TANGENT: Attribute<VertexId, DVec3> = Attribute::new("tangent", Rule::Normal);
 /// Red, green, blue and alpha of vertices, from 0 to 1.
 pub const COLOR: Attribute<VertexId, DVec4> = Attribute::new("color", Rule::Interpolate);
 /// The place of a face's material in the list of its object, from 0; -1 for none.

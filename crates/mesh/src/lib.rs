@@ -91,7 +91,7 @@ mod zeroed;
 
 pub use attribute::{
     Attribute, Attributes, COLOR, CORNER, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Rule,
-    SMOOTHING, Sources, UV, VERTEX_NORMAL, Value, Values,
+    SMOOTHING, Sources, TANGENT, UV, VERTEX_NORMAL, Value, Values,
 };
 pub use build::{BuildError, BuildReport, Built, NonManifold, build};
 pub use compact::Renumbering;

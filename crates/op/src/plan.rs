@@ -86,6 +86,15 @@ impl Range {
         Self::at_most(self.max)
     }
 
+    /// One count or the other.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
     /// The lower of two counts.
     #[must_use]
     pub fn capped(self, cap: Self) -> Self {

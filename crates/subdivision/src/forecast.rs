@@ -115,12 +115,29 @@ impl Size {
         }
     }
 
-    /// How much one level from here adds to the [`Meter`](crate::meter::Meter): at most one for each
-    /// element of the next level.
-    pub(crate) fn work(self, scheme: Scheme, level: u32) -> u64 {
-        let next = self.after(scheme, level);
-        let counts = [next.vertices, self.edges, next.faces];
-        counts.iter().fold(0, |sum, n| sum.saturating_add(n.max))
+    /// This size or another one.
+    pub(crate) fn or(self, other: Self) -> Self {
+        Self {
+            vertices: self.vertices.or(other.vertices),
+            edges: self.edges.or(other.edges),
+            faces: self.faces.or(other.faces),
+            corners: self.corners.or(other.corners),
+            ..self
+        }
+    }
+
+    /// How much so many levels from here add to the [`Meter`](crate::meter::Meter): about one for each new
+    /// vertex, old edge and new face.
+    pub(crate) fn work(self, scheme: Scheme, levels: u32) -> u64 {
+        let (mut size, mut sum) = (self, 0_u64);
+        for level in 0..levels {
+            let next = size.after(scheme, level);
+            for n in [next.vertices, size.edges, next.faces] {
+                sum = sum.saturating_add(n.max);
+            }
+            size = next;
+        }
+        sum
     }
 
     /// The least bytes that the mesh takes, as [`Mesh::bytes`] counts them.

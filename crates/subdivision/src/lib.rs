@@ -44,7 +44,7 @@ mod sharpness;
 mod triangles;
 
 pub use limit::{Limit, limit};
-pub use operation::{MAX_LEVELS, Step};
+pub use operation::{MAX_LEVELS, Step, Until};
 pub use rules::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split};
 
 use mesh::{FaceId, Mesh};
@@ -88,21 +88,15 @@ pub fn subdivide(
     let size = Size::of(&mesh);
     size.check(rules.scheme, levels, u64::MAX)
         .map_err(|too_large| OpError::Budget(too_large.to_string()))?;
-    let meter = Meter::new(progress, rules.scheme.name(), work(size, rules, levels));
+    let meter = Meter::new(
+        progress,
+        rules.scheme.name(),
+        size.work(rules.scheme, levels),
+    );
     for level in 0..levels {
         mesh = finer(&mesh, rules, level, &meter)?;
     }
     Ok(mesh)
-}
-
-/// What so many levels add to the meter.
-fn work(size: Size, rules: Rules, levels: u32) -> u64 {
-    let mut size = size;
-    (0..levels).fold(0, |sum: u64, level| {
-        let work = size.work(rules.scheme, level);
-        size = size.after(rules.scheme, level);
-        sum.saturating_add(work)
-    })
 }
 
 /// Level number `level` (from 0) of a dense mesh whose faces the scheme takes and whose next level fits.

@@ -1,14 +1,35 @@
 //! What the operations of all schemes have in common: the plan, the budget, and the levels.
 
-use mesh::Mesh;
-use op::{Context, MeshPlan, OpError, PlanContext, Problem, Range, Report};
+use mesh::{CORNER_NORMAL, DVec3, Domain, EdgeId, Mesh, TANGENT, VERTEX_NORMAL};
+use op::{Context, MeshPlan, OpError, PlanContext, PlannedAttribute, Problem, Range, Report};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-use crate::forecast::Size;
+use crate::forecast::{Size, TooLarge};
 use crate::meter::{Meter, Through};
-use crate::{Rules, check_faces, finer, work};
+use crate::{Rules, check_faces, finer, limit};
 
 /// The most levels that a step may ask for: a single triangle fills the ids before.
 pub const MAX_LEVELS: u32 = 16;
+
+/// When to stop, instead of after a number of levels.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Until {
+    /// As soon as all edges are shorter than this.
+    EdgeLength {
+        /// In scene units.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        below: f64,
+    },
+    /// As soon as every vertex is nearer than this to the point of the limit surface that it goes to: for
+    /// Loop and Catmull-Clark.
+    LimitDistance {
+        /// In scene units.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        below: f64,
+    },
+}
 
 /// A step of a recipe that subdivides.
 #[derive(Clone, Copy, Debug)]
@@ -17,19 +38,64 @@ pub struct Step {
     pub name: &'static str,
     /// The scheme and its choices.
     pub rules: Rules,
-    /// How often.
-    pub levels: u32,
+    /// How often: 1 if nothing is said. With [`until`](Self::until) the most levels that are allowed,
+    /// [`MAX_LEVELS`] if nothing is said.
+    pub levels: Option<u32>,
+    /// When to stop.
+    pub until: Option<Until>,
+    /// Whether vertices are pushed to the limit surface in the end.
+    pub to_limit: bool,
 }
 
 impl Step {
+    /// One level.
+    pub const fn new(name: &'static str, rules: Rules) -> Self {
+        Self {
+            name,
+            rules,
+            levels: None,
+            until: None,
+            to_limit: false,
+        }
+    }
+
+    fn most_levels(&self) -> u32 {
+        let otherwise = if self.until.is_some() { MAX_LEVELS } else { 1 };
+        self.levels.unwrap_or(otherwise)
+    }
+
+    /// What is wrong with the parameters, and which.
+    fn problem(&self) -> Option<(String, &'static str)> {
+        let levels = self.most_levels();
+        if levels > MAX_LEVELS {
+            let message = format!("levels must lie between 0 and {MAX_LEVELS}, not {levels}");
+            return Some((message, "levels"));
+        }
+        let no_limit = !limit::has_limit(self.rules.scheme);
+        match self.until {
+            Some(Until::EdgeLength { below } | Until::LimitDistance { below })
+                if !(below > 0.0 && below.is_finite()) =>
+            {
+                let message = format!("a length must be a number above 0, not {below}");
+                Some((message, "until"))
+            }
+            Some(Until::LimitDistance { .. }) if no_limit => {
+                let message = format!("the limit of {} is not known", self.rules.scheme.name());
+                Some((message, "until"))
+            }
+            _ => None,
+        }
+    }
+
     /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns what is wrong.
     pub fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
-        if self.levels == 0 {
-            return problems;
+        if let Some((message, field)) = self.problem() {
+            problems.push(Problem::error(message).at([field]));
         }
-        if self.levels > MAX_LEVELS {
-            problems.push(Problem::error(self.too_many_levels()).at(["levels"]));
+        let mut levels = self.most_levels().min(MAX_LEVELS);
+        if levels == 0 && !self.to_limit {
+            return problems;
         }
         let scheme = self.rules.scheme;
         if scheme.needs_triangles() {
@@ -43,10 +109,10 @@ impl Step {
             plan.degrees = Range::exactly(3);
         }
         plan.drop_normals();
+        plan.drop_attribute(Domain::Vertex, TANGENT.name);
 
-        let mut levels = self.levels.min(MAX_LEVELS);
-        let mut size = Size::of_plan(plan);
-        if let Err(too_large) = size.check(scheme, levels, cx.budget) {
+        let start = Size::of_plan(plan);
+        if let (Err(too_large), None) = (start.check(scheme, levels, cx.budget), self.until) {
             problems.push(
                 Problem::error(too_large.message())
                     .at(["levels"])
@@ -55,13 +121,25 @@ impl Step {
             // The plan goes on with what fits, so that later steps are not blamed for this one.
             levels = too_large.fits.unwrap_or(0);
         }
+        let mut size = start;
         for level in 0..levels {
             size = size.after(scheme, level);
-            plan.degrees = scheme.degrees_after(plan.degrees);
+            let finer = scheme.degrees_after(plan.degrees);
+            plan.degrees = if self.until.is_some() {
+                plan.degrees.or(finer)
+            } else {
+                finer
+            };
+        }
+        if self.until.is_some() {
+            size = start.or(size);
         }
         plan.vertices = size.vertices;
         plan.edges = size.edges;
         plan.faces = size.faces;
+        if self.to_limit {
+            provide_limit(plan);
+        }
         problems
     }
 
@@ -69,34 +147,127 @@ impl Step {
     ///
     /// # Errors
     ///
-    /// Those of [`subdivide`](crate::subdivide), [`OpError::Parameter`] for too many levels, and
-    /// [`OpError::Budget`] if the result would take more bytes than the context allows.
+    /// Those of [`subdivide`](crate::subdivide), [`OpError::Parameter`] for parameters out of their range,
+    /// and [`OpError::Budget`] if the result would take more bytes than the context allows, or the
+    /// condition is not met after the levels that are allowed.
     pub fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        if self.levels > MAX_LEVELS {
-            return Err(OpError::Parameter(self.too_many_levels()));
+        if let Some((message, _)) = self.problem() {
+            return Err(OpError::Parameter(message));
         }
-        let scheme = self.rules.scheme;
+        let (scheme, levels) = (self.rules.scheme, self.most_levels());
         cx.advance(scheme.name(), 0, 1)?;
-        if self.levels == 0 {
+        if levels == 0 && !self.to_limit {
             return Ok(Report::default());
         }
         mesh.compact();
         check_faces(mesh, scheme)?;
-        let size = Size::of(mesh);
-        size.check(scheme, self.levels, cx.budget)
-            .map_err(|too_large| OpError::Budget(too_large.to_string()))?;
+        let report = match self.until {
+            None => self.all_levels(mesh, levels, cx)?,
+            Some(until) => self.levels_until(mesh, until, levels, cx)?,
+        };
+        if self.to_limit {
+            push_to_limit(mesh, self.rules, cx)?;
+        }
+        Ok(report)
+    }
 
+    fn all_levels(&self, mesh: &mut Mesh, levels: u32, cx: &Context) -> Result<Report, OpError> {
+        let size = Size::of(mesh);
+        let scheme = self.rules.scheme;
+        size.check(scheme, levels, cx.budget).map_err(budget)?;
         let through = Through(cx);
-        let meter = Meter::new(&through, scheme.name(), work(size, self.rules, self.levels));
-        for level in 0..self.levels {
+        let meter = Meter::new(&through, scheme.name(), size.work(scheme, levels));
+        for level in 0..levels {
             mesh.replace(finer(mesh, self.rules, level, &meter)?);
         }
         meter.finish()?;
         Ok(Report::changed(mesh.n_faces()))
     }
 
-    fn too_many_levels(&self) -> String {
-        let levels = self.levels;
-        format!("levels must lie between 0 and {MAX_LEVELS}, not {levels}")
+    fn levels_until(
+        &self,
+        mesh: &mut Mesh,
+        until: Until,
+        levels: u32,
+        cx: &Context,
+    ) -> Result<Report, OpError> {
+        let through = Through(cx);
+        let scheme = self.rules.scheme;
+        for level in 0..=levels {
+            let meter = Meter::new(&through, scheme.name(), Size::of(mesh).work(scheme, 1));
+            let (what, now, below) = match until {
+                Until::EdgeLength { below } => ("an edge is", longest_edge(mesh), below),
+                Until::LimitDistance { below } => {
+                    let distance = limit::distance(mesh, self.rules, &meter)?;
+                    ("a vertex is away from its limit by", distance, below)
+                }
+            };
+            if now < below {
+                let mut report = Report::changed(mesh.n_faces());
+                report
+                    .notes
+                    .push(format!("{level} levels; {what} {now:.3} at most"));
+                return Ok(report);
+            }
+            if level == levels {
+                let message = format!("after level {level} {what} still {now}, not below {below}");
+                return Err(OpError::Budget(message));
+            }
+            Size::of(mesh)
+                .check(scheme, 1, cx.budget)
+                .map_err(|too_large| {
+                    let message = format!("after level {level} {what} still {now}");
+                    OpError::Budget(format!(
+                        "{message}, and the next is too large: {}",
+                        too_large.message()
+                    ))
+                })?;
+            mesh.replace(finer(mesh, self.rules, level, &meter)?);
+        }
+        unreachable!("the last level returns")
     }
+}
+
+fn budget(too_large: TooLarge) -> OpError {
+    OpError::Budget(too_large.to_string())
+}
+
+/// The length of the longest edge of a dense mesh.
+fn longest_edge(mesh: &Mesh) -> f64 {
+    let squared = |e: usize| {
+        let [a, b] = mesh.edge_vertices(EdgeId::new(e));
+        mesh.position(a).distance_squared(mesh.position(b))
+    };
+    mesh::blocks::fold(mesh.n_edges(), 0.0, squared, f64::max).sqrt()
+}
+
+/// Moves the vertices to the limit surface and gives them its normals and tangents.
+fn push_to_limit(mesh: &mut Mesh, rules: Rules, cx: &Context) -> Result<(), OpError> {
+    let found = limit(mesh, rules, &Through(cx))?;
+    let normals = found.normals();
+    let tangent = |[along, _]: &[DVec3; 2]| along.normalize_or_zero();
+    let tangents = found.tangents.iter().map(tangent).collect();
+    mesh.positions_mut().copy_from_slice(&found.positions);
+    mesh.remove_normals();
+    match found.corner_normals {
+        Some(normals) => mesh.set(CORNER_NORMAL, normals),
+        None => mesh.set(VERTEX_NORMAL, normals),
+    }
+    mesh.set(TANGENT, tangents);
+    Ok(())
+}
+
+/// Where nothing is sharp the normals are on vertices, else on corners.
+fn provide_limit(plan: &mut MeshPlan) {
+    for (domain, name) in [
+        (Domain::Vertex, VERTEX_NORMAL.name),
+        (Domain::Corner, CORNER_NORMAL.name),
+    ] {
+        plan.attributes.push(PlannedAttribute {
+            domain,
+            name: name.to_owned(),
+            certain: false,
+        });
+    }
+    plan.provide(Domain::Vertex, TANGENT.name);
 }

@@ -34,7 +34,7 @@ use mesh::Mesh;
 use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Step};
+use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Step, Until};
 
 /// Cuts every triangle into four and smooths, as often as `levels` says.
 ///
@@ -46,13 +46,17 @@ use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, S
 /// corner values as `face_varying` says, so that seams stay seams; halves of an edge and parts of a
 /// triangle take the values of the whole. Normals are dropped, because they would be wrong. Edges and
 /// vertices that `Crease` made sharp stay so for as many levels as their sharpness says.
-#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoopSubdivide {
-    /// How often: each level has four times as many triangles as the one before. 0 does nothing.
-    #[serde(default = "one")]
+    /// How often: each level has four times as many triangles as the one before. 1 if nothing is said; with
+    /// `until` the most levels that are allowed, 16 if nothing is said.
+    #[serde(default)]
     #[schemars(range(min = 0, max = 16))]
-    pub levels: u32,
+    pub levels: Option<u32>,
+    /// When to stop, instead of after a number of levels.
+    #[serde(default)]
+    pub until: Option<Until>,
     /// The weights at old vertices.
     #[serde(default)]
     pub weights: LoopWeights,
@@ -65,28 +69,17 @@ pub struct LoopSubdivide {
     /// How texture coordinates and other corner values are smoothed.
     #[serde(default)]
     pub face_varying: FaceVarying,
-}
-
-const fn one() -> u32 {
-    1
-}
-
-impl Default for LoopSubdivide {
-    /// One level.
-    fn default() -> Self {
-        Self::levels(1)
-    }
+    /// Whether vertices are pushed to the limit surface in the end, and get its normals and tangents.
+    #[serde(default)]
+    pub to_limit: bool,
 }
 
 impl LoopSubdivide {
     /// So many levels, with the defaults of everything else.
     pub fn levels(levels: u32) -> Self {
         Self {
-            levels,
-            weights: LoopWeights::default(),
-            boundary: Boundary::default(),
-            creasing: Creasing::default(),
-            face_varying: FaceVarying::default(),
+            levels: Some(levels),
+            ..Self::default()
         }
     }
 
@@ -100,6 +93,8 @@ impl LoopSubdivide {
                 face_varying: self.face_varying,
             },
             levels: self.levels,
+            until: self.until,
+            to_limit: self.to_limit,
         }
     }
 }

@@ -185,9 +185,10 @@ fn it_can_be_cancelled_at_any_call_and_otherwise_arrives_at_the_end() {
 
 #[test]
 fn a_recipe_can_leave_the_levels_out_and_nothing_else_is_taken() {
-    let parsed = |text| ron::from_str::<LoopSubdivide>(text);
+    let parsed =
+        |text: &str| ron::from_str::<LoopSubdivide>(&format!("#![enable(implicit_some)]{text}"));
     assert_eq!(parsed("(levels: 3)"), Ok(LoopSubdivide::levels(3)));
-    assert_eq!(parsed("()"), Ok(LoopSubdivide::levels(1)));
+    assert_eq!(parsed("()"), Ok(LoopSubdivide::default()));
     assert!(parsed("(level: 3)").is_err());
     assert!(parsed("(levels: -1)").is_err());
 }

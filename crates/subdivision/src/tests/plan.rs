@@ -27,9 +27,8 @@ fn counts_are_foreseen_exactly_for_every_scheme_on_every_fixture() {
         for scheme in SCHEMES {
             for levels in 0..3 {
                 let step = Step {
-                    name: "Test",
-                    rules: Rules::of(scheme),
-                    levels,
+                    levels: Some(levels),
+                    ..Step::new("Test", Rules::of(scheme))
                 };
                 let mut plan = MeshPlan::of(&mesh);
                 assert_eq!(step.plan(&mut plan, &cx), [], "{name} {scheme:?}");

@@ -1,0 +1,192 @@
+//! The crate against the textbook.
+
+use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split, subdivide};
+
+use crate::compare::{difference, mesh_of};
+use crate::meshes::{self, Islands, Named, Pattern, Random};
+use crate::polygons::Polygons;
+use crate::textbook;
+
+const BOUNDARIES: [Boundary; 3] = [
+    Boundary::EdgesOnly,
+    Boundary::EdgesAndCorners,
+    Boundary::Fixed,
+];
+const CREASINGS: [Creasing; 2] = [Creasing::Uniform, Creasing::Chaikin];
+const FACE_VARYING: [FaceVarying; 6] = [
+    FaceVarying::None,
+    FaceVarying::CornersOnly,
+    FaceVarying::CornersPlus1,
+    FaceVarying::CornersPlus2,
+    FaceVarying::Boundaries,
+    FaceVarying::All,
+];
+
+/// Lists what differs, and fails if anything does.
+#[derive(Debug, Default)]
+struct Comparison {
+    compared: usize,
+    differences: Vec<String>,
+}
+
+impl Comparison {
+    /// Compares one mesh.
+    fn compare(&mut self, name: &str, mesh: &Polygons, rules: &Rules, levels: u32) {
+        self.compared += 1;
+        let found = subdivide(&mesh_of(mesh), rules, levels, &op::NoProgress);
+        let difference = match found {
+            Ok(found) => difference(&found, &textbook(mesh, rules, levels)),
+            Err(error) => Some(format!("{error:?}")),
+        };
+        if let Some(difference) = difference {
+            self.differences.push(format!(
+                "{name}, {levels} levels, {rules:?}:\n    {difference}"
+            ));
+        }
+    }
+
+    /// Fails if anything differed.
+    fn finish(&self) {
+        let first: Vec<&str> = self
+            .differences
+            .iter()
+            .take(12)
+            .map(String::as_str)
+            .collect();
+        assert!(
+            first.is_empty(),
+            "{} of {} differ:\n{}",
+            self.differences.len(),
+            self.compared,
+            first.join("\n")
+        );
+    }
+}
+
+/// Fewer levels of big meshes.
+fn levels_of(mesh: &Polygons) -> u32 {
+    if mesh.faces.len() <= 12 { 3 } else { 2 }
+}
+
+/// A smooth scheme on meshes with every boundary, decrease and pattern of sharpness.
+fn compare_sharp(meshes: &[Named], scheme: Scheme) {
+    let mut comparison = Comparison::default();
+    let mut random = Random(3);
+    for (name, mesh) in meshes {
+        for boundary in BOUNDARIES {
+            for creasing in CREASINGS {
+                for pattern in Pattern::ALL {
+                    let rules = Rules {
+                        boundary,
+                        creasing,
+                        ..Rules::of(scheme)
+                    };
+                    let mesh = pattern.on(mesh, &mut random);
+                    for levels in 1..=levels_of(&mesh) {
+                        let name = format!("{name}, {pattern:?}");
+                        comparison.compare(&name, &mesh, &rules, levels);
+                    }
+                }
+            }
+        }
+    }
+    comparison.finish();
+}
+
+/// A scheme without choices.
+fn compare_plain(meshes: &[Named], scheme: Scheme) {
+    let mut comparison = Comparison::default();
+    for (name, mesh) in meshes {
+        for levels in 0..=levels_of(mesh) + 1 {
+            comparison.compare(name, mesh, &Rules::of(scheme), levels);
+        }
+    }
+    comparison.finish();
+}
+
+/// Corner values with every choice, on meshes with and without sharpness.
+fn compare_corner_values(meshes: &[Named], scheme: Scheme) {
+    let mut comparison = Comparison::default();
+    let mut random = Random(4);
+    for (name, mesh) in meshes {
+        for face_varying in FACE_VARYING {
+            for islands in Islands::ALL {
+                for pattern in [Pattern::Smooth, Pattern::Mixed, Pattern::FewEdges] {
+                    let boundary = random.one_of(&BOUNDARIES);
+                    let creasing = random.one_of(&CREASINGS);
+                    let rules = Rules {
+                        scheme,
+                        boundary,
+                        creasing,
+                        face_varying,
+                    };
+                    let mesh = pattern.on(&islands.on(mesh, &mut random), &mut random);
+                    for levels in 1..=levels_of(&mesh) {
+                        let name = format!("{name}, {pattern:?}, {islands:?}");
+                        comparison.compare(&name, &mesh, &rules, levels);
+                    }
+                }
+            }
+        }
+    }
+    comparison.finish();
+}
+
+#[test]
+fn loop_with_the_weights_of_warren() {
+    compare_sharp(&meshes::triangles(), Scheme::Loop(LoopWeights::Warren));
+}
+
+#[test]
+fn loop_with_its_own_weights() {
+    compare_sharp(&meshes::triangles(), Scheme::Loop(LoopWeights::Loop));
+}
+
+#[test]
+fn catmull_clark_on_polygons() {
+    compare_sharp(&meshes::polygons(), Scheme::CatmullClark);
+}
+
+#[test]
+fn catmull_clark_on_triangles() {
+    compare_sharp(&meshes::triangles(), Scheme::CatmullClark);
+}
+
+#[test]
+fn midpoints_of_triangles() {
+    compare_plain(&meshes::triangles(), Scheme::Midpoint(Split::Triangles));
+}
+
+#[test]
+fn midpoints_of_polygons() {
+    compare_plain(&meshes::polygons(), Scheme::Midpoint(Split::Quads));
+}
+
+#[test]
+fn butterfly() {
+    compare_plain(&meshes::triangles(), Scheme::Butterfly);
+}
+
+#[test]
+fn sqrt3() {
+    compare_plain(&meshes::triangles(), Scheme::Sqrt3);
+}
+
+#[test]
+fn doo_sabin() {
+    // A vertex with two edges would become a face with two corners.
+    let mut polygons = meshes::polygons();
+    polygons.retain(|(name, _)| name != meshes::TWO_EDGES);
+    compare_plain(&polygons, Scheme::DooSabin);
+    compare_plain(&meshes::triangles(), Scheme::DooSabin);
+}
+
+#[test]
+fn corner_values_with_loop() {
+    compare_corner_values(&meshes::triangles(), Scheme::Loop(LoopWeights::Loop));
+}
+
+#[test]
+fn corner_values_with_catmull_clark() {
+    compare_corner_values(&meshes::polygons(), Scheme::CatmullClark);
+}

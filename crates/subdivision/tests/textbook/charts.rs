@@ -1,0 +1,474 @@
+//! Corner values and how they are subdivided: OpenSubdiv's face-varying data.
+//!
+//! Corners at one vertex whose numbers are equal hold one value. What becomes of a value is decided once,
+//! where values are given, and inherited from there.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use mesh::DVec2;
+use subdivision::{Boundary, FaceVarying, Rules, Scheme};
+
+use crate::masks;
+use crate::polygons::{Around, Edge, Polygons, ahead, behind, edge};
+use crate::sharpness::{Sharpness, is_semi_sharp};
+use crate::split::{self, Place};
+
+/// What becomes of a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    /// The same as of the position of its vertex.
+    Regular,
+    /// It stays.
+    Corner,
+    /// It moves along the border of its faces.
+    Crease,
+    /// It stays while something is sharp, and then moves.
+    Sharp,
+    /// It stays while the other value at the vertex does.
+    Dependent,
+}
+
+/// Corner values.
+#[derive(Clone, Debug)]
+pub(crate) struct Charts {
+    /// The values; one belongs to one vertex.
+    values: Vec<DVec2>,
+    /// What becomes of each; `None` where it is not decided yet.
+    states: Option<Vec<State>>,
+    /// The value of each corner of each face.
+    corners: Vec<Vec<usize>>,
+    /// Inner edges where values of the two sides differ, at one end or both.
+    seams: BTreeSet<Edge>,
+}
+
+impl Charts {
+    /// Corner values given as numbers for each corner of each face.
+    pub(crate) fn new(faces: &[Vec<usize>], numbers: &[Vec<DVec2>]) -> Self {
+        let mut known: BTreeMap<(usize, [u64; 2]), usize> = BTreeMap::new();
+        let mut values = Vec::new();
+        let mut corners = Vec::new();
+        for (face, numbers) in faces.iter().zip(numbers) {
+            let of_corner = |(&v, &number): (&usize, &DVec2)| {
+                *known
+                    .entry((v, number.to_array().map(f64::to_bits)))
+                    .or_insert_with(|| {
+                        values.push(number);
+                        values.len() - 1
+                    })
+            };
+            corners.push(face.iter().zip(numbers).map(of_corner).collect());
+        }
+        let mut charts = Self {
+            values,
+            states: None,
+            corners,
+            seams: BTreeSet::new(),
+        };
+        let n_vertices = faces.iter().flatten().max().map_or(0, |&v| v + 1);
+        for (e, sides) in &Around::new(n_vertices, faces).sides {
+            if let &[a, b] = sides.as_slice()
+                && (charts.at(a, 0) != charts.at(b, 1) || charts.at(a, 1) != charts.at(b, 0))
+            {
+                charts.seams.insert(*e);
+            }
+        }
+        charts
+    }
+
+    /// The number at each corner of each face.
+    pub(crate) fn numbers(&self) -> Vec<Vec<DVec2>> {
+        let numbers = |face: &Vec<usize>| face.iter().map(|&x| self.values[x]).collect();
+        self.corners.iter().map(numbers).collect()
+    }
+
+    /// The value at a corner, or `by` corners on.
+    fn at(&self, (f, i): (usize, usize), by: usize) -> usize {
+        let face = &self.corners[f];
+        face[(i + by) % face.len()]
+    }
+
+    /// The value at the corner before.
+    fn before(&self, (f, i): (usize, usize)) -> usize {
+        let face = &self.corners[f];
+        face[behind(i, face.len())]
+    }
+
+    /// The mean of the values of a face.
+    fn center(&self, f: usize) -> DVec2 {
+        let face = &self.corners[f];
+        face.iter().map(|&x| self.values[x]).sum::<DVec2>() / face.len() as f64
+    }
+
+    /// The faces around `v` that hold a value.
+    fn span(&self, v: usize, value: usize, around: &Around) -> Span {
+        let fan = around.fan(v);
+        let n = fan.len();
+        let is_inner = !around.is_boundary_vertex(v);
+        let is_seam = |c: (usize, usize)| self.seams.contains(&edge(v, around.at(c, 1)));
+        let holds = |i: usize| self.at(fan[i], 0) == value;
+        if is_inner && (0..n).all(holds) {
+            let seams: Vec<usize> = (0..n).filter(|&i| is_seam(fan[i])).collect();
+            return Span {
+                size: n,
+                is_torn: seams.len() != 1,
+                ends: [fan[seams[0]], fan[behind(seams[0], n)]],
+                inner: fan
+                    .iter()
+                    .filter(|&&c| !is_seam(c))
+                    .map(|&c| around.at(c, 1))
+                    .collect(),
+            };
+        }
+        let (mut inner, mut starts, mut size, mut is_torn) = (Vec::new(), Vec::new(), 0, false);
+        for i in (0..n).filter(|&i| holds(i)) {
+            size += 1;
+            if (is_inner || i > 0) && holds(behind(i, n)) {
+                inner.push(around.at(fan[i], 1));
+                is_torn |= is_seam(fan[i]);
+            } else {
+                starts.push(i);
+            }
+        }
+        is_torn |= starts.len() != 1;
+        let ends = [fan[starts[0]], fan[(starts[0] + size - 1) % n]];
+        Span {
+            size,
+            is_torn,
+            inner,
+            ends,
+        }
+    }
+}
+
+/// The faces around a vertex that hold one value.
+#[derive(Debug)]
+struct Span {
+    /// How many.
+    size: usize,
+    /// They are not in one row, or a seam runs between them.
+    is_torn: bool,
+    /// Where the edges between them lead.
+    inner: Vec<usize>,
+    /// The corners in the first and the last of them, counter-clockwise.
+    ends: [(usize, usize); 2],
+}
+
+impl Span {
+    /// Whether an edge inside is infinitely sharp.
+    fn is_hard(&self, v: usize, sharpness: &Sharpness) -> bool {
+        self.inner
+            .iter()
+            .map(|&w| sharpness.of_edge(v, w))
+            .any(|s| s > 0.0 && !is_semi_sharp(s))
+    }
+
+    /// Whether an edge inside is sharp for some levels.
+    fn is_semi_sharp(&self, v: usize, sharpness: &Sharpness) -> bool {
+        self.inner
+            .iter()
+            .any(|&w| is_semi_sharp(sharpness.of_edge(v, w)))
+    }
+
+    /// Whether an edge inside is sharp for some levels from the next one on.
+    fn is_semi_sharp_next(&self, v: usize, sharpness: &Sharpness) -> bool {
+        self.inner
+            .iter()
+            .any(|&w| is_semi_sharp(sharpness.of_half(v, w)))
+    }
+}
+
+/// The values at `v`, in the order of their numbers.
+fn values_at(charts: &Charts, v: usize, around: &Around) -> Vec<usize> {
+    let values: BTreeSet<usize> = around.corners[v].iter().map(|&c| charts.at(c, 0)).collect();
+    values.into_iter().collect()
+}
+
+/// Decides what becomes of the values at `v`.
+fn decide(
+    charts: &Charts,
+    v: usize,
+    rules: &Rules,
+    around: &Around,
+    sharpness: &Sharpness,
+) -> Vec<State> {
+    let choice = rules.face_varying;
+    let values = values_at(charts, v, around);
+    let all = |state: State| vec![state; values.len()];
+    let is_boundary = around.is_boundary_vertex(v);
+    let has_seam = around.neighbors[v]
+        .iter()
+        .any(|&w| charts.seams.contains(&edge(v, w)));
+    let is_single = around.corners[v].len() == 1
+        && choice != FaceVarying::None
+        && rules.boundary != Boundary::EdgesAndCorners;
+    let is_linear = choice == FaceVarying::Boundaries;
+    if !has_seam && !is_single && !(is_linear && is_boundary) {
+        return all(State::Regular);
+    }
+
+    let own = sharpness.of_vertex(v);
+    let plus_two = choice == FaceVarying::CornersPlus2;
+    let depends = plus_two || choice == FaceVarying::CornersPlus1;
+    let is_dart = values.len() == 1 && !is_boundary;
+    let is_infinite = own > 0.0 && !is_semi_sharp(own);
+    if is_linear || is_infinite || (depends && values.len() > 2) || (plus_two && is_dart) {
+        return all(State::Corner);
+    }
+    let spans: Vec<Span> = values
+        .iter()
+        .map(|&value| charts.span(v, value, around))
+        .collect();
+    if depends && values.len() == 2 {
+        let sharpens = |s: &Span| s.is_torn || s.is_hard(v, sharpness) || (plus_two && s.size == 1);
+        if spans.iter().any(sharpens) {
+            return all(State::Corner);
+        }
+    }
+    let semi = |span: &Span| span.is_semi_sharp(v, sharpness);
+    let one_is_semi = depends && spans.len() == 2 && semi(&spans[0]) != semi(&spans[1]);
+    let state = |span: &Span| {
+        let is_point = span.size == 1 && choice != FaceVarying::None;
+        if span.is_torn || span.is_hard(v, sharpness) || is_point {
+            State::Corner
+        } else if semi(span) || is_semi_sharp(own) {
+            State::Sharp
+        } else if one_is_semi {
+            State::Dependent
+        } else {
+            State::Crease
+        }
+    };
+    spans.iter().map(state).collect()
+}
+
+/// What becomes of the values at `v` in the next level.
+fn inherit(
+    charts: &Charts,
+    v: usize,
+    states: &[State],
+    around: &Around,
+    sharpness: &Sharpness,
+) -> Vec<State> {
+    let mut next = states.to_vec();
+    if sharpness.of_child(v) > 0.0 {
+        return next;
+    }
+    let is_sharp = |state: &State| matches!(state, State::Sharp | State::Dependent);
+    if !around.neighbors[v]
+        .iter()
+        .any(|&w| is_semi_sharp(sharpness.of_half(v, w)))
+    {
+        for state in next.iter_mut().filter(|state| is_sharp(state)) {
+            *state = State::Crease;
+        }
+        return next;
+    }
+    for (state, value) in next.iter_mut().zip(values_at(charts, v, around)) {
+        if *state == State::Sharp
+            && !charts
+                .span(v, value, around)
+                .is_semi_sharp_next(v, sharpness)
+        {
+            *state = State::Crease;
+        }
+    }
+    if let &[a, b] = next.as_slice() {
+        if a == State::Dependent && !is_sharp(&b) {
+            next[0] = State::Sharp;
+        } else if b == State::Dependent && !is_sharp(&a) {
+            next[1] = State::Sharp;
+        }
+    }
+    next
+}
+
+/// Corner values of the next level. `numbers` are the vertices on edges.
+pub(crate) fn refine(
+    charts: &Charts,
+    mesh: &Polygons,
+    rules: &Rules,
+    around: &Around,
+    sharpness: &Sharpness,
+    numbers: &BTreeMap<Edge, usize>,
+) -> Charts {
+    let mut values = vec![DVec2::ZERO; charts.values.len()];
+    let mut states = vec![State::Regular; charts.values.len()];
+    for v in (0..mesh.positions.len()).filter(|&v| !around.corners[v].is_empty()) {
+        let of_vertex = Vertex {
+            charts,
+            v,
+            rules,
+            around,
+            sharpness,
+        };
+        for (x, number, state) in of_vertex.refined() {
+            (values[x], states[x]) = (number, state);
+        }
+    }
+
+    // A value for each edge, or for each side of a seam; then one in each center.
+    let mut of_sides: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+    for (&e, sides) in &around.sides {
+        let is_seam = charts.seams.contains(&e);
+        let is_linear = rules.face_varying == FaceVarying::Boundaries && sides.len() == 1;
+        for (k, &side) in sides.iter().enumerate() {
+            if k == 0 || is_seam {
+                values.push(of_edge(charts, e, side, sides, rules, sharpness));
+                states.push(match rules.face_varying {
+                    FaceVarying::Boundaries if is_seam || is_linear => State::Corner,
+                    _ if is_seam => State::Crease,
+                    _ => State::Regular,
+                });
+            }
+            of_sides.insert(side, values.len() - 1);
+        }
+    }
+    let mut corners = Vec::new();
+    for (f, face) in mesh.faces.iter().enumerate() {
+        let center = values.len();
+        let value = |place: &Place| match *place {
+            Place::Corner(i) => charts.at((f, i), 0),
+            Place::Side(i) => of_sides[&(f, i)],
+            Place::Center => center,
+        };
+        let pieces = split::pieces(rules.scheme, face.len());
+        corners.extend(pieces.iter().map(|piece| piece.iter().map(value).collect()));
+        values.push(charts.center(f));
+        states.push(State::Regular);
+    }
+    let halves = |&(a, b): &Edge| {
+        let middle = numbers[&(a, b)];
+        [edge(a, middle), edge(b, middle)]
+    };
+    let seams = charts.seams.iter().flat_map(halves).collect();
+    Charts {
+        values,
+        states: Some(states),
+        corners,
+        seams,
+    }
+}
+
+/// The new value of an edge, on the side given.
+fn of_edge(
+    charts: &Charts,
+    e: Edge,
+    side: (usize, usize),
+    sides: &[(usize, usize)],
+    rules: &Rules,
+    sharpness: &Sharpness,
+) -> DVec2 {
+    let ends = charts.values[charts.at(side, 0)] + charts.values[charts.at(side, 1)];
+    if charts.seams.contains(&e) || rules.face_varying == FaceVarying::All {
+        return 0.5 * ends;
+    }
+    let mask = masks::of_edge(e, rules, sharpness);
+    let beside = |&side: &(usize, usize)| match rules.scheme {
+        Scheme::CatmullClark => charts.center(side.0),
+        _ => charts.values[charts.at(side, 2)],
+    };
+    mask.end * ends + mask.side * sides.iter().map(beside).sum::<DVec2>()
+}
+
+/// The values of an old vertex.
+struct Vertex<'a> {
+    charts: &'a Charts,
+    v: usize,
+    rules: &'a Rules,
+    around: &'a Around<'a>,
+    sharpness: &'a Sharpness,
+}
+
+impl Vertex<'_> {
+    /// Each value with what it becomes.
+    fn refined(&self) -> Vec<(usize, DVec2, State)> {
+        let Self {
+            charts,
+            v,
+            rules,
+            around,
+            sharpness,
+        } = *self;
+        let values = values_at(charts, v, around);
+        if rules.face_varying == FaceVarying::All {
+            return values
+                .iter()
+                .map(|&x| (x, charts.values[x], State::Corner))
+                .collect();
+        }
+        let states: Vec<State> = match &charts.states {
+            None => decide(charts, v, rules, around, sharpness),
+            Some(states) => values.iter().map(|&x| states[x]).collect(),
+        };
+        let next = inherit(charts, v, &states, around, sharpness);
+        let number = |k: usize| match (states[k], next[k]) {
+            (State::Regular, _) => self.regular(values[k]),
+            (_, State::Crease) => {
+                // A dependent value is as sharp as the other one.
+                let source = if states[k] == State::Dependent {
+                    1 - k
+                } else {
+                    k
+                };
+                let is_sharp = matches!(states[k], State::Sharp | State::Dependent);
+                let w = if is_sharp {
+                    self.fraction(values[source])
+                } else {
+                    0.0
+                };
+                w * charts.values[values[k]] + (1.0 - w) * self.crease(values[k])
+            }
+            _ => charts.values[values[k]],
+        };
+        (0..values.len())
+            .map(|k| (values[k], number(k), next[k]))
+            .collect()
+    }
+
+    /// How much of the corner is left, by the edges inside the faces of a value.
+    fn fraction(&self, value: usize) -> f64 {
+        let span = self.charts.span(self.v, value, self.around);
+        self.sharpness.fraction(self.v, &span.inner)
+    }
+
+    /// The value moved along the border of its faces.
+    fn crease(&self, value: usize) -> DVec2 {
+        let charts = self.charts;
+        let [first, last] = charts.span(self.v, value, self.around).ends;
+        let ends = charts.values[charts.at(first, 1)] + charts.values[charts.before(last)];
+        0.75 * charts.values[value] + 0.125 * ends
+    }
+
+    /// The value moved as the position is.
+    fn regular(&self, value: usize) -> DVec2 {
+        let Self {
+            charts,
+            v,
+            rules,
+            around,
+            sharpness,
+        } = *self;
+        let mask = masks::of_vertex(v, rules, around, sharpness);
+        let beyond = |w: usize| {
+            let (f, i) = around.sides[&edge(v, w)][0];
+            let face = &charts.corners[f];
+            let at_start = around.at((f, i), 0) == w;
+            charts.values[if at_start {
+                face[i]
+            } else {
+                face[ahead(i, face.len())]
+            }]
+        };
+        mask.own * charts.values[value]
+            + mask
+                .neighbors
+                .iter()
+                .map(|(&w, t)| *t * beyond(w))
+                .sum::<DVec2>()
+            + mask
+                .centers
+                .iter()
+                .map(|(&f, t)| *t * charts.center(f))
+                .sum::<DVec2>()
+    }
+}

@@ -105,7 +105,13 @@ impl Sharpness {
                 .collect()
         };
         let halves = halves_of(&|e| edges[e]);
-        let stored_halves = halves_of(&stored);
+        // What is stored for the boundary does not matter and knows no neighbors.
+        let mut stored_halves: BTreeMap<Edge, [f64; 2]> = halves_of(&stored);
+        for (e, halves) in &mut stored_halves {
+            if around.is_boundary_edge(*e) {
+                *halves = [decreased(stored(e)); 2];
+            }
+        }
         Self {
             creasing,
             halves,

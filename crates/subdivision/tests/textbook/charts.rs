@@ -1,7 +1,8 @@
 //! Corner values and how they are subdivided: OpenSubdiv's face-varying data.
 //!
-//! Corners at one vertex whose numbers are equal hold one value. What becomes of a value is decided once,
-//! where values are given, and inherited from there.
+//! Corners at one vertex whose numbers are equal hold one value. What becomes of a value is decided in each
+//! level, from the sharpness that is left; OpenSubdiv decides once which of two values depends on the
+//! other. That is the same but where sharpness ends on one side of a vertex earlier than on the other.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -33,8 +34,6 @@ enum State {
 pub(crate) struct Charts {
     /// The values; one belongs to one vertex.
     values: Vec<DVec2>,
-    /// What becomes of each; `None` where it is not decided yet.
-    states: Option<Vec<State>>,
     /// The value of each corner of each face.
     corners: Vec<Vec<usize>>,
     /// Inner edges where values of the two sides differ, at one end or both.
@@ -60,7 +59,6 @@ impl Charts {
         }
         let mut charts = Self {
             values,
-            states: None,
             corners,
             seams: BTreeSet::new(),
         };
@@ -156,25 +154,27 @@ struct Span {
 impl Span {
     /// Whether an edge inside is infinitely sharp.
     fn is_hard(&self, v: usize, sharpness: &Sharpness) -> bool {
-        self.inner
-            .iter()
-            .map(|&w| sharpness.of_edge(v, w))
-            .any(|s| s > 0.0 && !is_semi_sharp(s))
+        let mut inside = self.inner.iter().map(|&w| sharpness.of_edge(v, w));
+        inside.any(|s| s > 0.0 && !is_semi_sharp(s))
     }
 
     /// Whether an edge inside is sharp for some levels.
-    fn is_semi_sharp(&self, v: usize, sharpness: &Sharpness) -> bool {
-        self.inner
-            .iter()
-            .any(|&w| is_semi_sharp(sharpness.of_edge(v, w)))
+    fn is_semi_sharp(&self, v: usize, sharpness: &Sharpness, when: When) -> bool {
+        let mut inside = self.inner.iter().map(|&w| match when {
+            When::Now => sharpness.of_edge(v, w),
+            When::Next => sharpness.of_half(v, w),
+        });
+        inside.any(is_semi_sharp)
     }
+}
 
-    /// Whether an edge inside is sharp for some levels from the next one on.
-    fn is_semi_sharp_next(&self, v: usize, sharpness: &Sharpness) -> bool {
-        self.inner
-            .iter()
-            .any(|&w| is_semi_sharp(sharpness.of_half(v, w)))
-    }
+/// By which sharpness something is decided.
+#[derive(Clone, Copy, Debug)]
+enum When {
+    /// That of the old mesh.
+    Now,
+    /// That of the new one.
+    Next,
 }
 
 /// The values at `v`, in the order of their numbers.
@@ -190,6 +190,7 @@ fn decide(
     rules: &Rules,
     around: &Around,
     sharpness: &Sharpness,
+    when: When,
 ) -> Vec<State> {
     let choice = rules.face_varying;
     let values = values_at(charts, v, around);
@@ -206,7 +207,10 @@ fn decide(
         return all(State::Regular);
     }
 
-    let own = sharpness.of_vertex(v);
+    let own = match when {
+        When::Now => sharpness.of_vertex(v),
+        When::Next => sharpness.of_child(v),
+    };
     let plus_two = choice == FaceVarying::CornersPlus2;
     let depends = plus_two || choice == FaceVarying::CornersPlus1;
     let is_dart = values.len() == 1 && !is_boundary;
@@ -224,7 +228,7 @@ fn decide(
             return all(State::Corner);
         }
     }
-    let semi = |span: &Span| span.is_semi_sharp(v, sharpness);
+    let semi = |span: &Span| span.is_semi_sharp(v, sharpness, when);
     let one_is_semi = depends && spans.len() == 2 && semi(&spans[0]) != semi(&spans[1]);
     let state = |span: &Span| {
         let is_point = span.size == 1 && choice != FaceVarying::None;
@@ -241,47 +245,6 @@ fn decide(
     spans.iter().map(state).collect()
 }
 
-/// What becomes of the values at `v` in the next level.
-fn inherit(
-    charts: &Charts,
-    v: usize,
-    states: &[State],
-    around: &Around,
-    sharpness: &Sharpness,
-) -> Vec<State> {
-    let mut next = states.to_vec();
-    if sharpness.of_child(v) > 0.0 {
-        return next;
-    }
-    let is_sharp = |state: &State| matches!(state, State::Sharp | State::Dependent);
-    if !around.neighbors[v]
-        .iter()
-        .any(|&w| is_semi_sharp(sharpness.of_half(v, w)))
-    {
-        for state in next.iter_mut().filter(|state| is_sharp(state)) {
-            *state = State::Crease;
-        }
-        return next;
-    }
-    for (state, value) in next.iter_mut().zip(values_at(charts, v, around)) {
-        if *state == State::Sharp
-            && !charts
-                .span(v, value, around)
-                .is_semi_sharp_next(v, sharpness)
-        {
-            *state = State::Crease;
-        }
-    }
-    if let &[a, b] = next.as_slice() {
-        if a == State::Dependent && !is_sharp(&b) {
-            next[0] = State::Sharp;
-        } else if b == State::Dependent && !is_sharp(&a) {
-            next[1] = State::Sharp;
-        }
-    }
-    next
-}
-
 /// Corner values of the next level. `numbers` are the vertices on edges.
 pub(crate) fn refine(
     charts: &Charts,
@@ -292,7 +255,6 @@ pub(crate) fn refine(
     numbers: &BTreeMap<Edge, usize>,
 ) -> Charts {
     let mut values = vec![DVec2::ZERO; charts.values.len()];
-    let mut states = vec![State::Regular; charts.values.len()];
     for v in (0..mesh.positions.len()).filter(|&v| !around.corners[v].is_empty()) {
         let of_vertex = Vertex {
             charts,
@@ -301,8 +263,8 @@ pub(crate) fn refine(
             around,
             sharpness,
         };
-        for (x, number, state) in of_vertex.refined() {
-            (values[x], states[x]) = (number, state);
+        for (x, number) in of_vertex.refined() {
+            values[x] = number;
         }
     }
 
@@ -310,15 +272,9 @@ pub(crate) fn refine(
     let mut of_sides: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for (&e, sides) in &around.sides {
         let is_seam = charts.seams.contains(&e);
-        let is_linear = rules.face_varying == FaceVarying::Boundaries && sides.len() == 1;
         for (k, &side) in sides.iter().enumerate() {
             if k == 0 || is_seam {
                 values.push(of_edge(charts, e, side, sides, rules, sharpness));
-                states.push(match rules.face_varying {
-                    FaceVarying::Boundaries if is_seam || is_linear => State::Corner,
-                    _ if is_seam => State::Crease,
-                    _ => State::Regular,
-                });
             }
             of_sides.insert(side, values.len() - 1);
         }
@@ -334,7 +290,6 @@ pub(crate) fn refine(
         let pieces = split::pieces(rules.scheme, face.len());
         corners.extend(pieces.iter().map(|piece| piece.iter().map(value).collect()));
         values.push(charts.center(f));
-        states.push(State::Regular);
     }
     let halves = |&(a, b): &Edge| {
         let middle = numbers[&(a, b)];
@@ -343,7 +298,6 @@ pub(crate) fn refine(
     let seams = charts.seams.iter().flat_map(halves).collect();
     Charts {
         values,
-        states: Some(states),
         corners,
         seams,
     }
@@ -381,7 +335,7 @@ struct Vertex<'a> {
 
 impl Vertex<'_> {
     /// Each value with what it becomes.
-    fn refined(&self) -> Vec<(usize, DVec2, State)> {
+    fn refined(&self) -> Vec<(usize, DVec2)> {
         let Self {
             charts,
             v,
@@ -391,16 +345,10 @@ impl Vertex<'_> {
         } = *self;
         let values = values_at(charts, v, around);
         if rules.face_varying == FaceVarying::All {
-            return values
-                .iter()
-                .map(|&x| (x, charts.values[x], State::Corner))
-                .collect();
+            return values.iter().map(|&x| (x, charts.values[x])).collect();
         }
-        let states: Vec<State> = match &charts.states {
-            None => decide(charts, v, rules, around, sharpness),
-            Some(states) => values.iter().map(|&x| states[x]).collect(),
-        };
-        let next = inherit(charts, v, &states, around, sharpness);
+        let [states, next] =
+            [When::Now, When::Next].map(|when| decide(charts, v, rules, around, sharpness, when));
         let number = |k: usize| match (states[k], next[k]) {
             (State::Regular, _) => self.regular(values[k]),
             (_, State::Crease) => {
@@ -420,9 +368,7 @@ impl Vertex<'_> {
             }
             _ => charts.values[values[k]],
         };
-        (0..values.len())
-            .map(|k| (values[k], number(k), next[k]))
-            .collect()
+        (0..values.len()).map(|k| (values[k], number(k))).collect()
     }
 
     /// How much of the corner is left, by the edges inside the faces of a value.

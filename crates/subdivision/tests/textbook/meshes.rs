@@ -333,15 +333,24 @@ impl Pattern {
         };
         let mut mesh = mesh.clone();
         let around = Around::new(mesh.positions.len(), &mesh.faces);
+        // Broken numbers are never quite the same, so that no sum is 1 but for rounding.
+        let sharpness = |random: &mut Random| {
+            let s: f64 = random.one_of(choice);
+            if s.fract() == 0.0 {
+                s
+            } else {
+                s + 0.001 * random.unit()
+            }
+        };
         let mut crease = BTreeMap::new();
         for &e in around.sides.keys() {
             if random.chance(edges) {
-                crease.insert(e, random.one_of(choice));
+                crease.insert(e, sharpness(random));
             }
         }
         for s in &mut mesh.corner {
             if random.chance(vertices) {
-                *s = random.one_of(choice);
+                *s = sharpness(random);
             }
         }
         mesh.crease = crease;

@@ -31,9 +31,9 @@ struct Comparison {
 
 impl Comparison {
     /// Compares one mesh.
-    fn compare(&mut self, name: &str, mesh: &Polygons, rules: &Rules, levels: u32) {
+    fn compare(&mut self, name: &str, mesh: &Polygons, rules: Rules, levels: u32) {
         self.compared += 1;
-        let found = subdivide(&mesh_of(mesh), *rules, levels, &op::NoProgress);
+        let found = subdivide(&mesh_of(mesh), rules, levels, &op::NoProgress);
         let difference = match found {
             Ok(found) => difference(&found, &textbook(mesh, rules, levels)),
             Err(error) => Some(format!("{error:?}")),
@@ -84,7 +84,7 @@ fn compare_sharp(meshes: &[Named], scheme: Scheme) {
                     let mesh = pattern.on(mesh, &mut random);
                     for levels in 1..=levels_of(&mesh) {
                         let name = format!("{name}, {pattern:?}");
-                        comparison.compare(&name, &mesh, &rules, levels);
+                        comparison.compare(&name, &mesh, rules, levels);
                     }
                 }
             }
@@ -98,7 +98,7 @@ fn compare_plain(meshes: &[Named], scheme: Scheme) {
     let mut comparison = Comparison::default();
     for (name, mesh) in meshes {
         for levels in 0..=levels_of(mesh) + 1 {
-            comparison.compare(name, mesh, &Rules::of(scheme), levels);
+            comparison.compare(name, mesh, Rules::of(scheme), levels);
         }
     }
     comparison.finish();
@@ -123,7 +123,7 @@ fn compare_corner_values(meshes: &[Named], scheme: Scheme) {
                     let mesh = pattern.on(&islands.on(mesh, &mut random), &mut random);
                     for levels in 1..=levels_of(&mesh) {
                         let name = format!("{name}, {pattern:?}, {islands:?}");
-                        comparison.compare(&name, &mesh, &rules, levels);
+                        comparison.compare(&name, &mesh, rules, levels);
                     }
                 }
             }

@@ -11,7 +11,7 @@ use crate::split;
 /// One level. The faces are those of Loop.
 pub(crate) fn refine(mesh: &Polygons) -> Polygons {
     let around = Around::new(mesh.positions.len(), &mesh.faces);
-    let mut fine = split::refine(mesh, &Rules::of(Scheme::Loop(LoopWeights::Loop)));
+    let mut fine = split::refine(mesh, Rules::of(Scheme::Loop(LoopWeights::Loop)));
     let mut positions = mesh.positions.clone();
     positions.extend(around.sides.keys().map(|&e| new_vertex(mesh, e, &around)));
     fine.positions = positions;

@@ -187,7 +187,7 @@ fn values_at(charts: &Charts, v: usize, around: &Around) -> Vec<usize> {
 fn decide(
     charts: &Charts,
     v: usize,
-    rules: &Rules,
+    rules: Rules,
     around: &Around,
     sharpness: &Sharpness,
     when: When,
@@ -203,7 +203,7 @@ fn decide(
         && choice != FaceVarying::None
         && rules.boundary != Boundary::EdgesAndCorners;
     let is_linear = choice == FaceVarying::Boundaries;
-    if !has_seam && !is_single && !(is_linear && is_boundary) {
+    if !(has_seam || is_single || is_linear && is_boundary) {
         return all(State::Regular);
     }
 
@@ -249,7 +249,7 @@ fn decide(
 pub(crate) fn refine(
     charts: &Charts,
     mesh: &Polygons,
-    rules: &Rules,
+    rules: Rules,
     around: &Around,
     sharpness: &Sharpness,
     numbers: &BTreeMap<Edge, usize>,
@@ -309,7 +309,7 @@ fn of_edge(
     e: Edge,
     side: (usize, usize),
     sides: &[(usize, usize)],
-    rules: &Rules,
+    rules: Rules,
     sharpness: &Sharpness,
 ) -> DVec2 {
     let ends = charts.values[charts.at(side, 0)] + charts.values[charts.at(side, 1)];
@@ -328,7 +328,7 @@ fn of_edge(
 struct Vertex<'a> {
     charts: &'a Charts,
     v: usize,
-    rules: &'a Rules,
+    rules: Rules,
     around: &'a Around<'a>,
     sharpness: &'a Sharpness,
 }

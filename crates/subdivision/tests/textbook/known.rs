@@ -28,7 +28,7 @@ fn assert_has(mesh: &Polygons, p: [f64; 3]) {
 }
 
 fn one_level(mesh: &Polygons, scheme: Scheme) -> Polygons {
-    textbook(mesh, &Rules::of(scheme), 1)
+    textbook(mesh, Rules::of(scheme), 1)
 }
 
 /// The cube from -1 to 1.
@@ -163,7 +163,7 @@ fn regular_flat_sheets_stay_regular() {
 
 #[test]
 fn two_levels_of_sqrt3_divide_each_edge_of_a_regular_sheet_in_three() {
-    let fine = textbook(&sheet(true), &Rules::of(Scheme::Sqrt3), 2);
+    let fine = textbook(&sheet(true), Rules::of(Scheme::Sqrt3), 2);
 
     assert_eq!(fine.faces.len(), 9 * 72);
     let is_third = |t: f64| (3.0 * t - (3.0 * t).round()).abs() < 1e-12;
@@ -205,7 +205,7 @@ fn schemes_do_not_depend_on_the_place() {
                 creasing: Creasing::Chaikin,
                 ..Rules::of(scheme)
             };
-            let (fine, moved) = (textbook(&mesh, &rules, 2), textbook(&moved, &rules, 2));
+            let (fine, moved) = (textbook(&mesh, rules, 2), textbook(&moved, rules, 2));
             for (&p, &q) in fine.positions.iter().zip(&moved.positions) {
                 assert!((place(p) - q).length() < 1e-11, "{name}, {scheme:?}");
             }
@@ -239,7 +239,7 @@ fn surfaces_keep_their_topology() {
         (Scheme::Sqrt3, &triangles, 3),
     ] {
         for (name, mesh) in meshes {
-            let fine = textbook(mesh, &Rules::of(scheme), 2);
+            let fine = textbook(mesh, Rules::of(scheme), 2);
             let (sum, n_boundary) = euler(name, mesh);
             assert_eq!(
                 euler(name, &fine),
@@ -271,7 +271,7 @@ fn sharpness_decreases_by_hand() {
             creasing,
             ..Rules::of(Scheme::CatmullClark)
         };
-        let fine = textbook(&mesh, &rules, 1);
+        let fine = textbook(&mesh, rules, 1);
         let at = |v: usize, w: usize| {
             let around = Around::new(8, &mesh.faces);
             let rank = around.sides.keys().position(|&e| e == edge(v, w)).unwrap();
@@ -323,7 +323,7 @@ fn all_sharp_is_linear() {
     let crease = around.sides.keys().map(|&e| (e, 10.0)).collect();
     mesh.crease = crease;
     let [sharp, linear] = [Scheme::CatmullClark, Scheme::Midpoint(Split::Quads)]
-        .map(|scheme| textbook(&mesh, &Rules::of(scheme), 2));
+        .map(|scheme| textbook(&mesh, Rules::of(scheme), 2));
 
     // The faces are flat and symmetric, so only edges and corners could move.
     assert_eq!(sharp.positions, linear.positions);
@@ -338,14 +338,11 @@ fn boundaries_are_splines_or_fixed() {
         vec![vec![0, 1, 2, 3]],
     );
     let rules = Rules::of(Scheme::CatmullClark);
-    let smooth = textbook(&square, &rules, 1);
+    let smooth = textbook(&square, rules, 1);
     assert_has(&smooth, [0.5, 0.5, 0.0]);
     assert_has(&smooth, [2.0, 0.0, 0.0]);
     for boundary in [Boundary::EdgesAndCorners, Boundary::Fixed] {
-        assert_has(
-            &textbook(&square, &Rules { boundary, ..rules }, 1),
-            [0.0; 3],
-        );
+        assert_has(&textbook(&square, Rules { boundary, ..rules }, 1), [0.0; 3]);
     }
     let doo_sabin = one_level(&square, Scheme::DooSabin);
     assert_has(&doo_sabin, [1.0, 0.0, 0.0]);
@@ -353,7 +350,7 @@ fn boundaries_are_splines_or_fixed() {
     assert_eq!((doo_sabin.positions.len(), doo_sabin.faces.len()), (12, 9));
     // A corner of a triangle is pulled in by 8/27 of the way along both sides.
     let triangle = Polygons::new(square.positions[..3].to_vec(), vec![vec![0, 1, 2]]);
-    let fine = textbook(&triangle, &Rules::of(Scheme::Sqrt3), 2);
+    let fine = textbook(&triangle, Rules::of(Scheme::Sqrt3), 2);
     assert_has(&fine, [32.0 / 27.0, 16.0 / 27.0, 0.0]);
     assert_eq!(fine.faces.len(), 9);
 }

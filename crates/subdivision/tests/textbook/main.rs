@@ -18,7 +18,7 @@ use polygons::Polygons;
 use subdivision::{Rules, Scheme};
 
 /// So many levels, as the textbook has them.
-fn textbook(mesh: &Polygons, rules: &Rules, levels: u32) -> Polygons {
+fn textbook(mesh: &Polygons, rules: Rules, levels: u32) -> Polygons {
     (1..=levels).fold(mesh.clone(), |mesh, level| match rules.scheme {
         Scheme::Loop(_) | Scheme::CatmullClark | Scheme::Midpoint(_) => split::refine(&mesh, rules),
         Scheme::Butterfly => butterfly::refine(&mesh),

@@ -103,7 +103,7 @@ fn smooth(v: usize, scheme: Scheme, around: &Around) -> VertexMask {
 /// What the old vertex `v` becomes.
 pub(crate) fn of_vertex(
     v: usize,
-    rules: &Rules,
+    rules: Rules,
     around: &Around,
     sharpness: &Sharpness,
 ) -> VertexMask {
@@ -132,7 +132,7 @@ pub(crate) fn of_vertex(
 }
 
 /// What the new vertex of an edge becomes.
-pub(crate) fn of_edge(e: Edge, rules: &Rules, sharpness: &Sharpness) -> EdgeMask {
+pub(crate) fn of_edge(e: Edge, rules: Rules, sharpness: &Sharpness) -> EdgeMask {
     let smooth = match rules.scheme {
         Scheme::Loop(_) => EdgeMask {
             end: 3.0 / 8.0,

@@ -26,7 +26,7 @@ impl Random {
 
     /// One of several.
     pub(crate) fn one_of<T: Copy>(&mut self, things: &[T]) -> T {
-        let k = things.iter().count() as f64 * self.unit();
+        let k = things.len() as f64 * self.unit();
         let places = (1..things.len()).filter(|&i| i as f64 <= k).count();
         things[places]
     }

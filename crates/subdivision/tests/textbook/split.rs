@@ -47,7 +47,7 @@ pub(crate) fn pieces(scheme: Scheme, n: usize) -> Vec<Vec<Place>> {
 }
 
 /// One level.
-pub(crate) fn refine(mesh: &Polygons, rules: &Rules) -> Polygons {
+pub(crate) fn refine(mesh: &Polygons, rules: Rules) -> Polygons {
     let around = Around::new(mesh.positions.len(), &mesh.faces);
     let sharpness = Sharpness::new(mesh, &around, rules.boundary, rules.creasing);
     let (n_vertices, n_edges) = (mesh.positions.len(), around.sides.len());

@@ -2,14 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mesh::{CORNER, CREASE, DVec2, DVec3, Mesh, UV, VertexId};
+use mesh::{COLOR, CORNER, CREASE, DVec2, DVec3, DVec4, Mesh, UV, VertexId};
 
 use crate::polygons::{Polygons, edge};
 
 /// How far apart the same numbers may be, for positions in parts of the size of the mesh.
 const TOLERANCE: f64 = 1e-12;
 
-/// The mesh of a list, with its sharpness and corner values as columns.
+/// The mesh of a list, with its sharpness, its corner values and, as colors, its positions as columns.
 pub(crate) fn mesh_of(polygons: &Polygons) -> Mesh {
     let number = |&v: &usize| u32::try_from(v).expect("few vertices");
     let faces: Vec<Vec<u32>> = polygons
@@ -27,6 +27,8 @@ pub(crate) fn mesh_of(polygons: &Polygons) -> Mesh {
     let crease: Vec<f64> = mesh.edges().map(sharpness).collect();
     mesh.set(CREASE, crease);
     mesh.set(CORNER, polygons.corner.clone());
+    let colors: Vec<DVec4> = mesh.positions().iter().map(|p| p.extend(1.0)).collect();
+    mesh.set(COLOR, colors);
     if let Some(charts) = &polygons.charts {
         let mut uv = vec![DVec2::ZERO; mesh.n_half_edges()];
         for (f, numbers) in mesh.faces().zip(charts.numbers()) {
@@ -98,7 +100,7 @@ pub(crate) fn difference(mesh: &Mesh, expected: &Polygons) -> Option<String> {
             }
         }
     }
-    sharpness_difference(mesh, expected, &place)
+    sharpness_difference(mesh, expected, &place).or_else(|| color_difference(mesh))
 }
 
 /// What differs in the columns of sharpness.
@@ -134,15 +136,33 @@ fn sharpness_difference(
     None
 }
 
+/// What differs between positions and the colors that were positions.
+fn color_difference(mesh: &Mesh) -> Option<String> {
+    let Some(colors) = mesh.get(COLOR) else {
+        return Some("the colors are gone".to_owned());
+    };
+    let size = size(mesh.positions());
+    mesh.vertices().find_map(|v| {
+        let (color, p) = (colors[v.index()], mesh.position(v).extend(1.0));
+        let is_near = (color - p).abs().max_element() <= TOLERANCE * size.max(1.0);
+        (!is_near).then(|| format!("{v:?} at {p} has the color {color}"))
+    })
+}
+
+/// The largest coordinate.
+fn size(points: &[DVec3]) -> f64 {
+    points
+        .iter()
+        .map(|p| p.abs().max_element())
+        .fold(0.0, f64::max)
+}
+
 /// For each point of one list the place of the same point in the other.
 fn matches(points: &[DVec3], expected: &[DVec3]) -> Result<Vec<usize>, String> {
     if points.len() != expected.len() {
         return Err(format!("{} vertices, not {}", points.len(), expected.len()));
     }
-    let size = expected
-        .iter()
-        .map(|p| p.abs().max_element())
-        .fold(0.0, f64::max);
+    let size = size(expected);
     let mut by_x: Vec<usize> = (0..expected.len()).collect();
     by_x.sort_by(|&a, &b| expected[a].x.total_cmp(&expected[b].x));
     let mut taken = BTreeSet::new();

@@ -9,6 +9,7 @@ mod doo_sabin;
 mod known;
 mod masks;
 mod meshes;
+mod numbers;
 mod polygons;
 mod sharpness;
 mod split;

@@ -321,15 +321,15 @@ impl Pattern {
 
     /// The mesh made sharp.
     pub(crate) fn on(self, mesh: &Polygons, random: &mut Random) -> Polygons {
-        let levels = [0.3, 0.7, 1.0, 1.7, 2.0, 2.5, 3.2, 10.0];
+        let levels = [-1.0, 12.0, 0.3, 0.7, 1.0, 1.7, 2.0, 2.5, 3.2, 10.0];
         let (edges, vertices, choice): (f64, f64, &[f64]) = match self {
             Self::Smooth => (0.0, 0.0, &levels),
             Self::FewEdges => (0.2, 0.0, &levels),
             Self::ManyEdges => (0.5, 0.0, &levels),
             Self::Vertices => (0.0, 0.3, &levels),
             Self::Mixed => (0.4, 0.2, &levels),
-            Self::Fractions => (0.6, 0.3, &levels[..3]),
-            Self::Infinite => (0.4, 0.2, &levels[7..]),
+            Self::Fractions => (0.6, 0.3, &levels[2..5]),
+            Self::Infinite => (0.4, 0.2, &levels[9..]),
         };
         let mut mesh = mesh.clone();
         let around = Around::new(mesh.positions.len(), &mesh.faces);

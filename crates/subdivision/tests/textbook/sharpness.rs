@@ -27,9 +27,13 @@ pub(crate) fn is_semi_sharp(s: f64) -> bool {
     s > 0.0 && s < INFINITE
 }
 
-/// One level less.
+/// One level less; more than infinite is infinite.
 fn decreased(s: f64) -> f64 {
-    if s >= INFINITE { s } else { (s - 1.0).max(0.0) }
+    if s >= INFINITE {
+        INFINITE
+    } else {
+        (s - 1.0).max(0.0)
+    }
 }
 
 /// The sharpness that counts, where the boundary is sharp, and that of the next level.

@@ -52,7 +52,7 @@ use op::{OpError, Progress, Refusal};
 use rayon::prelude::*;
 
 use forecast::Size;
-use masks::{CatmullClarkMasks, LoopMasks, MidpointMasks};
+use masks::{ButterflyMasks, CatmullClarkMasks, LoopMasks, MidpointMasks};
 use meter::Meter;
 use quads::Quads;
 use sharpness::Sharpness;
@@ -126,7 +126,11 @@ fn finer(mesh: &Mesh, rules: Rules, level: u32, meter: &Meter) -> Result<Mesh, O
                 Split::Quads => level::finer(mesh, &Quads::new(mesh), &masks, None, rules, meter),
             }
         }
-        Scheme::Butterfly | Scheme::Sqrt3 | Scheme::DooSabin => todo!("level {level}"),
+        Scheme::Butterfly => {
+            let masks = ButterflyMasks(mesh);
+            level::finer(mesh, &Triangles(mesh), &masks, None, rules, meter)
+        }
+        Scheme::Sqrt3 | Scheme::DooSabin => todo!("level {level}"),
     }
 }
 

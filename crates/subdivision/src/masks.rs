@@ -1,9 +1,11 @@
 //! The masks: which old vertices a new one is a mean of.
 
+mod butterfly;
 mod catmull_clark;
 mod loop_masks;
 mod midpoint;
 
+pub(crate) use butterfly::ButterflyMasks;
 pub(crate) use catmull_clark::CatmullClarkMasks;
 pub(crate) use loop_masks::LoopMasks;
 pub(crate) use midpoint::MidpointMasks;

@@ -1,22 +1,52 @@
-//! Laws, and comparisons of Loop subdivision with two other ways to compute it.
+//! Laws of all schemes and of each, and comparisons of Loop subdivision with two other ways to compute it.
 
 mod attributes;
+mod butterfly;
 mod laws;
 mod limit;
 mod other_ways;
 mod plan;
+mod schemes;
 
 use mesh::{DVec3, Mesh, VertexId};
 use op::NoProgress;
 
-use crate::{LoopWeights, Rules, Scheme, subdivide};
+use crate::{LoopWeights, Rules, Scheme, Split, subdivide};
 
-/// One level, checked.
+/// The schemes that laws are tried with.
+pub(crate) const SCHEMES: [Scheme; 5] = [
+    Scheme::Loop(LoopWeights::Warren),
+    Scheme::CatmullClark,
+    Scheme::Midpoint(Split::Triangles),
+    Scheme::Midpoint(Split::Quads),
+    Scheme::Butterfly,
+];
+
+/// One level of Loop subdivision, checked.
 pub(crate) fn once(mesh: &Mesh) -> Mesh {
-    let rules = Rules::of(Scheme::Loop(LoopWeights::Warren));
-    let new = subdivide(mesh, rules, 1, &NoProgress).unwrap();
-    assert_eq!(new.defects(), []);
+    level(Scheme::Loop(LoopWeights::Warren), mesh)
+}
+
+/// One level of a scheme, checked.
+pub(crate) fn level(scheme: Scheme, mesh: &Mesh) -> Mesh {
+    levels(scheme, 1, mesh)
+}
+
+/// So many levels of a scheme, checked.
+pub(crate) fn levels(scheme: Scheme, levels: u32, mesh: &Mesh) -> Mesh {
+    let new = subdivide(mesh, Rules::of(scheme), levels, &NoProgress).unwrap();
+    assert_eq!(new.defects(), [], "{scheme:?}");
     new
+}
+
+/// What no scheme changes: Euler characteristic, components, loops of the boundary, isolated vertices.
+pub(crate) fn kind(mesh: &Mesh) -> (i64, usize, usize, usize) {
+    (
+        mesh.euler_characteristic(),
+        mesh.n_components(),
+        mesh.n_boundary_loops(),
+        mesh.n_isolated_vertices(),
+    )
 }
 
 /// The largest distance between two points of the same place.

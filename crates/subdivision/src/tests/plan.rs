@@ -3,15 +3,9 @@
 use mesh::{CREASE, Mesh, UV};
 use op::{Context, Files, MeshPlan, NoProgress, PlanContext};
 
+use super::SCHEMES;
 use crate::fixtures;
-use crate::{LoopWeights, Rules, Scheme, Split, Step};
-
-const SCHEMES: [Scheme; 4] = [
-    Scheme::Loop(LoopWeights::Warren),
-    Scheme::CatmullClark,
-    Scheme::Midpoint(Split::Triangles),
-    Scheme::Midpoint(Split::Quads),
-];
+use crate::{Rules, Step};
 
 #[test]
 fn counts_are_foreseen_exactly_for_every_scheme_on_every_fixture() {

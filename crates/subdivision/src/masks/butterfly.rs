@@ -1,0 +1,168 @@
+//! The masks of modified Butterfly subdivision: old vertices stay, new ones lie on a surface through them.
+//!
+//! ```text
+//!    -1/16 ---- 1/8 ---- -1/16           s2    s1
+//!        \     /   \     /                 \  /
+//!         \   /     \   /            s3 -- 3/4 -*- s0       -1/16 -- 9/16 -*- 9/16 -- -1/16
+//!          1/2 --*-- 1/2                   /  \
+//!         /   \     /   \                s4    s5
+//!        /     \   /     \
+//!    -1/16 ---- 1/8 ---- -1/16
+//!
+//!    inside, both ends regular     at an extraordinary end       on the boundary
+//! ```
+//!
+//! An inner vertex is extraordinary if its valence n is not 6. Its neighbors are counted from the other end
+//! of the edge, and have
+//!
+//! - 5/12, -1/12, -1/12 for n = 3 and 3/8, 0, -1/8, 0 for n = 4,
+//! - (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n at the j-th for n ≥ 5.
+//!
+//! Between two extraordinary vertices the new one is the mean of both masks. Zorin, Schröder and Sweldens,
+//! "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996; on the boundary the curve of Dyn,
+//! Levin and Gregory, "A 4-point interpolatory subdivision scheme for curve design", 1987. What they leave
+//! open:
+//!
+//! - Where a wing (-1/16) is beyond a boundary edge, its place is taken by the reflection of the corner
+//!   opposite that edge, so that flat regular parts stay on their grid up to the boundary.
+//! - Vertices of the boundary are never extraordinary.
+//! - For n = 2 the neighbors have 3/8 and -1/8: as for n = 4, but for those with 0.
+
+use std::f64::consts::TAU;
+
+use mesh::{EdgeId, HalfEdgeId, Mesh};
+
+use super::Masks;
+
+pub(crate) struct ButterflyMasks<'a>(pub(crate) &'a Mesh);
+
+impl Masks for ButterflyMasks<'_> {
+    fn n_vertices(&self) -> usize {
+        self.0.n_vertices() + self.0.n_edges()
+    }
+
+    #[inline]
+    fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64)) {
+        match i.checked_sub(self.0.n_vertices()) {
+            None => add(i, 1.0),
+            Some(e) => self.on_edge(EdgeId::new(e), add),
+        }
+    }
+}
+
+impl ButterflyMasks<'_> {
+    #[inline]
+    fn on_edge(&self, e: EdgeId, add: &mut impl FnMut(usize, f64)) {
+        let halves = e.half_edges();
+        if let Some(h) = halves.into_iter().find(|&h| self.0.face(h).is_none()) {
+            return self.on_boundary(h, add);
+        }
+        match halves.map(|h| self.extraordinary(h)) {
+            [None, None] => {
+                for h in halves {
+                    self.regular_half(h, add);
+                }
+            }
+            [Some(n), None] => self.at_extraordinary(halves[0], n, 1.0, add),
+            [None, Some(n)] => self.at_extraordinary(halves[1], n, 1.0, add),
+            [Some(n), Some(m)] => {
+                self.at_extraordinary(halves[0], n, 0.5, add);
+                self.at_extraordinary(halves[1], m, 0.5, add);
+            }
+        }
+    }
+
+    /// The valence of the origin of `h`, if it is extraordinary.
+    #[inline]
+    fn extraordinary(&self, h: HalfEdgeId) -> Option<usize> {
+        let v = self.0.origin(h);
+        let n = self.0.valence(v);
+        (n != 6 && !self.0.is_boundary_vertex(v)).then_some(n)
+    }
+
+    /// The half of the regular mask that lies in the triangle of `h`, with the origin of `h`.
+    #[inline]
+    fn regular_half(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
+        let mesh = self.0;
+        let [to_apex, to_origin] = [mesh.next(h), mesh.next(mesh.next(h))];
+        add(mesh.origin(h).index(), 0.5);
+        add(mesh.origin(to_origin).index(), 0.125);
+        for side in [to_apex, to_origin] {
+            let beyond = side.twin();
+            if mesh.face(beyond).is_some() {
+                add(mesh.target(mesh.next(beyond)).index(), -0.0625);
+            } else {
+                let opposite = mesh.target(mesh.next(side));
+                add(mesh.origin(side).index(), -0.0625);
+                add(mesh.target(side).index(), -0.0625);
+                add(opposite.index(), 0.0625);
+            }
+        }
+    }
+
+    /// The mask around the origin of `h`, which has valence `n`, scaled.
+    fn at_extraordinary(
+        &self,
+        h: HalfEdgeId,
+        n: usize,
+        scale: f64,
+        add: &mut impl FnMut(usize, f64),
+    ) {
+        add(self.0.origin(h).index(), 0.75 * scale);
+        let mut at = h;
+        for j in 0..n {
+            add(self.0.target(at).index(), ring_weight(n, j) * scale);
+            at = self.0.next(at.twin());
+        }
+    }
+
+    /// The mask along the boundary, of which `h` is a half-edge.
+    fn on_boundary(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
+        let mesh = self.0;
+        add(mesh.origin(mesh.prev(h)).index(), -0.0625);
+        add(mesh.origin(h).index(), 0.5625);
+        add(mesh.target(h).index(), 0.5625);
+        add(mesh.target(mesh.next(h)).index(), -0.0625);
+    }
+}
+
+/// The weight of the `j`-th of the `n` neighbors of an extraordinary vertex. They sum to 1/4.
+fn ring_weight(n: usize, j: usize) -> f64 {
+    match (n, j) {
+        (3, 0) => 5.0 / 12.0,
+        (3, _) => -1.0 / 12.0,
+        (2 | 4, 0) => 3.0 / 8.0,
+        (2, 1) | (4, 2) => -1.0 / 8.0,
+        (4, _) => 0.0,
+        _ => {
+            let angle = TAU * (j as f64 / n as f64);
+            (0.25 + libm::cos(angle) + 0.5 * libm::cos(2.0 * angle)) / n as f64
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_weights_of_a_ring_sum_to_a_quarter() {
+        for n in 2..40 {
+            let sum: f64 = (0..n).map(|j| ring_weight(n, j)).sum();
+            assert!((sum - 0.25).abs() < 1e-15, "{n} {sum}");
+        }
+    }
+
+    #[test]
+    fn quadratic_functions_around_a_vertex_are_met_exactly() {
+        // Halfway to the ring r cos t is 1/2 and r² cos 2t is 1/4. The second needs five neighbors.
+        for n in 5..20 {
+            let ring = |k: f64| -> f64 {
+                let at = |j: usize| libm::cos(k * TAU * j as f64 / n as f64);
+                (0..n).map(|j| ring_weight(n, j) * at(j)).sum()
+            };
+            assert!((ring(1.0) - 0.5).abs() < 1e-14, "{n}");
+            assert!((ring(2.0) - 0.25).abs() < 1e-14, "{n}");
+        }
+    }
+}

@@ -302,6 +302,15 @@ const SAMPLES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "Crease",
+        &[
+            "(edges: Sharp(above: 40), sharpness: 2.5)",
+            "(edges: Boundary, vertices: Boundary, sharpness: 10)",
+            "(vertices: Vertices([0]), sharpness: 1)",
+            "(edges: All, sharpness: 0)",
+        ],
+    ),
+    (
         "LoopSubdivide",
         &["(levels: 0)", "(levels: 1)", "(levels: 2)"],
     ),

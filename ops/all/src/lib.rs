@@ -47,6 +47,7 @@ pub fn registry() -> Registry {
         .with::<cut::Cut>()
         .with::<fill_holes::FillHoles>()
         .with::<bridge_loops::BridgeLoops>()
+        .with::<crease::Crease>()
         .with::<loop_subdivide::LoopSubdivide>()
         .with::<vertex_normals::VertexNormals>()
         .with::<save::Save>()

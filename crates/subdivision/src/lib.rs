@@ -36,6 +36,7 @@ mod halves;
 mod level;
 mod limit;
 mod masks;
+mod matrix;
 mod meter;
 mod operation;
 mod quads;
@@ -44,6 +45,7 @@ mod sharpness;
 mod triangles;
 
 pub use limit::{Limit, limit};
+pub use matrix::{SparseMatrix, subdivision_matrix};
 pub use operation::{MAX_LEVELS, Step, Until};
 pub use rules::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split};
 
@@ -52,6 +54,7 @@ use op::{OpError, Progress, Refusal};
 use rayon::prelude::*;
 
 use forecast::Size;
+use level::Visit;
 use masks::{ButterflyMasks, CatmullClarkMasks, LoopMasks, MidpointMasks};
 use meter::Meter;
 use quads::Quads;
@@ -101,6 +104,12 @@ pub fn subdivide(
 
 /// Level number `level` (from 0) of a dense mesh whose faces the scheme takes and whose next level fits.
 fn finer(mesh: &Mesh, rules: Rules, level: u32, meter: &Meter) -> Result<Mesh, OpError> {
+    with_scheme(mesh, rules, level, level::Finer { mesh, rules, meter })
+}
+
+/// Gives the topology and the masks of the scheme of a level to a visitor, and the sharpness for those
+/// schemes that use it.
+fn with_scheme<V: Visit>(mesh: &Mesh, rules: Rules, level: u32, visitor: V) -> V::Out {
     let sharpness = Sharpness::of(mesh, rules);
     match rules.scheme {
         Scheme::Loop(weights) => {
@@ -109,27 +118,20 @@ fn finer(mesh: &Mesh, rules: Rules, level: u32, meter: &Meter) -> Result<Mesh, O
                 sharpness,
                 weights,
             };
-            let sharpness = Some(sharpness);
-            level::finer(mesh, &Triangles(mesh), &masks, sharpness, rules, meter)
+            visitor.visit(&Triangles(mesh), &masks, Some(sharpness))
         }
         Scheme::CatmullClark => {
             let masks = CatmullClarkMasks { mesh, sharpness };
-            let sharpness = Some(sharpness);
-            level::finer(mesh, &Quads::new(mesh), &masks, sharpness, rules, meter)
+            visitor.visit(&Quads::new(mesh), &masks, Some(sharpness))
         }
         Scheme::Midpoint(split) => {
             let masks = MidpointMasks { mesh, split };
             match split {
-                Split::Triangles => {
-                    level::finer(mesh, &Triangles(mesh), &masks, None, rules, meter)
-                }
-                Split::Quads => level::finer(mesh, &Quads::new(mesh), &masks, None, rules, meter),
+                Split::Triangles => visitor.visit(&Triangles(mesh), &masks, None),
+                Split::Quads => visitor.visit(&Quads::new(mesh), &masks, None),
             }
         }
-        Scheme::Butterfly => {
-            let masks = ButterflyMasks(mesh);
-            level::finer(mesh, &Triangles(mesh), &masks, None, rules, meter)
-        }
+        Scheme::Butterfly => visitor.visit(&Triangles(mesh), &ButterflyMasks(mesh), None),
         Scheme::Sqrt3 | Scheme::DooSabin => todo!("level {level}"),
     }
 }

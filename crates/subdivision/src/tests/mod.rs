@@ -4,6 +4,7 @@ mod attributes;
 mod butterfly;
 mod laws;
 mod limit;
+mod matrix;
 mod other_ways;
 mod plan;
 mod schemes;

@@ -1,0 +1,201 @@
+//! The matrix of subdivision, for whoever refines many fields over one mesh.
+
+use std::ops::Range;
+
+use mesh::{CORNER, CREASE, Column, Domain, Mesh};
+use op::{OpError, Progress};
+use rayon::prelude::*;
+
+use crate::level::{Topology, Visit};
+use crate::masks::Masks;
+use crate::meter::{BLOCK, Meter};
+use crate::sharpness::Sharpness;
+use crate::{Rules, check_faces, finer, forecast::Size, with_scheme};
+
+/// A sparse matrix in compressed rows: row i has the weights `weights[r]` in the columns `columns[r]`, with
+/// r from `offsets[i]` to `offsets[i + 1]`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SparseMatrix {
+    /// How many columns there are.
+    pub n_columns: usize,
+    /// Where each row begins, and the end of the last: one more than there are rows.
+    pub offsets: Vec<usize>,
+    /// The columns of each row, rising.
+    pub columns: Vec<u32>,
+    /// The weight in each of them.
+    pub weights: Vec<f64>,
+}
+
+impl SparseMatrix {
+    /// How many rows there are.
+    pub fn n_rows(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// The columns and weights of row `i`.
+    pub fn row(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let row = self.range(i);
+        let columns = self.columns[row.clone()].iter().map(|&c| c as usize);
+        columns.zip(self.weights[row].iter().copied())
+    }
+
+    fn range(&self, i: usize) -> Range<usize> {
+        self.offsets[i]..self.offsets[i + 1]
+    }
+
+    /// The product with a column of numbers or vectors, one for each column of the matrix.
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer.
+    pub fn apply<T>(&self, values: &[T]) -> Vec<T>
+    where
+        T: mesh::Value + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
+    {
+        let sum = |i: usize| {
+            self.row(i)
+                .fold(T::default(), |sum, (column, w)| sum + values[column] * w)
+        };
+        (0..self.n_rows()).into_par_iter().map(sum).collect()
+    }
+
+    /// The matrix whose rows `row(i, add)` adds up; a column may come more than once.
+    fn of_rows(
+        n_rows: usize,
+        n_columns: usize,
+        meter: &Meter,
+        row: impl Fn(usize, &mut dyn FnMut(usize, f64)) + Sync,
+    ) -> Result<Self, OpError> {
+        // Blocks of rows by themselves, then one after the other.
+        let block = |block: usize| {
+            let mut part = Self::default();
+            let mut entries: Vec<(usize, f64)> = Vec::new();
+            for i in block * BLOCK..n_rows.min((block + 1) * BLOCK) {
+                entries.clear();
+                row(i, &mut |column, w| entries.push((column, w)));
+                // Stable, so that equal columns are added in their order.
+                entries.sort_by_key(|&(column, _)| column);
+                for same in entries.chunk_by(|a, b| a.0 == b.0) {
+                    let weight = same.iter().map(|&(_, w)| w).sum();
+                    let column = u32::try_from(same[0].0).expect("a number of a vertex");
+                    part.columns.push(column);
+                    part.weights.push(weight);
+                }
+                part.offsets.push(part.columns.len());
+            }
+            meter.add(part.offsets.len())?;
+            Ok(part)
+        };
+        let parts: Result<Vec<Self>, OpError> = (0..n_rows.div_ceil(BLOCK))
+            .into_par_iter()
+            .map(block)
+            .collect();
+        let mut whole = Self {
+            n_columns,
+            offsets: vec![0],
+            ..Self::default()
+        };
+        for part in parts? {
+            let start = whole.columns.len();
+            whole.offsets.extend(part.offsets.iter().map(|o| start + o));
+            whole.columns.extend(part.columns);
+            whole.weights.extend(part.weights);
+        }
+        Ok(whole)
+    }
+}
+
+/// The matrix that makes the positions after so many levels out of those before: a row for each new vertex,
+/// a column for each old one. [`SparseMatrix::apply`] refines with it what else moves as positions do.
+///
+/// A mesh with dead elements is compacted first, and the numbers are those of the compacted mesh.
+///
+/// # Errors
+///
+/// Those of [`subdivide`](crate::subdivide).
+///
+/// # Examples
+///
+/// ```
+/// use subdivision::{LoopWeights, Rules, Scheme};
+///
+/// let mesh = mesh::shapes::icosahedron();
+/// let rules = Rules::of(Scheme::Loop(LoopWeights::Warren));
+/// let matrix = subdivision::subdivision_matrix(&mesh, rules, 2, &op::NoProgress)?;
+/// let heights: Vec<f64> = mesh.positions().iter().map(|p| p.z).collect();
+/// assert_eq!(matrix.apply(&heights).len(), 162);
+/// # Ok::<(), op::OpError>(())
+/// ```
+pub fn subdivision_matrix(
+    mesh: &Mesh,
+    rules: Rules,
+    levels: u32,
+    progress: &dyn Progress,
+) -> Result<SparseMatrix, OpError> {
+    let mut mesh = mesh.clone();
+    mesh.compact();
+    keep_sharpness(&mut mesh);
+    check_faces(&mesh, rules.scheme)?;
+    let size = Size::of(&mesh);
+    size.check(rules.scheme, levels, u64::MAX)
+        .map_err(|too_large| OpError::Budget(too_large.to_string()))?;
+    let work = size.work(rules.scheme, levels).saturating_mul(2);
+    let meter = Meter::new(progress, "subdivision matrix", work);
+    let n = mesh.n_vertices();
+    let mut matrix = SparseMatrix::of_rows(n, n, &meter, |i, add| add(i, 1.0))?;
+    for level in 0..levels {
+        let times = Times {
+            old: &matrix,
+            meter: &meter,
+        };
+        matrix = with_scheme(&mesh, rules, level, times)?;
+        if level + 1 < levels {
+            mesh = finer(&mesh, rules, level, &meter)?;
+        }
+    }
+    meter.finish()?;
+    Ok(matrix)
+}
+
+/// Takes all attributes away that do not shape the surface.
+fn keep_sharpness(mesh: &mut Mesh) {
+    let shapes = |domain: Domain, column: &Column| {
+        domain == Domain::Edge && column.name == CREASE.name
+            || domain == Domain::Vertex && column.name == CORNER.name
+    };
+    let others: Vec<(Domain, String)> = mesh
+        .attributes()
+        .iter()
+        .filter(|&(domain, column)| !shapes(domain, column))
+        .map(|(domain, column)| (domain, column.name.clone()))
+        .collect();
+    for (domain, name) in others {
+        mesh.remove_column(domain, &name);
+    }
+}
+
+/// Makes the product of a level's matrix and the one up to it.
+struct Times<'a> {
+    old: &'a SparseMatrix,
+    meter: &'a Meter<'a>,
+}
+
+impl Visit for Times<'_> {
+    type Out = Result<SparseMatrix, OpError>;
+
+    fn visit(
+        self,
+        _: &impl Topology,
+        masks: &impl Masks,
+        _: Option<Sharpness>,
+    ) -> Result<SparseMatrix, OpError> {
+        let Self { old, meter } = self;
+        SparseMatrix::of_rows(masks.n_vertices(), old.n_columns, meter, |i, add| {
+            masks.mask(i, &mut |source, w| {
+                for (column, weight) in old.row(source) {
+                    add(column, w * weight);
+                }
+            });
+        })
+    }
+}

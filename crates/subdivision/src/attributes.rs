@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::face_varying::Field;
 use crate::level::{Place, Topology};
-use crate::masks::{Masks, Number};
+use crate::masks::{Masks, Number, pulled};
 use crate::meter::{BLOCK, Meter};
 use crate::sharpness::{Sharpness, next_vertices};
 use crate::{FaceVarying, Rules};
@@ -58,13 +58,14 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
 
     fn vertex_values(&self, column: &Column, n: usize, meter: &Meter) -> Result<Values, OpError> {
         if column.rule == Rule::Copy {
+            let n_old = self.mesh.n_vertices();
             return Ok(match (&self.sharpness, &column.values) {
                 (Some(_), Values::Float(old)) if column.name == CORNER.name => {
                     f64::wrap(next_vertices(old, n))
                 }
                 _ => column
                     .values
-                    .gather(n, |i| (i < self.mesh.n_vertices()).then_some(i)),
+                    .gather(n, |i| self.topology.vertex(i).filter(|&v| v < n_old)),
             });
         }
         Ok(match &column.values {
@@ -127,7 +128,7 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
 }
 
 /// Adds the old corners that a new one is the mean of, all in its own old face.
-fn linear(mesh: &Mesh, place: Place, add: &mut dyn FnMut(usize, f64)) {
+pub(crate) fn linear(mesh: &Mesh, place: Place, add: &mut dyn FnMut(usize, f64)) {
     match place {
         Place::At(h) => add(h.index(), 1.0),
         Place::On(h) => {
@@ -139,6 +140,12 @@ fn linear(mesh: &Mesh, place: Place, add: &mut dyn FnMut(usize, f64)) {
             for h in mesh.face_half_edges(f) {
                 add(h.index(), part);
             }
+        }
+        Place::Pulled(h) => pulled(mesh, h, |h, w| add(h.index(), w)),
+        Place::Toward([near, far], n) => {
+            let part = 1.0 / f64::from(n);
+            add(near.index(), 1.0 - part);
+            add(far.index(), part);
         }
         Place::Outside => {}
     }

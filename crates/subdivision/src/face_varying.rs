@@ -20,6 +20,7 @@
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use rayon::prelude::*;
 
+use crate::attributes::linear;
 use crate::level::Place;
 use crate::masks::Number;
 use crate::sharpness::{INFINITE, Sharpness, VertexRule, decreased, fading};
@@ -105,6 +106,11 @@ impl<'a, T: Number> Field<'a, T> {
             Place::At(h) => self.at(h),
             Place::On(h) => self.on(h),
             Place::In(f) => self.center(f),
+            Place::Pulled(_) | Place::Toward(..) => {
+                let mut sum = T::default();
+                linear(self.mesh, place, &mut |i, w| sum = sum + self.values[i] * w);
+                sum
+            }
             Place::Outside => T::default(),
         }
     }

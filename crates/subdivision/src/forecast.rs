@@ -2,9 +2,11 @@
 
 use std::fmt;
 
-use mesh::{Domain, Mesh};
+use mesh::{Domain, Mesh, VertexId};
 use op::{MeshPlan, Range};
+use rayon::prelude::*;
 
+use crate::doo_sabin::has_two_edges_inside;
 use crate::{Scheme, Split};
 
 /// Ids end at 2^32 - 2, so this many elements of a kind can be numbered.
@@ -18,6 +20,10 @@ pub(crate) struct Size {
     pub(crate) faces: Range,
     /// The corners of all faces.
     corners: Range,
+    /// The vertices without an edge. They stay so.
+    isolated: Range,
+    /// The vertices inside that have two edges.
+    with_two_edges: Range,
     /// The bytes of all attributes of one vertex, corner, edge and face.
     attributes: [u64; 4],
 }
@@ -34,11 +40,17 @@ impl Size {
         });
         let faces = mesh.connectivity().face.iter();
         let corners = faces.filter(|f| f.some().is_some()).count();
+        let with_two_edges = (0..mesh.n_vertices())
+            .into_par_iter()
+            .filter(|&i| has_two_edges_inside(mesh, VertexId::new(i)))
+            .count();
         Self {
             vertices: Range::exactly(mesh.n_vertices() as u64),
             edges: Range::exactly(mesh.n_edges() as u64),
             faces: Range::exactly(mesh.n_faces() as u64),
             corners: Range::exactly(corners as u64),
+            isolated: Range::exactly(mesh.n_isolated_vertices() as u64),
+            with_two_edges: Range::exactly(with_two_edges as u64),
             attributes,
         }
     }
@@ -58,6 +70,8 @@ impl Size {
                 min: u64::MAX,
                 max: halves.max,
             }),
+            isolated: plan.vertices.or_less(),
+            with_two_edges: plan.vertices.or_less(),
             attributes,
         }
     }
@@ -69,6 +83,8 @@ impl Size {
             edges,
             faces,
             corners,
+            isolated,
+            with_two_edges,
             ..
         } = self;
         // Each edge of the boundary has one half without a face.
@@ -100,10 +116,19 @@ impl Size {
                 corners.by(3),
             ],
             Scheme::DooSabin => [
-                corners.plus(boundary.by(2)),
-                corners.plus(edges.by(2)).plus(boundary.by(2)),
-                faces.plus(edges).plus(vertices),
-                corners.plus(edges.by(6)).plus(boundary),
+                corners.plus(boundary.by(2)).plus(isolated),
+                corners
+                    .plus(edges.by(2))
+                    .plus(boundary.by(2))
+                    .minus(with_two_edges),
+                // Vertices without an edge, and inside with two, become no face.
+                faces
+                    .plus(edges)
+                    .plus(vertices.minus(isolated).minus(with_two_edges)),
+                corners
+                    .plus(edges.by(6))
+                    .plus(boundary)
+                    .minus(with_two_edges.by(2)),
             ],
         };
         Self {
@@ -111,6 +136,10 @@ impl Size {
             edges,
             faces,
             corners,
+            with_two_edges: match scheme {
+                Scheme::DooSabin => Range::exactly(0),
+                _ => with_two_edges,
+            },
             ..self
         }
     }
@@ -122,17 +151,22 @@ impl Size {
             edges: self.edges.or(other.edges),
             faces: self.faces.or(other.faces),
             corners: self.corners.or(other.corners),
+            with_two_edges: self.with_two_edges.or(other.with_two_edges),
             ..self
         }
     }
 
     /// How much so many levels from here add to the [`Meter`](crate::meter::Meter): about one for each new
-    /// vertex, old edge and new face.
+    /// vertex, and one for each old edge and new face or, in schemes of other edges, for each new edge.
     pub(crate) fn work(self, scheme: Scheme, levels: u32) -> u64 {
         let (mut size, mut sum) = (self, 0_u64);
         for level in 0..levels {
             let next = size.after(scheme, level);
-            for n in [next.vertices, size.edges, next.faces] {
+            let counts = match scheme {
+                Scheme::Sqrt3 | Scheme::DooSabin => [next.vertices, next.edges, Range::exactly(0)],
+                _ => [next.vertices, size.edges, next.faces],
+            };
+            for n in counts {
                 sum = sum.saturating_add(n.max);
             }
             size = next;
@@ -170,7 +204,9 @@ impl Size {
         }
         Err(TooLarge {
             levels,
-            result: size,
+            faces: size.faces.min,
+            half_edges: size.edges.min.saturating_mul(2),
+            bytes: size.has_ids().then(|| size.bytes()),
             budget,
             fits,
         })
@@ -185,7 +221,10 @@ impl Size {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TooLarge {
     levels: u32,
-    result: Size,
+    faces: u64,
+    half_edges: u64,
+    /// What the mesh takes; `None` if it has no ids for all elements.
+    bytes: Option<u64>,
     budget: u64,
     /// The highest level that would do; `None` if the mesh itself is beyond the budget.
     pub(crate) fits: Option<u32>,
@@ -194,13 +233,12 @@ pub(crate) struct TooLarge {
 impl TooLarge {
     /// What is wrong.
     pub(crate) fn message(&self) -> String {
-        let Self { levels, result, .. } = self;
-        let many = format!("level {levels} has {} faces", result.faces.min);
-        if result.has_ids() {
-            let (bytes, budget) = (result.bytes(), self.budget);
+        let many = format!("level {} has {} faces", self.levels, self.faces);
+        if let Some(bytes) = self.bytes {
+            let budget = self.budget;
             format!("{many} and takes {bytes} bytes, but the budget is {budget}")
         } else {
-            let half_edges = result.edges.min.saturating_mul(2);
+            let half_edges = self.half_edges;
             format!("{many} and {half_edges} half-edges, but ids end at 2^32 - 2")
         }
     }
@@ -281,6 +319,8 @@ mod tests {
             edges: Range::exactly(u64::MAX),
             faces: Range::exactly(u64::MAX),
             corners: Range::exactly(u64::MAX),
+            isolated: Range::exactly(0),
+            with_two_edges: Range::exactly(0),
             attributes: [16; 4],
         };
         assert_eq!(endless.check(LOOP, 16, u64::MAX).unwrap_err().fits, None);

@@ -17,6 +17,12 @@ pub(crate) trait Topology: Sync {
     /// Where the corner of new half-edge `i` lies in the old mesh.
     fn corner(&self, i: usize) -> Place;
 
+    /// The old vertex that new vertex `i` is, if any. By default old vertices come first, and a number above
+    /// theirs is none.
+    fn vertex(&self, i: usize) -> Option<usize> {
+        Some(i)
+    }
+
     /// The old edge that new edge `i` is a part of.
     fn edge(&self, i: usize) -> Option<usize>;
 
@@ -33,6 +39,10 @@ pub(crate) enum Place {
     On(HalfEdgeId),
     /// In the center of this face.
     In(mesh::FaceId),
+    /// At the Doo-Sabin point that is pulled in from the origin of this half-edge.
+    Pulled(HalfEdgeId),
+    /// On an edge, one n-th of the way from the origin of the first half-edge to that of the second.
+    Toward([HalfEdgeId; 2], u32),
     /// Nowhere: the half-edge is on the boundary.
     Outside,
 }

@@ -15,7 +15,8 @@
 //!
 //! A level is not a sequence of edits: its arrays are computed in closed form from the old ones, each
 //! element by itself, in parallel, with the same bytes for any number of threads. How the numbers of new
-//! elements follow from the old is written in the modules `halves`, `triangles` and `quads`; the means are
+//! elements follow from the old is written in the modules `halves`, `triangles`, `quads` and
+//! `doo_sabin`; the means are
 //! in `masks`, creases in `sharpness`.
 //!
 //! # Examples
@@ -30,11 +31,14 @@
 //! ```
 
 mod attributes;
+mod chosen;
+mod doo_sabin;
 mod face_varying;
 mod forecast;
 mod halves;
 mod level;
 mod limit;
+mod links;
 mod masks;
 mod matrix;
 mod meter;
@@ -53,6 +57,7 @@ use mesh::{FaceId, Mesh};
 use op::{OpError, Progress, Refusal};
 use rayon::prelude::*;
 
+use doo_sabin::DooSabin;
 use forecast::Size;
 use level::Visit;
 use masks::{ButterflyMasks, CatmullClarkMasks, LoopMasks, MidpointMasks};
@@ -65,7 +70,8 @@ use triangles::Triangles;
 ///
 /// Ids: with Loop, Butterfly and Midpoint old vertices keep their numbers, the vertex on edge e is V + e,
 /// edge e becomes edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3, or, in quads, one for each
-/// corner in order; the center of face f is V + E + f. A mesh with dead elements is compacted first, and
+/// corner in order; the center of face f is V + E + f. With Doo-Sabin face f stays f, edge e becomes face
+/// F + e and edges 2e and 2e + 1, and the faces of vertices follow. A mesh with dead elements is compacted first, and
 /// the ids are those of the compacted mesh.
 ///
 /// Vertex attributes are smoothed with the weights of the positions; corner values by
@@ -132,7 +138,11 @@ fn with_scheme<V: Visit>(mesh: &Mesh, rules: Rules, level: u32, visitor: V) -> V
             }
         }
         Scheme::Butterfly => visitor.visit(&Triangles(mesh), &ButterflyMasks(mesh), None),
-        Scheme::Sqrt3 | Scheme::DooSabin => todo!("level {level}"),
+        Scheme::DooSabin => {
+            let topology = DooSabin::new(mesh);
+            visitor.visit(&topology, &topology, None)
+        }
+        Scheme::Sqrt3 => todo!("level {level}"),
     }
 }
 

@@ -2,11 +2,13 @@
 
 mod butterfly;
 mod catmull_clark;
+mod doo_sabin;
 mod loop_masks;
 mod midpoint;
 
 pub(crate) use butterfly::ButterflyMasks;
 pub(crate) use catmull_clark::CatmullClarkMasks;
+pub(crate) use doo_sabin::pulled;
 pub(crate) use loop_masks::LoopMasks;
 pub(crate) use midpoint::MidpointMasks;
 

@@ -2,6 +2,7 @@
 
 mod attributes;
 mod butterfly;
+mod doo_sabin;
 mod laws;
 mod limit;
 mod matrix;
@@ -15,12 +16,13 @@ use op::NoProgress;
 use crate::{LoopWeights, Rules, Scheme, Split, subdivide};
 
 /// The schemes that laws are tried with.
-pub(crate) const SCHEMES: [Scheme; 5] = [
+pub(crate) const SCHEMES: [Scheme; 6] = [
     Scheme::Loop(LoopWeights::Warren),
     Scheme::CatmullClark,
     Scheme::Midpoint(Split::Triangles),
     Scheme::Midpoint(Split::Quads),
     Scheme::Butterfly,
+    Scheme::DooSabin,
 ];
 
 /// One level of Loop subdivision, checked.

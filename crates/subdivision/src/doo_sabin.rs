@@ -1,0 +1,347 @@
+//! The connectivity of Doo-Sabin subdivision, where every corner becomes a vertex, and every face, edge and
+//! vertex a face.
+//!
+//! Half-edge h runs from a to b with face f; its twin t has face g. The corner at the origin of h becomes
+//! vertex h. On the boundary side of an edge two points on the edge stand for the missing corners: where h
+//! has no face, vertex h lies near a, and near b is vertex 2E + (rank of h among those without a face).
+//! Write p(h) and q(h) for the new vertices beside h near a and near b:
+//!
+//! ```text
+//!                  |         f         |             along(h)  = 2h, from p(h) to q(h), in face f
+//!                  |                   |             its twin  lies in face F + e
+//!      - - - - - p(h) --along(h)---> q(h) - - -      across(h) = 4E + 2h, from p(h) to q(t),
+//!                  |                   |                         in face F + e
+//!          face    |        ↑          |   face      its twin  lies in the face of a
+//!          of a  across(h)  h   across(t)  of b
+//!                  |        |          |             next(along(h))        = along(next(h))
+//!                  |   face F + e      |             next(along(h) twin)   = across(h)
+//!                  |                   |             next(across(h))       = twin of along(t)
+//!      - - - - - q(t) <--along(t)--- p(t) - - -      next(across(h) twin)  = twin of across of the twin
+//!                  |         g         |                                     of prev(h)
+//! ```
+//!
+//! (h itself runs from left to right, from a to b, in the middle of face F + e.)
+//!
+//! At a vertex of the boundary, from which h leaves along it, the half-edge join(h) from p(h) to
+//! q(prev(h)) closes its face; the twin of join(h) is on the boundary, between along(prev(h)) and along(h).
+//! These edges follow the others in the order of h.
+//!
+//! Face f stays f, edge e becomes face F + e, and faces of vertices follow in the order of these. An isolated
+//! vertex has none; it stays, behind all other vertices. An inner vertex with two edges h and k has none
+//! either, because it would have two corners: both sides are one edge, across(h) for the lower of h and k,
+//! whose twin is across(k), and the edges that follow have lower numbers by as many.
+
+use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
+use op::OpError;
+
+use crate::chosen::Chosen;
+use crate::level::{Place, Topology};
+use crate::links::{self, Link, Links};
+use crate::meter::Meter;
+
+/// A dense mesh whose corners, edges and vertices are cut off.
+pub(crate) struct DooSabin<'a> {
+    pub(crate) mesh: &'a Mesh,
+    n_edges: usize,
+    n_faces: usize,
+    /// The half-edges without a face.
+    outer: Chosen,
+    /// The vertices without an edge.
+    isolated: Chosen,
+    /// The vertices that become no face.
+    faceless: Chosen,
+    /// At inner vertices with two edges, the higher of the half-edges that leave.
+    doubled: Chosen,
+}
+
+/// What new vertex `i` lies at.
+pub(crate) enum Source {
+    /// The corner at the origin of this half-edge.
+    Corner(HalfEdgeId),
+    /// This half-edge without a face, near its origin.
+    Near(HalfEdgeId),
+    /// An isolated vertex.
+    Isolated(VertexId),
+}
+
+/// Whether `v` is inside and has two edges.
+pub(crate) fn has_two_edges_inside(mesh: &Mesh, v: VertexId) -> bool {
+    mesh.vertex_half_edge(v).is_some_and(|h| {
+        let k = mesh.next(h.twin());
+        mesh.face(h).is_some() && mesh.next(k.twin()) == h
+    })
+}
+
+impl<'a> DooSabin<'a> {
+    pub(crate) fn new(mesh: &'a Mesh) -> Self {
+        let isolated = |i| mesh.vertex_half_edge(VertexId::new(i)).is_none();
+        let doubled = |i| {
+            let h = HalfEdgeId::new(i);
+            mesh.next(h.twin()) < h && has_two_edges_inside(mesh, mesh.origin(h))
+        };
+        Self {
+            mesh,
+            n_edges: mesh.n_edges(),
+            n_faces: mesh.n_faces(),
+            outer: Chosen::of(mesh.n_half_edges(), |i| {
+                mesh.face(HalfEdgeId::new(i)).is_none()
+            }),
+            isolated: Chosen::of(mesh.n_vertices(), isolated),
+            faceless: Chosen::of(mesh.n_vertices(), |i| {
+                isolated(i) || has_two_edges_inside(mesh, VertexId::new(i))
+            }),
+            doubled: Chosen::of(mesh.n_half_edges(), doubled),
+        }
+    }
+
+    /// Where new vertex `i` lies.
+    #[inline]
+    pub(crate) fn source(&self, i: usize) -> Source {
+        let (corners, ends) = (2 * self.n_edges, self.outer.len());
+        if i < corners {
+            let h = HalfEdgeId::new(i);
+            if self.mesh.face(h).is_some() {
+                Source::Corner(h)
+            } else {
+                Source::Near(h)
+            }
+        } else if i < corners + ends {
+            // Near the target, which is the origin of the twin.
+            Source::Near(HalfEdgeId::new(self.outer.at(i - corners)).twin())
+        } else {
+            Source::Isolated(VertexId::new(self.isolated.at(i - corners - ends)))
+        }
+    }
+
+    /// The new vertex beside `h` near its origin.
+    #[inline]
+    #[expect(clippy::unused_self, reason = "reads like its neighbors")]
+    fn p(&self, h: HalfEdgeId) -> VertexId {
+        VertexId::new(h.index())
+    }
+
+    /// The new vertex beside `h` near its target.
+    #[inline]
+    fn q(&self, h: HalfEdgeId) -> VertexId {
+        if self.mesh.face(h).is_some() {
+            self.p(self.mesh.next(h))
+        } else {
+            VertexId::new(2 * self.n_edges + self.outer.below(h.index()))
+        }
+    }
+
+    #[inline]
+    #[expect(clippy::unused_self, reason = "reads like its neighbors")]
+    fn along(&self, h: HalfEdgeId) -> HalfEdgeId {
+        HalfEdgeId::new(2 * h.index())
+    }
+
+    #[inline]
+    fn across(&self, h: HalfEdgeId) -> HalfEdgeId {
+        if self.doubled.contains(h.index()) {
+            return self.across(self.mesh.next(h.twin())).twin();
+        }
+        HalfEdgeId::new(4 * self.n_edges + 2 * self.doubled.rank_of_other(h.index()))
+    }
+
+    #[inline]
+    fn join(&self, h: HalfEdgeId) -> HalfEdgeId {
+        HalfEdgeId::new(2 * (self.first_join() + self.outer.below(h.index())))
+    }
+
+    /// The number of the first edge that joins points of the boundary.
+    fn first_join(&self) -> usize {
+        4 * self.n_edges - self.doubled.len()
+    }
+
+    #[inline]
+    fn edge_face(&self, h: HalfEdgeId) -> FaceId {
+        FaceId::new(self.n_faces + h.edge().index())
+    }
+
+    #[inline]
+    fn vertex_face(&self, v: VertexId) -> FaceId {
+        FaceId::new(self.n_faces + self.n_edges + self.faceless.rank_of_other(v.index()))
+    }
+
+    /// The twin of the half-edge across that comes after `h` counter-clockwise around its origin.
+    #[inline]
+    fn after(&self, h: HalfEdgeId) -> HalfEdgeId {
+        self.across(self.mesh.prev(h).twin()).twin()
+    }
+
+    #[inline]
+    fn edge_along(&self, h: HalfEdgeId) -> [Link; 2] {
+        let next = self.mesh.next(h);
+        let (next, face) = match self.mesh.face(h) {
+            Some(f) => (self.along(next), f),
+            None => (self.join(next).twin(), FaceId::NONE),
+        };
+        let origin = self.p(h);
+        let twin = Link {
+            origin: self.q(h),
+            next: self.across(h),
+            face: self.edge_face(h),
+        };
+        [Link { origin, next, face }, twin]
+    }
+
+    #[inline]
+    fn edge_across(&self, h: HalfEdgeId) -> [Link; 2] {
+        let half = Link {
+            origin: self.p(h),
+            next: self.along(h.twin()).twin(),
+            face: self.edge_face(h),
+        };
+        let origin = self.q(h.twin());
+        let k = self.mesh.next(h.twin());
+        let (next, face) = if self.doubled.contains(k.index()) {
+            (self.along(k.twin()).twin(), self.edge_face(k))
+        } else {
+            let face = self.vertex_face(self.mesh.origin(h));
+            if self.mesh.face(h).is_some() {
+                (self.after(h), face)
+            } else {
+                (self.join(h), face)
+            }
+        };
+        [half, Link { origin, next, face }]
+    }
+
+    #[inline]
+    fn edge_join(&self, h: HalfEdgeId) -> [Link; 2] {
+        let half = Link {
+            origin: self.p(h),
+            next: self.after(h),
+            face: self.vertex_face(self.mesh.origin(h)),
+        };
+        let twin = Link {
+            origin: self.q(self.mesh.prev(h)),
+            next: self.along(h),
+            face: FaceId::NONE,
+        };
+        [half, twin]
+    }
+
+    /// The corner values of vertex p(h), or q(h), in the old face beside.
+    fn place(&self, h: HalfEdgeId, is_q: bool) -> Place {
+        let mesh = self.mesh;
+        if mesh.face(h).is_some() {
+            return Place::Pulled(if is_q { mesh.next(h) } else { h });
+        }
+        let at_target = h.twin();
+        let at_origin = mesh.next(at_target);
+        if is_q {
+            Place::Toward([at_target, at_origin], 4)
+        } else {
+            Place::Toward([at_origin, at_target], 4)
+        }
+    }
+}
+
+impl Links for DooSabin<'_> {
+    fn counts(&self) -> [usize; 3] {
+        [
+            2 * self.n_edges + self.outer.len() + self.isolated.len(),
+            self.first_join() + self.outer.len(),
+            self.n_faces + self.n_edges + self.mesh.n_vertices() - self.faceless.len(),
+        ]
+    }
+
+    #[inline]
+    fn edge(&self, i: usize) -> [Link; 2] {
+        if i < 2 * self.n_edges {
+            self.edge_along(HalfEdgeId::new(i))
+        } else if i < self.first_join() {
+            self.edge_across(HalfEdgeId::new(self.doubled.other(i - 2 * self.n_edges)))
+        } else {
+            self.edge_join(HalfEdgeId::new(self.outer.at(i - self.first_join())))
+        }
+    }
+
+    #[inline]
+    fn vertex(&self, i: usize) -> HalfEdgeId {
+        let corners = 2 * self.n_edges;
+        if i < corners {
+            self.along(HalfEdgeId::new(i))
+        } else if i < corners + self.outer.len() {
+            let h = HalfEdgeId::new(self.outer.at(i - corners));
+            self.join(self.mesh.next(h)).twin()
+        } else {
+            HalfEdgeId::NONE
+        }
+    }
+
+    fn face(&self, i: usize) -> HalfEdgeId {
+        let Some(i) = i.checked_sub(self.n_faces) else {
+            return self.along(self.mesh.face_half_edge(FaceId::new(i)));
+        };
+        let Some(i) = i.checked_sub(self.n_edges) else {
+            return self.along(EdgeId::new(i).half_edge()).twin();
+        };
+        let v = VertexId::new(self.faceless.other(i));
+        let h = self.mesh.vertex_half_edge(v);
+        self.across(h.expect("a vertex with a face has an edge"))
+            .twin()
+    }
+}
+
+impl Topology for DooSabin<'_> {
+    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, OpError> {
+        links::connectivity(self, meter)
+    }
+
+    fn corner(&self, i: usize) -> Place {
+        let (edge, is_twin) = (i / 2, i % 2 == 1);
+        if edge < 2 * self.n_edges {
+            let h = HalfEdgeId::new(edge);
+            if is_twin {
+                self.place(h, true)
+            } else if self.mesh.face(h).is_none() {
+                Place::Outside
+            } else {
+                self.place(h, false)
+            }
+        } else if edge < self.first_join() {
+            let h = HalfEdgeId::new(self.doubled.other(edge - 2 * self.n_edges));
+            if is_twin {
+                self.place(h.twin(), true)
+            } else {
+                self.place(h, false)
+            }
+        } else if is_twin {
+            Place::Outside
+        } else {
+            let h = HalfEdgeId::new(self.outer.at(edge - self.first_join()));
+            self.place(h, false)
+        }
+    }
+
+    fn vertex(&self, i: usize) -> Option<usize> {
+        match self.source(i) {
+            Source::Isolated(v) => Some(v.index()),
+            _ => None,
+        }
+    }
+
+    fn edge(&self, i: usize) -> Option<usize> {
+        (i < 2 * self.n_edges).then_some(i / 2)
+    }
+
+    fn face(&self, i: usize) -> Option<usize> {
+        let Some(i) = i.checked_sub(self.n_faces) else {
+            return Some(i);
+        };
+        let face = match i.checked_sub(self.n_edges) {
+            None => {
+                let [left, right] = self.mesh.edge_faces(EdgeId::new(i));
+                left.or(right)
+            }
+            Some(i) => {
+                let v = VertexId::new(self.faceless.other(i));
+                self.mesh.vertex_faces(v).next()
+            }
+        };
+        face.map(FaceId::index)
+    }
+}

@@ -15,9 +15,8 @@
 //!
 //! A level is not a sequence of edits: its arrays are computed in closed form from the old ones, each
 //! element by itself, in parallel, with the same bytes for any number of threads. How the numbers of new
-//! elements follow from the old is written in the modules `halves`, `triangles`, `quads` and
-//! `doo_sabin`; the means are
-//! in `masks`, creases in `sharpness`.
+//! elements follow from the old is written in the modules `halves`, `triangles`, `quads`, `doo_sabin` and
+//! `sqrt3`; the means are in `masks`, creases in `sharpness`.
 //!
 //! # Examples
 //!
@@ -46,6 +45,7 @@ mod operation;
 mod quads;
 mod rules;
 mod sharpness;
+mod sqrt3;
 mod triangles;
 
 pub use limit::{Limit, limit};
@@ -64,6 +64,7 @@ use masks::{ButterflyMasks, CatmullClarkMasks, LoopMasks, MidpointMasks};
 use meter::Meter;
 use quads::Quads;
 use sharpness::Sharpness;
+use sqrt3::Sqrt3;
 use triangles::Triangles;
 
 /// The mesh after so many levels.
@@ -71,8 +72,9 @@ use triangles::Triangles;
 /// Ids: with Loop, Butterfly and Midpoint old vertices keep their numbers, the vertex on edge e is V + e,
 /// edge e becomes edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3, or, in quads, one for each
 /// corner in order; the center of face f is V + E + f. With Doo-Sabin face f stays f, edge e becomes face
-/// F + e and edges 2e and 2e + 1, and the faces of vertices follow. A mesh with dead elements is compacted first, and
-/// the ids are those of the compacted mesh.
+/// F + e and edges 2e and 2e + 1, and the faces of vertices follow. With Sqrt3 old vertices keep their
+/// numbers and face f becomes faces 3f to 3f + 2. A mesh with dead elements is compacted first, and the ids
+/// are those of the compacted mesh.
 ///
 /// Vertex attributes are smoothed with the weights of the positions; corner values by
 /// [`Rules::face_varying`]; parts of an edge or a face take the values of the whole. Normals are left out,
@@ -142,7 +144,10 @@ fn with_scheme<V: Visit>(mesh: &Mesh, rules: Rules, level: u32, visitor: V) -> V
             let topology = DooSabin::new(mesh);
             visitor.visit(&topology, &topology, None)
         }
-        Scheme::Sqrt3 => todo!("level {level}"),
+        Scheme::Sqrt3 => {
+            let topology = Sqrt3::new(mesh, level);
+            level::finer(mesh, &topology, &topology, None, rules, meter)
+        }
     }
 }
 

@@ -5,6 +5,7 @@ mod catmull_clark;
 mod doo_sabin;
 mod loop_masks;
 mod midpoint;
+mod sqrt3;
 
 pub(crate) use butterfly::ButterflyMasks;
 pub(crate) use catmull_clark::CatmullClarkMasks;

@@ -9,6 +9,7 @@ mod matrix;
 mod other_ways;
 mod plan;
 mod schemes;
+mod sqrt3;
 
 use mesh::{DVec3, Mesh, VertexId};
 use op::NoProgress;
@@ -16,13 +17,14 @@ use op::NoProgress;
 use crate::{LoopWeights, Rules, Scheme, Split, subdivide};
 
 /// The schemes that laws are tried with.
-pub(crate) const SCHEMES: [Scheme; 6] = [
+pub(crate) const SCHEMES: [Scheme; 7] = [
     Scheme::Loop(LoopWeights::Warren),
     Scheme::CatmullClark,
     Scheme::Midpoint(Split::Triangles),
     Scheme::Midpoint(Split::Quads),
     Scheme::Butterfly,
     Scheme::DooSabin,
+    Scheme::Sqrt3,
 ];
 
 /// One level of Loop subdivision, checked.

@@ -1,0 +1,437 @@
+//! The connectivity of Sqrt3 subdivision, where every triangle becomes three, turned.
+//!
+//! Half-edge h runs from a to b with face f, in which c is opposite; its twin t has face g. Every face gets a
+//! vertex in its center, V + f, which three spokes join to its corners, and every edge inside is flipped, so
+//! that it joins two centers. Edges keep their numbers; the spoke of the k-th corner of face f is edge
+//! E + 3f + k, spoke(h) is the half of it that leaves the origin of h, and the k-th triangle of face f is
+//! 3f + k, T(h):
+//!
+//! ```text
+//!              c                           c
+//!            /   \                       / | \           h keeps its number and lies in T(h); it runs
+//!          /   f   \                   /   m   \         from the center of g to that of f, m
+//!        /           \               /   / | \   \
+//!      a ----- h ----> b    --->    a -----|----- b      next(h)              = twin of spoke(h)
+//!        \           /               \ T(h)h T(t)/       next(spoke(h) twin)  = spoke(next(t))
+//!          \   g   /                   \ \ | / /         next(spoke(h))       = twin of prev(h)
+//!            \   /                       \ | /
+//! ```
+//!
+//! With a boundary, levels come in pairs, counted from 0. On even levels an edge of the boundary stays as it
+//! is. On odd ones each triangle there has one such edge (the level before made it), and gets two vertices
+//! on it instead of a center, x = V + f and y, which is V + F + (rank of the edge's half-edge without a face
+//! among all such):
+//!
+//! ```text
+//!          c                  c                 T(h) is (a, b, m), next(h) = spoke(next(h)),
+//!        / | \              / | | \             next(spoke(next(h))) = twin of spoke(h),
+//!      /   m   \          /   |  |  \           next(spoke(h) twin)  = h
+//!    /   /   \   \       /   |    |   \
+//!   a ----- h ----> b   a -- x -h-> y -- b      T(h) is (x, y, c); a x and y b are the spokes of a and b,
+//!                                               c x is that of c, and c y is edge E + 3F + rank
+//!      even level          odd level
+//! ```
+//!
+//! For the flips of the other two edges x and y play the part of the center, each for the edge nearer to it.
+//! After two levels every edge of the boundary, and every old edge, is three. Kobbelt, "√3-Subdivision", 2000.
+
+use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
+use op::OpError;
+
+use crate::chosen::Chosen;
+use crate::level::{Place, Topology};
+use crate::links::{self, Link, Links};
+use crate::meter::Meter;
+
+/// A dense mesh of triangles, each of which becomes three.
+pub(crate) struct Sqrt3<'a> {
+    pub(crate) mesh: &'a Mesh,
+    n_vertices: usize,
+    n_edges: usize,
+    n_faces: usize,
+    /// On odd levels the half-edges without a face, whose edges are cut in three.
+    cut: Option<Chosen>,
+}
+
+/// What new vertex `i` lies at.
+pub(crate) enum Source {
+    /// An old vertex.
+    Old(VertexId),
+    /// The center of a face.
+    Center(FaceId),
+    /// On the edge of this half-edge without a face, a third of the way from its origin.
+    Near(HalfEdgeId),
+}
+
+/// How the edge of a half-edge with a face is treated.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    /// It is flipped.
+    Flipped,
+    /// It is on the boundary and stays.
+    Kept,
+    /// It is on the boundary and cut in three.
+    Cut,
+}
+
+impl<'a> Sqrt3<'a> {
+    /// Level number `level`, from 0. An odd one is made of what the even one before it made.
+    pub(crate) fn new(mesh: &'a Mesh, level: u32) -> Self {
+        let is_outer = |i| mesh.face(HalfEdgeId::new(i)).is_none();
+        let is_even = level.is_multiple_of(2);
+        Self {
+            mesh,
+            n_vertices: mesh.n_vertices(),
+            n_edges: mesh.n_edges(),
+            n_faces: mesh.n_faces(),
+            cut: (!is_even).then(|| Chosen::of(mesh.n_half_edges(), is_outer)),
+        }
+    }
+
+    /// Whether edges of the boundary are cut.
+    pub(crate) fn cuts_boundary(&self) -> bool {
+        self.cut.is_some()
+    }
+
+    /// Where new vertex `i` lies.
+    #[inline]
+    pub(crate) fn source(&self, i: usize) -> Source {
+        let Some(f) = i.checked_sub(self.n_vertices) else {
+            return Source::Old(VertexId::new(i));
+        };
+        match &self.cut {
+            Some(cut) if f >= self.n_faces => {
+                Source::Near(HalfEdgeId::new(cut.at(f - self.n_faces)))
+            }
+            Some(_) => {
+                let mut halves = self.mesh.face_half_edges(FaceId::new(f));
+                match halves.find(|&h| self.side(h) == Side::Cut) {
+                    Some(h) => Source::Near(h),
+                    None => Source::Center(FaceId::new(f)),
+                }
+            }
+            None => Source::Center(FaceId::new(f)),
+        }
+    }
+
+    /// How the edge of `h`, which has a face, is treated.
+    #[inline]
+    fn side(&self, h: HalfEdgeId) -> Side {
+        if self.mesh.face(h.twin()).is_some() {
+            Side::Flipped
+        } else if self.cuts_boundary() {
+            Side::Cut
+        } else {
+            Side::Kept
+        }
+    }
+
+    /// The half-edge before `h` in its triangle.
+    #[inline]
+    fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
+        self.mesh.next(self.mesh.next(h))
+    }
+
+    #[inline]
+    fn face_of(&self, h: HalfEdgeId) -> FaceId {
+        self.mesh.connectivity().face[h.index()]
+    }
+
+    /// 3f + k, where `h` is the k-th half-edge of face f.
+    #[inline]
+    fn corner_number(&self, h: HalfEdgeId) -> usize {
+        let f = self.face_of(h);
+        let start = self.mesh.face_half_edge(f);
+        let k = if h == start {
+            0
+        } else if self.mesh.next(h) == start {
+            2
+        } else {
+            1
+        };
+        3 * f.index() + k
+    }
+
+    /// The half-edge with this [`corner_number`](Self::corner_number).
+    #[inline]
+    fn of_corner(&self, i: usize) -> HalfEdgeId {
+        let start = self.mesh.face_half_edge(FaceId::new(i / 3));
+        (0..i % 3).fold(start, |h, _| self.mesh.next(h))
+    }
+
+    /// T(h).
+    #[inline]
+    fn triangle(&self, h: HalfEdgeId) -> FaceId {
+        FaceId::new(self.corner_number(h))
+    }
+
+    #[inline]
+    fn spoke(&self, h: HalfEdgeId) -> HalfEdgeId {
+        HalfEdgeId::new(2 * (self.n_edges + self.corner_number(h)))
+    }
+
+    /// How many edges of the boundary before that of `h`, which has a face, are cut.
+    #[inline]
+    fn rank(&self, h: HalfEdgeId) -> usize {
+        let cut = self.cut.as_ref();
+        cut.map_or(0, |cut| cut.below(h.twin().index()))
+    }
+
+    /// Where the edge of `h` is cut, the half-edge from c to y.
+    #[inline]
+    fn second_spoke(&self, h: HalfEdgeId) -> HalfEdgeId {
+        HalfEdgeId::new(2 * (self.n_edges + 3 * self.n_faces + self.rank(h)))
+    }
+
+    /// The new vertex at the end of the spoke of `h`: where `h` is flipped, the center on its side, or
+    /// what plays its part.
+    #[inline]
+    fn end(&self, h: HalfEdgeId) -> VertexId {
+        let before = self.prev(h);
+        let i = match self.side(before) {
+            Side::Cut => self.n_faces + self.rank(before),
+            _ => self.face_of(h).index(),
+        };
+        VertexId::new(self.n_vertices + i)
+    }
+
+    /// The half-edge from the target of flipped `h` to `end(h)`.
+    #[inline]
+    fn spoke_at_target(&self, h: HalfEdgeId) -> HalfEdgeId {
+        let before = self.prev(h);
+        match self.side(before) {
+            Side::Cut => self.second_spoke(before),
+            _ => self.spoke(self.mesh.next(h)),
+        }
+    }
+
+    /// The half-edge that keeps its number.
+    #[inline]
+    fn old(&self, h: HalfEdgeId) -> Link {
+        let mesh = self.mesh;
+        if mesh.face(h).is_none() {
+            let inner = h.twin();
+            let face = FaceId::NONE;
+            return match self.side(inner) {
+                // From y to x, then to a.
+                Side::Cut => Link {
+                    origin: self.end(mesh.next(inner)),
+                    next: self.spoke(inner).twin(),
+                    face,
+                },
+                _ => Link {
+                    origin: mesh.origin(h),
+                    next: mesh.next(h),
+                    face,
+                },
+            };
+        }
+        let face = self.triangle(h);
+        match self.side(h) {
+            Side::Flipped => Link {
+                origin: self.end(h.twin()),
+                next: self.spoke(h).twin(),
+                face,
+            },
+            Side::Kept => Link {
+                origin: mesh.origin(h),
+                next: self.spoke(mesh.next(h)),
+                face,
+            },
+            Side::Cut => Link {
+                origin: self.end(h),
+                next: self.second_spoke(h).twin(),
+                face,
+            },
+        }
+    }
+
+    /// Both halves of the spoke of `h`.
+    #[inline]
+    fn edge_spoke(&self, h: HalfEdgeId) -> [Link; 2] {
+        let mesh = self.mesh;
+        let (before, after) = (self.prev(h), mesh.next(h));
+        let (next, face) = match (self.side(before), self.side(after)) {
+            // From b to y, along the boundary.
+            (Side::Cut, _) => (before.twin(), FaceId::NONE),
+            (Side::Kept, _) => (self.spoke(before).twin(), self.triangle(before)),
+            // From c to x.
+            (Side::Flipped, Side::Cut) => (after, self.triangle(after)),
+            (Side::Flipped, _) => (before.twin(), self.triangle(before.twin())),
+        };
+        let origin = mesh.origin(h);
+        let half = Link { origin, next, face };
+
+        let (next, face) = match self.side(h) {
+            Side::Flipped => (self.spoke_at_target(h.twin()), self.triangle(h)),
+            Side::Kept => (h, self.triangle(h)),
+            // From x to a, and on along the boundary.
+            Side::Cut => {
+                let following = mesh.next(h.twin()).twin();
+                (self.spoke(mesh.next(following)), FaceId::NONE)
+            }
+        };
+        let origin = self.end(h);
+        [half, Link { origin, next, face }]
+    }
+
+    /// Both halves of the second spoke of c, where the edge of `h` is cut.
+    #[inline]
+    fn edge_second_spoke(&self, h: HalfEdgeId) -> [Link; 2] {
+        let after = self.mesh.next(h);
+        let last = self.mesh.next(after);
+        let half = Link {
+            origin: self.mesh.origin(last),
+            next: after.twin(),
+            face: self.triangle(after.twin()),
+        };
+        let twin = Link {
+            origin: self.end(after),
+            next: self.spoke(last),
+            face: self.triangle(h),
+        };
+        [half, twin]
+    }
+
+    /// The half-edge with a face whose edge is the `r`-th that is cut.
+    fn of_rank(&self, r: usize) -> HalfEdgeId {
+        let cut = self.cut.as_ref().expect("only odd levels have ranks");
+        HalfEdgeId::new(cut.at(r)).twin()
+    }
+
+    /// The corner value of the vertex `end(h)` in the face of `h`.
+    fn place_of_end(&self, h: HalfEdgeId) -> Place {
+        let (before, after) = (self.prev(h), self.mesh.next(h));
+        if self.side(before) == Side::Cut {
+            Place::Toward([h, before], 3)
+        } else if self.side(h) == Side::Cut {
+            Place::Toward([h, after], 3)
+        } else if self.side(after) == Side::Cut {
+            Place::Toward([after, before], 3)
+        } else {
+            Place::In(self.face_of(h))
+        }
+    }
+}
+
+impl Links for Sqrt3<'_> {
+    fn counts(&self) -> [usize; 3] {
+        let cut = self.cut.as_ref().map_or(0, Chosen::len);
+        [
+            self.n_vertices + self.n_faces + cut,
+            self.n_edges + 3 * self.n_faces + cut,
+            3 * self.n_faces,
+        ]
+    }
+
+    #[inline]
+    fn edge(&self, i: usize) -> [Link; 2] {
+        let Some(i) = i.checked_sub(self.n_edges) else {
+            return [2 * i, 2 * i + 1].map(|h| self.old(HalfEdgeId::new(h)));
+        };
+        match i.checked_sub(3 * self.n_faces) {
+            None => self.edge_spoke(self.of_corner(i)),
+            Some(r) => self.edge_second_spoke(self.of_rank(r)),
+        }
+    }
+
+    #[inline]
+    fn vertex(&self, i: usize) -> HalfEdgeId {
+        let mesh = self.mesh;
+        match self.source(i) {
+            Source::Old(v) => match mesh.vertex_half_edge(v) {
+                None => HalfEdgeId::NONE,
+                Some(h) if mesh.face(h).is_some() => self.spoke(h),
+                // The boundary begins with a part of the old half-edge, or with that.
+                Some(h) => match self.side(h.twin()) {
+                    Side::Cut => self.spoke(mesh.next(h.twin())),
+                    _ => h,
+                },
+            },
+            Source::Center(f) => self.spoke(mesh.face_half_edge(f)).twin(),
+            // From x to a, or from y to x.
+            Source::Near(h) if mesh.face(h).is_some() => self.spoke(h).twin(),
+            Source::Near(h) => h,
+        }
+    }
+
+    #[inline]
+    fn face(&self, i: usize) -> HalfEdgeId {
+        let h = self.of_corner(i);
+        match self.side(h) {
+            Side::Cut => h,
+            _ => self.spoke(h).twin(),
+        }
+    }
+}
+
+impl Topology for Sqrt3<'_> {
+    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, OpError> {
+        links::connectivity(self, meter)
+    }
+
+    /// A triangle around a flipped edge lies in two old faces. At the old vertex it has the value of the one
+    /// whose number it has, and at the centers those of theirs.
+    fn corner(&self, i: usize) -> Place {
+        let mesh = self.mesh;
+        let (edge, is_twin) = (i / 2, i % 2 == 1);
+        let Some(spoke) = edge.checked_sub(self.n_edges) else {
+            let h = HalfEdgeId::new(i);
+            return if mesh.face(h).is_none() {
+                Place::Outside
+            } else {
+                match self.side(h) {
+                    Side::Flipped => self.place_of_end(h.twin()),
+                    Side::Kept => Place::At(h),
+                    Side::Cut => self.place_of_end(h),
+                }
+            };
+        };
+        let [half, twin] = Links::edge(self, edge);
+        let link = if is_twin { twin } else { half };
+        if link.face == FaceId::NONE {
+            return Place::Outside;
+        }
+        match spoke.checked_sub(3 * self.n_faces) {
+            None => {
+                let h = self.of_corner(spoke);
+                let before = self.prev(h);
+                if is_twin {
+                    self.place_of_end(h)
+                } else if self.side(before) == Side::Flipped && self.side(mesh.next(h)) != Side::Cut
+                {
+                    Place::At(before.twin())
+                } else {
+                    Place::At(h)
+                }
+            }
+            Some(r) => {
+                let after = mesh.next(self.of_rank(r));
+                if is_twin {
+                    self.place_of_end(after)
+                } else {
+                    Place::At(after.twin())
+                }
+            }
+        }
+    }
+
+    fn edge(&self, i: usize) -> Option<usize> {
+        let mesh = self.mesh;
+        let Some(spoke) = i.checked_sub(self.n_edges) else {
+            return mesh.is_boundary_edge(mesh::EdgeId::new(i)).then_some(i);
+        };
+        if spoke >= 3 * self.n_faces {
+            return None;
+        }
+        // The outer parts of an edge that is cut.
+        let h = self.of_corner(spoke);
+        let mut parents = [h, self.prev(h)].into_iter();
+        let cut = parents.find(|&h| self.side(h) == Side::Cut);
+        cut.map(|h| h.edge().index())
+    }
+
+    fn face(&self, i: usize) -> Option<usize> {
+        Some(i / 3)
+    }
+}

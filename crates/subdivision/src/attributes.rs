@@ -8,7 +8,7 @@ use crate::face_varying::Field;
 use crate::level::{Place, Topology};
 use crate::masks::{Masks, Number, pulled};
 use crate::meter::{BLOCK, Meter};
-use crate::sharpness::{Sharpness, next_vertices};
+use crate::sharpness::{Sharpness, decreased};
 use crate::{FaceVarying, Rules};
 
 /// Where the values of the next level come from.
@@ -61,7 +61,11 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
             let n_old = self.mesh.n_vertices();
             return Ok(match (&self.sharpness, &column.values) {
                 (Some(_), Values::Float(old)) if column.name == CORNER.name => {
-                    f64::wrap(next_vertices(old, n))
+                    let fade = |i: usize| match old.get(i) {
+                        Some(&s) if self.topology.moves(i) => decreased(s.max(0.0)),
+                        other => other.copied().unwrap_or_default(),
+                    };
+                    f64::wrap(collected(n, fade))
                 }
                 _ => column
                     .values
@@ -82,7 +86,11 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
     fn edge_values(&self, column: &Column, n: usize) -> Values {
         match (&self.sharpness, &column.values) {
             (Some(sharpness), Values::Float(old)) if column.name == CREASE.name => {
-                f64::wrap(sharpness.next_edges(old, n))
+                let fade = |i: usize| match self.topology.half(i) {
+                    Some(h) if self.topology.smooths(h.edge()) => sharpness.next_of_half(h),
+                    other => other.map_or(0.0, |h| old[h.edge().index()]),
+                };
+                f64::wrap(collected(n, fade))
             }
             _ => column.values.gather(n, |i| self.topology.edge(i)),
         }
@@ -118,13 +126,34 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
             ..
         } = self.rules;
         let field = Field::new(self.mesh, sharpness, scheme, face_varying, old);
-        let mut new: Vec<V> = mesh::zeroed(n);
-        new.par_iter_mut()
-            .with_min_len(BLOCK)
-            .enumerate()
-            .for_each(|(i, value)| *value = field.value(self.topology.corner(i)));
-        V::wrap(new)
+        let is_smoothed = |place| match place {
+            Place::At(h) => self.topology.moves(self.mesh.origin(h).index()),
+            Place::On(h) => self.topology.smooths(h.edge()),
+            Place::In(_) | Place::Outside => true,
+        };
+        let value = |i: usize| {
+            let place = self.topology.corner(i);
+            if is_smoothed(place) {
+                return field.value(place);
+            }
+            let mut sum = V::default();
+            linear(self.mesh, place, &mut |source, w| {
+                sum = sum + old[source] * w;
+            });
+            sum
+        };
+        V::wrap(collected(n, value))
     }
+}
+
+/// `n` values, computed in parallel.
+fn collected<V: Value>(n: usize, value: impl Fn(usize) -> V + Sync) -> Vec<V> {
+    let mut new: Vec<V> = mesh::zeroed(n);
+    new.par_iter_mut()
+        .with_min_len(BLOCK)
+        .enumerate()
+        .for_each(|(i, slot)| *slot = value(i));
+    new
 }
 
 /// Adds the old corners that a new one is the mean of, all in its own old face.

@@ -212,6 +212,31 @@ impl Size {
         })
     }
 
+    /// Whether the mesh of this level, with the attributes of this one and these numbers of vertices, edges
+    /// and faces, has ids for all elements and stays within the budget.
+    pub(crate) fn check_counts(
+        self,
+        [vertices, edges, faces]: [u64; 3],
+        level: u32,
+        budget: u64,
+    ) -> Result<(), TooLarge> {
+        let result = Self {
+            vertices: Range::exactly(vertices),
+            edges: Range::exactly(edges),
+            faces: Range::exactly(faces),
+            ..self
+        };
+        if result.has_ids() && result.bytes() <= budget {
+            return Ok(());
+        }
+        Err(TooLarge {
+            levels: level,
+            result,
+            budget,
+            fits: None,
+        })
+    }
+
     fn has_ids(self) -> bool {
         self.vertices.min <= IDS && self.edges.min.saturating_mul(2) <= IDS && self.faces.min <= IDS
     }

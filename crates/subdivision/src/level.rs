@@ -1,6 +1,6 @@
 //! One level: the connectivity by a topology, the values at vertices by masks, the attributes by both.
 
-use mesh::{Connectivity, HalfEdgeId, Mesh};
+use mesh::{Connectivity, EdgeId, HalfEdgeId, Mesh};
 use op::OpError;
 
 use crate::Rules;
@@ -28,6 +28,23 @@ pub(crate) trait Topology: Sync {
 
     /// The old face that new face `i` is a part of.
     fn face(&self, i: usize) -> Option<usize>;
+
+    /// The old half-edge whose part at the origin new edge `i` is. Where there are creases, each edge has two
+    /// parts, which come first unless this says otherwise.
+    fn half(&self, i: usize) -> Option<HalfEdgeId> {
+        self.edge(i).map(|_| HalfEdgeId::new(i))
+    }
+
+    /// Whether an old vertex, and what is there, is smoothed where the scheme smooths; otherwise it stays.
+    fn moves(&self, _: usize) -> bool {
+        true
+    }
+
+    /// Whether what is new on an edge is smoothed where the scheme smooths; otherwise it lies in the
+    /// middle.
+    fn smooths(&self, _: EdgeId) -> bool {
+        true
+    }
 }
 
 /// Where a corner of the next level lies in an old face.

@@ -38,6 +38,7 @@ mod halves;
 mod level;
 mod limit;
 mod links;
+mod local;
 mod masks;
 mod matrix;
 mod meter;
@@ -49,6 +50,7 @@ mod sqrt3;
 mod triangles;
 
 pub use limit::{Limit, limit};
+pub use local::refine_faces;
 pub use matrix::{SparseMatrix, subdivision_matrix};
 pub use operation::{MAX_LEVELS, Step, Until};
 pub use rules::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split};
@@ -146,7 +148,7 @@ fn with_scheme<V: Visit>(mesh: &Mesh, rules: Rules, level: u32, visitor: V) -> V
         }
         Scheme::Sqrt3 => {
             let topology = Sqrt3::new(mesh, level);
-            level::finer(mesh, &topology, &topology, None, rules, meter)
+            visitor.visit(&topology, &topology, None)
         }
     }
 }

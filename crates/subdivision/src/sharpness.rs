@@ -19,7 +19,6 @@
 use mesh::{CORNER, CREASE, EdgeId, HalfEdgeId, Mesh, VertexId};
 use rayon::prelude::*;
 
-use crate::meter::BLOCK;
 use crate::{Boundary, Creasing, Rules};
 
 /// From here on sharpness does not decrease.
@@ -260,35 +259,14 @@ impl<'a> Sharpness<'a> {
         around.half_of(self.edge(h.edge()))
     }
 
-    /// The stored sharpness of the `n` edges of the next level: both halves of each edge, then those
-    /// inside old faces, which are smooth.
-    pub(crate) fn next_edges(&self, old: &[f64], n: usize) -> Vec<f64> {
-        let mut new = mesh::zeroed(n);
-        if self.edges.is_some() {
-            new[..2 * old.len()]
-                .par_iter_mut()
-                .with_min_len(BLOCK)
-                .enumerate()
-                .for_each(|(i, s)| {
-                    // Half 2e of edge e lies at the origin of half-edge 2e, and so on.
-                    let h = HalfEdgeId::new(i);
-                    *s = if self.mesh.is_boundary_edge(h.edge()) {
-                        decreased(self.stored(h.edge()))
-                    } else {
-                        self.of_half(h)
-                    };
-                });
+    /// The stored sharpness of the half of an edge at the origin of `h`, on the next level.
+    pub(crate) fn next_of_half(&self, h: HalfEdgeId) -> f64 {
+        if self.edges.is_none() {
+            0.0
+        } else if self.mesh.is_boundary_edge(h.edge()) {
+            decreased(self.stored(h.edge()))
+        } else {
+            self.of_half(h)
         }
-        new
     }
-}
-
-/// The stored sharpness of the `n` vertices of the next level: the old ones, then new ones, which are
-/// smooth.
-pub(crate) fn next_vertices(old: &[f64], n: usize) -> Vec<f64> {
-    let mut new = mesh::zeroed(n);
-    for (new, old) in new.iter_mut().zip(old) {
-        *new = decreased(old.max(0.0));
-    }
-    new
 }

@@ -5,6 +5,7 @@ mod butterfly;
 mod doo_sabin;
 mod laws;
 mod limit;
+mod local;
 mod matrix;
 mod other_ways;
 mod plan;

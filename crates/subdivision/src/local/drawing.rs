@@ -1,0 +1,161 @@
+//! The arrays of the next level, drawn edge by edge and face by face.
+
+use mesh::{Connectivity, FaceId, HalfEdgeId};
+
+use super::closure::Cut;
+use super::pieces::Pieces;
+use super::sides;
+
+/// The arrays of the next level while they are filled.
+pub(super) struct Drawing<'a> {
+    pieces: &'a Pieces<'a>,
+    new: Connectivity,
+    /// The half-edges of a face.
+    ring: Vec<HalfEdgeId>,
+}
+
+impl<'a> Drawing<'a> {
+    /// The vertices, the parts of old edges, and the boundary.
+    pub(super) fn of_edges(pieces: &'a Pieces<'a>) -> Self {
+        let [n_vertices, n_edges, n_faces] = pieces.counts();
+        let mut drawing = Self {
+            pieces,
+            new: Connectivity {
+                next: mesh::zeroed(2 * n_edges),
+                origin: mesh::zeroed(2 * n_edges),
+                face: mesh::zeroed(2 * n_edges),
+                vertex_half_edge: mesh::zeroed(n_vertices),
+                face_half_edge: mesh::zeroed(n_faces),
+            },
+            ring: Vec::new(),
+        };
+        drawing.draw_edges();
+        drawing
+    }
+
+    /// All arrays, when every face is drawn.
+    pub(super) fn done(self) -> Connectivity {
+        self.new
+    }
+
+    fn draw_edges(&mut self) {
+        let (pieces, mesh, new) = (self.pieces, self.pieces.mesh, &mut self.new);
+        for v in mesh.vertices() {
+            let leaving = mesh.vertex_half_edge(v);
+            new.vertex_half_edge[v.index()] = leaving.map_or(HalfEdgeId::NONE, |h| pieces.first(h));
+        }
+        for h in mesh.half_edges() {
+            let (first, is_cut) = (pieces.first(h), pieces.is_cut(h.edge()));
+            new.origin[first.index()] = mesh.origin(h);
+            let mut last = first;
+            if is_cut {
+                last = pieces.second(h);
+                let m = pieces.on_edge(h.edge());
+                new.origin[last.index()] = m;
+                // The first half, unless the second is on the boundary.
+                if h.index().is_multiple_of(2) || mesh.face(h).is_none() {
+                    new.vertex_half_edge[m.index()] = last;
+                }
+            }
+            if mesh.face(h).is_none() {
+                for part in pieces.parts_of(h) {
+                    new.face[part.index()] = FaceId::NONE;
+                }
+                new.next[first.index()] = last;
+                new.next[last.index()] = pieces.first(mesh.next(h));
+            }
+        }
+    }
+
+    /// Joins the half-edges of the ring to a face that begins at one of them, and empties it.
+    fn close(&mut self, f: FaceId, start: usize) {
+        let next = self.ring.iter().cycle().skip(1);
+        for (h, &next) in self.ring.iter().zip(next) {
+            self.new.next[h.index()] = next;
+            self.new.face[h.index()] = f;
+        }
+        self.new.face_half_edge[f.index()] = self.ring[start];
+        self.ring.clear();
+    }
+
+    /// A face that is not cut.
+    pub(super) fn keep(&mut self, f: usize) {
+        let pieces = self.pieces;
+        let mut hanging = 0;
+        for h in sides(pieces.mesh, f) {
+            self.ring.extend(pieces.parts_of(h));
+            if pieces.is_cut(h.edge()) {
+                hanging = self.ring.len() - 1;
+            }
+        }
+        let start = match pieces.cuts[f] {
+            Cut::Hung => hanging,
+            _ => 0,
+        };
+        self.close(pieces.part(f, 0), start);
+    }
+
+    /// The part at b, then the one at a.
+    pub(super) fn cut_in_two(&mut self, f: usize) {
+        let pieces = self.pieces;
+        let [side_bc, side_ca, side_ab] = pieces.three_sides(f);
+        let across = pieces.inner(f, 0);
+        let mesh = pieces.mesh;
+        self.new.origin[across.index()] = mesh.origin(side_ca.to);
+        self.new.origin[across.twin().index()] = mesh.origin(side_ab.from);
+        let triangles = [
+            [side_ab.from, side_bc.to].map(|h| pieces.first(h)),
+            [side_ca.to, side_ab.to].map(|h| pieces.first(h)),
+        ];
+        for (k, [first, second]) in triangles.into_iter().enumerate() {
+            let third = if k == 0 { across } else { across.twin() };
+            self.ring.extend([first, second, third]);
+            self.close(pieces.part(f, k), 0);
+        }
+    }
+
+    /// The parts at the corners, then the one in the middle.
+    pub(super) fn cut_into_four(&mut self, f: usize) {
+        let pieces = self.pieces;
+        let sides = pieces.three_sides(f);
+        for k in 0..3 {
+            let before = sides[(k + 2) % 3];
+            let across = pieces.inner(f, k);
+            self.new.origin[across.index()] = pieces.middle(sides[k]);
+            self.new.origin[across.twin().index()] = pieces.middle(before);
+            pieces.to_middle(sides[k], &mut self.ring);
+            let n_to = self.ring.len();
+            self.ring.push(across);
+            pieces.past_middle(before, &mut self.ring);
+            // A vertex hangs between two parts of one half.
+            let start = match (n_to, self.ring.len() - n_to) {
+                (2, _) => 1,
+                (_, 3) => 3,
+                _ => 0,
+            };
+            self.close(pieces.part(f, k), start);
+        }
+        let middle = [0, 1, 2].map(|k| pieces.inner(f, k).twin());
+        self.ring.extend(middle);
+        self.close(pieces.part(f, 3), 0);
+    }
+
+    /// A quad for each corner.
+    pub(super) fn cut_into_quads(&mut self, f: usize) {
+        let pieces = self.pieces;
+        let center = pieces.center(f);
+        let n = pieces.cuts[f].faces() as usize;
+        self.new.vertex_half_edge[center.index()] = pieces.inner(f, 0).twin();
+        let mut h_before = pieces.mesh.prev(pieces.mesh.face_half_edge(FaceId::new(f)));
+        for (k, h) in sides(pieces.mesh, f).enumerate() {
+            let before = (k + n - 1) % n;
+            let (out, back) = (pieces.inner(f, k), pieces.inner(f, before).twin());
+            self.new.origin[out.index()] = pieces.on_edge(h.edge());
+            self.new.origin[back.index()] = center;
+            let ring = [pieces.first(h), out, back, pieces.second(h_before)];
+            self.ring.extend(ring);
+            self.close(pieces.part(f, k), 0);
+            h_before = h;
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Attributes where some of the faces are refined.
+
+use mesh::{COLOR, CREASE, DVec2, DVec3, FaceId, MATERIAL, UV, shapes};
+
+use super::{LOOP, MIDPOINT, cases, dressed, refined, with_faces_numbered};
+use crate::fixtures;
+
+#[test]
+fn values_follow_their_elements() {
+    for (name, mesh, faces) in cases() {
+        let mesh = dressed(mesh);
+        let new = refined(&mesh, &faces, LOOP, 2);
+        // Colors are positions.
+        for (color, p) in new.get(COLOR).unwrap().iter().zip(new.positions()) {
+            assert_eq!(color.truncate(), *p, "{name}");
+        }
+        // The parts of a face cover it, in order.
+        let linear = refined(&mesh, &faces, MIDPOINT, 2);
+        let material = linear.get(MATERIAL).unwrap();
+        assert!(material.is_sorted(), "{name}");
+        let mut areas = vec![0.0; mesh.n_faces()];
+        for f in linear.faces() {
+            areas[usize::try_from(material[f.index()]).unwrap()] += linear.face_area(f);
+        }
+        for (f, area) in mesh.faces().zip(areas) {
+            assert!((area - mesh.face_area(f)).abs() < 1e-13, "{name} {f}");
+        }
+    }
+}
+
+#[test]
+fn texture_coordinates_stay_affine_in_each_old_face_and_seams_stay_seams() {
+    for (name, mut mesh, faces) in cases() {
+        let affine =
+            |p: DVec3, f: FaceId| DVec2::new(p.x + 0.5 * p.z, p.y) * (1.0 + f.index() as f64);
+        let uvs = mesh.half_edges().map(|h| {
+            let p = mesh.position(mesh.origin(h));
+            mesh.face(h).map_or(DVec2::ZERO, |f| affine(p, f))
+        });
+        let uvs: Vec<DVec2> = uvs.collect();
+        mesh.set(UV, uvs);
+        let mesh = with_faces_numbered(mesh);
+        let new = refined(&mesh, &faces, MIDPOINT, 3);
+        let (uvs, material) = (new.get(UV).unwrap(), new.get(MATERIAL).unwrap());
+        for h in new.half_edges() {
+            let Some(f) = new.face(h) else {
+                assert_eq!(uvs[h.index()], DVec2::ZERO, "{name}");
+                continue;
+            };
+            let old = FaceId::new(usize::try_from(material[f.index()]).unwrap());
+            let expected = affine(new.position(new.origin(h)), old);
+            assert!(uvs[h.index()].distance(expected) < 1e-12, "{name} {h}");
+        }
+    }
+}
+
+#[test]
+fn creases_reach_as_far_as_before_and_fade_where_they_shape() {
+    let mut mesh = fixtures::triangulated(&shapes::cube());
+    mesh.set(
+        CREASE,
+        (0..mesh.n_edges()).map(|e| 1.0 + e as f64).collect(),
+    );
+    // The length of edges of each number.
+    let faces: Vec<bool> = (0..mesh.n_faces()).map(|f| f < 2).collect();
+    let new = refined(&mesh, &faces, MIDPOINT, 3);
+    let crease = new.get(CREASE).unwrap();
+    for e in mesh.edges() {
+        let number = 1.0 + e.index() as f64;
+        let parts = new.edges().filter(|part| crease[part.index()] == number);
+        let length: f64 = parts.map(|part| new.length(part.half_edge())).sum();
+        assert!((length - mesh.length(e.half_edge())).abs() < 1e-13, "{e}");
+    }
+    // Between two chosen faces a crease is used up, elsewhere it is kept.
+    mesh.set(CREASE, vec![2.0; mesh.n_edges()]);
+    let new = refined(&mesh, &faces, LOOP, 2);
+    let crease = new.get(CREASE).unwrap();
+    let count = |s: f64| crease.iter().filter(|&&c| c == s).count();
+    let outside = refined(&mesh, &faces, MIDPOINT, 2);
+    let kept = outside.get(CREASE).unwrap().iter().filter(|&&c| c == 2.0);
+    assert_eq!(count(2.0), kept.count() - 4);
+    assert_eq!(count(1.0), 0);
+}

@@ -129,7 +129,7 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
         let is_smoothed = |place| match place {
             Place::At(h) => self.topology.moves(self.mesh.origin(h).index()),
             Place::On(h) => self.topology.smooths(h.edge()),
-            Place::In(_) | Place::Outside => true,
+            _ => true,
         };
         let value = |i: usize| {
             let place = self.topology.corner(i);

@@ -202,14 +202,7 @@ impl Size {
         if fits == Some(levels) {
             return Ok(());
         }
-        Err(TooLarge {
-            levels,
-            faces: size.faces.min,
-            half_edges: size.edges.min.saturating_mul(2),
-            bytes: size.has_ids().then(|| size.bytes()),
-            budget,
-            fits,
-        })
+        Err(size.too_large(levels, budget, fits))
     }
 
     /// Whether the mesh of this level, with the attributes of this one and these numbers of vertices, edges
@@ -229,12 +222,18 @@ impl Size {
         if result.has_ids() && result.bytes() <= budget {
             return Ok(());
         }
-        Err(TooLarge {
-            levels: level,
-            result,
+        Err(result.too_large(level, budget, None))
+    }
+
+    fn too_large(self, levels: u32, budget: u64, fits: Option<u32>) -> TooLarge {
+        TooLarge {
+            levels,
+            faces: self.faces.min,
+            half_edges: self.edges.min.saturating_mul(2),
+            bytes: self.has_ids().then(|| self.bytes()),
             budget,
-            fits: None,
-        })
+            fits,
+        }
     }
 
     fn has_ids(self) -> bool {

@@ -36,7 +36,7 @@ use mesh::{FaceId, Mesh};
 use op::{OpError, Progress};
 
 use crate::forecast::Size;
-use crate::level;
+use crate::level::{Finer, Visit};
 use crate::masks::{CatmullClarkMasks, LoopMasks, Masks, MidpointMasks};
 use crate::meter::Meter;
 use crate::sharpness::Sharpness;
@@ -159,7 +159,7 @@ fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Me
         meter: &Meter,
     ) -> Result<Mesh, OpError> {
         let masks = AreaMasks { pieces, masks };
-        level::finer(mesh, pieces, &masks, sharpness, rules, meter)
+        Finer { mesh, rules, meter }.visit(pieces, &masks, sharpness)
     }
     let sharpness = Sharpness::of(mesh, rules);
     match rules.scheme {

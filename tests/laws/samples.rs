@@ -315,6 +315,22 @@ const SAMPLES: &[(&str, &[&str])] = &[
         &["(levels: 0)", "(levels: 1)", "(levels: 2)"],
     ),
     (
+        "CatmullClark",
+        &[
+            "(levels: 0)",
+            "(levels: 1)",
+            "(levels: 2, boundary: EdgesAndCorners, creasing: Chaikin, face_varying: CornersPlus1)",
+            "(levels: 1, to_limit: true)",
+        ],
+    ),
+    (
+        "Midpoint",
+        &["(levels: 0)", "(levels: 1)", "(levels: 2, into: Quads)"],
+    ),
+    ("Butterfly", &["(levels: 0)", "(levels: 1)", "(levels: 2)"]),
+    ("Sqrt3", &["(levels: 0)", "(levels: 1)", "(levels: 2)"]),
+    ("DooSabin", &["(levels: 0)", "(levels: 1)", "(levels: 2)"]),
+    (
         "Weld",
         &["(distance: 0)", "(distance: 0.5)", "(distance: 100)"],
     ),

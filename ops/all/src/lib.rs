@@ -49,6 +49,11 @@ pub fn registry() -> Registry {
         .with::<bridge_loops::BridgeLoops>()
         .with::<crease::Crease>()
         .with::<loop_subdivide::LoopSubdivide>()
+        .with::<catmull_clark::CatmullClark>()
+        .with::<midpoint::Midpoint>()
+        .with::<butterfly::Butterfly>()
+        .with::<sqrt3::Sqrt3>()
+        .with::<doo_sabin::DooSabin>()
         .with::<vertex_normals::VertexNormals>()
         .with::<save::Save>()
 }

@@ -1,0 +1,96 @@
+//! The operation: counts, kinds of surfaces, refusals, threads, recipes.
+
+use mesh::{Mesh, shapes};
+
+use crate::Sqrt3;
+
+fn applied(operation: &Sqrt3, mesh: &Mesh) -> Mesh {
+    let new = op::test::applied(operation, mesh.clone());
+    assert!(op::test::is_as_planned(operation, mesh, &new));
+    new
+}
+
+fn counts(mesh: &Mesh) -> [usize; 3] {
+    [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
+}
+
+#[test]
+fn an_icosahedron_becomes_60_triangles_and_then_180() {
+    let mesh = shapes::icosahedron();
+    assert_eq!(counts(&applied(&Sqrt3::levels(1), &mesh)), [32, 90, 60]);
+    assert_eq!(counts(&applied(&Sqrt3::levels(2), &mesh)), [92, 270, 180]);
+}
+
+#[test]
+fn a_closed_surface_stays_closed_and_keeps_its_genus() {
+    for mesh in [
+        shapes::icosahedron(),
+        shapes::octahedron(),
+        shapes::fans(&shapes::torus(5, 4, 2.0, 1.0)),
+    ] {
+        let new = applied(&Sqrt3::levels(3), &mesh);
+        assert_eq!(new.n_boundary_loops(), 0);
+        assert_eq!(new.euler_characteristic(), mesh.euler_characteristic());
+    }
+}
+
+#[test]
+fn levels_follow_one_another_and_none_changes_nothing() {
+    let mesh = shapes::fans(&shapes::grid(3, 2));
+    let apply = |levels, mesh: &Mesh| applied(&Sqrt3::levels(levels), mesh);
+    assert!(apply(0, &mesh) == mesh);
+    assert!(apply(1, &mesh) == applied(&Sqrt3::default(), &mesh));
+    // Without a boundary; there levels come in pairs.
+    let mesh = shapes::octahedron();
+    assert!(apply(3, &mesh) == apply(1, &apply(1, &apply(1, &mesh))));
+}
+
+#[test]
+fn the_bytes_are_the_same_for_any_number_of_threads() {
+    let mesh = shapes::fans(&shapes::grid(3, 2));
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| op::test::applied(&Sqrt3::levels(4), mesh.clone()))
+    };
+    // Equal as bits: `==` would take -0 for 0.
+    let bits = |m: &Mesh| -> Vec<[u64; 3]> {
+        let bits = m.positions().iter().map(|p| p.to_array().map(f64::to_bits));
+        bits.collect()
+    };
+    let one = with(1);
+    for threads in [2, 8] {
+        let other = with(threads);
+        assert_eq!(bits(&other), bits(&one), "{threads}");
+        assert!(other == one, "{threads}");
+    }
+}
+
+#[test]
+fn polygons_are_refused_before_anything_runs() {
+    let cube = shapes::cube();
+    let reason = op::test::refused(&Sqrt3::default(), cube.clone());
+    assert_eq!(reason, op::Refusal::NotTriangle);
+    let (_, problems) = op::test::planned(&Sqrt3::default(), &cube);
+    assert_eq!(problems.len(), 1);
+    assert!(problems[0].message.contains("at least 4 corners"));
+}
+
+#[test]
+fn a_boundary_is_cut_on_every_second_level() {
+    let mesh = shapes::fans(&shapes::grid(3, 2));
+    let n_outer = |levels| {
+        let new = applied(&Sqrt3::levels(levels), &mesh);
+        new.edges().filter(|&e| new.is_boundary_edge(e)).count()
+    };
+    assert_eq!([1, 2, 3, 4].map(n_outer), [10, 30, 30, 90]);
+}
+
+#[test]
+fn a_recipe_can_leave_the_levels_out_and_nothing_else_is_taken() {
+    let parsed = |text: &str| ron::from_str::<Sqrt3>(&format!("#![enable(implicit_some)]{text}"));
+    assert_eq!(parsed("(levels: 3)"), Ok(Sqrt3::levels(3)));
+    assert_eq!(parsed("()"), Ok(Sqrt3::default()));
+    assert!(parsed("(level: 3)").is_err());
+    assert!(parsed("(levels: -1)").is_err());
+}

@@ -9,13 +9,15 @@
 //! vertex are cut in two ("green"):
 //!
 //! ```text
-//!    +-----------+           +-----------+
-//!    | \         | \         | \ green / | \         x: on an edge of a red triangle and of one
-//!    |   \       |   \       |   \   /   | / \          that is not, so in the middle
-//!    |     \     |     \     |     x-----|----\
-//!    |  red  \   |      \    |   / |\    | green\
-//!    |         \ |       \   | /   |  \  | /     \
-//!    +-----------+-------+   +-----+-----+-------+
+//!            c                              c
+//!          / | \                          / | \
+//!        /   |   \                      /   |   y
+//!      /     |     \                  /     | / | \
+//!    a       |  red  d     -->      a ----- x   |   d      x: on an edge of a red triangle and one
+//!      \     |     /                  \     | \ | /           that is not, so in the middle;
+//!        \   |   /                      \   |   z             a-x makes two green triangles
+//!          \ | /                          \ | /
+//!            b                              b
 //! ```
 //!
 //! All pieces are similar to their old triangle or half of one that is, so that angles do not get smaller
@@ -65,8 +67,8 @@ use pieces::Pieces;
 /// or a face take the values of the whole, edges inside have zero. Sharpness fades where the scheme smooths
 /// and is kept elsewhere. Normals are left out.
 ///
-/// The mesh can be refined again: the triangles cut in two are triangles like others then, so that their
-/// angles can be halved once more by each call.
+/// The mesh can be refined again: triangles that were cut in two are triangles like others then. So each
+/// call can cut angles once more, but not each level.
 ///
 /// Nothing changes for no levels and where no face is chosen.
 ///

@@ -1,10 +1,12 @@
 //! Where a level smooths: inside of the chosen faces.
 
-use mesh::Mesh;
+use mesh::{EdgeId, Mesh};
+use op::OpError;
 
 use super::pieces::Pieces;
 use crate::level::Topology;
-use crate::masks::Masks;
+use crate::masks::{Masks, Number, fill};
+use crate::meter::Meter;
 
 /// What belongs to the chosen faces alone.
 pub(super) struct Area {
@@ -34,33 +36,69 @@ pub(super) struct AreaMasks<'a, M> {
     pub(super) masks: &'a M,
 }
 
+/// Where a vertex comes from.
+enum Source {
+    /// From this vertex of the whole level.
+    Whole(usize),
+    /// From this old vertex, which stays.
+    Old(usize),
+    /// From the middle of this edge.
+    Middle(EdgeId),
+}
+
+impl<M: Masks> AreaMasks<'_, M> {
+    fn source(&self, i: usize) -> Source {
+        let pieces = self.pieces;
+        let (n_vertices, n_edges) = (pieces.mesh.n_vertices(), pieces.mesh.n_edges());
+        let Some(new) = i.checked_sub(n_vertices) else {
+            return if pieces.moves(i) {
+                Source::Whole(i)
+            } else {
+                Source::Old(i)
+            };
+        };
+        match pieces.cut_edges.get(new) {
+            Some(&e) if pieces.smooths(e) => Source::Whole(n_vertices + e.index()),
+            Some(&e) => Source::Middle(e),
+            None => {
+                let f = pieces.centered[new - pieces.cut_edges.len()];
+                Source::Whole(n_vertices + n_edges + f.index())
+            }
+        }
+    }
+}
+
 impl<M: Masks> Masks for AreaMasks<'_, M> {
     fn n_vertices(&self) -> usize {
-        self.pieces.n_vertices()
+        self.pieces.counts()[0]
     }
 
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64)) {
-        let mesh = self.pieces.mesh;
-        let (n_vertices, n_edges) = (mesh.n_vertices(), mesh.n_edges());
-        let Some(new) = i.checked_sub(n_vertices) else {
-            if self.pieces.moves(i) {
-                self.masks.mask(i, add);
-            } else {
-                add(i, 1.0);
-            }
-            return;
-        };
-        match self.pieces.cut_edges.get(new) {
-            Some(&e) if self.pieces.smooths(e) => self.masks.mask(n_vertices + e.index(), add),
-            Some(&e) => {
-                for v in mesh.edge_vertices(e) {
+        match self.source(i) {
+            Source::Whole(i) => self.masks.mask(i, add),
+            Source::Old(i) => add(i, 1.0),
+            Source::Middle(e) => {
+                for v in self.pieces.mesh.edge_vertices(e) {
                     add(v.index(), 0.5);
                 }
             }
-            None => {
-                let f = self.pieces.centered[new - self.pieces.cut_edges.len()];
-                self.masks.mask(n_vertices + n_edges + f.index(), add);
-            }
         }
+    }
+
+    fn values<T: Number>(&self, old: &[T], meter: &Meter) -> Result<Vec<T>, OpError> {
+        // Each vertex of a large face would sum all its corners for itself.
+        let has_centers = !self.pieces.centered.is_empty();
+        let whole = has_centers.then(|| self.masks.values(old, meter));
+        let whole = whole.transpose()?;
+        let mut new: Vec<T> = mesh::zeroed(self.n_vertices());
+        fill(&mut new, 0, meter, |i| {
+            if let (Some(whole), Source::Whole(i)) = (&whole, self.source(i)) {
+                return whole[i];
+            }
+            let mut sum = T::default();
+            self.mask(i, &mut |source, w| sum = sum + old[source] * w);
+            sum
+        })?;
+        Ok(new)
     }
 }

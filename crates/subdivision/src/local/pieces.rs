@@ -91,14 +91,13 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    pub(super) fn n_vertices(&self) -> usize {
-        self.mesh.n_vertices() + self.cut_edges.len() + self.centered.len()
-    }
-
     /// How many vertices, edges and faces the next level has.
     pub(super) fn counts(&self) -> [usize; 3] {
-        let n_edges = self.old_edge.len() + self.face_around.len();
-        [self.n_vertices(), n_edges, self.old_face.len()]
+        [
+            self.mesh.n_vertices() + self.cut_edges.len() + self.centered.len(),
+            self.old_edge.len() + self.face_around.len(),
+            self.old_face.len(),
+        ]
     }
 
     /// The marks of the parts of marked faces.

@@ -1,9 +1,9 @@
 //! Attributes where some of the faces are refined.
 
-use mesh::{COLOR, CREASE, DVec2, DVec3, FaceId, MATERIAL, UV, shapes};
+use mesh::{COLOR, CORNER, CREASE, DVec2, DVec3, FaceId, HalfEdgeId, MATERIAL, Mesh, UV, shapes};
 
 use super::{LOOP, MIDPOINT, cases, dressed, refined, with_faces_numbered};
-use crate::fixtures;
+use crate::{FaceVarying, Rules, fixtures};
 
 #[test]
 fn values_follow_their_elements() {
@@ -80,4 +80,38 @@ fn creases_reach_as_far_as_before_and_fade_where_they_shape() {
     let kept = outside.get(CREASE).unwrap().iter().filter(|&&c| c == 2.0);
     assert_eq!(count(2.0), kept.count() - 4);
     assert_eq!(count(1.0), 0);
+}
+
+#[test]
+fn corners_fade_where_they_can_move() {
+    for (name, mut mesh, faces) in cases() {
+        mesh.set(CORNER, vec![2.0; mesh.n_vertices()]);
+        let new = refined(&mesh, &faces, LOOP, 1);
+        let corner = new.get(CORNER).unwrap();
+        for v in mesh.vertices().filter(|_| faces.contains(&true)) {
+            let is_inside = mesh.vertex_faces(v).all(|f| faces[f.index()]);
+            let expected = if is_inside { 1.0 } else { 2.0 };
+            assert_eq!(corner[v.index()], expected, "{name} {v}");
+        }
+        assert!(corner[mesh.n_vertices()..].iter().all(|&s| s == 0.0));
+    }
+}
+
+#[test]
+fn texture_coordinates_that_are_positions_stay_so_where_they_are_smoothed_alike() {
+    let rules = Rules {
+        face_varying: FaceVarying::None,
+        ..LOOP
+    };
+    for (name, mut mesh, faces) in cases() {
+        let flat = |m: &Mesh, h: HalfEdgeId| m.position(m.origin(h)).truncate();
+        let uvs: Vec<DVec2> = mesh.half_edges().map(|h| flat(&mesh, h)).collect();
+        mesh.set(UV, uvs);
+        let new = refined(&mesh, &faces, rules, 3);
+        let uvs = new.get(UV).unwrap();
+        for h in new.half_edges().filter(|&h| new.face(h).is_some()) {
+            let far = uvs[h.index()].distance(flat(&new, h));
+            assert!(far < 1e-14, "{name} {h} {far:e}");
+        }
+    }
 }

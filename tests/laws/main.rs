@@ -7,6 +7,7 @@ mod cancelling;
 mod cube_diagonals;
 mod every_op;
 mod fixtures;
+mod opensubdiv;
 mod outside;
 mod random_edits;
 mod registry;

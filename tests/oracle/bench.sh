@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Subdivision beside OpenSubdiv: first theirs, then ours, on the same machine with nothing else running.
+# What follows goes to `cargo bench`. Needs a C++ compiler and OpenSubdiv 3.5 (Debian: g++ libosd-dev).
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+build=target/oracle
+mkdir -p "$build"
+
+g++ -std=c++17 -O2 -Wall -Wextra -Werror tests/oracle/bench.cpp -losdCPU -o "$build/bench"
+"$build/bench"
+RAYON_NUM_THREADS=1 cargo bench -p meshwright-subdivision "$@"

@@ -301,7 +301,7 @@ fn differences(name: &str) -> Vec<String> {
     let case = Lines::of(&folder("cases").join(name).with_extension("txt"));
     let expected = result(name);
     let (mesh, rules) = (mesh_of(&case), rules_of(&case));
-    let fine = match subdivide(&mesh, &rules, parse(case.choice("levels")), &NoProgress) {
+    let fine = match subdivide(&mesh, rules, parse(case.choice("levels")), &NoProgress) {
         Ok(fine) => fine,
         Err(error) => return vec![error.to_string()],
     };

@@ -1,171 +1,18 @@
 //! Pixar's OpenSubdiv as a second opinion: what it makes of the cases in `tests/oracle/`, and what the
 //! crate `subdivision` makes of them. `tests/oracle/README.md` describes the files.
 
+mod case;
+
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 use mesh::{CORNER, CREASE, DVec2, DVec3, EdgeId, FaceId, Mesh, UV, VertexId};
 use op::NoProgress;
-use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split, subdivide};
+use subdivision::{Rules, Scheme, subdivide};
+
+use case::{Lines, case, folder, mesh_of, parse, point, result, rules_of};
 
 /// How far two numbers may lie apart: the results have seven digits, and OpenSubdiv's sharpness is `f32`.
 const TOLERANCE: f64 = 1e-6;
-
-/// A case or a result: lines of a word and what belongs to it.
-struct Lines {
-    text: String,
-}
-
-impl Lines {
-    fn of(path: &Path) -> Self {
-        let text = std::fs::read_to_string(path);
-        let text = text.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        Self { text }
-    }
-
-    /// What follows `word` on the lines that begin with it.
-    fn after<'a>(&'a self, word: &'a str) -> impl Iterator<Item = Vec<&'a str>> {
-        self.text.lines().filter_map(move |line| {
-            let mut words = line.split_whitespace();
-            (words.next() == Some(word)).then(|| words.collect())
-        })
-    }
-
-    fn choice(&self, word: &str) -> &str {
-        let mut found = self.text.lines().filter_map(|line| {
-            let (first, rest) = line.split_once(' ')?;
-            (first == word).then_some(rest)
-        });
-        found.next().expect("every choice is made")
-    }
-
-    fn positions(&self) -> Vec<DVec3> {
-        self.after("vertex").map(|words| point(&words)).collect()
-    }
-
-    /// For each face its corners: a vertex and, if there are any, a number of a uv.
-    fn faces(&self) -> Vec<Vec<(u32, Option<usize>)>> {
-        let corner = |word: &&str| match word.split_once('/') {
-            Some((v, uv)) => (parse(v), Some(parse(uv))),
-            None => (parse(word), None),
-        };
-        let faces = self.after("face");
-        faces
-            .map(|words| words.iter().map(corner).collect())
-            .collect()
-    }
-
-    fn uvs(&self) -> Vec<DVec2> {
-        let uvs = self.after("uv");
-        uvs.map(|words| DVec2::new(parse(words[0]), parse(words[1])))
-            .collect()
-    }
-
-    fn creases(&self) -> impl Iterator<Item = ([VertexId; 2], f64)> {
-        self.after("crease")
-            .map(|words| ([vertex(words[0]), vertex(words[1])], parse(words[2])))
-    }
-
-    fn corners(&self) -> impl Iterator<Item = (VertexId, f64)> {
-        self.after("corner")
-            .map(|words| (vertex(words[0]), parse(words[1])))
-    }
-}
-
-fn parse<T: std::str::FromStr>(word: &str) -> T {
-    let value = word.parse().ok();
-    value.unwrap_or_else(|| panic!("{word} is not what belongs there"))
-}
-
-fn vertex(word: &str) -> VertexId {
-    VertexId::new(parse(word))
-}
-
-fn point(words: &[&str]) -> DVec3 {
-    DVec3::new(parse(words[0]), parse(words[1]), parse(words[2]))
-}
-
-/// A folder of the second opinion: `cases` or `results`.
-fn folder(name: &str) -> PathBuf {
-    crate::root().join("tests/oracle").join(name)
-}
-
-fn result(case: &str) -> Lines {
-    Lines::of(&folder("results").join(case).with_extension("txt"))
-}
-
-/// The mesh of a case with its attributes.
-fn mesh_of(case: &Lines) -> Mesh {
-    let faces = case.faces();
-    let polygons: Vec<Vec<u32>> = faces
-        .iter()
-        .map(|face| face.iter().map(|&(v, _)| v).collect())
-        .collect();
-    let (mut mesh, report) =
-        Mesh::from_polygons(case.positions(), &polygons).expect("cases are meshes");
-    assert!(report.is_clean(), "cases are manifold");
-
-    let mut creases = vec![0.0; mesh.n_edges()];
-    for ([v, w], sharpness) in case.creases() {
-        let h = mesh
-            .find_half_edge(v, w)
-            .expect("creases are edges of the mesh");
-        creases[h.edge().index()] = sharpness;
-    }
-    mesh.set(CREASE, creases);
-
-    let mut corners = vec![0.0; mesh.n_vertices()];
-    for (v, sharpness) in case.corners() {
-        corners[v.index()] = sharpness;
-    }
-    mesh.set(CORNER, corners);
-
-    let uvs = case.uvs();
-    if !uvs.is_empty() {
-        let mut column = vec![DVec2::ZERO; mesh.n_half_edges()];
-        for f in mesh.faces() {
-            for h in mesh.face_half_edges(f) {
-                let corner = faces[f.index()]
-                    .iter()
-                    .find(|corner| corner.0 as usize == mesh.origin(h).index());
-                let uv = corner.and_then(|corner| corner.1);
-                column[h.index()] = uvs[uv.expect("every corner has a uv")];
-            }
-        }
-        mesh.set(UV, column);
-    }
-    mesh
-}
-
-fn rules_of(case: &Lines) -> Rules {
-    Rules {
-        scheme: match case.choice("scheme") {
-            "Loop" => Scheme::Loop(LoopWeights::Loop),
-            "CatmullClark" => Scheme::CatmullClark,
-            "Bilinear" => Scheme::Midpoint(Split::Quads),
-            other => panic!("{other} is no scheme"),
-        },
-        boundary: match case.choice("boundary") {
-            "EdgesOnly" => Boundary::EdgesOnly,
-            "EdgesAndCorners" => Boundary::EdgesAndCorners,
-            other => panic!("{other} is no rule of boundaries"),
-        },
-        creasing: match case.choice("creasing") {
-            "Uniform" => Creasing::Uniform,
-            "Chaikin" => Creasing::Chaikin,
-            other => panic!("{other} is no rule of creases"),
-        },
-        face_varying: match case.choice("face_varying") {
-            "None" => FaceVarying::None,
-            "CornersOnly" => FaceVarying::CornersOnly,
-            "CornersPlus1" => FaceVarying::CornersPlus1,
-            "CornersPlus2" => FaceVarying::CornersPlus2,
-            "Boundaries" => FaceVarying::Boundaries,
-            "All" => FaceVarying::All,
-            other => panic!("{other} is no rule of corner values"),
-        },
-    }
-}
 
 /// For each vertex of `mesh` the one of `expected` that lies nearest, if that is the same place and no other
 /// vertex lies there.
@@ -298,7 +145,7 @@ fn sharpness_differs(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Ve
 
 /// What differs between OpenSubdiv's result for a case and ours.
 fn differences(name: &str) -> Vec<String> {
-    let case = Lines::of(&folder("cases").join(name).with_extension("txt"));
+    let case = case(name);
     let expected = result(name);
     let (mesh, rules) = (mesh_of(&case), rules_of(&case));
     let fine = match subdivide(&mesh, rules, parse(case.choice("levels")), &NoProgress) {
@@ -307,7 +154,12 @@ fn differences(name: &str) -> Vec<String> {
     };
 
     let [low, high] = mesh.bounds().expect("cases have vertices");
-    compared(&fine, &expected, TOLERANCE * (high - low).length())
+    let tolerance = TOLERANCE * (high - low).length();
+    let mut failures = compared(&fine, &expected, tolerance);
+    if failures.is_empty() && case.choice("limit") == "yes" {
+        failures = limits_differ(&fine, rules, &expected, tolerance);
+    }
+    failures
 }
 
 /// What differs between a mesh and the expected one; positions may differ by `tolerance`.
@@ -318,6 +170,47 @@ fn compared(mesh: &Mesh, expected: &Lines, tolerance: f64) -> Vec<String> {
     };
     let mut failures = faces_differ(mesh, &partners, expected);
     failures.extend(sharpness_differs(mesh, &partners, expected));
+    failures
+}
+
+/// What differs between the limit surface at the vertices of a refined mesh and the expected one, where
+/// OpenSubdiv's masks are those of the limit: not the positions of darts, and of the normals those of
+/// smooth vertices, of regular ones on the boundary and of corners of one face.
+fn limits_differ(mesh: &Mesh, rules: Rules, expected: &Lines, tolerance: f64) -> Vec<String> {
+    let partners = matched(mesh, &expected.positions(), tolerance).expect("compared before");
+    let limit = match subdivision::limit(mesh, rules, &NoProgress) {
+        Ok(limit) => limit,
+        Err(error) => return vec![error.to_string()],
+    };
+    let normals = limit.normals();
+    let expected: Vec<Vec<&str>> = expected.after("limit").collect();
+    let regular = if rules.scheme == Scheme::CatmullClark {
+        2
+    } else {
+        3
+    };
+
+    let mut failures = Vec::new();
+    for v in mesh.vertices() {
+        let wanted = &expected[partners[v.index()].index()];
+        let (rule, side) = (wanted[9], wanted[10]);
+        let off = limit.positions[v.index()].distance(point(wanted));
+        if rule != "dart" && off > tolerance {
+            failures.push(format!("the limit of a {rule} ({side}) is off by {off:e}"));
+        }
+        let n_faces = mesh.vertex_faces(v).count();
+        let is_exact = match (rule, side) {
+            ("smooth", _) => true,
+            ("crease", "boundary") => n_faces <= regular,
+            ("corner", "boundary") => n_faces == 1,
+            _ => false,
+        };
+        let normal = point(&wanted[3..]).cross(point(&wanted[6..])).normalize();
+        let off = normals[v.index()].distance(normal);
+        if is_exact && off > 10.0 * TOLERANCE {
+            failures.push(format!("the normal of a {rule} ({side}) is off by {off:e}"));
+        }
+    }
     failures
 }
 

@@ -1,21 +1,23 @@
 //! The attributes of the next level.
 
-use mesh::{Attributes, CORNER, CREASE, Column, Domain, Mesh, Rule, Value, Values};
+use mesh::{
+    Attributes, CORNER, CREASE, Column, DVec2, DVec3, DVec4, Domain, Mesh, Rule, Value, Values,
+};
 use op::OpError;
 use rayon::prelude::*;
 
 use crate::face_varying::Field;
 use crate::level::{Place, Topology};
-use crate::masks::{Masks, Number, pulled};
+use crate::masks::{AnyMasks, pulled};
 use crate::meter::{BLOCK, Meter};
 use crate::sharpness::{Sharpness, decreased};
 use crate::{FaceVarying, Rules};
 
 /// Where the values of the next level come from.
-pub(crate) struct From<'a, T, M> {
+pub(crate) struct From<'a> {
     pub(crate) mesh: &'a Mesh,
-    pub(crate) topology: &'a T,
-    pub(crate) masks: &'a M,
+    pub(crate) topology: &'a dyn Topology,
+    pub(crate) masks: &'a dyn AnyMasks,
     /// How creases fade; `None` hands their numbers on.
     pub(crate) sharpness: Option<Sharpness<'a>>,
     pub(crate) rules: Rules,
@@ -26,7 +28,7 @@ pub(crate) fn is_carried(column: &Column) -> bool {
     matches!(column.rule, Rule::Interpolate | Rule::Copy)
 }
 
-impl<T: Topology, M: Masks> From<'_, T, M> {
+impl From<'_> {
     /// The columns of the next level, by their rules:
     ///
     /// - vertices: [`Rule::Interpolate`] with the masks of the positions; [`Rule::Copy`] keeps the values
@@ -72,14 +74,27 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
                     .gather(n, |i| self.topology.vertex(i).filter(|&v| v < n_old)),
             });
         }
+        // All as vectors of three numbers, so that masks are compiled for these only.
+        let smoothed = |old: Vec<DVec3>| self.masks.values(&old, meter);
         Ok(match &column.values {
-            Values::Float(v) => Values::Float(self.masks.values(v, meter)?),
-            Values::Vec2(v) => Values::Vec2(self.masks.values(v, meter)?),
-            Values::Vec3(v) => Values::Vec3(self.masks.values(v, meter)?),
-            Values::Vec4(v) => Values::Vec4(self.masks.values(v, meter)?),
-            whole @ (Values::Int(_) | Values::Tag(_)) => whole.blend(n, |i, add| {
-                self.masks.mask(i, &mut |source, w| add(source, w));
-            }),
+            Values::Float(v) => {
+                let new = smoothed(v.iter().map(|&x| DVec3::new(x, 0.0, 0.0)).collect())?;
+                f64::wrap(new.into_iter().map(|v| v.x).collect())
+            }
+            Values::Vec2(v) => {
+                let new = smoothed(v.iter().map(|v| v.extend(0.0)).collect())?;
+                DVec2::wrap(new.into_iter().map(DVec3::truncate).collect())
+            }
+            Values::Vec3(v) => DVec3::wrap(self.masks.values(v, meter)?),
+            Values::Vec4(v) => {
+                let new = smoothed(v.iter().map(|v| v.truncate()).collect())?;
+                let last = smoothed(v.iter().map(|v| DVec3::new(v.w, 0.0, 0.0)).collect())?;
+                let both = new.into_iter().zip(last);
+                DVec4::wrap(both.map(|(v, last)| v.extend(last.x)).collect())
+            }
+            whole @ (Values::Int(_) | Values::Tag(_)) => {
+                whole.blend(n, |i, add| self.masks.mask(i, add))
+            }
         })
     }
 
@@ -106,11 +121,24 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
         if let (Some(sharpness), true) =
             (self.sharpness, self.rules.face_varying != FaceVarying::All)
         {
+            // All as vectors of four numbers, so that the rules are compiled for these only.
+            let smoothed = |old: Vec<DVec4>| self.smooth_corners(sharpness, &old, n).into_iter();
             match &column.values {
-                Values::Float(v) => return self.smooth_corners(sharpness, v, n),
-                Values::Vec2(v) => return self.smooth_corners(sharpness, v, n),
-                Values::Vec3(v) => return self.smooth_corners(sharpness, v, n),
-                Values::Vec4(v) => return self.smooth_corners(sharpness, v, n),
+                Values::Float(v) => {
+                    let new = smoothed(v.iter().map(|&x| DVec4::new(x, 0.0, 0.0, 0.0)).collect());
+                    return f64::wrap(new.map(|v| v.x).collect());
+                }
+                Values::Vec2(v) => {
+                    let new = smoothed(v.iter().map(|v| v.extend(0.0).extend(0.0)).collect());
+                    return DVec2::wrap(new.map(|v| v.truncate().truncate()).collect());
+                }
+                Values::Vec3(v) => {
+                    let new = smoothed(v.iter().map(|v| v.extend(0.0)).collect());
+                    return DVec3::wrap(new.map(DVec4::truncate).collect());
+                }
+                Values::Vec4(v) => {
+                    return DVec4::wrap(self.smooth_corners(sharpness, v, n));
+                }
                 Values::Int(_) | Values::Tag(_) => {}
             }
         }
@@ -119,7 +147,7 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
             .blend(n, |i, add| linear(self.mesh, self.topology.corner(i), add))
     }
 
-    fn smooth_corners<V: Number>(&self, sharpness: Sharpness, old: &[V], n: usize) -> Values {
+    fn smooth_corners(&self, sharpness: Sharpness, old: &[DVec4], n: usize) -> Vec<DVec4> {
         let Rules {
             scheme,
             face_varying,
@@ -136,13 +164,13 @@ impl<T: Topology, M: Masks> From<'_, T, M> {
             if is_smoothed(place) {
                 return field.value(place);
             }
-            let mut sum = V::default();
+            let mut sum = DVec4::ZERO;
             linear(self.mesh, place, &mut |source, w| {
-                sum = sum + old[source] * w;
+                sum += old[source] * w;
             });
             sum
         };
-        V::wrap(collected(n, value))
+        collected(n, value)
     }
 }
 

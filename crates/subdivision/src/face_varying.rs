@@ -17,22 +17,21 @@
 //! sharpness of one of two pieces sharpens the other and hands the verdict on; where both pieces are
 //! semi-sharp, by different numbers, that may differ for a level.)
 
-use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
+use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use rayon::prelude::*;
 
 use crate::attributes::linear;
 use crate::level::Place;
-use crate::masks::Number;
 use crate::sharpness::{INFINITE, Sharpness, VertexRule, decreased, fading};
 use crate::{FaceVarying, Scheme};
 
 /// A column of corner values that is smoothed.
-pub(crate) struct Field<'a, T> {
+pub(crate) struct Field<'a> {
     mesh: &'a Mesh,
     sharpness: Sharpness<'a>,
     scheme: Scheme,
     choice: FaceVarying,
-    values: &'a [T],
+    values: &'a [DVec4],
     /// For each edge whether the values of its two sides differ at either end.
     seams: Vec<bool>,
 }
@@ -76,13 +75,13 @@ struct Around {
     pieces: Vec<Piece>,
 }
 
-impl<'a, T: Number> Field<'a, T> {
+impl<'a> Field<'a> {
     pub(crate) fn new(
         mesh: &'a Mesh,
         sharpness: Sharpness<'a>,
         scheme: Scheme,
         choice: FaceVarying,
-        values: &'a [T],
+        values: &'a [DVec4],
     ) -> Self {
         let differ = |a: HalfEdgeId, b: HalfEdgeId| values[a.index()] != values[b.index()];
         let is_seam = |e: usize| {
@@ -101,26 +100,26 @@ impl<'a, T: Number> Field<'a, T> {
     }
 
     /// The value of a corner of the next level.
-    pub(crate) fn value(&self, place: Place) -> T {
+    pub(crate) fn value(&self, place: Place) -> DVec4 {
         match place {
             Place::At(h) => self.at(h),
             Place::On(h) => self.on(h),
             Place::In(f) => self.center(f),
             Place::Pulled(_) | Place::Toward(..) => {
-                let mut sum = T::default();
-                linear(self.mesh, place, &mut |i, w| sum = sum + self.values[i] * w);
+                let mut sum = DVec4::ZERO;
+                linear(self.mesh, place, &mut |i, w| sum += self.values[i] * w);
                 sum
             }
-            Place::Outside => T::default(),
+            Place::Outside => DVec4::ZERO,
         }
     }
 
-    fn of(&self, h: HalfEdgeId) -> T {
+    fn of(&self, h: HalfEdgeId) -> DVec4 {
         self.values[h.index()]
     }
 
     /// The value at the far end of a half-edge, in a face beside it.
-    fn far(&self, h: HalfEdgeId) -> T {
+    fn far(&self, h: HalfEdgeId) -> DVec4 {
         if self.mesh.face(h).is_some() {
             self.of(self.mesh.next(h))
         } else {
@@ -128,16 +127,16 @@ impl<'a, T: Number> Field<'a, T> {
         }
     }
 
-    fn center(&self, f: FaceId) -> T {
-        let mut sum = T::default();
+    fn center(&self, f: FaceId) -> DVec4 {
+        let mut sum = DVec4::ZERO;
         for h in self.mesh.face_half_edges(f) {
-            sum = sum + self.of(h);
+            sum += self.of(h);
         }
         sum * (1.0 / self.mesh.degree(f) as f64)
     }
 
     /// The value in the middle of a half-edge, in its face.
-    fn on(&self, h: HalfEdgeId) -> T {
+    fn on(&self, h: HalfEdgeId) -> DVec4 {
         let e = h.edge();
         let sharp = if self.seams[e.index()] {
             1.0
@@ -151,7 +150,7 @@ impl<'a, T: Number> Field<'a, T> {
         let halves = e.half_edges();
         let ends = self.of(halves[0]) + self.of(self.mesh.next(halves[0]));
         let [smooth_end, sides] = if self.scheme == Scheme::CatmullClark {
-            let center = |h| self.mesh.face(h).map_or(T::default(), |f| self.center(f));
+            let center = |h| self.mesh.face(h).map_or(DVec4::ZERO, |f| self.center(f));
             let [f, g] = halves.map(center);
             [ends * 0.25, (f + g) * 0.25]
         } else {
@@ -163,7 +162,7 @@ impl<'a, T: Number> Field<'a, T> {
     }
 
     /// The value at the origin of a half-edge, in its face.
-    fn at(&self, h: HalfEdgeId) -> T {
+    fn at(&self, h: HalfEdgeId) -> DVec4 {
         let v = self.mesh.origin(h);
         let start = self.mesh.vertex_half_edge(v).expect("a vertex of a face");
         let is_boundary = self.mesh.face(start).is_none();
@@ -186,7 +185,7 @@ impl<'a, T: Number> Field<'a, T> {
     }
 
     /// The value at a vertex around which there is one: smoothed as positions are.
-    fn regular(&self, v: VertexId, start: HalfEdgeId, own: T) -> T {
+    fn regular(&self, v: VertexId, start: HalfEdgeId, own: DVec4) -> DVec4 {
         let blend = self.sharpness.at_vertex(v, start);
         let by_rule = |rule: VertexRule<HalfEdgeId>| match rule {
             VertexRule::Corner => own,
@@ -199,21 +198,21 @@ impl<'a, T: Number> Field<'a, T> {
         }
     }
 
-    fn smooth(&self, v: VertexId, own: T) -> T {
+    fn smooth(&self, v: VertexId, own: DVec4) -> DVec4 {
         let valence = self.mesh.valence(v);
         let n = valence as f64;
-        let mut sum = T::default();
+        let mut sum = DVec4::ZERO;
         if let Scheme::Loop(weights) = self.scheme {
             for h in self.mesh.vertex_half_edges(v) {
-                sum = sum + self.far(h);
+                sum += self.far(h);
             }
             let u = weights.of(valence);
             return own * (1.0 - n * u) + sum * u;
         }
         for h in self.mesh.vertex_half_edges(v) {
-            sum = sum + self.far(h);
+            sum += self.far(h);
             if let Some(f) = self.mesh.face(h) {
-                sum = sum + self.center(f);
+                sum += self.center(f);
             }
         }
         own * ((n - 2.0) / n) + sum * (1.0 / (n * n))
@@ -274,7 +273,7 @@ impl<'a, T: Number> Field<'a, T> {
 
 impl Around {
     /// The value of the corner of `h`.
-    fn value<T: Number>(&self, field: &Field<T>, h: HalfEdgeId) -> T {
+    fn value(&self, field: &Field, h: HalfEdgeId) -> DVec4 {
         let own = field.of(h);
         let is_own = |piece: &Piece| field.of(piece.ends[0]) == own;
         let Some(i) = self.pieces.iter().position(is_own) else {
@@ -304,7 +303,7 @@ impl Around {
         }
     }
 
-    fn state<T: Number>(&self, field: &Field<T>, i: usize, when: When) -> State {
+    fn state(&self, field: &Field, i: usize, when: When) -> State {
         let (choice, n) = (field.choice, self.pieces.len());
         let own = self.sharpness(field, when);
         let inside = |piece: &Piece, test: fn(f64) -> bool| {
@@ -342,7 +341,7 @@ impl Around {
         }
     }
 
-    fn sharpness<T: Number>(&self, field: &Field<T>, when: When) -> f64 {
+    fn sharpness(&self, field: &Field, when: When) -> f64 {
         let now = field.sharpness.vertex(self.vertex, self.half_edge);
         match when {
             When::Now => now,
@@ -352,7 +351,7 @@ impl Around {
 
     /// How much of this level's rule is left where a piece becomes smooth within the level: the mean of
     /// the sharpness that ends.
-    fn weight<T: Number>(&self, field: &Field<T>, piece: &Piece) -> f64 {
+    fn weight(&self, field: &Field, piece: &Piece) -> f64 {
         let edges = piece.inside.iter();
         let edges = edges.map(|&h| [When::Now, When::Next].map(|w| field.edge_sharpness(h, w)));
         let vertex = [When::Now, When::Next].map(|when| self.sharpness(field, when));
@@ -360,7 +359,7 @@ impl Around {
     }
 }
 
-impl<T> Field<'_, T> {
+impl Field<'_> {
     /// The sharpness of an edge at the origin of `h`.
     fn edge_sharpness(&self, h: HalfEdgeId, when: When) -> f64 {
         match when {

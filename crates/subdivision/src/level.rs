@@ -5,7 +5,7 @@ use op::OpError;
 
 use crate::Rules;
 use crate::attributes;
-use crate::masks::Masks;
+use crate::masks::AnyMasks;
 use crate::meter::Meter;
 use crate::sharpness::Sharpness;
 
@@ -64,52 +64,29 @@ pub(crate) enum Place {
     Outside,
 }
 
-/// What is done with one level of a scheme.
-pub(crate) trait Visit {
-    type Out;
-
-    /// Called with the topology and the masks of the scheme on a dense mesh, and with the sharpness if the
-    /// scheme uses it.
-    fn visit(
-        self,
-        topology: &impl Topology,
-        masks: &impl Masks,
-        sharpness: Option<Sharpness>,
-    ) -> Self::Out;
-}
-
-/// Makes the mesh of the next level. Creases fade if the scheme uses them; otherwise their numbers are
-/// handed on.
-pub(crate) struct Finer<'a> {
-    pub(crate) mesh: &'a Mesh,
-    pub(crate) rules: Rules,
-    pub(crate) meter: &'a Meter<'a>,
-}
-
-impl Visit for Finer<'_> {
-    type Out = Result<Mesh, OpError>;
-
-    fn visit(
-        self,
-        topology: &impl Topology,
-        masks: &impl Masks,
-        sharpness: Option<Sharpness>,
-    ) -> Result<Mesh, OpError> {
-        let Self { mesh, rules, meter } = self;
-        let connectivity = topology.connectivity(meter)?;
-        let positions = masks.values(mesh.positions(), meter)?;
-        let mut finer = Mesh::from_arrays(connectivity, positions);
-        if mesh.attributes().iter().next().is_some() {
-            let from = attributes::From {
-                mesh,
-                topology,
-                masks,
-                sharpness,
-                rules,
-            };
-            let attributes = from.attributes(&finer, meter)?;
-            finer.set_attributes(attributes);
-        }
-        Ok(finer)
+/// The next level of a dense mesh. Creases fade by their sharpness, if the scheme uses it; otherwise their
+/// numbers are handed on.
+pub(crate) fn finer(
+    mesh: &Mesh,
+    rules: Rules,
+    meter: &Meter,
+    topology: &dyn Topology,
+    masks: &dyn AnyMasks,
+    sharpness: Option<Sharpness>,
+) -> Result<Mesh, OpError> {
+    let connectivity = topology.connectivity(meter)?;
+    let positions = masks.values(mesh.positions(), meter)?;
+    let mut finer = Mesh::from_arrays(connectivity, positions);
+    if mesh.attributes().iter().next().is_some() {
+        let from = attributes::From {
+            mesh,
+            topology,
+            masks,
+            sharpness,
+            rules,
+        };
+        let attributes = from.attributes(&finer, meter)?;
+        finer.set_attributes(attributes);
     }
+    Ok(finer)
 }

@@ -61,8 +61,8 @@ use rayon::prelude::*;
 
 use doo_sabin::DooSabin;
 use forecast::Size;
-use level::Visit;
-use masks::{ButterflyMasks, CatmullClarkMasks, LoopMasks, MidpointMasks};
+use level::Topology;
+use masks::{AnyMasks, ButterflyMasks, CatmullClarkMasks, LoopMasks, MidpointMasks};
 use meter::Meter;
 use quads::Quads;
 use sharpness::Sharpness;
@@ -114,12 +114,18 @@ pub fn subdivide(
 
 /// Level number `level` (from 0) of a dense mesh whose faces the scheme takes and whose next level fits.
 fn finer(mesh: &Mesh, rules: Rules, level: u32, meter: &Meter) -> Result<Mesh, OpError> {
-    with_scheme(mesh, rules, level, level::Finer { mesh, rules, meter })
+    with_scheme(mesh, rules, level, |topology, masks, sharpness| {
+        level::finer(mesh, rules, meter, topology, masks, sharpness)
+    })
 }
 
-/// Gives the topology and the masks of the scheme of a level to a visitor, and the sharpness for those
-/// schemes that use it.
-fn with_scheme<V: Visit>(mesh: &Mesh, rules: Rules, level: u32, visitor: V) -> V::Out {
+/// Gives the topology and the masks of a level of a scheme to `visit`, and the sharpness if the scheme uses it.
+fn with_scheme<T>(
+    mesh: &Mesh,
+    rules: Rules,
+    level: u32,
+    visit: impl FnOnce(&dyn Topology, &dyn AnyMasks, Option<Sharpness>) -> T,
+) -> T {
     let sharpness = Sharpness::of(mesh, rules);
     match rules.scheme {
         Scheme::Loop(weights) => {
@@ -128,27 +134,27 @@ fn with_scheme<V: Visit>(mesh: &Mesh, rules: Rules, level: u32, visitor: V) -> V
                 sharpness,
                 weights,
             };
-            visitor.visit(&Triangles(mesh), &masks, Some(sharpness))
+            visit(&Triangles(mesh), &masks, Some(sharpness))
         }
         Scheme::CatmullClark => {
             let masks = CatmullClarkMasks { mesh, sharpness };
-            visitor.visit(&Quads::new(mesh), &masks, Some(sharpness))
+            visit(&Quads::new(mesh), &masks, Some(sharpness))
         }
         Scheme::Midpoint(split) => {
             let masks = MidpointMasks { mesh, split };
             match split {
-                Split::Triangles => visitor.visit(&Triangles(mesh), &masks, None),
-                Split::Quads => visitor.visit(&Quads::new(mesh), &masks, None),
+                Split::Triangles => visit(&Triangles(mesh), &masks, None),
+                Split::Quads => visit(&Quads::new(mesh), &masks, None),
             }
         }
-        Scheme::Butterfly => visitor.visit(&Triangles(mesh), &ButterflyMasks(mesh), None),
+        Scheme::Butterfly => visit(&Triangles(mesh), &ButterflyMasks(mesh), None),
         Scheme::DooSabin => {
             let topology = DooSabin::new(mesh);
-            visitor.visit(&topology, &topology, None)
+            visit(&topology, &topology, None)
         }
         Scheme::Sqrt3 => {
             let topology = Sqrt3::new(mesh, level);
-            visitor.visit(&topology, &topology, None)
+            visit(&topology, &topology, None)
         }
     }
 }

@@ -38,8 +38,8 @@ use mesh::{FaceId, Mesh};
 use op::{OpError, Progress};
 
 use crate::forecast::Size;
-use crate::level::{Finer, Visit};
-use crate::masks::{CatmullClarkMasks, LoopMasks, Masks, MidpointMasks};
+use crate::level;
+use crate::masks::{AnyMasks, CatmullClarkMasks, LoopMasks, MidpointMasks};
 use crate::meter::Meter;
 use crate::sharpness::Sharpness;
 use crate::{Rules, Scheme, Split, check_faces};
@@ -152,17 +152,10 @@ pub(crate) fn refine_within(
 
 /// One level of a dense mesh.
 fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Mesh, OpError> {
-    fn run(
-        mesh: &Mesh,
-        pieces: &Pieces,
-        masks: &impl Masks,
-        sharpness: Option<Sharpness>,
-        rules: Rules,
-        meter: &Meter,
-    ) -> Result<Mesh, OpError> {
+    let run = |masks: &dyn AnyMasks, sharpness: Option<Sharpness>| {
         let masks = AreaMasks { pieces, masks };
-        Finer { mesh, rules, meter }.visit(pieces, &masks, sharpness)
-    }
+        level::finer(mesh, rules, meter, pieces, &masks, sharpness)
+    };
     let sharpness = Sharpness::of(mesh, rules);
     match rules.scheme {
         Scheme::Loop(weights) => {
@@ -171,16 +164,16 @@ fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Me
                 sharpness,
                 weights,
             };
-            run(mesh, pieces, &masks, Some(sharpness), rules, meter)
+            run(&masks, Some(sharpness))
         }
         Scheme::CatmullClark => {
             let masks = CatmullClarkMasks { mesh, sharpness };
-            run(mesh, pieces, &masks, Some(sharpness), rules, meter)
+            run(&masks, Some(sharpness))
         }
         _ => {
             let split = Split::Quads;
             let masks = MidpointMasks { mesh, split };
-            run(mesh, pieces, &masks, None, rules, meter)
+            run(&masks, None)
         }
     }
 }

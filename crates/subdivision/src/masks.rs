@@ -13,19 +13,12 @@ pub(crate) use doo_sabin::pulled;
 pub(crate) use loop_masks::LoopMasks;
 pub(crate) use midpoint::MidpointMasks;
 
-use std::ops::{Add, Mul};
-
-use mesh::{HalfEdgeId, Mesh, Value, VertexId};
+use mesh::{DVec3, HalfEdgeId, Mesh, VertexId};
 use op::OpError;
 use rayon::prelude::*;
 
 use crate::meter::{BLOCK, Meter};
 use crate::sharpness::{Sharpness, VertexRule};
-
-/// A value of which there are weighted sums.
-pub(crate) trait Number: Value + Add<Output = Self> + Mul<f64, Output = Self> {}
-
-impl<T: Value + Add<Output = T> + Mul<f64, Output = T>> Number for T {}
 
 /// The masks of a scheme on one mesh.
 pub(crate) trait Masks: Sync {
@@ -38,28 +31,53 @@ pub(crate) trait Masks: Sync {
 
     /// The values at the vertices of the next level. Equal to the sums of [`mask`](Self::mask) but for
     /// rounding.
-    fn values<T: Number>(&self, old: &[T], meter: &Meter) -> Result<Vec<T>, OpError> {
-        let mut new: Vec<T> = mesh::zeroed(self.n_vertices());
-        fill(&mut new, 0, meter, |i| {
-            let mut sum = T::default();
-            self.mask(i, &mut |source, w| sum = sum + old[source] * w);
+    fn values(&self, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, OpError> {
+        let mut new: Vec<DVec3> = mesh::zeroed(self.n_vertices());
+        fill(&mut new, meter, |i| {
+            let mut sum = DVec3::ZERO;
+            self.mask(i, &mut |source, w| sum += old[source] * w);
             sum
         })?;
         Ok(new)
     }
 }
 
-/// Computes values in parallel: the i-th of `new` is `value(start + i)`.
-pub(crate) fn fill<T: Number>(
-    new: &mut [T],
-    start: usize,
+/// [`Masks`] of any scheme: for code that is compiled once for all of them.
+pub(crate) trait AnyMasks: Sync {
+    /// As [`Masks::n_vertices`].
+    fn n_vertices(&self) -> usize;
+
+    /// As [`Masks::mask`].
+    fn mask(&self, i: usize, add: &mut dyn FnMut(usize, f64));
+
+    /// As [`Masks::values`].
+    fn values(&self, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, OpError>;
+}
+
+impl<M: Masks> AnyMasks for M {
+    fn n_vertices(&self) -> usize {
+        Masks::n_vertices(self)
+    }
+
+    fn mask(&self, i: usize, add: &mut dyn FnMut(usize, f64)) {
+        Masks::mask(self, i, &mut |source, w| add(source, w));
+    }
+
+    fn values(&self, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, OpError> {
+        Masks::values(self, old, meter)
+    }
+}
+
+/// Computes values in parallel: the i-th of `new` is `value(i)`.
+pub(crate) fn fill(
+    new: &mut [DVec3],
     meter: &Meter,
-    value: impl Fn(usize) -> T + Sync,
+    value: impl Fn(usize) -> DVec3 + Sync,
 ) -> Result<(), OpError> {
     new.par_chunks_mut(BLOCK)
         .enumerate()
         .try_for_each(|(block, new)| {
-            for (i, slot) in (start + block * BLOCK..).zip(new.iter_mut()) {
+            for (i, slot) in (block * BLOCK..).zip(new.iter_mut()) {
                 *slot = value(i);
             }
             meter.add(new.len())

@@ -6,10 +6,7 @@ use mesh::{CORNER, CREASE, Column, Domain, Mesh};
 use op::{OpError, Progress};
 use rayon::prelude::*;
 
-use crate::level::{Topology, Visit};
-use crate::masks::Masks;
 use crate::meter::{BLOCK, Meter};
-use crate::sharpness::Sharpness;
 use crate::{Rules, check_faces, finer, forecast::Size, with_scheme};
 
 /// A sparse matrix in compressed rows: row i has the weights `weights[r]` in the columns `columns[r]`, with
@@ -144,11 +141,17 @@ pub fn subdivision_matrix(
     let n = mesh.n_vertices();
     let mut matrix = SparseMatrix::of_rows(n, n, &meter, |i, add| add(i, 1.0))?;
     for level in 0..levels {
-        let times = Times {
-            old: &matrix,
-            meter: &meter,
-        };
-        matrix = with_scheme(&mesh, rules, level, times)?;
+        let old = matrix;
+        // The product of the level's own matrix and the one up to it.
+        matrix = with_scheme(&mesh, rules, level, |_, masks, _| {
+            SparseMatrix::of_rows(masks.n_vertices(), n, &meter, |i, add| {
+                masks.mask(i, &mut |source, w| {
+                    for (column, weight) in old.row(source) {
+                        add(column, w * weight);
+                    }
+                });
+            })
+        })?;
         if level + 1 < levels {
             mesh = finer(&mesh, rules, level, &meter)?;
         }
@@ -171,31 +174,5 @@ fn keep_sharpness(mesh: &mut Mesh) {
         .collect();
     for (domain, name) in others {
         mesh.remove_column(domain, &name);
-    }
-}
-
-/// Makes the product of a level's matrix and the one up to it.
-struct Times<'a> {
-    old: &'a SparseMatrix,
-    meter: &'a Meter<'a>,
-}
-
-impl Visit for Times<'_> {
-    type Out = Result<SparseMatrix, OpError>;
-
-    fn visit(
-        self,
-        _: &impl Topology,
-        masks: &impl Masks,
-        _: Option<Sharpness>,
-    ) -> Result<SparseMatrix, OpError> {
-        let Self { old, meter } = self;
-        SparseMatrix::of_rows(masks.n_vertices(), old.n_columns, meter, |i, add| {
-            masks.mask(i, &mut |source, w| {
-                for (column, weight) in old.row(source) {
-                    add(column, w * weight);
-                }
-            });
-        })
     }
 }

@@ -1,11 +1,15 @@
 //! What the operations of all schemes have in common: the plan, the budget, and the levels.
 
 use mesh::{CORNER_NORMAL, DVec3, Domain, EdgeId, Mesh, TANGENT, VERTEX_NORMAL};
-use op::{Context, MeshPlan, OpError, PlanContext, PlannedAttribute, Problem, Range, Report};
+use op::{
+    Context, FaceSelection, MeshPlan, OpError, PlanContext, PlannedAttribute, Problem, Range,
+    Report, Select,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::forecast::{Size, TooLarge};
+use crate::local::refine_within;
 use crate::meter::{Meter, Through};
 use crate::{Rules, check_faces, finer, limit};
 
@@ -33,7 +37,7 @@ pub enum Until {
 
 /// A step of a recipe that subdivides.
 #[derive(Clone, Copy, Debug)]
-pub struct Step {
+pub struct Step<'a> {
     /// The name of the operation, for messages.
     pub name: &'static str,
     /// The scheme and its choices.
@@ -45,9 +49,11 @@ pub struct Step {
     pub until: Option<Until>,
     /// Whether vertices are pushed to the limit surface in the end.
     pub to_limit: bool,
+    /// Which faces are refined, if not all, with all that they become.
+    pub faces: Option<&'a FaceSelection>,
 }
 
-impl Step {
+impl Step<'_> {
     /// One level.
     pub const fn new(name: &'static str, rules: Rules) -> Self {
         Self {
@@ -56,6 +62,7 @@ impl Step {
             levels: None,
             until: None,
             to_limit: false,
+            faces: None,
         }
     }
 
@@ -70,6 +77,11 @@ impl Step {
         if levels > MAX_LEVELS {
             let message = format!("levels must lie between 0 and {MAX_LEVELS}, not {levels}");
             return Some((message, "levels"));
+        }
+        if self.faces.is_some() && (self.until.is_some() || self.to_limit) {
+            let message =
+                "`until` and `to_limit` are for the whole mesh, not for some of its faces";
+            return Some((message.to_owned(), "faces"));
         }
         let no_limit = !limit::has_limit(self.rules.scheme);
         match self.until {
@@ -112,6 +124,10 @@ impl Step {
         plan.drop_attribute(Domain::Vertex, TANGENT.name);
 
         let start = Size::of_plan(plan);
+        if let Some(faces) = self.faces {
+            self.plan_some(faces, plan, start, levels);
+            return problems;
+        }
         if let (Err(too_large), None) = (start.check(scheme, levels, cx.budget), self.until) {
             problems.push(
                 Problem::error(too_large.message())
@@ -143,6 +159,26 @@ impl Step {
         problems
     }
 
+    /// Plans the refinement of some faces: between nothing and the whole mesh.
+    fn plan_some(&self, faces: &FaceSelection, plan: &mut MeshPlan, start: Size, levels: u32) {
+        if faces.count(plan).max == 0 {
+            return;
+        }
+        let scheme = self.rules.scheme;
+        let whole = (0..levels).fold(start, |size, level| size.after(scheme, level));
+        let size = start.or(whole);
+        plan.vertices = size.vertices;
+        plan.edges = size.edges;
+        plan.faces = size.faces;
+        if !scheme.needs_triangles() {
+            // Faces beside get corners on their sides.
+            plan.degrees = Range {
+                min: plan.degrees.min.min(4),
+                max: plan.degrees.max.saturating_mul(1 << levels),
+            };
+        }
+    }
+
     /// Subdivides.
     ///
     /// # Errors
@@ -161,6 +197,13 @@ impl Step {
         }
         mesh.compact();
         check_faces(mesh, scheme)?;
+        if let Some(faces) = self.faces {
+            let chosen = faces.mask(mesh, cx)?;
+            let finer = refine_within(mesh, &chosen, self.rules, levels, cx.budget, &Through(cx))?;
+            let n = mesh.n_faces();
+            mesh.replace(finer);
+            return Ok(Report::changed(mesh.n_faces().abs_diff(n)));
+        }
         let report = match self.until {
             None => self.all_levels(mesh, levels, cx)?,
             Some(until) => self.levels_until(mesh, until, levels, cx)?,

@@ -59,7 +59,7 @@ impl Butterfly {
         }
     }
 
-    fn step(&self) -> Step {
+    fn step(&self) -> Step<'_> {
         Step {
             levels: self.levels,
             until: self.until,

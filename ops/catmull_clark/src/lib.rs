@@ -31,7 +31,7 @@
 //! The crate `subdivision` does the work, for this scheme and the others.
 
 use mesh::Mesh;
-use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
+use op::{Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use subdivision::{Boundary, Creasing, FaceVarying, Rules, Scheme, Step, Until};
@@ -70,6 +70,10 @@ pub struct CatmullClark {
     /// Whether vertices are pushed to the limit surface in the end, and get its normals and tangents.
     #[serde(default)]
     pub to_limit: bool,
+    /// Which faces are refined, with all that they become; all if nothing is said. Faces beside them
+    /// get the new vertices as corners, and what lies outside does not move. The numbers of new elements are those of `subdivision::refine_faces`.
+    #[serde(default)]
+    pub faces: Option<FaceSelection>,
 }
 
 impl CatmullClark {
@@ -81,7 +85,7 @@ impl CatmullClark {
         }
     }
 
-    fn step(&self) -> Step {
+    fn step(&self) -> Step<'_> {
         Step {
             name: Self::NAME,
             rules: Rules {
@@ -93,6 +97,7 @@ impl CatmullClark {
             levels: self.levels,
             until: self.until,
             to_limit: self.to_limit,
+            faces: self.faces.as_ref(),
         }
     }
 }

@@ -67,7 +67,7 @@ impl DooSabin {
         }
     }
 
-    fn step(&self) -> Step {
+    fn step(&self) -> Step<'_> {
         Step {
             levels: self.levels,
             until: self.until,

@@ -31,7 +31,7 @@
 //! The crate `subdivision` does the work, for this scheme and the others.
 
 use mesh::Mesh;
-use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
+use op::{Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Step, Until};
@@ -72,6 +72,11 @@ pub struct LoopSubdivide {
     /// Whether vertices are pushed to the limit surface in the end, and get its normals and tangents.
     #[serde(default)]
     pub to_limit: bool,
+    /// Which faces are refined, with all that they become; all if nothing is said. Faces beside them are
+    /// cut in two or four, so that no vertex lies on an edge of another face, and what lies outside
+    /// does not move. The numbers of new elements are those of `subdivision::refine_faces`.
+    #[serde(default)]
+    pub faces: Option<FaceSelection>,
 }
 
 impl LoopSubdivide {
@@ -83,7 +88,7 @@ impl LoopSubdivide {
         }
     }
 
-    fn step(&self) -> Step {
+    fn step(&self) -> Step<'_> {
         Step {
             name: Self::NAME,
             rules: Rules {
@@ -95,6 +100,7 @@ impl LoopSubdivide {
             levels: self.levels,
             until: self.until,
             to_limit: self.to_limit,
+            faces: self.faces.as_ref(),
         }
     }
 }

@@ -18,7 +18,7 @@
 //! The crate `subdivision` does the work, for this scheme and the others.
 
 use mesh::Mesh;
-use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
+use op::{Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use subdivision::{Rules, Scheme, Split, Step, Until};
@@ -47,6 +47,10 @@ pub struct Midpoint {
     /// How faces are cut.
     #[serde(default)]
     pub into: Split,
+    /// Which faces are refined, with all that they become; all if nothing is said. Triangles beside
+    /// them are cut in two or four, other faces get the new vertices as corners. The numbers of new elements are those of `subdivision::refine_faces`.
+    #[serde(default)]
+    pub faces: Option<FaceSelection>,
 }
 
 impl Midpoint {
@@ -58,10 +62,11 @@ impl Midpoint {
         }
     }
 
-    fn step(&self) -> Step {
+    fn step(&self) -> Step<'_> {
         Step {
             levels: self.levels,
             until: self.until,
+            faces: self.faces.as_ref(),
             ..Step::new(Self::NAME, Rules::of(Scheme::Midpoint(self.into)))
         }
     }

@@ -71,7 +71,7 @@ impl Sqrt3 {
         }
     }
 
-    fn step(&self) -> Step {
+    fn step(&self) -> Step<'_> {
         Step {
             levels: self.levels,
             until: self.until,

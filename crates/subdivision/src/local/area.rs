@@ -1,11 +1,11 @@
 //! Where a level smooths: inside of the chosen faces.
 
-use mesh::{EdgeId, Mesh};
+use mesh::{DVec3, EdgeId, Mesh};
 use op::OpError;
 
 use super::pieces::Pieces;
 use crate::level::Topology;
-use crate::masks::{Masks, Number, fill};
+use crate::masks::{AnyMasks, Masks, fill};
 use crate::meter::Meter;
 
 /// What belongs to the chosen faces alone.
@@ -31,9 +31,9 @@ impl Area {
 }
 
 /// The masks of a scheme where it smooths; elsewhere old vertices stay and new ones lie in the middle.
-pub(super) struct AreaMasks<'a, M> {
+pub(super) struct AreaMasks<'a> {
     pub(super) pieces: &'a Pieces<'a>,
-    pub(super) masks: &'a M,
+    pub(super) masks: &'a dyn AnyMasks,
 }
 
 /// Where a vertex comes from.
@@ -46,7 +46,7 @@ enum Source {
     Middle(EdgeId),
 }
 
-impl<M: Masks> AreaMasks<'_, M> {
+impl AreaMasks<'_> {
     fn source(&self, i: usize) -> Source {
         let pieces = self.pieces;
         let (n_vertices, n_edges) = (pieces.mesh.n_vertices(), pieces.mesh.n_edges());
@@ -68,7 +68,7 @@ impl<M: Masks> AreaMasks<'_, M> {
     }
 }
 
-impl<M: Masks> Masks for AreaMasks<'_, M> {
+impl Masks for AreaMasks<'_> {
     fn n_vertices(&self) -> usize {
         self.pieces.counts()[0]
     }
@@ -85,18 +85,18 @@ impl<M: Masks> Masks for AreaMasks<'_, M> {
         }
     }
 
-    fn values<T: Number>(&self, old: &[T], meter: &Meter) -> Result<Vec<T>, OpError> {
+    fn values(&self, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, OpError> {
         // Each vertex of a large face would sum all its corners for itself.
         let has_centers = !self.pieces.centered.is_empty();
         let whole = has_centers.then(|| self.masks.values(old, meter));
         let whole = whole.transpose()?;
-        let mut new: Vec<T> = mesh::zeroed(self.n_vertices());
-        fill(&mut new, 0, meter, |i| {
+        let mut new: Vec<DVec3> = mesh::zeroed(Masks::n_vertices(self));
+        fill(&mut new, meter, |i| {
             if let (Some(whole), Source::Whole(i)) = (&whole, self.source(i)) {
                 return whole[i];
             }
-            let mut sum = T::default();
-            self.mask(i, &mut |source, w| sum = sum + old[source] * w);
+            let mut sum = DVec3::ZERO;
+            Masks::mask(self, i, &mut |source, w| sum += old[source] * w);
             sum
         })?;
         Ok(new)

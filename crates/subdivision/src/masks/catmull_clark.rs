@@ -12,11 +12,11 @@
 //! a, b and e are old vertices, f and g the new ones in the faces, n is the valence of v. Catmull and
 //! Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes", 1978.
 
-use mesh::{EdgeId, FaceId, Mesh, VertexId};
+use mesh::{DVec3, EdgeId, FaceId, Mesh, VertexId};
 use op::OpError;
 
 use super::midpoint::center;
-use super::{Masks, Number, at_vertex, fill};
+use super::{Masks, at_vertex, fill};
 use crate::meter::Meter;
 use crate::sharpness::Sharpness;
 
@@ -49,28 +49,28 @@ impl Masks for CatmullClarkMasks<'_> {
         }
     }
 
-    fn values<T: Number>(&self, old: &[T], meter: &Meter) -> Result<Vec<T>, OpError> {
-        let mut new: Vec<T> = mesh::zeroed(self.n_vertices());
+    fn values(&self, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, OpError> {
+        let mut new: Vec<DVec3> = mesh::zeroed(self.n_vertices());
         let first_center = self.mesh.n_vertices() + self.mesh.n_edges();
         // The centers first: the others read them.
         let (others, centers) = new.split_at_mut(first_center);
-        fill(centers, 0, meter, |f| {
-            let (mut sum, mut n) = (T::default(), 0_u32);
+        fill(centers, meter, |f| {
+            let (mut sum, mut n) = (DVec3::ZERO, 0_u32);
             for v in self.mesh.face_vertices(FaceId::new(f)) {
-                sum = sum + old[v.index()];
+                sum += old[v.index()];
                 n += 1;
             }
             sum * (1.0 / f64::from(n))
         })?;
         let centers = &*centers;
-        fill(others, 0, meter, |i| {
-            let mut sum = T::default();
+        fill(others, meter, |i| {
+            let mut sum = DVec3::ZERO;
             self.over_centers(i, &mut |source, w| {
                 let value = match source {
                     Source::Old(i) => old[i],
                     Source::Center(f) => centers[f.index()],
                 };
-                sum = sum + value * w;
+                sum += value * w;
             });
             sum
         })?;

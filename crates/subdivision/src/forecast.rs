@@ -1,6 +1,6 @@
 //! How large a mesh becomes, known before anything is computed.
 
-use std::fmt;
+use std::{fmt, ops};
 
 use mesh::{Domain, Mesh, VertexId};
 use op::{MeshPlan, Range};
@@ -156,11 +156,11 @@ impl Size {
         }
     }
 
-    /// How much so many levels from here add to the [`Meter`](crate::meter::Meter): about one for each new
+    /// How much these levels, of which the first begins here, add to the [`Meter`](crate::meter::Meter): about one for each new
     /// vertex, and one for each old edge and new face or, in schemes of other edges, for each new edge.
-    pub(crate) fn work(self, scheme: Scheme, levels: u32) -> u64 {
+    pub(crate) fn work(self, scheme: Scheme, levels: ops::Range<u32>) -> u64 {
         let (mut size, mut sum) = (self, 0_u64);
-        for level in 0..levels {
+        for level in levels {
             let next = size.after(scheme, level);
             let counts = match scheme {
                 Scheme::Sqrt3 | Scheme::DooSabin => [next.vertices, next.edges, Range::exactly(0)],
@@ -186,23 +186,28 @@ impl Size {
         .fold(0, u64::saturating_add)
     }
 
-    /// Whether the mesh after so many levels has ids for all elements and stays within the budget, in
-    /// bytes.
-    pub(crate) fn check(self, scheme: Scheme, levels: u32, budget: u64) -> Result<(), TooLarge> {
+    /// Whether the mesh after these levels, of which the first begins here, has ids for all elements and
+    /// stays within the budget, in bytes.
+    pub(crate) fn check(
+        self,
+        scheme: Scheme,
+        levels: ops::Range<u32>,
+        budget: u64,
+    ) -> Result<(), TooLarge> {
         let mut size = self;
         let mut fits = None;
-        for level in 0..=levels {
+        for level in levels.start..=levels.end {
             if size.has_ids() && size.bytes() <= budget {
                 fits = Some(level);
             }
-            if level < levels {
+            if level < levels.end {
                 size = size.after(scheme, level);
             }
         }
-        if fits == Some(levels) {
+        if fits == Some(levels.end) {
             return Ok(());
         }
-        Err(size.too_large(levels, budget, fits))
+        Err(size.too_large(levels.end, budget, fits))
     }
 
     /// Whether the mesh of this level, with the attributes of this one and these numbers of vertices, edges
@@ -314,8 +319,8 @@ mod tests {
     #[test]
     fn ids_end_before_fourteen_levels_of_an_icosahedron() {
         // 60 * 4^13 half-edges are 4.03e9, which ids can number; 60 * 4^14 are not.
-        assert_eq!(icosahedron().check(LOOP, 13, u64::MAX), Ok(()));
-        let too_large = icosahedron().check(LOOP, 14, u64::MAX).unwrap_err();
+        assert_eq!(icosahedron().check(LOOP, 0..13, u64::MAX), Ok(()));
+        let too_large = icosahedron().check(LOOP, 0..14, u64::MAX).unwrap_err();
         assert_eq!(too_large.fits, Some(13));
         assert_eq!(
             too_large.to_string(),
@@ -329,11 +334,11 @@ mod tests {
         let bytes = (0..3)
             .fold(icosahedron(), |s, level| s.after(LOOP, level))
             .bytes();
-        assert_eq!(icosahedron().check(LOOP, 3, bytes), Ok(()));
-        let too_large = icosahedron().check(LOOP, 3, bytes - 1).unwrap_err();
+        assert_eq!(icosahedron().check(LOOP, 0..3, bytes), Ok(()));
+        let too_large = icosahedron().check(LOOP, 0..3, bytes - 1).unwrap_err();
         assert_eq!(too_large.fits, Some(2));
         assert!(too_large.message().contains("budget"), "{too_large}");
-        assert_eq!(icosahedron().check(LOOP, 1, 100).unwrap_err().fits, None);
+        assert_eq!(icosahedron().check(LOOP, 0..1, 100).unwrap_err().fits, None);
     }
 
     #[test]
@@ -347,6 +352,6 @@ mod tests {
             with_two_edges: Range::exactly(0),
             attributes: [16; 4],
         };
-        assert_eq!(endless.check(LOOP, 16, u64::MAX).unwrap_err().fits, None);
+        assert_eq!(endless.check(LOOP, 0..16, u64::MAX).unwrap_err().fits, None);
     }
 }

@@ -99,12 +99,12 @@ pub fn subdivide(
     mesh.compact();
     check_faces(&mesh, rules.scheme)?;
     let size = Size::of(&mesh);
-    size.check(rules.scheme, levels, u64::MAX)
+    size.check(rules.scheme, 0..levels, u64::MAX)
         .map_err(|too_large| OpError::Budget(too_large.to_string()))?;
     let meter = Meter::new(
         progress,
         rules.scheme.name(),
-        size.work(rules.scheme, levels),
+        size.work(rules.scheme, 0..levels),
     );
     for level in 0..levels {
         mesh = finer(&mesh, rules, level, &meter)?;

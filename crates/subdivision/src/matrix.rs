@@ -134,9 +134,9 @@ pub fn subdivision_matrix(
     keep_sharpness(&mut mesh);
     check_faces(&mesh, rules.scheme)?;
     let size = Size::of(&mesh);
-    size.check(rules.scheme, levels, u64::MAX)
+    size.check(rules.scheme, 0..levels, u64::MAX)
         .map_err(|too_large| OpError::Budget(too_large.to_string()))?;
-    let work = size.work(rules.scheme, levels).saturating_mul(2);
+    let work = size.work(rules.scheme, 0..levels).saturating_mul(2);
     let meter = Meter::new(progress, "subdivision matrix", work);
     let n = mesh.n_vertices();
     let mut matrix = SparseMatrix::of_rows(n, n, &meter, |i, add| add(i, 1.0))?;

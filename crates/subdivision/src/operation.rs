@@ -128,7 +128,7 @@ impl Step<'_> {
             self.plan_some(faces, plan, start, levels);
             return problems;
         }
-        if let (Err(too_large), None) = (start.check(scheme, levels, cx.budget), self.until) {
+        if let (Err(too_large), None) = (start.check(scheme, 0..levels, cx.budget), self.until) {
             problems.push(
                 Problem::error(too_large.message())
                     .at(["levels"])
@@ -217,9 +217,9 @@ impl Step<'_> {
     fn all_levels(&self, mesh: &mut Mesh, levels: u32, cx: &Context) -> Result<Report, OpError> {
         let size = Size::of(mesh);
         let scheme = self.rules.scheme;
-        size.check(scheme, levels, cx.budget).map_err(budget)?;
+        size.check(scheme, 0..levels, cx.budget).map_err(budget)?;
         let through = Through(cx);
-        let meter = Meter::new(&through, scheme.name(), size.work(scheme, levels));
+        let meter = Meter::new(&through, scheme.name(), size.work(scheme, 0..levels));
         for level in 0..levels {
             mesh.replace(finer(mesh, self.rules, level, &meter)?);
         }
@@ -237,7 +237,9 @@ impl Step<'_> {
         let through = Through(cx);
         let scheme = self.rules.scheme;
         for level in 0..=levels {
-            let meter = Meter::new(&through, scheme.name(), Size::of(mesh).work(scheme, 1));
+            let (size, one) = (Size::of(mesh), level..level + 1);
+            let work = size.work(scheme, one.clone());
+            let meter = Meter::new(&through, scheme.name(), work);
             let (what, now, below) = match until {
                 Until::EdgeLength { below } => ("an edge is", longest_edge(mesh), below),
                 Until::LimitDistance { below } => {
@@ -256,15 +258,13 @@ impl Step<'_> {
                 let message = format!("after level {level} {what} still {now}, not below {below}");
                 return Err(OpError::Budget(message));
             }
-            Size::of(mesh)
-                .check(scheme, 1, cx.budget)
-                .map_err(|too_large| {
-                    let message = format!("after level {level} {what} still {now}");
-                    OpError::Budget(format!(
-                        "{message}, and the next is too large: {}",
-                        too_large.message()
-                    ))
-                })?;
+            size.check(scheme, one, cx.budget).map_err(|too_large| {
+                let message = format!("after level {level} {what} still {now}");
+                OpError::Budget(format!(
+                    "{message}, and the next is too large: {}",
+                    too_large.message()
+                ))
+            })?;
             mesh.replace(finer(mesh, self.rules, level, &meter)?);
         }
         unreachable!("the last level returns")

@@ -6,7 +6,7 @@ use op::{Context, Files, MeshPlan, NoProgress, PlanContext};
 use super::SCHEMES;
 use crate::fixtures;
 use crate::forecast::Size;
-use crate::{Rules, Scheme, Step};
+use crate::{Rules, Scheme, Step, Until};
 
 #[test]
 fn counts_are_foreseen_exactly_for_every_scheme_on_every_fixture() {
@@ -64,5 +64,32 @@ fn the_size_of_a_mesh_tells_that_of_every_level_exactly() {
                 assert_eq!(size, Size::of(&new), "{name} {scheme:?} {levels}");
             }
         }
+    }
+}
+
+#[test]
+fn a_budget_holds_for_every_level_until_a_condition_is_met() {
+    // What an odd level of Sqrt3 makes of a boundary differs from what an even one makes.
+    let mesh = fixtures::sheet(4, 3);
+    let files = Files::default();
+    for scheme in SCHEMES {
+        let bytes = super::levels(scheme, 2, &mesh).bytes() as u64;
+        let message = |budget| {
+            let step = Step {
+                levels: Some(2),
+                until: Some(Until::EdgeLength { below: 1e-9 }),
+                ..Step::new("Test", Rules::of(scheme))
+            };
+            let mut cx = Context::new(&NoProgress, &files);
+            cx.budget = budget;
+            step.apply(&mut mesh.clone(), &mut cx)
+                .unwrap_err()
+                .to_string()
+        };
+        let met = message(bytes);
+        assert!(met.contains("after level 2 "), "{scheme:?} {met}");
+        let short = message(bytes - 1);
+        assert!(short.contains("after level 1 "), "{scheme:?} {short}");
+        assert!(short.contains("level 2 has "), "{scheme:?} {short}");
     }
 }

@@ -187,6 +187,23 @@ fn corner_values_with_loop() {
 }
 
 #[test]
+fn corner_values_with_midpoints() {
+    let mut comparison = Comparison::default();
+    let mut random = Random(6);
+    for (name, mesh) in meshes::polygons() {
+        for face_varying in FACE_VARYING {
+            let mesh = Islands::Four.on(&mesh, &mut random);
+            let rules = Rules {
+                face_varying,
+                ..Rules::of(Scheme::Midpoint(Split::Quads))
+            };
+            comparison.compare(&name, &mesh, rules, 2);
+        }
+    }
+    comparison.finish();
+}
+
+#[test]
 fn corner_values_with_catmull_clark() {
     compare_corner_values(&meshes::polygons(), Scheme::CatmullClark);
 }

@@ -303,6 +303,11 @@ pub(crate) fn refine(
     }
 }
 
+/// Whether values do not leave their faces.
+fn is_linear(rules: Rules) -> bool {
+    rules.face_varying == FaceVarying::All || matches!(rules.scheme, Scheme::Midpoint(_))
+}
+
 /// The new value of an edge, on the side given.
 fn of_edge(
     charts: &Charts,
@@ -313,7 +318,7 @@ fn of_edge(
     sharpness: &Sharpness,
 ) -> DVec2 {
     let ends = charts.values[charts.at(side, 0)] + charts.values[charts.at(side, 1)];
-    if charts.seams.contains(&e) || rules.face_varying == FaceVarying::All {
+    if charts.seams.contains(&e) || is_linear(rules) {
         return 0.5 * ends;
     }
     let mask = masks::of_edge(e, rules, sharpness);
@@ -344,7 +349,7 @@ impl Vertex<'_> {
             sharpness,
         } = *self;
         let values = values_at(charts, v, around);
-        if rules.face_varying == FaceVarying::All {
+        if is_linear(rules) {
             return values.iter().map(|&x| (x, charts.values[x])).collect();
         }
         let [states, next] =

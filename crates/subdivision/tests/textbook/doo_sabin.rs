@@ -66,7 +66,10 @@ pub(crate) fn refine(mesh: &Polygons) -> Polygons {
             face.insert(0, outside[&(v, leads)]);
             face.push(outside[&(v, arrives)]);
         }
-        faces.push(face);
+        // Two corners are no face: their edges are one.
+        if face.len() > 2 {
+            faces.push(face);
+        }
     }
     Polygons::new(positions, faces)
 }

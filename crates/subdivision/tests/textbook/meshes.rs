@@ -235,9 +235,6 @@ pub(crate) fn triangles() -> Vec<Named> {
         .collect()
 }
 
-/// The name of a mesh with an inner vertex of valence 2.
-pub(crate) const TWO_EDGES: &str = "filled dent";
-
 /// A point on a plane.
 fn on_plane(x: i32, y: i32) -> DVec3 {
     DVec3::new(f64::from(x), f64::from(y), 0.0)
@@ -275,7 +272,7 @@ pub(crate) fn polygons() -> Vec<Named> {
     add("dented", dented.clone());
     // Two faces share two edges in a row.
     add(
-        TWO_EDGES,
+        "filled dent",
         concave(vec![vec![0, 1, 2, 3, 4], vec![1, 5, 2], vec![4, 3, 2, 6]]),
     );
     add(

@@ -312,7 +312,14 @@ const SAMPLES: &[(&str, &[&str])] = &[
     ),
     (
         "LoopSubdivide",
-        &["(levels: 0)", "(levels: 1)", "(levels: 2)"],
+        &[
+            "(levels: 0)",
+            "(levels: 1)",
+            "(levels: 2)",
+            "(weights: Loop, boundary: Fixed, face_varying: Boundaries, to_limit: true)",
+            "(until: EdgeLength(below: 0.4), levels: 5)",
+            "(levels: 2, faces: Random(count: 2, seed: 3))",
+        ],
     ),
     (
         "CatmullClark",
@@ -321,11 +328,18 @@ const SAMPLES: &[(&str, &[&str])] = &[
             "(levels: 1)",
             "(levels: 2, boundary: EdgesAndCorners, creasing: Chaikin, face_varying: CornersPlus1)",
             "(levels: 1, to_limit: true)",
+            "(until: LimitDistance(below: 0.05), levels: 4)",
+            "(levels: 2, faces: Random(count: 2, seed: 3))",
         ],
     ),
     (
         "Midpoint",
-        &["(levels: 0)", "(levels: 1)", "(levels: 2, into: Quads)"],
+        &[
+            "(levels: 0)",
+            "(levels: 1)",
+            "(levels: 2, into: Quads)",
+            "(levels: 1, faces: Random(count: 2, seed: 3))",
+        ],
     ),
     ("Butterfly", &["(levels: 0)", "(levels: 1)", "(levels: 2)"]),
     ("Sqrt3", &["(levels: 0)", "(levels: 1)", "(levels: 2)"]),

@@ -69,18 +69,19 @@ Cage icosahedron() {
     return cage;
 }
 
-/// A torus of n by n quads, of which each `every`-th is cut into two triangles.
-Cage torus(int n, int every) {
-    double const turn = 6.283185307179586 / n;
+/// A torus of m by n quads, of which each `every`-th is cut into two triangles.
+Cage torus(int m, int n, int every) {
+    double const turn = 6.283185307179586;
     Cage cage;
-    for (int i = 0; i < n; ++i) {
+    for (int i = 0; i < m; ++i) {
         for (int j = 0; j < n; ++j) {
-            double const r = 1.0 + 0.4 * std::cos(j * turn);
-            cage.positions.push_back({r * std::cos(i * turn), r * std::sin(i * turn), 0.4 * std::sin(j * turn)});
+            double const a = turn * i / m, b = turn * j / n;
+            double const r = 2.0 + std::cos(b);
+            cage.positions.push_back({r * std::cos(a), r * std::sin(a), std::sin(b)});
         }
     }
-    auto const at = [n](int i, int j) { return (i % n) * n + j % n; };
-    for (int i = 0; i < n; ++i) {
+    auto const at = [m, n](int i, int j) { return (i % m) * n + j % n; };
+    for (int i = 0; i < m; ++i) {
         for (int j = 0; j < n; ++j) {
             int const a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
             if ((i * n + j) % every == 0) {
@@ -171,7 +172,7 @@ int main() {
     // "last" first: it is what a viewer takes; "full" is what a mesh that can be edited needs.
     for (bool full : {false, true}) {
         run("loop, icosahedron, 9 levels", icosahedron(), Sdc::SCHEME_LOOP, 9, full);
-        run("loop, 100352 triangles, 3 levels", torus(224, 1), Sdc::SCHEME_LOOP, 3, full);
-        run("catmull-clark, 32448 faces, 3 levels", torus(156, 3), Sdc::SCHEME_CATMARK, 3, full);
+        run("loop, 100352 triangles, 3 levels", torus(224, 224, 1), Sdc::SCHEME_LOOP, 3, full);
+        run("catmull-clark, 33451 faces, 3 levels", torus(224, 112, 3), Sdc::SCHEME_CATMARK, 3, full);
     }
 }

@@ -178,11 +178,12 @@ std::unique_ptr<Refiner> refined(Case const& in) {
     return refiner;
 }
 
-/// Prints numbers, each after a blank. What rounds to zero has no sign.
+/// Prints numbers, each after a blank. What rounds to zero has no sign. Halves, which are common, are rounded
+/// up even where the last bits differ between compilers.
 template <int N>
 void print(Value<N> const& value) {
     for (double x : value.at) {
-        double const rounded = std::round(x * 1e7) / 1e7;
+        double const rounded = std::floor(x * 1e7 + 0.5001) / 1e7;
         std::printf(" %.7f", rounded == 0.0 ? 0.0 : rounded);
     }
 }

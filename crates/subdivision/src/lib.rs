@@ -18,6 +18,35 @@
 //! elements follow from the old is written in the modules `halves`, `triangles`, `quads`, `doo_sabin` and
 //! `sqrt3`; the means are in `masks`, creases in `sharpness`.
 //!
+//! # Convergence
+//!
+//! [`limit`] says where the vertices go. The largest distance from a vertex to its limit, for Loop:
+//!
+//! ```text
+//! 1    |
+//!      |  +
+//!      |  o
+//! 1e-1 |        *
+//!      |              +
+//! 1e-2 |              o
+//!      |                    *
+//!      |
+//! 1e-3 |                          *
+//!      |                                *
+//!      |                                      o
+//! 1e-4 |                                      +
+//!      |                                            o     o
+//!      |                                            +
+//! 1e-5 |                                                  +
+//!      |
+//!      +------------------------------------------------------
+//!        0     1     2     3     4     5     6     7     8   level
+//! ```
+//!
+//! \+ is a torus of regular valence: what is left is quadratic in the length of edges, so each level divides
+//! it by 4. o is an icosahedron: around its vertices of valence 5 a level scales the surface, and at last
+//! the distance too, by the subdominant eigenvalue 3/8 + cos(2π/5)/4 = 0.452.
+//!
 //! # Examples
 //!
 //! ```

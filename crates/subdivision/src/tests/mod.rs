@@ -2,6 +2,7 @@
 
 mod attributes;
 mod butterfly;
+mod convergence;
 mod doo_sabin;
 mod laws;
 mod limit;

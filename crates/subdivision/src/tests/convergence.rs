@@ -1,0 +1,68 @@
+//! How fast levels come to the limit.
+
+use std::f64::consts::TAU;
+
+use mesh::{DVec3, Mesh, shapes};
+use op::NoProgress;
+
+use crate::fixtures;
+use crate::meter::Meter;
+use crate::{LoopWeights, Rules, Scheme, limit, subdivide};
+
+const LOOP: Scheme = Scheme::Loop(LoopWeights::Warren);
+
+/// The largest distances to the limit from level 0 on.
+fn distances(mut mesh: Mesh, rules: Rules, levels: u32) -> Vec<f64> {
+    let mut found = Vec::new();
+    for _ in 0..=levels {
+        let meter = Meter::new(&NoProgress, "distance", 0);
+        found.push(limit::distance(&mesh, rules, &meter).unwrap());
+        mesh = subdivide(&mesh, rules, 1, &NoProgress).unwrap();
+    }
+    found
+}
+
+#[test]
+fn cages_come_to_their_limit_at_the_rate_of_their_vertices() {
+    // Around a vertex a level scales the surface by the subdominant eigenvalue of its valence, and with it
+    // the distance that points next to it have to go along the surface. Only where all valences are
+    // regular what is left is quadratic in the length of edges: a factor of 4.
+    let loop_rate = |n: f64| 0.375 + 0.25 * libm::cos(TAU / n);
+    let cases = [
+        (LOOP, shapes::icosahedron(), 8, loop_rate(5.0)),
+        (LOOP, shapes::fans(&shapes::torus(8, 8, 2.0, 1.0)), 5, 0.25),
+        (Scheme::CatmullClark, shapes::cube(), 8, 0.410_097_2),
+        (Scheme::CatmullClark, shapes::torus(8, 8, 2.0, 1.0), 5, 0.25),
+    ];
+    for (scheme, mesh, levels, rate) in cases {
+        let found = distances(mesh, Rules::of(scheme), levels);
+        let last = found[levels as usize] / found[levels as usize - 1];
+        assert!(
+            (last / rate - 1.0).abs() < 0.05,
+            "{scheme:?} {last} {rate} {found:?}"
+        );
+    }
+}
+
+#[test]
+fn a_vertex_comes_to_its_limit_by_the_eigenvalue_of_its_valence() {
+    // Loop: the vertex and the mean of its ring have the matrix (1 - nu, nu; 3/8, 5/8), whose eigenvalues
+    // are 1 and 5/8 - nu.
+    for weights in [LoopWeights::Warren, LoopWeights::Loop] {
+        let rules = Rules::of(Scheme::Loop(weights));
+        for (name, mesh) in fixtures::all() {
+            let goal = limit(&mesh, rules, &NoProgress).unwrap().positions;
+            let next = subdivide(&mesh, rules, 1, &NoProgress).unwrap();
+            for v in mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v)) {
+                let n = mesh.valence(v);
+                if n == 0 {
+                    continue;
+                }
+                let lambda = 0.625 - n as f64 * weights.of(n);
+                let left = |m: &Mesh| -> DVec3 { m.position(v) - goal[v.index()] };
+                let far = left(&next).distance(lambda * left(&mesh));
+                assert!(far < 1e-13, "{name} {v} {far:e}");
+            }
+        }
+    }
+}

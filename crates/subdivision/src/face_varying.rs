@@ -14,8 +14,8 @@
 //!
 //! [`FaceVarying`] chooses what is a corner. The rules are OpenSubdiv's face-varying interpolation, taken
 //! anew on each level, so that two levels are one level twice. (OpenSubdiv decides once whether the
-//! sharpness of one of two pieces sharpens the other and hands the verdict on; where both pieces are
-//! semi-sharp, by different numbers, that may differ for a level.)
+//! sharpness of one of two pieces sharpens the other and hands the verdict on; where pieces, their seam or
+//! their vertex are semi-sharp by different numbers, that may differ for a level.)
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use rayon::prelude::*;

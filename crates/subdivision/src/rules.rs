@@ -90,7 +90,8 @@ pub enum Creasing {
     #[default]
     Uniform,
     /// By 1 from a mean with the neighbors along the crease, so that sharpness that changes along a
-    /// crease changes smoothly: OpenSubdiv's rule after Chaikin's curves.
+    /// crease changes smoothly: OpenSubdiv's rule after Chaikin's curves. (Where one half of an edge of
+    /// sharpness above 1 becomes smooth, the new vertex stays in the middle; OpenSubdiv's goes beyond.)
     Chaikin,
 }
 

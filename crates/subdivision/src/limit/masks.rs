@@ -118,7 +118,8 @@ impl Star {
     /// Along the crease, and across it into the k faces of the plane. With θ = π/k the second is the left
     /// eigenvector that has sin(iθ) at spoke i inside, m (sin(iθ) + sin((i+1)θ)) at the corners opposite, and
     /// what follows from that at both ends of the crease and in the center. (The literature gives it for
-    /// k ≤ 3 and for other rules along the crease.)
+    /// k ≤ 3 and for other rules along the crease.) With six and more triangles on one side the surface has no
+    /// tangent plane there, whatever the masks say; this one holds the tangent of the crease.
     fn crease_tangents(&self, plane: Plane) -> [DVec3; 2] {
         let k = plane.n_faces;
         let [first, last] = [0, k].map(|i| self.spoke(plane, i));

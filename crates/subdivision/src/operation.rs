@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::forecast::{Size, TooLarge};
 use crate::local::refine_within;
 use crate::meter::{Meter, Through};
-use crate::{Rules, check_faces, finer, limit};
+use crate::{Rules, Scheme, check_faces, finer, limit};
 
 /// The most levels that a step may ask for: a single triangle fills the ids before.
 pub const MAX_LEVELS: u32 = 16;
@@ -71,6 +71,10 @@ impl Step<'_> {
         self.levels.unwrap_or(otherwise)
     }
 
+    fn does_nothing(&self) -> bool {
+        self.most_levels() == 0 && !self.to_limit && self.until.is_none()
+    }
+
     /// What is wrong with the parameters, and which.
     fn problem(&self) -> Option<(String, &'static str)> {
         let levels = self.most_levels();
@@ -106,7 +110,7 @@ impl Step<'_> {
             problems.push(Problem::error(message).at([field]));
         }
         let mut levels = self.most_levels().min(MAX_LEVELS);
-        if levels == 0 && !self.to_limit {
+        if self.does_nothing() {
             return problems;
         }
         let scheme = self.rules.scheme;
@@ -192,7 +196,7 @@ impl Step<'_> {
         }
         let (scheme, levels) = (self.rules.scheme, self.most_levels());
         cx.advance(scheme.name(), 0, 1)?;
-        if levels == 0 && !self.to_limit {
+        if self.does_nothing() {
             return Ok(Report::default());
         }
         mesh.compact();
@@ -204,10 +208,12 @@ impl Step<'_> {
             mesh.replace(finer);
             return Ok(Report::changed(mesh.n_faces().abs_diff(n)));
         }
-        let report = match self.until {
+        let torn = torn(mesh, scheme);
+        let mut report = match self.until {
             None => self.all_levels(mesh, levels, cx)?,
             Some(until) => self.levels_until(mesh, until, levels, cx)?,
         };
+        report.notes.extend(torn);
         if self.to_limit {
             push_to_limit(mesh, self.rules, cx)?;
         }
@@ -269,6 +275,28 @@ impl Step<'_> {
         }
         unreachable!("the last level returns")
     }
+}
+
+/// What schemes cannot keep whose faces lie across old edges.
+fn torn(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
+    let mut lines = Vec::new();
+    if matches!(scheme, Scheme::Sqrt3 | Scheme::DooSabin) {
+        let seams = mesh.edges().filter(|&e| mesh.is_seam(e)).count();
+        if seams > 0 {
+            lines.push(format!(
+                "{seams} seams of corner values are torn: new faces lie across them"
+            ));
+        }
+    }
+    let columns = mesh.attributes().of(Domain::Edge);
+    if scheme == Scheme::Sqrt3 && !columns.is_empty() {
+        let names: Vec<&str> = columns.iter().map(|c| c.name.as_str()).collect();
+        let names = names.join(", ");
+        lines.push(format!(
+            "edges inside lose their values ({names}): every one is turned"
+        ));
+    }
+    lines
 }
 
 fn budget(too_large: TooLarge) -> OpError {

@@ -12,6 +12,7 @@ mod other_ways;
 mod plan;
 mod schemes;
 mod sqrt3;
+mod step;
 
 use mesh::{DVec3, Mesh, VertexId};
 use op::NoProgress;

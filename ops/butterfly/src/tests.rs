@@ -1,4 +1,4 @@
-//! The operation: counts, kinds of surfaces, refusals, threads, recipes.
+//! The operation: counts, refusals, recipes.
 
 use mesh::{Mesh, shapes};
 
@@ -28,49 +28,6 @@ fn an_icosahedron_becomes_80_triangles_and_then_320() {
 }
 
 #[test]
-fn a_closed_surface_stays_closed_and_keeps_its_genus() {
-    for mesh in [
-        shapes::icosahedron(),
-        shapes::octahedron(),
-        shapes::fans(&shapes::torus(5, 4, 2.0, 1.0)),
-    ] {
-        let new = applied(&Butterfly::levels(3), &mesh);
-        assert_eq!(new.n_boundary_loops(), 0);
-        assert_eq!(new.euler_characteristic(), mesh.euler_characteristic());
-    }
-}
-
-#[test]
-fn levels_follow_one_another_and_none_changes_nothing() {
-    let mesh = shapes::fans(&shapes::grid(3, 2));
-    let apply = |levels, mesh: &Mesh| applied(&Butterfly::levels(levels), mesh);
-    assert!(apply(0, &mesh) == mesh);
-    assert!(apply(1, &mesh) == applied(&Butterfly::default(), &mesh));
-    assert!(apply(3, &mesh) == apply(1, &apply(1, &apply(1, &mesh))));
-}
-
-#[test]
-fn the_bytes_are_the_same_for_any_number_of_threads() {
-    let mesh = shapes::fans(&shapes::grid(3, 2));
-    let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let pool = pool.build().unwrap();
-        pool.install(|| op::test::applied(&Butterfly::levels(4), mesh.clone()))
-    };
-    // Equal as bits: `==` would take -0 for 0.
-    let bits = |m: &Mesh| -> Vec<[u64; 3]> {
-        let bits = m.positions().iter().map(|p| p.to_array().map(f64::to_bits));
-        bits.collect()
-    };
-    let one = with(1);
-    for threads in [2, 8] {
-        let other = with(threads);
-        assert_eq!(bits(&other), bits(&one), "{threads}");
-        assert!(other == one, "{threads}");
-    }
-}
-
-#[test]
 fn polygons_are_refused_before_anything_runs() {
     let cube = shapes::cube();
     let reason = op::test::refused(&Butterfly::default(), cube.clone());
@@ -78,13 +35,6 @@ fn polygons_are_refused_before_anything_runs() {
     let (_, problems) = op::test::planned(&Butterfly::default(), &cube);
     assert_eq!(problems.len(), 1);
     assert!(problems[0].message.contains("at least 4 corners"));
-}
-
-#[test]
-fn old_vertices_stay() {
-    let mesh = shapes::fans(&shapes::torus(5, 4, 2.0, 1.0));
-    let new = applied(&Butterfly::levels(2), &mesh);
-    assert_eq!(new.positions()[..mesh.n_vertices()], *mesh.positions());
 }
 
 #[test]

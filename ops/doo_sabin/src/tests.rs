@@ -1,4 +1,4 @@
-//! The operation: counts, kinds of surfaces, refusals, threads, recipes.
+//! The operation: counts, refusals, recipes.
 
 use mesh::{Mesh, shapes};
 
@@ -19,49 +19,6 @@ fn a_cube_gets_26_faces_and_then_98() {
     let mesh = shapes::cube();
     assert_eq!(counts(&applied(&DooSabin::levels(1), &mesh)), [24, 48, 26]);
     assert_eq!(counts(&applied(&DooSabin::levels(2), &mesh)), [96, 192, 98]);
-}
-
-#[test]
-fn a_closed_surface_stays_closed_and_keeps_its_genus() {
-    for mesh in [
-        shapes::cube(),
-        shapes::cylinder(5, true),
-        shapes::torus(5, 4, 2.0, 1.0),
-    ] {
-        let new = applied(&DooSabin::levels(3), &mesh);
-        assert_eq!(new.n_boundary_loops(), 0);
-        assert_eq!(new.euler_characteristic(), mesh.euler_characteristic());
-    }
-}
-
-#[test]
-fn levels_follow_one_another_and_none_changes_nothing() {
-    let mesh = shapes::grid(3, 2);
-    let apply = |levels, mesh: &Mesh| applied(&DooSabin::levels(levels), mesh);
-    assert!(apply(0, &mesh) == mesh);
-    assert!(apply(1, &mesh) == applied(&DooSabin::default(), &mesh));
-    assert!(apply(3, &mesh) == apply(1, &apply(1, &apply(1, &mesh))));
-}
-
-#[test]
-fn the_bytes_are_the_same_for_any_number_of_threads() {
-    let mesh = shapes::grid(3, 2);
-    let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let pool = pool.build().unwrap();
-        pool.install(|| op::test::applied(&DooSabin::levels(4), mesh.clone()))
-    };
-    // Equal as bits: `==` would take -0 for 0.
-    let bits = |m: &Mesh| -> Vec<[u64; 3]> {
-        let bits = m.positions().iter().map(|p| p.to_array().map(f64::to_bits));
-        bits.collect()
-    };
-    let one = with(1);
-    for threads in [2, 8] {
-        let other = with(threads);
-        assert_eq!(bits(&other), bits(&one), "{threads}");
-        assert!(other == one, "{threads}");
-    }
 }
 
 #[test]

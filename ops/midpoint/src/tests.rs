@@ -1,4 +1,4 @@
-//! The operation: counts, kinds of surfaces, refusals, threads, recipes.
+//! The operation: counts, refusals, recipes.
 
 use mesh::{Mesh, shapes};
 use subdivision::Split;
@@ -26,49 +26,6 @@ fn an_icosahedron_becomes_80_triangles_and_a_cube_24_quads() {
     assert_eq!(counts(&applied(&quads, &shapes::cube())), [26, 48, 24]);
     let area = applied(&quads, &shapes::cube()).area();
     assert!((area - shapes::cube().area()).abs() < 1e-14);
-}
-
-#[test]
-fn a_closed_surface_stays_closed_and_keeps_its_genus() {
-    for mesh in [
-        shapes::icosahedron(),
-        shapes::octahedron(),
-        shapes::fans(&shapes::torus(5, 4, 2.0, 1.0)),
-    ] {
-        let new = applied(&Midpoint::levels(3), &mesh);
-        assert_eq!(new.n_boundary_loops(), 0);
-        assert_eq!(new.euler_characteristic(), mesh.euler_characteristic());
-    }
-}
-
-#[test]
-fn levels_follow_one_another_and_none_changes_nothing() {
-    let mesh = shapes::fans(&shapes::grid(3, 2));
-    let apply = |levels, mesh: &Mesh| applied(&Midpoint::levels(levels), mesh);
-    assert!(apply(0, &mesh) == mesh);
-    assert!(apply(1, &mesh) == applied(&Midpoint::default(), &mesh));
-    assert!(apply(3, &mesh) == apply(1, &apply(1, &apply(1, &mesh))));
-}
-
-#[test]
-fn the_bytes_are_the_same_for_any_number_of_threads() {
-    let mesh = shapes::fans(&shapes::grid(3, 2));
-    let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let pool = pool.build().unwrap();
-        pool.install(|| op::test::applied(&Midpoint::levels(4), mesh.clone()))
-    };
-    // Equal as bits: `==` would take -0 for 0.
-    let bits = |m: &Mesh| -> Vec<[u64; 3]> {
-        let bits = m.positions().iter().map(|p| p.to_array().map(f64::to_bits));
-        bits.collect()
-    };
-    let one = with(1);
-    for threads in [2, 8] {
-        let other = with(threads);
-        assert_eq!(bits(&other), bits(&one), "{threads}");
-        assert!(other == one, "{threads}");
-    }
 }
 
 #[test]

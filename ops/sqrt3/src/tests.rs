@@ -1,4 +1,4 @@
-//! The operation: counts, kinds of surfaces, refusals, threads, recipes.
+//! The operation: counts, refusals, recipes.
 
 use mesh::{Mesh, shapes};
 
@@ -19,51 +19,6 @@ fn an_icosahedron_becomes_60_triangles_and_then_180() {
     let mesh = shapes::icosahedron();
     assert_eq!(counts(&applied(&Sqrt3::levels(1), &mesh)), [32, 90, 60]);
     assert_eq!(counts(&applied(&Sqrt3::levels(2), &mesh)), [92, 270, 180]);
-}
-
-#[test]
-fn a_closed_surface_stays_closed_and_keeps_its_genus() {
-    for mesh in [
-        shapes::icosahedron(),
-        shapes::octahedron(),
-        shapes::fans(&shapes::torus(5, 4, 2.0, 1.0)),
-    ] {
-        let new = applied(&Sqrt3::levels(3), &mesh);
-        assert_eq!(new.n_boundary_loops(), 0);
-        assert_eq!(new.euler_characteristic(), mesh.euler_characteristic());
-    }
-}
-
-#[test]
-fn levels_follow_one_another_and_none_changes_nothing() {
-    let mesh = shapes::fans(&shapes::grid(3, 2));
-    let apply = |levels, mesh: &Mesh| applied(&Sqrt3::levels(levels), mesh);
-    assert!(apply(0, &mesh) == mesh);
-    assert!(apply(1, &mesh) == applied(&Sqrt3::default(), &mesh));
-    // Without a boundary; there levels come in pairs.
-    let mesh = shapes::octahedron();
-    assert!(apply(3, &mesh) == apply(1, &apply(1, &apply(1, &mesh))));
-}
-
-#[test]
-fn the_bytes_are_the_same_for_any_number_of_threads() {
-    let mesh = shapes::fans(&shapes::grid(3, 2));
-    let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let pool = pool.build().unwrap();
-        pool.install(|| op::test::applied(&Sqrt3::levels(4), mesh.clone()))
-    };
-    // Equal as bits: `==` would take -0 for 0.
-    let bits = |m: &Mesh| -> Vec<[u64; 3]> {
-        let bits = m.positions().iter().map(|p| p.to_array().map(f64::to_bits));
-        bits.collect()
-    };
-    let one = with(1);
-    for threads in [2, 8] {
-        let other = with(threads);
-        assert_eq!(bits(&other), bits(&one), "{threads}");
-        assert!(other == one, "{threads}");
-    }
 }
 
 #[test]

@@ -78,3 +78,19 @@ fn old_vertices_stay_where_a_scheme_interpolates() {
         }
     }
 }
+
+#[test]
+fn levels_follow_one_another_and_none_changes_nothing() {
+    for (name, mesh) in fixtures::all() {
+        for scheme in SCHEMES {
+            assert!(levels(scheme, 0, &mesh) == mesh, "{name} {scheme:?}");
+            // At a boundary the levels of Sqrt3 come in pairs.
+            let step = if scheme == Scheme::Sqrt3 { 2 } else { 1 };
+            let twice = levels(scheme, step, &levels(scheme, step, &mesh));
+            assert!(
+                levels(scheme, 2 * step, &mesh) == twice,
+                "{name} {scheme:?}"
+            );
+        }
+    }
+}

@@ -59,13 +59,16 @@ fn main() {
 
 /// Measures one case and prints a line.
 fn measure(name: &str, rules: Rules, cage: &Mesh, levels: u32, [copy, fill]: [f64; 2]) {
-    let run = || {
+    let refined = |levels: u32| {
         subdivision::subdivide(cage, rules, levels, &NoProgress)
             .expect("a mesh that the scheme takes")
     };
+    let run = || refined(levels);
     let result = run();
     let (faces, bytes) = (result.n_faces() as f64, result.bytes() as f64);
     drop(result);
+    // What the last level reads, at least once.
+    let read = refined(levels - 1).bytes() as f64;
     let seconds = median(|| {
         let start = Instant::now();
         let mesh = black_box(run());
@@ -74,11 +77,13 @@ fn measure(name: &str, rules: Rules, cage: &Mesh, levels: u32, [copy, fill]: [f6
         time
     });
     println!(
-        "  {name}, {levels} levels: {:.0} ms, {:.2} M faces, {:.1} M/s; {:.0} MB, of which copying would \
+        "  {name}, {levels} levels: {:.0} ms, {:.2} M faces, {:.1} M/s; the last \
+         level reads {:.0} MB and writes {:.0} MB, of which copying would \
          make {:.0} M/s and filling {:.0} M/s",
         seconds * 1e3,
         faces / 1e6,
         faces / seconds / 1e6,
+        read / 1e6,
         bytes / 1e6,
         copy * 1e9 / bytes * faces / 1e6,
         fill * 1e9 / bytes * faces / 1e6,

@@ -70,6 +70,22 @@ pub fn planned(operation: &impl MeshOperation, mesh: &Mesh) -> (MeshPlan, Vec<Pr
     (plan, problems)
 }
 
+/// The mesh after `operation`, whose counts and degrees were planned.
+///
+/// # Panics
+///
+/// As [`applied`], and if they are outside of the plan.
+pub fn applied_as_planned(operation: &impl MeshOperation, mesh: &Mesh) -> Mesh {
+    let new = applied(operation, mesh.clone());
+    assert!(is_as_planned(operation, mesh, &new), "the plan holds");
+    new
+}
+
+/// The numbers of vertices, edges and faces.
+pub fn counts(mesh: &Mesh) -> [usize; 3] {
+    [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
+}
+
 /// Whether the counts and degrees of `after`, which `operation` made of `before`, are within its plan.
 pub fn is_as_planned(operation: &impl MeshOperation, before: &Mesh, after: &Mesh) -> bool {
     let (plan, _) = planned(operation, before);

@@ -1,28 +1,19 @@
 //! The operation: counts, refusals, recipes.
 
-use mesh::{Mesh, shapes};
+use mesh::shapes;
+use op::test::{applied_as_planned, counts};
 
 use crate::Butterfly;
-
-fn applied(operation: &Butterfly, mesh: &Mesh) -> Mesh {
-    let new = op::test::applied(operation, mesh.clone());
-    assert!(op::test::is_as_planned(operation, mesh, &new));
-    new
-}
-
-fn counts(mesh: &Mesh) -> [usize; 3] {
-    [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
-}
 
 #[test]
 fn an_icosahedron_becomes_80_triangles_and_then_320() {
     let mesh = shapes::icosahedron();
     assert_eq!(
-        counts(&applied(&Butterfly::levels(1), &mesh)),
+        counts(&applied_as_planned(&Butterfly::levels(1), &mesh)),
         [42, 120, 80]
     );
     assert_eq!(
-        counts(&applied(&Butterfly::levels(2), &mesh)),
+        counts(&applied_as_planned(&Butterfly::levels(2), &mesh)),
         [162, 480, 320]
     );
 }

@@ -1,35 +1,26 @@
 //! The operation: counts, refusals, recipes.
 
-use mesh::{Mesh, shapes};
+use mesh::shapes;
+use op::test::{applied_as_planned, counts};
 
 use crate::CatmullClark;
-
-fn applied(operation: &CatmullClark, mesh: &Mesh) -> Mesh {
-    let new = op::test::applied(operation, mesh.clone());
-    assert!(op::test::is_as_planned(operation, mesh, &new));
-    new
-}
-
-fn counts(mesh: &Mesh) -> [usize; 3] {
-    [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
-}
 
 #[test]
 fn a_cube_becomes_24_quads_and_then_96() {
     let mesh = shapes::cube();
     assert_eq!(
-        counts(&applied(&CatmullClark::levels(1), &mesh)),
+        counts(&applied_as_planned(&CatmullClark::levels(1), &mesh)),
         [26, 48, 24]
     );
     assert_eq!(
-        counts(&applied(&CatmullClark::levels(2), &mesh)),
+        counts(&applied_as_planned(&CatmullClark::levels(2), &mesh)),
         [98, 192, 96]
     );
 }
 
 #[test]
 fn polygons_of_all_degrees_become_quads() {
-    let new = applied(&CatmullClark::default(), &shapes::cylinder(7, true));
+    let new = applied_as_planned(&CatmullClark::default(), &shapes::cylinder(7, true));
     assert!(new.faces().all(|f| new.degree(f) == 4));
     assert_eq!(new.n_faces(), 7 * 4 + 2 * 7);
 }

@@ -1,24 +1,21 @@
 //! The operation: counts, refusals, recipes.
 
-use mesh::{Mesh, shapes};
+use mesh::shapes;
+use op::test::{applied_as_planned, counts};
 
 use crate::DooSabin;
-
-fn applied(operation: &DooSabin, mesh: &Mesh) -> Mesh {
-    let new = op::test::applied(operation, mesh.clone());
-    assert!(op::test::is_as_planned(operation, mesh, &new));
-    new
-}
-
-fn counts(mesh: &Mesh) -> [usize; 3] {
-    [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
-}
 
 #[test]
 fn a_cube_gets_26_faces_and_then_98() {
     let mesh = shapes::cube();
-    assert_eq!(counts(&applied(&DooSabin::levels(1), &mesh)), [24, 48, 26]);
-    assert_eq!(counts(&applied(&DooSabin::levels(2), &mesh)), [96, 192, 98]);
+    assert_eq!(
+        counts(&applied_as_planned(&DooSabin::levels(1), &mesh)),
+        [24, 48, 26]
+    );
+    assert_eq!(
+        counts(&applied_as_planned(&DooSabin::levels(2), &mesh)),
+        [96, 192, 98]
+    );
 }
 
 #[test]

@@ -5,9 +5,9 @@ use std::path::Path;
 use glam::DVec3;
 use mesh::Built;
 
-use crate::ReadOptions;
 use crate::error::ReadError;
 use crate::note::Notes;
+use crate::{NonManifold, Orientation, Policies, ReadOptions};
 
 /// Builds a mesh of polygons; see [`mesh::build()`].
 ///
@@ -22,12 +22,20 @@ pub(crate) fn build_mesh(
     options: &ReadOptions,
     notes: &mut Notes,
 ) -> Result<Built, ReadError> {
+    let Policies {
+        non_manifold,
+        orientation,
+        ..
+    } = options.policies;
+    let policy = match (non_manifold, orientation) {
+        (NonManifold::Split, Orientation::Orient) => mesh::NonManifold::Split,
+        (NonManifold::Split, Orientation::Keep) => mesh::NonManifold::SplitAsGiven,
+        (NonManifold::Refuse, _) => mesh::NonManifold::Refuse,
+    };
     let built =
-        mesh::build(positions, offsets, corners, options.non_manifold).map_err(|source| {
-            ReadError::Mesh {
-                path: path.to_path_buf(),
-                source,
-            }
+        mesh::build(positions, offsets, corners, policy).map_err(|source| ReadError::Mesh {
+            path: path.to_path_buf(),
+            source,
         })?;
     for (count, what) in built.report.changes() {
         notes.changed(count, None, what);
@@ -41,13 +49,4 @@ pub(crate) fn build_mesh(
         notes.left_out(dropped.len(), None, what);
     }
     Ok(built)
-}
-
-/// Values of the vertices of the file, and behind them those of the copies that building made.
-pub(crate) fn values_of_copies<T: Copy + Default>(mut values: Vec<T>, built: &Built) -> Vec<T> {
-    values.resize(built.mesh.n_vertices(), T::default());
-    for (v, copy) in &built.report.split_vertices {
-        values[copy.index()] = values[v.index()];
-    }
-    values
 }

@@ -1,52 +1,4 @@
-//! Values on the corners of a mesh: where they go when a mesh is read, and numbering the different
-//! ones when it is written.
-
-use mesh::{Attribute, Built, HalfEdgeId, Mesh, Value, VertexId};
-
-/// One value for each half-edge: that of the corner of the input that became it, zero elsewhere.
-pub(crate) fn on_half_edges<T: Value>(built: &Built, value: impl Fn(usize) -> T) -> Vec<T> {
-    let mut values = vec![T::default(); built.mesh.n_half_edges()];
-    for (c, h) in built.half_edge_of_corner.iter().enumerate() {
-        if let Some(h) = h.some() {
-            values[h.index()] = value(c);
-        }
-    }
-    values
-}
-
-/// Stores one value for each half-edge as an attribute of the vertices if the corners around each
-/// vertex agree, and as one of the corners otherwise. Isolated vertices take it from `isolated`.
-pub(crate) fn set_on_vertices_or_corners<T: Value>(
-    mesh: &mut Mesh,
-    on_vertices: Attribute<VertexId, T>,
-    on_corners: Attribute<HalfEdgeId, T>,
-    corners: Vec<T>,
-    isolated: impl Fn(VertexId) -> T,
-) {
-    match agreed(mesh, &corners, isolated) {
-        Some(values) => mesh.set(on_vertices, values),
-        None => mesh.set(on_corners, corners),
-    }
-}
-
-/// For each vertex the value of its corners; `None` if two corners of a vertex differ.
-fn agreed<T: Value>(
-    mesh: &Mesh,
-    corners: &[T],
-    isolated: impl Fn(VertexId) -> T,
-) -> Option<Vec<T>> {
-    let one = |v| {
-        let mut values = mesh
-            .vertex_half_edges(v)
-            .filter(|&h| mesh.face(h).is_some())
-            .map(|h| corners[h.index()]);
-        match values.next() {
-            None => Some(isolated(v)),
-            Some(first) => values.all(|value| value == first).then_some(first),
-        }
-    };
-    mesh.vertices().map(one).collect()
-}
+//! Numbering the different values on the corners around vertices, for writers.
 
 /// Numbers the different values that stand at each of many places, in the order in which they come.
 ///
@@ -110,22 +62,5 @@ mod tests {
         for i in 0..200_000 {
             assert_eq!(numbering.number(0, i), (i, true));
         }
-    }
-
-    #[test]
-    fn values_that_agree_go_to_the_vertices() {
-        let mut mesh = mesh::shapes::cube();
-        let same = vec![1.0; mesh.n_half_edges()];
-        let mut other = same.clone();
-        other[0] = 2.0;
-        let on_vertices: Attribute<VertexId, f64> = Attribute::new("x", mesh::Rule::Copy);
-        let on_corners: Attribute<HalfEdgeId, f64> = Attribute::new("x", mesh::Rule::Copy);
-
-        set_on_vertices_or_corners(&mut mesh, on_vertices, on_corners, same, |_| 0.0);
-        assert!(mesh.get(on_vertices).is_some() && mesh.get(on_corners).is_none());
-
-        let mut mesh = mesh::shapes::cube();
-        set_on_vertices_or_corners(&mut mesh, on_vertices, on_corners, other, |_| 0.0);
-        assert!(mesh.get(on_vertices).is_none() && mesh.get(on_corners).is_some());
     }
 }

@@ -53,6 +53,15 @@ pub enum ReadError {
         /// What is wrong with them.
         source: mesh::BuildError,
     },
+    /// Something would have been left out, and [`ReadOptions::strict`](crate::ReadOptions::strict) forbids
+    /// that.
+    #[error("{}: not everything can be taken: {left_out}", path.display())]
+    Strict {
+        /// The file.
+        path: PathBuf,
+        /// What would be left out.
+        left_out: String,
+    },
     /// A binary file breaks the rules of its format.
     #[error("{}: byte {offset}: {message}", path.display())]
     Binary {
@@ -79,6 +88,7 @@ impl ReadError {
             Self::Io { path, .. }
             | Self::UnknownFormat { path, .. }
             | Self::Mesh { path, .. }
+            | Self::Strict { path, .. }
             | Self::Text { path, .. }
             | Self::Json { path, .. }
             | Self::Binary { path, .. } => path,

@@ -12,6 +12,14 @@ pub enum Format {
     Gltf,
     /// glTF 2.0 in one binary file.
     Glb,
+    /// Stanford PLY: polygons with any properties, as text or binary.
+    Ply,
+    /// STL: triangles without connectivity, as text or binary.
+    Stl,
+    /// Object file format (Geomview): polygons as text.
+    Off,
+    /// COLLADA: polygons, materials and placed objects as XML. Only read.
+    Dae,
     /// Bicubic Bezier patches as text.
     Bez,
     /// One plane Bezier curve as text.
@@ -20,7 +28,17 @@ pub enum Format {
 
 impl Format {
     /// All formats, in the order in which messages list them.
-    pub const ALL: [Self; 5] = [Self::Obj, Self::Gltf, Self::Glb, Self::Bez, Self::Bzc];
+    pub const ALL: [Self; 9] = [
+        Self::Obj,
+        Self::Gltf,
+        Self::Glb,
+        Self::Ply,
+        Self::Stl,
+        Self::Off,
+        Self::Dae,
+        Self::Bez,
+        Self::Bzc,
+    ];
 
     /// The extension of the format's files, in lower case and without the dot.
     pub const fn extension(self) -> &'static str {
@@ -28,6 +46,10 @@ impl Format {
             Self::Obj => "obj",
             Self::Gltf => "gltf",
             Self::Glb => "glb",
+            Self::Ply => "ply",
+            Self::Stl => "stl",
+            Self::Off => "off",
+            Self::Dae => "dae",
             Self::Bez => "bez",
             Self::Bzc => "bzc",
         }
@@ -42,12 +64,25 @@ impl Format {
             .find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }
 
-    /// The known extensions as messages list them: `.obj, .gltf, ...`.
-    pub fn known() -> String {
-        Self::ALL
-            .map(|format| format!(".{}", format.extension()))
-            .join(", ")
+    /// Whether files of this format can be written, and not only read.
+    pub const fn is_written(self) -> bool {
+        !matches!(self, Self::Dae)
     }
+
+    /// The extensions that can be read as messages list them: `.obj, .gltf, ...`.
+    pub fn known() -> String {
+        list(Self::ALL)
+    }
+
+    /// The extensions that can be written as messages list them: `.obj, .gltf, ...`.
+    pub fn known_to_write() -> String {
+        list(Self::ALL.into_iter().filter(|format| format.is_written()))
+    }
+}
+
+fn list(formats: impl IntoIterator<Item = Format>) -> String {
+    let extensions = formats.into_iter().map(|f| format!(".{}", f.extension()));
+    extensions.collect::<Vec<_>>().join(", ")
 }
 
 impl fmt::Display for Format {
@@ -56,6 +91,10 @@ impl fmt::Display for Format {
             Self::Obj => "OBJ",
             Self::Gltf => "glTF",
             Self::Glb => "GLB",
+            Self::Ply => "PLY",
+            Self::Stl => "STL",
+            Self::Off => "OFF",
+            Self::Dae => "COLLADA",
             Self::Bez => "Bezier patches",
             Self::Bzc => "Bezier curve",
         })
@@ -74,7 +113,7 @@ mod tests {
         );
         assert_eq!(Format::from_path(Path::new("x.tar.glb")), Some(Format::Glb));
         assert_eq!(Format::from_path(Path::new("obj")), None);
-        assert_eq!(Format::from_path(Path::new("x.stl")), None);
+        assert_eq!(Format::from_path(Path::new("x.xyz")), None);
     }
 
     #[test]

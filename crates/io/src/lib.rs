@@ -1,4 +1,4 @@
-//! Reading and writing OBJ, glTF and Bezier files.
+//! Reading and writing OBJ, glTF, PLY, STL, OFF, COLLADA and Bezier files.
 //!
 //! [`read()`] takes a file and gives objects, [`write()`] takes a scene and makes files, [`peek()`] says
 //! how large a file is without building it. The extension of the name chooses the [`Format`]:
@@ -7,6 +7,10 @@
 //! | --- | --- | --- |
 //! | `.obj` (and `.mtl`) | polygons, polylines, groups, materials | `obj` |
 //! | `.gltf`, `.glb` | triangles, materials, placed objects | `gltf` |
+//! | `.ply` | polygons with any properties | `ply` |
+//! | `.stl` | triangles | `stl` |
+//! | `.off` | polygons | `off` |
+//! | `.dae` (only read) | polygons, materials, placed objects | `dae` |
 //! | `.bez` | Bezier patches | `bez` |
 //! | `.bzc` | a Bezier curve | `bez` |
 //!
@@ -37,6 +41,7 @@ mod asset_path;
 mod bez;
 mod build;
 mod corners;
+mod dae;
 mod dense;
 mod error;
 mod format;
@@ -44,19 +49,25 @@ mod gltf;
 mod loss;
 mod note;
 mod obj;
+mod off;
 mod peek;
+mod ply;
+mod policy;
+mod polygons;
 mod save;
+mod stl;
 mod text;
 
 use std::path::{Path, PathBuf};
 
-use mesh::NonManifold;
 use scene::{Geometry, Object, Scene};
 
 pub use error::{ReadError, WriteError};
 pub use format::Format;
 pub use note::{Loss, Note, NoteKind};
 pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject};
+pub use policy::{Degenerate, Duplicates, Isolated, NonManifold, Orientation, Policies};
+pub use polygons::Polygons;
 
 use error::Unwritable;
 use note::Notes;
@@ -68,8 +79,10 @@ pub struct ReadOptions {
     /// without its extension. The objects of a glTF file have the names of their nodes; the name given
     /// here stands for those that have none.
     pub name: Option<String>,
-    /// What to do where faces do not form a manifold.
-    pub non_manifold: NonManifold,
+    /// What to do with polygons that make no clean mesh.
+    pub policies: Policies,
+    /// Whether to fail where something of the file would be left out.
+    pub strict: bool,
 }
 
 /// What was read from a file.
@@ -84,8 +97,8 @@ pub struct Loaded {
 /// How to write a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WriteOptions {
-    /// Where the content comes from, such as the digest of a recipe: a comment in OBJ and MTL,
-    /// `asset.extras.meshwright` in glTF. The Bezier formats have no place for it.
+    /// Where the content comes from, such as the digest of a recipe: a comment in OBJ, MTL, PLY and OFF, in
+    /// the header of STL, `asset.extras.meshwright` in glTF. The Bezier formats have no place for it.
     pub provenance: Option<String>,
 }
 
@@ -106,25 +119,119 @@ pub struct WriteReport {
 ///
 /// [`ReadError`] if the file cannot be read or breaks the rules of its format, with the place.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Loaded, ReadError> {
-    let format = known_format(path)?;
-    let name = options.name.clone().unwrap_or_else(|| name_of(path));
+    known_format(path)?;
+    read_bytes(path, read_whole(path)?, options)
+}
+
+/// Reads the objects of a file whose bytes are given. `path` says which format it has, what errors call it
+/// and where the files beside it are.
+///
+/// # Errors
+///
+/// As [`read()`].
+pub fn read_bytes(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<Loaded, ReadError> {
     let mut notes = Notes::of(path);
-    let bytes = read_whole(path)?;
-    let objects = match format {
-        Format::Obj => vec![obj::read(path, &bytes, name, options, &mut notes)?],
-        Format::Gltf | Format::Glb => gltf::read(path, bytes, &name, options, &mut notes)?,
+    let mut objects = Vec::new();
+    for Found { name, shape } in find(path, bytes, options, &mut notes)? {
+        objects.push(match shape {
+            Shape::Polygons(polygons) => {
+                let (mesh, materials) = polygons.into_mesh(path, options, &mut notes)?;
+                Object {
+                    materials,
+                    ..Object::mesh(name, mesh)
+                }
+            }
+            Shape::Other(geometry) => Object::new(name, geometry),
+        });
+    }
+    let notes = notes.into_vec();
+    if options.strict {
+        refuse_left_out(path, &notes)?;
+    }
+    Ok(Loaded { objects, notes })
+}
+
+/// Reads the polygons of a file as they are, without building meshes: for programs that need no
+/// connectivity. Curves, patches and polylines are left out.
+///
+/// # Errors
+///
+/// As [`read()`], but for what only building finds.
+pub fn read_polygons(
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<Vec<(String, Polygons)>, ReadError> {
+    known_format(path)?;
+    let found = find(path, read_whole(path)?, options, &mut Notes::of(path))?;
+    let polygons = found.into_iter().filter_map(|found| match found.shape {
+        Shape::Polygons(polygons) => Some((found.name, polygons)),
+        Shape::Other(_) => None,
+    });
+    Ok(polygons.collect())
+}
+
+/// What a reader finds in a file.
+struct Found {
+    name: String,
+    shape: Shape,
+}
+
+enum Shape {
+    Polygons(Polygons),
+    Other(Geometry),
+}
+
+impl Found {
+    fn polygons(name: impl Into<String>, polygons: Polygons) -> Self {
+        Self {
+            name: name.into(),
+            shape: Shape::Polygons(polygons),
+        }
+    }
+
+    fn other(name: impl Into<String>, geometry: Geometry) -> Self {
+        Self {
+            name: name.into(),
+            shape: Shape::Other(geometry),
+        }
+    }
+}
+
+fn find(
+    path: &Path,
+    bytes: Vec<u8>,
+    options: &ReadOptions,
+    notes: &mut Notes,
+) -> Result<Vec<Found>, ReadError> {
+    let name = options.name.clone().unwrap_or_else(|| name_of(path));
+    let found = match known_format(path)? {
+        Format::Obj => obj::read(path, &bytes, name, notes)?,
+        Format::Gltf | Format::Glb => return gltf::read(path, bytes, &name, notes),
+        Format::Ply => ply::read(path, &bytes, name, notes)?,
+        Format::Stl => stl::read(path, &bytes, name, notes)?,
+        Format::Off => off::read(path, &bytes, name, notes)?,
+        Format::Dae => return dae::read(path, &bytes, &name, notes),
         Format::Bez => {
             let patches = bez::read_patches(&bytes).map_err(|error| error.in_file(path))?;
-            vec![Object::new(name, Geometry::Patches(patches))]
+            Found::other(name, Geometry::Patches(patches))
         }
         Format::Bzc => {
             let curve = bez::read_curve(&bytes).map_err(|error| error.in_file(path))?;
-            vec![Object::new(name, Geometry::Curve(curve))]
+            Found::other(name, Geometry::Curve(curve))
         }
     };
-    Ok(Loaded {
-        objects,
-        notes: notes.into_vec(),
+    Ok(vec![found])
+}
+
+fn refuse_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
+    let left_out = notes.iter().filter(|note| note.kind == NoteKind::LeftOut);
+    let list: Vec<String> = left_out.map(ToString::to_string).collect();
+    if list.is_empty() {
+        return Ok(());
+    }
+    Err(ReadError::Strict {
+        path: path.to_path_buf(),
+        left_out: list.join("; "),
     })
 }
 
@@ -145,6 +252,15 @@ pub fn peek(path: &Path, options: &ReadOptions) -> Result<Peek, ReadError> {
             return Ok(Peek {
                 format,
                 objects: gltf::peek(path, &name)?,
+            });
+        }
+        Format::Ply => ply::peek(path, &read_whole(path)?)?,
+        Format::Stl => stl::peek(path, &read_whole(path)?)?,
+        Format::Off => off::peek(path, &read_whole(path)?)?,
+        Format::Dae => {
+            return Ok(Peek {
+                format,
+                objects: dae::peek(path, &read_whole(path)?, &name)?,
             });
         }
         Format::Bez => {
@@ -178,14 +294,18 @@ pub fn write(
     scene: &Scene,
     options: &WriteOptions,
 ) -> Result<WriteReport, WriteError> {
-    let format = Format::from_path(path).ok_or_else(|| WriteError::UnknownFormat {
+    let unknown = || WriteError::UnknownFormat {
         path: path.to_path_buf(),
-        known: Format::known(),
-    })?;
-    let written = match format {
+        known: Format::known_to_write(),
+    };
+    let written = match Format::from_path(path).ok_or_else(unknown)? {
         Format::Obj => obj::write(path, scene, options),
         Format::Gltf => gltf::write(path, false, scene, options),
         Format::Glb => gltf::write(path, true, scene, options),
+        Format::Ply => ply::write(path, scene, options),
+        Format::Stl => stl::write(path, scene, options),
+        Format::Off => off::write(path, scene, options),
+        Format::Dae => return Err(unknown()),
         Format::Bez => write_bez(path, scene),
         Format::Bzc => write_bzc(path, scene),
     };

@@ -265,7 +265,12 @@ impl Values {
         }
     }
 
-    fn same(&self, a: usize, b: usize) -> bool {
+    /// Whether the values at `a` and `b` are equal.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such value.
+    pub fn same(&self, a: usize, b: usize) -> bool {
         each!(self, v => v[a] == v[b])
     }
 
@@ -384,6 +389,18 @@ pub struct Column {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attributes {
     columns: [Vec<Column>; 4],
+}
+
+/// All columns with their domains, in the order of [`Attributes::iter`].
+impl IntoIterator for Attributes {
+    type Item = (Domain, Column);
+    type IntoIter = std::vec::IntoIter<(Domain, Column)>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        let domains = Domain::ALL.into_iter().zip(self.columns);
+        let columns = domains.flat_map(|(d, columns)| columns.into_iter().map(move |c| (d, c)));
+        columns.collect::<Vec<_>>().into_iter()
+    }
 }
 
 /// For each element of a new mesh the element of the old one that it takes its values from,

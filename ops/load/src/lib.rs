@@ -1,7 +1,7 @@
 //! Load: reads the objects of a file into the scene.
 
-use mesh::{Domain, NonManifold};
-use mesh_io::{Peek, PeekGeometry, PeekMesh, ReadOptions};
+use mesh::Domain;
+use mesh_io::{NonManifold, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions};
 use op::{
     Context, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Range,
     Report,
@@ -49,7 +49,11 @@ impl Load {
         };
         ReadOptions {
             name: self.name.clone(),
-            non_manifold,
+            policies: Policies {
+                non_manifold,
+                ..Policies::default()
+            },
+            ..ReadOptions::default()
         }
     }
 }

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use glam::{DAffine3, DMat3, DVec3};
-use mesh::{COLOR, CORNER_NORMAL, Mesh, UV, VERTEX_NORMAL};
-use scene::{Material, Object};
+use mesh::{CORNER_NORMAL, UV};
+use scene::Material;
 use serde_json::Value;
 
 use super::accessor::Reader;
@@ -14,11 +14,9 @@ use super::document::Document;
 use super::nodes::{Names, placed_meshes};
 use super::primitives::{Triangles, triangles};
 use super::{CORNER_COLOR, JsonError, buffers};
-use crate::ReadOptions;
-use crate::build::build_mesh;
-use crate::corners::{on_half_edges, set_on_vertices_or_corners};
 use crate::error::{ReadError, TextError};
 use crate::note::Notes;
+use crate::{Found, Polygons};
 
 /// Reads the objects of a glTF file from its bytes; `path` is where its buffers are looked for.
 ///
@@ -29,9 +27,8 @@ pub(crate) fn read(
     path: &Path,
     bytes: Vec<u8>,
     name: &str,
-    options: &ReadOptions,
     notes: &mut Notes,
-) -> Result<Vec<Object>, ReadError> {
+) -> Result<Vec<Found>, ReadError> {
     let in_file = |error: JsonError| error.in_file(path);
     let container = buffers::container(path, &bytes)?;
     let json = parse(path, &bytes[container.json])?;
@@ -64,11 +61,11 @@ pub(crate) fn read(
         };
         let name = names.unique(placed.name(&document, name), notes);
         let (materials, places) = materials(&document, triangles, notes);
-        let mesh = to_mesh(path, triangles, &places, &placed.to_scene, options, notes)?;
-        objects.push(Object {
+        let polygons = Polygons {
             materials,
-            ..Object::mesh(name, mesh)
-        });
+            ..polygons(triangles, &places, &placed.to_scene, notes)
+        };
+        objects.push(Found::polygons(name, polygons));
     }
     Ok(objects)
 }
@@ -143,14 +140,13 @@ fn decimal(x: f32) -> f64 {
 
 // ---- Meshes ------------------------------------------------------------------------------------
 
-fn to_mesh(
-    path: &Path,
+/// The polygons of a mesh that is placed in the scene, welded along the seams that glTF needs.
+fn polygons(
     triangles: &Triangles,
     places: &BTreeMap<usize, i32>,
     to_scene: &DAffine3,
-    options: &ReadOptions,
     notes: &mut Notes,
-) -> Result<Mesh, ReadError> {
+) -> Polygons {
     let welded = weld(triangles);
     notes.left_out(
         welded.unused,
@@ -178,17 +174,19 @@ fn to_mesh(
         .map(|&v| welded.vertex_of[v as usize])
         .collect();
     let n = u32::try_from(corners.len()).unwrap_or(u32::MAX);
-    let offsets: Vec<u32> = (0..=n).step_by(3).collect();
-    let mut built = build_mesh(path, positions, &offsets, &corners, options, notes)?;
+    let mut polygons = Polygons {
+        positions,
+        offsets: (0..=n).step_by(3).collect(),
+        corners,
+        ..Polygons::default()
+    };
     if !triangles.uvs.is_empty() {
-        let uvs = on_half_edges(&built, |c| triangles.uvs[order[c] as usize]);
-        built.mesh.set(UV, uvs);
+        let values = order.iter().map(|&v| triangles.uvs[v as usize]);
+        polygons.insert_corners(UV, values.collect());
     }
     if !triangles.colors.is_empty() {
-        let values = on_half_edges(&built, |c| triangles.colors[order[c] as usize]);
-        set_on_vertices_or_corners(&mut built.mesh, COLOR, CORNER_COLOR, values, |_| {
-            glam::DVec4::ONE
-        });
+        let values = order.iter().map(|&v| triangles.colors[v as usize]);
+        polygons.insert_corners(CORNER_COLOR, values.collect());
     }
     if !triangles.normals.is_empty() {
         let turn = if moved {
@@ -203,35 +201,24 @@ fn to_mesh(
                 "normals left out: the placement is flat",
             ),
             Some(turn) => {
-                let values = on_half_edges(&built, |c| {
-                    let normal = triangles.normals[order[c] as usize];
+                let turned = |&v: &u32| {
+                    let normal = triangles.normals[v as usize];
                     if moved {
                         (turn * normal).normalize_or_zero()
                     } else {
                         normal
                     }
-                });
-                let zero = |_| DVec3::ZERO;
-                set_on_vertices_or_corners(
-                    &mut built.mesh,
-                    VERTEX_NORMAL,
-                    CORNER_NORMAL,
-                    values,
-                    zero,
-                );
+                };
+                polygons.insert_corners(CORNER_NORMAL, order.iter().map(turned).collect());
             }
         }
     }
     if triangles.materials.iter().any(Option::is_some) {
-        let mut values = vec![-1; built.mesh.n_faces()];
-        for (f, material) in built.face_of_polygon.iter().zip(&triangles.materials) {
-            if let (Some(f), Some(material)) = (f.some(), material) {
-                values[f.index()] = places[material];
-            }
-        }
-        built.mesh.set(mesh::MATERIAL, values);
+        let place = |material: &Option<usize>| material.map_or(-1, |m| places[&m]);
+        let values = triangles.materials.iter().map(place);
+        polygons.insert_faces(mesh::MATERIAL, values.collect());
     }
-    Ok(built.mesh)
+    polygons
 }
 
 /// The matrix that turns normals: the transposed inverse.

@@ -1,21 +1,20 @@
 //! From the statements of an OBJ file to an object.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::Path;
 
-use glam::{DVec2, DVec3};
-use mesh::{Built, CORNER_NORMAL, Column, Domain, Mesh, Rule, UV, VERTEX_NORMAL, Values};
-use scene::{Geometry, Object};
+use glam::DVec3;
+use mesh::{CORNER_NORMAL, Column, Domain, Rule, UV, Values};
+use scene::{Geometry, Material};
 
 use super::OBJECT_TAG;
-use super::file::{Faces, LeftOut, NONE, ObjFile, Run};
+use super::file::{LeftOut, NONE, ObjFile, Run};
 use super::material::read_libraries;
 use super::parse::parse;
-use crate::ReadOptions;
-use crate::build::{build_mesh, values_of_copies};
-use crate::corners::{on_half_edges, set_on_vertices_or_corners};
 use crate::error::ReadError;
 use crate::note::Notes;
+use crate::{Found, Polygons};
 
 /// Tags take a byte for each face. Groups and objects beyond this many bytes are left out.
 const MOST_TAG_BYTES: usize = 1 << 28;
@@ -31,17 +30,14 @@ pub(crate) fn read(
     path: &Path,
     bytes: &[u8],
     name: String,
-    options: &ReadOptions,
     notes: &mut Notes,
-) -> Result<Object, ReadError> {
+) -> Result<Found, ReadError> {
     let file = parse(bytes).map_err(|error| error.in_file(path))?;
     note_left_out(&file, notes);
     let n_lines = file.line_offsets.len() - 1;
     if file.faces.len() == 0 && n_lines > 0 {
-        return Ok(Object::new(
-            name,
-            Geometry::Polylines(polylines(&file, notes)),
-        ));
+        let lines = polylines(&file, notes);
+        return Ok(Found::other(name, Geometry::Polylines(lines)));
     }
     notes.left_out(
         n_lines,
@@ -49,11 +45,7 @@ pub(crate) fn read(
         "polylines (`l`) left out: the object is a mesh",
     );
     let materials = read_libraries(path, &file, notes)?;
-    let mesh = to_mesh(path, file, &materials, options, notes)?;
-    Ok(Object {
-        materials,
-        ..Object::mesh(name, mesh)
-    })
+    Ok(Found::polygons(name, polygons(file, materials, notes)))
 }
 
 fn polylines(file: &ObjFile, notes: &mut Notes) -> Vec<Vec<DVec3>> {
@@ -73,73 +65,53 @@ fn polylines(file: &ObjFile, notes: &mut Notes) -> Vec<Vec<DVec3>> {
     lines
 }
 
-fn to_mesh(
-    path: &Path,
-    mut file: ObjFile,
-    materials: &[scene::Material],
-    options: &ReadOptions,
-    notes: &mut Notes,
-) -> Result<Mesh, ReadError> {
-    let positions = std::mem::take(&mut file.positions);
-    let faces = &file.faces;
-    let mut built = build_mesh(
-        path,
-        positions,
-        &faces.offsets,
-        &faces.positions,
-        options,
-        notes,
-    )?;
+fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> Polygons {
+    let mut polygons = Polygons {
+        positions: std::mem::take(&mut file.positions),
+        offsets: std::mem::take(&mut file.faces.offsets),
+        corners: std::mem::take(&mut file.faces.positions),
+        ..Polygons::default()
+    };
     if !file.colors.is_empty() {
-        let colors = values_of_copies(std::mem::take(&mut file.colors), &built);
-        built.mesh.set(mesh::COLOR, colors);
+        polygons.insert_vertices(mesh::COLOR, std::mem::take(&mut file.colors));
     }
-    set_uvs(&mut built, &file.uvs, faces, notes);
-    set_normals(&mut built, &file.normals, faces, notes);
-    set_materials(&mut built, &file, materials);
-    if file.runs.iter().any(|run| run.smoothing != 0) {
-        let values = on_faces(&built, &file, |run| run.smoothing);
-        built.mesh.set(mesh::SMOOTHING, values);
-    }
-    set_tags(&mut built, &file, notes);
-    Ok(built.mesh)
-}
-
-fn set_uvs(built: &mut Built, uvs: &[DVec2], faces: &Faces, notes: &mut Notes) {
+    let faces = &file.faces;
     notes.left_out(
-        unused(uvs.len(), &faces.uvs),
+        unused(file.uvs.len(), &faces.uvs),
         None,
         "texture coordinates (`vt`) left out: no face uses them",
     );
-    if faces.uvs.is_empty() {
-        return;
-    }
-    let values = on_half_edges(built, |c| value(uvs, faces.uvs[c]));
-    built.mesh.set(UV, values);
-    notes.changed(
-        missing(&faces.uvs),
-        None,
-        "face corners without texture coordinate: taken as 0 0",
-    );
-}
-
-fn set_normals(built: &mut Built, normals: &[DVec3], faces: &Faces, notes: &mut Notes) {
     notes.left_out(
-        unused(normals.len(), &faces.normals),
+        unused(file.normals.len(), &faces.normals),
         None,
         "normals (`vn`) left out: no face uses them",
     );
-    if faces.normals.is_empty() {
-        return;
+    if !faces.uvs.is_empty() {
+        let values = faces.uvs.iter().map(|&i| value(&file.uvs, i));
+        polygons.insert_corners(UV, values.collect());
+        notes.changed(
+            missing(&faces.uvs),
+            None,
+            "face corners without texture coordinate: taken as 0 0",
+        );
     }
-    let values = on_half_edges(built, |c| value(normals, faces.normals[c]));
-    let zero = |_| DVec3::ZERO;
-    set_on_vertices_or_corners(&mut built.mesh, VERTEX_NORMAL, CORNER_NORMAL, values, zero);
-    notes.changed(
-        missing(&faces.normals),
-        None,
-        "face corners without normal: taken as 0 0 0",
-    );
+    if !faces.normals.is_empty() {
+        let values = faces.normals.iter().map(|&i| value(&file.normals, i));
+        polygons.insert_corners(CORNER_NORMAL, values.collect());
+        notes.changed(
+            missing(&faces.normals),
+            None,
+            "face corners without normal: taken as 0 0 0",
+        );
+    }
+    set_materials(&mut polygons, &file, &materials);
+    if file.runs.iter().any(|run| run.smoothing != 0) {
+        let values = on_faces(&polygons, &file, |run| run.smoothing);
+        polygons.insert_faces(mesh::SMOOTHING, values);
+    }
+    set_tags(&mut polygons, &file, notes);
+    polygons.materials = materials;
+    polygons
 }
 
 fn value<T: Copy + Default>(values: &[T], index: u32) -> T {
@@ -164,29 +136,27 @@ fn unused(n: usize, indices: &[u32]) -> usize {
 
 // ---- Values of faces ---------------------------------------------------------------------------
 
-/// One value for each face of the mesh, from the run of its polygon.
+/// The faces of run number `i`.
+fn faces_of_run(file: &ObjFile, i: usize, n_faces: usize) -> Range<usize> {
+    let next = file.runs.get(i + 1);
+    file.runs[i].first_face..next.map_or(n_faces, |next| next.first_face)
+}
+
+/// One value for each face, from its run.
 fn on_faces<T: Copy + Default>(
-    built: &Built,
+    polygons: &Polygons,
     file: &ObjFile,
     of_run: impl Fn(&Run) -> T,
 ) -> Vec<T> {
-    let mut values = vec![T::default(); built.mesh.n_faces()];
+    let n = polygons.n_faces();
+    let mut values = vec![T::default(); n];
     for (i, run) in file.runs.iter().enumerate() {
-        let end = file
-            .runs
-            .get(i + 1)
-            .map_or(file.faces.len(), |next| next.first_face);
-        let value = of_run(run);
-        for f in &built.face_of_polygon[run.first_face..end] {
-            if let Some(f) = f.some() {
-                values[f.index()] = value;
-            }
-        }
+        values[faces_of_run(file, i, n)].fill(of_run(run));
     }
     values
 }
 
-fn set_materials(built: &mut Built, file: &ObjFile, materials: &[scene::Material]) {
+fn set_materials(polygons: &mut Polygons, file: &ObjFile, materials: &[Material]) {
     if file.runs.iter().all(|run| run.material.is_none()) {
         return;
     }
@@ -197,12 +167,13 @@ fn set_materials(built: &mut Built, file: &ObjFile, materials: &[scene::Material
         .collect();
     let place_of = |name: &String| by_name.get(name.as_str()).copied().unwrap_or(-1);
     let places: Vec<i32> = file.material_names.iter().map(place_of).collect();
-    let values = on_faces(built, file, |run| run.material.map_or(-1, |m| places[m]));
-    built.mesh.set(mesh::MATERIAL, values);
+    let of_run = |run: &Run| run.material.map_or(-1, |m| places[m]);
+    let values = on_faces(polygons, file, of_run);
+    polygons.insert_faces(mesh::MATERIAL, values);
 }
 
-fn set_tags(built: &mut Built, file: &ObjFile, notes: &mut Notes) {
-    let n_faces = built.mesh.n_faces();
+fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
+    let n_faces = polygons.n_faces();
     let room = MOST_TAGS.min(MOST_TAG_BYTES / n_faces.max(1));
     let too_many = |n: usize| n.saturating_sub(room);
     let objects = file.object_names.len();
@@ -216,22 +187,12 @@ fn set_tags(built: &mut Built, file: &ObjFile, notes: &mut Notes) {
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; objects + groups - left_out];
     // Objects come first: they matter more where not all fit.
     for (i, run) in file.runs.iter().enumerate() {
-        let end = file
-            .runs
-            .get(i + 1)
-            .map_or(file.faces.len(), |next| next.first_face);
         let of_groups = file.group_sets[run.groups]
             .iter()
             .map(|&g| objects + g as usize);
         for column in run.object.into_iter().chain(of_groups) {
-            let Some(marks) = columns.get_mut(column) else {
-                continue;
-            };
-            for f in built.face_of_polygon[run.first_face..end]
-                .iter()
-                .filter_map(|f| f.some())
-            {
-                marks[f.index()] = true;
+            if let Some(marks) = columns.get_mut(column) {
+                marks[faces_of_run(file, i, n_faces)].fill(true);
             }
         }
     }
@@ -241,47 +202,39 @@ fn set_tags(built: &mut Built, file: &ObjFile, notes: &mut Notes) {
         .map(|name| format!("{OBJECT_TAG}{name}"));
     let names = object_tags.chain(file.group_names.iter().cloned());
     let mut without_faces = 0;
-    for (name, marks) in names.zip(columns) {
+    for (name, mut marks) in names.zip(columns) {
         if !marks.contains(&true) {
             without_faces += 1;
-        } else if let Some(Column {
-            values: Values::Tag(known),
-            ..
-        }) = built.mesh.attributes().column(Domain::Face, &name)
-        {
-            // A group named as the tag of an object.
-            let both = known.iter().zip(&marks).map(|(a, b)| a | b).collect();
-            insert_tag(&mut built.mesh, name, both);
-        } else if built
-            .mesh
-            .attributes()
-            .column(Domain::Face, &name)
-            .is_some()
-        {
-            notes.changed(
-                1,
-                None,
-                format!("group `{name}` is now called `{name} group`: the name is taken"),
-            );
-            insert_tag(&mut built.mesh, format!("{name} group"), marks);
-        } else {
-            insert_tag(&mut built.mesh, name, marks);
+            continue;
         }
+        let name = match polygons.attributes.column(Domain::Face, &name) {
+            None => name,
+            Some(Column {
+                values: Values::Tag(known),
+                ..
+            }) => {
+                // A group named as the tag of an object.
+                for (mark, known) in marks.iter_mut().zip(known) {
+                    *mark |= known;
+                }
+                name
+            }
+            Some(_) => {
+                notes.changed(
+                    1,
+                    None,
+                    format!("group `{name}` is now called `{name} group`: the name is taken"),
+                );
+                format!("{name} group")
+            }
+        };
+        polygons.insert(Domain::Face, name, Rule::Copy, marks);
     }
     notes.left_out(
         without_faces,
         None,
         "groups and objects left out: they have no faces",
     );
-}
-
-fn insert_tag(mesh: &mut Mesh, name: String, marks: Vec<bool>) {
-    let column = Column {
-        name,
-        rule: Rule::Copy,
-        values: Values::Tag(marks),
-    };
-    mesh.insert_column(Domain::Face, column);
 }
 
 fn note_left_out(file: &ObjFile, notes: &mut Notes) {

@@ -11,7 +11,7 @@ use crate::{Folder, only, read, scene, write};
 #[test]
 fn unknown_extensions_list_the_known_ones() {
     let folder = Folder::new();
-    let path = folder.with("a.stl", "solid");
+    let path = folder.with("a.xyz", "solid");
     let error = read(&path).unwrap_err();
     assert!(
         error.to_string().contains(".obj, .gltf, .glb, .bez, .bzc"),

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3, DVec4};
-use mesh::{
-    COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, NonManifold, SMOOTHING, UV, VERTEX_NORMAL, shapes,
+use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, SMOOTHING, UV, VERTEX_NORMAL, shapes};
+use mesh_io::{
+    NonManifold, NoteKind, PeekGeometry, Policies, ReadError, ReadOptions, WriteOptions,
 };
-use mesh_io::{NoteKind, PeekGeometry, ReadError, ReadOptions, WriteOptions};
 use proptest::prelude::*;
 use scene::{Geometry, Material, Object};
 
@@ -224,7 +224,10 @@ fn an_edge_of_three_faces_is_split_and_said() {
     );
 
     let strict = ReadOptions {
-        non_manifold: NonManifold::Refuse,
+        policies: Policies {
+            non_manifold: NonManifold::Refuse,
+            ..Policies::default()
+        },
         ..ReadOptions::default()
     };
     assert!(matches!(

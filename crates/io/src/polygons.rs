@@ -1,0 +1,206 @@
+//! Polygons with attributes as a file has them, and the way from there to a mesh.
+
+use std::path::Path;
+
+use glam::DVec3;
+use mesh::{
+    Attribute, Attributes, Built, Column, Domain, FaceId, HalfEdgeId, Mesh, Rule, Value, Values,
+    VertexId,
+};
+use rayon::prelude::*;
+use scene::Material;
+
+use crate::ReadOptions;
+use crate::build::build_mesh;
+use crate::error::ReadError;
+use crate::note::Notes;
+
+/// Polygons as flat arrays in the order of a file: nothing merged, split or left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Polygons {
+    /// Where the vertices are.
+    pub positions: Vec<DVec3>,
+    /// Polygon f has the corners from `offsets[f]` to `offsets[f + 1]`; one more than there are polygons.
+    pub offsets: Vec<u32>,
+    /// For each corner its vertex, from 0; counter-clockwise around each polygon.
+    pub corners: Vec<u32>,
+    /// Values of vertices, of corners (in the order of `corners`) and of faces.
+    pub attributes: Attributes,
+    /// What the face attribute `material` refers to.
+    pub materials: Vec<Material>,
+}
+
+impl Default for Polygons {
+    fn default() -> Self {
+        Self {
+            positions: Vec::new(),
+            offsets: vec![0],
+            corners: Vec::new(),
+            attributes: Attributes::default(),
+            materials: Vec::new(),
+        }
+    }
+}
+
+impl Polygons {
+    /// How many polygons there are.
+    pub fn n_faces(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// Adds a column of values.
+    pub(crate) fn insert<T: Value>(
+        &mut self,
+        domain: Domain,
+        name: impl Into<String>,
+        rule: Rule,
+        values: Vec<T>,
+    ) {
+        let column = Column {
+            name: name.into(),
+            rule,
+            values: T::wrap(values),
+        };
+        self.attributes.insert(domain, column);
+    }
+
+    /// Adds a known attribute of vertices.
+    pub(crate) fn insert_vertices<T: Value>(
+        &mut self,
+        attribute: Attribute<VertexId, T>,
+        values: Vec<T>,
+    ) {
+        self.insert(Domain::Vertex, attribute.name, attribute.rule, values);
+    }
+
+    /// Adds a known attribute of corners.
+    pub(crate) fn insert_corners<T: Value>(
+        &mut self,
+        attribute: Attribute<HalfEdgeId, T>,
+        values: Vec<T>,
+    ) {
+        self.insert(Domain::Corner, attribute.name, attribute.rule, values);
+    }
+
+    /// Adds a known attribute of faces.
+    pub(crate) fn insert_faces<T: Value>(
+        &mut self,
+        attribute: Attribute<FaceId, T>,
+        values: Vec<T>,
+    ) {
+        self.insert(Domain::Face, attribute.name, attribute.rule, values);
+    }
+
+    /// The mesh of these polygons, and their materials. Values of corners become values of vertices where
+    /// the corners of each vertex agree; texture coordinates (names that begin with `uv`) stay with the
+    /// corners.
+    ///
+    /// # Errors
+    ///
+    /// [`ReadError::Mesh`] if the polygons cannot become a mesh, or the options refuse what they are.
+    pub(crate) fn into_mesh(
+        self,
+        path: &Path,
+        options: &ReadOptions,
+        notes: &mut Notes,
+    ) -> Result<(Mesh, Vec<Material>), ReadError> {
+        let n_positions = self.positions.len();
+        let mut built = build_mesh(
+            path,
+            self.positions,
+            &self.offsets,
+            &self.corners,
+            options,
+            notes,
+        )?;
+        let sources = Sources::of(&built, n_positions);
+        for (domain, mut column) in self.attributes {
+            column.values = sources.moved(domain, column.values);
+            let mut domain = domain;
+            if domain == Domain::Corner
+                && !column.name.starts_with("uv")
+                && let Some(values) = agreed(&built.mesh, &column.values)
+            {
+                (domain, column.values) = (Domain::Vertex, values);
+            }
+            built.mesh.insert_column(domain, column);
+        }
+        Ok((built.mesh, self.materials))
+    }
+}
+
+/// For each element that was built the one of the input that it takes its values from.
+struct Sources {
+    n_positions: usize,
+    /// The vertices behind the positions, in order.
+    copies: Vec<usize>,
+    /// For each half-edge its corner, `NONE` where there is no face.
+    corners: Vec<u32>,
+    /// For each face its polygon; `None` if every polygon is the face of its number.
+    faces: Option<Vec<u32>>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Sources {
+    fn of(built: &Built, n_positions: usize) -> Self {
+        let mut corners = vec![NONE; built.mesh.n_half_edges()];
+        for (c, h) in (0..).zip(&built.half_edge_of_corner) {
+            if let Some(h) = h.some() {
+                corners[h.index()] = c;
+            }
+        }
+        let mut copies = vec![0; built.mesh.n_vertices() - n_positions];
+        for (v, copy) in &built.report.split_vertices {
+            copies[copy.index() - n_positions] = v.index();
+        }
+        let dropped = !built.report.dropped_faces.is_empty();
+        let faces = dropped.then(|| {
+            let kept = (0..).zip(&built.face_of_polygon);
+            kept.filter(|(_, f)| f.some().is_some())
+                .map(|(polygon, _)| polygon)
+                .collect()
+        });
+        Self {
+            n_positions,
+            copies,
+            corners,
+            faces,
+        }
+    }
+
+    /// Values of the input as values of what was built.
+    fn moved(&self, domain: Domain, values: Values) -> Values {
+        match (domain, &self.faces) {
+            (Domain::Vertex, _) if !self.copies.is_empty() => {
+                let n = self.n_positions + self.copies.len();
+                values.gather(n, |v| match v.checked_sub(self.n_positions) {
+                    None => Some(v),
+                    Some(copy) => Some(self.copies[copy]),
+                })
+            }
+            (Domain::Corner, _) => values.gather(self.corners.len(), |h| {
+                let c = self.corners[h];
+                (c != NONE).then_some(c as usize)
+            }),
+            (Domain::Face, Some(faces)) => values.gather(faces.len(), |f| Some(faces[f] as usize)),
+            (Domain::Vertex | Domain::Edge | Domain::Face, _) => values,
+        }
+    }
+}
+
+/// One value for each vertex, if all its corners have the same; zero where a vertex has none.
+fn agreed(mesh: &Mesh, values: &Values) -> Option<Values> {
+    let corners = |v: usize| {
+        mesh.vertex_half_edges(VertexId::new(v))
+            .filter(|&h| mesh.face(h).is_some())
+            .map(HalfEdgeId::index)
+    };
+    let all = (0..mesh.n_vertices()).into_par_iter().with_min_len(4096);
+    let same = all.all(|v| {
+        let mut corners = corners(v);
+        let first = corners.next();
+        first.is_none_or(|first| corners.all(|h| values.same(first, h)))
+    });
+    same.then(|| values.gather(mesh.n_vertices(), |v| corners(v).next()))
+}

@@ -3,50 +3,57 @@
 use std::path::Path;
 
 use glam::DVec3;
-use mesh::Built;
+use mesh::{BuildError, Built, Elements};
 
+use crate::clean::Kept;
 use crate::error::ReadError;
-use crate::note::Notes;
-use crate::{NonManifold, Orientation, Policies, ReadOptions};
+use crate::note::{NoteKind, Notes};
+use crate::{NonManifold, Orientation, Policies};
 
-/// Builds a mesh of polygons; see [`mesh::build()`].
+/// Builds a mesh of polygons; see [`mesh::build()`]. `kept` says which polygons of the file they are.
 ///
 /// # Errors
 ///
-/// If there are too many, or they are no manifold and the options refuse that.
+/// If there are too many, or they are no manifold and the policies refuse that.
 pub(crate) fn build_mesh(
     path: &Path,
     positions: Vec<DVec3>,
     offsets: &[u32],
     corners: &[u32],
-    options: &ReadOptions,
+    policies: Policies,
+    kept: &Kept,
     notes: &mut Notes,
 ) -> Result<Built, ReadError> {
-    let Policies {
-        non_manifold,
-        orientation,
-        ..
-    } = options.policies;
-    let policy = match (non_manifold, orientation) {
+    let policy = match (policies.non_manifold, policies.orientation) {
         (NonManifold::Split, Orientation::Orient) => mesh::NonManifold::Split,
         (NonManifold::Split, Orientation::Keep) => mesh::NonManifold::SplitAsGiven,
-        (NonManifold::Refuse, _) => mesh::NonManifold::Refuse,
+        (NonManifold::Refuse, Orientation::Orient) => mesh::NonManifold::Refuse,
+        (NonManifold::Refuse, Orientation::Keep) => mesh::NonManifold::RefuseAsGiven,
     };
-    let built =
-        mesh::build(positions, offsets, corners, policy).map_err(|source| ReadError::Mesh {
+    let in_file = |f: usize| kept.as_ref().map_or(f, |kept| kept[f] as usize);
+    let built = mesh::build(positions, offsets, corners, policy).map_err(|mut source| {
+        if let BuildError::NoSuchVertex { face, .. } = &mut source {
+            *face = in_file(*face);
+        }
+        ReadError::Mesh {
             path: path.to_path_buf(),
             source,
-        })?;
-    for (count, what) in built.report.changes() {
-        notes.changed(count, None, what);
+        }
+    })?;
+    for repair in built.report.repairs() {
+        let elements = numbered_by(repair.elements, in_file);
+        notes.elements(NoteKind::Changed, repair.what, elements);
     }
-    let dropped = &built.report.dropped_faces;
-    if let Some(f) = dropped.first() {
-        let what = match dropped.len() {
-            1 => format!("face left out that visits a vertex twice (face {f} of the file)"),
-            _ => format!("faces left out that visit a vertex twice (first: face {f} of the file)"),
-        };
-        notes.left_out(dropped.len(), None, what);
+    if let Some(dropped) = built.report.dropped() {
+        let elements = numbered_by(dropped.elements, in_file);
+        notes.elements(NoteKind::LeftOut, dropped.what, elements);
     }
     Ok(built)
+}
+
+fn numbered_by(elements: Elements, in_file: impl Fn(usize) -> usize) -> Elements {
+    match elements {
+        Elements::Faces(faces) => Elements::Faces(faces.into_iter().map(in_file).collect()),
+        vertices => vertices,
+    }
 }

@@ -40,6 +40,7 @@
 mod asset_path;
 mod bez;
 mod build;
+mod clean;
 mod corners;
 mod dae;
 mod dense;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use mesh::Domain;
+use mesh::{Domain, Elements};
 
 /// Something that a reader did not take as it stands in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,6 +18,8 @@ pub struct Note {
     pub count: usize,
     /// What it is and what became of it, as words that follow the count: `statements 'vp' left out`.
     pub what: String,
+    /// The elements of the file that it concerns, where they are known.
+    pub elements: Option<Elements>,
 }
 
 /// What kind of news a [`Note`] is.
@@ -35,7 +37,11 @@ impl fmt::Display for Note {
         if let Some(line) = self.line {
             write!(f, "{line}:")?;
         }
-        write!(f, " {} {}", self.count, self.what)
+        write!(f, " {} {}", self.count, self.what)?;
+        if let Some(elements) = &self.elements {
+            write!(f, " {elements}")?;
+        }
+        Ok(())
     }
 }
 
@@ -74,6 +80,15 @@ impl Notes {
         self.add(NoteKind::Changed, count, line.into(), what.into());
     }
 
+    /// Adds a note about these elements unless there are none.
+    pub(crate) fn elements(&mut self, kind: NoteKind, what: impl Into<String>, elements: Elements) {
+        let count = elements.len();
+        self.add(kind, count, None, what.into());
+        if let (true, Some(note)) = (count > 0, self.list.last_mut()) {
+            note.elements = Some(elements);
+        }
+    }
+
     fn add(&mut self, kind: NoteKind, count: usize, line: Option<usize>, what: String) {
         if count > 0 {
             self.list.push(Note {
@@ -82,6 +97,7 @@ impl Notes {
                 line,
                 count,
                 what,
+                elements: None,
             });
         }
     }

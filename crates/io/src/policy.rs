@@ -1,6 +1,9 @@
 //! What to do with polygons that make no clean mesh.
 
-/// What to do with polygons that make no clean mesh. Whatever is done is counted in a
+/// What to do with polygons that make no clean mesh.
+///
+/// Two things need no choice: a corner that repeats the one before it is taken once (`f 1 2 2 3` is a
+/// triangle), and a face that still visits a vertex twice is left out, because no mesh has it. Whatever is done is counted in a
 /// [`Note`](crate::Note) with its elements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Policies {
@@ -10,7 +13,7 @@ pub struct Policies {
     pub orientation: Orientation,
     /// Faces with the same vertices in the same circular order, either way round.
     pub duplicates: Duplicates,
-    /// Faces whose area is exactly zero.
+    /// Faces without area.
     pub degenerate: Degenerate,
     /// Vertices that no face uses.
     pub isolated: Isolated,
@@ -46,7 +49,8 @@ pub enum Duplicates {
     Drop,
 }
 
-/// What to do with faces without area.
+/// What to do with faces without area: below 1e-14 of the square of their longest side, which is what
+/// rounding leaves of zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Degenerate {
     /// Keep them.

@@ -12,6 +12,7 @@ use scene::Material;
 
 use crate::ReadOptions;
 use crate::build::build_mesh;
+use crate::clean::clean;
 use crate::error::ReadError;
 use crate::note::Notes;
 
@@ -99,20 +100,25 @@ impl Polygons {
     ///
     /// [`ReadError::Mesh`] if the polygons cannot become a mesh, or the options refuse what they are.
     pub(crate) fn into_mesh(
-        self,
+        mut self,
         path: &Path,
         options: &ReadOptions,
         notes: &mut Notes,
     ) -> Result<(Mesh, Vec<Material>), ReadError> {
+        let kept = clean(&mut self, options.policies, notes);
         let n_positions = self.positions.len();
         let mut built = build_mesh(
             path,
             self.positions,
             &self.offsets,
             &self.corners,
-            options,
+            options.policies,
+            &kept,
             notes,
         )?;
+        if self.attributes.iter().next().is_none() {
+            return Ok((built.mesh, self.materials));
+        }
         let sources = Sources::of(&built, n_positions);
         for (domain, mut column) in self.attributes {
             column.values = sources.moved(domain, column.values);

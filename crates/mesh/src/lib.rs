@@ -93,7 +93,7 @@ pub use attribute::{
     Attribute, Attributes, COLOR, CORNER, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Rule,
     SMOOTHING, Sources, TANGENT, UV, VERTEX_NORMAL, Value, Values,
 };
-pub use build::{BuildError, BuildReport, Built, NonManifold, build};
+pub use build::{BuildError, BuildReport, Built, Elements, NonManifold, Repair, build};
 pub use compact::Renumbering;
 pub use edit::{Bisection, EditError, Seams};
 pub use glam::{DMat3, DVec2, DVec3, DVec4};

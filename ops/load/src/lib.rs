@@ -1,7 +1,9 @@
 //! Load: reads the objects of a file into the scene.
 
 use mesh::Domain;
-use mesh_io::{NonManifold, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions};
+use mesh_io::{
+    Degenerate, Duplicates, Isolated, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions,
+};
 use op::{
     Context, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Range,
     Report,
@@ -12,9 +14,10 @@ use serde::{Deserialize, Serialize};
 
 /// Reads the objects of a file into the scene.
 ///
-/// Formats: `.obj`, `.gltf`, `.glb`, `.bez` (Bezier patches) and `.bzc` (a Bezier curve). An OBJ file is
-/// one object, whose `o` and `g` become face tags; a glTF file has an object for each of its meshes.
-/// What the scene cannot hold is counted and listed.
+/// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches) and `.bzc` (a
+/// Bezier curve). An OBJ file is one object, whose `o` and `g` become face tags; a glTF or COLLADA file has an
+/// object for each node with a mesh. What the scene cannot hold is counted and listed. A corner that repeats
+/// the one before it is taken once, and a face that still visits a vertex twice is left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
@@ -24,36 +27,87 @@ pub struct Load {
     /// ending.
     #[serde(default)]
     pub name: Option<String>,
-    /// What to do where faces do not form a manifold.
+    /// What to do where more than two faces share an edge, or faces at a vertex share no edge.
     #[serde(default)]
-    pub non_manifold: Policy,
+    pub non_manifold: NonManifold,
+    /// What to do where neighboring faces disagree about their orientation.
+    #[serde(default)]
+    pub orientation: Orientation,
+    /// What to do with faces that have the vertices of an earlier one, either way round.
+    #[serde(default)]
+    pub duplicates: Policy,
+    /// What to do with faces without area.
+    #[serde(default)]
+    pub degenerate: Policy,
+    /// What to do with vertices that no face uses.
+    #[serde(default)]
+    pub isolated: Policy,
+    /// Whether to fail where something of the file would be left out.
+    #[serde(default)]
+    pub strict: bool,
 }
 
 /// What to do where faces do not form a manifold.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
-pub enum Policy {
-    /// Reverse faces where that makes neighbors agree, split edges and vertices until the rest is a
-    /// manifold, and list it.
+pub enum NonManifold {
+    /// Split edges and vertices until they do, and list it.
     #[default]
     Split,
     /// Fail.
     Refuse,
 }
 
+/// What to do where neighboring faces disagree about their orientation.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Orientation {
+    /// Reverse faces where that makes neighbors agree, and list them.
+    #[default]
+    Orient,
+    /// Leave every face as it is. Neighbors that disagree form no manifold.
+    Keep,
+}
+
+/// What to do with elements that are of no use.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Policy {
+    /// Keep them.
+    #[default]
+    Keep,
+    /// Leave them out, and list them. Of duplicates the first stays.
+    Drop,
+}
+
 impl Load {
     fn options(&self) -> ReadOptions {
-        let non_manifold = match self.non_manifold {
-            Policy::Split => NonManifold::Split,
-            Policy::Refuse => NonManifold::Refuse,
+        let policies = Policies {
+            non_manifold: match self.non_manifold {
+                NonManifold::Split => mesh_io::NonManifold::Split,
+                NonManifold::Refuse => mesh_io::NonManifold::Refuse,
+            },
+            orientation: match self.orientation {
+                Orientation::Orient => mesh_io::Orientation::Orient,
+                Orientation::Keep => mesh_io::Orientation::Keep,
+            },
+            duplicates: match self.duplicates {
+                Policy::Keep => Duplicates::Keep,
+                Policy::Drop => Duplicates::Drop,
+            },
+            degenerate: match self.degenerate {
+                Policy::Keep => Degenerate::Keep,
+                Policy::Drop => Degenerate::Drop,
+            },
+            isolated: match self.isolated {
+                Policy::Keep => Isolated::Keep,
+                Policy::Drop => Isolated::Drop,
+            },
         };
         ReadOptions {
             name: self.name.clone(),
-            policies: Policies {
-                non_manifold,
-                ..Policies::default()
-            },
-            ..ReadOptions::default()
+            policies,
+            strict: self.strict,
         }
     }
 }
@@ -121,8 +175,8 @@ impl Load {
     }
 }
 
-/// What reading will make of a mesh of these counts. Degenerate faces may be left out, and splitting
-/// may add vertices and edges.
+/// What reading will make of a mesh of these counts. Faces may be left out, or lose corners that are there
+/// twice, and splitting may add vertices and edges.
 fn planned(peek: &PeekMesh) -> MeshPlan {
     let mut plan = MeshPlan {
         vertices: Range {
@@ -132,7 +186,7 @@ fn planned(peek: &PeekMesh) -> MeshPlan {
         edges: Range::at_most(peek.corners),
         faces: Range::at_most(peek.faces),
         degrees: Range {
-            min: peek.min_degree.max(3),
+            min: 3,
             max: peek.max_degree.max(3),
         },
         attributes: Vec::new(),
@@ -215,6 +269,28 @@ mod tests {
             "{}",
             problems[0].message
         );
+    }
+
+    #[test]
+    fn what_makes_no_clean_mesh_is_kept_or_dropped() {
+        let folder = tempfile::tempdir().unwrap();
+        let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nv 9 9 9\nf 1 2 3\nf 3 1 2\nf 1 2 4\np 5\n";
+        std::fs::write(folder.path().join("a.obj"), obj).unwrap();
+        let files = files(folder.path());
+        let counts = |text: &str| {
+            let mut scene = Scene::new();
+            let mut cx = Context::new(&NoProgress, &files);
+            let done = load(text)
+                .apply(&mut scene, &mut cx)
+                .map_err(|e| e.to_string())?;
+            let mesh = scene.object("a").and_then(|o| o.as_mesh()).unwrap();
+            Ok::<_, String>((mesh.n_vertices(), mesh.n_faces(), done.notes.len()))
+        };
+        assert_eq!(counts("(path: \"a.obj\")").unwrap().1, 3);
+        let all = "(path: \"a.obj\", duplicates: Drop, degenerate: Drop, isolated: Drop)";
+        assert_eq!(counts(all), Ok((3, 1, 4)));
+        let strict = counts("(path: \"a.obj\", strict: true)").unwrap_err();
+        assert!(strict.contains("points (`p`) left out"), "{strict}");
     }
 
     #[test]

@@ -244,7 +244,7 @@ fn small_faces_lose_corners_or_go() {
         [
             "merged 2 vertices",
             "faces that lost corners: 1",
-            "1 degenerate face left out (face 1)"
+            "1 face left out that visits a vertex twice (face 1)"
         ]
     );
 }
@@ -262,7 +262,7 @@ fn a_face_that_visits_a_vertex_twice_goes() {
     let (welded, report) = try_applied(&weld(0.01), flat(&points, &[&[0, 1, 2, 3, 4, 5]])).unwrap();
     assert_eq!((welded.n_faces(), welded.n_vertices()), (0, 5));
     assert!(
-        report.notes[1].contains("1 degenerate face"),
+        report.notes[1].contains("1 face left out"),
         "{:?}",
         report.notes
     );

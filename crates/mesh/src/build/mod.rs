@@ -45,7 +45,7 @@ use pair::{Paired, pair};
 use polygons::{Polygons, check, flatten};
 use split::split_vertices;
 
-pub use report::BuildReport;
+pub use report::{BuildReport, Elements, Repair};
 
 /// Why polygons could not become a mesh.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -69,7 +69,7 @@ pub enum BuildError {
     /// The offsets do not divide the corners into polygons.
     #[error("the offsets of the faces must rise from 0 to the number of corners, {0}")]
     BadOffsets(usize),
-    /// The polygons are not a manifold, and [`NonManifold::Refuse`] was asked for.
+    /// The polygons are not a manifold, and that was to be refused.
     #[error("the faces are not a manifold: {0}")]
     NonManifold(String),
 }
@@ -84,8 +84,11 @@ pub enum NonManifold {
     /// As [`Split`](Self::Split), but every polygon keeps its orientation: neighbors that run the same
     /// way along an edge are split there.
     SplitAsGiven,
-    /// Return [`BuildError::NonManifold`].
+    /// Turn polygons round where that makes neighbors agree, and return [`BuildError::NonManifold`] if
+    /// the rest is no manifold.
     Refuse,
+    /// Return [`BuildError::NonManifold`] if the polygons are no manifold as they are.
+    RefuseAsGiven,
 }
 
 /// A mesh built from polygons, and where each corner and polygon went.
@@ -177,9 +180,12 @@ pub fn build(
     if degenerate.is_empty() {
         return build_clean(positions, offsets, corners, non_manifold);
     }
-    if non_manifold == NonManifold::Refuse {
+    if matches!(
+        non_manifold,
+        NonManifold::Refuse | NonManifold::RefuseAsGiven
+    ) {
         return Err(BuildError::NonManifold(format!(
-            "face {} is degenerate",
+            "face {} visits a vertex twice",
             degenerate[0]
         )));
     }
@@ -235,14 +241,18 @@ fn build_clean(
     let polygons = Polygons::new(offsets, corners);
     let buckets = Buckets::new(positions.len(), corners);
     let mut paired = pair(&polygons, &buckets);
-    match non_manifold {
-        NonManifold::Refuse => refuse(&paired)?,
-        NonManifold::Split if paired.has_turned => {
-            drop(paired);
-            let orientation = Orientation::of(&polygons, &buckets);
-            return build_turned(positions, offsets, corners, orientation);
-        }
-        NonManifold::Split | NonManifold::SplitAsGiven => {}
+    let as_given = match non_manifold {
+        NonManifold::Split => NonManifold::SplitAsGiven,
+        NonManifold::Refuse => NonManifold::RefuseAsGiven,
+        as_given => as_given,
+    };
+    if paired.has_turned && non_manifold != as_given {
+        drop(paired);
+        let orientation = Orientation::of(&polygons, &buckets);
+        return build_turned(positions, offsets, corners, orientation, as_given);
+    }
+    if as_given == NonManifold::RefuseAsGiven {
+        refuse(&paired)?;
     }
     let split = split_vertices(&mut positions, &polygons, &buckets, &mut paired)?;
     drop(buckets);
@@ -282,10 +292,11 @@ fn build_turned(
     offsets: &[u32],
     corners: &[u32],
     orientation: Orientation,
+    as_given: NonManifold,
 ) -> Result<Built, BuildError> {
     let mut turned = corners.to_vec();
     orientation.reverse(offsets, &mut turned);
-    let mut built = build_clean(positions, offsets, &turned, NonManifold::SplitAsGiven)?;
+    let mut built = build_clean(positions, offsets, &turned, as_given)?;
     orientation.reverse(offsets, &mut built.half_edge_of_corner);
     built.report.reversed_faces = orientation.reversed;
     built.report.unorientable = orientation.unorientable;

@@ -148,9 +148,11 @@ fn a_manifold_can_be_insisted_on() {
 }
 
 #[test]
-fn polygons_that_run_both_ways_along_an_edge_are_refused_if_a_manifold_is_insisted_on() {
+fn polygons_that_disagree_are_turned_or_refused_if_a_manifold_is_insisted_on() {
     let corners = [0, 1, 2, 0, 1, 3];
-    let built = build(points(4), &[0, 3, 6], &corners, NonManifold::Refuse);
+    let turned = build(points(4), &[0, 3, 6], &corners, NonManifold::Refuse).unwrap();
+    assert_eq!(turned.report.reversed_faces, [1]);
+    let built = build(points(4), &[0, 3, 6], &corners, NonManifold::RefuseAsGiven);
     assert_eq!(
         built.unwrap_err().to_string(),
         "the faces are not a manifold: the edge v0-v1 has more than two faces, or two that run the \

@@ -138,8 +138,8 @@ fn a_moebius_strip_stays_as_it_is_and_is_split() {
     assert_eq!(strip.mesh, built(NonManifold::SplitAsGiven).mesh);
     assert_eq!(
         strip.report.summary(),
-        "1 part has no consistent orientation (from face 0), 1 non-manifold edge split (v0-v1), \
-         2 copies made of non-manifold vertices (first v0)"
+        "1 part has no consistent orientation (face 0), 1 non-manifold edge split (v0-v1), \
+         2 copies made of non-manifold vertices (v0, v1)"
     );
 }
 

@@ -1,0 +1,379 @@
+//! Cleaning polygons by the [`Policies`] of the reader, before a mesh is built of them.
+
+use glam::DVec3;
+use mesh::{Attributes, Domain, Elements, VertexId};
+use rayon::prelude::*;
+
+use crate::note::{NoteKind, Notes};
+use crate::{Degenerate, Duplicates, Isolated, Policies, Polygons};
+
+/// A face is degenerate if its area is below this share of the square of its longest side: what rounding
+/// leaves of an area of zero.
+const NO_AREA: f64 = 1e-14;
+
+/// Which polygon of the file each polygon is; `None` if each is its own.
+pub(crate) type Kept = Option<Vec<u32>>;
+
+/// Takes corners that repeat the one before them once, and leaves out what the policies say. Returns which
+/// polygons are left.
+pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Notes) -> Kept {
+    let mut is_corner_kept = vec![];
+    let repeated = repeated_corners(polygons, &mut is_corner_kept);
+    let mut is_dropped = vec![false; 0];
+    let mut drop = |faces: Vec<usize>, one: &str, several: &str, notes: &mut Notes| {
+        is_dropped.resize(polygons.n_faces(), false);
+        for &f in &faces {
+            is_dropped[f] = true;
+        }
+        let what = if faces.len() == 1 { one } else { several };
+        notes.elements(NoteKind::Changed, what, Elements::Faces(faces));
+    };
+    if policies.degenerate == Degenerate::Drop {
+        let one = "face without area dropped";
+        drop(
+            degenerate(polygons),
+            one,
+            "faces without area dropped",
+            notes,
+        );
+    }
+    if policies.duplicates == Duplicates::Drop {
+        let one = "duplicate face dropped";
+        drop(duplicates(polygons), one, "duplicate faces dropped", notes);
+    }
+    if !repeated.is_empty() {
+        let what = "faces that repeat a corner: taken once";
+        notes.elements(NoteKind::Changed, what, Elements::Faces(repeated));
+    }
+    let kept = keep(polygons, &is_dropped, &is_corner_kept);
+    if policies.isolated == Isolated::Drop {
+        drop_isolated(polygons, notes);
+    }
+    kept
+}
+
+// ---- Repeated corners --------------------------------------------------------------------------
+
+/// The corners of polygon `f`.
+fn corners(polygons: &Polygons, f: usize) -> &[u32] {
+    &polygons.corners[polygons.offsets[f] as usize..polygons.offsets[f + 1] as usize]
+}
+
+/// The polygons in which a corner has the vertex of the one before it, and at least three are left
+/// without such corners. `is_kept` gets a mark for each corner then.
+fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> {
+    let kept_in = |corners: &[u32]| {
+        let before = corners.iter().cycle().skip(corners.len().max(1) - 1);
+        let pairs = corners.iter().zip(before);
+        pairs.filter(|(v, before)| v != before).count()
+    };
+    let is_repaired = |&f: &usize| {
+        let corners = corners(polygons, f);
+        let n = kept_in(corners);
+        n >= 3 && n < corners.len()
+    };
+    let repaired: Vec<usize> = all(polygons).filter(is_repaired).collect();
+    if !repaired.is_empty() {
+        is_kept.resize(polygons.corners.len(), true);
+    }
+    for &f in &repaired {
+        let corners = corners(polygons, f);
+        let first = polygons.offsets[f] as usize;
+        for (i, &v) in corners.iter().enumerate() {
+            // The first of a run stays; a run may go around the end.
+            is_kept[first + i] = v != corners[(i + corners.len() - 1) % corners.len()];
+        }
+    }
+    repaired
+}
+
+fn all(polygons: &Polygons) -> impl IndexedParallelIterator<Item = usize> {
+    (0..polygons.n_faces()).into_par_iter().with_min_len(4096)
+}
+
+// ---- Degenerate faces --------------------------------------------------------------------------
+
+fn degenerate(polygons: &Polygons) -> Vec<usize> {
+    let has_no_area = |&f: &usize| {
+        let points = corners(polygons, f).iter();
+        let points: Option<Vec<DVec3>> = points
+            .map(|&v| polygons.positions.get(v as usize).copied())
+            .collect();
+        // What is out of range is reported where the mesh is built.
+        points.is_some_and(|points| is_degenerate(&points))
+    };
+    all(polygons).filter(has_no_area).collect()
+}
+
+fn is_degenerate(points: &[DVec3]) -> bool {
+    let Some((&first, rest)) = points.split_first() else {
+        return true;
+    };
+    let double: DVec3 = rest
+        .windows(2)
+        .map(|w| (w[0] - first).cross(w[1] - first))
+        .sum();
+    let sides = points.iter().zip(points.iter().cycle().skip(1));
+    let longest = sides
+        .map(|(a, b)| a.distance_squared(*b))
+        .fold(0.0, f64::max);
+    // Not `>`: a face whose numbers overflow is none to drop.
+    double.length() <= 2.0 * NO_AREA * longest
+}
+
+// ---- Duplicates --------------------------------------------------------------------------------
+
+/// The polygons that have the vertices of one before them, in the same circular order or in the
+/// opposite one.
+fn duplicates(polygons: &Polygons) -> Vec<usize> {
+    let mut keys: Vec<(u64, u32)> = all(polygons)
+        .map(|f| (sum_of_hashes(corners(polygons, f)), id(f)))
+        .collect();
+    keys.par_sort_unstable();
+    let mut duplicates = Vec::new();
+    for same in keys
+        .chunk_by(|a, b| a.0 == b.0)
+        .filter(|same| same.len() > 1)
+    {
+        let mut cycles: Vec<(Vec<u32>, u32)> = same
+            .iter()
+            .map(|&(_, f)| (canonical(corners(polygons, f as usize)), f))
+            .collect();
+        cycles.sort_unstable();
+        for equal in cycles.chunk_by(|a, b| a.0 == b.0) {
+            duplicates.extend(equal[1..].iter().map(|&(_, f)| f as usize));
+        }
+    }
+    duplicates.sort_unstable();
+    duplicates
+}
+
+/// A number that does not depend on the order of the corners: the sum of their scrambled vertices.
+fn sum_of_hashes(corners: &[u32]) -> u64 {
+    // The finalizer of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
+    let scrambled = corners.iter().map(|&v| {
+        let x = (u64::from(v) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    });
+    scrambled.fold(corners.len() as u64, u64::wrapping_add)
+}
+
+/// The corners from the lowest vertex on, towards the lower of its neighbors.
+fn canonical(corners: &[u32]) -> Vec<u32> {
+    let Some(start) = (0..corners.len()).min_by_key(|&i| corners[i]) else {
+        return Vec::new();
+    };
+    let n = corners.len();
+    let ahead: Vec<u32> = (0..n).map(|i| corners[(start + i) % n]).collect();
+    let back: Vec<u32> = (0..n).map(|i| corners[(start + n - i) % n]).collect();
+    ahead.min(back)
+}
+
+fn id(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}
+
+// ---- Leaving out -------------------------------------------------------------------------------
+
+/// Keeps the polygons that are not dropped and in them the corners that are kept; empty lists of marks
+/// stand for all.
+fn keep(polygons: &mut Polygons, is_dropped: &[bool], is_corner_kept: &[bool]) -> Kept {
+    if is_dropped.is_empty() && is_corner_kept.is_empty() {
+        return None;
+    }
+    let is_face = |f: usize| is_dropped.get(f).is_none_or(|is| !is);
+    let is_corner = |c: usize| is_corner_kept.get(c).is_none_or(|&is| is);
+    let kept: Vec<u32> = (0..polygons.n_faces())
+        .filter(|&f| is_face(f))
+        .map(id)
+        .collect();
+    let mut offsets = Vec::with_capacity(kept.len() + 1);
+    let mut sources: Vec<u32> = Vec::with_capacity(polygons.corners.len());
+    offsets.push(0);
+    for &f in &kept {
+        let ends = polygons.offsets[f as usize]..polygons.offsets[f as usize + 1];
+        sources.extend(ends.filter(|&c| is_corner(c as usize)));
+        offsets.push(id(sources.len()));
+    }
+    polygons.corners = sources
+        .iter()
+        .map(|&c| polygons.corners[c as usize])
+        .collect();
+    polygons.offsets = offsets;
+    gather(&mut polygons.attributes, Domain::Corner, &sources);
+    gather(&mut polygons.attributes, Domain::Face, &kept);
+    Some(kept)
+}
+
+fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
+    let mut is_used = vec![false; polygons.positions.len()];
+    for &v in &polygons.corners {
+        if let Some(used) = is_used.get_mut(v as usize) {
+            *used = true;
+        }
+    }
+    let (kept, isolated): (Vec<u32>, Vec<u32>) =
+        (0..id(is_used.len())).partition(|&v| is_used[v as usize]);
+    if isolated.is_empty() {
+        return;
+    }
+    let mut new = vec![u32::MAX; is_used.len()];
+    for (i, &v) in (0..).zip(&kept) {
+        new[v as usize] = i;
+    }
+    polygons.corners.par_iter_mut().for_each(|v| {
+        *v = new.get(*v as usize).copied().unwrap_or(u32::MAX);
+    });
+    let positions = &polygons.positions;
+    polygons.positions = kept.iter().map(|&v| positions[v as usize]).collect();
+    gather(&mut polygons.attributes, Domain::Vertex, &kept);
+    let vertices = isolated.iter().map(|&v| VertexId::new(v as usize));
+    let what = if isolated.len() == 1 {
+        "isolated vertex dropped"
+    } else {
+        "isolated vertices dropped"
+    };
+    notes.elements(
+        NoteKind::Changed,
+        what,
+        Elements::Vertices(vertices.collect()),
+    );
+}
+
+/// The columns of a domain with the values at `sources`.
+fn gather(attributes: &mut Attributes, domain: Domain, sources: &[u32]) {
+    let names: Vec<String> = attributes
+        .of(domain)
+        .iter()
+        .map(|c| c.name.clone())
+        .collect();
+    for name in names {
+        if let Some(mut column) = attributes.remove(domain, &name) {
+            column.values = column
+                .values
+                .gather(sources.len(), |i| Some(sources[i] as usize));
+            attributes.insert(domain, column);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    fn made(faces: &[&[u32]]) -> Polygons {
+        let points = [
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [2.0, 0.0],
+            [0.0, 1.0],
+            [5.0, 5.0],
+            [1.0, 1.0],
+        ];
+        let mut polygons = Polygons {
+            positions: points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+            ..Polygons::default()
+        };
+        for face in faces {
+            polygons.corners.extend_from_slice(face);
+            polygons.offsets.push(id(polygons.corners.len()));
+        }
+        let rule = mesh::Rule::Copy;
+        let corners = (0..polygons.corners.len()).map(|c| c as f64).collect();
+        polygons.insert::<f64>(Domain::Corner, "c", rule, corners);
+        let faces = (0..faces.len()).map(|f| f as f64).collect();
+        polygons.insert::<f64>(Domain::Face, "f", rule, faces);
+        let vertices = (0..6).map(f64::from).collect();
+        polygons.insert::<f64>(Domain::Vertex, "v", rule, vertices);
+        polygons
+    }
+
+    fn cleaned(faces: &[&[u32]], policies: Policies) -> (Polygons, Kept, Vec<String>) {
+        let mut polygons = made(faces);
+        let mut notes = Notes::of(Path::new("a"));
+        let kept = clean(&mut polygons, policies, &mut notes);
+        let notes = notes.into_vec().iter().map(ToString::to_string).collect();
+        (polygons, kept, notes)
+    }
+
+    fn values(polygons: &Polygons, domain: Domain, name: &str) -> Vec<f64> {
+        let column = polygons.attributes.column(domain, name).unwrap();
+        <f64 as mesh::Value>::of(&column.values).unwrap().to_vec()
+    }
+
+    #[test]
+    fn clean_polygons_stay_as_they_are() {
+        let all = Policies {
+            degenerate: Degenerate::Drop,
+            duplicates: Duplicates::Drop,
+            ..Policies::default()
+        };
+        let faces: &[&[u32]] = &[&[0, 1, 3], &[1, 2, 5]];
+        let (polygons, _, notes) = cleaned(faces, all);
+        assert_eq!(polygons, made(faces));
+        assert!(notes.is_empty());
+    }
+
+    #[test]
+    fn a_corner_that_repeats_the_one_before_is_taken_once() {
+        let faces: &[&[u32]] = &[&[0, 1, 1, 3], &[3, 0, 1, 3, 3], &[0, 0, 1]];
+        let (polygons, kept, notes) = cleaned(faces, Policies::default());
+        assert_eq!(polygons.corners, [0, 1, 3, 0, 1, 3, 0, 0, 1]);
+        assert_eq!(polygons.offsets, [0, 3, 6, 9]);
+        assert_eq!(kept, Some(vec![0, 1, 2]));
+        assert_eq!(
+            notes,
+            ["a: 2 faces that repeat a corner: taken once (faces 0, 1)"]
+        );
+    }
+
+    #[test]
+    fn faces_without_area_are_dropped_with_their_values() {
+        let policies = Policies {
+            degenerate: Degenerate::Drop,
+            ..Policies::default()
+        };
+        let (polygons, kept, notes) = cleaned(&[&[0, 1, 2], &[0, 1, 3]], policies);
+        assert_eq!(polygons.corners, [0, 1, 3]);
+        assert_eq!(kept, Some(vec![1]));
+        assert_eq!(values(&polygons, Domain::Corner, "c"), [3.0, 4.0, 5.0]);
+        assert_eq!(values(&polygons, Domain::Face, "f"), [1.0]);
+        assert_eq!(notes, ["a: 1 face without area dropped (face 0)"]);
+    }
+
+    #[test]
+    fn of_duplicates_either_way_round_the_first_is_kept() {
+        let policies = Policies {
+            duplicates: Duplicates::Drop,
+            ..Policies::default()
+        };
+        let faces: &[&[u32]] = &[
+            &[0, 1, 5, 3],
+            &[5, 3, 0, 1],
+            &[3, 5, 1, 0],
+            &[0, 5, 1, 3],
+            &[0, 1, 3],
+        ];
+        let (polygons, kept, notes) = cleaned(faces, policies);
+        assert_eq!(kept, Some(vec![0, 3, 4]));
+        assert_eq!(polygons.n_faces(), 3);
+        assert_eq!(notes, ["a: 2 duplicate faces dropped (faces 1, 2)"]);
+    }
+
+    #[test]
+    fn isolated_vertices_are_dropped_and_the_others_close_up() {
+        let policies = Policies {
+            isolated: Isolated::Drop,
+            ..Policies::default()
+        };
+        let (polygons, _, notes) = cleaned(&[&[0, 1, 5]], policies);
+        assert_eq!(polygons.corners, [0, 1, 2]);
+        assert_eq!(polygons.positions[2], DVec3::new(1.0, 1.0, 0.0));
+        assert_eq!(values(&polygons, Domain::Vertex, "v"), [0.0, 1.0, 5.0]);
+        assert_eq!(notes, ["a: 3 isolated vertices dropped (v2, v3, v4)"]);
+    }
+}

@@ -145,7 +145,7 @@ impl Values {
             n: usize,
             source: impl Fn(usize) -> Option<usize> + Sync,
         ) -> Values {
-            let mut new = bytemuck_zeroed::<T>(n);
+            let mut new = crate::zeroed::<T>(n);
             new.par_iter_mut()
                 .with_min_len(crate::blocks::BLOCK)
                 .enumerate()
@@ -174,7 +174,7 @@ impl Values {
             add: impl Fn(T, T, f64) -> T + Sync,
             weights: impl Fn(usize, &mut dyn FnMut(usize, f64)) + Sync,
         ) -> Values {
-            let mut new = bytemuck_zeroed::<T>(n);
+            let mut new = crate::zeroed::<T>(n);
             new.par_iter_mut()
                 .with_min_len(crate::blocks::BLOCK)
                 .enumerate()
@@ -339,11 +339,6 @@ value!(DVec3, Vec3);
 value!(DVec4, Vec4);
 value!(i32, Int);
 value!(bool, Tag);
-
-/// Zeroed memory from the system, so that the threads that fill it touch it first.
-fn bytemuck_zeroed<T: Value>(n: usize) -> Vec<T> {
-    bytemuck::zeroed_vec(n)
-}
 
 /// The name, domain, type and rule of an attribute, known when the program is compiled.
 #[derive(Debug)]

@@ -33,7 +33,7 @@ impl Edges {
         let count = |block| corners(block, twin).filter(|&c| is_first(c, twin)).count();
         let counts: Vec<usize> = blocks.map(count).collect();
         // Each is written once, by the first side of its edge.
-        let half_edges: Vec<AtomicU32> = bytemuck::zeroed_vec(twin.len());
+        let half_edges: Vec<AtomicU32> = crate::zeroed(twin.len());
         let firsts = sums_before(&counts).into_par_iter().enumerate();
         firsts.for_each(|(block, first)| {
             let firsts = corners(block, twin).filter(|&c| is_first(c, twin));
@@ -62,9 +62,9 @@ impl Edges {
         vertex_half_edge: Vec<HalfEdgeId>,
     ) -> Connectivity {
         let n = 2 * self.counts.iter().sum::<usize>();
-        let mut next = bytemuck::zeroed_vec::<HalfEdgeId>(n);
-        let mut origin = bytemuck::zeroed_vec::<VertexId>(n);
-        let mut face = bytemuck::zeroed_vec::<FaceId>(n);
+        let mut next = crate::zeroed::<HalfEdgeId>(n);
+        let mut origin = crate::zeroed::<VertexId>(n);
+        let mut face = crate::zeroed::<FaceId>(n);
         let of = |c: u32| self.half_edge_of_corner[c as usize];
         let vertex = |c: u32| VertexId::new(origins[c as usize] as usize);
         let face_of = |c: u32| FaceId::new(polygons.face(c) as usize);

@@ -24,7 +24,7 @@ impl Buckets {
         let width = n_vertices.div_ceil(n_tasks).max(1);
 
         // Counts first, each one place further than it belongs, ...
-        let mut first: Vec<u32> = bytemuck::zeroed_vec(n_vertices + 1);
+        let mut first: Vec<u32> = crate::zeroed(n_vertices + 1);
         let tasks = first[1..].par_chunks_mut(width).enumerate();
         tasks.for_each(|(task, counts)| {
             for &v in vertices {
@@ -42,7 +42,7 @@ impl Buckets {
         let starts = first[1..].chunks(width).map(|starts| starts[0] as usize);
         let ends = starts.clone().skip(1).chain([vertices.len()]);
         let lengths: Vec<usize> = starts.zip(ends).map(|(start, end)| end - start).collect();
-        let mut corners = bytemuck::zeroed_vec(vertices.len());
+        let mut corners = crate::zeroed(vertices.len());
         // ... which, counted up while the bucket is filled, becomes the start of the next one.
         first[1..]
             .par_chunks_mut(width)

@@ -69,8 +69,8 @@ struct Odd {
 /// Pairs the sides: around each vertex those that leave with those that come. So each side is looked
 /// at twice, at both of its ends, and its twin is written where it leaves.
 pub(super) fn pair(polygons: &Polygons, buckets: &Buckets) -> Paired {
-    let twin: Vec<AtomicU32> = bytemuck::zeroed_vec(polygons.corners.len());
-    let mut leaving: Vec<Leaving> = bytemuck::zeroed_vec(buckets.n_vertices());
+    let twin: Vec<AtomicU32> = crate::zeroed(polygons.corners.len());
+    let mut leaving: Vec<Leaving> = crate::zeroed(buckets.n_vertices());
     let blocks = leaving.par_chunks_mut(BLOCK).enumerate();
     let odd: Vec<Odd> = blocks
         .map_init(Star::default, |star, (block, leaving)| {

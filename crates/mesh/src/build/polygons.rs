@@ -82,7 +82,7 @@ impl<'a> Polygons<'a> {
 }
 
 fn faces_of_corners(offsets: &[u32]) -> Vec<u32> {
-    let mut face_of_corner = bytemuck::zeroed_vec(offsets[offsets.len() - 1] as usize);
+    let mut face_of_corner = crate::zeroed(offsets[offsets.len() - 1] as usize);
     let blocks = offsets[1..].chunks(BLOCK).zip(offsets.chunks(BLOCK));
     let lengths = blocks.map(|(ends, firsts)| (ends[ends.len() - 1] - firsts[0]) as usize);
     pieces(&mut face_of_corner, lengths)
@@ -136,8 +136,8 @@ pub(super) fn flatten(
         .collect();
     let n_corners = lengths.iter().sum();
     to_u32(n_corners, "corners")?;
-    let mut offsets = bytemuck::zeroed_vec(polygons.len() + 1);
-    let mut corners = bytemuck::zeroed_vec(n_corners);
+    let mut offsets = crate::zeroed(polygons.len() + 1);
+    let mut corners = crate::zeroed(n_corners);
     let firsts = sums_before(&lengths);
     offsets[1..]
         .par_chunks_mut(BLOCK)

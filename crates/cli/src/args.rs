@@ -3,6 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use mesh_io::{NonManifold, Orientation, Policies, ReadOptions, Unwanted};
+use serde::de::value::StrDeserializer;
+use serde::de::{DeserializeOwned, IntoDeserializer};
 
 /// Edit 3D meshes by recipe.
 #[derive(Debug, Parser)]
@@ -32,6 +35,8 @@ pub(crate) enum Command {
     Info {
         /// A mesh, patch or curve file
         file: PathBuf,
+        #[command(flatten)]
+        read: ReadArgs,
         #[arg(long, value_enum, default_value_t)]
         format: Format,
     },
@@ -39,6 +44,8 @@ pub(crate) enum Command {
     Convert {
         /// The file to read
         input: PathBuf,
+        #[command(flatten)]
+        read: ReadArgs,
         /// The file to write; its ending chooses the format
         output: PathBuf,
     },
@@ -61,6 +68,51 @@ pub(crate) enum Format {
     Human,
     /// One JSON object
     Json,
+}
+
+/// What commands that read a file of meshes share.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct ReadArgs {
+    /// Fail where something of the file would be left out
+    #[arg(long)]
+    strict: bool,
+    /// Where faces form no manifold: Split or Refuse
+    #[arg(long, default_value = "Split", value_name = "POLICY", value_parser = policy::<NonManifold>)]
+    non_manifold: NonManifold,
+    /// Where neighboring faces disagree about their orientation: Orient or Keep
+    #[arg(long, default_value = "Orient", value_name = "POLICY", value_parser = policy::<Orientation>)]
+    orientation: Orientation,
+    /// Faces with the vertices of an earlier one: Keep or Drop
+    #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<Unwanted>)]
+    duplicates: Unwanted,
+    /// Faces without area: Keep or Drop
+    #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<Unwanted>)]
+    degenerate: Unwanted,
+    /// Vertices that no face uses: Keep or Drop
+    #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<Unwanted>)]
+    isolated: Unwanted,
+}
+
+impl ReadArgs {
+    pub(crate) fn options(&self) -> ReadOptions {
+        ReadOptions {
+            name: None,
+            policies: Policies {
+                non_manifold: self.non_manifold,
+                orientation: self.orientation,
+                duplicates: self.duplicates,
+                degenerate: self.degenerate,
+                isolated: self.isolated,
+            },
+            strict: self.strict,
+        }
+    }
+}
+
+/// A policy by the name that it has in recipes.
+fn policy<T: DeserializeOwned>(text: &str) -> Result<T, String> {
+    let name: StrDeserializer<serde::de::value::Error> = text.into_deserializer();
+    T::deserialize(name).map_err(|error| error.to_string())
 }
 
 /// What commands that read one recipe share.

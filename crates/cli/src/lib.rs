@@ -42,8 +42,12 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Check(args) => commands::check::run(&args, &registry),
         Command::Test(args) => commands::test::run(&args, &registry),
         Command::Ops { name, markdown } => commands::ops::run(name.as_deref(), markdown, &registry),
-        Command::Info { file, format } => commands::info::run(&file, format),
-        Command::Convert { input, output } => commands::convert::run(&input, &output),
+        Command::Info { file, read, format } => commands::info::run(&file, &read, format),
+        Command::Convert {
+            input,
+            read,
+            output,
+        } => commands::convert::run(&input, &read, &output),
         Command::Schema => commands::schema::run(&registry),
         Command::NewOp { name, dir } => commands::new_op::run(&name, &dir),
     };

@@ -5,7 +5,7 @@ use mesh::{Attributes, Domain, Elements, VertexId};
 use rayon::prelude::*;
 
 use crate::note::{NoteKind, Notes};
-use crate::{Degenerate, Duplicates, Isolated, Policies, Polygons};
+use crate::{Policies, Polygons, Unwanted};
 
 /// A face is degenerate if its area is below this share of the square of its longest side: what rounding
 /// leaves of an area of zero.
@@ -28,7 +28,7 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
         let what = if faces.len() == 1 { one } else { several };
         notes.elements(NoteKind::Changed, what, Elements::Faces(faces));
     };
-    if policies.degenerate == Degenerate::Drop {
+    if policies.degenerate == Unwanted::Drop {
         let one = "face without area dropped";
         drop(
             degenerate(polygons),
@@ -37,7 +37,7 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
             notes,
         );
     }
-    if policies.duplicates == Duplicates::Drop {
+    if policies.duplicates == Unwanted::Drop {
         let one = "duplicate face dropped";
         drop(duplicates(polygons), one, "duplicate faces dropped", notes);
     }
@@ -46,7 +46,7 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
         notes.elements(NoteKind::Changed, what, Elements::Faces(repeated));
     }
     let kept = keep(polygons, &is_dropped, &is_corner_kept);
-    if policies.isolated == Isolated::Drop {
+    if policies.isolated == Unwanted::Drop {
         drop_isolated(polygons, notes);
     }
     kept
@@ -308,8 +308,8 @@ mod tests {
     #[test]
     fn clean_polygons_stay_as_they_are() {
         let all = Policies {
-            degenerate: Degenerate::Drop,
-            duplicates: Duplicates::Drop,
+            degenerate: Unwanted::Drop,
+            duplicates: Unwanted::Drop,
             ..Policies::default()
         };
         let faces: &[&[u32]] = &[&[0, 1, 3], &[1, 2, 5]];
@@ -334,7 +334,7 @@ mod tests {
     #[test]
     fn faces_without_area_are_dropped_with_their_values() {
         let policies = Policies {
-            degenerate: Degenerate::Drop,
+            degenerate: Unwanted::Drop,
             ..Policies::default()
         };
         let (polygons, kept, notes) = cleaned(&[&[0, 1, 2], &[0, 1, 3]], policies);
@@ -348,7 +348,7 @@ mod tests {
     #[test]
     fn of_duplicates_either_way_round_the_first_is_kept() {
         let policies = Policies {
-            duplicates: Duplicates::Drop,
+            duplicates: Unwanted::Drop,
             ..Policies::default()
         };
         let faces: &[&[u32]] = &[
@@ -367,7 +367,7 @@ mod tests {
     #[test]
     fn isolated_vertices_are_dropped_and_the_others_close_up() {
         let policies = Policies {
-            isolated: Isolated::Drop,
+            isolated: Unwanted::Drop,
             ..Policies::default()
         };
         let (polygons, _, notes) = cleaned(&[&[0, 1, 5]], policies);

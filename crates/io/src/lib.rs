@@ -67,7 +67,7 @@ pub use error::{ReadError, WriteError};
 pub use format::Format;
 pub use note::{Loss, Note, NoteKind};
 pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject};
-pub use policy::{Degenerate, Duplicates, Isolated, NonManifold, Orientation, Policies};
+pub use policy::{NonManifold, Orientation, Policies, Unwanted};
 pub use polygons::Polygons;
 
 use error::Unwritable;

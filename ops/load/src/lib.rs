@@ -2,7 +2,7 @@
 
 use mesh::Domain;
 use mesh_io::{
-    Degenerate, Duplicates, Isolated, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions,
+    NonManifold, Orientation, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions, Unwanted,
 };
 use op::{
     Context, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Range,
@@ -35,78 +35,29 @@ pub struct Load {
     pub orientation: Orientation,
     /// What to do with faces that have the vertices of an earlier one, either way round.
     #[serde(default)]
-    pub duplicates: Policy,
+    pub duplicates: Unwanted,
     /// What to do with faces without area.
     #[serde(default)]
-    pub degenerate: Policy,
+    pub degenerate: Unwanted,
     /// What to do with vertices that no face uses.
     #[serde(default)]
-    pub isolated: Policy,
+    pub isolated: Unwanted,
     /// Whether to fail where something of the file would be left out.
     #[serde(default)]
     pub strict: bool,
 }
 
-/// What to do where faces do not form a manifold.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, Serialize)]
-#[serde(deny_unknown_fields)]
-pub enum NonManifold {
-    /// Split edges and vertices until they do, and list it.
-    #[default]
-    Split,
-    /// Fail.
-    Refuse,
-}
-
-/// What to do where neighboring faces disagree about their orientation.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, Serialize)]
-#[serde(deny_unknown_fields)]
-pub enum Orientation {
-    /// Reverse faces where that makes neighbors agree, and list them.
-    #[default]
-    Orient,
-    /// Leave every face as it is. Neighbors that disagree form no manifold.
-    Keep,
-}
-
-/// What to do with elements that are of no use.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, Serialize)]
-#[serde(deny_unknown_fields)]
-pub enum Policy {
-    /// Keep them.
-    #[default]
-    Keep,
-    /// Leave them out, and list them. Of duplicates the first stays.
-    Drop,
-}
-
 impl Load {
     fn options(&self) -> ReadOptions {
-        let policies = Policies {
-            non_manifold: match self.non_manifold {
-                NonManifold::Split => mesh_io::NonManifold::Split,
-                NonManifold::Refuse => mesh_io::NonManifold::Refuse,
-            },
-            orientation: match self.orientation {
-                Orientation::Orient => mesh_io::Orientation::Orient,
-                Orientation::Keep => mesh_io::Orientation::Keep,
-            },
-            duplicates: match self.duplicates {
-                Policy::Keep => Duplicates::Keep,
-                Policy::Drop => Duplicates::Drop,
-            },
-            degenerate: match self.degenerate {
-                Policy::Keep => Degenerate::Keep,
-                Policy::Drop => Degenerate::Drop,
-            },
-            isolated: match self.isolated {
-                Policy::Keep => Isolated::Keep,
-                Policy::Drop => Isolated::Drop,
-            },
-        };
         ReadOptions {
             name: self.name.clone(),
-            policies,
+            policies: Policies {
+                non_manifold: self.non_manifold,
+                orientation: self.orientation,
+                duplicates: self.duplicates,
+                degenerate: self.degenerate,
+                isolated: self.isolated,
+            },
             strict: self.strict,
         }
     }

@@ -5,11 +5,12 @@ use std::path::Path;
 use anyhow::Context as _;
 use scene::Scene;
 
+use crate::args::ReadArgs;
 use crate::output::print;
 
-pub(crate) fn run(input: &Path, output: &Path) -> anyhow::Result<bool> {
-    let loaded = mesh_io::read(input, &mesh_io::ReadOptions::default())
-        .map_err(|error| anyhow::anyhow!("{error}"))?;
+pub(crate) fn run(input: &Path, read: &ReadArgs, output: &Path) -> anyhow::Result<bool> {
+    let loaded =
+        mesh_io::read(input, &read.options()).map_err(|error| anyhow::anyhow!("{error}"))?;
     for note in &loaded.notes {
         print(&format!("{note}\n"))?;
     }

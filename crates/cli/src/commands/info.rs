@@ -2,18 +2,19 @@
 
 use std::path::Path;
 
-use mesh::Mesh;
+use mesh::{Elements, Mesh, VertexId};
+use mesh_io::{Note, NoteKind};
 use scene::{Geometry, Object};
 
-use crate::args::Format;
+use crate::args::{Format, ReadArgs};
 use crate::output::{grouped, print};
 
-pub(crate) fn run(path: &Path, format: Format) -> anyhow::Result<bool> {
-    let loaded = mesh_io::read(path, &mesh_io::ReadOptions::default())
-        .map_err(|error| anyhow::anyhow!("{error}"))?;
+pub(crate) fn run(path: &Path, read: &ReadArgs, format: Format) -> anyhow::Result<bool> {
+    let loaded =
+        mesh_io::read(path, &read.options()).map_err(|error| anyhow::anyhow!("{error}"))?;
     if format == Format::Json {
         let objects: Vec<_> = loaded.objects.iter().map(object_json).collect();
-        let notes: Vec<_> = loaded.notes.iter().map(ToString::to_string).collect();
+        let notes: Vec<_> = loaded.notes.iter().map(note_json).collect();
         let info = serde_json::json!({ "file": path.display().to_string(), "objects": objects, "notes": notes });
         print(&format!("{info:#}\n"))?;
         return Ok(true);
@@ -28,6 +29,29 @@ pub(crate) fn run(path: &Path, format: Format) -> anyhow::Result<bool> {
         print(&format!("note: {note}\n"))?;
     }
     Ok(true)
+}
+
+/// A note as a sentence, and its parts; all elements, where the sentence names a few.
+fn note_json(note: &Note) -> serde_json::Value {
+    let mut json = serde_json::json!({
+        "text": note.to_string(),
+        "left_out": note.kind == NoteKind::LeftOut,
+        "file": note.path.display().to_string(),
+        "line": note.line,
+        "count": note.count,
+    });
+    let elements = note.elements.as_ref().map(|elements| match elements {
+        Elements::Vertices(list) => ("vertices", list.iter().map(|v| v.index().into()).collect()),
+        Elements::Edges(list) => (
+            "edges",
+            list.iter().map(|e| e.map(VertexId::index).into()).collect(),
+        ),
+        Elements::Faces(list) => ("faces", list.iter().map(|&f| f.into()).collect()),
+    });
+    if let Some((kind, list)) = elements {
+        json[kind] = serde_json::Value::Array(list);
+    }
+    json
 }
 
 fn facts(object: &Object) -> Vec<(&'static str, String)> {

@@ -92,3 +92,29 @@ fn what_cannot_be_converted_leaves_no_file() {
     );
     assert_eq!(folder.read("old.obj"), b"old");
 }
+
+#[test]
+fn what_makes_no_clean_mesh_is_treated_as_asked_and_listed() {
+    let obj = format!("{SQUARE}v 9 9 9\nf 4 3 2 1\np 5\n");
+    let folder = Folder::new().with("a.obj", obj);
+    let json = folder
+        .run("info a.obj --duplicates Drop --isolated Drop --format json")
+        .with_code(0)
+        .json();
+    assert_eq!(json["objects"][0]["faces"], 1);
+    assert_eq!(json["objects"][0]["vertices"], 4);
+    let notes = json["notes"].as_array().unwrap();
+    assert_eq!(notes[0]["left_out"], true);
+    assert_eq!(notes[0]["line"], 8);
+    assert_eq!(notes[1]["faces"], serde_json::json!([1]));
+    assert_eq!(notes[2]["vertices"], serde_json::json!([4]));
+    assert_eq!(notes[2]["text"], "a.obj: 1 isolated vertex dropped (v4)");
+
+    folder.run("convert a.obj a.ply --strict").with_code(1);
+    assert!(!folder.path("a.ply").exists());
+    let wrong = folder.run("info a.obj --isolated Shrink").with_code(2);
+    assert!(
+        wrong.stderr.contains("expected `Keep` or `Drop`"),
+        "{wrong:#?}"
+    );
+}

@@ -3,13 +3,20 @@
 //! The canonical form writes every array with its length, numbers little-endian with all their bits,
 //! and texts with their lengths. Two scenes have the same form exactly if they are the same objects
 //! with the same arrays, in the same order.
+//!
+//! A material is its name, base color, metalness, roughness and the path of its base color texture. What
+//! else it has follows behind a length that no text has, each thing with its name, so that materials
+//! without it keep the form they had before there was more.
 
 use std::fmt;
 
 use bytemuck::Pod;
 use mesh::{Mesh, Rule, Values};
 
-use crate::{Geometry, Object, Scene};
+use crate::{
+    AlphaMode, Filter, Geometry, Image, Material, Object, Sampler, Scene, Texture,
+    TextureTransform, Wrap,
+};
 
 /// BLAKE3 over the canonical form of a scene, 16 bytes of it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -88,10 +95,7 @@ impl<S: FnMut(&[u8])> Encoder<'_, S> {
         self.text(&object.name);
         self.len(object.materials.len());
         for m in &object.materials {
-            self.text(&m.name);
-            self.array(&m.base_color, 8);
-            self.array(&[m.metallic, m.roughness], 8);
-            self.text(m.base_color_texture.as_deref().unwrap_or(""));
+            self.material(m);
         }
         self.text(object.geometry.kind());
         match &object.geometry {
@@ -110,6 +114,120 @@ impl<S: FnMut(&[u8])> Encoder<'_, S> {
                 }
             }
         }
+    }
+
+    fn material(&mut self, m: &Material) {
+        self.text(&m.name);
+        self.array(&m.base_color, 8);
+        self.array(&[m.metallic, m.roughness], 8);
+        let path = m.base_color_texture.as_ref().and_then(Texture::path);
+        self.text(path.unwrap_or(""));
+
+        let plain = Material::new("");
+        // A transparent color has always meant a transparent surface.
+        let usual = if m.base_color[3] < 1.0 {
+            AlphaMode::Blend
+        } else {
+            AlphaMode::Opaque
+        };
+        let base_color = m.base_color_texture.as_ref();
+        let textures = [
+            ("base color texture", base_color.filter(|&t| !is_path(t))),
+            (
+                "metallic roughness texture",
+                m.metallic_roughness_texture.as_ref(),
+            ),
+            ("normal texture", m.normal_texture.as_ref()),
+            ("occlusion texture", m.occlusion_texture.as_ref()),
+            ("emissive texture", m.emissive_texture.as_ref()),
+        ];
+        let textures = textures
+            .into_iter()
+            .filter_map(|(name, t)| Some((name, t?)));
+        let alpha = match m.alpha {
+            AlphaMode::Opaque => vec![0.0],
+            AlphaMode::Mask(cutoff) => vec![1.0, cutoff],
+            AlphaMode::Blend => vec![2.0],
+        };
+        let flag = |is| vec![f64::from(u8::from(is))];
+        let numbers = [
+            (
+                "normal scale",
+                vec![m.normal_scale],
+                m.normal_scale != plain.normal_scale,
+            ),
+            (
+                "occlusion strength",
+                vec![m.occlusion_strength],
+                m.occlusion_strength != plain.occlusion_strength,
+            ),
+            (
+                "emissive",
+                m.emissive.to_vec(),
+                m.emissive != plain.emissive,
+            ),
+            (
+                "emissive strength",
+                vec![m.emissive_strength],
+                m.emissive_strength != plain.emissive_strength,
+            ),
+            ("alpha", alpha, m.alpha != usual),
+            ("double sided", flag(m.double_sided), m.double_sided),
+            ("unlit", flag(m.unlit), m.unlit),
+        ];
+        let numbers = numbers.into_iter().filter(|&(_, _, differs)| differs);
+        let (textures, numbers): (Vec<_>, Vec<_>) = (textures.collect(), numbers.collect());
+        if textures.is_empty() && numbers.is_empty() {
+            return;
+        }
+        (self.sink)(&u64::MAX.to_le_bytes());
+        self.len(textures.len());
+        for (name, texture) in textures {
+            self.text(name);
+            self.texture(texture);
+        }
+        self.len(numbers.len());
+        for (name, values, _) in numbers {
+            self.text(name);
+            self.array(&values, 8);
+        }
+    }
+
+    fn texture(&mut self, texture: &Texture) {
+        match &texture.image {
+            Image::File(path) => {
+                self.text("file");
+                self.text(path);
+            }
+            Image::Embedded { mime, bytes } => {
+                self.text("embedded");
+                self.text(mime);
+                self.array(bytes, 1);
+            }
+        }
+        let Sampler {
+            wrap,
+            magnify,
+            minify,
+            mipmap,
+        } = texture.sampler;
+        let wrap = wrap.map(|wrap| match wrap {
+            Wrap::Repeat => 0,
+            Wrap::Mirror => 1,
+            Wrap::Clamp => 2,
+        });
+        let filter = [magnify, minify, mipmap].map(|filter| match filter {
+            None => 0,
+            Some(Filter::Nearest) => 1,
+            Some(Filter::Linear) => 2,
+        });
+        self.array(&[&[texture.uv_set], &wrap[..], &filter].concat(), 4);
+        let TextureTransform {
+            offset: [u, v],
+            rotation,
+            scale: [x, y],
+        } = texture.transform;
+        self.array(&[u, v, rotation, x, y], 8);
     }
 
     fn mesh(&mut self, mesh: &Mesh) {
@@ -151,6 +269,13 @@ impl<S: FnMut(&[u8])> Encoder<'_, S> {
             }
         }
     }
+}
+
+/// Whether the path is all that there is to a texture.
+fn is_path(texture: &Texture) -> bool {
+    texture
+        .path()
+        .is_some_and(|path| !path.is_empty() && *texture == Texture::file(path))
 }
 
 #[cfg(test)]
@@ -197,5 +322,77 @@ mod tests {
         let mut compacted = with_dead.clone();
         compacted.compact();
         assert_eq!(scene(with_dead).digest(), scene(compacted).digest());
+    }
+
+    /// The digest of a square with this material.
+    fn with(change: impl FnOnce(&mut Material)) -> String {
+        let mut material = Material::new("a");
+        change(&mut material);
+        let mut scene = Scene::new();
+        let object = Object {
+            materials: vec![material],
+            ..Object::mesh("a", shapes::square())
+        };
+        scene.insert(object).unwrap();
+        scene.digest().to_string()
+    }
+
+    #[test]
+    fn materials_of_the_first_form_keep_their_digests() {
+        // Recorded before materials had more than a color, two numbers and a path.
+        assert_eq!(with(|_| {}), "ada3f121a9c1a3fae1913ce36d14aef1");
+        let glass = with(|m| {
+            m.base_color = [0.5, 0.25, 1.0, 0.5];
+            m.base_color_texture = Some(Texture::file("wood.png"));
+            m.alpha = AlphaMode::Blend;
+        });
+        assert_eq!(glass, "47eb29ab11aa02c4f080b2cb20d7d3f5");
+    }
+
+    #[test]
+    fn every_part_of_a_material_changes_the_digest() {
+        let texture = || Texture::file("a.png");
+        let bytes = |bytes: &[u8]| {
+            Some(Texture::new(Image::Embedded {
+                mime: "image/png".into(),
+                bytes: bytes.into(),
+            }))
+        };
+        let of = |change: fn(&mut Texture)| {
+            let mut changed = texture();
+            change(&mut changed);
+            with(|m| m.base_color_texture = Some(changed))
+        };
+        let digests = [
+            with(|_| {}),
+            with(|m| m.base_color_texture = Some(texture())),
+            with(|m| m.base_color_texture = Some(Texture::file(""))),
+            with(|m| m.base_color_texture = bytes(b"x")),
+            with(|m| m.base_color_texture = bytes(b"y")),
+            with(|m| m.metallic_roughness_texture = Some(texture())),
+            with(|m| m.normal_texture = Some(texture())),
+            with(|m| m.normal_scale = 0.5),
+            with(|m| m.occlusion_texture = Some(texture())),
+            with(|m| m.occlusion_strength = 0.5),
+            with(|m| m.emissive = [0.5, 0.0, 0.0]),
+            with(|m| m.emissive_strength = 0.5),
+            with(|m| m.emissive_texture = Some(texture())),
+            with(|m| m.alpha = AlphaMode::Mask(0.5)),
+            with(|m| m.alpha = AlphaMode::Mask(0.25)),
+            with(|m| m.alpha = AlphaMode::Blend),
+            with(|m| m.double_sided = true),
+            with(|m| m.unlit = true),
+            of(|t| t.uv_set = 1),
+            of(|t| t.sampler.wrap[0] = Wrap::Clamp),
+            of(|t| t.sampler.wrap[1] = Wrap::Clamp),
+            of(|t| t.sampler.magnify = Some(Filter::Linear)),
+            of(|t| t.sampler.minify = Some(Filter::Linear)),
+            of(|t| t.sampler.mipmap = Some(Filter::Nearest)),
+            of(|t| t.transform.offset[1] = 0.5),
+            of(|t| t.transform.rotation = 0.5),
+            of(|t| t.transform.scale[0] = 0.5),
+        ];
+        let different: std::collections::BTreeSet<_> = digests.iter().collect();
+        assert_eq!(different.len(), digests.len());
     }
 }

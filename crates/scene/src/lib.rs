@@ -14,7 +14,7 @@ use glam::{DVec2, DVec3};
 use mesh::Mesh;
 
 pub use digest::Digest;
-pub use material::Material;
+pub use material::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
 
 /// Objects in the order in which they were made.
 #[derive(Clone, Debug, Default, PartialEq)]

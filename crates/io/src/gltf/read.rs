@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use glam::{DAffine3, DMat3, DVec3};
+use gltf_json::validation::Checked;
 use mesh::{CORNER_NORMAL, UV};
-use scene::Material;
+use scene::{AlphaMode, Material, Texture};
 use serde_json::Value;
 
 use super::accessor::Reader;
@@ -121,7 +122,12 @@ fn materials(
             base_color: pbr.base_color_factor.0.map(unit),
             metallic: unit(pbr.metallic_factor.0),
             roughness: unit(pbr.roughness_factor.0),
-            base_color_texture: picture,
+            base_color_texture: picture.map(Texture::file),
+            alpha: match from.alpha_mode {
+                Checked::Valid(gltf_json::material::AlphaMode::Blend) => AlphaMode::Blend,
+                _ => AlphaMode::Opaque,
+            },
+            ..Material::new("")
         }
     };
     let materials = used.iter().map(&mut converted).collect();

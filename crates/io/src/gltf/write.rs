@@ -411,7 +411,7 @@ impl Writer {
         let [metallic, roughness] = DVec2::new(unit(material.metallic), unit(material.roughness))
             .as_vec2()
             .to_array();
-        let alpha_mode = if base_color[3] < 1.0 {
+        let alpha_mode = if material.alpha == scene::AlphaMode::Blend {
             AlphaMode::Blend
         } else {
             AlphaMode::Opaque

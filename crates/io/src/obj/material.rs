@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use scene::Material;
+use scene::{AlphaMode, Material, Texture};
 use tobj::LoadError;
 
 use super::file::ObjFile;
@@ -154,12 +154,23 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
         .count();
     ignored.0 += ignored_now.into_iter().filter(|&is| is).count() + others.saturating_sub(used);
     let [red, green, blue] = from.diffuse.unwrap_or([1.0; 3]).map(|x| unit(x, 1.0));
+    let alpha = unit(alpha.unwrap_or(1.0), 1.0);
     Material {
-        base_color: [red, green, blue, unit(alpha.unwrap_or(1.0), 1.0)],
+        base_color: [red, green, blue, alpha],
+        alpha: alpha_mode(alpha),
         metallic: unit(metallic.unwrap_or(0.0), 0.0),
         roughness: unit(roughness.unwrap_or(1.0), 1.0),
-        base_color_texture: from.diffuse_texture,
+        base_color_texture: from.diffuse_texture.map(Texture::file),
         ..Material::new(from.name)
+    }
+}
+
+/// A dissolved surface lets through what is behind it.
+fn alpha_mode(alpha: f64) -> AlphaMode {
+    if alpha < 1.0 {
+        AlphaMode::Blend
+    } else {
+        AlphaMode::Opaque
     }
 }
 
@@ -185,7 +196,7 @@ pub(super) fn write_library(materials: &[Material], comment: Option<&str>) -> Ve
         push_values(&mut out, "d", &[alpha]);
         push_values(&mut out, "Pm", &[material.metallic]);
         push_values(&mut out, "Pr", &[material.roughness]);
-        if let Some(picture) = &material.base_color_texture {
+        if let Some(picture) = material.base_color_texture.as_ref().and_then(Texture::path) {
             out.extend_from_slice(format!("map_Kd {picture}\n").as_bytes());
         }
     }
@@ -218,7 +229,8 @@ mod tests {
             base_color: [0.8, 0.1, 0.1, 0.5],
             metallic: 0.25,
             roughness: 0.3,
-            base_color_texture: Some("pictures/red one.png".into()),
+            base_color_texture: Some(Texture::file("pictures/red one.png")),
+            alpha: AlphaMode::Blend,
             ..Material::new("red paint")
         }
     }

@@ -276,7 +276,7 @@ fn what_is_left_out_is_said() {
     }
     assert_eq!(notes.len(), expected.len(), "{notes:#?}");
     assert_eq!(
-        loaded.objects[0].materials[0].base_color_texture.as_deref(),
-        Some("wood.png")
+        loaded.objects[0].materials[0].base_color_texture,
+        Some(scene::Texture::file("wood.png"))
     );
 }

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL, shapes};
 use mesh_io::{PeekGeometry, ReadOptions, WriteOptions};
-use scene::{Geometry, Material, Object};
+use scene::{AlphaMode, Geometry, Material, Object};
 use serde_json::Value;
 
 use crate::{Folder, assert_same, only, read, scene, tag, write};
@@ -114,6 +114,7 @@ fn triangles_with_seams_and_materials_come_back_the_same() {
         let materials = vec![
             Material {
                 base_color: [0.8, 0.1, 0.3, 0.5],
+                alpha: AlphaMode::Blend,
                 ..Material::new("glass")
             },
             Material {

@@ -8,7 +8,7 @@ use mesh_io::{
     NonManifold, NoteKind, PeekGeometry, Policies, ReadError, ReadOptions, WriteOptions,
 };
 use proptest::prelude::*;
-use scene::{Geometry, Material, Object};
+use scene::{AlphaMode, Geometry, Material, Object, Texture};
 
 use crate::{Folder, assert_same, only, polygons, read, scene, tag, write};
 
@@ -71,6 +71,7 @@ fn rich() -> Object {
     let materials = vec![
         Material {
             base_color: [0.1, 0.2, 0.3, 0.4],
+            alpha: AlphaMode::Blend,
             ..Material::new("glass")
         },
         Material {
@@ -79,7 +80,7 @@ fn rich() -> Object {
             ..Material::new("brushed steel")
         },
         Material {
-            base_color_texture: Some("a b.png".into()),
+            base_color_texture: Some(Texture::file("a b.png")),
             ..Material::new("wood")
         },
     ];

@@ -58,6 +58,7 @@ mod polygons;
 mod save;
 mod stl;
 mod text;
+mod weld;
 
 use std::path::{Path, PathBuf};
 

@@ -17,7 +17,7 @@ use super::primitives::{Triangles, triangles};
 use super::{CORNER_COLOR, JsonError, buffers};
 use crate::error::{ReadError, TextError};
 use crate::note::Notes;
-use crate::{Found, Polygons};
+use crate::{Found, Polygons, weld};
 
 /// Reads the objects of a glTF file from its bytes; `path` is where its buffers are looked for.
 ///
@@ -243,37 +243,24 @@ struct Welded {
 /// Joins vertices at exactly the same position, in the order in which each place comes first, and
 /// leaves out those that no triangle uses.
 fn weld(triangles: &Triangles) -> Welded {
-    // Adding 0 turns -0 into 0: they are the same place.
-    let key = |v: u32| {
-        triangles.positions[v as usize]
-            .to_array()
-            .map(|x| (x + 0.0).to_bits())
-    };
     let mut used = vec![false; triangles.positions.len()];
     for &v in triangles.corners.as_flattened() {
         used[v as usize] = true;
     }
-    let all = 0..u32::try_from(triangles.positions.len()).unwrap_or(u32::MAX);
-    let mut sorted: Vec<u32> = all.clone().filter(|&v| used[v as usize]).collect();
-    let unused = triangles.positions.len() - sorted.len();
-    sorted.sort_unstable_by_key(|&v| (key(v), v));
-    // Each vertex first points to the lowest one at its place, ...
-    let mut vertex_of = vec![0; triangles.positions.len()];
-    for same in sorted.chunk_by(|&a, &b| key(a) == key(b)) {
-        for &v in same {
-            vertex_of[v as usize] = same[0];
-        }
-    }
-    // ... and those get their numbers in order.
-    let mut positions = Vec::new();
-    for v in all.filter(|&v| used[v as usize]) {
-        let first = vertex_of[v as usize];
-        vertex_of[v as usize] = if first == v {
-            positions.push(triangles.positions[v as usize]);
-            u32::try_from(positions.len() - 1).unwrap_or(u32::MAX)
-        } else {
-            vertex_of[first as usize]
+    let kept: Vec<usize> = (0..used.len()).filter(|&v| used[v]).collect();
+    let unused = used.len() - kept.len();
+    if unused == 0 {
+        let (positions, vertex_of) = weld::weld(triangles.positions.clone());
+        return Welded {
+            positions,
+            vertex_of,
+            unused,
         };
+    }
+    let (positions, places) = weld::weld(kept.iter().map(|&v| triangles.positions[v]).collect());
+    let mut vertex_of = vec![0; used.len()];
+    for (&v, place) in kept.iter().zip(places) {
+        vertex_of[v] = place;
     }
     Welded {
         positions,

@@ -1,0 +1,260 @@
+//! Joining vertices at exactly the same position.
+//!
+//! Positions are put into buckets by a hash, and each bucket finds its equal ones in a small table that
+//! stays in the cache, all buckets at once. What is found does not depend on the hash: the first of equal
+//! positions stands for them all, in the order in which the first ones come.
+
+use std::hash::{BuildHasher, RandomState};
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// How many positions are hashed and numbered at a time.
+const CHUNK: usize = 1 << 15;
+/// How many positions a bucket has, about.
+const BUCKET: usize = 1 << 14;
+const MOST_BUCKETS: usize = 1 << 10;
+
+/// The different positions in the order in which each comes first, and for each position its place among
+/// them. Zero is the same with either sign. There must be fewer than 2^32 - 1 positions.
+///
+/// If no two positions are equal, they come back as they are.
+pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
+    let mut vertex_of = firsts(&positions);
+    let is_first = |i: usize, first: u32| i == first as usize;
+    // How many different positions come before each chunk.
+    let counts: Vec<usize> = vertex_of
+        .par_chunks(CHUNK)
+        .enumerate()
+        .map(|(chunk, firsts)| {
+            let base = chunk * CHUNK;
+            let own = firsts.iter().enumerate();
+            own.filter(|&(i, &first)| is_first(base + i, first)).count()
+        })
+        .collect();
+    let n_unique = counts.iter().sum();
+    if n_unique == positions.len() {
+        return (positions, vertex_of);
+    }
+    let mut unique = mesh::zeroed::<DVec3>(n_unique);
+    let mut numbers = mesh::zeroed::<u32>(positions.len());
+    let mut rest = unique.as_mut_slice();
+    let mut before = 0;
+    let mut parts = Vec::with_capacity(counts.len());
+    for (chunk, &count) in counts.iter().enumerate() {
+        let (own, others) = rest.split_at_mut(count);
+        rest = others;
+        parts.push((chunk * CHUNK, before, own));
+        before += count;
+    }
+    parts
+        .into_par_iter()
+        .zip(numbers.par_chunks_mut(CHUNK))
+        .for_each(|((base, before, unique), numbers)| {
+            let mut k = 0;
+            for (i, number) in numbers.iter_mut().enumerate() {
+                if is_first(base + i, vertex_of[base + i]) {
+                    unique[k] = positions[base + i];
+                    *number = index(before + k);
+                    k += 1;
+                }
+            }
+        });
+    vertex_of
+        .par_iter_mut()
+        .with_min_len(CHUNK)
+        .for_each(|first| *first = numbers[*first as usize]);
+    (unique, vertex_of)
+}
+
+/// For each position the first one that is equal.
+fn firsts(positions: &[DVec3]) -> Vec<u32> {
+    let buckets = (positions.len() / BUCKET + 1)
+        .next_power_of_two()
+        .min(MOST_BUCKETS);
+    let keys = Keys::new();
+    // Within each chunk the positions of each bucket follow each other, as hash and number.
+    let mut sorted = mesh::zeroed::<u64>(positions.len());
+    let starts: Vec<Vec<usize>> = sorted
+        .par_chunks_mut(CHUNK)
+        .zip(positions.par_chunks(CHUNK))
+        .enumerate()
+        .map(|(chunk, (sorted, positions))| {
+            let hashes: Vec<u64> = positions.iter().map(|&p| keys.hash(p)).collect();
+            let bucket = |hash: u64| low(hash) as usize & (buckets - 1);
+            let mut starts = vec![0; buckets + 1];
+            for &hash in &hashes {
+                starts[bucket(hash) + 1] += 1;
+            }
+            for b in 0..buckets {
+                starts[b + 1] += starts[b];
+            }
+            let mut next = starts.clone();
+            for (i, &hash) in hashes.iter().enumerate() {
+                let place = &mut next[bucket(hash)];
+                let number = index(chunk * CHUNK + i);
+                sorted[*place] = hash & HIGH | u64::from(number);
+                *place += 1;
+            }
+            starts
+        })
+        .collect();
+    let first: Vec<AtomicU32> = (0..positions.len()).map(|_| AtomicU32::new(0)).collect();
+    (0..buckets).into_par_iter().for_each(|b| {
+        let parts = || {
+            let chunks = sorted.chunks(CHUNK).zip(&starts);
+            chunks.flat_map(|(chunk, starts)| &chunk[starts[b]..starts[b + 1]])
+        };
+        let n = starts.iter().map(|starts| starts[b + 1] - starts[b]).sum();
+        let mut table = Table::new(n);
+        for &entry in parts() {
+            first[low(entry) as usize].store(table.first(entry, positions), Relaxed);
+        }
+    });
+    first.into_par_iter().map(AtomicU32::into_inner).collect()
+}
+
+/// The half of an entry that is a part of the hash; the other half is a number.
+const HIGH: u64 = !0 << 32;
+
+/// An open hash table of entries, at most half full.
+struct Table {
+    slots: Vec<u64>,
+    shift: u32,
+}
+
+impl Table {
+    /// A number that no position has.
+    const FREE: u64 = u32::MAX as u64;
+
+    fn new(n: usize) -> Self {
+        let bits = (2 * n).next_power_of_two().trailing_zeros().clamp(1, 31);
+        Self {
+            slots: vec![Self::FREE; 1 << bits],
+            shift: u64::BITS - bits,
+        }
+    }
+
+    /// The number of the entry that came first at the position of this one.
+    fn first(&mut self, entry: u64, positions: &[DVec3]) -> u32 {
+        let number = low(entry);
+        let mut at = low(entry >> self.shift) as usize;
+        loop {
+            let known = self.slots[at];
+            if known == Self::FREE {
+                self.slots[at] = entry;
+                return number;
+            }
+            let first = low(known);
+            let same = (known ^ entry) & HIGH == 0
+                && bits(positions[first as usize]) == bits(positions[number as usize]);
+            if same {
+                return first;
+            }
+            at = (at + 1) & (self.slots.len() - 1);
+        }
+    }
+}
+
+/// Adding 0 turns -0 into 0: they are the same place.
+fn bits(p: DVec3) -> [u64; 3] {
+    p.to_array().map(|x| (x + 0.0).to_bits())
+}
+
+/// Hashes with secrets that no file knows, so that none can make all its positions meet.
+struct Keys([u64; 3]);
+
+impl Keys {
+    fn new() -> Self {
+        let state = RandomState::new();
+        Self([1, 2, 3].map(|i: u64| state.hash_one(i) | 1))
+    }
+
+    fn hash(&self, p: DVec3) -> u64 {
+        let Self([a, b, c]) = self;
+        let [x, y, z] = bits(p);
+        let fold = |a: u64, b: u64| {
+            let product = u128::from(a) * u128::from(b);
+            low_half(product >> 64) ^ low_half(product)
+        };
+        fold(fold(x ^ a, y ^ b) ^ z, *c)
+    }
+}
+
+/// The number in an entry.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the other half is not wanted"
+)]
+fn low(entry: u64) -> u32 {
+    entry as u32
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the other half is not wanted"
+)]
+fn low_half(product: u128) -> u64 {
+    product as u64
+}
+
+/// The number `i`; there are fewer than 2^32.
+fn index(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or(u32::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// One after the other, with the standard library.
+    fn slow(positions: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
+        let mut numbers = HashMap::new();
+        let mut unique = Vec::new();
+        let number = |&p: &DVec3| {
+            *numbers.entry(bits(p)).or_insert_with(|| {
+                unique.push(p);
+                index(unique.len() - 1)
+            })
+        };
+        let vertex_of = positions.iter().map(number).collect();
+        (unique, vertex_of)
+    }
+
+    #[test]
+    fn the_first_of_equal_positions_stands_for_them() {
+        let (a, b) = (DVec3::new(0.0, 1.0, 2.0), DVec3::new(-0.0, 1.0, 2.0));
+        let (unique, vertex_of) = weld(vec![DVec3::ONE, b, a, DVec3::ONE, DVec3::ZERO]);
+        assert_eq!(vertex_of, [0, 1, 1, 0, 2]);
+        assert!(unique[1].x.is_sign_negative() && unique.len() == 3);
+        assert_eq!(weld(Vec::new()), (Vec::new(), Vec::new()));
+    }
+
+    #[test]
+    fn large_arrays_are_welded_as_small_ones() {
+        for (n, period) in [(200_000, 70_000), (100_000, 100_000), (150_000, 1)] {
+            let positions: Vec<_> = (0..n)
+                .map(|i| DVec3::new(f64::from(i % period), f64::from(i % period % 7), 0.5))
+                .collect();
+            assert!(weld(positions.clone()) == slow(&positions));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn any_positions_are_welded(
+            numbers in prop::collection::vec([-2..3_i8, -2..3, -2..3], 0..300),
+        ) {
+            let positions: Vec<_> = numbers
+                .iter()
+                .map(|p| DVec3::from_array(p.map(|x| f64::from(x) * 0.5)))
+                .collect();
+            prop_assert_eq!(weld(positions.clone()), slow(&positions));
+        }
+    }
+}

@@ -48,6 +48,7 @@ mod error;
 mod format;
 mod gltf;
 mod loss;
+mod names;
 mod note;
 mod obj;
 mod off;

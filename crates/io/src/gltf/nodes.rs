@@ -1,13 +1,10 @@
 //! The nodes of a glTF scene: which meshes stand where, under which names.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf_json::Node;
 
 use super::JsonError;
 use super::document::{Document, get};
-use crate::note::Notes;
 
 /// A node with a mesh.
 pub(super) struct Placed {
@@ -113,30 +110,4 @@ fn placement(node: &Node, here: &str) -> Result<DAffine3, JsonError> {
         rotation,
         DVec3::from_array(translation),
     ))
-}
-
-/// Makes names different from each other.
-#[derive(Default)]
-pub(super) struct Names {
-    taken: BTreeSet<String>,
-    /// The number that was last put behind a name.
-    last: BTreeMap<String, usize>,
-}
-
-impl Names {
-    pub(super) fn unique(&mut self, name: &str, notes: &mut Notes) -> String {
-        let mut new = name.to_owned();
-        while !self.taken.insert(new.clone()) {
-            let last = self.last.entry(name.to_owned()).or_insert(1);
-            *last += 1;
-            new = format!("{name}.{last}");
-        }
-        let renamed = usize::from(new != name);
-        notes.changed(
-            renamed,
-            None,
-            format!("node named `{name}` is now called `{new}`: the name is taken"),
-        );
-        new
-    }
 }

@@ -12,10 +12,11 @@ use gltf_json::validation::Checked;
 use super::JsonError;
 use super::accessor::Reader;
 use super::document::Document;
-use super::nodes::{Names, placed_meshes};
+use super::nodes::placed_meshes;
 use super::read::parse;
 use crate::asset_path::read_plain;
 use crate::error::ReadError;
+use crate::names::Names;
 use crate::note::Notes;
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 

@@ -12,10 +12,11 @@ use serde_json::Value;
 
 use super::accessor::Reader;
 use super::document::Document;
-use super::nodes::{Names, placed_meshes};
+use super::nodes::placed_meshes;
 use super::primitives::{Triangles, triangles};
 use super::{CORNER_COLOR, JsonError, buffers};
 use crate::error::{ReadError, TextError};
+use crate::names::Names;
 use crate::note::Notes;
 use crate::{Found, Polygons, weld};
 

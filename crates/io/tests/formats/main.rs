@@ -1,6 +1,8 @@
 //! Reading and writing whole files, against laws and against other readers.
 
 mod broken;
+mod dae_broken;
+mod dae_read;
 mod gltf_broken;
 mod gltf_read;
 mod gltf_written;

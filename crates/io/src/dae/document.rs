@@ -1,0 +1,356 @@
+//! The XML of a COLLADA file: elements by their ids, numbers in their texts, places of errors.
+
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+
+use roxmltree::{Document as Xml, Error, ParsingOptions};
+
+use crate::error::TextError;
+use crate::text::{Place, name, number, quoted};
+
+pub(super) type Node<'a> = roxmltree::Node<'a, 'a>;
+
+/// The text of a file: UTF-8 if it is that, and otherwise Latin-1.
+///
+/// # Errors
+///
+/// If the text begins like UTF-16.
+pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, TextError> {
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        let start = Place { line: 1, column: 1 };
+        return Err(start.error("expected text in UTF-8, found UTF-16"));
+    }
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    Ok(match std::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => Cow::Owned(name(bytes)),
+    })
+}
+
+/// The tree of `text`. Document type declarations are refused, and with them all entities but the five of
+/// XML itself.
+///
+/// # Errors
+///
+/// If the text is no XML, or could take far more time or memory than its size pays for.
+pub(super) fn parsed(text: &str) -> Result<Xml<'_>, TextError> {
+    check_size(text)?;
+    let options = ParsingOptions {
+        allow_dtd: false,
+        nodes_limit: u32::try_from(text.len() / 4 + 1000).unwrap_or(u32::MAX),
+        ..ParsingOptions::default()
+    };
+    Xml::parse_with_options(text, options).map_err(|error| {
+        let message = match error {
+            Error::DtdDetected => "a document type declaration is not read here".to_owned(),
+            Error::NodesLimitReached => "far more elements than usual for its size".to_owned(),
+            _ => {
+                let message = error.to_string();
+                let end = message.rfind(" at ").unwrap_or(message.len());
+                message[..end].to_owned()
+            }
+        };
+        place_of(error.pos()).error(message)
+    })
+}
+
+/// Refuses what would make the parser slow or large: its tables have a place for each `<` and `=`, it compares
+/// the attributes of an element with each other, and each element with a namespace lists all of them.
+fn check_size(text: &str) -> Result<(), TextError> {
+    const MOST_ATTRIBUTES: usize = 200;
+    const MOST_NAMESPACES: usize = 50;
+    const SMALL: usize = 8192;
+    let bytes = text.as_bytes();
+    let mut prefixes = BTreeSet::new();
+    let mut in_tag = 0;
+    let (mut tags, mut equals) = (0, 0);
+    for (at, byte) in bytes.iter().enumerate() {
+        match byte {
+            b'<' => {
+                tags += 1;
+                in_tag = 0;
+            }
+            b'=' => {
+                equals += 1;
+                let value = bytes[at + 1..].iter().find(|b| !b.is_ascii_whitespace());
+                in_tag += usize::from(matches!(value, Some(b'"' | b'\'')));
+                if in_tag > MOST_ATTRIBUTES {
+                    let message = format!("expected at most {MOST_ATTRIBUTES} attributes");
+                    return Err(place_at(text, at).error(message));
+                }
+            }
+            b':' if bytes[..at].ends_with(b"xmlns") => {
+                let rest = &bytes[at + 1..];
+                let end = rest
+                    .iter()
+                    .take(256)
+                    .position(|b| matches!(b, b'=' | b' ' | b'\t' | b'\r' | b'\n'));
+                prefixes.insert(&rest[..end.unwrap_or(rest.len().min(256))]);
+                if prefixes.len() > MOST_NAMESPACES {
+                    let message = format!("expected at most {MOST_NAMESPACES} namespaces");
+                    return Err(place_at(text, at).error(message));
+                }
+            }
+            _ => {}
+        }
+    }
+    if bytes.len() > SMALL && (tags > bytes.len() / 3 || equals > bytes.len() / 4) {
+        return Err(Place { line: 1, column: 1 }.error("expected XML"));
+    }
+    Ok(())
+}
+
+fn place_of(pos: roxmltree::TextPos) -> Place {
+    Place {
+        line: pos.row as usize,
+        column: pos.col as usize,
+    }
+}
+
+/// The place of a byte. Lines end in LF.
+fn place_at(text: &str, at: usize) -> Place {
+    let before = &text.as_bytes()[..at.min(text.len())];
+    let start = before
+        .iter()
+        .rposition(|&b| b == b'\n')
+        .map_or(0, |i| i + 1);
+    Place {
+        line: before.split(|&b| b == b'\n').count(),
+        column: before.len() - start + 1,
+    }
+}
+
+/// A file with its elements in order of their ids.
+pub(super) struct Document<'a> {
+    pub(super) root: Node<'a>,
+    pub(super) ids: BTreeMap<&'a str, Node<'a>>,
+    /// How many bytes the text has.
+    pub(super) size: usize,
+}
+
+impl<'a> Document<'a> {
+    /// # Errors
+    ///
+    /// If the root is not that of a COLLADA file.
+    pub(super) fn new(xml: &'a Xml<'a>) -> Result<Self, TextError> {
+        let root = xml.root_element();
+        if root.tag_name().name() != "COLLADA" {
+            let found = quoted(root.tag_name().name().as_bytes());
+            return Err(error_at(root, format!("expected <COLLADA>, found {found}")));
+        }
+        let mut ids = BTreeMap::new();
+        for node in root.descendants() {
+            if let Some(id) = node.attribute("id") {
+                // Of elements with the same id the first counts.
+                ids.entry(id).or_insert(node);
+            }
+        }
+        Ok(Self {
+            root,
+            ids,
+            size: xml.input_text().len(),
+        })
+    }
+
+    /// The element `kind` that the attribute `key` of `node` refers to as `#id`; `None` if that leads to
+    /// another file.
+    ///
+    /// # Errors
+    ///
+    /// If the attribute is missing or refers to nothing, or to something else.
+    pub(super) fn follow(
+        &self,
+        node: Node<'a>,
+        key: &str,
+        kind: &[&str],
+    ) -> Result<Option<Node<'a>>, TextError> {
+        let url = required(node, key)?;
+        let Some(id) = url.trim().strip_prefix('#') else {
+            if url.contains('#') || url.contains('/') {
+                return Ok(None);
+            }
+            let found = quoted(url.as_bytes());
+            return Err(error_at(
+                node,
+                format!("expected {key}=\"#id\", found {found}"),
+            ));
+        };
+        self.find(node, id, kind).map(Some)
+    }
+
+    /// The element `kind` with this id, to which `node` refers.
+    ///
+    /// # Errors
+    ///
+    /// If there is none.
+    pub(super) fn find(
+        &self,
+        node: Node<'a>,
+        id: &str,
+        kind: &[&str],
+    ) -> Result<Node<'a>, TextError> {
+        let found = self.ids.get(id).copied();
+        found
+            .filter(|found| kind.iter().any(|k| is(*found, k)))
+            .ok_or_else(|| {
+                let kinds = kind
+                    .iter()
+                    .map(|kind| format!("<{kind}>"))
+                    .collect::<Vec<_>>()
+                    .join(" or ");
+                let there = found.map_or("nothing", |found| found.tag_name().name());
+                let message = format!(
+                    "{} refers to {there}, expected {kinds}",
+                    quoted(id.as_bytes())
+                );
+                error_at(node, message)
+            })
+    }
+}
+
+/// Whether `node` is an element of this name.
+pub(super) fn is(node: Node, name: &str) -> bool {
+    node.is_element() && node.tag_name().name() == name
+}
+
+/// The number of an element in its file: a key for tables.
+pub(super) fn number_of(node: Node) -> u32 {
+    node.id().get()
+}
+
+/// The child elements of `node`.
+pub(super) fn elements(node: Node<'_>) -> impl Iterator<Item = Node<'_>> {
+    node.children().filter(Node::is_element)
+}
+
+/// The child elements of this name.
+pub(super) fn named<'a>(node: Node<'a>, name: &'static str) -> impl Iterator<Item = Node<'a>> {
+    node.children().filter(move |child| is(*child, name))
+}
+
+/// The first child element of this name.
+pub(super) fn child<'a>(node: Node<'a>, name: &'static str) -> Option<Node<'a>> {
+    named(node, name).next()
+}
+
+/// The element that the names lead to, each a child of the one before.
+pub(super) fn below<'a>(node: Node<'a>, names: &[&'static str]) -> Option<Node<'a>> {
+    names.iter().try_fold(node, |node, name| child(node, name))
+}
+
+/// The line where an element begins.
+pub(super) fn line(node: Node) -> usize {
+    place(node).line
+}
+
+fn place(node: Node) -> Place {
+    place_at(node.document().input_text(), node.range().start)
+}
+
+/// An error at the beginning of an element.
+pub(super) fn error_at(node: Node, message: impl Into<String>) -> TextError {
+    let what = format!("<{}>: {}", node.tag_name().name(), message.into());
+    place(node).error(what)
+}
+
+/// # Errors
+///
+/// If the attribute is missing.
+pub(super) fn required<'a>(node: Node<'a>, key: &str) -> Result<&'a str, TextError> {
+    node.attribute(key)
+        .ok_or_else(|| error_at(node, format!("expected an attribute {key}")))
+}
+
+/// The value of an attribute that is a natural number; `None` if it is missing.
+///
+/// # Errors
+///
+/// If it is something else.
+pub(super) fn natural(node: Node, key: &str) -> Result<Option<usize>, TextError> {
+    let Some(value) = node.attribute(key) else {
+        return Ok(None);
+    };
+    let parsed = value.trim().parse().ok();
+    parsed.map(Some).ok_or_else(|| {
+        let found = quoted(value.as_bytes());
+        error_at(
+            node,
+            format!("expected {key} to be a natural number, found {found}"),
+        )
+    })
+}
+
+/// The text of an element without the blanks around it.
+pub(super) fn text(node: Node<'_>) -> &str {
+    node.text().unwrap_or_default().trim()
+}
+
+/// The words of an element's text.
+fn words(node: Node<'_>) -> impl Iterator<Item = &str> {
+    let texts = node.children().filter(Node::is_text);
+    texts.flat_map(|text| text.text().unwrap_or_default().split_ascii_whitespace())
+}
+
+/// The finite numbers in an element's text.
+///
+/// # Errors
+///
+/// The first word that is none.
+pub(super) fn numbers(node: Node) -> Result<Vec<f64>, TextError> {
+    let somewhere = Place { line: 0, column: 0 };
+    let parse = |word: &str| {
+        number(somewhere, word.as_bytes())
+            .map_err(|error| word_place(node, word).error(error.message))
+    };
+    words(node).map(parse).collect()
+}
+
+/// As [`numbers`], of which there must be `N`.
+///
+/// # Errors
+///
+/// The first word that is no number, or how many there are.
+pub(super) fn exactly<const N: usize>(node: Node) -> Result<[f64; N], TextError> {
+    numbers(node)?.try_into().map_err(|found: Vec<f64>| {
+        error_at(node, format!("expected {N} numbers, found {}", found.len()))
+    })
+}
+
+/// Adds the natural numbers in an element's text to `list`.
+///
+/// # Errors
+///
+/// The first word that is none, or is too large.
+pub(super) fn push_indices(node: Node, list: &mut Vec<u32>) -> Result<(), TextError> {
+    for word in words(node) {
+        list.push(word.parse().map_err(|_| {
+            let found = quoted(word.as_bytes());
+            word_place(node, word).error(format!("expected an index, found {found}"))
+        })?);
+    }
+    Ok(())
+}
+
+/// The place of a word of a text: exact where it stands in the file as it is, that of the element where an
+/// entity spells a part of it.
+fn word_place(node: Node, word: &str) -> Place {
+    let text = node.document().input_text();
+    let offset = (word.as_ptr() as usize).checked_sub(text.as_ptr() as usize);
+    match offset {
+        Some(offset) if offset < text.len() => place_at(text, offset),
+        _ => place(node),
+    }
+}
+
+/// An error at the k-th word of the texts of `lists`.
+pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> TextError {
+    for &list in lists {
+        for word in words(list) {
+            if k == 0 {
+                return word_place(list, word).error(message);
+            }
+            k -= 1;
+        }
+    }
+    Place { line: 1, column: 1 }.error(message)
+}

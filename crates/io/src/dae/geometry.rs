@@ -1,0 +1,319 @@
+//! From a `<geometry>` to polygons.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use glam::{DVec2, DVec3, DVec4};
+use mesh::{COLOR, CORNER_NORMAL, Domain, UV};
+
+use super::document::{
+    Document, Node, child, elements, error_at, named, natural, number_of, required, word_error,
+};
+use super::outline::{Outline, shape};
+use super::sources::{Vectors, vectors};
+use super::{Budget, Tally};
+use crate::Polygons;
+use crate::error::TextError;
+
+/// Further sets of texture coordinates are left out.
+const MOST_UV_SETS: usize = 8;
+
+/// The polygons of a geometry in its own coordinates.
+#[derive(Debug, Default)]
+pub(super) struct Surface<'a> {
+    /// Without materials.
+    pub(super) polygons: Polygons,
+    /// The material symbols of the polygons, in the order in which they come first.
+    pub(super) symbols: Vec<&'a str>,
+    /// For each polygon the place of its symbol, -1 without one.
+    pub(super) symbol_of: Vec<i32>,
+}
+
+/// Reads geometries; vectors that several of them use are read once.
+pub(super) struct Geometries<'a, 'd> {
+    pub(super) document: &'d Document<'a>,
+    pub(super) budget: Budget,
+    sources: BTreeMap<(u32, usize), Rc<Vectors>>,
+}
+
+/// What the vectors of an input are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Normal,
+    Color,
+    Uv(usize),
+}
+
+struct Input<'a> {
+    kind: Kind,
+    /// Which index of a corner counts.
+    offset: usize,
+    source: Node<'a>,
+}
+
+/// The inputs of a list of polygons.
+struct Inputs<'a> {
+    /// How many indices a corner has.
+    stride: usize,
+    /// Which of them is that of its vertex.
+    vertex: usize,
+    /// The element with the positions.
+    vertices: Node<'a>,
+    others: Vec<Input<'a>>,
+}
+
+/// Values of corners; empty or as long as the corners.
+#[derive(Default)]
+struct Columns {
+    normals: Vec<DVec3>,
+    colors: Vec<DVec4>,
+    uvs: BTreeMap<usize, Vec<DVec2>>,
+}
+
+impl<'a, 'd> Geometries<'a, 'd> {
+    pub(super) fn new(document: &'d Document<'a>) -> Self {
+        Self {
+            document,
+            budget: Budget::of(document.size),
+            sources: BTreeMap::new(),
+        }
+    }
+
+    /// The polygons of a geometry; `None` if it has none.
+    ///
+    /// # Errors
+    ///
+    /// What of it is not as it should be.
+    pub(super) fn surface(
+        &mut self,
+        geometry: Node<'a>,
+        tally: &mut Tally,
+    ) -> Result<Option<Surface<'a>>, TextError> {
+        let Some(mesh) = child(geometry, "mesh") else {
+            return Ok(None);
+        };
+        let mut surface = Surface::default();
+        let mut symbols = BTreeMap::new();
+        let mut columns = Columns::default();
+        let mut vertices: Option<Node> = None;
+        for list in elements(mesh) {
+            let name = list.tag_name().name();
+            if matches!(name, "lines" | "linestrips" | "points") {
+                let count = natural(list, "count")?.unwrap_or(1);
+                tally.left_out(count, list, "lines and points left out");
+            }
+            let Some(shape) = shape(list, tally)? else {
+                continue;
+            };
+            let inputs = self.inputs(list, tally)?;
+            if *vertices.get_or_insert(inputs.vertices) != inputs.vertices {
+                let message = "expected the same vertices for all polygons of a mesh";
+                return Err(error_at(list, message));
+            }
+            let outline = shape.read(list, inputs.stride, tally)?;
+            self.budget
+                .take(list, outline.order.len() * Budget::CORNER)?;
+            self.add(list, &inputs, &outline, &mut surface.polygons, &mut columns)?;
+            let symbol = list.attribute("material").map_or(-1, |symbol| {
+                let next = surface.symbols.len();
+                *symbols.entry(symbol).or_insert_with(|| {
+                    surface.symbols.push(symbol);
+                    i32::try_from(next).unwrap_or(i32::MAX)
+                })
+            });
+            surface.symbol_of.resize(surface.polygons.n_faces(), symbol);
+        }
+        let (Some(vertices), true) = (vertices, surface.polygons.n_faces() > 0) else {
+            return Ok(None);
+        };
+        let positions = self.positions(vertices)?;
+        self.budget
+            .take(vertices, positions.len() * Budget::VERTEX)?;
+        surface.polygons.positions = (0..positions.len())
+            .map(|i| DVec3::from_array(positions.get(i, [0.0; 3])))
+            .collect();
+        columns.finish(&mut surface.polygons);
+        Ok(Some(surface))
+    }
+
+    fn positions(&mut self, vertices: Node<'a>) -> Result<Rc<Vectors>, TextError> {
+        let position = named(vertices, "input")
+            .find(|input| input.attribute("semantic") == Some("POSITION"))
+            .ok_or_else(|| error_at(vertices, "expected an input POSITION"))?;
+        let source = self.source_of(position)?;
+        self.vectors(source, &["X", "Y", "Z"], 3)
+    }
+
+    fn source_of(&self, input: Node<'a>) -> Result<Node<'a>, TextError> {
+        let source = self.document.follow(input, "source", &["source"])?;
+        source.ok_or_else(|| error_at(input, "a source in another file is not read here"))
+    }
+
+    fn vectors(
+        &mut self,
+        source: Node<'a>,
+        names: &[&str],
+        least: usize,
+    ) -> Result<Rc<Vectors>, TextError> {
+        let key = (number_of(source), names.len());
+        if let Some(known) = self.sources.get(&key) {
+            return Ok(Rc::clone(known));
+        }
+        let read = vectors(self.document, source, names, least)?;
+        self.budget.take(source, 8 * read.values.len())?;
+        let read = Rc::new(read);
+        self.sources.insert(key, Rc::clone(&read));
+        Ok(read)
+    }
+
+    /// The inputs of a list of polygons; those of its vertices stand behind its own.
+    fn inputs(&self, list: Node<'a>, tally: &mut Tally) -> Result<Inputs<'a>, TextError> {
+        let mut stride = 0;
+        let mut vertex = None;
+        let mut others: Vec<Input> = Vec::new();
+        let mut add = |input: Node<'a>, offset: usize| -> Result<(), TextError> {
+            let kind = match required(input, "semantic")? {
+                "VERTEX" | "POSITION" => return Ok(()),
+                "NORMAL" => Some(Kind::Normal),
+                "COLOR" => Some(Kind::Color),
+                "TEXCOORD" => Some(Kind::Uv(natural(input, "set")?.unwrap_or(0))),
+                _ => None,
+            };
+            match kind.filter(|kind| others.iter().all(|other| other.kind != *kind)) {
+                Some(kind) if others.len() < MOST_UV_SETS + 2 => others.push(Input {
+                    kind,
+                    offset,
+                    source: self.source_of(input)?,
+                }),
+                _ => {
+                    let what = "inputs left out that are no normals, colors or texture coordinates, or further ones";
+                    tally.left_out(1, input, what);
+                }
+            }
+            Ok(())
+        };
+        for input in named(list, "input") {
+            let offset = natural(input, "offset")?
+                .ok_or_else(|| error_at(input, "expected an attribute offset"))?;
+            if offset > 1000 {
+                return Err(error_at(
+                    input,
+                    format!("expected an offset below 1000, found {offset}"),
+                ));
+            }
+            stride = stride.max(offset + 1);
+            if input.attribute("semantic") == Some("VERTEX") && vertex.is_none() {
+                vertex = Some((input, offset));
+            }
+            add(input, offset)?;
+        }
+        let (input, vertex) = vertex.ok_or_else(|| error_at(list, "expected an input VERTEX"))?;
+        let vertices = self.document.follow(input, "source", &["vertices"])?;
+        let vertices = vertices
+            .ok_or_else(|| error_at(input, "vertices in another file are not read here"))?;
+        for input in named(vertices, "input") {
+            add(input, vertex)?;
+        }
+        Ok(Inputs {
+            stride,
+            vertex,
+            vertices,
+            others,
+        })
+    }
+
+    /// Adds the polygons of one list.
+    fn add(
+        &mut self,
+        list: Node<'a>,
+        inputs: &Inputs<'a>,
+        outline: &Outline<'a>,
+        polygons: &mut Polygons,
+        columns: &mut Columns,
+    ) -> Result<(), TextError> {
+        let check = |offset: usize, there: usize, what: &str| {
+            let of_input = outline.indices.iter().skip(offset).step_by(inputs.stride);
+            match of_input.enumerate().find(|(_, i)| **i as usize >= there) {
+                None => Ok(()),
+                Some((corner, i)) => {
+                    let k = corner * inputs.stride + offset;
+                    let message = format!("{what} {i} does not exist: there are {there}, from 0");
+                    Err(word_error(&outline.lists, k, message))
+                }
+            }
+        };
+        let before = polygons.corners.len();
+        let index = |offset: usize| {
+            let corners = outline.order.iter();
+            corners.map(move |corner| outline.indices[corner * inputs.stride + offset])
+        };
+        let n_positions = self.positions(inputs.vertices)?.len();
+        check(inputs.vertex, n_positions, "position")?;
+        polygons.corners.extend(index(inputs.vertex));
+        let mut end = before;
+        for degree in &outline.degrees {
+            end += degree;
+            let end = u32::try_from(end).map_err(|_| error_at(list, "too many corners"))?;
+            polygons.offsets.push(end);
+        }
+        for input in &inputs.others {
+            let (names, what): (&[&str], _) = match input.kind {
+                Kind::Normal => (&["X", "Y", "Z"], "normal"),
+                Kind::Color => (&["R", "G", "B"], "color"),
+                Kind::Uv(_) => (&["S", "T"], "texture coordinate"),
+            };
+            let vectors = self.vectors(input.source, names, names.len())?;
+            check(input.offset, vectors.len(), what)?;
+            self.budget
+                .take(list, outline.order.len() * Budget::VALUE)?;
+            let index = index(input.offset).map(|i| i as usize);
+            match input.kind {
+                Kind::Normal => {
+                    columns.normals.resize(before, DVec3::ZERO);
+                    let values = index.map(|i| DVec3::from_array(vectors.get(i, [0.0; 3])));
+                    columns.normals.extend(values);
+                }
+                Kind::Color => {
+                    columns.colors.resize(before, DVec4::ONE);
+                    let values = index.map(|i| DVec4::from_array(vectors.get(i, [1.0; 4])));
+                    columns.colors.extend(values);
+                }
+                Kind::Uv(set) => {
+                    if !columns.uvs.contains_key(&set) && columns.uvs.len() == MOST_UV_SETS {
+                        return Err(error_at(
+                            list,
+                            "expected at most 8 sets of texture coordinates",
+                        ));
+                    }
+                    let column = columns.uvs.entry(set).or_default();
+                    column.resize(before, DVec2::ZERO);
+                    column.extend(index.map(|i| DVec2::from_array(vectors.get(i, [0.0; 2]))));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Columns {
+    /// Puts the columns into `polygons`. Corners for which the file has no value get zero, and white.
+    fn finish(mut self, polygons: &mut Polygons) {
+        let n = polygons.corners.len();
+        if !self.normals.is_empty() {
+            self.normals.resize(n, DVec3::ZERO);
+            polygons.insert_corners(CORNER_NORMAL, self.normals);
+        }
+        if !self.colors.is_empty() {
+            self.colors.resize(n, DVec4::ONE);
+            polygons.insert(Domain::Corner, COLOR.name, COLOR.rule, self.colors);
+        }
+        for (k, mut uvs) in self.uvs.into_values().enumerate() {
+            uvs.resize(n, DVec2::ZERO);
+            let name = match k {
+                0 => UV.name.to_owned(),
+                _ => format!("{}{k}", UV.name),
+            };
+            polygons.insert(Domain::Corner, name, UV.rule, uvs);
+        }
+    }
+}

@@ -1,0 +1,217 @@
+//! From `<material>` and `<effect>` to materials.
+
+use scene::Material;
+
+use super::Tally;
+use super::document::{
+    Document, Node, below, child, elements, error_at, exactly, is, named, numbers, text,
+};
+use crate::asset_path::inside_uri;
+use crate::error::TextError;
+
+/// What a channel of a shader shows.
+enum Paint {
+    Color([f64; 4]),
+    /// The path of a picture.
+    Picture(String),
+}
+
+/// The material of an element `<material>`.
+///
+/// # Errors
+///
+/// What of it is not as it should be.
+pub(super) fn material<'a>(
+    document: &Document<'a>,
+    node: Node<'a>,
+    tally: &mut Tally,
+) -> Result<Material, TextError> {
+    let name = node.attribute("name").filter(|name| !name.is_empty());
+    let mut material = Material::new(name.or(node.attribute("id")).unwrap_or_default());
+    let Some(instance) = child(node, "instance_effect") else {
+        return Ok(material);
+    };
+    let Some(effect) = document.follow(instance, "url", &["effect"])? else {
+        tally.left_out(1, instance, "effects in other files left out");
+        return Ok(material);
+    };
+    let others = elements(effect).filter(|profile| {
+        let name = profile.tag_name().name();
+        name.starts_with("profile_") && name != "profile_COMMON"
+    });
+    tally.left_out(
+        others.count(),
+        effect,
+        "profiles of effects left out that are not common",
+    );
+    let Some(profile) = child(effect, "profile_COMMON") else {
+        return Ok(material);
+    };
+    let shader = child(profile, "technique").and_then(|technique| {
+        elements(technique).find(|node| {
+            ["constant", "lambert", "phong", "blinn"]
+                .iter()
+                .any(|name| is(*node, name))
+        })
+    });
+    let Some(shader) = shader else {
+        return Ok(material);
+    };
+    // A surface without shading shows what it emits.
+    let channel = if is(shader, "constant") {
+        "emission"
+    } else {
+        "diffuse"
+    };
+    let others = elements(shader).filter(|node| {
+        let name = node.tag_name().name();
+        name != channel && name != "transparent" && name != "transparency"
+    });
+    let what = "parameters of effects left out that are no diffuse color and no transparency";
+    tally.left_out(others.count(), shader, what);
+    let look = Look {
+        document,
+        scopes: [profile, effect],
+    };
+    let mut alpha = opacity(&look, shader, tally)?;
+    match look.paint(child(shader, channel), tally)? {
+        None => {}
+        Some(Paint::Picture(path)) => material.base_color_texture = Some(path),
+        Some(Paint::Color([red, green, blue, a])) => {
+            material.base_color = [red, green, blue, 1.0].map(|x| x.clamp(0.0, 1.0));
+            alpha = alpha.or(Some(a));
+        }
+    }
+    material.base_color[3] = alpha.unwrap_or(1.0).clamp(0.0, 1.0);
+    Ok(material)
+}
+
+/// How opaque a shader is, from 0 to 1; `None` if it does not say.
+///
+/// COLLADA 1.4.1, "Determining transparency": `A_ONE` takes the alpha of the transparent color, `RGB_ZERO` its
+/// luminance the other way round, both times the transparency.
+fn opacity(look: &Look, shader: Node, tally: &mut Tally) -> Result<Option<f64>, TextError> {
+    let transparent = child(shader, "transparent");
+    let transparency = match child(shader, "transparency") {
+        Some(node) => look.float(node)?,
+        None => None,
+    };
+    if transparent.is_none() && transparency.is_none() {
+        return Ok(None);
+    }
+    let color = match look.paint(transparent, tally)? {
+        Some(Paint::Color(color)) => color,
+        Some(Paint::Picture(_)) => {
+            tally.left_out(1, shader, "pictures of transparency left out");
+            return Ok(None);
+        }
+        None => [0.0, 0.0, 0.0, 1.0],
+    };
+    let [red, green, blue, alpha] = color;
+    let luminance = 0.212_671 * red + 0.715_160 * green + 0.072_169 * blue;
+    let transparency = transparency.unwrap_or(1.0);
+    let mode = transparent.and_then(|node| node.attribute("opaque"));
+    let opacity = match mode.unwrap_or("A_ONE") {
+        "A_ZERO" => 1.0 - alpha * transparency,
+        "RGB_ZERO" => 1.0 - luminance * transparency,
+        "RGB_ONE" => luminance * transparency,
+        _ => alpha * transparency,
+    };
+    // Programs disagree about which end is which, and nobody means a surface that cannot be seen.
+    if opacity <= 0.0 {
+        tally.changed(
+            1,
+            shader,
+            "materials made opaque: the file makes them invisible",
+        );
+        return Ok(None);
+    }
+    Ok(Some(opacity))
+}
+
+/// Where the names in a shader are looked up.
+struct Look<'a, 'd> {
+    document: &'d Document<'a>,
+    scopes: [Node<'a>; 2],
+}
+
+impl<'a> Look<'a, '_> {
+    fn paint(&self, channel: Option<Node>, tally: &mut Tally) -> Result<Option<Paint>, TextError> {
+        let Some(channel) = channel else {
+            return Ok(None);
+        };
+        if let Some(color) = child(channel, "color") {
+            return color4(color).map(|color| Some(Paint::Color(color)));
+        }
+        if let Some(texture) = child(channel, "texture") {
+            let path = texture
+                .attribute("texture")
+                .and_then(|sid| self.picture(sid));
+            tally.left_out(
+                usize::from(path.is_none()),
+                texture,
+                "textures left out that have no picture file",
+            );
+            return Ok(path.map(Paint::Picture));
+        }
+        let parameter =
+            child(channel, "param").and_then(|param| self.parameter(param.attribute("ref")?));
+        let color = parameter.and_then(|p| child(p, "float4").or(child(p, "float3")));
+        color
+            .map(|color| color4(color).map(Paint::Color))
+            .transpose()
+    }
+
+    fn float(&self, node: Node) -> Result<Option<f64>, TextError> {
+        let parameter =
+            child(node, "param").and_then(|param| self.parameter(param.attribute("ref")?));
+        let value = child(node, "float").or(parameter.and_then(|p| child(p, "float")));
+        value
+            .map(|value| exactly::<1>(value).map(|[x]| x))
+            .transpose()
+    }
+
+    fn parameter(&self, sid: &str) -> Option<Node<'a>> {
+        let mut parameters = self
+            .scopes
+            .into_iter()
+            .flat_map(|scope| named(scope, "newparam"));
+        parameters.find(|parameter| parameter.attribute("sid") == Some(sid))
+    }
+
+    /// The path of the picture behind the sampler `sid`; some programs name the picture at once.
+    fn picture(&self, sid: &str) -> Option<String> {
+        let mut image = sid;
+        if let Some(sampler) = self.parameter(sid).and_then(|p| child(p, "sampler2D")) {
+            if let Some(instance) = child(sampler, "instance_image") {
+                image = instance.attribute("url")?.strip_prefix('#')?;
+            } else {
+                let surface = self.parameter(text(child(sampler, "source")?))?;
+                image = text(below(surface, &["surface", "init_from"])?);
+            }
+        }
+        let image = self
+            .document
+            .ids
+            .get(image)
+            .filter(|node| is(**node, "image"))?;
+        let from = child(*image, "init_from")?;
+        let path = text(child(from, "ref").unwrap_or(from));
+        let inside = inside_uri(path)
+            .ok()
+            .and_then(|path| Some(path.to_str()?.replace('\\', "/")));
+        inside.or_else(|| (!path.is_empty()).then(|| path.to_owned()))
+    }
+}
+
+/// A color of three or four numbers.
+fn color4(node: Node) -> Result<[f64; 4], TextError> {
+    match numbers(node)?[..] {
+        [red, green, blue] => Ok([red, green, blue, 1.0]),
+        [red, green, blue, alpha] => Ok([red, green, blue, alpha]),
+        ref found => {
+            let message = format!("expected 3 or 4 numbers, found {}", found.len());
+            Err(error_at(node, message))
+        }
+    }
+}

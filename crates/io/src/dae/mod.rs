@@ -1,0 +1,385 @@
+//! COLLADA 1.4 and 1.5 (`.dae`), read only.
+//!
+//! ```text
+//! visual_scene --- node --- node --- instance_geometry --- geometry --- mesh --- polylist --- source
+//!                  transforms         bind_material                                material symbol
+//!                                         `- material --- effect --- image
+//! ```
+//!
+//! | of the file | becomes |
+//! | --- | --- |
+//! | `node` with `instance_geometry` | an object with the name of the node, moved by all nodes above it |
+//! | `instance_controller` | an object of the geometry that it moves, as it is at rest |
+//! | `instance_node` | the nodes that it refers to, once more |
+//! | `matrix`, `translate`, `rotate`, `scale`, `lookat` | a part of the placement; a mirror turns the faces round |
+//! | `triangles`, `polylist`, `polygons`, `tristrips`, `trifans` | faces; holes (`ph`) are left out |
+//! | input `POSITION` | the vertices, in their order and not merged |
+//! | input `NORMAL` | `normal` of corners, or of vertices where their corners agree |
+//! | input `COLOR` | `color` likewise; without an alpha it is 1 |
+//! | input `TEXCOORD` | `uv` of corners, further sets `uv1`, `uv2`, ... in the order of their numbers, at most 8 |
+//! | material of a list of polygons | `material` of faces, and a material |
+//! | effect: `diffuse` (`emission` of `constant`) | the base color or its picture, with the path of the file |
+//! | effect: `transparent`, `transparency` | the alpha of the base color |
+//! | `unit`, `up_axis` | a note: coordinates are those of the file, neither scaled nor turned |
+//! | lines, splines, skins, morphs, animations, cameras, lights, physics, `skew` | left out with a note |
+//!
+//! Corners for which a list has no normal or texture coordinate get zero, those without a color white. A
+//! file without a scene gives an object for each geometry. Other files that it refers to are not read.
+//!
+//! Document type declarations are refused, so that entities cannot grow; what instances repeat may take
+//! 1024 times the size of the file.
+
+mod document;
+mod geometry;
+mod materials;
+mod nodes;
+mod outline;
+mod sources;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use glam::{DAffine3, DMat3};
+use mesh::{CORNER_NORMAL, Domain, MATERIAL, UV, Values};
+use scene::Material;
+
+use crate::error::{ReadError, TextError};
+use crate::names::Names;
+use crate::note::Notes;
+use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
+use crate::{Found, Polygons};
+
+use document::{Document, Node, elements, error_at, line, number_of, text};
+use geometry::{Geometries, Surface};
+use nodes::{Placed, placed};
+
+/// Reads the objects of a file from its bytes.
+///
+/// # Errors
+///
+/// The first thing that breaks the rules of the format.
+pub(crate) fn read(
+    path: &Path,
+    bytes: &[u8],
+    name: &str,
+    notes: &mut Notes,
+) -> Result<Vec<Found>, ReadError> {
+    each_object(bytes, name, notes, |name, object| {
+        let polygons = object.polygons()?;
+        Ok(Found::polygons(name, polygons))
+    })
+    .map_err(|error| error.in_file(path))
+}
+
+/// What reading will give.
+///
+/// # Errors
+///
+/// As [`read`].
+pub(crate) fn peek(path: &Path, bytes: &[u8], name: &str) -> Result<Vec<PeekObject>, ReadError> {
+    each_object(bytes, name, &mut Notes::of(path), |name, object| {
+        let geometry = PeekGeometry::Mesh(object.counts());
+        Ok(PeekObject { name, geometry })
+    })
+    .map_err(|error| error.in_file(path))
+}
+
+/// Reads the file and makes something of each object.
+fn each_object<T>(
+    bytes: &[u8],
+    name: &str,
+    notes: &mut Notes,
+    mut make: impl FnMut(String, Object) -> Result<T, TextError>,
+) -> Result<Vec<T>, TextError> {
+    let text = document::decoded(bytes)?;
+    let xml = document::parsed(&text)?;
+    let document = Document::new(&xml)?;
+    let mut tally = Tally::default();
+    note_asset(&document, notes)?;
+    note_libraries(&document, &mut tally);
+    let placed = placed(&document, notes, &mut tally)?;
+    let mut geometries = Geometries::new(&document);
+    let mut surfaces: BTreeMap<u32, Option<Surface>> = BTreeMap::new();
+    let mut materials = BTreeMap::new();
+    let mut names = Names::default();
+    let mut objects = Vec::new();
+    for placed in &placed {
+        let id = number_of(placed.geometry);
+        let known = surfaces.contains_key(&id);
+        if !known {
+            let surface = geometries.surface(placed.geometry, &mut tally)?;
+            surfaces.insert(id, surface);
+        }
+        let Some(Some(surface)) = surfaces.get(&id) else {
+            tally.left_out(
+                1,
+                placed.geometry,
+                "geometries left out that have no polygons",
+            );
+            continue;
+        };
+        if known && let Some(instance) = placed.instance {
+            geometries
+                .budget
+                .take(instance, Budget::cost_of(&surface.polygons))?;
+        }
+        let object = Object {
+            document: &document,
+            placed,
+            surface,
+            materials: &mut materials,
+            tally: &mut tally,
+        };
+        let name = names.unique(placed.name(name), notes);
+        objects.push(make(name, object)?);
+    }
+    tally.into_notes(notes);
+    Ok(objects)
+}
+
+/// An object of the file with all that making its polygons needs.
+struct Object<'a, 'd> {
+    document: &'d Document<'a>,
+    placed: &'d Placed<'a>,
+    surface: &'d Surface<'a>,
+    /// Those that were read before.
+    materials: &'d mut BTreeMap<u32, Material>,
+    tally: &'d mut Tally,
+}
+
+impl Object<'_, '_> {
+    fn counts(&self) -> PeekMesh {
+        let polygons = &self.surface.polygons;
+        let has = |name| polygons.attributes.column(Domain::Corner, name).is_some();
+        let mut counts = PeekMesh {
+            vertices: polygons.positions.len() as u64,
+            uvs: has(UV.name),
+            normals: has(CORNER_NORMAL.name),
+            colors: has(mesh::COLOR.name),
+            materials: !self.surface.symbols.is_empty(),
+            ..PeekMesh::default()
+        };
+        for ends in polygons.offsets.windows(2) {
+            counts.add_faces(1, u64::from(ends[1] - ends[0]));
+        }
+        counts
+    }
+
+    /// The polygons in the scene's coordinates, with their materials.
+    fn polygons(self) -> Result<Polygons, TextError> {
+        let mut polygons = moved(
+            &self.surface.polygons,
+            &self.placed.to_scene,
+            |count, what| {
+                self.tally.left_out(count, self.placed.geometry, what);
+            },
+        );
+        if self.surface.symbols.is_empty() {
+            return Ok(polygons);
+        }
+        let mut places: BTreeMap<u32, i32> = BTreeMap::new();
+        let mut place_of_symbol = Vec::new();
+        for symbol in &self.surface.symbols {
+            let next = i32::try_from(polygons.materials.len()).unwrap_or(i32::MAX);
+            // Without a binding, some programs mean the material of this id.
+            let same_id = self
+                .document
+                .ids
+                .get(symbol)
+                .filter(|node| document::is(**node, "material"));
+            let node = self.placed.materials.get(symbol).or(same_id);
+            let Some(&node) = node else {
+                self.tally.changed(
+                    1,
+                    self.placed.geometry,
+                    "names of materials that the file does not define: they are white",
+                );
+                place_of_symbol.push(next);
+                polygons.materials.push(Material::new(*symbol));
+                continue;
+            };
+            place_of_symbol.push(*places.entry(number_of(node)).or_insert(next));
+            if places[&number_of(node)] == next {
+                let material = match self.materials.get(&number_of(node)) {
+                    Some(known) => known.clone(),
+                    None => materials::material(self.document, node, self.tally)?,
+                };
+                self.materials.insert(number_of(node), material.clone());
+                polygons.materials.push(material);
+            }
+        }
+        let place = |&symbol: &i32| {
+            let symbol = usize::try_from(symbol).ok();
+            symbol.map_or(-1, |symbol| place_of_symbol[symbol])
+        };
+        let values = self.surface.symbol_of.iter().map(place).collect();
+        polygons.insert_faces(MATERIAL, values);
+        Ok(polygons)
+    }
+}
+
+/// The polygons moved by `to_scene`. A mirror turns them inside out: their corners are taken the other way
+/// round. `left_out` hears of normals that a flat placement leaves without a direction.
+fn moved(
+    polygons: &Polygons,
+    to_scene: &DAffine3,
+    left_out: impl FnOnce(usize, &'static str),
+) -> Polygons {
+    let mut moved = polygons.clone();
+    if *to_scene == DAffine3::IDENTITY {
+        return moved;
+    }
+    for position in &mut moved.positions {
+        *position = to_scene.transform_point3(*position);
+    }
+    let turn = to_scene.matrix3.inverse().transpose();
+    if turn.is_finite() {
+        turn_normals(&mut moved, turn);
+    } else if let Some(column) = moved.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
+        left_out(
+            column.values.len(),
+            "normals left out: the placement is flat",
+        );
+    }
+    if to_scene.matrix3.determinant() < 0.0 {
+        let mut order: Vec<usize> = (0..moved.corners.len()).collect();
+        for ends in moved.offsets.windows(2) {
+            // The first corner stays the first.
+            order[ends[0] as usize + 1..ends[1] as usize].reverse();
+        }
+        moved.corners = order.iter().map(|&c| polygons.corners[c]).collect();
+        for column in polygons.attributes.of(Domain::Corner) {
+            let column = moved.attributes.remove(Domain::Corner, &column.name);
+            if let Some(mut column) = column {
+                column.values = column.values.gather(order.len(), |c| Some(order[c]));
+                moved.attributes.insert(Domain::Corner, column);
+            }
+        }
+    }
+    moved
+}
+
+fn turn_normals(polygons: &mut Polygons, turn: DMat3) {
+    let column = polygons
+        .attributes
+        .remove(Domain::Corner, CORNER_NORMAL.name);
+    if let Some(mut column) = column {
+        if let Values::Vec3(normals) = &mut column.values {
+            for normal in normals {
+                *normal = (turn * *normal).normalize_or_zero();
+            }
+        }
+        polygons.attributes.insert(Domain::Corner, column);
+    }
+}
+
+// ---- Notes -------------------------------------------------------------------------------------
+
+/// What was left out or changed, added up by what it is.
+#[derive(Default)]
+struct Tally(BTreeMap<(bool, &'static str), (usize, usize)>);
+
+impl Tally {
+    fn left_out(&mut self, count: usize, node: Node, what: &'static str) {
+        self.add(false, count, node, what);
+    }
+
+    fn changed(&mut self, count: usize, node: Node, what: &'static str) {
+        self.add(true, count, node, what);
+    }
+
+    fn add(&mut self, changed: bool, count: usize, node: Node, what: &'static str) {
+        if count > 0 {
+            // The line is looked for only once: that takes time.
+            let (sum, _) = self
+                .0
+                .entry((changed, what))
+                .or_insert_with(|| (0, line(node)));
+            *sum = sum.saturating_add(count);
+        }
+    }
+
+    fn into_notes(self, notes: &mut Notes) {
+        for ((changed, what), (count, line)) in self.0 {
+            if changed {
+                notes.changed(count, line, what);
+            } else {
+                notes.left_out(count, line, what);
+            }
+        }
+    }
+}
+
+/// Notes the unit and the direction upwards, if they are not the usual ones.
+fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), TextError> {
+    let asset = document::child(document.root, "asset");
+    let unit = asset.and_then(|asset| document::child(asset, "unit"));
+    let axis = asset.and_then(|asset| document::child(asset, "up_axis"));
+    let mut meter = 1.0;
+    if let Some(unit) = unit
+        && let Some(given) = unit.attribute("meter")
+    {
+        let parsed = given.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+        meter =
+            parsed.ok_or_else(|| error_at(unit, "expected the attribute meter to be a number"))?;
+    }
+    let up = axis.map_or("Y_UP", text);
+    if meter != 1.0 || up != "Y_UP" {
+        let up = up.chars().take(20).collect::<String>();
+        let what = format!("coordinate system as it is in the file: up_axis {up}, unit {meter} m");
+        notes.changed(1, unit.or(axis).map(line), what);
+    }
+    Ok(())
+}
+
+/// Counts what the reader does not look at.
+fn note_libraries(document: &Document, tally: &mut Tally) {
+    for library in elements(document.root) {
+        let what = match library.tag_name().name() {
+            "library_animations" | "library_animation_clips" => "animations left out",
+            "library_cameras" => "cameras left out",
+            "library_lights" => "lights left out",
+            "library_controllers" => {
+                "skins and morphs left out: geometries are as they are at rest"
+            }
+            name if name.starts_with("library_physics") || name == "library_force_fields" => {
+                "parts of physics left out"
+            }
+            "library_joints" | "library_articulated_systems" => "joints left out",
+            name if name.starts_with("library_kinematics") => "parts of kinematics left out",
+            _ => continue,
+        };
+        let parts = elements(library).filter(|part| !document::is(*part, "asset"));
+        tally.left_out(parts.count(), library, what);
+    }
+}
+
+/// How much memory may still be taken. A file may repeat its geometries by instances, but not without end.
+struct Budget(usize);
+
+impl Budget {
+    /// How many bytes a vertex, a corner and a further value of a corner take while a mesh is built, about.
+    const VERTEX: usize = 100;
+    const CORNER: usize = 80;
+    const VALUE: usize = 80;
+
+    fn of(size: usize) -> Self {
+        Self(size.saturating_mul(1024).saturating_add(1 << 20))
+    }
+
+    fn cost_of(polygons: &Polygons) -> usize {
+        let columns = polygons.attributes.of(Domain::Corner).len();
+        Self::VERTEX * polygons.positions.len()
+            + (Self::CORNER + Self::VALUE * columns) * polygons.corners.len()
+    }
+
+    fn take(&mut self, node: Node, bytes: usize) -> Result<(), TextError> {
+        self.0 = self.0.checked_sub(bytes).ok_or_else(|| {
+            error_at(
+                node,
+                "the file repeats its polygons far more often than usual for its size",
+            )
+        })?;
+        Ok(())
+    }
+}

@@ -1,0 +1,327 @@
+//! The nodes of a scene: which geometries stand where, under which names, with which materials.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::Tally;
+use super::document::{
+    Document, Node, below, child, elements, error_at, exactly, is, line, named, number_of, required,
+};
+use crate::error::TextError;
+use crate::note::Notes;
+
+/// A geometry at its place.
+pub(super) struct Placed<'a> {
+    /// The element that places it: errors about what it costs are there.
+    pub(super) instance: Option<Node<'a>>,
+    pub(super) geometry: Node<'a>,
+    pub(super) to_scene: DAffine3,
+    /// The name of the node; empty if it has none.
+    node_name: &'a str,
+    /// For each symbol of the geometry its element `<material>`.
+    pub(super) materials: BTreeMap<&'a str, Node<'a>>,
+}
+
+impl<'a> Placed<'a> {
+    pub(super) fn name(&self, otherwise: &'a str) -> &'a str {
+        let names = [self.node_name, name(self.geometry)];
+        names
+            .into_iter()
+            .find(|name| !name.is_empty())
+            .unwrap_or(otherwise)
+    }
+}
+
+fn name(node: Node<'_>) -> &str {
+    let given = node.attribute("name").filter(|name| !name.is_empty());
+    given.or(node.attribute("id")).unwrap_or_default()
+}
+
+/// All geometries of the scene, parents before children, in the order of the file; without a scene those of
+/// the libraries.
+///
+/// # Errors
+///
+/// What of the nodes is not as it should be.
+pub(super) fn placed<'a>(
+    document: &Document<'a>,
+    notes: &mut Notes,
+    tally: &mut Tally,
+) -> Result<Vec<Placed<'a>>, TextError> {
+    let geometries = || {
+        let libraries = named(document.root, "library_geometries");
+        libraries.flat_map(|library| named(library, "geometry"))
+    };
+    let scenes: Vec<Node> = named(document.root, "library_visual_scenes")
+        .flat_map(|library| named(library, "visual_scene"))
+        .collect();
+    let instance = below(document.root, &["scene", "instance_visual_scene"]);
+    let shown = match instance {
+        Some(instance) => document.follow(instance, "url", &["visual_scene"])?,
+        None => scenes.first().copied(),
+    };
+    let Some(scene) = shown else {
+        let alone = geometries().map(|geometry| Placed {
+            instance: None,
+            geometry,
+            to_scene: DAffine3::IDENTITY,
+            node_name: "",
+            materials: BTreeMap::new(),
+        });
+        return Ok(alone.collect());
+    };
+    let first = scenes.iter().find(|other| **other != scene);
+    let others = scenes.iter().filter(|other| **other != scene).count();
+    notes.left_out(
+        others,
+        first.map(|scene| line(*scene)),
+        "other scenes left out",
+    );
+    let placed = Walk::of(document).run(scene, tally)?;
+    let used: BTreeSet<u32> = placed
+        .iter()
+        .map(|placed| number_of(placed.geometry))
+        .collect();
+    let mut unused = geometries().filter(|geometry| !used.contains(&number_of(*geometry)));
+    if let Some(first) = unused.next() {
+        let what = "geometries left out: no node of the scene shows them";
+        notes.left_out(1 + unused.count(), line(first), what);
+    }
+    Ok(placed)
+}
+
+/// A walk over the nodes of a scene, on a stack of its own: they may be nested as deeply as the file is long.
+struct Walk<'a, 'd> {
+    document: &'d Document<'a>,
+    /// How many more elements may be looked at: instances can make a small file large.
+    steps: usize,
+    /// The nodes that the walk is below of.
+    above: BTreeSet<u32>,
+    placements: BTreeMap<u32, DAffine3>,
+    placed: Vec<Placed<'a>>,
+}
+
+enum Step<'a> {
+    Enter(Node<'a>, DAffine3),
+    Leave(u32),
+}
+
+impl<'a, 'd> Walk<'a, 'd> {
+    fn of(document: &'d Document<'a>) -> Self {
+        Self {
+            document,
+            steps: 4 * document.size + 10_000,
+            above: BTreeSet::new(),
+            placements: BTreeMap::new(),
+            placed: Vec::new(),
+        }
+    }
+
+    fn run(mut self, scene: Node<'a>, tally: &mut Tally) -> Result<Vec<Placed<'a>>, TextError> {
+        let mut open = Vec::new();
+        self.open_children(scene, DAffine3::IDENTITY, &mut open, tally)?;
+        while let Some(step) = open.pop() {
+            let (node, above) = match step {
+                Step::Leave(id) => {
+                    self.above.remove(&id);
+                    continue;
+                }
+                Step::Enter(node, above) => (node, above),
+            };
+            if !self.above.insert(number_of(node)) {
+                return Err(error_at(node, "the node is below itself"));
+            }
+            open.push(Step::Leave(number_of(node)));
+            let to_scene = above * self.placement(node, tally)?;
+            if !to_scene.is_finite() {
+                return Err(error_at(node, "the placement of the node is not finite"));
+            }
+            self.place_geometries(node, to_scene, tally)?;
+            self.open_children(node, to_scene, &mut open, tally)?;
+        }
+        Ok(self.placed)
+    }
+
+    fn step(&mut self, node: Node) -> Result<(), TextError> {
+        let message = "the nodes are repeated far more often than usual for a file of its size";
+        let left = self.steps.checked_sub(1);
+        self.steps = left.ok_or_else(|| error_at(node, message))?;
+        Ok(())
+    }
+
+    /// Puts the nodes below `node` on the stack, the first on top.
+    fn open_children(
+        &mut self,
+        node: Node<'a>,
+        to_scene: DAffine3,
+        open: &mut Vec<Step<'a>>,
+        tally: &mut Tally,
+    ) -> Result<(), TextError> {
+        let start = open.len();
+        for part in elements(node) {
+            self.step(part)?;
+            if is(part, "node") {
+                open.push(Step::Enter(part, to_scene));
+            } else if is(part, "instance_node") {
+                match self.document.follow(part, "url", &["node"])? {
+                    Some(node) => open.push(Step::Enter(node, to_scene)),
+                    None => tally.left_out(1, part, "nodes in other files left out"),
+                }
+            }
+        }
+        open[start..].reverse();
+        Ok(())
+    }
+
+    fn place_geometries(
+        &mut self,
+        node: Node<'a>,
+        to_scene: DAffine3,
+        tally: &mut Tally,
+    ) -> Result<(), TextError> {
+        for instance in elements(node) {
+            let geometry = match instance.tag_name().name() {
+                "instance_geometry" => self.document.follow(instance, "url", &["geometry"])?,
+                "instance_controller" => self.geometry_of_controller(instance)?,
+                _ => continue,
+            };
+            let Some(geometry) = geometry else {
+                tally.left_out(1, instance, "geometries in other files left out");
+                continue;
+            };
+            let materials = self.bound_materials(instance, tally)?;
+            self.placed.push(Placed {
+                instance: Some(instance),
+                geometry,
+                to_scene,
+                node_name: name(node),
+                materials,
+            });
+        }
+        Ok(())
+    }
+
+    /// The geometry that a skin or a morph moves, as it is at rest.
+    fn geometry_of_controller(&self, instance: Node<'a>) -> Result<Option<Node<'a>>, TextError> {
+        const MOST: usize = 16;
+        let mut controller = self.document.follow(instance, "url", &["controller"])?;
+        for _ in 0..MOST {
+            let Some(node) = controller else {
+                return Ok(None);
+            };
+            let moved = child(node, "skin").or(child(node, "morph"));
+            let moved = moved.ok_or_else(|| error_at(node, "expected <skin> or <morph>"))?;
+            let source = self
+                .document
+                .follow(moved, "source", &["geometry", "controller"])?;
+            match source {
+                Some(source) if is(source, "controller") => controller = Some(source),
+                geometry => return Ok(geometry),
+            }
+        }
+        Err(error_at(
+            instance,
+            format!("expected at most {MOST} controllers in a chain"),
+        ))
+    }
+
+    fn bound_materials(
+        &mut self,
+        instance: Node<'a>,
+        tally: &mut Tally,
+    ) -> Result<BTreeMap<&'a str, Node<'a>>, TextError> {
+        let mut materials = BTreeMap::new();
+        let Some(list) = below(instance, &["bind_material", "technique_common"]) else {
+            return Ok(materials);
+        };
+        for bound in named(list, "instance_material") {
+            self.step(bound)?;
+            let symbol = required(bound, "symbol")?;
+            match self.document.follow(bound, "target", &["material"])? {
+                Some(material) => {
+                    materials.entry(symbol).or_insert(material);
+                }
+                None => tally.left_out(1, bound, "materials in other files left out"),
+            }
+        }
+        Ok(materials)
+    }
+
+    /// The placement of a node in the node above: its transforms, the first of the file outermost.
+    fn placement(&mut self, node: Node<'a>, tally: &mut Tally) -> Result<DAffine3, TextError> {
+        if let Some(known) = self.placements.get(&number_of(node)) {
+            return Ok(*known);
+        }
+        let mut all = DAffine3::IDENTITY;
+        for part in elements(node) {
+            all *= match part.tag_name().name() {
+                "matrix" => matrix(part)?,
+                "translate" => DAffine3::from_translation(DVec3::from_array(exactly(part)?)),
+                "scale" => DAffine3::from_scale(DVec3::from_array(exactly(part)?)),
+                "rotate" => DAffine3::from_mat3(rotation(exactly(part)?)),
+                "lookat" => look_at(part)?,
+                "skew" => {
+                    tally.left_out(1, part, "skews of nodes left out");
+                    continue;
+                }
+                _ => continue,
+            };
+        }
+        self.placements.insert(number_of(node), all);
+        Ok(all)
+    }
+}
+
+fn matrix(node: Node) -> Result<DAffine3, TextError> {
+    let rows: [f64; 16] = exactly(node)?;
+    if rows[12..] != [0.0, 0.0, 0.0, 1.0] {
+        return Err(error_at(node, "expected 0 0 0 1 as the last row"));
+    }
+    let column = |i: usize| DVec3::new(rows[i], rows[4 + i], rows[8 + i]);
+    Ok(DAffine3::from_cols(
+        column(0),
+        column(1),
+        column(2),
+        column(3),
+    ))
+}
+
+/// Rodrigues' formula: R = c I + s \[n\] + (1 - c) n n^T. The angle is in degrees; without an axis there is no
+/// rotation.
+fn rotation([x, y, z, degrees]: [f64; 4]) -> DMat3 {
+    let axis = DVec3::new(x, y, z).normalize_or_zero();
+    if axis == DVec3::ZERO {
+        return DMat3::IDENTITY;
+    }
+    let (s, c) = sin_cos(degrees);
+    let column = |unit: DVec3| c * unit + s * axis.cross(unit) + (1.0 - c) * axis.dot(unit) * axis;
+    DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
+}
+
+/// Sine and cosine of an angle in degrees, exact for multiples of 90.
+fn sin_cos(degrees: f64) -> (f64, f64) {
+    let degrees = degrees % 360.0; // the remainder is exact
+    match degrees.abs() {
+        0.0 => (0.0, 1.0),
+        90.0 => (degrees.signum(), 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-degrees.signum(), 0.0),
+        _ => libm::sincos(degrees.to_radians()),
+    }
+}
+
+/// The frame of an eye that looks along its -z.
+fn look_at(node: Node) -> Result<DAffine3, TextError> {
+    let [a, b, c, d, e, f, g, h, i] = exactly(node)?;
+    let eye = DVec3::new(a, b, c);
+    let z = (eye - DVec3::new(d, e, f)).normalize_or_zero();
+    let x = DVec3::new(g, h, i).cross(z).normalize_or_zero();
+    if x == DVec3::ZERO {
+        return Err(error_at(
+            node,
+            "expected a direction to look at, and another one upwards",
+        ));
+    }
+    Ok(DAffine3::from_cols(x, z.cross(x), z, eye))
+}

@@ -1,0 +1,161 @@
+//! How the indices of a list make polygons: triangles, polygons with counted corners, strips and fans.
+
+use super::Tally;
+use super::document::{
+    Node, child, elements, error_at, is, named, natural, push_indices, required,
+};
+use crate::error::TextError;
+
+/// How the indices of a list make polygons.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shape {
+    Triangles,
+    Counted,
+    Single,
+    Strips,
+    Fans,
+}
+
+/// What kind of polygons a list has; `None` if it has none.
+pub(super) fn shape(list: Node, tally: &mut Tally) -> Result<Option<Shape>, TextError> {
+    let shape = match list.tag_name().name() {
+        "triangles" => Shape::Triangles,
+        "polylist" => Shape::Counted,
+        "polygons" => Shape::Single,
+        "tristrips" => Shape::Strips,
+        "trifans" => Shape::Fans,
+        _ => return Ok(None),
+    };
+    let empty = elements(list).all(|part| !is(part, "p") && !is(part, "ph"));
+    if empty && natural(list, "count")?.is_some_and(|count| count > 0) {
+        return Err(error_at(list, "expected indices in <p>"));
+    }
+    if empty {
+        tally.left_out(1, list, "lists of polygons left out that are empty");
+        return Ok(None);
+    }
+    Ok(Some(shape))
+}
+
+/// The corners of the polygons of one list, before they are looked up.
+#[derive(Default)]
+pub(super) struct Outline<'a> {
+    /// The elements that the indices are from.
+    pub(super) lists: Vec<Node<'a>>,
+    pub(super) indices: Vec<u32>,
+    /// For each corner its number among the corners that the list has indices for.
+    pub(super) order: Vec<usize>,
+    pub(super) degrees: Vec<usize>,
+}
+
+impl Shape {
+    /// Reads the indices of a list whose corners have `stride` each.
+    pub(super) fn read<'a>(
+        self,
+        list: Node<'a>,
+        stride: usize,
+        tally: &mut Tally,
+    ) -> Result<Outline<'a>, TextError> {
+        let mut outline = Outline::default();
+        let mut holes = 0;
+        // Where the corners of each list of indices begin.
+        let mut starts = vec![0];
+        for part in elements(list) {
+            let indices = if is(part, "p") {
+                part
+            } else if is(part, "ph") {
+                holes += named(part, "h").count();
+                child(part, "p").ok_or_else(|| error_at(part, "expected <p>"))?
+            } else {
+                continue;
+            };
+            push_indices(indices, &mut outline.indices)?;
+            outline.lists.push(indices);
+            if !outline.indices.len().is_multiple_of(stride) {
+                let message = format!(
+                    "expected {stride} indices for each corner, found {} in all",
+                    outline.indices.len()
+                );
+                return Err(error_at(indices, message));
+            }
+            starts.push(outline.indices.len() / stride);
+        }
+        tally.left_out(holes, list, "holes of polygons left out");
+        let n = outline.indices.len() / stride;
+        let lists = starts.windows(2).map(|ends| ends[0]..ends[1]);
+        let count = natural(list, "count")?;
+        let mut small = 0;
+        let found = match self {
+            Self::Triangles => {
+                outline.order = (0..n).collect();
+                outline.degrees = vec![3; n / 3];
+                if !n.is_multiple_of(3) {
+                    let message = format!("expected 3 corners for each triangle, found {n} in all");
+                    return Err(error_at(list, message));
+                }
+                n / 3
+            }
+            Self::Counted => {
+                let counts = child(list, "vcount")
+                    .ok_or_else(|| error_at(list, "expected the numbers of corners in <vcount>"))?;
+                let mut degrees = Vec::new();
+                push_indices(counts, &mut degrees)?;
+                let corners = degrees.iter().map(|&d| u64::from(d)).sum::<u64>();
+                if corners != n as u64 {
+                    let message = format!("the polygons have {corners} corners, but there are {n}");
+                    return Err(error_at(counts, message));
+                }
+                let mut start = 0;
+                for &degree in &degrees {
+                    small += outline.push(start..start + degree as usize);
+                    start += degree as usize;
+                }
+                degrees.len()
+            }
+            Self::Single => {
+                lists.for_each(|list| small += outline.push(list));
+                outline.lists.len()
+            }
+            Self::Strips | Self::Fans => {
+                for list in lists {
+                    small += usize::from(list.len() < 3);
+                    for k in (list.start + 2)..list.end {
+                        let (a, b) = match self {
+                            Self::Fans => (list.start, k - 1),
+                            _ if (k - list.start) % 2 == 0 => (k - 2, k - 1),
+                            _ => (k - 1, k - 2),
+                        };
+                        outline.order.extend([a, b, k]);
+                        outline.degrees.push(3);
+                    }
+                }
+                outline.lists.len()
+            }
+        };
+        tally.left_out(
+            small,
+            list,
+            "polygons left out that have fewer than 3 corners",
+        );
+        if count.is_some_and(|count| count != found) {
+            let message = format!(
+                "expected {} of them, found {found}",
+                required(list, "count")?
+            );
+            return Err(error_at(list, message));
+        }
+        Ok(outline)
+    }
+}
+
+impl Outline<'_> {
+    /// Adds a polygon; returns how many are left out because they are too small.
+    fn push(&mut self, corners: std::ops::Range<usize>) -> usize {
+        if corners.len() < 3 {
+            return 1;
+        }
+        self.degrees.push(corners.len());
+        self.order.extend(corners);
+        0
+    }
+}

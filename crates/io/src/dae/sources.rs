@@ -1,0 +1,129 @@
+//! Lists of vectors: a source is an array of numbers and an accessor that says which of them belong together.
+//!
+//! ```text
+//! <source id="s">
+//!   <float_array id="a" count="7">9  0 0 0  1 0 0</float_array>
+//!   <technique_common>
+//!     <accessor source="#a" offset="1" count="2" stride="3">     (0 0 0) (1 0 0)
+//!       <param name="X"/> <param name="Y"/> <param name="Z"/>     without a name: passed over
+//! ```
+
+use super::document::{Document, Node, below, error_at, named, natural, numbers, required};
+use crate::error::TextError;
+use crate::text::quoted;
+
+/// Vectors of 1 to 4 numbers.
+#[derive(Debug)]
+pub(super) struct Vectors {
+    pub(super) width: usize,
+    pub(super) values: Vec<f64>,
+}
+
+impl Vectors {
+    pub(super) fn len(&self) -> usize {
+        self.values.len() / self.width
+    }
+
+    /// The i-th vector; what it lacks is taken from `others`.
+    pub(super) fn get<const N: usize>(&self, i: usize, mut others: [f64; N]) -> [f64; N] {
+        let vector = self.values[i * self.width..].iter().take(self.width);
+        for (to, from) in others.iter_mut().zip(vector) {
+            *to = *from;
+        }
+        others
+    }
+}
+
+/// The vectors of a source, their components ordered as `names` where the accessor has all of these, and else
+/// as it lists them.
+///
+/// # Errors
+///
+/// If the source is not what it should be, or has fewer than `least` components.
+pub(super) fn vectors(
+    document: &Document,
+    source: Node,
+    names: &[&str],
+    least: usize,
+) -> Result<Vectors, TextError> {
+    let accessor = below(source, &["technique_common", "accessor"])
+        .ok_or_else(|| error_at(source, "expected an accessor in technique_common"))?;
+    let components = components(accessor, names)?;
+    if components.len() < least {
+        let message = format!("expected {least} components, found {}", components.len());
+        return Err(error_at(accessor, message));
+    }
+    let count = natural(accessor, "count")?
+        .ok_or_else(|| error_at(accessor, "expected an attribute count"))?;
+    let offset = natural(accessor, "offset")?.unwrap_or(0);
+    let stride = natural(accessor, "stride")?.unwrap_or(1);
+    let Some(array) = document.follow(accessor, "source", &["float_array", "int_array"])? else {
+        return Err(error_at(
+            accessor,
+            "an array in another file is not read here",
+        ));
+    };
+    let values = numbers(array)?;
+    if natural(array, "count")?.is_some_and(|count| count != values.len()) {
+        let stated = required(array, "count")?;
+        let message = format!("expected {stated} numbers, found {}", values.len());
+        return Err(error_at(array, message));
+    }
+    let last = components.iter().max().map_or(0, |last| last + 1);
+    if last > stride {
+        let message = format!("expected a stride of at least {last}, found {stride}");
+        return Err(error_at(accessor, message));
+    }
+    let end = match count.checked_sub(1) {
+        None => Some(0),
+        Some(before) => before
+            .checked_mul(stride)
+            .and_then(|start| start.checked_add(offset)?.checked_add(last)),
+    };
+    if end.is_none_or(|end| end > values.len()) {
+        let message = format!(
+            "{count} vectors reach beyond the {} numbers of {}",
+            values.len(),
+            quoted(required(accessor, "source")?.as_bytes())
+        );
+        return Err(error_at(accessor, message));
+    }
+    let width = components.len();
+    if offset == 0 && stride == width && components.iter().enumerate().all(|(i, &c)| i == c) {
+        let mut values = values;
+        values.truncate(count * width);
+        return Ok(Vectors { width, values });
+    }
+    let starts = (0..count).map(|i| offset + i * stride);
+    let picked = starts.flat_map(|start| components.iter().map(move |&c| start + c));
+    Ok(Vectors {
+        width,
+        values: picked.map(|i| values[i]).collect(),
+    })
+}
+
+/// Where the components of a vector stand behind its first number; at most four.
+fn components(accessor: Node, names: &[&str]) -> Result<Vec<usize>, TextError> {
+    let params: Vec<_> = named(accessor, "param")
+        .map(|param| param.attribute("name").unwrap_or_default())
+        .collect();
+    let place = |name: &&str| params.iter().position(|param| param == name);
+    let ordered: Option<Vec<usize>> = names.iter().map(place).collect();
+    let mut components = match ordered {
+        _ if params.iter().all(|name| name.is_empty()) => {
+            let stride = natural(accessor, "stride")?.unwrap_or(1);
+            (0..stride.min(4)).collect()
+        }
+        Some(ordered) => {
+            // A fourth component, such as the alpha of a color, comes last.
+            let others =
+                (0..params.len()).filter(|i| !ordered.contains(i) && !params[*i].is_empty());
+            ordered.iter().copied().chain(others).collect()
+        }
+        None => (0..params.len())
+            .filter(|&i| !params[i].is_empty())
+            .collect::<Vec<_>>(),
+    };
+    components.truncate(4);
+    Ok(components)
+}

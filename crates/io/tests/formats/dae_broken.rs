@@ -1,0 +1,348 @@
+//! COLLADA files that are not what they should be: refused with the place, and never a panic.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use mesh_io::{Loaded, ReadError, ReadOptions};
+use proptest::prelude::*;
+
+const SQUARE: &str = r##"<COLLADA version="1.4.1">
+<library_materials><material id="m"><instance_effect url="#e"/></material></library_materials>
+<library_effects><effect id="e"><profile_COMMON><technique><phong><diffuse><color>1 0 0</color></diffuse>
+</phong></technique></profile_COMMON></effect></library_effects>
+<library_geometries><geometry id="g"><mesh>
+<source id="s"><float_array id="a" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array>
+<technique_common><accessor source="#a" count="4" stride="3">
+<param name="X"/><param name="Y"/><param name="Z"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
+<polylist count="1" material="m"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="NORMAL" source="#s" offset="1"/><vcount>4</vcount>
+<p>0 0 1 1 2 2 3 3</p></polylist></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="vs"><node id="n"><matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>
+<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#vs"/></scene></COLLADA>"##;
+
+fn read(text: &[u8]) -> Result<Loaded, ReadError> {
+    mesh_io::read_bytes(Path::new("a.dae"), text.to_vec(), &ReadOptions::default())
+}
+
+#[test]
+fn the_square_is_whole() {
+    let loaded = read(SQUARE.as_bytes()).unwrap();
+    assert_eq!(loaded.objects[0].as_mesh().unwrap().n_faces(), 1);
+    assert!(loaded.notes.is_empty(), "{:?}", loaded.notes);
+}
+
+/// What is replaced in the square, by what, and what the error says.
+const BROKEN: &[(&str, &str, &str)] = &[
+    (
+        "<COLLADA version=\"1.4.1\">",
+        "<kml>",
+        "expected 'kml' tag, not 'COLLADA'",
+    ),
+    ("</mesh>", "", "expected 'mesh' tag, not 'geometry'"),
+    (
+        "0 0 0 1 0 0 1 1",
+        "0 0 0 1 0 x 1 1",
+        "6:57: expected a number, found `x`",
+    ),
+    (
+        "0 0 0 1 0 0 1 1",
+        "0 0 0 1 0 NaN 1 1",
+        "6:57: expected a finite number, found `NaN`",
+    ),
+    (
+        "0 0 0 1 0 0 1 1",
+        "0 0 0 1 0 1e999 1 1",
+        "expected a finite number",
+    ),
+    (
+        "1 1 0 0 1 0<",
+        "1 1 0 0 1<",
+        "6:16: <float_array>: expected 12 numbers, found 11",
+    ),
+    (
+        "count=\"4\"",
+        "count=\"5\"",
+        "7:19: <accessor>: 5 vectors reach beyond the 12 numbers",
+    ),
+    (
+        "count=\"4\"",
+        "count=\"18446744073709551615\"",
+        "vectors reach beyond",
+    ),
+    (
+        "count=\"4\"",
+        "count=\"-4\"",
+        "expected count to be a natural number, found `-4`",
+    ),
+    (
+        "stride=\"3\"",
+        "stride=\"2\"",
+        "expected a stride of at least 3, found 2",
+    ),
+    (
+        "stride=\"3\"",
+        "stride=\"18446744073709551615\"",
+        "reach beyond",
+    ),
+    (
+        "stride=\"3\"",
+        "stride=\"3\" offset=\"18446744073709551615\"",
+        "reach beyond",
+    ),
+    ("<param name=\"Z\"/>", "", "expected 3 components, found 2"),
+    (
+        "source=\"#a\"",
+        "source=\"#b\"",
+        "`b` refers to nothing, expected <float_array>",
+    ),
+    (
+        "source=\"#a\"",
+        "source=\"#s\"",
+        "`s` refers to source, expected <float_array>",
+    ),
+    (
+        "source=\"#v\" offset=\"0\"",
+        "source=\"#v\"",
+        "expected an attribute offset",
+    ),
+    (
+        "source=\"#v\" offset=\"0\"",
+        "source=\"#v\" offset=\"4000000000\"",
+        "below 1000",
+    ),
+    (
+        "\"VERTEX\"",
+        "\"WERTEX\"",
+        "10:1: <polylist>: expected an input VERTEX",
+    ),
+    (
+        "\"POSITION\"",
+        "\"PLACE\"",
+        "9:1: <vertices>: expected an input POSITION",
+    ),
+    (
+        "2 2 3 3<",
+        "2 2 3 4<",
+        "12:18: normal 4 does not exist: there are 4, from 0",
+    ),
+    (
+        "2 2 3 3<",
+        "2 2 9 3<",
+        "12:16: position 9 does not exist: there are 4, from 0",
+    ),
+    (
+        "2 2 3 3<",
+        "2 2 -3 3<",
+        "12:16: expected an index, found `-3`",
+    ),
+    (
+        "2 2 3 3<",
+        "2 2 3<",
+        "expected 2 indices for each corner, found 7 in all",
+    ),
+    (
+        "2 2 3 3<",
+        "2 2<",
+        "11:50: <vcount>: the polygons have 4 corners, but there are 3",
+    ),
+    (
+        "<vcount>4<",
+        "<vcount>4294967295 4294967295<",
+        "have 8589934590 corners",
+    ),
+    (
+        "<vcount>4</vcount>",
+        "",
+        "expected the numbers of corners in <vcount>",
+    ),
+    (
+        "polylist count=\"1\"",
+        "polylist count=\"2\"",
+        "expected 2 of them, found 1",
+    ),
+    (
+        "0 0 0 1</matrix>",
+        "0 0 0 2</matrix>",
+        "13:59: <matrix>: expected 0 0 0 1 as the last row",
+    ),
+    (
+        "0 0 0 1</matrix>",
+        "0 0 1</matrix>",
+        "expected 16 numbers, found 15",
+    ),
+    (
+        "<matrix>1",
+        "<scale>1e300 1 1</scale><scale>1e300 1 1</scale><matrix>1",
+        "not finite",
+    ),
+    (
+        "<matrix>1",
+        "<lookat>0 0 0 0 0 0 0 1 0</lookat><matrix>1",
+        "expected a direction to look at",
+    ),
+    ("url=\"#g\"", "url=\"g\"", "expected url=\"#id\", found `g`"),
+    ("url=\"#g\"", "", "expected an attribute url"),
+    (
+        "url=\"#vs\"",
+        "url=\"#g\"",
+        "`g` refers to geometry, expected <visual_scene>",
+    ),
+    (
+        "<instance_geometry url=\"#g\"/>",
+        "<instance_node url=\"#n\"/>",
+        "the node is below itself",
+    ),
+    (
+        "1 0 0</color>",
+        "1 0</color>",
+        "3:76: <color>: expected 3 or 4 numbers, found 2",
+    ),
+    (
+        "<COLLADA v",
+        "<!DOCTYPE x [<!ENTITY a \"b\">]><COLLADA v",
+        "document type declaration",
+    ),
+    (
+        ">0 0 0 1 0 0 1 1 0",
+        ">&a; 0 0 1 0 0 1 1 0",
+        "unknown entity reference 'a'",
+    ),
+];
+
+#[test]
+fn errors_say_where_and_what() {
+    let mut wrong = Vec::new();
+    for (from, to, message) in BROKEN {
+        assert!(SQUARE.contains(from), "{from}");
+        let error = read(SQUARE.replacen(from, to, 1).as_bytes())
+            .unwrap_err()
+            .to_string();
+        if !error.contains(message) || !error.starts_with("a.dae:") {
+            wrong.push(format!("{from} -> {to}: {error}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    for bytes in [&b""[..], b"\xff\xfe<\0", b"<", b"<a", b"\0\0\0"] {
+        assert!(matches!(read(bytes), Err(ReadError::Text { .. })));
+    }
+}
+
+/// What must be refused, or read, soon.
+fn soon(text: &str) -> Result<Loaded, ReadError> {
+    let start = Instant::now();
+    let result = read(text.as_bytes());
+    assert!(
+        start.elapsed() < Duration::from_secs(5),
+        "{:?}",
+        start.elapsed()
+    );
+    result
+}
+
+#[test]
+fn deep_nesting_needs_no_stack() {
+    let deep = 100_000;
+    let inner = "<instance_geometry url=\"#g\"/>";
+    let nested = format!("{}{inner}{}", "<node>".repeat(deep), "</node>".repeat(deep));
+    assert_eq!(
+        soon(&SQUARE.replacen(inner, &nested, 1))
+            .unwrap()
+            .objects
+            .len(),
+        1
+    );
+    assert!(soon(&"<a>".repeat(deep)).is_err());
+}
+
+#[test]
+fn instances_that_double_are_refused() {
+    let mut library = String::from("<library_nodes>");
+    for i in 0..64 {
+        let next = i + 1;
+        write!(
+            library,
+            "<node id=\"n{i}\"><instance_node url=\"#n{next}\"/><instance_node url=\"#n{next}\"/></node>"
+        )
+        .unwrap();
+    }
+    library += "<node id=\"n64\"/></library_nodes><library_visual_scenes>";
+    let text = SQUARE
+        .replacen("<library_visual_scenes>", &library, 1)
+        .replacen(
+            "<instance_geometry url=\"#g\"/>",
+            "<instance_node url=\"#n0\"/>",
+            1,
+        );
+    let error = soon(&text).unwrap_err().to_string();
+    assert!(error.contains("repeated far more often"), "{error}");
+}
+
+#[test]
+fn a_geometry_that_is_repeated_too_often_is_refused() {
+    let corners = 20_000;
+    let list = format!(
+        "<polylist><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><vcount>{}</vcount><p>{}</p></polylist>",
+        "3 ".repeat(corners / 3),
+        "0 ".repeat(corners / 3 * 3)
+    );
+    let text = SQUARE
+        .replacen("</mesh>", &format!("{list}</mesh>"), 1)
+        .replacen(
+            "<instance_geometry url=\"#g\"/>",
+            &"<instance_geometry url=\"#g\"/>".repeat(5000),
+            1,
+        );
+    let error = soon(&text).unwrap_err().to_string();
+    assert!(error.contains("repeats its polygons"), "{error}");
+}
+
+#[test]
+fn what_would_make_the_xml_parser_slow_is_refused() {
+    let mut attributes = String::from("<COLLADA");
+    let mut namespaces = String::from("<COLLADA");
+    for i in 0..50_000 {
+        write!(attributes, " a{i}=''").unwrap();
+        write!(namespaces, " xmlns:a{i}='u'").unwrap();
+    }
+    assert!(
+        soon(&(attributes + "/>"))
+            .unwrap_err()
+            .to_string()
+            .contains("attributes")
+    );
+    assert!(
+        soon(&(namespaces + "/>"))
+            .unwrap_err()
+            .to_string()
+            .contains("at most")
+    );
+    assert!(soon(&"=".repeat(1_000_000)).is_err());
+    assert!(soon(&"<".repeat(1_000_000)).is_err());
+}
+
+proptest! {
+    #[test]
+    fn any_bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        let _ = read(&bytes);
+    }
+
+    #[test]
+    fn a_file_that_is_cut_is_refused(end in 0..SQUARE.len() - 1) {
+        prop_assert!(read(&SQUARE.as_bytes()[..end]).is_err());
+    }
+
+    #[test]
+    fn a_file_with_other_words_is_read_or_refused(
+        changes in prop::collection::vec((0..SQUARE.len(), "[-0-9#./<>a-z\" ]{1,3}"), 1..4)
+    ) {
+        let mut text = SQUARE.as_bytes().to_vec();
+        for (at, new) in changes {
+            let end = (at + new.len()).min(text.len());
+            text.splice(at.min(end)..end, new.bytes());
+        }
+        let _ = read(&text);
+    }
+}

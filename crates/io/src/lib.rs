@@ -43,6 +43,7 @@ mod build;
 mod clean;
 mod corners;
 mod dae;
+mod decimal;
 mod dense;
 mod error;
 mod format;

@@ -55,6 +55,28 @@ impl<'a> Cursor<'a> {
         }
     }
 
+    /// As [`Cursor::new`], for a part of a text: a byte order mark is no mark there.
+    pub(crate) fn inside(bytes: &'a [u8]) -> Self {
+        Self {
+            bytes,
+            at: 0,
+            line: 1,
+            line_start: 0,
+        }
+    }
+
+    /// The bytes from the cursor on.
+    pub(crate) fn ahead(&self) -> &'a [u8] {
+        &self.bytes[self.at..]
+    }
+
+    /// Passes over `length` bytes, which are the rest of a line and its end.
+    pub(crate) fn pass_line(&mut self, length: usize) {
+        self.at += length;
+        self.line += 1;
+        self.line_start = self.at;
+    }
+
     /// How many bytes are left.
     pub(crate) fn remaining(&self) -> usize {
         self.bytes.len() - self.at
@@ -177,7 +199,7 @@ impl<'a> Cursor<'a> {
 }
 
 #[inline]
-fn is_blank(byte: u8) -> bool {
+pub(crate) fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | 0x0b | 0x0c)
 }
 

@@ -17,12 +17,17 @@
 //! The writer takes the same table from right to left, so that what was read is written and what was
 //! written is read.
 
+mod corner;
 mod file;
+mod join;
 mod material;
 mod parse;
+mod part;
 mod peek;
 mod read;
+mod statement;
 mod states;
+mod usual;
 mod write;
 
 pub(crate) use peek::peek;

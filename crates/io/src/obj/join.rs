@@ -1,0 +1,273 @@
+//! Joining the parts of an OBJ file in their order.
+
+use std::collections::BTreeMap;
+
+use bytemuck::Zeroable;
+use glam::DVec4;
+use rayon::prelude::*;
+
+use super::corner::Counts;
+use super::file::{Faces, LeftOut, NONE, ObjFile, Run};
+use super::part::{Indices, Names, Part, PartRun, to_u32};
+use super::statement::LISTED;
+use crate::text::Place;
+
+/// Whether every index refers to something, and there is not too much of anything.
+pub(super) fn fits(parts: &[Part]) -> bool {
+    let mut before = Counts::default();
+    let mut highest = Counts::default();
+    let (mut corners, mut line_corners) = (0, 0);
+    for part in parts {
+        if !covers(before, part.reach) {
+            return false;
+        }
+        let counts = part.counts();
+        before.positions += counts.positions;
+        before.uvs += counts.uvs;
+        before.normals += counts.normals;
+        highest.positions = highest.positions.max(part.highest.positions);
+        highest.uvs = highest.uvs.max(part.highest.uvs);
+        highest.normals = highest.normals.max(part.highest.normals);
+        corners += part.corners.len();
+        line_corners += part.line_corners.len();
+    }
+    let most = NONE as usize;
+    let bounds = Counts {
+        positions: most,
+        uvs: most,
+        normals: most,
+    };
+    covers(bounds, before) && covers(before, highest) && corners.max(line_corners) <= most
+}
+
+fn covers(a: Counts, b: Counts) -> bool {
+    a.positions >= b.positions && a.uvs >= b.uvs && a.normals >= b.normals
+}
+
+/// Joins parts that [`fits`] allows.
+pub(super) fn join(mut parts: Vec<Part>) -> ObjFile {
+    let mut file = ObjFile::default();
+    states(&parts, &mut file);
+    left_out(&mut parts, &mut file);
+
+    let before = |count: fn(&Part) -> usize| starts(parts.iter().map(count));
+    let positions = before(|part| part.positions.len());
+    let uvs = before(|part| part.uvs.len());
+    let normals = before(|part| part.normals.len());
+    let corners = before(|part| part.corners.len());
+    let line_corners = before(|part| part.line_corners.len());
+
+    file.faces = Faces {
+        offsets: ends(parts.iter_mut().map(|part| &mut part.face_ends), &corners),
+        positions: column(
+            parts.iter_mut().map(|part| &mut part.corners),
+            &positions,
+            &corners,
+        ),
+        uvs: column(
+            parts.iter_mut().map(|part| &mut part.corner_uvs),
+            &uvs,
+            &corners,
+        ),
+        normals: column(
+            parts.iter_mut().map(|part| &mut part.corner_normals),
+            &normals,
+            &corners,
+        ),
+    };
+    let ends_of_lines = parts.iter_mut().map(|part| &mut part.line_ends);
+    file.line_offsets = ends(ends_of_lines, &line_corners);
+    let of_lines = parts.iter_mut().map(|part| &mut part.line_corners);
+    file.line_corners = column(of_lines, &positions, &line_corners);
+
+    if parts.iter().any(|part| !part.colors.is_empty()) {
+        for part in &mut parts {
+            part.colors.resize(part.positions.len(), DVec4::ONE);
+        }
+    }
+    file.colors = together(parts.iter_mut().map(|part| &mut part.colors));
+    file.positions = together(parts.iter_mut().map(|part| &mut part.positions));
+    file.uvs = together(parts.iter_mut().map(|part| &mut part.uvs));
+    file.normals = together(parts.iter_mut().map(|part| &mut part.normals));
+    file
+}
+
+// ---- Arrays ------------------------------------------------------------------------------------
+
+/// Where each of several pieces starts in their sequence, and where the last ends.
+fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
+    let mut starts = vec![0];
+    let mut end = 0;
+    for length in lengths {
+        end += length;
+        starts.push(end);
+    }
+    starts
+}
+
+/// An array of pieces, of which `fill` writes each; pieces are given up as they are written.
+fn filled<T, P>(
+    pieces: Vec<P>,
+    starts: &[usize],
+    fill: impl Fn(usize, &mut [T], P) + Sync,
+) -> Vec<T>
+where
+    T: Zeroable + Send,
+    P: Send,
+{
+    let mut all = mesh::zeroed(starts.last().copied().unwrap_or(0));
+    let mut rest = &mut all[..];
+    let mut tasks = Vec::with_capacity(pieces.len());
+    for (i, piece) in pieces.into_iter().enumerate() {
+        let (room, behind) = rest.split_at_mut(starts[i + 1] - starts[i]);
+        tasks.push((i, room, piece));
+        rest = behind;
+    }
+    tasks
+        .into_par_iter()
+        .for_each(|(i, room, piece)| fill(i, room, piece));
+    all
+}
+
+fn together<'a, T: Zeroable + Copy + Send + Sync + 'a>(
+    pieces: impl Iterator<Item = &'a mut Vec<T>>,
+) -> Vec<T> {
+    let mut pieces: Vec<Vec<T>> = pieces.map(std::mem::take).collect();
+    if let [only] = &mut pieces[..] {
+        return std::mem::take(only);
+    }
+    let starts = starts(pieces.iter().map(Vec::len));
+    filled(pieces, &starts, |_, room, piece| {
+        room.copy_from_slice(&piece)
+    })
+}
+
+/// A column of indices with a value for each corner; `before` are the places that relative indices count
+/// from.
+fn column<'a>(
+    pieces: impl Iterator<Item = &'a mut Indices>,
+    before: &[usize],
+    corners: &[usize],
+) -> Vec<u32> {
+    let mut pieces: Vec<Indices> = pieces.map(std::mem::take).collect();
+    if let [only] = &mut pieces[..] {
+        return std::mem::take(&mut only.values);
+    }
+    if pieces.iter().all(|piece| piece.len() == 0) {
+        return Vec::new();
+    }
+    filled(pieces, corners, |i, room, piece| {
+        if piece.len() == 0 {
+            room.fill(NONE);
+            return;
+        }
+        room.copy_from_slice(&piece.values);
+        for &at in &piece.relative {
+            let index = &mut room[at as usize];
+            *index = index.wrapping_add(to_u32(before[i]));
+        }
+    })
+}
+
+/// Where each face or line begins, and where the last ends.
+fn ends<'a>(pieces: impl Iterator<Item = &'a mut Vec<u32>>, corners: &[usize]) -> Vec<u32> {
+    let mut pieces: Vec<Vec<u32>> = pieces.map(std::mem::take).collect();
+    // The first begins at 0.
+    pieces.insert(0, vec![0]);
+    let starts = starts(pieces.iter().map(Vec::len));
+    filled(pieces, &starts, |i, room, piece| {
+        let before = to_u32(corners[i.saturating_sub(1)]);
+        for (to, end) in room.iter_mut().zip(piece) {
+            *to = before + end;
+        }
+    })
+}
+
+// ---- Names and runs ----------------------------------------------------------------------------
+
+/// What faces are said to be, and the names of it, in the order in which they come in the file.
+fn states(parts: &[Part], file: &mut ObjFile) {
+    let (mut groups, mut objects, mut materials) =
+        (Names::default(), Names::default(), Names::default());
+    let mut sets = BTreeMap::from([(Vec::new(), 0)]);
+    file.group_sets = vec![Vec::new()];
+    let mut now = Run::default();
+    let mut first_face = 0;
+    for part in parts {
+        let groups = places(&part.groups, &mut groups);
+        let objects = places(&part.objects, &mut objects);
+        let materials = places(&part.materials, &mut materials);
+        let mut set_places = Vec::with_capacity(part.group_sets.len());
+        for set in &part.group_sets {
+            let mut set: Vec<u32> = set
+                .iter()
+                .filter_map(|&group| groups[group as usize].map(to_u32))
+                .collect();
+            set.sort_unstable();
+            let next = file.group_sets.len();
+            let place = *sets.entry(set.clone()).or_insert(next);
+            if place == next {
+                file.group_sets.push(set);
+            }
+            set_places.push(place);
+        }
+        let said = |run: &PartRun, before: Run| Run {
+            first_face: first_face + run.first_face,
+            groups: run.groups.map_or(before.groups, |set| set_places[set]),
+            object: run.object.map_or(before.object, |object| objects[object]),
+            material: run
+                .material
+                .map_or(before.material, |material| materials[material]),
+            smoothing: run.smoothing.unwrap_or(before.smoothing),
+        };
+        for run in &part.runs {
+            let run = said(run, now);
+            let differs = |last: &Run| {
+                run != Run {
+                    first_face: run.first_face,
+                    ..*last
+                }
+            };
+            if file.runs.last().is_none_or(differs) {
+                file.runs.push(run);
+            }
+        }
+        now = said(&part.last, now);
+        first_face += part.face_ends.len();
+    }
+    file.group_names = groups.list;
+    file.object_names = objects.list;
+    file.material_names = materials.list;
+}
+
+/// The places of the names of a part among all; `None` for an empty name.
+fn places(of_part: &Names, all: &mut Names) -> Vec<Option<usize>> {
+    let place = |name: &String| (!name.is_empty()).then(|| all.place_of(name.clone()));
+    of_part.list.iter().map(place).collect()
+}
+
+// ---- What else there is ------------------------------------------------------------------------
+
+fn left_out(parts: &mut [Part], file: &mut ObjFile) {
+    let mut lines = 0;
+    let mut listed = 0;
+    for part in parts {
+        for (place, libraries) in part.libraries.drain(..) {
+            let line = place.line + lines;
+            file.libraries.push((Place { line, ..place }, libraries));
+        }
+        let mut in_order: Vec<_> = std::mem::take(&mut part.left_out).into_iter().collect();
+        in_order.sort_by_key(|&(_, (_, line))| line);
+        for (mut what, (count, line)) in in_order {
+            if matches!(what, LeftOut::Unknown(_)) && !file.left_out.contains_key(&what) {
+                if listed < LISTED {
+                    listed += 1;
+                } else {
+                    what = LeftOut::OtherUnknown;
+                }
+            }
+            file.left_out.entry(what).or_insert((0, line + lines)).0 += count;
+        }
+        lines += part.n_lines;
+    }
+}

@@ -1,0 +1,373 @@
+//! Reading the statements of an OBJ file, or of a part of it.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec3, DVec4};
+
+use super::corner::{Index, Limits, corner};
+use super::file::{LeftOut, NO_MATERIAL, NONE};
+use super::part::{Part, PartRun, to_u32};
+use crate::error::TextError;
+use crate::text::{Cursor, Place, name, number, quoted};
+
+/// How many different unknown words are listed by name.
+pub(super) const LISTED: usize = 8;
+
+/// Reads the statements of a part of a file. Where indices point is checked when parts are joined.
+///
+/// # Errors
+///
+/// The first line that breaks the rules of the format, or has one unknown word too many to list them.
+pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, TextError> {
+    let cursor = if is_first {
+        Cursor::new(bytes)
+    } else {
+        Cursor::inside(bytes)
+    };
+    Parser::new(cursor, Limits::Part).run()
+}
+
+/// Reads the statements of a whole file, one after the other: slower, but the errors are exact.
+///
+/// # Errors
+///
+/// The first line that breaks the rules of the format.
+pub(super) fn read_whole(bytes: &[u8], limits: Limits) -> Result<Part, TextError> {
+    Parser::new(Cursor::new(bytes), limits).run()
+}
+
+/// Reads statements one after the other.
+pub(super) struct Parser<'a> {
+    pub(super) cursor: Cursor<'a>,
+    pub(super) part: Part,
+    pub(super) limits: Limits,
+    /// What was said last, for the faces that follow.
+    now: PartRun,
+    sets: BTreeMap<Vec<u32>, usize>,
+}
+
+impl<'a> Parser<'a> {
+    fn new(cursor: Cursor<'a>, limits: Limits) -> Self {
+        Self {
+            cursor,
+            part: Part::default(),
+            limits,
+            now: PartRun::default(),
+            sets: BTreeMap::new(),
+        }
+    }
+
+    fn run(mut self) -> Result<Part, TextError> {
+        let is_part = matches!(self.limits, Limits::Part);
+        while !self.cursor.is_at_end() {
+            if is_part && self.usual_line() {
+                continue;
+            }
+            if let Some((place, keyword)) = self.cursor.argument() {
+                self.statement(place, keyword)?;
+            }
+            self.cursor.skip_line();
+        }
+        self.part.last = self.now;
+        self.part.n_lines = self.cursor.place().line - 1;
+        Ok(self.part)
+    }
+
+    fn statement(&mut self, place: Place, keyword: &[u8]) -> Result<(), TextError> {
+        match keyword {
+            b"v" => self.vertex(place)?,
+            b"vt" => self.uv(place)?,
+            b"vn" => self.normal(place)?,
+            b"f" | b"fo" => return self.face(place),
+            b"l" => return self.line(place),
+            b"p" => return self.points(place),
+            b"g" => self.group(),
+            b"o" => {
+                let object = self.cursor.rest_of_line();
+                self.now.object = Some(self.part.objects.place(&object));
+            }
+            b"usemtl" => {
+                let mut material = self.cursor.rest_of_line();
+                if material == NO_MATERIAL {
+                    material.clear();
+                }
+                self.now.material = Some(self.part.materials.place(&material));
+            }
+            b"mtllib" => {
+                let libraries = self.cursor.rest_of_line();
+                self.part.libraries.push((place, name(&libraries)));
+            }
+            b"s" => return self.smoothing(place),
+            _ => {
+                let word = name(&keyword[..keyword.len().min(40)]);
+                let what = if OTHER_STATEMENTS.contains(&word.as_str()) {
+                    LeftOut::Statement(word)
+                } else {
+                    self.unknown(place, word)?
+                };
+                self.leave_out(place, 1, what);
+            }
+        }
+        Ok(())
+    }
+
+    /// Binary data may hold any number of different words: only a few are listed by name, the first of
+    /// the file, and which these are a part cannot know.
+    fn unknown(&self, place: Place, word: String) -> Result<LeftOut, TextError> {
+        let key = LeftOut::Unknown(word);
+        let known = &self.part.left_out;
+        let listed = known
+            .keys()
+            .filter(|key| matches!(key, LeftOut::Unknown(_)));
+        if known.contains_key(&key) || listed.count() < LISTED {
+            Ok(key)
+        } else if let Limits::Part = self.limits {
+            Err(place.error("too many unknown statements for a part"))
+        } else {
+            Ok(LeftOut::OtherUnknown)
+        }
+    }
+
+    fn leave_out(&mut self, place: Place, count: usize, what: LeftOut) {
+        if count > 0 {
+            self.part.left_out.entry(what).or_insert((0, place.line)).0 += count;
+        }
+    }
+
+    // ---- Vertices, texture coordinates, normals ------------------------------------------------
+
+    fn vertex(&mut self, place: Place) -> Result<(), TextError> {
+        let (values, n) = self.numbers::<7>("v", place)?;
+        let [x, y, z, rest @ ..] = values;
+        let color = match n {
+            3 => None,
+            4 => {
+                let is_weighted = !is_exactly(rest[0], 1.0);
+                self.leave_out(place, usize::from(is_weighted), LeftOut::Weights);
+                None
+            }
+            6 => Some(DVec4::new(rest[0], rest[1], rest[2], 1.0)),
+            7 => Some(DVec4::from_array(rest)),
+            _ => {
+                return Err(place.error(format!(
+                    "expected a vertex as 3 coordinates, or with a weight (4), a color (6) or a \
+                     color and alpha (7), found {n} numbers"
+                )));
+            }
+        };
+        below_none(place, self.part.positions.len(), "vertices")?;
+        self.part.add_vertex(DVec3::new(x, y, z), color);
+        Ok(())
+    }
+
+    fn uv(&mut self, place: Place) -> Result<(), TextError> {
+        let ([u, v, w], n) = self.numbers::<3>("vt", place)?;
+        if n == 0 {
+            return Err(place.error("expected 1 to 3 texture coordinates, found none"));
+        }
+        self.leave_out(place, usize::from(!is_exactly(w, 0.0)), LeftOut::Depths);
+        below_none(place, self.part.uvs.len(), "texture coordinates")?;
+        self.part.uvs.push(DVec2::new(u, v));
+        Ok(())
+    }
+
+    fn normal(&mut self, place: Place) -> Result<(), TextError> {
+        let (values, n) = self.numbers::<3>("vn", place)?;
+        if n != 3 {
+            return Err(place.error(format!("expected 3 coordinates of a normal, found {n}")));
+        }
+        below_none(place, self.part.normals.len(), "normals")?;
+        self.part.normals.push(DVec3::from_array(values));
+        Ok(())
+    }
+
+    /// The numbers up to the end of the line, at most N of them, and how many there were.
+    fn numbers<const N: usize>(
+        &mut self,
+        keyword: &str,
+        start: Place,
+    ) -> Result<([f64; N], usize), TextError> {
+        let mut values = [0.0; N];
+        let mut n = 0;
+        while let Some((place, word)) = self.cursor.argument() {
+            let Some(value) = values.get_mut(n) else {
+                return Err(start.error(format!(
+                    "expected at most {N} numbers after `{keyword}`, found more"
+                )));
+            };
+            *value = number(place, word)?;
+            n += 1;
+        }
+        Ok((values, n))
+    }
+
+    // ---- Faces, lines, points ------------------------------------------------------------------
+
+    fn face(&mut self, start: Place) -> Result<(), TextError> {
+        let before = self.part.corners.len();
+        let had = self.columns();
+        while let Some((place, word)) = self.cursor.argument() {
+            let (position, uv, normal) = self.corner(place, word)?;
+            let n = self.part.corners.len();
+            below_none(place, n, "corners")?;
+            self.part.corners.push(position);
+            self.part.corner_uvs.push_optional(n, uv);
+            self.part.corner_normals.push_optional(n, normal);
+        }
+        if self.part.corners.len() - before < 3 {
+            self.part.truncate_corners(before, had);
+            self.leave_out(start, 1, LeftOut::SmallFaces);
+        } else {
+            self.end_face();
+        }
+        Ok(())
+    }
+
+    /// Whether any corner so far has texture coordinates, and a normal.
+    pub(super) fn columns(&self) -> [bool; 2] {
+        [&self.part.corner_uvs, &self.part.corner_normals].map(|column| column.len() > 0)
+    }
+
+    /// Makes a face of the last corners.
+    pub(super) fn end_face(&mut self) {
+        let run = PartRun {
+            first_face: self.part.face_ends.len(),
+            ..self.now
+        };
+        self.part.face_ends.push(to_u32(self.part.corners.len()));
+        let differs = |last: &PartRun| {
+            run != PartRun {
+                first_face: run.first_face,
+                ..*last
+            }
+        };
+        if self.part.runs.last().is_none_or(differs) {
+            self.part.runs.push(run);
+        }
+    }
+
+    fn line(&mut self, start: Place) -> Result<(), TextError> {
+        let before = self.part.line_corners.len();
+        while let Some((place, word)) = self.cursor.argument() {
+            let (position, ..) = self.corner(place, word)?;
+            below_none(place, self.part.line_corners.len(), "corners of lines")?;
+            self.part.line_corners.push(position);
+        }
+        let end = self.part.line_corners.len();
+        if end - before < 2 {
+            return Err(start.error(format!(
+                "expected a line of at least 2 vertices, found {}",
+                end - before
+            )));
+        }
+        self.part.line_ends.push(to_u32(end));
+        Ok(())
+    }
+
+    fn points(&mut self, start: Place) -> Result<(), TextError> {
+        let mut n = 0;
+        while let Some((place, word)) = self.cursor.argument() {
+            self.corner(place, word)?;
+            n += 1;
+        }
+        self.leave_out(start, n, LeftOut::Points);
+        Ok(())
+    }
+
+    fn corner(
+        &mut self,
+        place: Place,
+        word: &[u8],
+    ) -> Result<(Index, Option<Index>, Option<Index>), TextError> {
+        let corner = corner(place, word, self.part.counts(), self.limits)?;
+        self.part.look_at(corner.0, corner.1, corner.2);
+        Ok(corner)
+    }
+
+    // ---- Groups and smoothing ------------------------------------------------------------------
+
+    fn group(&mut self) {
+        let mut set = Vec::new();
+        while let Some((_, word)) = self.cursor.argument() {
+            set.push(to_u32(self.part.groups.place(word)));
+        }
+        set.sort_unstable();
+        set.dedup();
+        let next = self.part.group_sets.len();
+        let place = *self.sets.entry(set.clone()).or_insert(next);
+        if place == next {
+            self.part.group_sets.push(set);
+        }
+        self.now.groups = Some(place);
+    }
+
+    fn smoothing(&mut self, start: Place) -> Result<(), TextError> {
+        let (place, word) = self.cursor.argument().unwrap_or((start, b""));
+        let group = match word {
+            b"off" => 0,
+            b"on" => 1,
+            _ => {
+                let parsed = std::str::from_utf8(word)
+                    .ok()
+                    .and_then(|text| text.parse().ok());
+                parsed.filter(|&group: &i32| group >= 0).ok_or_else(|| {
+                    place.error(format!(
+                        "expected a smoothing group, a whole number or `off`, found {}",
+                        quoted(word)
+                    ))
+                })?
+            }
+        };
+        self.now.smoothing = Some(group);
+        Ok(())
+    }
+}
+
+fn below_none(place: Place, count: usize, what: &str) -> Result<(), TextError> {
+    if count >= NONE as usize {
+        return Err(place.error(format!("expected fewer than {NONE} {what}")));
+    }
+    Ok(())
+}
+
+fn is_exactly(x: f64, value: f64) -> bool {
+    x.to_bits() == value.to_bits() || (x - value).abs() == 0.0
+}
+
+/// Statements of the format that say nothing about polygons: free-form curves and surfaces, display
+/// attributes, and calls of other files.
+const OTHER_STATEMENTS: [&str; 33] = [
+    "vp",
+    "deg",
+    "bmat",
+    "step",
+    "cstype",
+    "curv",
+    "curv2",
+    "surf",
+    "parm",
+    "trim",
+    "hole",
+    "scrv",
+    "sp",
+    "end",
+    "con",
+    "mg",
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "shadow_obj",
+    "trace_obj",
+    "ctech",
+    "stech",
+    "usemap",
+    "maplib",
+    "call",
+    "csh",
+    "bsp",
+    "bzp",
+    "cdc",
+    "cdp",
+    "res",
+];

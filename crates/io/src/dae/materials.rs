@@ -1,6 +1,6 @@
 //! From `<material>` and `<effect>` to materials.
 
-use scene::Material;
+use scene::{AlphaMode, Material, Texture};
 
 use super::Tally;
 use super::document::{
@@ -76,13 +76,18 @@ pub(super) fn material<'a>(
     let mut alpha = opacity(&look, shader, tally)?;
     match look.paint(child(shader, channel), tally)? {
         None => {}
-        Some(Paint::Picture(path)) => material.base_color_texture = Some(path),
+        Some(Paint::Picture(path)) => {
+            material.base_color_texture = Some(Texture::file(path));
+        }
         Some(Paint::Color([red, green, blue, a])) => {
             material.base_color = [red, green, blue, 1.0].map(|x| x.clamp(0.0, 1.0));
             alpha = alpha.or(Some(a));
         }
     }
     material.base_color[3] = alpha.unwrap_or(1.0).clamp(0.0, 1.0);
+    if material.base_color[3] < 1.0 {
+        material.alpha = AlphaMode::Blend;
+    }
     Ok(material)
 }
 

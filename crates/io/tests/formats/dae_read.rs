@@ -5,7 +5,7 @@ use mesh::{
     CORNER_NORMAL, Domain, FaceId, HalfEdgeId, MATERIAL, Mesh, UV, VERTEX_NORMAL, Values, shapes,
 };
 use mesh_io::{Loaded, PeekGeometry, ReadOptions};
-use scene::Object;
+use scene::{AlphaMode, Object, Texture};
 
 use crate::{Folder, assert_same, polygons, read};
 
@@ -251,11 +251,12 @@ fn materials_are_bound_by_their_symbols() {
     assert_eq!(wood.name, "wood");
     assert_eq!(wood.base_color, [1.0; 4]);
     assert_eq!(
-        wood.base_color_texture.as_deref(),
+        wood.base_color_texture.as_ref().and_then(Texture::path),
         Some("maps/wood dark.png")
     );
     assert_eq!(red.name, "red");
     assert_eq!(red.base_color, [0.75, 0.5, 0.25, 0.25]);
+    assert_eq!(red.alpha, AlphaMode::Blend);
     assert_eq!(red.base_color_texture, None);
 }
 

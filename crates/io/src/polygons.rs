@@ -1,6 +1,7 @@
 //! Polygons with attributes as a file has them, and the way from there to a mesh.
 
 use std::path::Path;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::DVec3;
 use mesh::{
@@ -140,22 +141,21 @@ struct Sources {
     n_positions: usize,
     /// The vertices behind the positions, in order.
     copies: Vec<usize>,
-    /// For each half-edge its corner, `NONE` where there is no face.
-    corners: Vec<u32>,
+    /// For each half-edge one more than its corner, 0 where there is no face. Each is written once.
+    corners: Vec<AtomicU32>,
     /// For each face its polygon; `None` if every polygon is the face of its number.
     faces: Option<Vec<u32>>,
 }
 
-const NONE: u32 = u32::MAX;
-
 impl Sources {
     fn of(built: &Built, n_positions: usize) -> Self {
-        let mut corners = vec![NONE; built.mesh.n_half_edges()];
-        for (c, h) in (0..).zip(&built.half_edge_of_corner) {
+        let corners: Vec<AtomicU32> = mesh::zeroed(built.mesh.n_half_edges());
+        let half_edges = built.half_edge_of_corner.par_iter().enumerate();
+        half_edges.with_min_len(4096).for_each(|(c, h)| {
             if let Some(h) = h.some() {
-                corners[h.index()] = c;
+                corners[h.index()].store(u32::try_from(c + 1).unwrap_or(0), Relaxed);
             }
-        }
+        });
         let mut copies = vec![0; built.mesh.n_vertices() - n_positions];
         for (v, copy) in &built.report.split_vertices {
             copies[copy.index() - n_positions] = v.index();
@@ -186,8 +186,7 @@ impl Sources {
                 })
             }
             (Domain::Corner, _) => values.gather(self.corners.len(), |h| {
-                let c = self.corners[h];
-                (c != NONE).then_some(c as usize)
+                (self.corners[h].load(Relaxed) as usize).checked_sub(1)
             }),
             (Domain::Face, Some(faces)) => values.gather(faces.len(), |f| Some(faces[f] as usize)),
             (Domain::Vertex | Domain::Edge | Domain::Face, _) => values,

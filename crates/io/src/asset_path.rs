@@ -4,6 +4,9 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+#[cfg(unix)]
+use rayon::prelude::*;
+
 /// The part of a path that stays inside a folder: no root, no drive, and `..` only as far as the
 /// folder itself.
 ///
@@ -119,10 +122,36 @@ pub(crate) fn read_plain(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
             "expected a plain file, found a pipe or a device",
         ));
     }
-    let mut bytes = Vec::new();
     let expected = usize::try_from(meta.len().min(limit)).unwrap_or(usize::MAX);
+    let mut bytes = Vec::new();
     bytes.try_reserve_exact(expected)?;
-    File::open(path)?.take(limit).read_to_end(&mut bytes)?;
+    let mut file = File::open(path)?;
+    #[cfg(unix)]
+    if expected >= LARGE {
+        drop(bytes);
+        bytes = read_at_once(&file, expected)?;
+        io::Seek::seek(&mut file, io::SeekFrom::Start(expected as u64))?;
+    }
+    // What is left: all of a small file, and what was added to a large one since it was looked at.
+    let rest = limit - bytes.len() as u64;
+    file.take(rest).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// From this size on several threads read a file, in pieces of this size.
+#[cfg(unix)]
+const LARGE: usize = 1 << 20;
+
+/// The first `n` bytes of a file, read by all threads: most of the time goes into making the pages of
+/// memory that the bytes are copied to.
+#[cfg(unix)]
+fn read_at_once(file: &File, n: usize) -> io::Result<Vec<u8>> {
+    use std::os::unix::fs::FileExt;
+    let mut bytes = mesh::zeroed(n);
+    bytes
+        .par_chunks_mut(LARGE)
+        .enumerate()
+        .try_for_each(|(i, piece)| file.read_exact_at(piece, (i * LARGE) as u64))?;
     Ok(bytes)
 }
 

@@ -303,7 +303,7 @@ pub fn write(
         known: Format::known_to_write(),
     };
     let written = match Format::from_path(path).ok_or_else(unknown)? {
-        Format::Obj => obj::write(path, scene, options),
+        Format::Obj => return obj::write(path, scene, options),
         Format::Gltf => gltf::write(path, false, scene, options),
         Format::Glb => gltf::write(path, true, scene, options),
         Format::Ply => ply::write(path, scene, options),

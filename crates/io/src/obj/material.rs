@@ -8,9 +8,10 @@ use tobj::LoadError;
 
 use super::file::ObjFile;
 use crate::asset_path::{folder_of, inside, read_beside};
+use crate::decimal::push_number;
 use crate::error::ReadError;
 use crate::note::Notes;
-use crate::text::{name, push_number, quoted};
+use crate::text::{name, quoted};
 
 /// No material library is larger than this, in bytes.
 const LARGEST: u64 = 1 << 28;

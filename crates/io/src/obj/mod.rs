@@ -17,6 +17,7 @@
 //! The writer takes the same table from right to left, so that what was read is written and what was
 //! written is read.
 
+mod body;
 mod corner;
 mod file;
 mod join;

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use mesh::{Column, Domain, FaceId, Mesh, Values};
+use rayon::prelude::*;
 use scene::{Material, Object};
 
 use super::OBJECT_TAG;
@@ -10,7 +11,7 @@ use super::file::NO_MATERIAL;
 use crate::loss::Losses;
 
 /// What the statements so far say of the faces that follow.
-#[derive(Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct State<'a> {
     pub(super) object: Option<&'a str>,
     pub(super) groups: Vec<&'a str>,
@@ -55,7 +56,8 @@ impl<'a> FaceStates<'a> {
             of_face.count() == 1
         };
         // `o` can be written only if it says the whole truth; otherwise the tags are groups like any other.
-        let objects = if !several && mesh.faces().all(one_object_each) {
+        let faces = (0..mesh.n_faces()).into_par_iter().map(FaceId::new);
+        let objects = if !several && faces.all(one_object_each) {
             groups.extract_if(.., |(name, _)| is_object(name)).collect()
         } else {
             Vec::new()
@@ -97,6 +99,20 @@ impl<'a> FaceStates<'a> {
             smoothing,
             places,
         }
+    }
+
+    /// Whether two faces are in the same state.
+    pub(super) fn same(&self, f: FaceId, g: FaceId) -> bool {
+        let (f, g) = (f.index(), g.index());
+        let mut tags = self.objects.iter().chain(&self.groups);
+        tags.all(|(_, marks)| marks[f] == marks[g])
+            && self.materials.is_none_or(|m| m[f] == m[g])
+            && self.smoothing.is_none_or(|s| s[f] == s[g])
+    }
+
+    /// Whether the face is in a group.
+    pub(super) fn is_grouped(&self, f: FaceId) -> bool {
+        self.groups.iter().any(|(_, marks)| marks[f.index()])
     }
 
     pub(super) fn of(&self, f: FaceId) -> State<'a> {

@@ -1,0 +1,287 @@
+//! The text of one mesh: vertices, texture coordinates, normals and faces.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3, DVec4};
+use mesh::{CORNER_NORMAL, Domain, FaceId, HalfEdgeId, Mesh, UV, VERTEX_NORMAL, Values, VertexId};
+use rayon::prelude::*;
+
+use super::file::NO_MATERIAL;
+use super::material::push_values;
+use super::states::{FaceStates, Library, State, one_word};
+use super::write::{Before, push_name};
+use crate::corners::CornerNumbers;
+use crate::decimal::push_whole;
+use crate::loss::Losses;
+use crate::save::Block;
+
+/// The vertices, values or faces of a block.
+const BLOCK: usize = 8192;
+
+/// One mesh, and what its text needs.
+pub(super) struct MeshBody<'a> {
+    mesh: &'a Mesh,
+    library: &'a Library,
+    before: Before,
+    colors: Option<&'a [DVec4]>,
+    uvs: Option<(&'a [DVec2], CornerNumbers)>,
+    normals: Option<(Normals<'a>, CornerNumbers)>,
+    states: FaceStates<'a>,
+}
+
+/// Where normals come from.
+#[derive(Clone, Copy)]
+enum Normals<'a> {
+    Vertices(&'a [DVec3]),
+    Corners(&'a [DVec3]),
+}
+
+impl Normals<'_> {
+    fn of(self, mesh: &Mesh, h: HalfEdgeId) -> DVec3 {
+        match self {
+            Self::Vertices(normals) => normals[mesh.origin(h).index()],
+            Self::Corners(normals) => normals[h.index()],
+        }
+    }
+}
+
+impl<'a> MeshBody<'a> {
+    pub(super) fn new(
+        mesh: &'a Mesh,
+        places: &'a [usize],
+        several: bool,
+        library: &'a Library,
+        before: Before,
+        losses: &mut Losses,
+    ) -> Self {
+        let uvs = mesh.get(UV);
+        let colors = mesh.get(mesh::COLOR);
+        let normals = match (mesh.get(CORNER_NORMAL), mesh.get(VERTEX_NORMAL)) {
+            (Some(normals), _) => Some(Normals::Corners(normals)),
+            (None, normals) => normals.map(Normals::Vertices),
+        };
+        losses.add_columns(mesh, "OBJ", |domain, column| {
+            match (domain, column.name.as_str()) {
+                (Domain::Corner, "uv") => uvs.is_some(),
+                (Domain::Corner, "normal") => matches!(normals, Some(Normals::Corners(_))),
+                (Domain::Vertex, "normal") => matches!(normals, Some(Normals::Vertices(_))),
+                (Domain::Vertex, "color") => colors.is_some(),
+                (Domain::Face, "material") => mesh.get(mesh::MATERIAL).is_some(),
+                (Domain::Face, "smoothing") => mesh.get(mesh::SMOOTHING).is_some(),
+                (Domain::Face, _) => matches!(column.values, Values::Tag(_)),
+                _ => false,
+            }
+        });
+        if let Some(colors) = colors {
+            lost_colors(colors, losses);
+        }
+        let uvs = uvs.map(|uvs| {
+            let value = |h: HalfEdgeId| uvs[h.index()].to_array();
+            (uvs, numbers(mesh, value, "uv", losses))
+        });
+        let normals = normals.map(|normals| {
+            let value = |h| normals.of(mesh, h).to_array();
+            (normals, numbers(mesh, value, "normal", losses))
+        });
+        if let Some((Normals::Vertices(normals), _)) = normals {
+            let isolated = (0..mesh.n_vertices()).into_par_iter().filter(|&v| {
+                mesh.vertex_half_edge(VertexId::new(v)).is_none() && normals[v] != DVec3::ZERO
+            });
+            losses.add(
+                Domain::Vertex,
+                "normal",
+                isolated.count(),
+                "OBJ gives normals to face corners, and isolated vertices have none",
+            );
+        }
+        let states = FaceStates::new(mesh, places, several, losses);
+        Self {
+            mesh,
+            library,
+            before,
+            colors,
+            uvs,
+            normals,
+            states,
+        }
+    }
+
+    /// What holds behind this mesh.
+    pub(super) fn after(&self) -> Before {
+        let mut after = self.before;
+        after.counts.positions += self.mesh.n_vertices();
+        after.counts.uvs += self.uvs.as_ref().map_or(0, |(_, n)| n.firsts().len());
+        after.counts.normals += self.normals.as_ref().map_or(0, |(_, n)| n.firsts().len());
+        if let Some(last) = self.last_face() {
+            let state = self.states.of(last);
+            (after.material, after.smoothing) = (state.material, state.smoothing);
+        }
+        after
+    }
+
+    fn last_face(&self) -> Option<FaceId> {
+        self.mesh.n_faces().checked_sub(1).map(FaceId::new)
+    }
+
+    /// Adds the text of the mesh.
+    pub(super) fn add_blocks(self, blocks: &mut Vec<Block<'a>>) {
+        let count = |numbers: Option<&CornerNumbers>| numbers.map_or(0, |n| n.firsts().len());
+        let n_uvs = count(self.uvs.as_ref().map(|(_, numbers)| numbers));
+        let n_normals = count(self.normals.as_ref().map(|(_, numbers)| numbers));
+        let (n_vertices, n_faces) = (self.mesh.n_vertices(), self.mesh.n_faces());
+        let body = Arc::new(self);
+        let mut add = |n: usize, push: fn(&Self, &mut Vec<u8>, Range<usize>)| {
+            for start in (0..n).step_by(BLOCK) {
+                let body = Arc::clone(&body);
+                let range = start..n.min(start + BLOCK);
+                blocks.push(Box::new(move |out| push(&body, out, range.clone())));
+            }
+        };
+        add(n_vertices, Self::push_vertices);
+        add(n_uvs, Self::push_uvs);
+        add(n_normals, Self::push_normals);
+        add(n_faces, Self::push_faces);
+        if body
+            .last_face()
+            .is_some_and(|last| body.states.is_grouped(last))
+        {
+            blocks.push(Box::new(|out| out.extend_from_slice(b"g\n")));
+        }
+    }
+
+    fn push_vertices(&self, out: &mut Vec<u8>, range: Range<usize>) {
+        let positions = &self.mesh.positions()[range.clone()];
+        let Some(colors) = self.colors else {
+            for position in positions {
+                push_values(out, "v", &position.to_array());
+            }
+            return;
+        };
+        for (p, color) in positions.iter().zip(&colors[range]) {
+            let [r, g, b] = finite(color.truncate().to_array());
+            push_values(out, "v", &[p.x, p.y, p.z, r, g, b]);
+        }
+    }
+
+    fn push_uvs(&self, out: &mut Vec<u8>, range: Range<usize>) {
+        let Some((uvs, numbers)) = &self.uvs else {
+            return;
+        };
+        for h in &numbers.firsts()[range] {
+            push_values(out, "vt", &finite(uvs[h.index()].to_array()));
+        }
+    }
+
+    fn push_normals(&self, out: &mut Vec<u8>, range: Range<usize>) {
+        let Some((normals, numbers)) = &self.normals else {
+            return;
+        };
+        for &h in &numbers.firsts()[range] {
+            push_values(out, "vn", &finite(normals.of(self.mesh, h).to_array()));
+        }
+    }
+
+    fn push_faces(&self, out: &mut Vec<u8>, range: Range<usize>) {
+        let counts = self.before.counts;
+        let mut before = range.start.checked_sub(1).map(FaceId::new);
+        for f in range.map(FaceId::new) {
+            if before.is_none_or(|before| !self.states.same(before, f)) {
+                let from = before.map_or_else(
+                    || State {
+                        material: self.before.material,
+                        smoothing: self.before.smoothing,
+                        ..State::default()
+                    },
+                    |before| self.states.of(before),
+                );
+                push_change(out, &from, &self.states.of(f), self.library);
+            }
+            before = Some(f);
+            out.push(b'f');
+            for h in self.mesh.face_half_edges(f) {
+                out.push(b' ');
+                push_whole(out, counts.positions + self.mesh.origin(h).index() + 1);
+                if let Some((_, numbers)) = &self.uvs {
+                    out.push(b'/');
+                    push_whole(out, counts.uvs + numbers.number(h) + 1);
+                }
+                if let Some((_, numbers)) = &self.normals {
+                    let between: &[u8] = if self.uvs.is_some() { b"/" } else { b"//" };
+                    out.extend_from_slice(between);
+                    push_whole(out, counts.normals + numbers.number(h) + 1);
+                }
+            }
+            out.push(b'\n');
+        }
+    }
+}
+
+/// Appends the statements that lead from one state to another.
+fn push_change(out: &mut Vec<u8>, from: &State, to: &State, library: &Library) {
+    if let (true, Some(object)) = (to.object != from.object, to.object) {
+        push_name(out, "o", object);
+    }
+    if to.groups != from.groups {
+        out.push(b'g');
+        for group in &to.groups {
+            out.push(b' ');
+            out.extend_from_slice(one_word(group).as_bytes());
+        }
+        out.push(b'\n');
+    }
+    if to.material != from.material {
+        let name = to
+            .material
+            .map(|place| library.materials[place].name.as_bytes());
+        out.extend_from_slice(b"usemtl ");
+        out.extend_from_slice(name.unwrap_or(NO_MATERIAL));
+        out.push(b'\n');
+    }
+    if to.smoothing != from.smoothing {
+        out.extend_from_slice(b"s ");
+        push_whole(out, usize::try_from(to.smoothing).unwrap_or(0));
+        out.push(b'\n');
+    }
+}
+
+fn lost_colors(colors: &[DVec4], losses: &mut Losses) {
+    let colors = colors.par_iter().with_min_len(BLOCK);
+    let translucent = colors.clone().filter(|color| (color.w - 1.0).abs() > 0.0);
+    let translucent = translucent.count();
+    let broken = colors.filter(|color| !color.truncate().is_finite()).count();
+    let domain = Domain::Vertex;
+    losses.add(domain, "color", translucent, "OBJ has no place for alpha");
+    losses.add(domain, "color", broken, "not finite: written as 0");
+}
+
+/// Numbers each different value of a vertex's corners.
+fn numbers<const N: usize>(
+    mesh: &Mesh,
+    value: impl Fn(HalfEdgeId) -> [f64; N] + Sync,
+    attribute: &str,
+    losses: &mut Losses,
+) -> CornerNumbers {
+    let half_edges = (0..mesh.n_half_edges()).into_par_iter().with_min_len(BLOCK);
+    let broken = half_edges
+        .map(HalfEdgeId::new)
+        .filter(|&h| mesh.face(h).is_some() && value(h).iter().any(|x| !x.is_finite()));
+    let broken = broken.count();
+    losses.add(
+        Domain::Corner,
+        attribute,
+        broken,
+        "not finite: written as 0",
+    );
+    let bits = |h| finite(value(h)).map(f64::to_bits);
+    CornerNumbers::new(mesh, |a, b| bits(a) == bits(b))
+}
+
+/// The values, zero in place of all if one is not finite.
+fn finite<const N: usize>(values: [f64; N]) -> [f64; N] {
+    if values.iter().all(|x| x.is_finite()) {
+        values
+    } else {
+        [0.0; N]
+    }
+}

@@ -48,6 +48,7 @@ mod dense;
 mod error;
 mod format;
 mod gltf;
+mod joined;
 mod loss;
 mod names;
 mod note;

@@ -7,6 +7,8 @@ mod gltf_broken;
 mod gltf_read;
 mod gltf_written;
 mod obj_files;
+mod ply_broken;
+mod ply_files;
 
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
@@ -93,7 +95,9 @@ fn by_face(mesh: &Mesh) -> Vec<(String, Vec<String>)> {
             Values::Vec2(values) => pick(mesh, values),
             Values::Vec3(values) => pick(mesh, values),
             Values::Vec4(values) => pick(mesh, values),
-            other => panic!("{other:?}"),
+            Values::Float(values) => pick(mesh, values),
+            Values::Int(values) => pick(mesh, values),
+            Values::Tag(values) => pick(mesh, values),
         };
         (column.name.clone(), values)
     };

@@ -1,0 +1,184 @@
+//! All meshes of a scene as one, for formats that hold one object.
+
+use std::borrow::Cow;
+
+use mesh::{Attributes, Column, Connectivity, Domain, HalfEdgeId, Id, Mesh, Rule, Value, Values};
+use scene::{Geometry, Object, Scene};
+
+use crate::dense::dense;
+use crate::error::Unwritable;
+use crate::loss::Losses;
+use crate::note::Loss;
+
+/// What the tag of an object's faces begins with.
+const OBJECT_TAG: &str = "o:";
+
+/// The one mesh of a scene.
+#[derive(Debug)]
+pub(crate) struct Joined<'a> {
+    /// Without dead elements. The meshes of several objects follow each other in their order.
+    pub(crate) mesh: Cow<'a, Mesh>,
+    /// The name for losses: that of the first object.
+    pub(crate) name: String,
+    pub(crate) losses: Vec<Loss>,
+}
+
+/// The mesh of a scene's objects. Where there are several, faces get the tag `o:` with the name of
+/// their object if the format keeps `tags`. Materials are lost.
+///
+/// # Errors
+///
+/// If an object is no mesh, or all together are too large for one.
+pub(crate) fn joined<'a>(
+    scene: &'a Scene,
+    format: &str,
+    tags: bool,
+) -> Result<Joined<'a>, Unwritable> {
+    let mut meshes = Vec::new();
+    let mut losses = Vec::new();
+    for object in scene.objects() {
+        let Geometry::Mesh(mesh) = &object.geometry else {
+            let message = format!(
+                "{format} files hold meshes, found {}",
+                object.geometry.kind()
+            );
+            return Err(Unwritable::object(&object.name, message));
+        };
+        meshes.push(dense(mesh));
+        let reason = format!("{format} has no place for materials");
+        let count = object.materials.len();
+        Losses::of(&object.name, &mut losses).add(None, "materials", count, reason);
+    }
+    let name = scene
+        .objects()
+        .first()
+        .map_or_else(String::new, |object| object.name.clone());
+    if meshes.len() == 1 {
+        return Ok(Joined {
+            mesh: meshes.remove(0),
+            name,
+            losses,
+        });
+    }
+    let n_half_edges: usize = meshes.iter().map(|mesh| mesh.n_half_edges()).sum();
+    let n_vertices: usize = meshes.iter().map(|mesh| mesh.n_vertices()).sum();
+    if n_half_edges.max(n_vertices) >= u32::MAX as usize {
+        let message = format!(
+            "a {format} file holds one mesh, and all objects together are too large for one"
+        );
+        return Err(Unwritable::Scene { message });
+    }
+    let mut losses_of_all = Losses::of(&name, &mut losses);
+    let reason = match tags {
+        true => format!("a {format} file holds one mesh: each object became a face tag"),
+        false => format!("a {format} file holds one mesh"),
+    };
+    losses_of_all.add(None, "name", meshes.len(), reason);
+    let mut mesh = connected(&meshes);
+    mesh.set_attributes(appended(scene.objects(), &meshes, &mut losses_of_all));
+    if tags {
+        tag_objects(&mut mesh, scene.objects(), &meshes, &mut losses_of_all);
+    }
+    Ok(Joined {
+        mesh: Cow::Owned(mesh),
+        name,
+        losses,
+    })
+}
+
+/// The meshes one behind the other, without attributes.
+fn connected(meshes: &[Cow<Mesh>]) -> Mesh {
+    fn shift<I: Id + PartialEq>(ids: &[I], by: usize) -> impl Iterator<Item = I> + '_ {
+        ids.iter().map(move |&id| {
+            if id == I::NONE {
+                id
+            } else {
+                I::new(id.index() + by)
+            }
+        })
+    }
+    let mut all = Connectivity::default();
+    let mut positions = Vec::new();
+    for mesh in meshes {
+        let c = mesh.connectivity();
+        let (h, v, f) = (all.next.len(), positions.len(), all.face_half_edge.len());
+        all.next.extend(shift(&c.next, h));
+        all.origin.extend(shift(&c.origin, v));
+        all.face.extend(shift(&c.face, f));
+        all.vertex_half_edge
+            .extend(shift::<HalfEdgeId>(&c.vertex_half_edge, h));
+        all.face_half_edge
+            .extend(shift::<HalfEdgeId>(&c.face_half_edge, h));
+        positions.extend_from_slice(mesh.positions());
+    }
+    Mesh::from_arrays(all, positions)
+}
+
+fn lens(mesh: &Mesh) -> [usize; 4] {
+    Domain::ALL.map(|domain| mesh.domain_len(domain))
+}
+
+/// The columns one behind the other; the numbers of materials go on from object to object.
+fn appended(objects: &[Object], meshes: &[Cow<Mesh>], losses: &mut Losses) -> Attributes {
+    let mut all = Attributes::default();
+    let mut len = [0; 4];
+    let mut n_materials = 0;
+    for (object, mesh) in objects.iter().zip(meshes) {
+        let mut attributes = mesh.attributes().clone();
+        if let Some(materials) = mesh.get(mesh::MATERIAL) {
+            let shifted = materials.iter().map(|&m| {
+                if m < 0 {
+                    m
+                } else {
+                    m.saturating_add(n_materials)
+                }
+            });
+            let column = Column {
+                name: mesh::MATERIAL.name.to_owned(),
+                rule: mesh::MATERIAL.rule,
+                values: i32::wrap(shifted.collect()),
+            };
+            attributes.insert(Domain::Face, column);
+        }
+        n_materials =
+            n_materials.saturating_add(i32::try_from(object.materials.len()).unwrap_or(i32::MAX));
+        let part = lens(mesh);
+        for (domain, name) in all.append(len, &attributes, part) {
+            let reason = format!("object `{}` has it with another type", object.name);
+            losses.add(domain, &name, part[domain as usize], reason);
+        }
+        len = std::array::from_fn(|i| len[i] + part[i]);
+    }
+    all
+}
+
+fn tag_objects(mesh: &mut Mesh, objects: &[Object], meshes: &[Cow<Mesh>], losses: &mut Losses) {
+    let mut first = 0;
+    for (object, part) in objects.iter().zip(meshes) {
+        let own = first..first + part.n_faces();
+        first = own.end;
+        let name = format!("{OBJECT_TAG}{}", object.name);
+        let mut marks = match mesh.attributes().column(Domain::Face, &name) {
+            None => vec![false; mesh.n_faces()],
+            Some(column) => match &column.values {
+                Values::Tag(marks) => marks.clone(),
+                _ => {
+                    losses.add(
+                        Domain::Face,
+                        &name,
+                        own.len(),
+                        "another attribute has this name",
+                    );
+                    continue;
+                }
+            },
+        };
+        marks[own].fill(true);
+        let column = Column {
+            name,
+            rule: Rule::Copy,
+            values: Values::Tag(marks),
+        };
+        mesh.insert_column(Domain::Face, column);
+    }
+}

@@ -1,0 +1,103 @@
+//! Comments that say what a property was in a mesh, where its name and type do not.
+//!
+//! `comment meshwright vertex vec3 normal tangent_x "tangent"` says: the properties of `vertex` from
+//! `tangent_x` on are the three numbers of the attribute `tangent`, whose values are unit vectors. The name is
+//! a JSON string. Other programs see three plain properties.
+
+use mesh::{Domain, Rule};
+
+use super::columns::Kind;
+
+const WORD: &str = "meshwright";
+
+/// What a comment says about some properties.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Mark {
+    pub(super) domain: Domain,
+    pub(super) kind: Kind,
+    pub(super) rule: Rule,
+    /// The name of the first property.
+    pub(super) property: String,
+    /// The name of the attribute.
+    pub(super) name: String,
+}
+
+const RULES: [(Rule, &str); 4] = [
+    (Rule::Interpolate, "interpolate"),
+    (Rule::Normal, "normal"),
+    (Rule::Copy, "copy"),
+    (Rule::Drop, "drop"),
+];
+
+impl Mark {
+    /// The mark in a comment, if it is one.
+    pub(super) fn parse(comment: &str) -> Option<Self> {
+        let mut words = comment.splitn(6, ' ');
+        if words.next() != Some(WORD) {
+            return None;
+        }
+        let domain = words.next()?;
+        let domain = Domain::ALL.into_iter().find(|d| d.to_string() == domain)?;
+        let kind = Kind::parse(words.next()?)?;
+        let rule = words.next()?;
+        let (rule, _) = RULES.into_iter().find(|(_, word)| *word == rule)?;
+        let fits = match rule {
+            Rule::Normal => kind == Kind::Vec3,
+            _ => true,
+        };
+        let property = words.next()?.to_owned();
+        let name = serde_json::from_str(words.next()?).ok()?;
+        fits.then_some(Self {
+            domain,
+            kind,
+            rule,
+            property,
+            name,
+        })
+    }
+
+    /// The comment without the word `comment`.
+    pub(super) fn text(&self) -> String {
+        let rule = RULES.iter().find(|(rule, _)| *rule == self.rule);
+        format!(
+            "{WORD} {} {} {} {} {}",
+            self.domain,
+            self.kind.word(),
+            rule.map_or("", |(_, word)| word),
+            self.property,
+            serde_json::Value::from(self.name.as_str())
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mark_says_what_it_was_made_of() {
+        for name in ["tangent", "", "a \"b\"\n\\c", "žluť "] {
+            let mark = Mark {
+                domain: Domain::Corner,
+                kind: Kind::Vec3,
+                rule: Rule::Normal,
+                property: "p_0".to_owned(),
+                name: name.to_owned(),
+            };
+            assert!(!mark.text().contains('\n'));
+            assert_eq!(Mark::parse(&mark.text()), Some(mark));
+        }
+    }
+
+    #[test]
+    fn other_comments_are_no_marks() {
+        for text in [
+            "",
+            "made by hand",
+            "meshwright vertex",
+            "meshwright vertex int normal a \"a\"",
+        ] {
+            assert_eq!(Mark::parse(text), None);
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! What a PLY file holds, from its header and the counts of its lists.
+
+use std::path::Path;
+
+use super::body::Body;
+use super::header::{Element, parse};
+use super::read::triangles_of_strips;
+use super::roles::{self, Roles};
+use crate::error::ReadError;
+use crate::note::Notes;
+use crate::peek::{PeekGeometry, PeekMesh};
+
+/// The counts of a PLY file. Positions and the vertices of faces are not looked at.
+///
+/// # Errors
+///
+/// If the header breaks the rules of the format, or the file is too short for what it says.
+pub(crate) fn peek(path: &Path, bytes: &[u8]) -> Result<PeekGeometry, ReadError> {
+    let header = parse(bytes).map_err(|error| error.in_file(path))?;
+    let roles = Roles::of(&header).map_err(|error| error.in_file(path))?;
+    let lists = roles.face.or(roles.strips);
+    let wanted = |element: &Element| {
+        lists.is_some_and(|(place, _)| header.elements[place].name == element.name)
+    };
+    let mut notes = Notes::of(path);
+    let body = Body::new(path, bytes, &header, wanted, &mut notes)?;
+    let tables = body.tables(&mut notes)?;
+    let vertices = &header.elements[roles.vertex];
+    let mut mesh = PeekMesh {
+        vertices: vertices.rows as u64,
+        normals: roles::normal(vertices).is_some(),
+        colors: roles::color(vertices).is_some(),
+        ..PeekMesh::default()
+    };
+    if let Some((place, list)) = roles.face {
+        let table = &tables[place];
+        match table.even_count(list) {
+            Some(n) if n < 3 => {}
+            Some(n) => mesh.add_faces(table.rows as u64, n as u64),
+            None => {
+                for row in 0..table.rows {
+                    let n = table.count(list, row);
+                    mesh.add_faces(u64::from(n >= 3), n as u64);
+                }
+            }
+        }
+        let uvs = roles::uv(vertices).is_some();
+        mesh.uvs = mesh.faces > 0 && (uvs || header.elements[place].list("texcoord").is_some());
+        mesh.materials = header.elements[place].scalar("material").is_some();
+    } else if let Some((place, list)) = roles.strips {
+        let strips = triangles_of_strips(&tables[place], list, vertices.rows);
+        let (corners, ..) = strips.map_err(|(row, item, message)| {
+            body.error(&tables, (place, list, row, item), message)
+        })?;
+        mesh.add_faces(corners.len() as u64 / 3, 3);
+        mesh.uvs = mesh.faces > 0 && roles::uv(vertices).is_some();
+    }
+    Ok(PeekGeometry::Mesh(mesh))
+}

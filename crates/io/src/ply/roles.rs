@@ -1,0 +1,197 @@
+//! What the elements and properties of a header mean.
+
+use super::header::{Element, Header};
+use crate::error::TextError;
+
+/// The elements that become a mesh, by their places in the header.
+#[derive(Debug)]
+pub(super) struct Roles {
+    pub(super) vertex: usize,
+    /// The properties `x`, `y` and `z`.
+    pub(super) position: [usize; 3],
+    /// The element of the faces and its list of vertices.
+    pub(super) face: Option<(usize, usize)>,
+    /// The element of the triangle strips and its list of vertices, if there are no faces.
+    pub(super) strips: Option<(usize, usize)>,
+}
+
+impl Roles {
+    /// # Errors
+    ///
+    /// If there are no vertices, or an element has not what it needs to be what its name says.
+    pub(super) fn of(header: &Header) -> Result<Self, TextError> {
+        let Some((vertex, vertices)) = header.element("vertex") else {
+            let place = crate::text::Place {
+                line: header.lines,
+                column: 1,
+            };
+            return Err(place.error("expected an element `vertex`, found none in the header"));
+        };
+        let mut position = [0; 3];
+        for (place, name) in position.iter_mut().zip(["x", "y", "z"]) {
+            *place = scalar(vertices, name)?;
+        }
+        let with_rows = |name: &str| header.element(name).filter(|(_, e)| e.rows > 0);
+        let corners = |found: Option<(usize, &Element)>| {
+            found
+                .map(|(e, element)| Ok((e, corner_list(element)?)))
+                .transpose()
+        };
+        let face = corners(with_rows("face"))?;
+        let strips = match face {
+            None => corners(with_rows("tristrips"))?,
+            Some(_) => None,
+        };
+        Ok(Self {
+            vertex,
+            position,
+            face,
+            strips,
+        })
+    }
+
+    /// Whether a mesh takes anything from the element at this place.
+    pub(super) fn wants(&self, element: usize) -> bool {
+        let faces = self.face.or(self.strips).map(|(e, _)| e);
+        element == self.vertex || Some(element) == faces
+    }
+}
+
+fn scalar(element: &Element, name: &str) -> Result<usize, TextError> {
+    if let Some(found) = element.scalar(name) {
+        return Ok(found);
+    }
+    let element_name = element.name.escape_debug();
+    Err(match element.list(name) {
+        Some(list) => {
+            let place = element.properties[list].place;
+            place.error(format!(
+                "expected a single value `{name}` of element `{element_name}`, found a list"
+            ))
+        }
+        None => {
+            let message =
+                format!("expected a property `{name}` of element `{element_name}`, found none");
+            element.place.error(message)
+        }
+    })
+}
+
+/// The list of the vertices of a face or strip.
+fn corner_list(element: &Element) -> Result<usize, TextError> {
+    let names = ["vertex_indices", "vertex_index"];
+    if let Some(list) = names.iter().find_map(|name| element.list(name)) {
+        let property = &element.properties[list];
+        if property.value.is_float() {
+            let message = format!(
+                "expected a list of whole numbers, found one of type {}",
+                property.value.name()
+            );
+            return Err(property.place.error(message));
+        }
+        return Ok(list);
+    }
+    let scalar = names.iter().find_map(|name| element.scalar(name));
+    let place = scalar.map_or(element.place, |p| element.properties[p].place);
+    let found = if scalar.is_some() {
+        "a single value"
+    } else {
+        "none"
+    };
+    let message = format!(
+        "expected a list `vertex_indices` of element `{}`, found {found}",
+        element.name.escape_debug()
+    );
+    Err(place.error(message))
+}
+
+/// The first of some families of names that are all there.
+fn family<const N: usize>(element: &Element, names: &[[&str; N]]) -> Option<[usize; N]> {
+    names.iter().find_map(|family| {
+        let mut found = [0; N];
+        for (place, name) in found.iter_mut().zip(family) {
+            *place = element.scalar(name)?;
+        }
+        Some(found)
+    })
+}
+
+const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
+const UVS: [[&str; 2]; 4] = [
+    ["s", "t"],
+    ["u", "v"],
+    ["texture_u", "texture_v"],
+    ["texture_s", "texture_t"],
+];
+const COLORS: [([&str; 3], &str); 3] = [
+    (["red", "green", "blue"], "alpha"),
+    (
+        ["diffuse_red", "diffuse_green", "diffuse_blue"],
+        "diffuse_alpha",
+    ),
+    (["r", "g", "b"], "a"),
+];
+
+/// Names that other attributes must not have: those of all families.
+pub(super) const NAMES: [&str; 29] = [
+    "x",
+    "y",
+    "z",
+    "nx",
+    "ny",
+    "nz",
+    "s",
+    "t",
+    "u",
+    "v",
+    "texture_u",
+    "texture_v",
+    "texture_s",
+    "texture_t",
+    "red",
+    "green",
+    "blue",
+    "alpha",
+    "diffuse_red",
+    "diffuse_green",
+    "diffuse_blue",
+    "diffuse_alpha",
+    "r",
+    "g",
+    "b",
+    "a",
+    "vertex_indices",
+    "vertex_index",
+    "texcoord",
+];
+
+/// The properties of a normal.
+pub(super) fn normal(element: &Element) -> Option<[usize; 3]> {
+    family(element, &[NORMAL])
+}
+
+/// The properties of texture coordinates of vertices.
+pub(super) fn uv(element: &Element) -> Option<[usize; 2]> {
+    family(element, &UVS)
+}
+
+/// The properties of red, green, blue and, if it is there, alpha.
+pub(super) fn color(element: &Element) -> Option<([usize; 3], Option<usize>)> {
+    COLORS
+        .iter()
+        .find_map(|(names, alpha)| Some((family(element, &[*names])?, element.scalar(alpha))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_with_a_meaning_is_free() {
+        let colors = COLORS
+            .iter()
+            .flat_map(|(rgb, alpha)| rgb.iter().chain([alpha]));
+        let mut all = NORMAL.iter().chain(UVS.as_flattened()).chain(colors);
+        assert!(all.all(|name| NAMES.contains(name)));
+    }
+}

@@ -1,0 +1,436 @@
+//! From a scene to the bytes of a PLY file.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use glam::{DVec2, DVec3};
+use mesh::{Column, Domain, FaceId, Mesh, Rule, UV, Values, VertexId};
+use rayon::prelude::*;
+use scene::Scene;
+
+use super::columns::{Kind, all_finite, mend};
+use super::header::MOST_PROPERTIES;
+use super::marks::Mark;
+use super::read::plain_rule;
+use super::roles;
+use super::table::BLOCK;
+use super::types::Type;
+use crate::error::Unwritable;
+use crate::joined::joined;
+use crate::loss::Losses;
+use crate::{WriteOptions, Written};
+
+/// The file that holds `scene`, little-endian, and what it does not hold.
+///
+/// # Errors
+///
+/// If an object is no mesh.
+pub(crate) fn write(
+    path: &Path,
+    scene: &Scene,
+    options: &WriteOptions,
+) -> Result<Written, Unwritable> {
+    let mut joined = joined(scene, "PLY", true)?;
+    let mesh = &*joined.mesh;
+    let mut losses = Losses::of(&joined.name, &mut joined.losses);
+    losses.add_columns(mesh, "PLY", |domain, _| domain != Domain::Edge);
+    let mut vertices = Element::vertices(mesh);
+    let mut faces = Element::faces(mesh);
+    for (domain, column) in mesh.attributes().iter() {
+        let to = match domain {
+            Domain::Vertex => &mut vertices,
+            Domain::Corner if mesh.n_faces() == 0 => continue,
+            Domain::Corner | Domain::Face => &mut faces,
+            Domain::Edge => continue,
+        };
+        if to.properties.len() + 4 > MOST_PROPERTIES / 2 {
+            let reason = "too many attributes for one file";
+            losses.add(domain, &column.name, column.values.len(), reason);
+            continue;
+        }
+        let mut values = Cow::Borrowed(&column.values);
+        if !all_finite(&values) {
+            let broken = mend(values.to_mut());
+            losses.add(domain, &column.name, broken, "not finite: written as 0");
+        }
+        if domain == Domain::Corner
+            && (column.name.as_str(), column.rule) == (UV.name, UV.rule)
+            && let Values::Vec2(uvs) = &*values
+        {
+            match uvs_of_vertices(mesh, uvs) {
+                Some(uvs) => vertices.known(&["s", "t"], Cow::Owned(Values::Vec2(uvs))),
+                None => faces.corner_uvs(values),
+            }
+        } else {
+            to.column(domain, column, values);
+        }
+    }
+    let mut out = b"ply\nformat binary_little_endian 1.0\n".to_vec();
+    for line in options
+        .provenance
+        .iter()
+        .flat_map(|text| text.split(['\n', '\r']))
+    {
+        out.extend_from_slice(format!("comment {line}\n").as_bytes());
+    }
+    vertices.push_header(&mut out, "vertex", mesh.n_vertices());
+    faces.push_header(&mut out, "face", mesh.n_faces());
+    out.extend_from_slice(b"end_header\n");
+    vertices.push_rows(&mut out, mesh, mesh.n_vertices());
+    faces.push_rows(&mut out, mesh, mesh.n_faces());
+    Ok(Written {
+        files: vec![(path.to_path_buf(), out)],
+        losses: joined.losses,
+    })
+}
+
+/// Texture coordinates of vertices, if all corners of each have the same bits.
+fn uvs_of_vertices(mesh: &Mesh, uvs: &[DVec2]) -> Option<Vec<DVec2>> {
+    let bits = |uv: DVec2| uv.to_array().map(f64::to_bits);
+    let of_vertex = |v: usize| {
+        let corners = mesh.vertex_half_edges(VertexId::new(v));
+        let mut corners = corners
+            .filter(|&h| mesh.face(h).is_some())
+            .map(|h| uvs[h.index()]);
+        let first = corners.next().unwrap_or_default();
+        corners.all(|uv| bits(uv) == bits(first)).then_some(first)
+    };
+    let all = (0..mesh.n_vertices()).into_par_iter().with_min_len(BLOCK);
+    all.map(of_vertex).collect()
+}
+
+/// A table to be written.
+struct Element<'a> {
+    comments: Vec<String>,
+    /// The lines behind the word `property`.
+    properties: Vec<String>,
+    names: BTreeSet<String>,
+    fields: Vec<Field<'a>>,
+    /// The type of counts of lists.
+    count: Type,
+    /// The most corners of a face.
+    most: usize,
+}
+
+/// What stands in each row.
+enum Field<'a> {
+    Positions(&'a [DVec3]),
+    Values {
+        values: Cow<'a, Values>,
+        /// How many components are written: all but the alpha of opaque colors.
+        size: usize,
+        form: Type,
+    },
+    /// The vertices of a face.
+    Corners,
+    /// The values of the corners of a face, with the type of their count.
+    CornerValues {
+        values: Cow<'a, Values>,
+        form: Type,
+        count: Type,
+    },
+}
+
+impl<'a> Element<'a> {
+    fn vertices(mesh: &'a Mesh) -> Self {
+        let mut new = Self::empty(0);
+        for axis in ["x", "y", "z"] {
+            new.properties.push(format!("double {axis}"));
+        }
+        new.fields.push(Field::Positions(mesh.positions()));
+        new
+    }
+
+    fn faces(mesh: &Mesh) -> Self {
+        let degrees = (0..mesh.n_faces()).into_par_iter().with_min_len(BLOCK);
+        let most = degrees
+            .map(|f| mesh.degree(FaceId::new(f)))
+            .max()
+            .unwrap_or(0);
+        let mut new = Self::empty(most);
+        let index = if mesh.n_vertices() > i32::MAX as usize {
+            Type::UInt32
+        } else {
+            Type::Int32
+        };
+        let line = format!("list {} {} vertex_indices", new.count.name(), index.name());
+        new.properties.push(line);
+        new.fields.push(Field::Corners);
+        new
+    }
+
+    fn empty(most: usize) -> Self {
+        let reserved = roles::NAMES.iter().map(|&name| name.to_owned());
+        Self {
+            comments: Vec::new(),
+            properties: Vec::new(),
+            names: reserved.collect(),
+            fields: Vec::new(),
+            count: count_type(most),
+            most,
+        }
+    }
+
+    /// Adds an attribute of vertices, faces or corners.
+    fn column(&mut self, domain: Domain, column: &Column, values: Cow<'a, Values>) {
+        match (domain, column.name.as_str(), column.rule, &*values) {
+            (Domain::Vertex | Domain::Face, "normal", Rule::Normal, Values::Vec3(_)) => {
+                self.known(&["nx", "ny", "nz"], values);
+            }
+            (Domain::Vertex, "color", Rule::Interpolate, Values::Vec4(_))
+            | (Domain::Face, "color", Rule::Copy, Values::Vec4(_)) => {
+                self.known(&["red", "green", "blue", "alpha"], values);
+            }
+            _ => self.free(domain, column, values),
+        }
+    }
+
+    /// Adds values under names that say what they are.
+    fn known(&mut self, names: &[&str], values: Cow<'a, Values>) {
+        let (mut bytes, mut floats, mut opaque) =
+            (names.len() > 2 && names[0] == "red", true, false);
+        if let (true, Values::Vec4(colors)) = (bytes, &*values) {
+            opaque = colors.par_iter().with_min_len(BLOCK).all(|c| c.w == 1.0);
+        }
+        let size = names.len() - usize::from(opaque);
+        let all = |test: fn(f64) -> bool| match &*values {
+            Values::Vec2(v) => v.par_iter().all(|v| v.to_array().into_iter().all(test)),
+            Values::Vec3(v) => v.par_iter().all(|v| v.to_array().into_iter().all(test)),
+            Values::Vec4(v) => v
+                .par_iter()
+                .all(|v| v.to_array()[..size].iter().all(|&x| test(x))),
+            _ => false,
+        };
+        bytes = bytes && all(is_byte);
+        floats = floats && (bytes || all(is_float));
+        let form = match (bytes, floats) {
+            (true, _) => Type::UInt8,
+            (_, true) => Type::Float32,
+            _ => Type::Float64,
+        };
+        for name in &names[..size] {
+            self.properties.push(format!("{} {name}", form.name()));
+        }
+        self.fields.push(Field::Values { values, size, form });
+    }
+
+    /// Adds texture coordinates that differ between the corners of a vertex, as `MeshLab` does.
+    fn corner_uvs(&mut self, values: Cow<'a, Values>) {
+        let floats = match &*values {
+            Values::Vec2(uvs) => uvs.par_iter().all(|uv| is_float(uv.x) && is_float(uv.y)),
+            _ => false,
+        };
+        let form = if floats { Type::Float32 } else { Type::Float64 };
+        let count = count_type(2 * self.most);
+        let line = format!("list {} {} texcoord", count.name(), form.name());
+        self.properties.push(line);
+        self.fields.push(Field::CornerValues {
+            values,
+            form,
+            count,
+        });
+    }
+
+    /// Adds values under their own name, with a comment where the name and the types do not say
+    /// enough to read them as they are.
+    fn free(&mut self, domain: Domain, column: &Column, values: Cow<'a, Values>) {
+        let kind = Kind::of(&values);
+        let form = match kind {
+            Kind::Tag => Type::UInt8,
+            Kind::Int => Type::Int32,
+            _ => Type::Float64,
+        };
+        let is_list = domain == Domain::Corner;
+        let names = self.free_names(&column.name, if is_list { 1 } else { kind.size() });
+        let plain = !is_list
+            && matches!(kind, Kind::Int | Kind::Float)
+            && names[0] == column.name
+            && plain_rule(domain, form) == column.rule;
+        if !plain {
+            let mark = Mark {
+                domain,
+                kind,
+                rule: column.rule,
+                property: names[0].clone(),
+                name: column.name.clone(),
+            };
+            self.comments.push(mark.text());
+        }
+        if is_list {
+            let count = count_type(kind.size() * self.most);
+            self.properties.push(format!(
+                "list {} {} {}",
+                count.name(),
+                form.name(),
+                names[0]
+            ));
+            self.fields.push(Field::CornerValues {
+                values,
+                form,
+                count,
+            });
+        } else {
+            let lines = names.iter().map(|name| format!("{} {name}", form.name()));
+            self.properties.extend(lines);
+            let size = kind.size();
+            self.fields.push(Field::Values { values, size, form });
+        }
+    }
+
+    /// Words for the components of an attribute that no other property has.
+    fn free_names(&mut self, name: &str, n: usize) -> Vec<String> {
+        let is_fine = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.' | ':');
+        let word: String = name
+            .chars()
+            .map(|c| if is_fine(c) { c } else { '_' })
+            .collect();
+        let word = if word.is_empty() { "value" } else { &word };
+        let mut number = 1_usize;
+        loop {
+            let base = match number {
+                1 => word.to_owned(),
+                _ => format!("{word}_{number}"),
+            };
+            let names: Vec<String> = match n {
+                1 => vec![base],
+                _ => ["x", "y", "z", "w"][..n]
+                    .iter()
+                    .map(|axis| format!("{base}_{axis}"))
+                    .collect(),
+            };
+            if names.iter().all(|name| !self.names.contains(name)) {
+                self.names.extend(names.iter().cloned());
+                return names;
+            }
+            number += 1;
+        }
+    }
+
+    fn push_header(&self, out: &mut Vec<u8>, name: &str, rows: usize) {
+        for comment in &self.comments {
+            out.extend_from_slice(format!("comment {comment}\n").as_bytes());
+        }
+        out.extend_from_slice(format!("element {name} {rows}\n").as_bytes());
+        for property in &self.properties {
+            out.extend_from_slice(format!("property {property}\n").as_bytes());
+        }
+    }
+
+    fn push_rows(&self, out: &mut Vec<u8>, mesh: &Mesh, rows: usize) {
+        let blocks = (0..rows.div_ceil(BLOCK)).into_par_iter().map(|block| {
+            let mut bytes = Vec::with_capacity(BLOCK * 32);
+            for row in block * BLOCK..rows.min((block + 1) * BLOCK) {
+                for field in &self.fields {
+                    field.push(&mut bytes, mesh, row, self.count);
+                }
+            }
+            bytes
+        });
+        let blocks: Vec<Vec<u8>> = blocks.collect();
+        out.reserve(blocks.iter().map(Vec::len).sum());
+        for block in blocks {
+            out.extend_from_slice(&block);
+        }
+    }
+}
+
+impl Field<'_> {
+    fn push(&self, out: &mut Vec<u8>, mesh: &Mesh, row: usize, count: Type) {
+        match self {
+            Self::Positions(positions) => {
+                for x in positions[row].to_array() {
+                    out.extend_from_slice(&x.to_le_bytes());
+                }
+            }
+            Self::Values { values, size, form } => push_value(out, values, row, *size, *form),
+            Self::Corners => {
+                let f = FaceId::new(row);
+                push_count(out, count, mesh.degree(f));
+                for v in mesh.face_vertices(f) {
+                    push_whole(out, v.index());
+                }
+            }
+            Self::CornerValues {
+                values,
+                form,
+                count,
+            } => {
+                let f = FaceId::new(row);
+                let size = Kind::of(values).size();
+                push_count(out, *count, size * mesh.degree(f));
+                for h in mesh.face_half_edges(f) {
+                    push_value(out, values, h.index(), size, *form);
+                }
+            }
+        }
+    }
+}
+
+/// One byte where that is enough, as everyone writes it.
+fn count_type(most: usize) -> Type {
+    if u8::try_from(most).is_ok() {
+        Type::UInt8
+    } else {
+        Type::Int32
+    }
+}
+
+fn push_count(out: &mut Vec<u8>, kind: Type, n: usize) {
+    match u8::try_from(n) {
+        Ok(byte) if kind == Type::UInt8 => out.push(byte),
+        _ => push_whole(out, n),
+    }
+}
+
+fn push_whole(out: &mut Vec<u8>, n: usize) {
+    let n = u32::try_from(n).expect("meshes have fewer than 2^32 elements");
+    out.extend_from_slice(&n.to_le_bytes());
+}
+
+fn push_value(out: &mut Vec<u8>, values: &Values, i: usize, size: usize, form: Type) {
+    match values {
+        Values::Tag(v) => out.push(u8::from(v[i])),
+        Values::Int(v) => out.extend_from_slice(&v[i].to_le_bytes()),
+        Values::Float(v) => push_numbers(out, &[v[i]], form),
+        Values::Vec2(v) => push_numbers(out, &v[i].to_array(), form),
+        Values::Vec3(v) => push_numbers(out, &v[i].to_array(), form),
+        Values::Vec4(v) => push_numbers(out, &v[i].to_array()[..size], form),
+    }
+}
+
+fn push_numbers(out: &mut Vec<u8>, numbers: &[f64], form: Type) {
+    for &x in numbers {
+        match form {
+            Type::UInt8 => out.push(to_byte(x)),
+            Type::Float32 => out.extend_from_slice(&to_float(x).to_le_bytes()),
+            _ => out.extend_from_slice(&x.to_le_bytes()),
+        }
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "asked for where it fits"
+)]
+fn to_byte(x: f64) -> u8 {
+    (x * 255.0).round() as u8
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "asked for where it is exact"
+)]
+fn to_float(x: f64) -> f32 {
+    x as f32
+}
+
+/// Whether a part of a color is exactly that many 255ths.
+fn is_byte(x: f64) -> bool {
+    (f64::from(to_byte(x)) / 255.0).to_bits() == x.to_bits()
+}
+
+fn is_float(x: f64) -> bool {
+    f64::from(to_float(x)).to_bits() == x.to_bits()
+}

@@ -66,7 +66,8 @@ pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     inside(&decoded.join("/"))
 }
 
-fn percent_decoded(segment: &str) -> Option<String> {
+/// The text that a part of a URI spells, if it is one.
+pub(crate) fn percent_decoded(segment: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(segment.len());
     let mut rest = segment.as_bytes();
     while let [first, tail @ ..] = rest {

@@ -1,52 +1,105 @@
 //! Accessors: typed arrays in the buffers, with strides, normalized integers and sparse parts.
 
+use std::borrow::Cow;
+use std::cell::Cell;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+use bytemuck::Zeroable;
+use gltf_json::Accessor;
 use gltf_json::accessor::{ComponentType, IndexComponentType, Type};
 use gltf_json::validation::Checked;
+use mesh::Value;
+use rayon::prelude::*;
 
 use super::JsonError;
 use super::document::{Document, get};
 
 /// An accessor without a buffer view is all zeros. It may have this many elements even in a tiny file.
 const FREE_ZEROS: u64 = 1 << 16;
+/// A file may become this many times its size in memory, ...
+const TIMES: u64 = 64;
+/// ... and this many bytes in any case.
+const FREE_BYTES: u64 = 1 << 28;
+/// How many elements are converted by one task at least.
+const BLOCK: usize = 1 << 13;
 
 /// Reads arrays out of the buffers of a document.
 pub(super) struct Reader<'a> {
     pub(super) document: &'a Document,
-    pub(super) buffers: &'a [Vec<u8>],
+    pub(super) buffers: &'a [Cow<'a, [u8]>],
+    /// How many bytes may still be made.
+    budget: Cell<u64>,
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
+    /// `size` is that of the file.
+    pub(super) fn new(document: &'a Document, buffers: &'a [Cow<'a, [u8]>], size: usize) -> Self {
+        let outside: u64 = buffers.iter().map(|buffer| buffer.len() as u64).sum();
+        let budget = (size as u64).saturating_add(outside).saturating_mul(TIMES);
+        Self {
+            document,
+            buffers,
+            budget: Cell::new(budget.max(FREE_BYTES)),
+        }
+    }
+
+    /// Takes bytes out of what the file pays for: many pieces may refer to the same bytes of it.
+    ///
+    /// # Errors
+    ///
+    /// If the file has used up its share; `pointer` is the place that wants more.
+    pub(super) fn spend(&self, bytes: u64, pointer: &str) -> Result<(), JsonError> {
+        let left = self.budget.get().checked_sub(bytes).ok_or_else(|| {
+            let message = format!(
+                "the file refers to the same data so often that it needs more than {TIMES} times its \
+                 size in memory"
+            );
+            JsonError::new(pointer, message)
+        })?;
+        self.budget.set(left);
+        Ok(())
+    }
+
     /// How many elements an accessor has.
     ///
     /// # Errors
     ///
     /// If there is no such accessor; `pointer` is the place that refers to it.
     pub(super) fn count(&self, index: usize, pointer: &str) -> Result<u64, JsonError> {
-        let accessors = &self.document.accessors;
-        let accessor = get(accessors, index, || pointer.to_owned(), "accessor")?;
-        Ok(accessor.count.0)
+        Ok(self.accessor(index, pointer)?.count.0)
     }
 
-    /// The elements of an accessor as N numbers each. Components that its type does not have are
-    /// `fill`; normalized integers are between 0 and 1, or between -1 and 1.
+    /// The type of an accessor.
+    ///
+    /// # Errors
+    ///
+    /// As [`count`](Self::count), or if the type is unknown.
+    pub(super) fn kind(&self, index: usize, pointer: &str) -> Result<Type, JsonError> {
+        let accessor = self.accessor(index, pointer)?;
+        Ok(kinds(accessor, &format!("/accessors/{index}"))?.0)
+    }
+
+    fn accessor(&self, index: usize, pointer: &str) -> Result<&Accessor, JsonError> {
+        let accessors = &self.document.accessors;
+        get(accessors, index, || pointer.to_owned(), "accessor")
+    }
+
+    /// The elements of an accessor, each converted from N numbers. Components that its type does not
+    /// have are `fill`; normalized integers are between 0 and 1, or between -1 and 1.
     ///
     /// # Errors
     ///
     /// If the accessor is of none of the `types`, does not fit its buffer, or has a value that is not
     /// finite. `pointer` is the place that refers to it.
-    pub(super) fn vectors<const N: usize>(
+    pub(super) fn vectors<const N: usize, T: Value>(
         &self,
         index: usize,
         pointer: &str,
         types: &[Type],
         fill: f64,
-    ) -> Result<Vec<[f64; N]>, JsonError> {
-        let accessor = get(
-            &self.document.accessors,
-            index,
-            || pointer.to_owned(),
-            "accessor",
-        )?;
+        convert: impl Fn([f64; N]) -> T + Sync,
+    ) -> Result<Vec<T>, JsonError> {
+        let accessor = self.accessor(index, pointer)?;
         let here = format!("/accessors/{index}");
         let (kind, component) = kinds(accessor, &here)?;
         if !types.contains(&kind) {
@@ -56,31 +109,49 @@ impl Reader<'_> {
             ));
         }
         let used = kind.multiplicity().min(N);
-        let value = |bytes: &[u8]| {
+        let size = component.size();
+        // Not a number, if it comes to that, is found by a second look.
+        let broken = AtomicBool::new(false);
+        let general = |bytes: &[u8]| {
             let mut vector = [fill; N];
-            for (k, slot) in vector.iter_mut().take(used).enumerate() {
-                let size = component.size();
-                *slot = number(
-                    &bytes[k * size..(k + 1) * size],
-                    component,
-                    accessor.normalized,
-                );
+            for (slot, bytes) in vector.iter_mut().zip(bytes.chunks_exact(size)).take(used) {
+                *slot = number(bytes, component, accessor.normalized);
             }
             vector
         };
+        let floats = |bytes: &[u8]| {
+            let mut vector = [0.0; N];
+            for (slot, bytes) in vector.iter_mut().zip(bytes.as_chunks().0) {
+                *slot = f64::from(f32::from_le_bytes(*bytes));
+            }
+            vector
+        };
+        let checked = |vector: [f64; N]| {
+            if !vector.iter().all(|x| x.is_finite()) {
+                broken.store(true, Relaxed);
+            }
+            convert(vector)
+        };
         let mut zero = [fill; N];
         zero[..used].fill(0.0);
-        let vectors = self.elements(index, kind.multiplicity(), component, zero, value)?;
-        match vectors
-            .iter()
-            .position(|vector| vector.iter().any(|x| !x.is_finite()))
-        {
-            Some(i) => Err(JsonError::new(
-                here,
-                format!("element {i} is not a finite number"),
-            )),
-            None => Ok(vectors),
+        let zero = convert(zero);
+        let multiplicity = kind.multiplicity();
+        let values = if component == ComponentType::F32 && multiplicity == N {
+            self.elements(index, N, component, zero, |bytes| checked(floats(bytes)))?
+        } else {
+            let value = |bytes: &[u8]| checked(general(bytes));
+            self.elements(index, multiplicity, component, zero, value)?
+        };
+        if broken.into_inner() {
+            let finite = |bytes: &[u8]| i32::from(general(bytes).iter().all(|x| x.is_finite()));
+            let finite = self.elements(index, multiplicity, component, 1, finite)?;
+            // A sparse part may have replaced it.
+            if let Some(i) = finite.iter().position(|&is| is == 0) {
+                let message = format!("element {i} is not a finite number");
+                return Err(JsonError::new(here, message));
+            }
         }
+        Ok(values)
     }
 
     /// The elements of an accessor of indices.
@@ -89,48 +160,65 @@ impl Reader<'_> {
     ///
     /// As [`vectors`](Self::vectors).
     pub(super) fn indices(&self, index: usize, pointer: &str) -> Result<Vec<u32>, JsonError> {
-        let accessor = get(
-            &self.document.accessors,
-            index,
-            || pointer.to_owned(),
-            "accessor",
-        )?;
+        let accessor = self.accessor(index, pointer)?;
         let here = format!("/accessors/{index}");
         let (kind, component) = kinds(accessor, &here)?;
         if kind != Type::Scalar {
             let message = format!("expected SCALAR for indices, found {}", type_name(kind));
             return Err(JsonError::new(format!("{here}/type"), message));
         }
-        if !matches!(
-            component,
-            ComponentType::U8 | ComponentType::U16 | ComponentType::U32
-        ) {
-            let message = "expected unsigned integers for indices";
-            return Err(JsonError::new(format!("{here}/componentType"), message));
+        match component {
+            ComponentType::U8 | ComponentType::U16 => {
+                self.elements(index, 1, component, 0, |bytes| whole(bytes, component))
+            }
+            // Known to the compiler, it becomes a copy.
+            ComponentType::U32 => self.elements(index, 1, component, 0, |bytes| {
+                whole(bytes, ComponentType::U32)
+            }),
+            _ => {
+                let message = "expected unsigned integers for indices";
+                Err(JsonError::new(format!("{here}/componentType"), message))
+            }
         }
-        self.elements(index, 1, component, 0, |bytes| whole(bytes, component))
     }
 
     /// Reads every element, from its view or as `zero`, and then the sparse ones.
-    fn elements<T: Clone>(
+    fn elements<T: Copy + Zeroable + Send + Sync>(
         &self,
         index: usize,
         components: usize,
         component: ComponentType,
         zero: T,
-        value: impl Fn(&[u8]) -> T,
+        value: impl Fn(&[u8]) -> T + Sync,
     ) -> Result<Vec<T>, JsonError> {
         let accessor = &self.document.accessors[index];
         let here = format!("/accessors/{index}");
         let size = components * component.size();
         let count = accessor.count.0;
+        let bytes = count.saturating_mul(size_of::<T>() as u64);
         let mut elements = if let Some(view) = accessor.buffer_view {
             let offset = accessor.byte_offset.unwrap_or_default().0;
-            self.rows(view.value(), offset, count, size, &here)?
-                .map(&value)
-                .collect()
+            let rows = self.rows(view.value(), offset, count, size, &here)?;
+            self.spend(bytes, &here)?;
+            let mut elements = mesh::zeroed::<T>(rows.count);
+            let blocks = elements.par_chunks_mut(BLOCK).enumerate();
+            blocks.for_each(|(block, elements)| {
+                let rows = rows.block(block * BLOCK, elements.len());
+                if rows.stride == size {
+                    for (slot, bytes) in elements.iter_mut().zip(rows.bytes.chunks_exact(size)) {
+                        *slot = value(bytes);
+                    }
+                } else {
+                    for (slot, bytes) in elements.iter_mut().zip(rows.iter()) {
+                        *slot = value(bytes);
+                    }
+                }
+            });
+            elements
         } else {
-            vec![zero; self.zeros(count, &here)?]
+            let n = self.zeros(count, &here)?;
+            self.spend(bytes, &here)?;
+            vec![zero; n]
         };
         let Some(sparse) = &accessor.sparse else {
             return Ok(elements);
@@ -161,7 +249,7 @@ impl Reader<'_> {
             size,
             &at,
         )?;
-        for (place, bytes) in places.zip(values) {
+        for (place, bytes) in places.iter().zip(values.iter()) {
             let place = whole(place, index_type);
             let slot = elements.get_mut(place as usize).ok_or_else(|| {
                 let message = format!("refers to element {place}, but there are {count}");
@@ -185,18 +273,18 @@ impl Reader<'_> {
         })
     }
 
-    /// `count` pieces of `size` bytes in a view, from `offset`, as far apart as the view says.
-    fn rows(
+    /// The bytes of a view.
+    ///
+    /// # Errors
+    ///
+    /// If there is no such view or its buffer is too short; `pointer` is the place that refers to it.
+    pub(super) fn view(
         &self,
-        view: usize,
-        offset: u64,
-        count: u64,
-        size: usize,
-        here: &str,
-    ) -> Result<impl Iterator<Item = &[u8]>, JsonError> {
-        let pointer = || format!("{here}/bufferView");
-        let at = format!("/bufferViews/{view}");
-        let view = get(&self.document.views, view, pointer, "buffer view")?;
+        index: usize,
+        pointer: impl Fn() -> String,
+    ) -> Result<&[u8], JsonError> {
+        let at = format!("/bufferViews/{index}");
+        let view = get(&self.document.views, index, pointer, "buffer view")?;
         let buffer = view.buffer.value();
         let bytes = get(self.buffers, buffer, || format!("{at}/buffer"), "buffer")?;
         let start = view.byte_offset.unwrap_or_default().0;
@@ -205,14 +293,27 @@ impl Reader<'_> {
             .filter(|&end| end <= bytes.len() as u64);
         let range =
             end.and_then(|end| Some(usize::try_from(start).ok()?..usize::try_from(end).ok()?));
-        let bytes = range.map(|range| &bytes[range]).ok_or_else(|| {
+        range.map(|range| &bytes[range]).ok_or_else(|| {
             let message = format!(
                 "the view says {} bytes from {start}, but buffer {buffer} has {}",
                 view.byte_length.0,
                 bytes.len()
             );
             JsonError::new(format!("{at}/byteLength"), message)
-        })?;
+        })
+    }
+
+    /// `count` pieces of `size` bytes in a view, from `offset`, as far apart as the view says.
+    fn rows(
+        &self,
+        index: usize,
+        offset: u64,
+        count: u64,
+        size: usize,
+        here: &str,
+    ) -> Result<Rows<'_>, JsonError> {
+        let bytes = self.view(index, || format!("{here}/bufferView"))?;
+        let (view, at) = (&self.document.views[index], format!("/bufferViews/{index}"));
         let stride = view.byte_stride.map_or(0, |stride| stride.0);
         let stride = if stride == 0 { size } else { stride };
         if stride < size {
@@ -238,14 +339,43 @@ impl Reader<'_> {
         }
         // Both fit: they are no more than the length of the view.
         let [count, offset] = [count, offset].map(|n| usize::try_from(n).unwrap_or(0));
-        Ok((0..count).map(move |i| {
-            let start = offset + i * stride;
-            &bytes[start..start + size]
-        }))
+        Ok(Rows {
+            bytes: bytes.get(offset..).unwrap_or_default(),
+            count,
+            size,
+            stride,
+        })
     }
 }
 
-fn kinds(accessor: &gltf_json::Accessor, here: &str) -> Result<(Type, ComponentType), JsonError> {
+/// Pieces of the same size, the same distance apart. The last one needs no room behind it.
+#[derive(Clone, Copy)]
+struct Rows<'a> {
+    bytes: &'a [u8],
+    count: usize,
+    size: usize,
+    stride: usize,
+}
+
+impl<'a> Rows<'a> {
+    /// `count` rows from the one at `first`.
+    fn block(self, first: usize, count: usize) -> Self {
+        Self {
+            bytes: &self.bytes[first * self.stride..],
+            count,
+            ..self
+        }
+    }
+
+    fn iter(self) -> impl Iterator<Item = &'a [u8]> {
+        (0..self.count).map(move |i| {
+            let start = i * self.stride;
+            &self.bytes[start..start + self.size]
+        })
+    }
+}
+
+fn kinds(accessor: &Accessor, here: &str) -> Result<(Type, ComponentType), JsonError> {
     let Checked::Valid(kind) = accessor.type_ else {
         return Err(JsonError::new(
             format!("{here}/type"),

@@ -1,5 +1,6 @@
 //! The bytes behind a glTF document: the container of a GLB file, data URIs and files beside it.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::path::Path;
 
@@ -85,17 +86,17 @@ pub(super) fn container(path: &Path, bytes: &[u8]) -> Result<Container, ReadErro
     }
 }
 
-/// Finds the bytes of all buffers. `binary` is the chunk of a GLB file.
+/// Finds the bytes of all buffers. `binary` is the chunk of a GLB file, which stays where it is.
 ///
 /// # Errors
 ///
 /// If a URI leaves the folder of `path` or its file cannot be read, or there are fewer bytes than a
 /// buffer says.
-pub(super) fn load(
+pub(super) fn load<'a>(
     path: &Path,
     buffers: &[Buffer],
-    mut binary: Option<&[u8]>,
-) -> Result<Vec<Vec<u8>>, JsonError> {
+    mut binary: Option<&'a [u8]>,
+) -> Result<Vec<Cow<'a, [u8]>>, JsonError> {
     let mut loaded = Vec::new();
     for (i, buffer) in buffers.iter().enumerate() {
         let length = buffer.byte_length.0;
@@ -103,11 +104,10 @@ pub(super) fn load(
             None => {
                 let chunk = if i == 0 { binary.take() } else { None };
                 // A buffer without data is legal: an extension would fill it. Nothing can be read of it.
-                chunk
-                    .map(|chunk| first(chunk, length).to_vec())
-                    .unwrap_or_default()
+                Cow::Borrowed(chunk.unwrap_or_default())
             }
             Some(uri) => from_uri(path, uri, length)
+                .map(Cow::Owned)
                 .map_err(|message| JsonError::new(format!("/buffers/{i}/uri"), message))?,
         };
         if (bytes.len() as u64) < length {
@@ -116,28 +116,38 @@ pub(super) fn load(
                 format!("the buffer says {length} bytes, but has {}", bytes.len()),
             ));
         }
-        bytes.truncate(usize::try_from(length).unwrap_or(usize::MAX));
+        let length = usize::try_from(length).unwrap_or(usize::MAX);
+        match &mut bytes {
+            Cow::Borrowed(bytes) => *bytes = &bytes[..length.min(bytes.len())],
+            Cow::Owned(bytes) => bytes.truncate(length),
+        }
         loaded.push(bytes);
     }
     Ok(loaded)
 }
 
-fn first(bytes: &[u8], length: u64) -> &[u8] {
-    &bytes[..bytes
-        .len()
-        .min(usize::try_from(length).unwrap_or(usize::MAX))]
-}
-
 fn from_uri(path: &Path, uri: &str, length: u64) -> Result<Vec<u8>, String> {
     if let Some(data) = uri.strip_prefix("data:") {
-        let (_, encoded) = data
-            .split_once(";base64,")
-            .ok_or("expected data in base64")?;
-        return base64(encoded.as_bytes()).ok_or_else(|| "the data is not valid base64".to_owned());
+        return data_uri(data).map(|(_, bytes)| bytes);
     }
     let shown: String = uri.chars().take(80).collect();
     let name = inside_uri(uri).map_err(|why| format!("the URI {shown:?} {why}"))?;
     read_beside(path, &name, length).map_err(|error| format!("cannot read {shown:?}: {error}"))
+}
+
+/// The type and the bytes of a data URI (RFC 2397) behind its `data:`.
+///
+/// # Errors
+///
+/// If it is not in base64.
+pub(super) fn data_uri(data: &str) -> Result<(&str, Vec<u8>), String> {
+    let (kind, encoded) = data
+        .split_once(";base64,")
+        .ok_or("expected data in base64")?;
+    let mime = kind.split(';').next().unwrap_or_default();
+    let bytes =
+        base64(encoded.as_bytes()).ok_or_else(|| "the data is not valid base64".to_owned())?;
+    Ok((mime, bytes))
 }
 
 /// Decodes base64 (RFC 4648), with or without its padding.

@@ -1,14 +1,37 @@
 //! The JSON of a glTF file, piece by piece.
 
-use gltf_json::{Accessor, Buffer, Material, Mesh, Node, buffer::View};
+use std::collections::BTreeMap;
+
+use gltf_json::{Accessor, Buffer, Mesh, Node, buffer::View};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::JsonError;
+use super::surface::{
+    ImageJson, MaterialJson, STRENGTH, SamplerJson, TRANSFORM, TextureJson, UNLIT,
+};
 use crate::note::Notes;
 
-/// Required extensions that the reader knows: positions and texture coordinates may be integers.
-const KNOWN_EXTENSIONS: [&str; 1] = ["KHR_mesh_quantization"];
+/// Extensions that the reader knows. With the first, positions and texture coordinates may be integers.
+const KNOWN_EXTENSIONS: [&str; 4] = ["KHR_mesh_quantization", TRANSFORM, STRENGTH, UNLIT];
+
+const LIGHTS: &str = "KHR_lights_punctual";
+
+/// What to do about extensions without which nothing of a file can be read.
+const COMPRESSED: [(&str, &str); 3] = [
+    (
+        "EXT_meshopt_compression",
+        "write it again without compression, such as with `gltfpack -noq` without `-c`",
+    ),
+    (
+        "KHR_meshopt_compression",
+        "write it again without compression, such as with `gltfpack -noq` without `-c`",
+    ),
+    (
+        "KHR_draco_mesh_compression",
+        "write it again without compression, such as with `gltf-transform copy`",
+    ),
+];
 
 /// What the reader needs of a glTF document.
 #[derive(Debug, Default)]
@@ -16,13 +39,14 @@ pub(super) struct Document {
     pub(super) accessors: Vec<Accessor>,
     pub(super) buffers: Vec<Buffer>,
     pub(super) views: Vec<View>,
-    pub(super) materials: Vec<Material>,
+    pub(super) materials: Vec<MaterialJson>,
     pub(super) meshes: Vec<Mesh>,
     pub(super) nodes: Vec<Node>,
     /// The nodes that the scene begins with.
     pub(super) roots: Vec<usize>,
-    /// For each texture the path of its picture, if that is a file.
-    pub(super) pictures: Vec<Option<String>>,
+    pub(super) textures: Vec<TextureJson>,
+    pub(super) samplers: Vec<SamplerJson>,
+    pub(super) images: Vec<ImageJson>,
 }
 
 impl Document {
@@ -42,7 +66,9 @@ impl Document {
             meshes: pieces(json, "meshes")?,
             nodes: pieces(json, "nodes")?,
             roots: roots(json, notes)?,
-            pictures: pictures(json),
+            textures: pieces(json, "textures")?,
+            samplers: pieces(json, "samplers")?,
+            images: pieces(json, "images")?,
         };
         for (key, what) in [
             ("animations", "animations left out"),
@@ -51,12 +77,6 @@ impl Document {
         ] {
             notes.left_out(list(json, key)?.len(), None, what);
         }
-        let with_materials = document
-            .pictures
-            .iter()
-            .filter(|picture| picture.is_none())
-            .count();
-        notes.left_out(with_materials, None, "pictures inside the file left out");
         Ok(document)
     }
 }
@@ -104,33 +124,70 @@ fn check_version(json: &Value) -> Result<(), JsonError> {
 }
 
 fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), JsonError> {
-    let unknown = |name: &Value| {
-        name.as_str()
-            .is_none_or(|name| !KNOWN_EXTENSIONS.contains(&name))
-    };
-    if let Some((i, name)) = list(json, "extensionsRequired")?
-        .iter()
-        .enumerate()
-        .find(|(_, name)| unknown(name))
-    {
-        return Err(JsonError::new(
-            format!("/extensionsRequired/{i}"),
-            format!(
-                "the file cannot be read without the extension {name}, which is not known here"
+    let known = |name: &str| KNOWN_EXTENSIONS.contains(&name);
+    for (i, name) in list(json, "extensionsRequired")?.iter().enumerate() {
+        let pointer = format!("/extensionsRequired/{i}");
+        let Some(name) = name.as_str() else {
+            return Err(JsonError::new(
+                pointer,
+                format!("expected the name of an extension, found {name}"),
+            ));
+        };
+        if known(name) {
+            continue;
+        }
+        let compressed = COMPRESSED.iter().find(|(other, _)| *other == name);
+        let message = match compressed {
+            Some((_, advice)) => {
+                format!("the file is compressed with {name}, which is not read here: {advice}")
+            }
+            None => format!(
+                "the file cannot be read without the extension \"{name}\", which is not known here"
             ),
-        ));
+        };
+        return Err(JsonError::new(pointer, message));
     }
-    for name in list(json, "extensionsUsed")?
-        .iter()
-        .filter(|name| unknown(name))
-    {
-        notes.left_out(
-            1,
-            None,
-            format!("extension {name}: what it says is left out"),
-        );
+    let mut uses = BTreeMap::new();
+    for name in list(json, "extensionsUsed")? {
+        uses.insert(name.as_str().unwrap_or_default(), 0);
+    }
+    count_extensions(json, &mut uses);
+    if uses.remove(LIGHTS).is_some() {
+        let lights = json.pointer("/extensions/KHR_lights_punctual/lights");
+        let count = lights.and_then(Value::as_array).map_or(1, Vec::len);
+        notes.left_out(count, None, "lights left out");
+    }
+    for (name, count) in uses {
+        if !known(name) {
+            let what = format!("uses of the extension \"{name}\" left out");
+            notes.left_out(count.max(1), None, what);
+        }
     }
     Ok(())
+}
+
+/// Counts where extensions say something. As deep as the JSON, which has a limit.
+fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
+    match json {
+        Value::Array(values) => values
+            .iter()
+            .for_each(|value| count_extensions(value, uses)),
+        Value::Object(members) => {
+            for (key, value) in members {
+                match value {
+                    Value::Object(extensions) if key == "extensions" => {
+                        for name in extensions.keys() {
+                            *uses.entry(name).or_default() += 1;
+                        }
+                    }
+                    // Whatever an application has put there.
+                    _ if key == "extras" => {}
+                    _ => count_extensions(value, uses),
+                }
+            }
+        }
+        _ => {}
+    }
 }
 
 fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, JsonError> {
@@ -178,18 +235,6 @@ fn index(value: &Value, pointer: &str) -> Result<usize, JsonError> {
         .as_u64()
         .and_then(|index| usize::try_from(index).ok())
         .ok_or_else(|| JsonError::new(pointer, format!("expected an index, found {value}")))
-}
-
-/// For each texture the path of its picture. What is broken here is only left out.
-fn pictures(json: &Value) -> Vec<Option<String>> {
-    let textures = json.get("textures").and_then(Value::as_array);
-    let path = |texture: &Value| {
-        let image = usize::try_from(texture.get("source")?.as_u64()?).ok()?;
-        let uri = json.get("images")?.get(image)?.get("uri")?.as_str()?;
-        let path = crate::asset_path::inside_uri(uri).ok()?;
-        Some(path.to_str()?.replace('\\', "/"))
-    };
-    textures.into_iter().flatten().map(path).collect()
 }
 
 fn list<'a>(json: &'a Value, key: &str) -> Result<&'a [Value], JsonError> {

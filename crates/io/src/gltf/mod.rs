@@ -20,22 +20,28 @@
 mod accessor;
 mod buffers;
 mod document;
+mod faces;
+mod fill;
+mod materials;
+mod names;
 mod nodes;
 mod peek;
 mod primitives;
 mod read;
 mod split;
+mod streams;
+mod surface;
 mod write;
+mod write_materials;
 
 pub(crate) use peek::peek;
 pub(crate) use read::read;
 pub(crate) use write::write;
 
-use glam::DVec4;
-use mesh::{Attribute, HalfEdgeId, Rule};
-
-/// Colors of corners: colors that differ between the faces around a vertex.
-const CORNER_COLOR: Attribute<HalfEdgeId, DVec4> = Attribute::new("color", Rule::Interpolate);
+/// The shortest decimal number that is this one with 32 bits: 0.8 is written as 0.8.
+fn decimal(x: f32) -> f64 {
+    x.to_string().parse().unwrap_or(f64::from(x))
+}
 
 /// What is wrong at one place of the document, before the name of the file is known.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -5,6 +5,7 @@ use gltf_json::Node;
 
 use super::JsonError;
 use super::document::{Document, get};
+use crate::note::Notes;
 
 /// A node with a mesh.
 pub(super) struct Placed {
@@ -26,7 +27,15 @@ impl Placed {
 }
 
 /// The nodes of the scene that have a mesh, parents before children, in the order of the file.
-pub(super) fn placed_meshes(document: &Document) -> Result<Vec<Placed>, JsonError> {
+///
+/// # Errors
+///
+/// If a node is not what it should be, or in the scene twice.
+pub(super) fn placed_meshes(
+    document: &Document,
+    notes: &mut Notes,
+) -> Result<Vec<Placed>, JsonError> {
+    let mut skinned = 0;
     let mut seen = vec![false; document.nodes.len()];
     let mut placed = Vec::new();
     // A stack of our own: a chain of nodes may be as long as the file.
@@ -51,6 +60,7 @@ pub(super) fn placed_meshes(document: &Document) -> Result<Vec<Placed>, JsonErro
             ));
         }
         if let Some(mesh) = node.mesh {
+            skinned += usize::from(node.skin.is_some());
             get(
                 &document.meshes,
                 mesh.value(),
@@ -76,6 +86,8 @@ pub(super) fn placed_meshes(document: &Document) -> Result<Vec<Placed>, JsonErro
             open.push((child.value(), to_scene));
         }
     }
+    let what = "meshes with a skin are taken as they are before it bends them";
+    notes.changed(skinned, None, what);
     Ok(placed)
 }
 

@@ -52,7 +52,7 @@ pub(crate) fn peek(path: &Path, name: &str) -> Result<Vec<PeekObject>, ReadError
     let document = Document::new(&json, &mut notes).map_err(in_file)?;
     let mut names = Names::default();
     let mut objects = Vec::new();
-    for placed in placed_meshes(&document).map_err(in_file)? {
+    for placed in placed_meshes(&document, &mut notes).map_err(in_file)? {
         let mesh = peek_mesh(&document, placed.mesh).map_err(in_file)?;
         let name = names.unique(placed.name(&document, name), &mut notes);
         objects.push(PeekObject {
@@ -64,10 +64,7 @@ pub(crate) fn peek(path: &Path, name: &str) -> Result<Vec<PeekObject>, ReadError
 }
 
 fn peek_mesh(document: &Document, index: usize) -> Result<PeekMesh, JsonError> {
-    let reader = Reader {
-        document,
-        buffers: &[],
-    };
+    let reader = Reader::new(document, &[], 0);
     let mut counts = PeekMesh::default();
     let mut known = BTreeSet::new();
     for (i, primitive) in document.meshes[index].primitives.iter().enumerate() {

@@ -1,30 +1,33 @@
 //! The primitives of a glTF mesh as one list of triangles.
 
-use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, DVec3, DVec4};
-use gltf_json::Index;
 use gltf_json::accessor::Type;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
+use mesh::{Value, Values};
+use rayon::prelude::*;
 
 use super::JsonError;
 use super::accessor::Reader;
 use super::document::get;
+use super::names::attribute_name;
 use crate::note::Notes;
+
+/// How many corners are looked at by one task at least.
+const BLOCK: usize = 1 << 14;
 
 /// All primitives of a mesh. A vertex here is one of glTF: one for each side of a seam.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
-    /// One for each vertex, or none at all.
-    pub(super) normals: Vec<DVec3>,
-    /// One for each vertex, or none at all; v upwards.
-    pub(super) uvs: Vec<DVec2>,
-    /// One for each vertex, or none at all.
-    pub(super) colors: Vec<DVec4>,
-    pub(super) corners: Vec<[u32; 3]>,
-    /// For each triangle its material in the document.
+    /// Named as in a mesh; one value for each vertex. Texture coordinates have v upwards.
+    pub(super) columns: BTreeMap<String, Values>,
+    /// Three for each triangle.
+    pub(super) corners: Vec<u32>,
+    /// For each triangle its material in the document; empty if none has one.
     pub(super) materials: Vec<Option<usize>>,
 }
 
@@ -42,6 +45,7 @@ pub(super) fn triangles(
     // Primitives that share all their attributes, as parts of one model do, share their vertices.
     let mut known = BTreeMap::new();
     let mut seen = Seen::default();
+    let mut has_materials = false;
     for (i, primitive) in reader.document.meshes[index].primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
         seen.morphs += primitive.targets.as_ref().map_or(0, Vec::len);
@@ -51,12 +55,16 @@ pub(super) fn triangles(
                 "expected a number from 0 to 6",
             ));
         };
-        if matches!(
-            mode,
-            Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip
-        ) {
-            seen.lines += 1;
-            continue;
+        match mode {
+            Mode::Points => {
+                seen.points += 1;
+                continue;
+            }
+            Mode::Lines | Mode::LineLoop | Mode::LineStrip => {
+                seen.lines += 1;
+                continue;
+            }
+            Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {}
         }
         let attributes: Vec<_> = primitive
             .attributes
@@ -70,7 +78,7 @@ pub(super) fn triangles(
             known.insert(attributes, part);
             part
         };
-        let corners = corners(reader, primitive, mode, count, &here)?;
+        let mut corners = corners(reader, primitive, mode, count, &here)?;
         if let Some(material) = primitive.material {
             let pointer = || format!("{here}/material");
             get(
@@ -81,16 +89,35 @@ pub(super) fn triangles(
             )?;
         }
         let material = primitive.material.map(|material| material.value());
-        all.materials
-            .resize(all.corners.len() + corners.len(), material);
-        all.corners
-            .extend(corners.into_iter().map(|corners| corners.map(|v| base + v)));
+        has_materials |= material.is_some() && !corners.is_empty();
+        if has_materials {
+            all.materials.resize(all.corners.len() / 3, None);
+            all.materials
+                .resize((all.corners.len() + corners.len()) / 3, material);
+        }
+        if base > 0 {
+            corners
+                .par_iter_mut()
+                .with_min_len(BLOCK)
+                .for_each(|v| *v += base);
+        }
+        if all.corners.is_empty() {
+            all.corners = corners;
+        } else {
+            all.corners.append(&mut corners);
+        }
     }
     seen.note(notes);
     Ok(all)
 }
 
 impl Triangles {
+    /// The bytes that they take, about.
+    pub(super) fn bytes(&self) -> u64 {
+        let columns: usize = self.columns.values().map(Values::bytes).sum();
+        (columns + size_of_val(&*self.positions) + 2 * size_of_val(&*self.corners)) as u64
+    }
+
     /// Appends the vertices of a primitive; returns the first's index and how many there are.
     fn push_vertices(
         &mut self,
@@ -99,118 +126,159 @@ impl Triangles {
         here: &str,
         seen: &mut Seen,
     ) -> Result<(u32, u32), JsonError> {
-        let find = |semantic| {
-            primitive
-                .attributes
-                .get(&Checked::Valid(semantic))
-                .map(Index::value)
-        };
         let pointer = |name: &str| format!("{here}/attributes/{name}");
-        let Some(positions) = find(Semantic::Positions) else {
+        let Some(positions) = primitive
+            .attributes
+            .get(&Checked::Valid(Semantic::Positions))
+        else {
             // Legal, and nothing to draw without an extension.
             seen.empty += 1;
             return Ok((0, 0));
         };
-        let positions = reader.vectors(positions, &pointer("POSITION"), &[Type::Vec3], 0.0)?;
+        let mut positions = reader.vectors(
+            positions.value(),
+            &pointer("POSITION"),
+            &[Type::Vec3],
+            0.0,
+            DVec3::from_array,
+        )?;
         let n = positions.len();
         let base = self.positions.len();
         let total = base
             .checked_add(n)
-            .and_then(|total| u32::try_from(total).ok());
+            .and_then(|total| u32::try_from(total).ok())
+            .filter(|&total| total < u32::MAX);
         let (Some(_), Ok(first), Ok(count)) = (total, u32::try_from(base), u32::try_from(n)) else {
             let message = format!("expected fewer than {} vertices in a mesh", u32::MAX);
             return Err(JsonError::new(pointer("POSITION"), message));
         };
-        self.positions
-            .extend(positions.into_iter().map(DVec3::from_array));
-        let mut column = Column {
-            reader,
-            here,
-            base,
-            n,
-            partial: &mut seen.partial,
-        };
-        column.extend(
-            &mut self.normals,
-            find(Semantic::Normals),
-            "NORMAL",
-            &[Type::Vec3],
-            DVec3::from_array,
-        )?;
-        column.extend(
-            &mut self.uvs,
-            find(Semantic::TexCoords(0)),
-            "TEXCOORD_0",
-            &[Type::Vec2],
-            |[u, v]| DVec2::new(u, 1.0 - v),
-        )?;
-        column.extend(
-            &mut self.colors,
-            find(Semantic::Colors(0)),
-            "COLOR_0",
-            &[Type::Vec3, Type::Vec4],
-            DVec4::from_array,
-        )?;
-        for semantic in primitive.attributes.keys() {
-            match semantic {
-                Checked::Valid(
-                    Semantic::Positions
-                    | Semantic::Normals
-                    | Semantic::TexCoords(0)
-                    | Semantic::Colors(0),
-                ) => {}
-                Checked::Valid(semantic) => {
-                    *seen.attributes.entry(semantic.to_string()).or_default() += 1;
+        if base == 0 {
+            self.positions = positions;
+        } else {
+            self.positions.append(&mut positions);
+        }
+        let mut found = BTreeSet::new();
+        for (semantic, accessor) in &primitive.attributes {
+            let column = match semantic {
+                Checked::Valid(Semantic::Positions) => continue,
+                Checked::Valid(semantic) => semantic,
+                Checked::Invalid => {
+                    seen.attribute("of unknown names");
+                    continue;
                 }
-                Checked::Invalid => *seen.attributes.entry("unknown".to_owned()).or_default() += 1,
+            };
+            let at = pointer(&column.to_string());
+            let Some((name, values)) = read_column(reader, column, accessor.value(), &at)? else {
+                seen.attribute(&column.to_string());
+                continue;
+            };
+            if values.len() != n {
+                let found = values.len();
+                let message =
+                    format!("expected {n} elements, one for each position, found {found}");
+                return Err(JsonError::new(at, message));
+            }
+            if found.contains(&name) {
+                seen.attribute(&(column.to_string() + " of a name that is taken"));
+                continue;
+            }
+            if !self.push_column(name.clone(), values, base, seen) {
+                seen.attribute(&(column.to_string() + " of another type"));
+                continue;
+            }
+            found.insert(name);
+        }
+        // Attributes that only other primitives have.
+        for (name, values) in &mut self.columns {
+            if !found.contains(name) {
+                grow(values, base + n);
+                seen.partial += 1;
             }
         }
         Ok((first, count))
     }
-}
 
-/// Appends an attribute of a primitive with `n` vertices, the first of them number `base`.
-struct Column<'a> {
-    reader: &'a Reader<'a>,
-    here: &'a str,
-    base: usize,
-    n: usize,
-    partial: &'a mut usize,
-}
-
-impl Column<'_> {
-    fn extend<const N: usize, T: Copy + Default>(
-        &mut self,
-        values: &mut Vec<T>,
-        accessor: Option<usize>,
-        name: &str,
-        types: &[Type],
-        convert: impl Fn([f64; N]) -> T,
-    ) -> Result<(), JsonError> {
-        let end = self.base + self.n;
-        let Some(accessor) = accessor else {
-            if !values.is_empty() {
-                values.resize(end, T::default());
-                *self.partial += 1;
+    /// Appends values behind `base` others; false if those are of another type.
+    fn push_column(&mut self, name: String, values: Values, base: usize, seen: &mut Seen) -> bool {
+        match self.columns.entry(name) {
+            Entry::Vacant(new) if base == 0 => {
+                new.insert(values);
+                true
             }
-            return Ok(());
-        };
-        let pointer = format!("{}/attributes/{name}", self.here);
-        let read = self.reader.vectors(accessor, &pointer, types, 1.0)?;
-        if read.len() != self.n {
-            let message = format!(
-                "expected {} elements, one for each position, found {}",
-                self.n,
-                read.len()
-            );
-            return Err(JsonError::new(pointer, message));
+            Entry::Vacant(new) => {
+                let mut all = values.gather(base, |_| None);
+                seen.partial += 1;
+                let same = append(&mut all, values);
+                new.insert(all);
+                same
+            }
+            Entry::Occupied(known) => append(known.into_mut(), values),
         }
-        if values.len() < self.base {
-            values.resize(self.base, T::default());
-            *self.partial += 1;
+    }
+}
+
+/// The name and the values of an attribute; `None` if it is not read.
+fn read_column(
+    reader: &Reader,
+    semantic: &Semantic,
+    accessor: usize,
+    at: &str,
+) -> Result<Option<(String, Values)>, JsonError> {
+    let Some(name) = attribute_name(semantic) else {
+        return Ok(None);
+    };
+    let values = match semantic {
+        Semantic::Normals => {
+            DVec3::wrap(reader.vectors(accessor, at, &[Type::Vec3], 0.0, DVec3::from_array)?)
         }
-        values.extend(read.into_iter().map(convert));
-        Ok(())
+        Semantic::TexCoords(_) => {
+            let up = |[u, v]: [f64; 2]| DVec2::new(u, 1.0 - v);
+            DVec2::wrap(reader.vectors(accessor, at, &[Type::Vec2], 0.0, up)?)
+        }
+        Semantic::Colors(_) => {
+            let types = [Type::Vec3, Type::Vec4];
+            DVec4::wrap(reader.vectors(accessor, at, &types, 1.0, DVec4::from_array)?)
+        }
+        _ => match reader.kind(accessor, at)? {
+            kind @ Type::Scalar => {
+                f64::wrap(reader.vectors(accessor, at, &[kind], 0.0, |[x]: [f64; 1]| x)?)
+            }
+            kind @ Type::Vec2 => {
+                DVec2::wrap(reader.vectors(accessor, at, &[kind], 0.0, DVec2::from_array)?)
+            }
+            kind @ Type::Vec3 => {
+                DVec3::wrap(reader.vectors(accessor, at, &[kind], 0.0, DVec3::from_array)?)
+            }
+            kind @ Type::Vec4 => {
+                DVec4::wrap(reader.vectors(accessor, at, &[kind], 0.0, DVec4::from_array)?)
+            }
+            Type::Mat2 | Type::Mat3 | Type::Mat4 => return Ok(None),
+        },
+    };
+    Ok(Some((name, values)))
+}
+
+/// Appends values, if they are of the same type.
+fn append(all: &mut Values, more: Values) -> bool {
+    match (all, more) {
+        (Values::Float(all), Values::Float(mut more)) => all.append(&mut more),
+        (Values::Vec2(all), Values::Vec2(mut more)) => all.append(&mut more),
+        (Values::Vec3(all), Values::Vec3(mut more)) => all.append(&mut more),
+        (Values::Vec4(all), Values::Vec4(mut more)) => all.append(&mut more),
+        _ => return false,
+    }
+    true
+}
+
+/// Fills values up with zeros.
+fn grow(values: &mut Values, n: usize) {
+    match values {
+        Values::Float(values) => values.resize(n, 0.0),
+        Values::Vec2(values) => values.resize(n, DVec2::ZERO),
+        Values::Vec3(values) => values.resize(n, DVec3::ZERO),
+        Values::Vec4(values) => values.resize(n, DVec4::ZERO),
+        Values::Int(values) => values.resize(n, 0),
+        Values::Tag(values) => values.resize(n, false),
     }
 }
 
@@ -221,13 +289,19 @@ fn corners(
     mode: Mode,
     count: u32,
     here: &str,
-) -> Result<Vec<[u32; 3]>, JsonError> {
+) -> Result<Vec<u32>, JsonError> {
     let order = match primitive.indices {
-        None => (0..count).collect(),
+        None => {
+            let pointer = format!("{here}/attributes/POSITION");
+            reader.spend(u64::from(count) * 4, &pointer)?;
+            (0..count).collect()
+        }
         Some(indices) => {
             let pointer = format!("{here}/indices");
             let order = reader.indices(indices.value(), &pointer)?;
-            if let Some(i) = order.iter().position(|&v| v >= count) {
+            let wrong = |&v: &u32| v >= count;
+            if order.par_iter().with_min_len(BLOCK).any(wrong) {
+                let i = order.iter().position(wrong).unwrap_or(0);
                 let message = format!(
                     "index {i} refers to vertex {}, but the primitive has {count} vertices",
                     order[i]
@@ -237,7 +311,7 @@ fn corners(
             order
         }
     };
-    let triangles = match mode {
+    let corners = match mode {
         Mode::TriangleStrip => order
             .windows(3)
             .enumerate()
@@ -251,26 +325,28 @@ fn corners(
             })
             // Strips jump by triangles without area.
             .filter(|[a, b, c]| a != b && b != c && c != a)
+            .flatten()
             .collect(),
         Mode::TriangleFan => match order.split_first() {
             None => Vec::new(),
-            Some((&center, rest)) => rest.windows(2).map(|w| [w[0], w[1], center]).collect(),
+            Some((&center, rest)) => rest.windows(2).flat_map(|w| [w[0], w[1], center]).collect(),
         },
         _ => {
             if order.len() % 3 != 0 {
                 let message = format!("expected a multiple of 3 corners, found {}", order.len());
                 return Err(JsonError::new(here, message));
             }
-            order.chunks_exact(3).map(|w| [w[0], w[1], w[2]]).collect()
+            order
         }
     };
-    Ok(triangles)
+    Ok(corners)
 }
 
 /// What of the primitives is left out.
 #[derive(Default)]
 struct Seen {
     morphs: usize,
+    points: usize,
     lines: usize,
     empty: usize,
     partial: usize,
@@ -278,9 +354,14 @@ struct Seen {
 }
 
 impl Seen {
+    fn attribute(&mut self, name: &str) {
+        *self.attributes.entry(name.to_owned()).or_default() += 1;
+    }
+
     fn note(self, notes: &mut Notes) {
         notes.left_out(self.morphs, None, "morph targets left out");
-        notes.left_out(self.lines, None, "primitives of points or lines left out");
+        notes.left_out(self.points, None, "primitives of points left out");
+        notes.left_out(self.lines, None, "primitives of lines left out");
         notes.left_out(self.empty, None, "primitives without positions left out");
         let what = "attributes that only some primitives of a mesh have: taken as 0 elsewhere";
         notes.changed(self.partial, None, what);

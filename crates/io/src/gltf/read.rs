@@ -1,24 +1,28 @@
 //! From a glTF document to objects.
 
-use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use glam::{DAffine3, DMat3, DVec3};
-use gltf_json::validation::Checked;
-use mesh::{CORNER_NORMAL, UV};
-use scene::{AlphaMode, Material, Texture};
+use mesh::{CORNER_NORMAL, Column, Domain, Rule, Values};
+use rayon::prelude::*;
+use scene::Material;
 use serde_json::Value;
 
 use super::accessor::Reader;
 use super::document::Document;
+use super::materials::Materials;
 use super::nodes::placed_meshes;
 use super::primitives::{Triangles, triangles};
-use super::{CORNER_COLOR, JsonError, buffers};
+use super::{JsonError, buffers};
 use crate::error::{ReadError, TextError};
 use crate::names::Names;
 use crate::note::Notes;
 use crate::{Found, Polygons, weld};
+
+/// How many values are looked at by one task at least.
+const BLOCK: usize = 1 << 14;
 
 /// Reads the objects of a glTF file from its bytes; `path` is where its buffers are looked for.
 ///
@@ -31,6 +35,8 @@ pub(crate) fn read(
     name: &str,
     notes: &mut Notes,
 ) -> Result<Vec<Found>, ReadError> {
+    // Dropped at the end: the accessors read from it as it is.
+    let bytes = bytes.into_boxed_slice();
     let in_file = |error: JsonError| error.in_file(path);
     let container = buffers::container(path, &bytes)?;
     let json = parse(path, &bytes[container.json])?;
@@ -38,37 +44,54 @@ pub(crate) fn read(
     drop(json);
     let binary = container.binary.map(|range| &bytes[range]);
     let loaded = buffers::load(path, &document.buffers, binary).map_err(in_file)?;
-    drop(bytes);
-    let reader = Reader {
-        document: &document,
-        buffers: &loaded,
-    };
-    let placed = placed_meshes(&document).map_err(in_file)?;
-    let used: BTreeSet<usize> = placed.iter().map(|placed| placed.mesh).collect();
-    let unused = document.meshes.len() - used.len();
+    let reader = Reader::new(&document, &loaded, bytes.len());
+    objects(&reader, name, notes).map_err(in_file)
+}
+
+fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<Found>, JsonError> {
+    let document = reader.document;
+    let placed = placed_meshes(document, notes)?;
+    // How often each mesh is still needed: the last object takes its arrays.
+    let mut uses = BTreeMap::new();
+    for placed in &placed {
+        *uses.entry(placed.mesh).or_insert(0) += 1;
+    }
     notes.left_out(
-        unused,
+        document.meshes.len() - uses.len(),
         None,
         "meshes left out: no node of the scene shows them",
     );
     let mut meshes = BTreeMap::new();
+    let mut materials = Materials::new(reader);
     let mut names = Names::default();
     let mut objects = Vec::new();
     for placed in placed {
-        let triangles = match meshes.entry(placed.mesh) {
-            Entry::Occupied(known) => known.into_mut(),
-            Entry::Vacant(new) => {
-                new.insert(triangles(&reader, placed.mesh, notes).map_err(in_file)?)
-            }
+        let here = format!("/meshes/{}", placed.mesh);
+        let (triangles, known) = match meshes.remove(&placed.mesh) {
+            Some(triangles) => (triangles, true),
+            None => (triangles(reader, placed.mesh, notes)?, false),
         };
-        let name = names.unique(placed.name(&document, name), notes);
-        let (materials, places) = materials(&document, triangles, notes);
+        let left = uses.entry(placed.mesh).or_default();
+        *left -= 1;
+        if *left > 0 {
+            meshes.insert(placed.mesh, triangles.clone());
+        }
+        if known {
+            reader.spend(triangles.bytes(), &here)?;
+        }
+        if triangles.corners.len() >= u32::MAX as usize {
+            let message = format!("expected fewer than {} corners in a mesh", u32::MAX);
+            return Err(JsonError::new(here, message));
+        }
+        let name = names.unique(placed.name(document, name), notes);
+        let (materials, places) = used_materials(&mut materials, &triangles)?;
         let polygons = Polygons {
             materials,
             ..polygons(triangles, &places, &placed.to_scene, notes)
         };
         objects.push(Found::polygons(name, polygons));
     }
+    materials.note(notes);
     Ok(objects)
 }
 
@@ -88,144 +111,111 @@ pub(super) fn parse(path: &Path, json: &[u8]) -> Result<Value, ReadError> {
     })
 }
 
-// ---- Materials ---------------------------------------------------------------------------------
-
 /// The materials that the triangles use, in the order of the document, and where each of the
 /// document's is among them.
-fn materials(
-    document: &Document,
+fn used_materials(
+    materials: &mut Materials,
     triangles: &Triangles,
-    notes: &mut Notes,
-) -> (Vec<Material>, BTreeMap<usize, i32>) {
-    let used: BTreeSet<usize> = triangles.materials.iter().copied().flatten().collect();
+) -> Result<(Vec<Material>, BTreeMap<usize, i32>), JsonError> {
+    let mut used: Vec<usize> = triangles.materials.iter().copied().flatten().collect();
+    used.dedup();
+    let used: BTreeSet<usize> = used.into_iter().collect();
     let places = used.iter().copied().zip(0..).collect();
-    let mut textures = 0;
-    let mut converted = |i: &usize| {
-        let from = &document.materials[*i];
-        let pbr = &from.pbr_metallic_roughness;
-        let unit = |x: f32| decimal(x).clamp(0.0, 1.0);
-        let picture = pbr.base_color_texture.as_ref().and_then(|texture| {
-            document
-                .pictures
-                .get(texture.index.value())
-                .cloned()
-                .flatten()
-        });
-        let others = [
-            pbr.metallic_roughness_texture.is_some(),
-            from.normal_texture.is_some(),
-            from.occlusion_texture.is_some(),
-            from.emissive_texture.is_some(),
-        ];
-        textures += others.into_iter().filter(|&is| is).count();
-        Material {
-            name: from.name.clone().unwrap_or_else(|| format!("material {i}")),
-            base_color: pbr.base_color_factor.0.map(unit),
-            metallic: unit(pbr.metallic_factor.0),
-            roughness: unit(pbr.roughness_factor.0),
-            base_color_texture: picture.map(Texture::file),
-            alpha: match from.alpha_mode {
-                Checked::Valid(gltf_json::material::AlphaMode::Blend) => AlphaMode::Blend,
-                _ => AlphaMode::Opaque,
-            },
-            ..Material::new("")
-        }
-    };
-    let materials = used.iter().map(&mut converted).collect();
-    notes.left_out(
-        textures,
-        None,
-        "textures of materials other than the base color left out",
-    );
-    (materials, places)
+    let materials = used.into_iter().map(|i| materials.get(i));
+    Ok((materials.collect::<Result<_, _>>()?, places))
 }
-
-/// The shortest decimal number that is this one with 32 bits: 0.8 is written as 0.8.
-fn decimal(x: f32) -> f64 {
-    x.to_string().parse().unwrap_or(f64::from(x))
-}
-
-// ---- Meshes ------------------------------------------------------------------------------------
 
 /// The polygons of a mesh that is placed in the scene, welded along the seams that glTF needs.
 fn polygons(
-    triangles: &Triangles,
+    triangles: Triangles,
     places: &BTreeMap<usize, i32>,
     to_scene: &DAffine3,
     notes: &mut Notes,
 ) -> Polygons {
-    let welded = weld(triangles);
-    notes.left_out(
-        welded.unused,
-        None,
-        "vertices left out: no triangle uses them",
-    );
+    let Triangles {
+        positions,
+        columns,
+        corners: mut order,
+        materials,
+    } = triangles;
+    let Welded {
+        mut positions,
+        vertex_of,
+        unused,
+    } = weld(positions, &order);
+    notes.left_out(unused, None, "vertices left out: no triangle uses them");
     let moved = *to_scene != DAffine3::IDENTITY;
-    let mut positions = welded.positions;
     if moved {
-        for position in &mut positions {
-            *position = to_scene.transform_point3(*position);
-        }
+        positions
+            .par_iter_mut()
+            .with_min_len(BLOCK)
+            .for_each(|position| *position = to_scene.transform_point3(*position));
     }
     // A mirror turns triangles inside out: their corners are taken the other way round.
-    let mirrored = to_scene.matrix3.determinant() < 0.0;
-    let mut order = triangles.corners.clone();
-    if mirrored {
-        for [_, b, c] in &mut order {
-            std::mem::swap(b, c);
-        }
+    if to_scene.matrix3.determinant() < 0.0 {
+        order
+            .par_chunks_exact_mut(3)
+            .with_min_len(BLOCK)
+            .for_each(|triangle| triangle.swap(1, 2));
     }
-    let order = order.as_flattened();
-    let corners: Vec<u32> = order
-        .iter()
-        .map(|&v| welded.vertex_of[v as usize])
-        .collect();
-    let n = u32::try_from(corners.len()).unwrap_or(u32::MAX);
+    let n_triangles = order.len() / 3;
     let mut polygons = Polygons {
         positions,
-        offsets: (0..=n).step_by(3).collect(),
-        corners,
+        offsets: offsets(n_triangles),
         ..Polygons::default()
     };
-    if !triangles.uvs.is_empty() {
-        let values = order.iter().map(|&v| triangles.uvs[v as usize]);
-        polygons.insert_corners(UV, values.collect());
-    }
-    if !triangles.colors.is_empty() {
-        let values = order.iter().map(|&v| triangles.colors[v as usize]);
-        polygons.insert_corners(CORNER_COLOR, values.collect());
-    }
-    if !triangles.normals.is_empty() {
-        let turn = if moved {
-            normal_matrix(to_scene)
-        } else {
-            Some(DMat3::IDENTITY)
-        };
-        match turn {
-            None => notes.left_out(
-                triangles.normals.len(),
-                None,
-                "normals left out: the placement is flat",
-            ),
-            Some(turn) => {
-                let turned = |&v: &u32| {
-                    let normal = triangles.normals[v as usize];
-                    if moved {
-                        (turn * normal).normalize_or_zero()
-                    } else {
-                        normal
-                    }
-                };
-                polygons.insert_corners(CORNER_NORMAL, order.iter().map(turned).collect());
+    for (name, values) in columns {
+        let values = values.gather(order.len(), |c| Some(order[c] as usize));
+        let (rule, values) = match (name.as_str(), values) {
+            (_, Values::Vec3(normals)) if name == CORNER_NORMAL.name => {
+                if !moved {
+                    (Rule::Normal, Values::Vec3(normals))
+                } else if let Some(turn) = normal_matrix(to_scene) {
+                    (Rule::Normal, Values::Vec3(turned(normals, turn)))
+                } else {
+                    let what = "normals left out: the placement is flat";
+                    notes.left_out(normals.len(), None, what);
+                    continue;
+                }
             }
-        }
+            (_, values) if name == mesh::CORNER.name => (mesh::CORNER.rule, values),
+            (_, values) => (Rule::Interpolate, values),
+        };
+        let column = Column { name, rule, values };
+        polygons.attributes.insert(Domain::Corner, column);
     }
-    if triangles.materials.iter().any(Option::is_some) {
+    if !materials.is_empty() {
         let place = |material: &Option<usize>| material.map_or(-1, |m| places[&m]);
-        let values = triangles.materials.iter().map(place);
+        let values = materials.par_iter().with_min_len(BLOCK).map(place);
         polygons.insert_faces(mesh::MATERIAL, values.collect());
     }
+    if let Some(vertex_of) = vertex_of {
+        order
+            .par_iter_mut()
+            .with_min_len(BLOCK)
+            .for_each(|v| *v = vertex_of[*v as usize]);
+    }
+    polygons.corners = order;
     polygons
+}
+
+/// Where each of `n` triangles begins, and where the last one ends.
+fn offsets(n: usize) -> Vec<u32> {
+    let mut offsets = mesh::zeroed::<u32>(n + 1);
+    offsets
+        .par_iter_mut()
+        .with_min_len(BLOCK)
+        .enumerate()
+        .for_each(|(f, offset)| *offset = u32::try_from(3 * f).unwrap_or(u32::MAX));
+    offsets
+}
+
+fn turned(mut normals: Vec<DVec3>, turn: DMat3) -> Vec<DVec3> {
+    normals
+        .par_iter_mut()
+        .with_min_len(BLOCK)
+        .for_each(|normal| *normal = (turn * *normal).normalize_or_zero());
+    normals
 }
 
 /// The matrix that turns normals: the transposed inverse.
@@ -236,36 +226,44 @@ fn normal_matrix(to_scene: &DAffine3) -> Option<DMat3> {
 
 struct Welded {
     positions: Vec<DVec3>,
-    /// For each vertex of the triangles its place in `positions`.
-    vertex_of: Vec<u32>,
+    /// For each vertex of the triangles its place in `positions`; `None` if it is its own.
+    vertex_of: Option<Vec<u32>>,
     unused: usize,
 }
 
 /// Joins vertices at exactly the same position, in the order in which each place comes first, and
 /// leaves out those that no triangle uses.
-fn weld(triangles: &Triangles) -> Welded {
-    let mut used = vec![false; triangles.positions.len()];
-    for &v in triangles.corners.as_flattened() {
-        used[v as usize] = true;
-    }
-    let kept: Vec<usize> = (0..used.len()).filter(|&v| used[v]).collect();
-    let unused = used.len() - kept.len();
+fn weld(positions: Vec<DVec3>, corners: &[u32]) -> Welded {
+    let n = positions.len();
+    let used: Vec<AtomicBool> = (0..n).map(|_| AtomicBool::new(false)).collect();
+    corners
+        .par_iter()
+        .with_min_len(BLOCK)
+        .for_each(|&v| used[v as usize].store(true, Relaxed));
+    let is_used = |&v: &usize| used[v].load(Relaxed);
+    let unused = n
+        - (0..n)
+            .into_par_iter()
+            .with_min_len(BLOCK)
+            .filter(is_used)
+            .count();
     if unused == 0 {
-        let (positions, vertex_of) = weld::weld(triangles.positions.clone());
+        let (positions, vertex_of) = weld::weld(positions);
         return Welded {
+            vertex_of: (positions.len() < n).then_some(vertex_of),
             positions,
-            vertex_of,
             unused,
         };
     }
-    let (positions, places) = weld::weld(kept.iter().map(|&v| triangles.positions[v]).collect());
-    let mut vertex_of = vec![0; used.len()];
+    let kept: Vec<usize> = (0..n).filter(is_used).collect();
+    let (positions, places) = weld::weld(kept.iter().map(|&v| positions[v]).collect());
+    let mut vertex_of = vec![0; n];
     for (&v, place) in kept.iter().zip(places) {
         vertex_of[v] = place;
     }
     Welded {
         positions,
-        vertex_of,
+        vertex_of: Some(vertex_of),
         unused,
     }
 }

@@ -235,13 +235,19 @@ fn what_is_left_out_is_said() {
     json["skins"] = json!([{}]);
     json["scenes"] = json!([{ "nodes": [0] }, {}]);
     json["meshes"][0]["primitives"][0]["targets"] = json!([{ "POSITION": 0 }]);
-    json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] = json!(0);
-    json["meshes"][0]["primitives"][0]["attributes"]["_TEMPERATURE"] = json!(0);
+    for name in ["COLOR_1", "TANGENT", "JOINTS_0", "WEIGHTS_0"] {
+        json["meshes"][0]["primitives"][0]["attributes"][name] = json!(0);
+    }
+    for mode in [0, 1, 2, 3] {
+        let lines = json!({ "attributes": { "POSITION": 0 }, "mode": mode });
+        let primitives = json["meshes"][0]["primitives"].as_array_mut().unwrap();
+        primitives.push(lines);
+    }
     json["meshes"]
         .as_array_mut()
         .unwrap()
         .push(json!({ "primitives": [] }));
-    json["extensionsUsed"] = json!(["KHR_lights_punctual", "KHR_mesh_quantization"]);
+    json["extensionsUsed"] = json!(["KHR_lights_punctual", "KHR_mesh_quantization", "KHR_xmp"]);
     json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
     json["textures"] = json!([{ "source": 0 }, { "extensions": {} }]);
     json["images"] = json!([{ "uri": "wood.png" }]);
@@ -249,6 +255,10 @@ fn what_is_left_out_is_said() {
         { "pbrMetallicRoughness": { "baseColorTexture": { "index": 0 } }, "normalTexture": { "index": 1 } },
     ]);
     json["meshes"][0]["primitives"][0]["material"] = json!(0);
+    json["extensions"] = json!({ "KHR_lights_punctual": { "lights": [{}, {}, {}] } });
+    json["nodes"][0]["skin"] = json!(0);
+    let extensions = json!({ "KHR_materials_ior": { "ior": 1.4 }, "KHR_materials_unlit": {} });
+    json["materials"][0]["extensions"] = extensions;
     let loaded = read_json(&json).unwrap();
     let notes: Vec<String> = loaded
         .notes
@@ -256,17 +266,23 @@ fn what_is_left_out_is_said() {
         .map(|n| format!("{} {}", n.count, n.what))
         .collect();
     let expected = [
-        "extension \"KHR_lights_punctual\"",
+        "3 lights",
+        "1 uses of the extension \"KHR_xmp\"",
+        "1 uses of the extension \"KHR_materials_ior\"",
         "1 other scenes",
         "1 animations",
         "1 skins",
         "2 cameras",
-        "1 pictures inside",
+        "1 meshes with a skin",
         "1 meshes left out",
         "1 morph targets",
-        "1 attributes TEXCOORD_1",
-        "1 attributes _TEMPERATURE",
-        "1 textures of materials",
+        "1 primitives of points",
+        "3 primitives of lines",
+        "1 attributes COLOR_1",
+        "1 attributes TANGENT",
+        "1 attributes JOINTS_0",
+        "1 attributes WEIGHTS_0",
+        "1 textures left out",
     ];
     for words in expected {
         assert!(

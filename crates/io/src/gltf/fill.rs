@@ -1,0 +1,110 @@
+//! Writing arrays to where they lie in the buffer, in parallel.
+
+use mesh::{FaceId, Mesh, VertexId};
+use rayon::prelude::*;
+
+use super::faces::Faces;
+use super::split::Split;
+use super::streams::Stream;
+
+/// How many elements are written by one task.
+const BLOCK: usize = 1 << 13;
+
+/// Writes elements of N bytes each.
+fn fill<const N: usize>(out: &mut [u8], value: impl Fn(usize) -> [u8; N] + Sync) {
+    out.par_chunks_mut(N * BLOCK)
+        .enumerate()
+        .for_each(|(block, out)| {
+            for (i, slot) in out.as_chunks_mut().0.iter_mut().enumerate() {
+                *slot = value(block * BLOCK + i);
+            }
+        });
+}
+
+pub(super) fn fill_positions(out: &mut [u8], mesh: &Mesh, split: &Split) {
+    fill(out, |i| {
+        let position = mesh.position(split.vertex(mesh, i)).as_vec3();
+        bytemuck::cast::<[[u8; 4]; 3], [u8; 12]>(position.to_array().map(f32::to_le_bytes))
+    });
+}
+
+pub(super) fn fill_stream(out: &mut [u8], mesh: &Mesh, split: &Split, stream: &Stream) {
+    let size = stream.kind.multiplicity() * size_of::<f32>();
+    out.par_chunks_mut(size * BLOCK)
+        .enumerate()
+        .for_each(|(block, out)| {
+            for (i, slot) in out.chunks_exact_mut(size).enumerate() {
+                let (v, h) = split.corner(mesh, block * BLOCK + i);
+                let (value, _) = stream.at(mesh, v, h);
+                for (slot, x) in slot.as_chunks_mut().0.iter_mut().zip(value) {
+                    *slot = x.to_le_bytes();
+                }
+            }
+        });
+}
+
+pub(super) fn fill_indices(out: &mut [u8], mesh: &Mesh, split: &Split, faces: &Faces, short: bool) {
+    let triangle = |i: usize| match faces {
+        Faces::All(_) => corners(mesh, split, FaceId::new(i)),
+        Faces::Triangles(faces) => corners(mesh, split, FaceId::new(faces[i] as usize)),
+        Faces::Cut(corners) => [corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]],
+    };
+    if short {
+        let bytes = |v: u32| u16::try_from(v).unwrap_or(u16::MAX).to_le_bytes();
+        fill(out, |i| {
+            bytemuck::cast::<[[u8; 2]; 3], [u8; 6]>(triangle(i).map(bytes))
+        });
+    } else {
+        fill(out, |i| {
+            bytemuck::cast::<[[u8; 4]; 3], [u8; 12]>(triangle(i).map(u32::to_le_bytes))
+        });
+    }
+}
+
+fn corners(mesh: &Mesh, split: &Split, f: FaceId) -> [u32; 3] {
+    let mut corners = [0; 3];
+    for (slot, h) in corners.iter_mut().zip(mesh.face_half_edges(f)) {
+        *slot = split.vertex_of(mesh, h);
+    }
+    corners
+}
+
+/// The box around the positions of all vertices.
+#[derive(Clone, Copy)]
+pub(super) struct Bounds {
+    pub(super) min: [f32; 3],
+    pub(super) max: [f32; 3],
+}
+
+/// The box around positions with 32 bits.
+///
+/// # Errors
+///
+/// The first vertex whose position is not finite with 32 bits.
+pub(super) fn bounds(mesh: &Mesh, split: &Split) -> Result<Bounds, VertexId> {
+    let position = |i| mesh.position(split.vertex(mesh, i)).as_vec3();
+    let none = (glam::Vec3::INFINITY, glam::Vec3::NEG_INFINITY, true);
+    let join = |a: (glam::Vec3, glam::Vec3, bool), b: (glam::Vec3, glam::Vec3, bool)| {
+        (a.0.min(b.0), a.1.max(b.1), a.2 && b.2)
+    };
+    let (min, max, finite) = (0..split.n)
+        .into_par_iter()
+        .with_min_len(BLOCK)
+        .fold(
+            || none,
+            |all, i| {
+                let p = position(i);
+                join(all, (p, p, p.is_finite()))
+            },
+        )
+        .reduce(|| none, join);
+    if !finite {
+        let broken = (0..split.n).find(|&i| !position(i).is_finite());
+        return Err(broken.map_or(VertexId::new(0), |i| split.vertex(mesh, i)));
+    }
+    // Adding 0 turns -0 into 0: which of the two comes out must not depend on the order.
+    Ok(Bounds {
+        min: (min + 0.0).to_array(),
+        max: (max + 0.0).to_array(),
+    })
+}

@@ -1,0 +1,259 @@
+//! Materials: from the document to the scene.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use scene::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
+use serde::Deserialize;
+
+use super::JsonError;
+use super::accessor::Reader;
+use super::buffers::data_uri;
+use super::decimal;
+use super::surface::{
+    AlphaJson, Extensions, ImageJson, InfoJson, STRENGTH, SamplerJson, TRANSFORM, TransformJson,
+    UNLIT,
+};
+use crate::note::Notes;
+
+/// Makes materials, each picture once.
+pub(super) struct Materials<'a> {
+    reader: &'a Reader<'a>,
+    images: BTreeMap<usize, Option<Image>>,
+    known: BTreeMap<usize, Material>,
+    /// How many textures have no picture.
+    without_picture: usize,
+}
+
+impl<'a> Materials<'a> {
+    pub(super) fn new(reader: &'a Reader<'a>) -> Self {
+        Self {
+            reader,
+            images: BTreeMap::new(),
+            known: BTreeMap::new(),
+            without_picture: 0,
+        }
+    }
+
+    /// Says what was left out.
+    pub(super) fn note(self, notes: &mut Notes) {
+        let what = "textures left out: they have no picture that can be taken";
+        notes.left_out(self.without_picture, None, what);
+    }
+
+    /// Material number `i` of the document, which has it.
+    ///
+    /// # Errors
+    ///
+    /// If it refers to a texture or its bytes that are not there.
+    pub(super) fn get(&mut self, i: usize) -> Result<Material, JsonError> {
+        if let Some(known) = self.known.get(&i) {
+            return Ok(known.clone());
+        }
+        let reader = self.reader;
+        let from = &reader.document.materials[i];
+        let here = format!("/materials/{i}");
+        let name = from.name.clone();
+        let mut to = Material::new(name.unwrap_or_else(|| format!("material {i}")));
+        let pbr = from.pbr_metallic_roughness.clone().unwrap_or_default();
+        to.base_color = pbr.base_color_factor.unwrap_or([1.0; 4]).map(unit);
+        to.metallic = unit(pbr.metallic_factor.unwrap_or(1.0));
+        to.roughness = unit(pbr.roughness_factor.unwrap_or(1.0));
+        let mut texture = |info: &Option<InfoJson>, name: &str| match info {
+            None => Ok(None),
+            Some(info) => self.texture(info, &format!("{here}/{name}")),
+        };
+        to.base_color_texture = texture(
+            &pbr.base_color_texture,
+            "pbrMetallicRoughness/baseColorTexture",
+        )?;
+        to.metallic_roughness_texture = texture(
+            &pbr.metallic_roughness_texture,
+            "pbrMetallicRoughness/metallicRoughnessTexture",
+        )?;
+        to.normal_texture = texture(&from.normal_texture, "normalTexture")?;
+        to.occlusion_texture = texture(&from.occlusion_texture, "occlusionTexture")?;
+        to.emissive_texture = texture(&from.emissive_texture, "emissiveTexture")?;
+        // Without its texture a number has no meaning.
+        if let (Some(info), Some(_)) = (&from.normal_texture, &to.normal_texture) {
+            to.normal_scale = rounded(info.scale.unwrap_or(1.0));
+        }
+        if let (Some(info), Some(_)) = (&from.occlusion_texture, &to.occlusion_texture) {
+            to.occlusion_strength = unit(info.strength.unwrap_or(1.0));
+        }
+        to.emissive = from.emissive_factor.unwrap_or([0.0; 3]).map(unit);
+        if let Some(strength) = from.extensions.get(STRENGTH) {
+            let strength = strength
+                .get("emissiveStrength")
+                .and_then(serde_json::Value::as_f64);
+            to.emissive_strength = rounded(strength.unwrap_or(1.0).max(0.0));
+        }
+        to.alpha = match from.alpha_mode {
+            None | Some(AlphaJson::Opaque) => AlphaMode::Opaque,
+            Some(AlphaJson::Mask) => {
+                AlphaMode::Mask(rounded(from.alpha_cutoff.unwrap_or(0.5).max(0.0)))
+            }
+            Some(AlphaJson::Blend) => AlphaMode::Blend,
+        };
+        to.double_sided = from.double_sided;
+        to.unlit = from.extensions.contains_key(UNLIT);
+        self.known.insert(i, to.clone());
+        Ok(to)
+    }
+
+    fn texture(&mut self, info: &InfoJson, here: &str) -> Result<Option<Texture>, JsonError> {
+        let document = self.reader.document;
+        let pointer = || format!("{here}/index");
+        let texture = super::document::get(&document.textures, info.index, pointer, "texture")?;
+        let at = format!("/textures/{}", info.index);
+        let image = match texture.source {
+            None => None,
+            Some(source) => {
+                let pointer = || format!("{at}/source");
+                let image = super::document::get(&document.images, source, pointer, "image")?;
+                if !self.images.contains_key(&source) {
+                    let loaded = self.image(image, &format!("/images/{source}"))?;
+                    self.images.insert(source, loaded);
+                }
+                self.images[&source].clone()
+            }
+        };
+        let Some(image) = image else {
+            self.without_picture += 1;
+            return Ok(None);
+        };
+        let sampler = match texture.sampler {
+            None => Sampler::default(),
+            Some(sampler) => {
+                let pointer = || format!("{at}/sampler");
+                let from = super::document::get(&document.samplers, sampler, pointer, "sampler")?;
+                to_sampler(from, &format!("/samplers/{sampler}"))?
+            }
+        };
+        let (transform, uv_set) = transform(&info.extensions, here)?;
+        Ok(Some(Texture {
+            image,
+            uv_set: uv_set.unwrap_or(info.tex_coord),
+            sampler,
+            transform,
+        }))
+    }
+
+    fn image(&self, from: &ImageJson, here: &str) -> Result<Option<Image>, JsonError> {
+        let (given, bytes): (Option<&str>, Arc<[u8]>) = match (&from.uri, from.buffer_view) {
+            (Some(uri), _) => match uri.strip_prefix("data:") {
+                None => return Ok(Some(Image::File(decoded(uri)))),
+                Some(data) => {
+                    let (mime, bytes) =
+                        data_uri(data).map_err(|why| JsonError::new(format!("{here}/uri"), why))?;
+                    (Some(mime), bytes.into())
+                }
+            },
+            (None, Some(view)) => {
+                let bytes = self.reader.view(view, || format!("{here}/bufferView"))?;
+                self.reader.spend(bytes.len() as u64, here)?;
+                (None, bytes.into())
+            }
+            (None, None) => return Ok(None),
+        };
+        let mime = from
+            .mime_type
+            .as_deref()
+            .or(given)
+            .filter(|mime| !mime.is_empty());
+        let mime = mime.unwrap_or_else(|| sniffed(&bytes)).to_owned();
+        Ok(Some(Image::Embedded { mime, bytes }))
+    }
+}
+
+/// The type that the first bytes of a picture say.
+pub(super) fn sniffed(bytes: &[u8]) -> &'static str {
+    match bytes {
+        [0x89, b'P', b'N', b'G', ..] => "image/png",
+        [0xff, 0xd8, 0xff, ..] => "image/jpeg",
+        _ => "application/octet-stream",
+    }
+}
+
+/// The path that a URI reference spells; a URI with a scheme as it is.
+fn decoded(uri: &str) -> String {
+    if has_scheme(uri) {
+        return uri.to_owned();
+    }
+    crate::asset_path::percent_decoded(uri).unwrap_or_else(|| uri.to_owned())
+}
+
+/// Whether a text begins with the scheme of a URI; one letter is a drive.
+pub(super) fn has_scheme(uri: &str) -> bool {
+    uri.split_once(':').is_some_and(|(scheme, _)| {
+        scheme.len() > 1
+            && scheme.starts_with(|c: char| c.is_ascii_alphabetic())
+            && scheme
+                .chars()
+                .all(|c| c.is_ascii_alphanumeric() || "+-.".contains(c))
+    })
+}
+
+fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, JsonError> {
+    use Filter::{Linear, Nearest};
+    let error = |name: &str, found: u32| {
+        let what = format!("found {found}, which is none of the numbers for it");
+        JsonError::new(format!("{here}/{name}"), what)
+    };
+    let wrap = |name: &str, number: Option<u32>| match number.unwrap_or(10497) {
+        10497 => Ok(Wrap::Repeat),
+        33648 => Ok(Wrap::Mirror),
+        33071 => Ok(Wrap::Clamp),
+        other => Err(error(name, other)),
+    };
+    let (minify, mipmap) = match from.min_filter {
+        None => (None, None),
+        Some(9728) => (Some(Nearest), None),
+        Some(9729) => (Some(Linear), None),
+        Some(9984) => (Some(Nearest), Some(Nearest)),
+        Some(9985) => (Some(Linear), Some(Nearest)),
+        Some(9986) => (Some(Nearest), Some(Linear)),
+        Some(9987) => (Some(Linear), Some(Linear)),
+        Some(other) => return Err(error("minFilter", other)),
+    };
+    let magnify = match from.mag_filter {
+        None => None,
+        Some(9728) => Some(Nearest),
+        Some(9729) => Some(Linear),
+        Some(other) => return Err(error("magFilter", other)),
+    };
+    Ok(Sampler {
+        wrap: [wrap("wrapS", from.wrap_s)?, wrap("wrapT", from.wrap_t)?],
+        magnify,
+        minify,
+        mipmap,
+    })
+}
+
+/// The transform of a texture, and the texture coordinates that it asks for instead.
+fn transform(
+    extensions: &Extensions,
+    here: &str,
+) -> Result<(TextureTransform, Option<u32>), JsonError> {
+    let Some(json) = extensions.get(TRANSFORM) else {
+        return Ok((TextureTransform::default(), None));
+    };
+    let json = TransformJson::deserialize(json)
+        .map_err(|e| JsonError::new(format!("{here}/extensions/{TRANSFORM}"), e.to_string()))?;
+    let transform = TextureTransform {
+        offset: json.offset.unwrap_or([0.0; 2]).map(rounded),
+        rotation: rounded(json.rotation.unwrap_or(0.0)),
+        scale: json.scale.unwrap_or([1.0; 2]).map(rounded),
+    };
+    Ok((transform, json.tex_coord))
+}
+
+fn unit(x: f64) -> f64 {
+    rounded(x).clamp(0.0, 1.0)
+}
+
+/// The shortest decimal number that is this one with 32 bits, and no larger than 32 bits hold.
+#[expect(clippy::cast_possible_truncation, reason = "that is the purpose")]
+pub(super) fn rounded(x: f64) -> f64 {
+    decimal((x as f32).clamp(f32::MIN, f32::MAX))
+}

@@ -1,0 +1,156 @@
+//! What glTF has for each of its vertices: normals, texture coordinates, colors and attributes of any name.
+
+use glam::DVec3;
+use gltf_json::accessor::Type;
+use gltf_json::mesh::Semantic;
+use mesh::{Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId};
+use rayon::prelude::*;
+
+use super::names::{custom_semantic, uv_set};
+use super::split::Split;
+use crate::loss::Losses;
+
+/// An attribute of a mesh as glTF has it: 32 bits, normals of length 1, v downwards, colors from 0 to 1.
+pub(super) struct Stream<'a> {
+    pub(super) semantic: Semantic,
+    pub(super) kind: Type,
+    meaning: Meaning,
+    pub(super) domain: Domain,
+    pub(super) column: &'a Column,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Meaning {
+    Normal,
+    Uv,
+    Color,
+    Other,
+}
+
+/// The streams of a mesh. What is none of them is a loss.
+pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>> {
+    let mut streams: Vec<Stream> = Vec::new();
+    // Texture coordinates are counted from 0, without gaps.
+    let is_uv = |set: u32| {
+        let columns = mesh.attributes().of(Domain::Corner).iter();
+        columns
+            .filter(|column| uv_set(&column.name) == Some(set))
+            .any(|column| matches!(column.values, Values::Vec2(_)))
+    };
+    let n_uvs = (0..u32::MAX).take_while(|&set| is_uv(set)).count();
+    let n_uvs = u32::try_from(n_uvs).unwrap_or(u32::MAX);
+    for domain in [Domain::Corner, Domain::Vertex] {
+        for column in mesh.attributes().of(domain) {
+            if let Some(stream) = stream(domain, column, n_uvs) {
+                // What corners have goes before what vertices have.
+                if streams
+                    .iter()
+                    .all(|other| other.semantic != stream.semantic)
+                {
+                    streams.push(stream);
+                }
+            }
+        }
+    }
+    losses.add_columns(mesh, "glTF", |domain, column| {
+        let is_material = domain == Domain::Face && column.name == mesh::MATERIAL.name;
+        is_material && matches!(column.values, Values::Int(_))
+            || streams
+                .iter()
+                .any(|stream| std::ptr::eq(stream.column, column))
+    });
+    streams.sort_by(|a, b| a.semantic.cmp(&b.semantic));
+    streams
+}
+
+fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {
+    let kind = match column.values {
+        Values::Float(_) => Type::Scalar,
+        Values::Vec2(_) => Type::Vec2,
+        Values::Vec3(_) => Type::Vec3,
+        Values::Vec4(_) => Type::Vec4,
+        Values::Int(_) | Values::Tag(_) => return None,
+    };
+    let (semantic, meaning) = match (column.name.as_str(), kind) {
+        ("normal", Type::Vec3) => (Semantic::Normals, Meaning::Normal),
+        ("color", Type::Vec4) => (Semantic::Colors(0), Meaning::Color),
+        (name, Type::Vec2) if domain == Domain::Corner && uv_set(name).is_some() => {
+            let set = uv_set(name).filter(|&set| set < n_uvs)?;
+            (Semantic::TexCoords(set), Meaning::Uv)
+        }
+        (name, _) => (custom_semantic(name)?, Meaning::Other),
+    };
+    Some(Stream {
+        semantic,
+        kind,
+        meaning,
+        domain,
+        column,
+    })
+}
+
+impl Stream<'_> {
+    /// The value at a corner, as many numbers as the kind has, and whether it is what the mesh has.
+    pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
+        let i = match self.domain {
+            Domain::Vertex => v.index(),
+            _ => h.index(),
+        };
+        let value = match &self.column.values {
+            Values::Float(values) => [values[i], 0.0, 0.0, 0.0],
+            Values::Vec2(values) => [values[i].x, values[i].y, 0.0, 0.0],
+            Values::Vec3(values) => [values[i].x, values[i].y, values[i].z, 0.0],
+            Values::Vec4(values) => values[i].to_array(),
+            Values::Int(_) | Values::Tag(_) => [0.0; 4],
+        };
+        let [x, y, z, _] = value;
+        match self.meaning {
+            Meaning::Normal => {
+                let unit = DVec3::new(x, y, z).try_normalize();
+                let [x, y, z] = unit
+                    .unwrap_or_else(|| face_normal(mesh, mesh.face(h)))
+                    .to_array();
+                narrow([x, y, z, 0.0], unit.is_some())
+            }
+            Meaning::Uv => narrow([x, 1.0 - y, 0.0, 0.0], true),
+            Meaning::Color => {
+                let inside = |x: f64| if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };
+                let color = value.map(inside);
+                narrow(color, color == value)
+            }
+            Meaning::Other => narrow(value, true),
+        }
+    }
+
+    /// Says how many values of the written vertices are not what the mesh has.
+    pub(super) fn count_broken(&self, mesh: &Mesh, split: &Split, losses: &mut Losses) {
+        let broken = (0..split.n)
+            .into_par_iter()
+            .with_min_len(1 << 12)
+            .filter(|&i| {
+                let (v, h) = split.corner(mesh, i);
+                !self.at(mesh, v, h).1
+            })
+            .count();
+        let reason = match self.meaning {
+            Meaning::Normal => "without a direction: written as that of the face",
+            Meaning::Color => "outside of 0 to 1: written as the nearest inside",
+            Meaning::Uv | Meaning::Other => "not finite with 32 bits: written as 0",
+        };
+        losses.add(self.domain, &self.column.name, broken, reason);
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "glTF has 32 bits")]
+fn narrow(value: [f64; 4], good: bool) -> ([f32; 4], bool) {
+    let narrow = value.map(|x| x as f32);
+    if narrow.iter().all(|x| x.is_finite()) {
+        return (narrow, good);
+    }
+    (narrow.map(|x| if x.is_finite() { x } else { 0.0 }), false)
+}
+
+fn face_normal(mesh: &Mesh, f: Option<FaceId>) -> DVec3 {
+    f.and_then(|f| mesh.area_vector(f).try_normalize())
+        .unwrap_or(DVec3::Z)
+}

@@ -69,10 +69,12 @@ pub(crate) fn joined<'a>(
         return Err(Unwritable::Scene { message });
     }
     let mut losses_of_all = Losses::of(&name, &mut losses);
-    let reason = match tags {
-        true => format!("a {format} file holds one mesh: each object became a face tag"),
-        false => format!("a {format} file holds one mesh"),
+    let became = if tags {
+        ": each object became a face tag"
+    } else {
+        ""
     };
+    let reason = format!("a {format} file holds one mesh{became}");
     losses_of_all.add(None, "name", meshes.len(), reason);
     let mut mesh = connected(&meshes);
     mesh.set_attributes(appended(scene.objects(), &meshes, &mut losses_of_all));
@@ -160,18 +162,15 @@ fn tag_objects(mesh: &mut Mesh, objects: &[Object], meshes: &[Cow<Mesh>], losses
         let name = format!("{OBJECT_TAG}{}", object.name);
         let mut marks = match mesh.attributes().column(Domain::Face, &name) {
             None => vec![false; mesh.n_faces()],
-            Some(column) => match &column.values {
-                Values::Tag(marks) => marks.clone(),
-                _ => {
-                    losses.add(
-                        Domain::Face,
-                        &name,
-                        own.len(),
-                        "another attribute has this name",
-                    );
-                    continue;
-                }
-            },
+            Some(Column {
+                values: Values::Tag(marks),
+                ..
+            }) => marks.clone(),
+            Some(_) => {
+                let reason = "another attribute has this name";
+                losses.add(Domain::Face, &name, own.len(), reason);
+                continue;
+            }
         };
         marks[own].fill(true);
         let column = Column {

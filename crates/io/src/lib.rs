@@ -48,6 +48,7 @@ mod error;
 mod format;
 mod gltf;
 mod joined;
+mod lines;
 mod loss;
 mod names;
 mod note;
@@ -60,6 +61,7 @@ mod polygons;
 mod save;
 mod stl;
 mod text;
+mod vertex_uvs;
 mod weld;
 
 use std::path::{Path, PathBuf};

@@ -10,6 +10,7 @@ use super::header::{Element, Encoding, Header, Property};
 use super::table::Table;
 use super::types::Type;
 use crate::error::{ReadError, TextError};
+use crate::lines::{count_rest, skip_empty_lines};
 use crate::note::Notes;
 use crate::text::{Cursor, Place, number, quoted};
 
@@ -140,17 +141,6 @@ fn stored(kind: Type) -> Type {
     if kind.is_float() { Type::Float64 } else { kind }
 }
 
-fn skip_empty_lines(cursor: &mut Cursor) {
-    loop {
-        cursor.skip_white();
-        let mut line = cursor.clone();
-        if cursor.is_at_end() || line.argument().is_some() {
-            return;
-        }
-        cursor.skip_line();
-    }
-}
-
 /// The rows of a text as little-endian rows.
 fn transcoded(
     text: &[u8],
@@ -192,14 +182,8 @@ fn transcoded(
             cursor.skip_line();
         }
     }
-    skip_empty_lines(&mut cursor);
-    let first = cursor.place().line + header.lines;
-    let mut lines = 0;
-    while !cursor.is_at_end() {
-        lines += 1;
-        cursor.skip_line();
-        skip_empty_lines(&mut cursor);
-    }
+    let (lines, first) = count_rest(&mut cursor);
+    let first = first + header.lines;
     notes.left_out(lines, first, "lines behind the last element left out");
     Ok(out)
 }

@@ -138,6 +138,9 @@ fn alike<S: Scalar, const N: usize, V: Value>(
     }
 }
 
+/// Where the list of each row begins, and the items of all.
+type Lists = (Vec<u32>, Vec<u32>);
+
 /// The lists of a table one behind the other as vertices: where each begins, and the vertices.
 ///
 /// # Errors
@@ -147,7 +150,7 @@ pub(super) fn indices(
     table: &Table,
     property: usize,
     n_vertices: usize,
-) -> Result<(Vec<u32>, Vec<u32>), Option<(usize, usize)>> {
+) -> Result<Lists, Option<(usize, usize)>> {
     let (offsets, total) = offsets(table, property).ok_or(None)?;
     let mut corners = zeroed::<u32>(total);
     let bad = AtomicBool::new(false);

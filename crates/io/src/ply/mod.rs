@@ -33,6 +33,7 @@ mod marks;
 mod peek;
 mod read;
 mod roles;
+mod strips;
 mod table;
 mod types;
 mod write;

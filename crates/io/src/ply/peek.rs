@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::body::Body;
 use super::header::{Element, parse};
-use super::read::triangles_of_strips;
 use super::roles::{self, Roles};
+use super::strips::triangles_of_strips;
 use crate::error::ReadError;
 use crate::note::Notes;
 use crate::peek::{PeekGeometry, PeekMesh};

@@ -12,6 +12,7 @@ use super::columns::{Kind, corner_values, indices, item_at, mend, numbers, value
 use super::header::{Element, Header, parse};
 use super::marks::Mark;
 use super::roles::{self, Roles};
+use super::strips::triangles_of_strips;
 use super::table::{BLOCK, Table};
 use super::types::Type;
 use crate::error::ReadError;
@@ -174,7 +175,7 @@ impl Reader<'_, '_> {
             self.notes
                 .changed(count, None, "texture coordinates that are not finite are 0");
             let uvs = uvs.gather(corners.len(), |c| Some(corners[c] as usize));
-            self.insert(Domain::Corner, UV.name.to_owned(), UV.rule, uvs);
+            self.insert(Domain::Corner, UV.name, UV.rule, uvs);
         }
         self.plain(Domain::Vertex, roles.vertex, &used);
     }
@@ -200,7 +201,7 @@ impl Reader<'_, '_> {
             if fits {
                 used[list] = true;
                 let (values, _) = corner_values(table, list, &self.polygons.offsets, mark.kind);
-                self.insert(Domain::Corner, mark.name, mark.rule, values);
+                self.insert(Domain::Corner, &mark.name, mark.rule, values);
             }
         }
         if let Some(list) = element.list("texcoord").filter(|&list| !used[list]) {
@@ -210,7 +211,7 @@ impl Reader<'_, '_> {
             let line = element.properties[list].place.line;
             let what = "faces have texture coordinates 0: `texcoord` has not two for each corner";
             self.notes.changed(short, line, what);
-            self.insert(Domain::Corner, UV.name.to_owned(), UV.rule, values);
+            self.insert(Domain::Corner, UV.name, UV.rule, values);
         }
         self.normals_and_colors(Domain::Face, place, &mut used);
         self.plain(Domain::Face, place, &used);
@@ -235,7 +236,7 @@ impl Reader<'_, '_> {
             if fit && !used[range.clone()].contains(&true) {
                 used[range].fill(true);
                 let values = values(&self.tables[place], first, mark.kind);
-                self.insert(domain, mark.name, mark.rule, values);
+                self.insert(domain, &mark.name, mark.rule, values);
             }
         }
     }
@@ -246,12 +247,7 @@ impl Reader<'_, '_> {
         if let Some(normal) = free(used, roles::normal(element)) {
             mark_used(used, &normal);
             let normals = Values::Vec3(numbers(table, normal, DVec3::from_array));
-            self.insert(
-                domain,
-                VERTEX_NORMAL.name.to_owned(),
-                VERTEX_NORMAL.rule,
-                normals,
-            );
+            self.insert(domain, VERTEX_NORMAL.name, VERTEX_NORMAL.rule, normals);
         }
         let Some((rgb, alpha)) = roles::color(element) else {
             return;
@@ -276,7 +272,7 @@ impl Reader<'_, '_> {
         } else {
             Rule::Copy
         };
-        self.insert(domain, COLOR.name.to_owned(), rule, Values::Vec4(colors));
+        self.insert(domain, COLOR.name, rule, Values::Vec4(colors));
     }
 
     /// Properties without a meaning, under their own names; lists are left out.
@@ -306,19 +302,19 @@ impl Reader<'_, '_> {
                 _ => values(table, p, Kind::Int),
             };
             let rule = plain_rule(domain, property.value);
-            self.insert(domain, property.name.clone(), rule, values);
+            self.insert(domain, &property.name, rule, values);
         }
     }
 
     /// Adds a column; a name that is taken gets a number.
-    fn insert(&mut self, domain: Domain, name: String, rule: Rule, mut values: Values) {
+    fn insert(&mut self, domain: Domain, name: &str, rule: Rule, mut values: Values) {
         let count = mend(&mut values);
         let what = format!(
             "values of `{}` that are not finite are 0",
             name.escape_debug()
         );
         self.notes.changed(count, None, what);
-        let mut free = name.clone();
+        let mut free = name.to_owned();
         let mut number = 2;
         while !self.names.insert((domain, free.clone())) {
             free = format!("{name} {number}");
@@ -406,57 +402,4 @@ fn mark_used(used: &mut [bool], properties: &[usize]) {
 /// The properties, if none of them is used.
 fn free<const N: usize>(used: &[bool], properties: Option<[usize; N]>) -> Option<[usize; N]> {
     properties.filter(|properties| !properties.iter().any(|&p| used[p]))
-}
-
-/// Three vertices for each triangle, how many strips there are, and how many triangles of them visit a
-/// vertex twice.
-type Strips = (Vec<u32>, usize, usize);
-
-/// # Errors
-///
-/// The row, the item and the message of the first item that is neither a vertex nor -1.
-pub(super) fn triangles_of_strips(
-    table: &Table,
-    list: usize,
-    n_vertices: usize,
-) -> Result<Strips, (usize, usize, String)> {
-    let (mut corners, mut strips, mut stitches) = (Vec::new(), 0, 0);
-    for row in 0..table.rows {
-        let (mut last, mut length) = ([0, 0], 0_usize);
-        for item in 0..table.count(list, row) {
-            let value = item_at(table, list, row, item);
-            if value == -1 {
-                length = 0;
-                continue;
-            }
-            let v = u32::try_from(value)
-                .ok()
-                .filter(|&v| (v as usize) < n_vertices);
-            let Some(v) = v else {
-                let message =
-                    format!("expected -1 or a vertex from 0 to below {n_vertices}, found {value}");
-                return Err((row, item, message));
-            };
-            length += 1;
-            strips += usize::from(length == 1);
-            let [a, b] = last;
-            if length >= 3 {
-                if a == b || b == v || v == a {
-                    stitches += 1;
-                } else if corners.len() + 3 >= u32::MAX as usize {
-                    return Err((
-                        row,
-                        item,
-                        "expected fewer than 4294967295 corners".to_owned(),
-                    ));
-                } else if length % 2 == 1 {
-                    corners.extend([a, b, v]);
-                } else {
-                    corners.extend([b, a, v]);
-                }
-            }
-            last = [b, v];
-        }
-    }
-    Ok((corners, strips, stitches))
 }

@@ -62,19 +62,13 @@ fn scalar(element: &Element, name: &str) -> Result<usize, TextError> {
         return Ok(found);
     }
     let element_name = element.name.escape_debug();
-    Err(match element.list(name) {
-        Some(list) => {
-            let place = element.properties[list].place;
-            place.error(format!(
-                "expected a single value `{name}` of element `{element_name}`, found a list"
-            ))
-        }
-        None => {
-            let message =
-                format!("expected a property `{name}` of element `{element_name}`, found none");
-            element.place.error(message)
-        }
-    })
+    let (place, found) = match element.list(name) {
+        Some(list) => (element.properties[list].place, "a list"),
+        None => (element.place, "none"),
+    };
+    let message =
+        format!("expected a single value `{name}` of element `{element_name}`, found {found}");
+    Err(place.error(message))
 }
 
 /// The list of the vertices of a face or strip.

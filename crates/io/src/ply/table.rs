@@ -107,17 +107,11 @@ impl<'a> Table<'a> {
             };
             return Ok((table, start));
         }
-        let length = match table.even() {
-            Some((layout, length)) => {
-                table.layout = layout;
-                length
-            }
-            None => {
-                let (layout, length) = table.scanned(element)?;
-                table.layout = layout;
-                length
-            }
+        let (layout, length) = match table.even() {
+            Some(found) => found,
+            None => table.scanned(element)?,
         };
+        table.layout = layout;
         table.bytes = &bytes[..length];
         Ok((table, start + length))
     }

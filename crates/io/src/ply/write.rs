@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use glam::{DVec2, DVec3};
-use mesh::{Column, Domain, FaceId, Mesh, Rule, UV, Values, VertexId};
+use glam::DVec3;
+use mesh::{Column, Domain, FaceId, Mesh, Rule, UV, Values};
 use rayon::prelude::*;
 use scene::Scene;
 
@@ -16,6 +16,7 @@ use super::read::plain_rule;
 use super::roles;
 use super::table::BLOCK;
 use super::types::Type;
+use crate::vertex_uvs::uvs_of_vertices;
 use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
@@ -83,21 +84,6 @@ pub(crate) fn write(
         files: vec![(path.to_path_buf(), out)],
         losses: joined.losses,
     })
-}
-
-/// Texture coordinates of vertices, if all corners of each have the same bits.
-fn uvs_of_vertices(mesh: &Mesh, uvs: &[DVec2]) -> Option<Vec<DVec2>> {
-    let bits = |uv: DVec2| uv.to_array().map(f64::to_bits);
-    let of_vertex = |v: usize| {
-        let corners = mesh.vertex_half_edges(VertexId::new(v));
-        let mut corners = corners
-            .filter(|&h| mesh.face(h).is_some())
-            .map(|h| uvs[h.index()]);
-        let first = corners.next().unwrap_or_default();
-        corners.all(|uv| bits(uv) == bits(first)).then_some(first)
-    };
-    let all = (0..mesh.n_vertices()).into_par_iter().with_min_len(BLOCK);
-    all.map(of_vertex).collect()
 }
 
 /// A table to be written.

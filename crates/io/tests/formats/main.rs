@@ -7,8 +7,10 @@ mod gltf_broken;
 mod gltf_read;
 mod gltf_written;
 mod obj_files;
+mod off_files;
 mod ply_broken;
 mod ply_files;
+mod stl_files;
 
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};

@@ -134,7 +134,7 @@ fn properties_have_the_shape_that_their_names_ask_for() {
     );
     assert_error(
         header("property float x\n", list),
-        "3:9: expected a property `y`",
+        "3:9: expected a single value `y`",
     );
     assert_error(
         header(VERTEX, "property int vertex_indices\n"),

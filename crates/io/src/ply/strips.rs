@@ -1,0 +1,59 @@
+//! Triangle strips, as the Stanford scans have them.
+
+use super::columns::item_at;
+use super::table::Table;
+
+/// Three vertices for each triangle, how many strips there are, and how many triangles of them visit a
+/// vertex twice.
+type Strips = (Vec<u32>, usize, usize);
+
+/// The triangles of lists in which -1 ends a strip: every second one of a strip is turned round.
+///
+/// # Errors
+///
+/// The row, the item and the message of the first item that is neither a vertex nor -1.
+pub(super) fn triangles_of_strips(
+    table: &Table,
+    list: usize,
+    n_vertices: usize,
+) -> Result<Strips, (usize, usize, String)> {
+    let (mut corners, mut strips, mut stitches) = (Vec::new(), 0, 0);
+    for row in 0..table.rows {
+        let (mut last, mut length) = ([0, 0], 0_usize);
+        for item in 0..table.count(list, row) {
+            let value = item_at(table, list, row, item);
+            if value == -1 {
+                length = 0;
+                continue;
+            }
+            let v = u32::try_from(value)
+                .ok()
+                .filter(|&v| (v as usize) < n_vertices);
+            let Some(v) = v else {
+                let message =
+                    format!("expected -1 or a vertex from 0 to below {n_vertices}, found {value}");
+                return Err((row, item, message));
+            };
+            length += 1;
+            strips += usize::from(length == 1);
+            let [a, b] = last;
+            if length >= 3 {
+                if a == b || b == v || v == a {
+                    stitches += 1;
+                } else if corners.len() + 3 >= u32::MAX as usize {
+                    return Err((
+                        row,
+                        item,
+                        "expected fewer than 4294967295 corners".to_owned(),
+                    ));
+                } else if length % 2 == 1 {
+                    corners.extend([a, b, v]);
+                } else {
+                    corners.extend([b, a, v]);
+                }
+            }
+            last = [b, v];
+        }
+    }
+    Ok((corners, strips, stitches))
+}

@@ -1,0 +1,90 @@
+//! Binary STL: 80 bytes of header, the count, and 50 bytes for each triangle.
+
+use glam::DVec3;
+use mesh::zeroed;
+use rayon::prelude::*;
+
+use super::read::{Facets, Normals, compare};
+
+pub(super) const HEADER: usize = 80;
+/// Where the triangles begin: the count has 4 bytes.
+pub(super) const START: usize = HEADER + 4;
+/// A normal and three corners of 3 numbers, and 2 bytes for anything.
+pub(super) const FACET: usize = 50;
+/// Facets that one task works on.
+const BLOCK: usize = 4096;
+
+/// The count in the header; `None` if the file is too short for one.
+pub(super) fn count(bytes: &[u8]) -> Option<u32> {
+    let count = bytes.get(HEADER..)?.first_chunk()?;
+    Some(u32::from_le_bytes(*count))
+}
+
+/// How long a file with the count in its header is.
+pub(super) fn length(bytes: &[u8]) -> Option<u64> {
+    count(bytes).map(|n| START as u64 + FACET as u64 * u64::from(n))
+}
+
+/// The corners of all facets.
+///
+/// # Errors
+///
+/// The place of the first number of a corner that is not finite, and the number.
+pub(super) fn read(facets: &[u8]) -> Result<Facets, (usize, f32)> {
+    let n = facets.len() / FACET;
+    let mut corners = zeroed::<DVec3>(3 * n);
+    let decode = |(corners, facets): (&mut [DVec3], &[u8])| {
+        let mut normals = Normals::default();
+        let mut colored = 0;
+        let mut finite = true;
+        for (corners, facet) in corners.chunks_exact_mut(3).zip(facets.chunks_exact(FACET)) {
+            let numbers: [f32; 12] = std::array::from_fn(|i| number(facet, i));
+            let [a, b, c] = std::array::from_fn(|i| vector(&numbers, 3 + 3 * i));
+            corners.copy_from_slice(&[a, b, c]);
+            finite &= a.is_finite() & b.is_finite() & c.is_finite();
+            normals.add(compare(vector(&numbers, 0), [a, b, c]));
+            colored += usize::from(facet[48..] != [0, 0]);
+        }
+        (normals, colored, finite)
+    };
+    let blocks: Vec<_> = corners
+        .par_chunks_mut(3 * BLOCK)
+        .zip(facets.par_chunks(BLOCK * FACET))
+        .map(decode)
+        .collect();
+    if let Some(block) = blocks.iter().position(|&(_, _, finite)| !finite) {
+        let first = block * BLOCK * FACET;
+        for (i, facet) in facets[first..].chunks_exact(FACET).enumerate() {
+            if let Some(k) = (3..12).find(|&k| !number(facet, k).is_finite()) {
+                return Err((START + first + i * FACET + 4 * k, number(facet, k)));
+            }
+        }
+    }
+    let mut found = Facets {
+        corners,
+        ..Facets::default()
+    };
+    for (normals, colored, _) in blocks {
+        found.normals.append(normals);
+        found.colored += colored;
+    }
+    Ok(found)
+}
+
+#[inline]
+fn number(facet: &[u8], i: usize) -> f32 {
+    f32::from_le_bytes(
+        *facet[4 * i..]
+            .first_chunk()
+            .expect("a facet has 12 numbers"),
+    )
+}
+
+#[inline]
+fn vector(numbers: &[f32; 12], i: usize) -> DVec3 {
+    DVec3::new(
+        numbers[i].into(),
+        numbers[i + 1].into(),
+        numbers[i + 2].into(),
+    )
+}

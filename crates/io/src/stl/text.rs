@@ -1,0 +1,111 @@
+//! STL as text: words in a fixed order, however they are laid out in lines.
+
+use glam::DVec3;
+
+use super::read::{Facets, compare};
+use crate::error::TextError;
+use crate::text::{Cursor, Place, name, number, quoted};
+
+/// The facets of a text.
+///
+/// # Errors
+///
+/// The first word that breaks the rules of the format.
+pub(super) fn read(bytes: &[u8]) -> Result<Facets, TextError> {
+    let mut found = Facets::default();
+    let mut cursor = Cursor::new(bytes);
+    expect(&mut cursor, b"solid")?;
+    loop {
+        let name = name(&cursor.rest_of_line());
+        found.solids.push((name, found.corners.len() / 3));
+        solid(&mut cursor, &mut found)?;
+        // The name behind `endsolid` says nothing new.
+        cursor.skip_line();
+        cursor.skip_white();
+        if cursor.is_at_end() {
+            return Ok(found);
+        }
+        expect(&mut cursor, b"solid")?;
+    }
+}
+
+/// Reads facets up to `endsolid`.
+fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), TextError> {
+    loop {
+        let (place, keyword) = word(cursor);
+        if is(keyword, b"endsolid") {
+            return Ok(());
+        }
+        if !is(keyword, b"facet") {
+            let message = format!("expected `facet` or `endsolid`, found {}", quoted(keyword));
+            return Err(place.error(message));
+        }
+        expect(cursor, b"normal")?;
+        let normal = normal(cursor)?;
+        expect(cursor, b"outer")?;
+        expect(cursor, b"loop")?;
+        let mut corners = [DVec3::ZERO; 3];
+        for corner in &mut corners {
+            expect(cursor, b"vertex")?;
+            for i in 0..3 {
+                let (place, word) = word(cursor);
+                corner[i] = number(place, word)?;
+            }
+        }
+        expect(cursor, b"endloop")?;
+        expect(cursor, b"endfacet")?;
+        found.normals.add(compare(normal, corners));
+        found.corners.extend(corners);
+    }
+}
+
+/// A normal, which some programs write as three words `nan` where a facet has no area: then it is zero.
+fn normal(cursor: &mut Cursor) -> Result<DVec3, TextError> {
+    let mut normal = DVec3::ZERO;
+    for i in 0..3 {
+        let (place, word) = word(cursor);
+        let is_number = |error| {
+            let text = word.strip_prefix(b"-").unwrap_or(word).to_ascii_lowercase();
+            let known = text.starts_with(b"nan") || text.starts_with(b"inf");
+            if known { Ok(f64::NAN) } else { Err(error) }
+        };
+        normal[i] = number(place, word).or_else(is_number)?;
+    }
+    Ok(if normal.is_finite() {
+        normal
+    } else {
+        DVec3::ZERO
+    })
+}
+
+/// How many facets a text has, by the word `endfacet`.
+pub(super) fn count(bytes: &[u8]) -> u64 {
+    let mut n = 0;
+    let mut rest = bytes;
+    while let Some(at) = rest.iter().position(|byte| matches!(byte, b'e' | b'E')) {
+        let here = &rest[at..];
+        let found = here.len() >= 8 && is(&here[..8], b"endfacet");
+        n += u64::from(found);
+        rest = &here[if found { 8 } else { 1 }..];
+    }
+    n
+}
+
+fn word<'a>(cursor: &mut Cursor<'a>) -> (Place, &'a [u8]) {
+    cursor.skip_white();
+    (cursor.place(), cursor.word())
+}
+
+fn expect(cursor: &mut Cursor, expected: &[u8]) -> Result<(), TextError> {
+    let (place, word) = word(cursor);
+    if is(word, expected) {
+        return Ok(());
+    }
+    let message = format!("expected {}, found {}", quoted(expected), quoted(word));
+    Err(place.error(message))
+}
+
+/// Keywords are written in small or capital letters.
+fn is(word: &[u8], keyword: &[u8]) -> bool {
+    word.eq_ignore_ascii_case(keyword)
+}

@@ -8,11 +8,11 @@ use mesh::{COLOR, Domain, Mesh, Rule, UV, VERTEX_NORMAL, Value};
 use scene::Scene;
 
 use super::COLOR_INDEX;
-use crate::vertex_uvs::uvs_of_vertices;
 use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
+use crate::vertex_uvs::uvs_of_vertices;
 use crate::{WriteOptions, Written};
 
 /// The file that holds `scene`, and what it does not hold.

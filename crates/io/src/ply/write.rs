@@ -16,10 +16,10 @@ use super::read::plain_rule;
 use super::roles;
 use super::table::BLOCK;
 use super::types::Type;
-use crate::vertex_uvs::uvs_of_vertices;
 use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
+use crate::vertex_uvs::uvs_of_vertices;
 use crate::{WriteOptions, Written};
 
 /// The file that holds `scene`, little-endian, and what it does not hold.

@@ -344,7 +344,7 @@ fn lines_have_the_words_that_the_header_promises() {
     );
     assert_error(
         off("0 0 0 # \n1 0.5555 0 # hello\n\n", ""),
-        "7:1: expected 3 vertices, found 2",
+        "6:1: expected 3 vertices, found 2",
     );
     assert_error(
         off(good, "3 0 1 3\n"),

@@ -354,7 +354,10 @@ fn counts_that_the_file_cannot_hold_are_refused_at_once() {
         b"",
         " byte 0: expected `solid` or a header of 84 bytes, found 0 bytes",
     );
-    assert_error(&binary(&[FLAT, NEXT])[..180], "1:");
+    assert_error(
+        &binary(&[FLAT, NEXT])[..180],
+        " byte 80: expected 2 facets (184 bytes in all), found 180 bytes",
+    );
 }
 
 #[test]

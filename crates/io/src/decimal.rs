@@ -230,15 +230,60 @@ pub(crate) fn push_number(out: &mut Vec<u8>, x: f64) {
     let mut buffer = zmij::Buffer::new();
     let text = buffer.format_finite(x).as_bytes();
     if x.abs() < 1e16 {
-        out.extend_from_slice(text.strip_suffix(b".0").unwrap_or(text));
+        push_short(out, text.strip_suffix(b".0").unwrap_or(text));
     } else {
         out.extend(text.iter().filter(|&&byte| byte != b'+'));
     }
 }
 
+/// Appends a text of at most 24 bytes: copies of a known length need no call.
+#[inline]
+fn push_short(out: &mut Vec<u8>, text: &[u8]) {
+    let (room, start) = if let Some(start) = text.first_chunk::<16>() {
+        out.extend_from_slice(start);
+        (24, 16)
+    } else if let Some(start) = text.first_chunk::<8>() {
+        out.extend_from_slice(start);
+        (16, 8)
+    } else {
+        (0, 0)
+    };
+    match text.last_chunk::<8>() {
+        Some(&end) if text.len() <= room => {
+            let known = 8 * (room - text.len());
+            let rest = u64::from_le_bytes(end).checked_shr(u32::try_from(known).unwrap_or(0));
+            push_bytes(out, rest.unwrap_or(0), text.len() - start);
+        }
+        _ => out.extend_from_slice(&text[start..]),
+    }
+}
+
+/// Appends the lowest `n` bytes of a word.
+#[inline]
+fn push_bytes(out: &mut Vec<u8>, word: u64, n: usize) {
+    let end = out.len() + n;
+    out.extend_from_slice(&word.to_le_bytes());
+    out.truncate(end);
+}
+
 /// Appends a whole number.
+#[inline]
 pub(crate) fn push_whole(out: &mut Vec<u8>, value: usize) {
-    out.extend_from_slice(itoa::Buffer::new().format(value).as_bytes());
+    match u64::try_from(value) {
+        Ok(value) if value < 100_000_000 => {
+            // All eight digits at once: halves, then quarters, then digits, the first in the lowest
+            // byte. The products stand for divisions by 100 and 10.
+            let halves = (value / 10_000) | (value % 10_000) << 32;
+            let hundreds = ((halves * 10_486) >> 20) & 0x0000_007f_0000_007f;
+            let pairs = hundreds | (halves - 100 * hundreds) << 16;
+            let tens = ((pairs * 103) >> 10) & 0x000f_000f_000f_000f;
+            let digits = tens | (pairs - 10 * tens) << 8;
+            let zeros = (digits.trailing_zeros() / 8).min(7);
+            let text = (digits | 0x3030_3030_3030_3030) >> (8 * zeros);
+            push_bytes(out, text, 8 - zeros as usize);
+        }
+        _ => out.extend_from_slice(itoa::Buffer::new().format(value).as_bytes()),
+    }
 }
 
 #[cfg(test)]
@@ -317,7 +362,8 @@ mod tests {
 
     #[test]
     fn whole_numbers_are_their_digits() {
-        for value in [0, 9, 10, 99, 100, 12_345, usize::MAX] {
+        let large = [99_999_999, 100_000_000, 123_456_789, usize::MAX];
+        for value in (0..200_000).chain(large) {
             let mut out = Vec::new();
             push_whole(&mut out, value);
             assert_eq!(out, value.to_string().as_bytes());
@@ -362,6 +408,20 @@ mod tests {
                     prop_assert_eq!(Some(x.to_bits()), text.parse::<f64>().ok().map(f64::to_bits));
                 }
             }
+        }
+
+        #[test]
+        fn whole_numbers_of_eight_digits_are_their_digits(value in 0..100_000_000_usize) {
+            let mut out = Vec::new();
+            push_whole(&mut out, value);
+            prop_assert_eq!(out, value.to_string().into_bytes());
+        }
+
+        #[test]
+        fn short_texts_are_appended_whole(text in "[0-9]{0,24}") {
+            let mut out = b"x".to_vec();
+            push_short(&mut out, text.as_bytes());
+            prop_assert_eq!(out, format!("x{text}").into_bytes());
         }
 
         #[test]

@@ -399,7 +399,7 @@ mod tests {
         #[test]
         fn numbers_half_way_between_two_are_rounded_right(bits: u64, decimals in 1..12_usize) {
             // Seven digits more than an f64 has, near a tie.
-            let x = f64::from_bits(1023 + 20 << 52 | bits >> 12);
+            let x = f64::from_bits(((1023 + 20) << 52) | (bits >> 12));
             let next = f64::from_bits(x.to_bits() + 1);
             let middle = format!("{:.1$}", x, decimals + 6);
             let text = format!("{:.1$}", f64::midpoint(x, next), decimals);

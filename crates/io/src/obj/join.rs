@@ -138,7 +138,7 @@ fn together<'a, T: Zeroable + Copy + Send + Sync + 'a>(
     }
     let starts = starts(pieces.iter().map(Vec::len));
     filled(pieces, &starts, |_, room, piece| {
-        room.copy_from_slice(&piece)
+        room.copy_from_slice(&piece);
     })
 }
 

@@ -303,14 +303,143 @@ mod tests {
         assert!(parse(b"# nothing\n").is_ok());
     }
 
+    /// What a file holds, or why it is refused, read in one piece by the general way alone.
+    fn in_order(bytes: &[u8]) -> Result<ObjFile, TextError> {
+        let file = join(vec![parse_whole(bytes)?]);
+        match first_unknown(&file) {
+            Some(error) if file.positions.is_empty() => Err(error),
+            _ => Ok(file),
+        }
+    }
+
+    fn assert_parts_do_not_matter(bytes: &[u8]) {
+        let expected = in_order(bytes);
+        for size in [1, 2, 3, 5, 8, 13, 21, 34, 55, 1000, PART] {
+            assert_eq!(parse_in_parts(bytes, size), expected, "parts of {size}");
+        }
+    }
+
+    #[test]
+    fn parts_end_with_lines_that_are_not_continued() {
+        let text = b"a\\\nb\r\nc\\\r\nd\re\n\nf\\\rg";
+        let expected: [&[u8]; 5] = [b"a\\\nb\r\n", b"c\\\r\nd\r", b"e\n", b"\nf\\\rg", b""];
+        assert_eq!(cut(text, 1), expected);
+        for size in 1..30 {
+            let parts = cut(text, size);
+            assert_eq!(parts.concat(), text);
+            for part in &parts[..parts.len() - 1] {
+                assert!(
+                    expected
+                        .iter()
+                        .any(|end| !end.is_empty() && part.ends_with(end))
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn names_runs_and_relative_indices_go_on_from_part_to_part() {
+        let text = format!(
+            "\u{feff}# art\n{TRIANGLE}vt 0 0\nvn 0 0 1\no a\ng x y\nusemtl m\ns 1\nf 1 2 3\n\
+             f -3/-1 -2 -1//-1\nmtllib a.mtl\nv 1 1 1 1 0 0\ng y\nf -2 -1 -4\nusemtl\ng y x\n\
+             l -1 -2 1\nf 1/1/1 2/1/1 3/1/1\no b\nvp 1\nwhat 1\ns off\no a\nusemtl m\n\
+             p -1 4\nf 2 3 4 5\nv 5 5 5\nf 3 4 -1\nvp 2\nmtllib b.mtl\nf 3 4 5"
+        );
+        assert_parts_do_not_matter(text.as_bytes());
+        let file = parse_in_parts(text.as_bytes(), 1).unwrap();
+        assert_eq!(file.faces.len(), 7);
+        assert_eq!(file.faces.positions[3..9], [0, 1, 2, 2, 3, 0]);
+        assert_eq!(file.line_corners, [3, 2, 0]);
+        assert_eq!(file.colors[3], DVec4::new(1.0, 0.0, 0.0, 1.0));
+        assert_eq!(file.left_out[&LeftOut::Statement("vp".into())], (2, 22));
+        let lines: Vec<_> = file.libraries.iter().map(|(place, _)| place.line).collect();
+        assert_eq!(lines, [13, 32]);
+    }
+
+    #[test]
+    fn the_first_error_is_reported_wherever_the_parts_end() {
+        for text in [
+            "v 0 0 0\nv 0 0\nv 0\nf 1 2 0\n",
+            "v 0 0 0\nf 1 1 -2\nv 0 0\n",
+            "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 4\nf 1 2 5\n",
+            "v 0 0 0\nf 1 1 2\n",
+            "v 0 0 0\nf 1/1 1/1 1/-1\nvt 0 0\n",
+            "v 0 0 0\np -2\n",
+            "v 0 0 0\nl -1 -2\n",
+            "one\ntwo\nvn 0 0 1\n",
+        ] {
+            assert!(in_order(text.as_bytes()).is_err(), "{text}");
+            assert_parts_do_not_matter(text.as_bytes());
+        }
+    }
+
+    #[test]
+    fn the_first_unknown_words_are_listed_wherever_the_parts_end() {
+        let words: Vec<String> = (0..40).map(|i| format!("w{}", i * i % 13)).collect();
+        let text = format!("v 0 0 0\n{}\nw3\nzz\n", words.join("\n"));
+        assert_parts_do_not_matter(text.as_bytes());
+    }
+
+    #[test]
+    fn a_line_of_ten_megabytes_is_one_face() {
+        let n = 1_300_000_u32;
+        let text = format!("v 0 0 0\nf{}\nf 1 1 1\n", " 1/1/1".repeat(n as usize));
+        let text = format!("vt 0 0\nvn 0 0 1\n{text}");
+        assert_eq!(read(&text).faces.offsets, [0, n, n + 3]);
+        let continued = text.replace(" 1/1/1", " \\\n1/1/1");
+        assert_eq!(read(&continued), read(&text));
+        let comment = format!("v 0 0 0\n#{}\nf 1 1 1", "x".repeat(10 << 20));
+        assert_eq!(read(&comment).faces.len(), 1);
+    }
+
+    #[test]
+    fn threads_do_not_matter() {
+        let mut text = String::from(TRIANGLE);
+        for i in 0..60_000 {
+            text += &format!("v {i} 0.1 1e-3\ng g{}\nf -1 -2 {}\n", i % 7, 1 + i % 50);
+        }
+        let read = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            pool.build().unwrap().install(|| parse(text.as_bytes()))
+        };
+        let expected = in_order(text.as_bytes());
+        assert!(text.len() > 4 * PART && expected.is_ok());
+        for threads in [1, 2, 8] {
+            assert_eq!(read(threads), expected);
+        }
+    }
+
+    /// Lines of all kinds, most of them right.
+    const LINES: &str = "(v( -?[0-9]{1,2}(\\.[0-9]{1,20})?){3}( [01]){0,4}|vt( [0-9]\\.[0-9]{1,3}){1,3}|\
+        vn( -?[0-9]){3}|f( {1,2}-?[1-9]{1,2}){2,5}|f( [1-4]/[1-3]){3,4}|f( -?[1-3]//-?[1-3]){3}|\
+        f( [1-3]/-?[1-2]/[1-3]){3}|l( -?[1-3]){1,3}|p 1 -1|g( [a-d]){0,3}|o [ab]{0,2}|usemtl [a-c]?|\
+        s [0-2]|s off|vp 1|# [a-z]{0,9}|mtllib a|[xyz]|v 1 2 \\\\|f 1 2\\t3 |v 1e[0-9]{1,2} +1 .5|)\
+        (\n|\r|\r\n)";
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(400))]
+
+        #[test]
+        fn the_parts_of_a_file_do_not_matter(
+            start in "(v 1 2 3\n){0,9}(vt 0 0\n){0,3}(vn 0 0 1\n){0,3}",
+            lines in prop::collection::vec(LINES, 0..30),
+            size in 1..200_usize,
+        ) {
+            let text = start + &lines.concat();
+            let expected = in_order(text.as_bytes());
+            prop_assert_eq!(&parse_in_parts(text.as_bytes(), size), &expected);
+            prop_assert_eq!(&parse_in_parts(text.as_bytes(), 1), &expected);
+        }
+    }
+
     proptest! {
         #[test]
         fn any_bytes_are_read_or_refused(
             bytes: Vec<u8>,
             text in "((v|vt|vn|f|l|p|g|o|s|usemtl|mtllib|x)[ \t/0-9a.\\\\\r\\-]{0,12}\n){0,30}",
         ) {
-            let _ = parse(&bytes);
-            let _ = parse(text.as_bytes());
+            assert_parts_do_not_matter(&bytes);
+            assert_parts_do_not_matter(text.as_bytes());
             super::super::peek(&bytes);
             super::super::peek(text.as_bytes());
         }

@@ -3,9 +3,13 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
 
+use bytemuck::Zeroable;
 use glam::DVec3;
 use mesh::{CORNER_NORMAL, Column, Domain, Rule, UV, Values};
+use rayon::prelude::*;
 use scene::{Geometry, Material};
 
 use super::OBJECT_TAG;
@@ -87,8 +91,7 @@ fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> P
         "normals (`vn`) left out: no face uses them",
     );
     if !faces.uvs.is_empty() {
-        let values = faces.uvs.iter().map(|&i| value(&file.uvs, i));
-        polygons.insert_corners(UV, values.collect());
+        polygons.insert_corners(UV, values(&file.uvs, &faces.uvs));
         notes.changed(
             missing(&faces.uvs),
             None,
@@ -96,8 +99,7 @@ fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> P
         );
     }
     if !faces.normals.is_empty() {
-        let values = faces.normals.iter().map(|&i| value(&file.normals, i));
-        polygons.insert_corners(CORNER_NORMAL, values.collect());
+        polygons.insert_corners(CORNER_NORMAL, values(&file.normals, &faces.normals));
         notes.changed(
             missing(&faces.normals),
             None,
@@ -114,24 +116,33 @@ fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> P
     polygons
 }
 
-fn value<T: Copy + Default>(values: &[T], index: u32) -> T {
-    if index == NONE {
-        T::default()
-    } else {
-        values[index as usize]
-    }
+/// Smaller pieces are not worth the trouble of dividing them among threads.
+const MIN_TASK: usize = 1 << 14;
+
+/// The value of each index, zero for [`NONE`].
+fn values<T: Copy + Send + Sync + Zeroable>(values: &[T], indices: &[u32]) -> Vec<T> {
+    let mut all = mesh::zeroed(indices.len());
+    let places = all.par_iter_mut().zip(indices).with_min_len(MIN_TASK);
+    places.for_each(|(value, &index)| {
+        if index != NONE {
+            *value = values[index as usize];
+        }
+    });
+    all
 }
 
 fn missing(indices: &[u32]) -> usize {
-    indices.iter().filter(|&&index| index == NONE).count()
+    let indices = indices.par_iter().with_min_len(MIN_TASK);
+    indices.filter(|&&index| index == NONE).count()
 }
 
+/// How many of `n` no index names.
 fn unused(n: usize, indices: &[u32]) -> usize {
-    let mut unused = vec![true; n];
-    for &index in indices.iter().filter(|&&index| index != NONE) {
-        unused[index as usize] = false;
-    }
-    unused.into_iter().filter(|&is| is).count()
+    let used: Vec<AtomicBool> = (0..n).map(|_| AtomicBool::new(false)).collect();
+    let indices = indices.par_iter().with_min_len(MIN_TASK);
+    let named = indices.filter(|&&index| index != NONE);
+    named.for_each(|&index| used[index as usize].store(true, Relaxed));
+    used.iter().filter(|used| !used.load(Relaxed)).count()
 }
 
 // ---- Values of faces ---------------------------------------------------------------------------

@@ -87,14 +87,14 @@ pub(crate) fn write(
 /// What OBJ holds.
 enum Shape<'a> {
     /// Without dead elements.
-    Mesh(Cow<'a, Mesh>),
+    Mesh(Box<Cow<'a, Mesh>>),
     Polylines(&'a [Vec<DVec3>]),
 }
 
 impl<'a> Shape<'a> {
     fn of(object: &str, geometry: &'a Geometry) -> Result<Self, Unwritable> {
         match geometry {
-            Geometry::Mesh(mesh) => Ok(Self::Mesh(dense(mesh))),
+            Geometry::Mesh(mesh) => Ok(Self::Mesh(Box::new(dense(mesh)))),
             Geometry::Polylines(lines) => Ok(Self::Polylines(lines)),
             Geometry::Patches(_) | Geometry::Curve(_) => Err(Unwritable::object(
                 object,

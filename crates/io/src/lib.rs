@@ -41,6 +41,7 @@ mod asset_path;
 mod bez;
 mod build;
 mod clean;
+mod corners;
 mod dae;
 mod decimal;
 mod dense;

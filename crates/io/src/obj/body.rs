@@ -8,7 +8,7 @@ use mesh::{CORNER_NORMAL, Domain, FaceId, HalfEdgeId, Mesh, UV, VERTEX_NORMAL, V
 use rayon::prelude::*;
 
 use super::file::NO_MATERIAL;
-use super::material::push_values;
+use super::library::push_values;
 use super::states::{FaceStates, Library, State, one_word};
 use super::write::{Before, push_name};
 use crate::corners::CornerNumbers;

@@ -7,8 +7,8 @@ use scene::{AlphaMode, Material, Texture};
 use tobj::LoadError;
 
 use super::file::ObjFile;
+use super::picture::Picture;
 use crate::asset_path::{folder_of, inside, read_beside};
-use crate::decimal::push_number;
 use crate::error::ReadError;
 use crate::note::Notes;
 use crate::text::{name, quoted};
@@ -30,14 +30,7 @@ pub(super) fn read_libraries(
     let mut materials: Vec<Material> = Vec::new();
     let mut known = BTreeSet::new();
     for (place, words) in &file.libraries {
-        // A name may hold blanks, and a line may hold several names.
-        let whole = inside(words).is_ok_and(|name| folder_of(path).join(name).is_file());
-        let names = if whole {
-            vec![words.as_str()]
-        } else {
-            words.split_whitespace().collect()
-        };
-        for library in names {
+        for library in &library_names(words, folder_of(path)) {
             let relative = inside(library).map_err(|why| {
                 let message = format!("the material library {} {why}", quoted(library.as_bytes()));
                 place.error(message).in_file(path)
@@ -73,6 +66,32 @@ pub(super) fn read_libraries(
     Ok(materials)
 }
 
+/// The names on an `mtllib` line: in quotes, or several words that are one file, or single words.
+fn library_names(words: &str, folder: &Path) -> Vec<String> {
+    let is_file = |name: &str| inside(name).is_ok_and(|name| folder.join(name).is_file());
+    let mut names = Vec::new();
+    let mut rest = words.trim();
+    while !rest.is_empty() {
+        let quoted = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
+        let (name, behind) = quoted.unwrap_or_else(|| {
+            // The longest beginning that is a file; a single word otherwise.
+            let blanks = rest.rmatch_indices(char::is_whitespace).take(MOST_BLANKS);
+            let ends = std::iter::once(rest.len()).chain(blanks.map(|(at, _)| at));
+            let first = rest.find(char::is_whitespace).unwrap_or(rest.len());
+            let end = ends.into_iter().find(|&end| is_file(&rest[..end]));
+            rest.split_at(end.unwrap_or(first))
+        });
+        if !name.is_empty() {
+            names.push(name.to_owned());
+        }
+        rest = behind.trim_start();
+    }
+    names
+}
+
+/// At this many blanks of a line the name of a file is looked for to end.
+const MOST_BLANKS: usize = 16;
+
 /// The materials of one library. Lines that cannot be read are left out, with a note.
 fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
     // Three kinds of line ends and names in Latin-1: tobj knows LF and UTF-8.
@@ -84,7 +103,7 @@ fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
         .into_iter()
         .map(|m| converted(m, &mut ignored))
         .collect();
-    notes.left_out(ignored.0, None, "values of materials left out: only color, alpha, roughness (Pr), metalness (Pm) and the color picture are kept");
+    notes.left_out(ignored.0, None, "values of materials left out: only color (Kd), alpha (d, Tr), roughness (Pr), metalness (Pm), light (Ke) and the pictures of color, light, both Pr and Pm, and normals (norm) are kept");
     materials
 }
 
@@ -126,18 +145,46 @@ fn check_line(line: &str) -> Result<(), String> {
 #[derive(Default)]
 struct Ignored(usize);
 
+impl Ignored {
+    fn picture(&mut self, text: Option<String>) -> Option<Picture> {
+        let picture = Picture::of(&text?);
+        self.0 += picture.as_ref().map_or(1, |picture| picture.n_options);
+        picture
+    }
+
+    /// A picture that is not multiplied.
+    fn plain(&mut self, text: Option<String>) -> Option<Texture> {
+        let picture = self.picture(text)?;
+        self.0 += usize::from(picture.multiplier.is_some());
+        Some(picture.texture)
+    }
+}
+
 fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
-    let parameter = |key: &str| {
-        let value = from.unknown_param.get(key)?.parse::<f64>().ok()?;
+    let mut others = from.unknown_param;
+    // tobj takes a comment without a blank after its `#` for a parameter.
+    others.retain(|key, _| !key.starts_with('#'));
+    let mut number = |key: &str| {
+        let value = others.get(key)?.parse::<f64>().ok()?;
+        others.remove(key);
         value.is_finite().then_some(value)
     };
-    let (roughness, metallic, transparency) = (parameter("Pr"), parameter("Pm"), parameter("Tr"));
-    let alpha = from.dissolve.or(transparency.map(|t| 1.0 - t));
-    let used = [roughness, metallic, transparency].iter().flatten().count();
+    let (roughness, metallic, transparency) = (number("Pr"), number("Pm"), number("Tr"));
+    let base_color_texture = ignored.plain(from.diffuse_texture);
+    let emissive_texture = ignored.plain(others.remove("map_Ke"));
+    let [rough, metal] = ["map_Pr", "map_Pm"].map(|key| ignored.plain(others.remove(key)));
+    // One picture for both is that of glTF; MTL knows two.
+    let metallic_roughness_texture = if rough == metal {
+        rough
+    } else {
+        ignored.0 += usize::from(rough.is_some()) + usize::from(metal.is_some());
+        None
+    };
+    let normals = ignored.picture(others.remove("norm"));
+    let normal_scale = normals.as_ref().and_then(|picture| picture.multiplier);
     let ignored_now = [
         from.ambient.is_some(),
         from.specular.is_some(),
-        from.emissive.is_some(),
         from.shininess.is_some(),
         from.optical_density.is_some(),
         from.illumination_model.is_some(),
@@ -147,27 +194,39 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
         from.shininess_texture.is_some(),
         from.dissolve_texture.is_some(),
     ];
-    // tobj takes a comment without a blank after its `#` for a parameter.
-    let others = from
-        .unknown_param
-        .keys()
-        .filter(|key| !key.starts_with('#'))
-        .count();
-    ignored.0 += ignored_now.into_iter().filter(|&is| is).count() + others.saturating_sub(used);
+    ignored.0 += ignored_now.into_iter().filter(|&is| is).count() + others.len();
     let [red, green, blue] = from.diffuse.unwrap_or([1.0; 3]).map(|x| unit(x, 1.0));
+    let alpha = from.dissolve.or(transparency.map(|t| 1.0 - t));
     let alpha = unit(alpha.unwrap_or(1.0), 1.0);
+    let lit = from
+        .emissive
+        .or(emissive_texture.is_some().then_some([1.0; 3]));
+    let (emissive, emissive_strength) = light(lit.unwrap_or_default());
     Material {
         base_color: [red, green, blue, alpha],
-        alpha: alpha_mode(alpha),
+        base_color_texture,
         metallic: unit(metallic.unwrap_or(0.0), 0.0),
         roughness: unit(roughness.unwrap_or(1.0), 1.0),
-        base_color_texture: from.diffuse_texture.map(Texture::file),
+        metallic_roughness_texture,
+        normal_texture: normals.map(|picture| picture.texture),
+        normal_scale: normal_scale.unwrap_or(1.0),
+        emissive,
+        emissive_strength,
+        emissive_texture,
+        alpha: alpha_mode(alpha),
         ..Material::new(from.name)
     }
 }
 
+/// Light as a color from 0 to 1 and a strength that is more than 1 where it must.
+fn light(values: [f64; 3]) -> ([f64; 3], f64) {
+    let values = values.map(|x| if x.is_finite() { x.max(0.0) } else { 0.0 });
+    let strength = values.iter().copied().fold(1.0, f64::max);
+    (values.map(|x| x / strength), strength)
+}
+
 /// A dissolved surface lets through what is behind it.
-fn alpha_mode(alpha: f64) -> AlphaMode {
+pub(super) fn alpha_mode(alpha: f64) -> AlphaMode {
     if alpha < 1.0 {
         AlphaMode::Blend
     } else {
@@ -184,39 +243,11 @@ fn unit(x: f64, otherwise: f64) -> f64 {
     }
 }
 
-/// The text of a library with these materials. Their names must fit a line.
-pub(super) fn write_library(materials: &[Material], comment: Option<&str>) -> Vec<u8> {
-    let mut out = Vec::new();
-    if let Some(comment) = comment {
-        super::write::push_comment(&mut out, comment);
-    }
-    for material in materials {
-        out.extend_from_slice(format!("newmtl {}\n", material.name).as_bytes());
-        let [red, green, blue, alpha] = material.base_color;
-        push_values(&mut out, "Kd", &[red, green, blue]);
-        push_values(&mut out, "d", &[alpha]);
-        push_values(&mut out, "Pm", &[material.metallic]);
-        push_values(&mut out, "Pr", &[material.roughness]);
-        if let Some(picture) = material.base_color_texture.as_ref().and_then(Texture::path) {
-            out.extend_from_slice(format!("map_Kd {picture}\n").as_bytes());
-        }
-    }
-    out
-}
-
-pub(super) fn push_values(out: &mut Vec<u8>, keyword: &str, values: &[f64]) {
-    out.extend_from_slice(keyword.as_bytes());
-    for &value in values {
-        out.push(b' ');
-        push_number(out, value);
-    }
-    out.push(b'\n');
-}
-
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::library::write_library;
     use super::*;
 
     fn read(bytes: &[u8]) -> (Vec<Material>, Vec<crate::Note>) {
@@ -236,9 +267,21 @@ mod tests {
         }
     }
 
+    fn lamp() -> Material {
+        Material {
+            metallic_roughness_texture: Some(Texture::file("rm.png")),
+            normal_texture: Some(Texture::file("bumps.png")),
+            normal_scale: 0.5,
+            emissive: [1.0, 0.25, 0.0],
+            emissive_strength: 4.0,
+            emissive_texture: Some(Texture::file("glow.png")),
+            ..Material::new("lamp")
+        }
+    }
+
     #[test]
     fn written_materials_read_back_the_same() {
-        let materials = vec![red(), Material::new("plain")];
+        let materials = vec![red(), lamp(), Material::new("plain")];
         assert_eq!(
             read(&write_library(&materials, Some("made by hand"))),
             (materials, vec![])
@@ -260,6 +303,30 @@ mod tests {
     fn other_values_are_counted() {
         let (_, notes) = read(b"#x\nnewmtl a\nKa 1 1 1\nNs 10\nillum 2\naniso 0.5\nTr 0.25\n");
         assert_eq!(notes[0].count, 4);
+    }
+
+    #[test]
+    fn options_of_pictures_are_counted_and_no_part_of_the_name() {
+        let (materials, notes) = read(
+            b"newmtl a\nmap_Kd -s 2 2 1 -clamp on my file.png\nnorm -bm 0.5 n.png\nmap_Pr r.png\n\
+              map_Pm m.png\nmap_bump b.png\nmap_Ke -s 1 1 1\n",
+        );
+        let expected = Material {
+            base_color_texture: Some(Texture::file("my file.png")),
+            normal_texture: Some(Texture::file("n.png")),
+            normal_scale: 0.5,
+            ..Material::new("a")
+        };
+        assert_eq!(materials, [expected]);
+        assert_eq!(notes[0].count, 6);
+    }
+
+    #[test]
+    fn light_may_be_stronger_than_one() {
+        let (materials, _) = read(b"newmtl a\nKe 2 1 -1\nnewmtl b\nmap_Ke b.png\n");
+        assert_eq!(materials[0].emissive, [1.0, 0.5, 0.0]);
+        assert_eq!(materials[0].emissive_strength, 2.0);
+        assert_eq!(materials[1].emissive, [1.0; 3]);
     }
 
     #[test]

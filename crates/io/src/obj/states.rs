@@ -8,6 +8,7 @@ use scene::{Material, Object};
 
 use super::OBJECT_TAG;
 use super::file::NO_MATERIAL;
+use super::library::note_losses;
 use crate::loss::Losses;
 
 /// What the statements so far say of the faces that follow.
@@ -204,6 +205,7 @@ impl Library {
             renamed,
             format!("material is written as `{}`", new.name),
         );
+        note_losses(material, losses);
         self.materials.push(new);
         self.materials.len() - 1
     }

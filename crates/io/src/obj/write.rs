@@ -9,7 +9,7 @@ use scene::{Geometry, Scene};
 
 use super::body::MeshBody;
 use super::corner::Counts;
-use super::material::{push_values, write_library};
+use super::library::{push_values, write_library};
 use super::states::{Library, fit_line};
 use crate::decimal::push_whole;
 use crate::dense::dense;

@@ -1,0 +1,93 @@
+//! The text of material libraries, and what of a material they have no place for.
+
+use scene::{AlphaMode, Material, Sampler, Texture, TextureTransform};
+
+use super::material::alpha_mode;
+use super::states::fit_line;
+use super::write::push_comment;
+use crate::decimal::push_number;
+use crate::loss::Losses;
+
+/// The text of a library with these materials. Their names must fit a line.
+pub(super) fn write_library(materials: &[Material], comment: Option<&str>) -> Vec<u8> {
+    let mut out = Vec::new();
+    if let Some(comment) = comment {
+        push_comment(&mut out, comment);
+    }
+    for material in materials {
+        out.extend_from_slice(format!("newmtl {}\n", material.name).as_bytes());
+        let [red, green, blue, alpha] = material.base_color;
+        push_values(&mut out, "Kd", &[red, green, blue]);
+        push_values(&mut out, "d", &[alpha]);
+        push_values(&mut out, "Pm", &[material.metallic]);
+        push_values(&mut out, "Pr", &[material.roughness]);
+        if material.emissive != [0.0; 3] {
+            let light = material.emissive.map(|x| x * material.emissive_strength);
+            push_values(&mut out, "Ke", &light);
+        }
+        push_picture(&mut out, "map_Kd", material.base_color_texture.as_ref());
+        let both = material.metallic_roughness_texture.as_ref();
+        push_picture(&mut out, "map_Pm", both);
+        push_picture(&mut out, "map_Pr", both);
+        push_picture(&mut out, "map_Ke", material.emissive_texture.as_ref());
+        let mut keyword = b"norm".to_vec();
+        if (material.normal_scale - 1.0).abs() > 0.0 {
+            keyword.extend_from_slice(b" -bm ");
+            push_number(&mut keyword, material.normal_scale);
+        }
+        let keyword = String::from_utf8_lossy(&keyword);
+        push_picture(&mut out, &keyword, material.normal_texture.as_ref());
+    }
+    out
+}
+
+fn push_picture(out: &mut Vec<u8>, keyword: &str, texture: Option<&Texture>) {
+    if let Some(path) = texture.and_then(Texture::path) {
+        out.extend_from_slice(format!("{keyword} {}\n", fit_line(path)).as_bytes());
+    }
+}
+
+/// Appends a line of numbers.
+pub(super) fn push_values(out: &mut Vec<u8>, keyword: &str, values: &[f64]) {
+    out.extend_from_slice(keyword.as_bytes());
+    for &value in values {
+        out.push(b' ');
+        push_number(out, value);
+    }
+    out.push(b'\n');
+}
+
+/// Says what [`write_library`] does not write of a material.
+pub(super) fn note_losses(material: &Material, losses: &mut Losses) {
+    let mut lose = |count: bool, what: &str| {
+        let reason = format!("MTL has no place for {what} of materials");
+        losses.add(None, &material.name, usize::from(count), reason);
+    };
+    let is_implied = material.alpha == alpha_mode(material.base_color[3]);
+    let cuts = matches!(material.alpha, AlphaMode::Mask(_));
+    lose(cuts, "the alpha that cuts away");
+    lose(
+        !cuts && !is_implied,
+        "whether what is behind shines through",
+    );
+    lose(material.double_sided, "whether the back is seen");
+    lose(material.unlit, "whether light matters");
+    lose(material.occlusion_texture.is_some(), "the occlusion");
+    for texture in [
+        &material.base_color_texture,
+        &material.metallic_roughness_texture,
+        &material.emissive_texture,
+        &material.normal_texture,
+    ]
+    .into_iter()
+    .flatten()
+    {
+        lose(texture.path().is_none(), "embedded pictures");
+        let is_renamed = texture.path().is_some_and(|path| fit_line(path) != path);
+        lose(is_renamed, "the characters in the name of a picture");
+        let is_plain = texture.sampler == Sampler::default()
+            && texture.transform == TextureTransform::default()
+            && texture.uv_set == 0;
+        lose(!is_plain, "how a picture is sampled");
+    }
+}

@@ -1,0 +1,116 @@
+//! The pictures of material libraries: `map_Kd -s 2 2 1 wood.png`.
+
+use scene::Texture;
+
+/// A picture as a material library names it.
+#[derive(Debug, PartialEq)]
+pub(super) struct Picture {
+    /// The name of the file.
+    pub(super) texture: Texture,
+    /// What the value of `-bm` is.
+    pub(super) multiplier: Option<f64>,
+    /// How many other options there are.
+    pub(super) n_options: usize,
+}
+
+impl Picture {
+    /// Reads what follows the keyword: options, and then the name of a file, in which there may be blanks.
+    /// `None` if there is no name.
+    pub(super) fn of(text: &str) -> Option<Self> {
+        let mut rest = text.trim();
+        let (mut multiplier, mut n_options) = (None, 0);
+        while let Some((option, behind)) = cut_option(rest) {
+            if option == "-bm" {
+                multiplier = cut_word(behind)
+                    .0
+                    .parse()
+                    .ok()
+                    .filter(|m: &f64| m.is_finite());
+            } else {
+                n_options += 1;
+            }
+            rest = behind;
+            for i in 0..most_values(option) {
+                let (word, behind) = cut_word(rest);
+                // `-o`, `-s` and `-t` have one to three numbers.
+                if i > 0 && word.parse::<f64>().is_err() && most_values(option) == 3 {
+                    break;
+                }
+                rest = behind;
+            }
+        }
+        let name = unquoted(rest);
+        (!name.is_empty()).then(|| Self {
+            texture: Texture::file(name),
+            multiplier,
+            n_options,
+        })
+    }
+}
+
+/// The known option that a text begins with, and the text behind it.
+fn cut_option(text: &str) -> Option<(&str, &str)> {
+    let (word, rest) = cut_word(text);
+    (most_values(word) > 0).then_some((word, rest))
+}
+
+/// How many values an option has at most; 0 for what is none.
+fn most_values(option: &str) -> usize {
+    match option {
+        "-o" | "-s" | "-t" => 3,
+        "-mm" => 2,
+        "-blendu" | "-blendv" | "-boost" | "-texres" | "-clamp" | "-bm" | "-imfchan" | "-type"
+        | "-cc" => 1,
+        _ => 0,
+    }
+}
+
+/// The first word, and the text behind it.
+fn cut_word(text: &str) -> (&str, &str) {
+    let end = text.find(char::is_whitespace).unwrap_or(text.len());
+    (&text[..end], text[end..].trim_start())
+}
+
+/// A name without the quotes around it.
+fn unquoted(name: &str) -> &str {
+    let inner = name
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix('"'));
+    inner.unwrap_or(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn options_are_no_part_of_the_name() {
+        for (text, name, multiplier, n_options) in [
+            ("wood.png", "wood.png", None, 0),
+            (" my wood.png ", "my wood.png", None, 0),
+            ("\"my wood.png\"", "my wood.png", None, 0),
+            ("-s 1 1 1 file.png", "file.png", None, 1),
+            ("-s 2 file.png", "file.png", None, 1),
+            ("-o 0 0.5 2 d.png", "d.png", None, 1),
+            (
+                "-blendu on -mm 0 1 -clamp on a/b c.png",
+                "a/b c.png",
+                None,
+                3,
+            ),
+            ("-bm 0.5 bumps.png", "bumps.png", Some(0.5), 0),
+            ("-imfchan r -bm x 3", "3", None, 1),
+            ("-strange.png", "-strange.png", None, 0),
+        ] {
+            let expected = Picture {
+                texture: Texture::file(name),
+                multiplier,
+                n_options,
+            };
+            assert_eq!(Picture::of(text), Some(expected), "{text}");
+        }
+        for text in ["", " ", "-s 1 1 1", "-bm", "\"\""] {
+            assert_eq!(Picture::of(text), None, "{text}");
+        }
+    }
+}

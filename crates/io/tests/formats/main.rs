@@ -3,7 +3,10 @@
 mod broken;
 mod dae_broken;
 mod dae_read;
+mod gltf_attributes;
 mod gltf_broken;
+mod gltf_limits;
+mod gltf_materials;
 mod gltf_read;
 mod gltf_written;
 mod obj_files;

@@ -376,8 +376,8 @@ fn lines_have_the_words_that_the_header_promises() {
     );
     assert_error(off(good, "\n\n"), "8:1: expected 1 faces, found 0");
     assert_error(
-        "COFF\n1 0 0\n0 0 0 1 1\n",
-        "3:10: expected 6 numbers of a vertex, found 5",
+        "COFF\n1 0 0\n0 0 0 1.5 1.5\n",
+        "3:14: expected 6 numbers of a vertex, found 5",
     );
 }
 

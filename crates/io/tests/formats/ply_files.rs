@@ -121,7 +121,7 @@ fn rich() -> Mesh {
         Rule::Copy,
         Values::Int(ints),
     );
-    let tags = on_corners(&mesh, |x| x as i32 % 3 == 0);
+    let tags = on_corners(&mesh, |x| x % 3.0 == 0.0);
     put(
         &mut mesh,
         Domain::Corner,
@@ -427,9 +427,9 @@ enum Encoding {
 /// A value of a type as bytes or as a word; it is a small whole number, which every type holds.
 fn push(out: &mut Vec<u8>, encoding: Encoding, kind: usize, value: i64) {
     let bytes = match kind % 8 {
-        0 | 1 => vec![value as u8],
-        2 | 3 => (value as u16).to_be_bytes().to_vec(),
-        4 | 5 => (value as u32).to_be_bytes().to_vec(),
+        0 | 1 => value.to_be_bytes()[7..].to_vec(),
+        2 | 3 => value.to_be_bytes()[6..].to_vec(),
+        4 | 5 => value.to_be_bytes()[4..].to_vec(),
         6 => (value as f32).to_be_bytes().to_vec(),
         _ => (value as f64).to_be_bytes().to_vec(),
     };
@@ -483,7 +483,7 @@ fn layout() -> impl Strategy<Value = Layout> {
 }
 
 /// A file with this layout, and what it holds.
-fn file(layout: &Layout, n: usize, values: &[i8]) -> (Vec<u8>, Polygons, Vec<i64>, Vec<i64>) {
+fn file(layout: &Layout, n: u32, values: &[i8]) -> (Vec<u8>, Polygons, Vec<f64>, Vec<f64>) {
     let encoding = layout.encoding;
     let mut next = values
         .iter()
@@ -529,20 +529,22 @@ fn file(layout: &Layout, n: usize, values: &[i8]) -> (Vec<u8>, Polygons, Vec<i64
         expected
             .positions
             .push(DVec3::from_array(position.map(|x| x as f64)));
-        extras.push(extra);
+        extras.push(extra as f64);
     }
     for _ in 0..n {
         let degree = if layout.even { 3 } else { 3 + next() % 4 };
         push(&mut faces, encoding, layout.faces.0, degree);
         for _ in 0..degree {
-            let v = next() % n as i64;
+            let v = next() % i64::from(n);
             push(&mut faces, encoding, layout.faces.1, v);
-            expected.corners.push(v as u32);
+            expected.corners.push(u32::try_from(v).unwrap());
         }
-        expected.offsets.push(expected.corners.len() as u32);
+        let n_corners = u32::try_from(expected.corners.len());
+        expected.offsets.push(n_corners.unwrap());
         if let Some(behind) = layout.behind {
-            behinds.push(next());
-            push(&mut faces, encoding, behind, behinds[behinds.len() - 1]);
+            let value = next();
+            push(&mut faces, encoding, behind, value);
+            behinds.push(value as f64);
         }
         end(&mut faces);
     }
@@ -561,10 +563,10 @@ fn file(layout: &Layout, n: usize, values: &[i8]) -> (Vec<u8>, Polygons, Vec<i64
 }
 
 /// The numbers of a column.
-fn whole(polygons: &Polygons, domain: Domain, name: &str) -> Vec<i64> {
+fn whole(polygons: &Polygons, domain: Domain, name: &str) -> Vec<f64> {
     match &polygons.attributes.column(domain, name).unwrap().values {
-        Values::Int(values) => values.iter().map(|&x| i64::from(x)).collect(),
-        Values::Float(values) => values.iter().map(|&x| x as i64).collect(),
+        Values::Int(values) => values.iter().map(|&x| f64::from(x)).collect(),
+        Values::Float(values) => values.clone(),
         other => panic!("{other:?}"),
     }
 }
@@ -573,7 +575,7 @@ proptest! {
     #[test]
     fn every_layout_is_read(
         layout in layout(),
-        n in 1..40_usize,
+        n in 1..40_u32,
         values in prop::collection::vec(any::<i8>(), 1..50),
     ) {
         let (bytes, expected, extras, behinds) = file(&layout, n, &values);

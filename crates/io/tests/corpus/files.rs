@@ -1,0 +1,83 @@
+//! What must hold for any bytes as a file of any format: shared by the fuzzer and the replay of its corpus.
+
+use std::path::Path;
+
+use mesh_io::{Loaded, ReadOptions, WriteOptions};
+use peak_alloc::PeakAlloc;
+use scene::Scene;
+
+#[global_allocator]
+static MEMORY: PeakAlloc = PeakAlloc;
+
+/// Reading may take this many times the bytes of the file, ...
+const TIMES: usize = 64;
+
+/// ... and this much for tables, threads and messages.
+const SMALL: usize = 1 << 20;
+
+/// Reads `bytes` as a file with this extension, with bounded memory; writes what was read, and again what that
+/// reads as, until nothing is lost any more: then the bytes stay the same. An `.mtl` file is read as the
+/// library of an `.obj` file, what a `.dae` file holds is written as OBJ.
+///
+/// # Panics
+///
+/// If any of this does not hold.
+pub(crate) fn check(extension: &str, bytes: &[u8]) {
+    let folder = tempfile::tempdir_in(memory_folder()).expect("there is a folder for files");
+    let (name, content) = match extension {
+        "mtl" => {
+            std::fs::write(folder.path().join("a.mtl"), bytes).expect("the folder can be written");
+            ("a.obj".to_owned(), b"mtllib a.mtl\n".to_vec())
+        }
+        _ => (format!("a.{extension}"), bytes.to_vec()),
+    };
+    let path = folder.path().join(name);
+    MEMORY.reset_peak_usage();
+    let before = MEMORY.current_usage();
+    let read = mesh_io::read_bytes(&path, content, &ReadOptions::default());
+    let taken = MEMORY.peak_usage().saturating_sub(before);
+    assert!(
+        taken <= TIMES * bytes.len() + SMALL,
+        "reading {} bytes takes {taken}",
+        bytes.len()
+    );
+    let Ok(loaded) = read else {
+        return;
+    };
+    let path = match extension {
+        "dae" => path.with_extension("obj"),
+        _ => path,
+    };
+    // What is read may be more than the format can hold, such as numbers beyond those of 32 bits.
+    let Some((loaded, _)) = there_and_back(&path, loaded) else {
+        return;
+    };
+    let (loaded, second) = there_and_back(&path, loaded).expect("it was written before");
+    let (_, third) = there_and_back(&path, loaded).expect("it was written before");
+    assert!(
+        second == third,
+        "written, read and written again it differs"
+    );
+}
+
+/// Writes what was read, and reads that; `None` if the format refuses to hold it.
+fn there_and_back(path: &Path, loaded: Loaded) -> Option<(Loaded, Vec<u8>)> {
+    let mut scene = Scene::new();
+    for object in loaded.objects {
+        scene.insert(object).expect("names differ");
+    }
+    mesh_io::write(path, &scene, &WriteOptions::default()).ok()?;
+    let bytes = std::fs::read(path).expect("it was written");
+    let again = mesh_io::read(path, &ReadOptions::default());
+    Some((again.expect("what was written can be read"), bytes))
+}
+
+/// Where files are fast, if there is such a place.
+fn memory_folder() -> std::path::PathBuf {
+    let memory = Path::new("/dev/shm");
+    if memory.is_dir() {
+        memory.to_path_buf()
+    } else {
+        std::env::temp_dir()
+    }
+}

@@ -1,0 +1,215 @@
+//! Attributes of glTF files beyond the usual ones, and integers in place of floats.
+
+use glam::{DVec2, DVec3, DVec4, Vec2Swizzles};
+use mesh::{Column, Domain, Mesh, Rule, UV, Value, shapes};
+use mesh_io::ReadError;
+use scene::Object;
+use serde_json::json;
+
+use crate::gltf_read::{SQUARE, document, floats, read_json, square};
+use crate::gltf_written::sphere;
+use crate::{Folder, assert_same, only, tag, write};
+
+pub(crate) fn add_column<T: Value>(mesh: &mut Mesh, domain: Domain, name: &str, values: Vec<T>) {
+    let column = Column {
+        name: name.to_owned(),
+        rule: Rule::Interpolate,
+        values: T::wrap(values),
+    };
+    mesh.insert_column(domain, column);
+}
+
+#[test]
+fn attributes_of_any_name_and_size_come_back_the_same() {
+    for name in ["a.glb", "a.gltf"] {
+        let folder = Folder::new();
+        let path = folder.path(name);
+        let mut mesh = sphere();
+        let n = mesh.n_vertices();
+        let numbers = || (0..n).map(|i| i as f64 * 0.25);
+        add_column(&mut mesh, Domain::Vertex, "quality", numbers().collect());
+        add_column(
+            &mut mesh,
+            Domain::Vertex,
+            "é 2",
+            numbers().map(DVec2::splat).collect(),
+        );
+        add_column(
+            &mut mesh,
+            Domain::Vertex,
+            "flow",
+            numbers().map(DVec3::splat).collect(),
+        );
+        add_column(
+            &mut mesh,
+            Domain::Vertex,
+            "_uv",
+            numbers().map(DVec4::splat).collect(),
+        );
+        mesh.set(mesh::CORNER, numbers().collect());
+        let uvs: Vec<DVec2> = mesh.get(UV).unwrap().iter().map(|uv| uv.yx()).collect();
+        add_column(&mut mesh, Domain::Corner, "uv1", uvs);
+        let mut stress = vec![DVec3::ZERO; mesh.n_half_edges()];
+        for f in mesh.faces() {
+            for h in mesh.face_half_edges(f) {
+                stress[h.index()] = DVec3::splat((f.index() % 2) as f64);
+            }
+        }
+        add_column(&mut mesh, Domain::Corner, "stress", stress);
+        let report = write(&path, [Object::mesh("a", mesh.clone())]);
+        assert_eq!(report.losses, []);
+        assert_same(only(&path).as_mesh().unwrap(), &mesh);
+        // Another reader takes the file, too.
+        assert!(gltf::Gltf::open(&path).is_ok());
+    }
+}
+
+#[test]
+fn what_no_attribute_can_hold_is_a_loss() {
+    let folder = Folder::new();
+    let path = folder.path("a.glb");
+    let mut mesh = shapes::octahedron();
+    let (n, n_corners) = (mesh.n_vertices(), mesh.n_half_edges());
+    tag(&mut mesh, Domain::Vertex, "picked", vec![true; n]);
+    add_column(&mut mesh, Domain::Vertex, "count", vec![1_i32; n]);
+    add_column(&mut mesh, Domain::Vertex, "huge", vec![1e300; n]);
+    add_column(&mut mesh, Domain::Vertex, "material", vec![0.5; n]);
+    add_column(
+        &mut mesh,
+        Domain::Corner,
+        "uv2",
+        vec![DVec2::ONE; n_corners],
+    );
+    mesh.set(mesh::TANGENT, vec![DVec3::X; n]);
+    let report = write(&path, [Object::mesh("a", mesh)]);
+    let lost: Vec<_> = report
+        .losses
+        .iter()
+        .map(|loss| loss.attribute.as_str())
+        .collect();
+    assert_eq!(
+        lost,
+        ["count", "material", "picked", "tangent", "uv2", "huge"]
+    );
+    let back = only(&path);
+    assert_eq!(back.as_mesh().unwrap().attributes().iter().count(), 1);
+}
+
+#[test]
+fn reserved_and_taken_names_keep_their_underscore() {
+    let mut bytes = floats(&SQUARE);
+    bytes.extend(floats(&[1.0, 2.0, 3.0, 4.0]));
+    let accessors = json!([
+        { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3" },
+        { "bufferView": 0, "byteOffset": 48, "componentType": 5126, "count": 4, "type": "SCALAR" },
+    ]);
+    let attributes = json!({ "POSITION": 0, "_normal": 1, "_TEMP": 1, "_uv": 1, "__uv": 1 });
+    let json = document(
+        &bytes,
+        &accessors,
+        &json!([{ "attributes": attributes, "mode": 6 }]),
+    );
+    let loaded = read_json(&json).unwrap();
+    let mesh = loaded.objects[0].as_mesh().unwrap();
+    let names: Vec<_> = mesh
+        .attributes()
+        .iter()
+        .map(|(_, c)| c.name.as_str())
+        .collect();
+    assert_eq!(names, ["TEMP", "_normal", "_uv"]);
+    assert_eq!(loaded.notes.len(), 1, "{:?}", loaded.notes);
+}
+
+#[test]
+fn attributes_of_some_primitives_are_zero_elsewhere() {
+    let mut json = square(&[0, 1, 2, 0, 2, 3], 4);
+    json["accessors"].as_array_mut().unwrap().push(json!({
+        "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "byteOffset": 0
+    }));
+    json["meshes"][0]["primitives"] = json!([
+        { "attributes": { "POSITION": 0, "_a": 2 }, "indices": 1 },
+        { "attributes": { "POSITION": 2, "_b": 2 }, "indices": 1 },
+    ]);
+    let loaded = read_json(&json).unwrap();
+    assert!(
+        loaded
+            .notes
+            .iter()
+            .any(|note| note.count == 2 && note.what.contains("only some"))
+    );
+    let names: Vec<_> = loaded.objects[0]
+        .as_mesh()
+        .unwrap()
+        .attributes()
+        .iter()
+        .map(|(_, c)| c.name.clone())
+        .collect();
+    assert_eq!(names, ["a", "b"]);
+}
+
+#[test]
+fn quantized_positions_normals_and_coordinates_are_read() {
+    // Positions as signed shorts, not normalized; normals as normalized bytes; coordinates as bytes.
+    let mut bytes = Vec::new();
+    for [x, y] in [[0_i16, 0], [300, 0], [300, 300], [0, -300]] {
+        for value in [x, y, 7, 0] {
+            bytes.extend(value.to_le_bytes());
+        }
+    }
+    for _ in 0..4 {
+        bytes.extend([0_u8, 0, 127, 0]);
+    }
+    for [u, v] in [[0_u8, 255], [255, 255], [255, 0], [0, 0]] {
+        bytes.extend([u, v, 0, 0]);
+    }
+    let accessors = json!([
+        { "bufferView": 1, "componentType": 5122, "count": 4, "type": "VEC3" },
+        { "bufferView": 2, "componentType": 5120, "count": 4, "type": "VEC3", "normalized": true },
+        { "bufferView": 3, "componentType": 5121, "count": 4, "type": "VEC2", "normalized": true },
+    ]);
+    let attributes = json!({ "POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2 });
+    let mut json = document(
+        &bytes,
+        &accessors,
+        &json!([{ "attributes": attributes, "mode": 6 }]),
+    );
+    json["bufferViews"] = json!([
+        { "buffer": 0, "byteLength": 0 },
+        { "buffer": 0, "byteLength": 32, "byteStride": 8 },
+        { "buffer": 0, "byteOffset": 32, "byteLength": 16, "byteStride": 4 },
+        { "buffer": 0, "byteOffset": 48, "byteLength": 16, "byteStride": 4 },
+    ]);
+    json["extensionsUsed"] = json!(["KHR_mesh_quantization"]);
+    json["extensionsRequired"] = json!(["KHR_mesh_quantization"]);
+    let loaded = read_json(&json).unwrap();
+    assert!(loaded.notes.is_empty(), "{:?}", loaded.notes);
+    let mesh = loaded.objects[0].as_mesh().unwrap();
+    assert_eq!(mesh.positions()[1], DVec3::new(300.0, 0.0, 7.0));
+    assert_eq!(mesh.get(mesh::VERTEX_NORMAL).unwrap()[0], DVec3::Z);
+    let uvs = mesh.get(UV).unwrap();
+    let corners = mesh.faces().flat_map(|f| mesh.face_half_edges(f));
+    for h in corners.filter(|&h| mesh.origin(h).index() == 1) {
+        assert_eq!(uvs[h.index()], DVec2::new(1.0, 0.0));
+    }
+}
+
+#[test]
+fn compressed_files_are_refused_with_advice() {
+    for (name, words) in [
+        ("EXT_meshopt_compression", "gltfpack -noq"),
+        ("KHR_draco_mesh_compression", "without compression"),
+        ("KHR_something", "\"KHR_something\", which is not known"),
+    ] {
+        let mut json = square(&[0, 1, 2], 4);
+        json["extensionsRequired"] = json!([name]);
+        match read_json(&json) {
+            Err(ReadError::Json { message, .. }) => {
+                assert!(
+                    message.contains(name) && message.contains(words),
+                    "{message}"
+                );
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}

@@ -247,7 +247,7 @@ mod tests {
     #[test]
     fn faces_that_are_no_manifold_can_be_refused() {
         let folder = tempfile::tempdir().unwrap();
-        let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n";
+        let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n";
         std::fs::write(folder.path().join("a.obj"), obj).unwrap();
         let files = files(folder.path());
         let mut scene = Scene::new();

@@ -8,8 +8,9 @@ use serde::{Deserialize, Serialize};
 
 /// Writes objects to a file below the output folder.
 ///
-/// The ending chooses the format: `.obj`, `.glb`, `.gltf`, `.bez` or `.bzc`. Everything that the format
-/// cannot hold is listed. The file appears when the whole recipe has succeeded.
+/// The ending chooses the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for
+/// Bezier patches, `.bzc` for a curve. Everything that the format cannot hold is listed. The file appears
+/// when the whole recipe has succeeded.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {
@@ -29,9 +30,13 @@ impl Operation for Save {
             Err(error) => return vec![Problem::error(error.to_string()).at(["path"])],
         };
         let mut problems = Vec::new();
-        if Format::from_path(&path).is_none() {
-            let message = format!("no format is known for \"{}\"", self.path);
-            let help = format!("known endings: {}", Format::known());
+        let format = Format::from_path(&path);
+        if !format.is_some_and(Format::is_written) {
+            let message = match format {
+                Some(format) => format!("{format} files are only read, not written"),
+                None => format!("no format is known for \"{}\"", self.path),
+            };
+            let help = format!("endings that can be written: {}", Format::known_to_write());
             problems.push(Problem::error(message).at(["path"]).help(help));
         }
         if plan.outputs.contains(&path) {
@@ -147,7 +152,7 @@ mod tests {
         let mut plan = Plan::default();
         plan.insert("a", PlannedGeometry::Patches(Range::ANY));
         assert_eq!(save("a.obj").plan(&mut plan, &cx), []);
-        for path in ["a.obj", "../a.obj", "a.xyz", "{none.stem}.obj"] {
+        for path in ["a.obj", "../a.obj", "a.xyz", "a.dae", "{none.stem}.obj"] {
             assert_eq!(save(path).plan(&mut plan, &cx).len(), 1, "{path}");
         }
     }

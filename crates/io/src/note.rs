@@ -1,5 +1,6 @@
 //! What reading changed or left out, and what writing lost: nothing is dropped silently.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -45,11 +46,16 @@ impl fmt::Display for Note {
     }
 }
 
+/// Behind so many notes further ones are only counted: a file can give cause for one with every few bytes.
+const MOST: usize = 1000;
+
 /// The notes about one file, while it is being read.
 #[derive(Debug)]
 pub(crate) struct Notes {
     path: PathBuf,
     list: Vec<Note>,
+    /// How many there are behind those of the list.
+    further: BTreeMap<NoteKind, usize>,
 }
 
 impl Notes {
@@ -57,6 +63,7 @@ impl Notes {
         Self {
             path: path.to_path_buf(),
             list: Vec::new(),
+            further: BTreeMap::new(),
         }
     }
 
@@ -67,7 +74,7 @@ impl Notes {
         line: impl Into<Option<usize>>,
         what: impl Into<String>,
     ) {
-        self.add(NoteKind::LeftOut, count, line.into(), what.into());
+        self.add(NoteKind::LeftOut, count, line.into(), what.into(), None);
     }
 
     /// Adds a note unless `count` is 0.
@@ -77,38 +84,75 @@ impl Notes {
         line: impl Into<Option<usize>>,
         what: impl Into<String>,
     ) {
-        self.add(NoteKind::Changed, count, line.into(), what.into());
+        self.add(NoteKind::Changed, count, line.into(), what.into(), None);
     }
 
     /// Adds a note about these elements unless there are none.
     pub(crate) fn elements(&mut self, kind: NoteKind, what: impl Into<String>, elements: Elements) {
         let count = elements.len();
-        self.add(kind, count, None, what.into());
-        if let (true, Some(note)) = (count > 0, self.list.last_mut()) {
-            note.elements = Some(elements);
-        }
+        self.add(kind, count, None, what.into(), Some(elements));
     }
 
-    fn add(&mut self, kind: NoteKind, count: usize, line: Option<usize>, what: String) {
+    fn add(
+        &mut self,
+        kind: NoteKind,
+        count: usize,
+        line: Option<usize>,
+        what: String,
+        elements: Option<Elements>,
+    ) {
         if count > 0 {
-            self.list.push(Note {
+            let path = self.path.clone();
+            self.push(Note {
                 kind,
-                path: self.path.clone(),
+                path,
                 line,
                 count,
                 what,
-                elements: None,
+                elements,
             });
+        }
+    }
+
+    fn push(&mut self, note: Note) {
+        if self.list.len() < MOST {
+            self.list.push(note);
+        } else {
+            *self.further.entry(note.kind).or_default() += 1;
         }
     }
 
     /// Adds the notes about another file.
     pub(crate) fn append(&mut self, other: Self) {
-        self.list.extend(other.list);
+        for note in other.list {
+            self.push(note);
+        }
+        for (kind, count) in other.further {
+            *self.further.entry(kind).or_default() += count;
+        }
     }
 
     pub(crate) fn into_vec(self) -> Vec<Note> {
-        self.list
+        let Self {
+            path,
+            mut list,
+            further,
+        } = self;
+        list.extend(further.into_iter().map(|(kind, count)| {
+            let what = match kind {
+                NoteKind::LeftOut => "further notes of what is left out",
+                NoteKind::Changed => "further notes of what is changed",
+            };
+            Note {
+                kind,
+                path: path.clone(),
+                line: None,
+                count,
+                what: what.to_owned(),
+                elements: None,
+            }
+        }));
+        list
     }
 }
 
@@ -134,5 +178,26 @@ impl fmt::Display for Loss {
             write!(f, "{domain} ")?;
         }
         write!(f, "`{}` ({}): {}", self.attribute, self.count, self.reason)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_notes_are_counted_instead_of_listed() {
+        let mut notes = Notes::of(Path::new("a"));
+        for i in 0..1500 {
+            notes.left_out(2, i, "things left out");
+            notes.changed(1, None, "things changed");
+        }
+        let mut all = Notes::of(Path::new("b"));
+        all.append(notes);
+        let list = all.into_vec();
+        assert_eq!(list.len(), 1002);
+        let [left_out, changed] = [&list[1000], &list[1001]].map(ToString::to_string);
+        assert_eq!(left_out, "b: 1000 further notes of what is left out");
+        assert_eq!(changed, "b: 1000 further notes of what is changed");
     }
 }

@@ -8,6 +8,8 @@ use crate::text::{Place, name, quoted};
 
 /// More properties than any program writes; it bounds the passes over the data.
 pub(super) const MOST_PROPERTIES: usize = 4096;
+/// More elements than any program writes; they are looked for by their names.
+const MOST_ELEMENTS: usize = 1024;
 
 /// How the values of a file are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -166,6 +168,10 @@ impl Names {
         words.end()?;
         if !self.elements.insert(name(word)) {
             return Err(place.error(format!("element {} is there already", quoted(word))));
+        }
+        if self.elements.len() > MOST_ELEMENTS {
+            let message = format!("expected at most {MOST_ELEMENTS} elements, found more");
+            return Err(place.error(message));
         }
         self.properties.clear();
         header.elements.push(Element {

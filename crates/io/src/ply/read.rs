@@ -49,11 +49,7 @@ pub(crate) fn read(
         header: &header,
         body: &body,
         tables: &tables,
-        marks: header
-            .comments
-            .iter()
-            .filter_map(|c| Mark::parse(c))
-            .collect(),
+        marks: marks(&header),
         polygons: Polygons::default(),
         names: BTreeSet::new(),
         notes,
@@ -71,6 +67,19 @@ pub(crate) fn read(
         reader.leave_small_faces_out();
     }
     Ok(Found::polygons(name, reader.polygons))
+}
+
+/// What comments say about properties that are there; of each only the first counts.
+fn marks(header: &Header) -> Vec<Mark> {
+    let properties = header.elements.iter().flat_map(|e| &e.properties);
+    let names: BTreeSet<&str> = properties.map(|p| p.name.as_str()).collect();
+    let mut marked = BTreeSet::new();
+    let marks = header.comments.iter().filter_map(|c| Mark::parse(c));
+    let mut is_first = |mark: &Mark| {
+        names.contains(mark.property.as_str())
+            && marked.insert((mark.domain, mark.property.clone()))
+    };
+    marks.filter(|mark| is_first(mark)).collect()
 }
 
 struct Reader<'a, 'n> {

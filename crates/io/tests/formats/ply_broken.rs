@@ -1,5 +1,7 @@
 //! PLY files that break the rules of the format are refused with the place.
 
+use std::time::{Duration, Instant};
+
 use mesh_io::{ReadError, ReadOptions};
 use proptest::prelude::*;
 use scene::Object;
@@ -346,4 +348,28 @@ proptest! {
         text[at] = bytes.first().copied().unwrap_or(0);
         whatever(&text);
     }
+}
+
+#[test]
+fn comments_that_describe_a_list_again_and_again_take_no_time() {
+    // Each would be compared with all faces, and does not fit the last one.
+    let n = 50_000;
+    let comment = "comment meshwright corner float copy values \"a\"\n".repeat(20_000);
+    let head = format!(
+        "ply\nformat ascii 1.0\n{comment}element vertex 3\n{VERTEX}element face {n}\n\
+         property list uchar int vertex_indices\nproperty list uchar int values\nend_header\n{CORNERS}"
+    );
+    let face = "3 0 1 2 3 0 0 0\n".repeat(n - 1) + "3 0 1 2 1 0\n";
+    let folder = Folder::new();
+    let path = folder.with("a.ply", head + &face);
+    let start = Instant::now();
+    read(&path).unwrap();
+    assert!(start.elapsed() < Duration::from_secs(5));
+}
+
+#[test]
+fn too_many_elements_are_refused() {
+    let elements: String = (0..100_000).map(|i| format!("element a{i} 0\n")).collect();
+    let file = format!("ply\nformat ascii 1.0\n{elements}element vertex 0\n{VERTEX}end_header\n");
+    assert_error(file, "1027:9: expected at most 1024 elements");
 }

@@ -15,6 +15,10 @@ use crate::text::{name, quoted};
 
 /// No material library is larger than this, in bytes.
 const LARGEST: u64 = 1 << 28;
+/// Further libraries of a file are left out.
+const MOST_LIBRARIES: usize = 256;
+/// No path is longer than this, in bytes.
+const LONGEST_PATH: usize = 1024;
 
 /// The materials of an OBJ file: those of its libraries in their order, then plain ones for the names
 /// that no library defines.
@@ -29,14 +33,23 @@ pub(super) fn read_libraries(
 ) -> Result<Vec<Material>, ReadError> {
     let mut materials: Vec<Material> = Vec::new();
     let mut known = BTreeSet::new();
+    let mut libraries = BTreeSet::new();
+    let mut further = 0;
+    let mut room = LARGEST;
     for (place, words) in &file.libraries {
-        for library in &library_names(words, folder_of(path)) {
+        let (names, rest) = library_names(words, folder_of(path), MOST_LIBRARIES - libraries.len());
+        further += rest;
+        for library in &names {
             let relative = inside(library).map_err(|why| {
                 let message = format!("the material library {} {why}", quoted(library.as_bytes()));
                 place.error(message).in_file(path)
             })?;
-            match read_beside(path, &relative, LARGEST) {
+            if !libraries.insert(relative.clone()) {
+                continue;
+            }
+            match read_beside(path, &relative, room) {
                 Ok(bytes) => {
+                    room -= bytes.len() as u64;
                     let mut library_notes = Notes::of(&folder_of(path).join(&relative));
                     for material in read_library(&bytes, &mut library_notes) {
                         if known.insert(material.name.clone()) {
@@ -56,6 +69,11 @@ pub(super) fn read_libraries(
             }
         }
     }
+    notes.left_out(
+        further,
+        None,
+        "names of further material libraries left out",
+    );
     for wanted in &file.material_names {
         if known.insert(wanted.clone()) {
             let what = format!("material `{wanted}` is in no library: taken as plain white");
@@ -66,12 +84,15 @@ pub(super) fn read_libraries(
     Ok(materials)
 }
 
-/// The names on an `mtllib` line: in quotes, or several words that are one file, or single words.
-fn library_names(words: &str, folder: &Path) -> Vec<String> {
-    let is_file = |name: &str| inside(name).is_ok_and(|name| folder.join(name).is_file());
+/// The names on an `mtllib` line: in quotes, or several words that are one file, or single words. At most so many,
+/// and how many words are behind them.
+fn library_names(words: &str, folder: &Path, most: usize) -> (Vec<String>, usize) {
+    let is_file = |name: &str| {
+        name.len() <= LONGEST_PATH && inside(name).is_ok_and(|name| folder.join(name).is_file())
+    };
     let mut names = Vec::new();
     let mut rest = words.trim();
-    while !rest.is_empty() {
+    while !rest.is_empty() && names.len() < most {
         let quoted = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
         let (name, behind) = quoted.unwrap_or_else(|| {
             // The longest beginning that is a file; a single word otherwise.
@@ -86,7 +107,7 @@ fn library_names(words: &str, folder: &Path) -> Vec<String> {
         }
         rest = behind.trim_start();
     }
-    names
+    (names, rest.split_whitespace().count())
 }
 
 /// At this many blanks of a line the name of a file is looked for to end.

@@ -10,6 +10,7 @@ mod gltf_materials;
 mod gltf_read;
 mod gltf_written;
 mod obj_files;
+mod obj_limits;
 mod off_files;
 mod ply_broken;
 mod ply_files;

@@ -1,0 +1,43 @@
+//! OBJ files whose lines name more than they are worth: read without a hang.
+
+use std::time::{Duration, Instant};
+
+use mesh_io::Loaded;
+
+use crate::{Folder, read};
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+/// Reads a text beside a library `a.mtl`, in little time.
+fn soon(text: &str, library: &str) -> Loaded {
+    let folder = Folder::new();
+    folder.with("a.mtl", library);
+    let path = folder.with("a.obj", text);
+    let start = Instant::now();
+    let loaded = read(&path).unwrap();
+    assert!(
+        start.elapsed() < Duration::from_secs(5),
+        "{:?}",
+        start.elapsed()
+    );
+    loaded
+}
+
+#[test]
+fn a_line_of_many_libraries_is_cut() {
+    let names: Vec<String> = (0..200_000).map(|i| format!("b{i}")).collect();
+    let text = format!("mtllib {}\n{TRIANGLE}", names.join(" "));
+    let notes = soon(&text, "newmtl red\n").notes;
+    let rest = notes.last().unwrap();
+    assert!(rest.what.contains("further material libraries"), "{rest}");
+    assert_eq!(notes.len() - 1 + rest.count, names.len());
+}
+
+#[test]
+fn a_library_that_is_named_again_is_read_once() {
+    let text = format!("{}usemtl red\n{TRIANGLE}", "mtllib a.mtl\n".repeat(20_000));
+    let library = "newmtl red\nKd 1 0 0\n".to_owned() + &"# a comment\n".repeat(2000);
+    let loaded = soon(&text, &library);
+    assert_eq!(loaded.objects[0].materials.len(), 1);
+    assert!(loaded.notes.is_empty(), "{:?}", loaded.notes);
+}

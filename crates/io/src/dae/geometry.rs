@@ -71,10 +71,10 @@ struct Columns {
 }
 
 impl<'a, 'd> Geometries<'a, 'd> {
-    pub(super) fn new(document: &'d Document<'a>) -> Self {
+    pub(super) fn new(document: &'d Document<'a>, budget: Budget) -> Self {
         Self {
             document,
-            budget: Budget::of(document.size),
+            budget,
             sources: BTreeMap::new(),
         }
     }
@@ -114,13 +114,16 @@ impl<'a, 'd> Geometries<'a, 'd> {
             self.budget
                 .take(list, outline.order.len() * Budget::CORNER)?;
             self.add(list, &inputs, &outline, &mut surface.polygons, &mut columns)?;
+            let mut new = 0;
             let symbol = list.attribute("material").map_or(-1, |symbol| {
                 let next = surface.symbols.len();
                 *symbols.entry(symbol).or_insert_with(|| {
                     surface.symbols.push(symbol);
+                    new = Budget::MATERIAL;
                     i32::try_from(next).unwrap_or(i32::MAX)
                 })
             });
+            self.budget.take(list, new)?;
             surface.symbol_of.resize(surface.polygons.n_faces(), symbol);
         }
         let (Some(vertices), true) = (vertices, surface.polygons.n_faces() > 0) else {
@@ -159,15 +162,16 @@ impl<'a, 'd> Geometries<'a, 'd> {
         if let Some(known) = self.sources.get(&key) {
             return Ok(Rc::clone(known));
         }
-        let read = vectors(self.document, source, names, least)?;
-        self.budget.take(source, 8 * read.values.len())?;
+        let (read, n_numbers) = vectors(self.document, source, names, least)?;
+        self.budget
+            .take(source, 8 * read.values.len() + Budget::NUMBER * n_numbers)?;
         let read = Rc::new(read);
         self.sources.insert(key, Rc::clone(&read));
         Ok(read)
     }
 
     /// The inputs of a list of polygons; those of its vertices stand behind its own.
-    fn inputs(&self, list: Node<'a>, tally: &mut Tally) -> Result<Inputs<'a>, TextError> {
+    fn inputs(&mut self, list: Node<'a>, tally: &mut Tally) -> Result<Inputs<'a>, TextError> {
         let mut stride = 0;
         let mut vertex = None;
         let mut others: Vec<Input> = Vec::new();
@@ -211,9 +215,12 @@ impl<'a, 'd> Geometries<'a, 'd> {
         let vertices = self.document.follow(input, "source", &["vertices"])?;
         let vertices = vertices
             .ok_or_else(|| error_at(input, "vertices in another file are not read here"))?;
-        for input in named(vertices, "input") {
+        let of_vertices: Vec<Node> = named(vertices, "input").collect();
+        for &input in &of_vertices {
             add(input, vertex)?;
         }
+        // Each list reads them again.
+        self.budget.take(list, Budget::NUMBER * of_vertices.len())?;
         Ok(Inputs {
             stride,
             vertex,

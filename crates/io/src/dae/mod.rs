@@ -27,7 +27,7 @@
 //! file without a scene gives an object for each geometry. Other files that it refers to are not read.
 //!
 //! Document type declarations are refused, so that entities cannot grow; what instances repeat may take
-//! 1024 times the size of the file.
+//! 64 times the size of the file, and 16 MiB in any case.
 
 mod document;
 mod geometry;
@@ -41,7 +41,7 @@ use std::path::Path;
 
 use glam::{DAffine3, DMat3};
 use mesh::{CORNER_NORMAL, Domain, MATERIAL, UV, Values};
-use scene::Material;
+use scene::{Material, Texture};
 
 use crate::error::{ReadError, TextError};
 use crate::names::Names;
@@ -97,8 +97,9 @@ fn each_object<T>(
     let mut tally = Tally::default();
     note_asset(&document, notes)?;
     note_libraries(&document, &mut tally);
-    let placed = placed(&document, notes, &mut tally)?;
-    let mut geometries = Geometries::new(&document);
+    let mut budget = Budget::of(document.size);
+    let placed = placed(&document, &mut budget, notes, &mut tally)?;
+    let mut geometries = Geometries::new(&document, budget);
     let mut surfaces: BTreeMap<u32, Option<Surface>> = BTreeMap::new();
     let mut materials = BTreeMap::new();
     let mut names = Names::default();
@@ -119,9 +120,7 @@ fn each_object<T>(
             continue;
         };
         if known && let Some(instance) = placed.instance {
-            geometries
-                .budget
-                .take(instance, Budget::cost_of(&surface.polygons))?;
+            geometries.budget.take(instance, Budget::cost_of(surface))?;
         }
         let object = Object {
             document: &document,
@@ -129,6 +128,7 @@ fn each_object<T>(
             surface,
             materials: &mut materials,
             tally: &mut tally,
+            budget: &mut geometries.budget,
         };
         let name = names.unique(placed.name(name), notes);
         objects.push(make(name, object)?);
@@ -145,6 +145,7 @@ struct Object<'a, 'd> {
     /// Those that were read before.
     materials: &'d mut BTreeMap<u32, Material>,
     tally: &'d mut Tally,
+    budget: &'d mut Budget,
 }
 
 impl Object<'_, '_> {
@@ -207,6 +208,11 @@ impl Object<'_, '_> {
                 self.materials.insert(number_of(node), material.clone());
                 polygons.materials.push(material);
             }
+        }
+        for material in &polygons.materials {
+            let path = material.base_color_texture.as_ref().and_then(Texture::path);
+            let text = material.name.len() + path.map_or(0, str::len);
+            self.budget.take(self.placed.geometry, text)?;
         }
         let place = |&symbol: &i32| {
             let symbol = usize::try_from(symbol).ok();
@@ -358,19 +364,33 @@ fn note_libraries(document: &Document, tally: &mut Tally) {
 struct Budget(usize);
 
 impl Budget {
-    /// How many bytes a vertex, a corner and a further value of a corner take while a mesh is built, about.
-    const VERTEX: usize = 100;
-    const CORNER: usize = 80;
-    const VALUE: usize = 80;
+    /// A file may become this many times its size in memory, ...
+    const TIMES: usize = 64;
+    /// ... and this many bytes in any case.
+    const FREE: usize = 1 << 24;
+    /// How many bytes an object without faces takes, a material of it and what binds it, a vertex, a corner and a
+    /// further value of a corner, about.
+    const OBJECT: usize = 1000;
+    const MATERIAL: usize = 1000;
+    const BOUND: usize = 50;
+    const VERTEX: usize = 64;
+    const CORNER: usize = 48;
+    const VALUE: usize = 24;
+    /// What reading a number costs each time that it is read: time rather than memory.
+    const NUMBER: usize = 20;
 
     fn of(size: usize) -> Self {
-        Self(size.saturating_mul(1024).saturating_add(1 << 20))
+        Self(size.saturating_mul(Self::TIMES).max(Self::FREE))
     }
 
-    fn cost_of(polygons: &Polygons) -> usize {
+    fn cost_of(surface: &Surface) -> usize {
+        let polygons = &surface.polygons;
         let columns = polygons.attributes.of(Domain::Corner).len();
+        let names: usize = surface.symbols.iter().map(|name| name.len()).sum();
         Self::VERTEX * polygons.positions.len()
             + (Self::CORNER + Self::VALUE * columns) * polygons.corners.len()
+            + Self::MATERIAL * surface.symbols.len()
+            + names
     }
 
     fn take(&mut self, node: Node, bytes: usize) -> Result<(), TextError> {

@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::Tally;
 use super::document::{
     Document, Node, below, child, elements, error_at, exactly, is, line, named, number_of, required,
 };
+use super::{Budget, Tally};
 use crate::error::TextError;
 use crate::note::Notes;
 
@@ -46,6 +46,7 @@ fn name(node: Node<'_>) -> &str {
 /// What of the nodes is not as it should be.
 pub(super) fn placed<'a>(
     document: &Document<'a>,
+    budget: &mut Budget,
     notes: &mut Notes,
     tally: &mut Tally,
 ) -> Result<Vec<Placed<'a>>, TextError> {
@@ -78,7 +79,7 @@ pub(super) fn placed<'a>(
         first.map(|scene| line(*scene)),
         "other scenes left out",
     );
-    let placed = Walk::of(document).run(scene, tally)?;
+    let placed = Walk::of(document, budget).run(scene, tally)?;
     let used: BTreeSet<u32> = placed
         .iter()
         .map(|placed| number_of(placed.geometry))
@@ -94,6 +95,7 @@ pub(super) fn placed<'a>(
 /// A walk over the nodes of a scene, on a stack of its own: they may be nested as deeply as the file is long.
 struct Walk<'a, 'd> {
     document: &'d Document<'a>,
+    budget: &'d mut Budget,
     /// How many more elements may be looked at: instances can make a small file large.
     steps: usize,
     /// The nodes that the walk is below of.
@@ -108,9 +110,10 @@ enum Step<'a> {
 }
 
 impl<'a, 'd> Walk<'a, 'd> {
-    fn of(document: &'d Document<'a>) -> Self {
+    fn of(document: &'d Document<'a>, budget: &'d mut Budget) -> Self {
         Self {
             document,
+            budget,
             steps: 4 * document.size + 10_000,
             above: BTreeSet::new(),
             placements: BTreeMap::new(),
@@ -190,6 +193,9 @@ impl<'a, 'd> Walk<'a, 'd> {
                 tally.left_out(1, instance, "geometries in other files left out");
                 continue;
             };
+            // The name of an object is kept in some places.
+            let names = name(node).len() + name(geometry).len();
+            self.budget.take(instance, Budget::OBJECT + 8 * names)?;
             let materials = self.bound_materials(instance, tally)?;
             self.placed.push(Placed {
                 instance: Some(instance),
@@ -237,6 +243,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         };
         for bound in named(list, "instance_material") {
             self.step(bound)?;
+            self.budget.take(bound, Budget::BOUND)?;
             let symbol = required(bound, "symbol")?;
             match self.document.follow(bound, "target", &["material"])? {
                 Some(material) => {

@@ -35,7 +35,7 @@ impl Vectors {
 }
 
 /// The vectors of a source, their components ordered as `names` where the accessor has all of these, and else
-/// as it lists them.
+/// as it lists them; and how many numbers were read for that: sources may share them.
 ///
 /// # Errors
 ///
@@ -45,7 +45,7 @@ pub(super) fn vectors(
     source: Node,
     names: &[&str],
     least: usize,
-) -> Result<Vectors, TextError> {
+) -> Result<(Vectors, usize), TextError> {
     let accessor = below(source, &["technique_common", "accessor"])
         .ok_or_else(|| error_at(source, "expected an accessor in technique_common"))?;
     let components = components(accessor, names)?;
@@ -64,6 +64,7 @@ pub(super) fn vectors(
         ));
     };
     let values = numbers(array)?;
+    let n_numbers = values.len();
     if natural(array, "count")?.is_some_and(|count| count != values.len()) {
         let stated = required(array, "count")?;
         let message = format!("expected {stated} numbers, found {}", values.len());
@@ -92,14 +93,12 @@ pub(super) fn vectors(
     if offset == 0 && stride == width && components.iter().enumerate().all(|(i, &c)| i == c) {
         let mut values = values;
         values.truncate(count * width);
-        return Ok(Vectors { width, values });
+        return Ok((Vectors { width, values }, n_numbers));
     }
     let starts = (0..count).map(|i| offset + i * stride);
     let picked = starts.flat_map(|start| components.iter().map(move |&c| start + c));
-    Ok(Vectors {
-        width,
-        values: picked.map(|i| values[i]).collect(),
-    })
+    let values = picked.map(|i| values[i]).collect();
+    Ok((Vectors { width, values }, n_numbers))
 }
 
 /// Where the components of a vector stand behind its first number; at most four.

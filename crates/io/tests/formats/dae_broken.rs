@@ -300,6 +300,56 @@ fn a_geometry_that_is_repeated_too_often_is_refused() {
 }
 
 #[test]
+fn sources_that_share_a_long_array_are_refused() {
+    // Each has no vectors, but would read all numbers.
+    let source = |i: usize| {
+        format!(
+            "<source id=\"s{i}\"><technique_common><accessor source=\"#a\" count=\"0\" stride=\"3\">\
+             <param name=\"X\"/><param name=\"Y\"/><param name=\"Z\"/></accessor></technique_common></source>"
+        )
+    };
+    let list = |i: usize| {
+        format!(
+            "<polygons><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>\
+             <input semantic=\"NORMAL\" source=\"#s{i}\" offset=\"0\"/><p/></polygons>"
+        )
+    };
+    let n = 2000;
+    let sources: String = (0..n).map(source).collect();
+    let lists: String = (0..n).map(list).collect();
+    let text = SQUARE
+        .replacen("count=\"12\"", "", 1)
+        .replacen(
+            "0 1 0</float",
+            &format!("0 1 0{}</float", " 0".repeat(200_000)),
+            1,
+        )
+        .replacen("<vertices", &format!("{sources}<vertices"), 1)
+        .replacen("</mesh>", &format!("{lists}</mesh>"), 1);
+    let error = soon(&text).unwrap_err().to_string();
+    assert!(error.contains("repeats its polygons"), "{error}");
+}
+
+#[test]
+fn instances_that_repeat_many_materials_or_a_long_name_are_refused() {
+    let list = |i: usize| {
+        format!(
+            "<polygons material=\"x{i}\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p/></polygons>"
+        )
+    };
+    let many = "<instance_geometry url=\"#g\"/>".repeat(2000);
+    let repeated = SQUARE.replacen("<instance_geometry url=\"#g\"/>", &many, 1);
+    let lists: String = (0..2000).map(list).collect();
+    let materials = repeated.replacen("</mesh>", &format!("{lists}</mesh>"), 1);
+    let name = format!("<node name=\"{}\"", "n".repeat(1 << 20));
+    let names = repeated.replacen("<node", &name, 1);
+    for text in [materials, names] {
+        let error = soon(&text).unwrap_err().to_string();
+        assert!(error.contains("repeats its polygons"), "{error}");
+    }
+}
+
+#[test]
 fn what_would_make_the_xml_parser_slow_is_refused() {
     let mut attributes = String::from("<COLLADA");
     let mut namespaces = String::from("<COLLADA");

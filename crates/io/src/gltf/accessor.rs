@@ -1,7 +1,6 @@
 //! Accessors: typed arrays in the buffers, with strides, normalized integers and sparse parts.
 
 use std::borrow::Cow;
-use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use bytemuck::Zeroable;
@@ -12,14 +11,11 @@ use mesh::Value;
 use rayon::prelude::*;
 
 use super::JsonError;
+use super::budget::Budget;
 use super::document::{Document, get};
 
 /// An accessor without a buffer view is all zeros. It may have this many elements even in a tiny file.
 const FREE_ZEROS: u64 = 1 << 16;
-/// A file may become this many times its size in memory, ...
-const TIMES: u64 = 64;
-/// ... and this many bytes in any case.
-const FREE_BYTES: u64 = 1 << 28;
 /// How many elements are converted by one task at least.
 const BLOCK: usize = 1 << 13;
 
@@ -27,39 +23,10 @@ const BLOCK: usize = 1 << 13;
 pub(super) struct Reader<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: &'a [Cow<'a, [u8]>],
-    /// How many bytes may still be made.
-    budget: Cell<u64>,
+    pub(super) budget: &'a Budget,
 }
 
 impl<'a> Reader<'a> {
-    /// `size` is that of the file.
-    pub(super) fn new(document: &'a Document, buffers: &'a [Cow<'a, [u8]>], size: usize) -> Self {
-        let outside: u64 = buffers.iter().map(|buffer| buffer.len() as u64).sum();
-        let budget = (size as u64).saturating_add(outside).saturating_mul(TIMES);
-        Self {
-            document,
-            buffers,
-            budget: Cell::new(budget.max(FREE_BYTES)),
-        }
-    }
-
-    /// Takes bytes out of what the file pays for: many pieces may refer to the same bytes of it.
-    ///
-    /// # Errors
-    ///
-    /// If the file has used up its share; `pointer` is the place that wants more.
-    pub(super) fn spend(&self, bytes: u64, pointer: &str) -> Result<(), JsonError> {
-        let left = self.budget.get().checked_sub(bytes).ok_or_else(|| {
-            let message = format!(
-                "the file refers to the same data so often that it needs more than {TIMES} times its \
-                 size in memory"
-            );
-            JsonError::new(pointer, message)
-        })?;
-        self.budget.set(left);
-        Ok(())
-    }
-
     /// How many elements an accessor has.
     ///
     /// # Errors
@@ -199,7 +166,7 @@ impl<'a> Reader<'a> {
         let mut elements = if let Some(view) = accessor.buffer_view {
             let offset = accessor.byte_offset.unwrap_or_default().0;
             let rows = self.rows(view.value(), offset, count, size, &here)?;
-            self.spend(bytes, &here)?;
+            self.budget.spend(bytes, &here)?;
             let mut elements = mesh::zeroed::<T>(rows.count);
             let blocks = elements.par_chunks_mut(BLOCK).enumerate();
             blocks.for_each(|(block, elements)| {
@@ -217,7 +184,7 @@ impl<'a> Reader<'a> {
             elements
         } else {
             let n = self.zeros(count, &here)?;
-            self.spend(bytes, &here)?;
+            self.budget.spend(bytes, &here)?;
             vec![zero; n]
         };
         let Some(sparse) = &accessor.sparse else {
@@ -232,6 +199,8 @@ impl<'a> Reader<'a> {
             ));
         };
         let n = sparse.count.0;
+        // Not made, but looked at each time that the accessor is used.
+        self.budget.spend(n.saturating_mul(size as u64), &here)?;
         let (indices, values) = (&sparse.indices, &sparse.values);
         let at = format!("{here}/indices");
         let places = self.rows(

@@ -1,12 +1,14 @@
 //! The bytes behind a glTF document: the container of a GLB file, data URIs and files beside it.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use gltf_json::Buffer;
 
 use super::JsonError;
+use super::budget::Budget;
 use crate::asset_path::{inside_uri, read_beside};
 use crate::error::ReadError;
 
@@ -86,7 +88,8 @@ pub(super) fn container(path: &Path, bytes: &[u8]) -> Result<Container, ReadErro
     }
 }
 
-/// Finds the bytes of all buffers. `binary` is the chunk of a GLB file, which stays where it is.
+/// Finds the bytes of all buffers. `binary` is the chunk of a GLB file, which stays where it is. What files beside
+/// it pay for is added to the budget, a file that is read once more is taken from it.
 ///
 /// # Errors
 ///
@@ -96,8 +99,10 @@ pub(super) fn load<'a>(
     path: &Path,
     buffers: &[Buffer],
     mut binary: Option<&'a [u8]>,
+    budget: &Budget,
 ) -> Result<Vec<Cow<'a, [u8]>>, JsonError> {
     let mut loaded = Vec::new();
+    let mut files = BTreeSet::new();
     for (i, buffer) in buffers.iter().enumerate() {
         let length = buffer.byte_length.0;
         let mut bytes = match &buffer.uri {
@@ -106,9 +111,26 @@ pub(super) fn load<'a>(
                 // A buffer without data is legal: an extension would fill it. Nothing can be read of it.
                 Cow::Borrowed(chunk.unwrap_or_default())
             }
-            Some(uri) => from_uri(path, uri, length)
-                .map(Cow::Owned)
-                .map_err(|message| JsonError::new(format!("/buffers/{i}/uri"), message))?,
+            Some(uri) => {
+                let pointer = format!("/buffers/{i}/uri");
+                let error = |message| JsonError::new(&pointer, message);
+                Cow::Owned(match uri.strip_prefix("data:") {
+                    Some(data) => data_uri(data).map_err(error)?.1,
+                    None => {
+                        let name = file_of(uri).map_err(error)?;
+                        if files.contains(&name) {
+                            budget.spend(length, &pointer)?;
+                        }
+                        let bytes = read_beside(path, &name, length).map_err(|cause| {
+                            error(format!("cannot read {:?}: {cause}", shown(uri)))
+                        })?;
+                        if files.insert(name) {
+                            budget.grant(bytes.len() as u64);
+                        }
+                        bytes
+                    }
+                })
+            }
         };
         if (bytes.len() as u64) < length {
             return Err(JsonError::new(
@@ -126,13 +148,13 @@ pub(super) fn load<'a>(
     Ok(loaded)
 }
 
-fn from_uri(path: &Path, uri: &str, length: u64) -> Result<Vec<u8>, String> {
-    if let Some(data) = uri.strip_prefix("data:") {
-        return data_uri(data).map(|(_, bytes)| bytes);
-    }
-    let shown: String = uri.chars().take(80).collect();
-    let name = inside_uri(uri).map_err(|why| format!("the URI {shown:?} {why}"))?;
-    read_beside(path, &name, length).map_err(|error| format!("cannot read {shown:?}: {error}"))
+fn file_of(uri: &str) -> Result<PathBuf, String> {
+    inside_uri(uri).map_err(|why| format!("the URI {:?} {why}", shown(uri)))
+}
+
+/// The beginning of a text that may be long.
+fn shown(uri: &str) -> String {
+    uri.chars().take(80).collect()
 }
 
 /// The type and the bytes of a data URI (RFC 2397) behind its `data:`.

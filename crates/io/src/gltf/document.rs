@@ -7,6 +7,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::JsonError;
+use super::budget::Budget;
 use super::surface::{
     ImageJson, MaterialJson, STRENGTH, SamplerJson, TRANSFORM, TextureJson, UNLIT,
 };
@@ -55,20 +56,20 @@ impl Document {
     /// # Errors
     ///
     /// The first piece that is not what it should be.
-    pub(super) fn new(json: &Value, notes: &mut Notes) -> Result<Self, JsonError> {
+    pub(super) fn new(json: &Value, budget: &Budget, notes: &mut Notes) -> Result<Self, JsonError> {
         check_version(json)?;
         check_extensions(json, notes)?;
         let document = Self {
-            accessors: pieces(json, "accessors")?,
-            buffers: pieces(json, "buffers")?,
-            views: pieces(json, "bufferViews")?,
-            materials: pieces(json, "materials")?,
-            meshes: pieces(json, "meshes")?,
-            nodes: pieces(json, "nodes")?,
+            accessors: pieces(json, "accessors", budget)?,
+            buffers: pieces(json, "buffers", budget)?,
+            views: pieces(json, "bufferViews", budget)?,
+            materials: pieces(json, "materials", budget)?,
+            meshes: pieces(json, "meshes", budget)?,
+            nodes: pieces(json, "nodes", budget)?,
             roots: roots(json, notes)?,
-            textures: pieces(json, "textures")?,
-            samplers: pieces(json, "samplers")?,
-            images: pieces(json, "images")?,
+            textures: pieces(json, "textures", budget)?,
+            samplers: pieces(json, "samplers", budget)?,
+            images: pieces(json, "images", budget)?,
         };
         for (key, what) in [
             ("animations", "animations left out"),
@@ -245,9 +246,20 @@ fn list<'a>(json: &'a Value, key: &str) -> Result<&'a [Value], JsonError> {
     }
 }
 
-fn pieces<T: DeserializeOwned>(json: &Value, key: &str) -> Result<Vec<T>, JsonError> {
+/// The pieces of a list. Without their members they are far smaller in the text than in memory.
+fn pieces<T: DeserializeOwned>(
+    json: &Value,
+    key: &str,
+    budget: &Budget,
+) -> Result<Vec<T>, JsonError> {
     let piece = |(i, value): (usize, &Value)| {
         T::deserialize(value).map_err(|e| JsonError::new(format!("/{key}/{i}"), e.to_string()))
     };
-    list(json, key)?.iter().enumerate().map(piece).collect()
+    let list = list(json, key)?;
+    budget.spend((list.len() * size_of::<T>()) as u64, &format!("/{key}"))?;
+    let mut pieces = Vec::with_capacity(list.len());
+    for numbered in list.iter().enumerate() {
+        pieces.push(piece(numbered)?);
+    }
+    Ok(pieces)
 }

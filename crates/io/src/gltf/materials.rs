@@ -151,7 +151,7 @@ impl<'a> Materials<'a> {
             },
             (None, Some(view)) => {
                 let bytes = self.reader.view(view, || format!("{here}/bufferView"))?;
-                self.reader.spend(bytes.len() as u64, here)?;
+                self.reader.budget.spend(bytes.len() as u64, here)?;
                 (None, bytes.into())
             }
             (None, None) => return Ok(None),

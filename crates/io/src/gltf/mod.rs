@@ -14,10 +14,14 @@
 //!
 //! Texture coordinates have v upwards in a mesh, as in OBJ, and downwards in glTF: v becomes 1 - v.
 //!
+//! What is repeated, such as a mesh that many nodes show, may take 64 times the size of the file, and 16 MiB in
+//! any case.
+//!
 //! The JSON is deserialised piece by piece into the types of `gltf_json`, so that an error knows its
 //! JSON pointer and what is not read cannot be in the way.
 
 mod accessor;
+mod budget;
 mod buffers;
 mod document;
 mod faces;

@@ -4,6 +4,7 @@ use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf_json::Node;
 
 use super::JsonError;
+use super::budget::Budget;
 use super::document::{Document, get};
 use crate::note::Notes;
 
@@ -15,6 +16,16 @@ pub(super) struct Placed {
 }
 
 impl Placed {
+    /// Takes what the object takes at least, with a name that is kept in some places.
+    ///
+    /// # Errors
+    ///
+    /// If the file does not pay for it.
+    pub(super) fn spend(&self, name: &str, budget: &Budget) -> Result<(), JsonError> {
+        let bytes = Budget::OBJECT + 8 * name.len() as u64;
+        budget.spend(bytes, &format!("/nodes/{}", self.node))
+    }
+
     pub(super) fn name<'a>(&self, document: &'a Document, otherwise: &'a str) -> &'a str {
         let node = document.nodes[self.node].name.as_deref();
         let mesh = document.meshes[self.mesh].name.as_deref();

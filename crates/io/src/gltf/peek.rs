@@ -1,6 +1,6 @@
 //! Counting what a glTF file holds, from its JSON alone.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -11,6 +11,7 @@ use gltf_json::validation::Checked;
 
 use super::JsonError;
 use super::accessor::Reader;
+use super::budget::Budget;
 use super::document::Document;
 use super::nodes::placed_meshes;
 use super::read::parse;
@@ -47,14 +48,28 @@ pub(crate) fn peek(path: &Path, name: &str) -> Result<Vec<PeekObject>, ReadError
         _ => read_plain(path, u64::MAX).map_err(io)?,
     };
     let in_file = |error: JsonError| error.in_file(path);
+    let length = json.len();
     let json = parse(path, &json)?;
     let mut notes = Notes::of(path);
-    let document = Document::new(&json, &mut notes).map_err(in_file)?;
+    let budget = Budget::of(length);
+    let document = Document::new(&json, &budget, &mut notes).map_err(in_file)?;
+    let reader = Reader {
+        document: &document,
+        buffers: &[],
+        budget: &budget,
+    };
+    let mut meshes = BTreeMap::new();
     let mut names = Names::default();
     let mut objects = Vec::new();
     for placed in placed_meshes(&document, &mut notes).map_err(in_file)? {
-        let mesh = peek_mesh(&document, placed.mesh).map_err(in_file)?;
-        let name = names.unique(placed.name(&document, name), &mut notes);
+        let mesh = match meshes.get(&placed.mesh) {
+            Some(&known) => known,
+            None => peek_mesh(&reader, placed.mesh).map_err(in_file)?,
+        };
+        meshes.insert(placed.mesh, mesh);
+        let name = placed.name(&document, name);
+        placed.spend(name, &budget).map_err(in_file)?;
+        let name = names.unique(name, &mut notes);
         objects.push(PeekObject {
             name,
             geometry: PeekGeometry::Mesh(mesh),
@@ -63,11 +78,10 @@ pub(crate) fn peek(path: &Path, name: &str) -> Result<Vec<PeekObject>, ReadError
     Ok(objects)
 }
 
-fn peek_mesh(document: &Document, index: usize) -> Result<PeekMesh, JsonError> {
-    let reader = Reader::new(document, &[], 0);
+fn peek_mesh(reader: &Reader, index: usize) -> Result<PeekMesh, JsonError> {
     let mut counts = PeekMesh::default();
     let mut known = BTreeSet::new();
-    for (i, primitive) in document.meshes[index].primitives.iter().enumerate() {
+    for (i, primitive) in reader.document.meshes[index].primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
         let has = |semantic| primitive.attributes.contains_key(&Checked::Valid(semantic));
         let position = primitive

@@ -18,6 +18,8 @@ use crate::note::Notes;
 
 /// How many corners are looked at by one task at least.
 const BLOCK: usize = 1 << 14;
+/// What looking at an attribute that a primitive does not have costs, in bytes: time rather than memory.
+const SMALL: u64 = 16;
 
 /// All primitives of a mesh. A vertex here is one of glTF: one for each side of a seam.
 #[derive(Clone, Debug, Default)]
@@ -112,10 +114,12 @@ pub(super) fn triangles(
 }
 
 impl Triangles {
-    /// The bytes that they take, about.
-    pub(super) fn bytes(&self) -> u64 {
-        let columns: usize = self.columns.values().map(Values::bytes).sum();
-        (columns + size_of_val(&*self.positions) + 2 * size_of_val(&*self.corners)) as u64
+    /// The bytes that an object of them takes, about: each column has a value for each corner there.
+    pub(super) fn cost(&self) -> u64 {
+        const VERTEX: usize = 64;
+        const CORNER: usize = 48;
+        let values: usize = self.columns.values().map(size_of_value).sum();
+        (VERTEX * self.positions.len() + (CORNER + values) * self.corners.len()) as u64
     }
 
     /// Appends the vertices of a primitive; returns the first's index and how many there are.
@@ -182,6 +186,10 @@ impl Triangles {
                 seen.attribute(&(column.to_string() + " of a name that is taken"));
                 continue;
             }
+            if !self.columns.contains_key(&name) {
+                let before = base * size_of_value(&values);
+                reader.budget.spend(before as u64, &at)?;
+            }
             if !self.push_column(name.clone(), values, base, seen) {
                 seen.attribute(&(column.to_string() + " of another type"));
                 continue;
@@ -191,6 +199,8 @@ impl Triangles {
         // Attributes that only other primitives have.
         for (name, values) in &mut self.columns {
             if !found.contains(name) {
+                let more = (base + n - values.len()) * size_of_value(values);
+                reader.budget.spend(SMALL + more as u64, here)?;
                 grow(values, base + n);
                 seen.partial += 1;
             }
@@ -270,6 +280,18 @@ fn append(all: &mut Values, more: Values) -> bool {
     true
 }
 
+/// The bytes of one of the values.
+fn size_of_value(values: &Values) -> usize {
+    match values {
+        Values::Float(_) => size_of::<f64>(),
+        Values::Vec2(_) => size_of::<DVec2>(),
+        Values::Vec3(_) => size_of::<DVec3>(),
+        Values::Vec4(_) => size_of::<DVec4>(),
+        Values::Int(_) => size_of::<i32>(),
+        Values::Tag(_) => size_of::<bool>(),
+    }
+}
+
 /// Fills values up with zeros.
 fn grow(values: &mut Values, n: usize) {
     match values {
@@ -293,7 +315,7 @@ fn corners(
     let order = match primitive.indices {
         None => {
             let pointer = format!("{here}/attributes/POSITION");
-            reader.spend(u64::from(count) * 4, &pointer)?;
+            reader.budget.spend(u64::from(count) * 4, &pointer)?;
             (0..count).collect()
         }
         Some(indices) => {

@@ -7,10 +7,11 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use glam::{DAffine3, DMat3, DVec3};
 use mesh::{CORNER_NORMAL, Column, Domain, Rule, Values};
 use rayon::prelude::*;
-use scene::Material;
+use scene::{Material, Texture};
 use serde_json::Value;
 
 use super::accessor::Reader;
+use super::budget::Budget;
 use super::document::Document;
 use super::materials::Materials;
 use super::nodes::placed_meshes;
@@ -40,11 +41,16 @@ pub(crate) fn read(
     let in_file = |error: JsonError| error.in_file(path);
     let container = buffers::container(path, &bytes)?;
     let json = parse(path, &bytes[container.json])?;
-    let document = Document::new(&json, notes).map_err(in_file)?;
+    let budget = Budget::of(bytes.len());
+    let document = Document::new(&json, &budget, notes).map_err(in_file)?;
     drop(json);
     let binary = container.binary.map(|range| &bytes[range]);
-    let loaded = buffers::load(path, &document.buffers, binary).map_err(in_file)?;
-    let reader = Reader::new(&document, &loaded, bytes.len());
+    let loaded = buffers::load(path, &document.buffers, binary, &budget).map_err(in_file)?;
+    let reader = Reader {
+        document: &document,
+        buffers: &loaded,
+        budget: &budget,
+    };
     objects(&reader, name, notes).map_err(in_file)
 }
 
@@ -67,24 +73,26 @@ fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<Found>,
     let mut objects = Vec::new();
     for placed in placed {
         let here = format!("/meshes/{}", placed.mesh);
-        let (triangles, known) = match meshes.remove(&placed.mesh) {
-            Some(triangles) => (triangles, true),
-            None => (triangles(reader, placed.mesh, notes)?, false),
+        let triangles = match meshes.remove(&placed.mesh) {
+            Some(triangles) => triangles,
+            None => triangles(reader, placed.mesh, notes)?,
         };
+        reader.budget.spend(triangles.cost(), &here)?;
         let left = uses.entry(placed.mesh).or_default();
         *left -= 1;
         if *left > 0 {
             meshes.insert(placed.mesh, triangles.clone());
         }
-        if known {
-            reader.spend(triangles.bytes(), &here)?;
-        }
         if triangles.corners.len() >= u32::MAX as usize {
             let message = format!("expected fewer than {} corners in a mesh", u32::MAX);
             return Err(JsonError::new(here, message));
         }
-        let name = names.unique(placed.name(document, name), notes);
+        let name = placed.name(document, name);
+        placed.spend(name, reader.budget)?;
+        let name = names.unique(name, notes);
         let (materials, places) = used_materials(&mut materials, &triangles)?;
+        let cost: usize = materials.iter().map(cost_of_material).sum();
+        reader.budget.spend(cost as u64, &here)?;
         let polygons = Polygons {
             materials,
             ..polygons(triangles, &places, &placed.to_scene, notes)
@@ -123,6 +131,19 @@ fn used_materials(
     let places = used.iter().copied().zip(0..).collect();
     let materials = used.into_iter().map(|i| materials.get(i));
     Ok((materials.collect::<Result<_, _>>()?, places))
+}
+
+/// The bytes that a material takes, about.
+fn cost_of_material(material: &Material) -> usize {
+    let textures = [
+        &material.base_color_texture,
+        &material.metallic_roughness_texture,
+        &material.normal_texture,
+        &material.occlusion_texture,
+        &material.emissive_texture,
+    ];
+    let paths = textures.into_iter().flatten().filter_map(Texture::path);
+    size_of::<Material>() + material.name.len() + paths.map(str::len).sum::<usize>()
 }
 
 /// The polygons of a mesh that is placed in the scene, welded along the seams that glTF needs.

@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use mesh_io::ReadError;
-use serde_json::json;
+use mesh_io::{ReadError, ReadOptions};
+use serde_json::{Value, json};
 
 use crate::gltf_read::{read_json, square};
 use crate::{Folder, read};
@@ -63,4 +63,105 @@ fn a_container_with_a_lying_length_is_refused() {
         bytes.extend(b"JSON{}  ");
         assert!(read(&folder.with("a.glb", bytes)).is_err());
     }
+}
+
+/// An error, and that in little time.
+fn refused_soon(json: &Value) -> String {
+    let start = Instant::now();
+    let error = read_json(json).unwrap_err();
+    assert!(
+        start.elapsed() < Duration::from_secs(5),
+        "{:?}",
+        start.elapsed()
+    );
+    error.to_string()
+}
+
+#[test]
+fn nodes_that_repeat_a_long_name_are_refused() {
+    let mut json = square(&[0, 1, 2], 4);
+    json["meshes"][0]["name"] = "a".repeat(1 << 20).into();
+    json["nodes"] = vec![json!({ "mesh": 0 }); 2000].into();
+    json["scenes"][0]["nodes"] = (0..2000).collect();
+    assert!(refused_soon(&json).contains("so often"));
+}
+
+#[test]
+fn nodes_that_repeat_a_long_material_are_refused() {
+    let mut json = square(&[0, 1, 2], 4);
+    json["materials"] = json!([{ "name": "a".repeat(1 << 20) }]);
+    json["meshes"][0]["primitives"][0]["material"] = 0.into();
+    json["nodes"] = vec![json!({ "mesh": 0 }); 2000].into();
+    json["scenes"][0]["nodes"] = (0..2000).collect();
+    assert!(refused_soon(&json).contains("so often"));
+}
+
+#[test]
+fn attributes_that_each_primitive_has_alone_are_refused() {
+    // Each makes a column for the vertices of all.
+    let mut json = square(&[0, 1, 2], 4);
+    let primitive = |i: usize| {
+        let mut primitive = json["meshes"][0]["primitives"][0].clone();
+        primitive["attributes"][format!("_{i}")] = 0.into();
+        primitive
+    };
+    let primitives: Vec<Value> = (0..2000).map(primitive).collect();
+    json["meshes"][0]["primitives"] = primitives.into();
+    assert!(refused_soon(&json).contains("so often"));
+}
+
+#[test]
+fn a_sparse_part_that_is_used_again_and_again_is_refused() {
+    let mut json = square(&[0; 200_000], 4);
+    json["accessors"][0]["sparse"] = json!({
+        "count": 30_000,
+        "indices": { "bufferView": 0, "byteOffset": 48, "componentType": 5123 },
+        "values": { "bufferView": 0, "byteOffset": 0 },
+    });
+    let primitive = |i: usize| {
+        let mut primitive = json["meshes"][0]["primitives"][0].clone();
+        primitive["indices"] = Value::Null;
+        primitive["mode"] = 5.into();
+        primitive["attributes"][format!("_{i}")] = 0.into();
+        primitive
+    };
+    let primitives: Vec<Value> = (0..1000).map(primitive).collect();
+    json["meshes"][0]["primitives"] = primitives.into();
+    assert!(refused_soon(&json).contains("so often"));
+}
+
+#[test]
+fn a_buffer_that_is_read_again_and_again_is_refused() {
+    let folder = Folder::new();
+    folder.with("a.bin", vec![0; 1 << 20]);
+    let mut json = square(&[0, 1, 2], 4);
+    json["buffers"] = vec![json!({ "uri": "a.bin", "byteLength": 1 << 20 }); 1000].into();
+    let error = read(&folder.with("a.gltf", json.to_string())).unwrap_err();
+    assert!(error.to_string().contains("so often"), "{error}");
+    json["buffers"].as_array_mut().unwrap().truncate(3);
+    read(&folder.with("a.gltf", json.to_string())).unwrap();
+}
+
+#[test]
+fn pieces_without_members_are_refused_if_they_are_many() {
+    for key in ["nodes", "materials"] {
+        let mut json = square(&[0, 1, 2], 4);
+        json[key] = vec![json!({}); 300_000].into();
+        assert!(refused_soon(&json).contains("so often"), "{key}");
+    }
+}
+
+#[test]
+fn many_nodes_that_show_a_mesh_of_many_parts_are_counted_soon() {
+    let mut json = square(&[0, 1, 2], 4);
+    let primitive = json["meshes"][0]["primitives"][0].clone();
+    json["meshes"][0]["primitives"] = vec![primitive; 5000].into();
+    json["nodes"] = vec![json!({ "mesh": 0 }); 5000].into();
+    json["scenes"][0]["nodes"] = (0..5000).collect();
+    let folder = Folder::new();
+    let path = folder.with("a.gltf", json.to_string());
+    let start = Instant::now();
+    let peek = mesh_io::peek(&path, &ReadOptions::default()).unwrap();
+    assert_eq!(peek.objects.len(), 5000);
+    assert!(start.elapsed() < Duration::from_secs(2));
 }

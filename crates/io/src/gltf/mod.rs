@@ -30,12 +30,15 @@ mod materials;
 mod names;
 mod nodes;
 mod peek;
+mod pieces;
+mod prepare;
 mod primitives;
 mod read;
 mod split;
 mod streams;
 mod surface;
 mod write;
+mod write_document;
 mod write_materials;
 
 pub(crate) use peek::peek;

@@ -1,0 +1,63 @@
+//! The bytes of the buffer, piece by piece, and the container of a GLB file.
+
+use crate::error::Unwritable;
+
+/// Writes the bytes of a piece.
+pub(super) type Fill<'a> = Box<dyn Fn(&mut [u8]) + 'a>;
+
+/// A part of the buffer, and what writes it.
+pub(super) struct Piece<'a> {
+    pub(super) start: usize,
+    pub(super) length: usize,
+    pub(super) fill: Fill<'a>,
+}
+
+impl Piece<'_> {
+    /// The byte behind it.
+    pub(super) fn end(&self) -> usize {
+        self.start + self.length
+    }
+}
+
+/// Writes all pieces to their places.
+pub(super) fn fill(out: &mut [u8], pieces: &[Piece]) {
+    for piece in pieces {
+        (piece.fill)(&mut out[piece.start..piece.end()]);
+    }
+}
+
+/// A GLB file: a header, a chunk of JSON and a chunk of bytes, each filled up to a multiple of 4.
+///
+/// # Errors
+///
+/// If it would be longer than the format allows.
+pub(super) fn container(
+    json: &[u8],
+    binary: usize,
+    pieces: &[Piece],
+) -> Result<Vec<u8>, Unwritable> {
+    let padded = json.len().next_multiple_of(4);
+    let start = 20 + padded + 8;
+    let length = if binary > 0 {
+        start + binary.next_multiple_of(4)
+    } else {
+        20 + padded
+    };
+    let word = |n: usize| u32::try_from(n).map(u32::to_le_bytes).ok();
+    let (Some(all), Some(json_length), Some(binary_length)) =
+        (word(length), word(padded), word(binary.next_multiple_of(4)))
+    else {
+        let message = format!("a GLB file holds less than 4 GB, the scene needs {length} bytes");
+        return Err(Unwritable::Scene { message });
+    };
+    let mut out = mesh::zeroed::<u8>(length);
+    out[..12].copy_from_slice(&[*b"glTF", 2_u32.to_le_bytes(), all].concat());
+    out[12..20].copy_from_slice(&[json_length, *b"JSON"].concat());
+    out[20..20 + json.len()].copy_from_slice(json);
+    out[20 + json.len()..20 + padded].fill(b' ');
+    if binary > 0 {
+        out[start - 8..start].copy_from_slice(&[binary_length, *b"BIN\0"].concat());
+        fill(&mut out[start..], pieces);
+    }
+    Ok(out)
+}

@@ -1,0 +1,96 @@
+//! Objects before they are written: their vertices, triangles and bounds.
+
+use std::collections::BTreeMap;
+
+use gltf_json::mesh::Semantic;
+use mesh::{Domain, Mesh};
+use scene::Object;
+
+use super::faces::{Faces, faces_by_material};
+use super::fill::{Bounds, bounds};
+use super::split::{Split, split};
+use super::streams::{Stream, streams};
+use crate::error::Unwritable;
+use crate::loss::Losses;
+
+/// An object of which everything is known but its place in the document.
+pub(super) struct Prepared<'a> {
+    pub(super) object: &'a Object,
+    pub(super) mesh: &'a Mesh,
+    pub(super) streams: Vec<Stream<'a>>,
+    pub(super) split: Split,
+    pub(super) bounds: Bounds,
+    pub(super) faces: BTreeMap<i32, Faces>,
+}
+
+impl<'a> Prepared<'a> {
+    /// Counts what there is to write, and says what is not.
+    ///
+    /// # Errors
+    ///
+    /// If there are too many vertices, or one whose position glTF cannot hold.
+    pub(super) fn new(
+        object: &'a Object,
+        mesh: &'a Mesh,
+        losses: &mut Losses,
+    ) -> Result<Self, Unwritable> {
+        let streams = streams(mesh, losses);
+        let split = split(mesh, &streams);
+        if split.n >= u32::MAX as usize {
+            let message = format!(
+                "expected fewer than {} vertices, found {}",
+                u32::MAX,
+                split.n
+            );
+            return Err(Unwritable::object(&object.name, message));
+        }
+        for stream in &streams {
+            stream.count_broken(mesh, &split, losses);
+        }
+        let isolated = mesh.n_isolated_vertices();
+        losses.add(
+            Domain::Vertex,
+            "position",
+            isolated,
+            "isolated vertices: glTF holds triangles",
+        );
+        let polygons = mesh.faces().filter(|&f| !mesh.is_triangle(f)).count();
+        losses.add(
+            Domain::Face,
+            "polygon",
+            polygons,
+            "glTF holds triangles: the polygons are cut",
+        );
+        if isolated == 0 && mesh.n_faces() == 0 {
+            losses.add(
+                None,
+                "mesh",
+                1,
+                "an empty mesh is written as a node without one",
+            );
+        }
+        let bounds = bounds(mesh, &split).map_err(|v| {
+            let message = format!(
+                "the position of {v}, {}, is too large for the 32 bits of glTF",
+                mesh.position(v)
+            );
+            Unwritable::object(&object.name, message)
+        })?;
+        let faces = faces_by_material(object, mesh, &split, polygons > 0, losses);
+        Ok(Self {
+            object,
+            mesh,
+            streams,
+            split,
+            bounds,
+            faces,
+        })
+    }
+
+    /// How many sets of texture coordinates there are.
+    pub(super) fn n_uvs(&self) -> u32 {
+        let is_uv = |stream: &&Stream| matches!(stream.semantic, Semantic::TexCoords(_));
+        let count = self.streams.iter().filter(is_uv).count();
+        u32::try_from(count).unwrap_or(u32::MAX)
+    }
+}

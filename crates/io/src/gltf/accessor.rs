@@ -1,6 +1,7 @@
 //! Accessors: typed arrays in the buffers, with strides, normalized integers and sparse parts.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use bytemuck::Zeroable;
@@ -13,6 +14,7 @@ use rayon::prelude::*;
 use super::JsonError;
 use super::budget::Budget;
 use super::document::{Document, get};
+use super::numbers::{kinds, number, one_of, type_name, whole};
 
 /// An accessor without a buffer view is all zeros. It may have this many elements even in a tiny file.
 const FREE_ZEROS: u64 = 1 << 16;
@@ -24,9 +26,24 @@ pub(super) struct Reader<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: &'a [Cow<'a, [u8]>],
     pub(super) budget: &'a Budget,
+    /// The bytes of compressed views, as far as they have been needed.
+    pub(super) decoded: Vec<OnceCell<Vec<u8>>>,
 }
 
 impl<'a> Reader<'a> {
+    pub(super) fn new(
+        document: &'a Document,
+        buffers: &'a [Cow<'a, [u8]>],
+        budget: &'a Budget,
+    ) -> Self {
+        Self {
+            document,
+            buffers,
+            budget,
+            decoded: document.views.iter().map(|_| OnceCell::new()).collect(),
+        }
+    }
+
     /// How many elements an accessor has.
     ///
     /// # Errors
@@ -241,169 +258,4 @@ impl<'a> Reader<'a> {
             JsonError::new(format!("{here}/count"), message)
         })
     }
-
-    /// The bytes of a view.
-    ///
-    /// # Errors
-    ///
-    /// If there is no such view or its buffer is too short; `pointer` is the place that refers to it.
-    pub(super) fn view(
-        &self,
-        index: usize,
-        pointer: impl Fn() -> String,
-    ) -> Result<&[u8], JsonError> {
-        let at = format!("/bufferViews/{index}");
-        let view = get(&self.document.views, index, pointer, "buffer view")?;
-        let buffer = view.buffer.value();
-        let bytes = get(self.buffers, buffer, || format!("{at}/buffer"), "buffer")?;
-        let start = view.byte_offset.unwrap_or_default().0;
-        let end = start
-            .checked_add(view.byte_length.0)
-            .filter(|&end| end <= bytes.len() as u64);
-        let range =
-            end.and_then(|end| Some(usize::try_from(start).ok()?..usize::try_from(end).ok()?));
-        range.map(|range| &bytes[range]).ok_or_else(|| {
-            let message = format!(
-                "the view says {} bytes from {start}, but buffer {buffer} has {}",
-                view.byte_length.0,
-                bytes.len()
-            );
-            JsonError::new(format!("{at}/byteLength"), message)
-        })
-    }
-
-    /// `count` pieces of `size` bytes in a view, from `offset`, as far apart as the view says.
-    fn rows(
-        &self,
-        index: usize,
-        offset: u64,
-        count: u64,
-        size: usize,
-        here: &str,
-    ) -> Result<Rows<'_>, JsonError> {
-        let bytes = self.view(index, || format!("{here}/bufferView"))?;
-        let (view, at) = (&self.document.views[index], format!("/bufferViews/{index}"));
-        let stride = view.byte_stride.map_or(0, |stride| stride.0);
-        let stride = if stride == 0 { size } else { stride };
-        if stride < size {
-            let message =
-                format!("expected at least {size}, the size of an element, found {stride}");
-            return Err(JsonError::new(format!("{at}/byteStride"), message));
-        }
-        // The last element needs no room for the rest of its stride.
-        let needed = match count {
-            0 => Some(0),
-            _ => (count - 1)
-                .checked_mul(stride as u64)
-                .and_then(|bytes| bytes.checked_add(size as u64))
-                .and_then(|bytes| bytes.checked_add(offset)),
-        };
-        if needed.is_none_or(|needed| needed > bytes.len() as u64) {
-            let message = format!(
-                "{count} elements of {size} bytes, {stride} apart, from byte {offset} do not fit the \
-                 {} bytes of the view",
-                bytes.len()
-            );
-            return Err(JsonError::new(format!("{here}/count"), message));
-        }
-        // Both fit: they are no more than the length of the view.
-        let [count, offset] = [count, offset].map(|n| usize::try_from(n).unwrap_or(0));
-        Ok(Rows {
-            bytes: bytes.get(offset..).unwrap_or_default(),
-            count,
-            size,
-            stride,
-        })
-    }
-}
-
-/// Pieces of the same size, the same distance apart. The last one needs no room behind it.
-#[derive(Clone, Copy)]
-struct Rows<'a> {
-    bytes: &'a [u8],
-    count: usize,
-    size: usize,
-    stride: usize,
-}
-
-impl<'a> Rows<'a> {
-    /// `count` rows from the one at `first`.
-    fn block(self, first: usize, count: usize) -> Self {
-        Self {
-            bytes: &self.bytes[first * self.stride..],
-            count,
-            ..self
-        }
-    }
-
-    fn iter(self) -> impl Iterator<Item = &'a [u8]> {
-        (0..self.count).map(move |i| {
-            let start = i * self.stride;
-            &self.bytes[start..start + self.size]
-        })
-    }
-}
-
-fn kinds(accessor: &Accessor, here: &str) -> Result<(Type, ComponentType), JsonError> {
-    let Checked::Valid(kind) = accessor.type_ else {
-        return Err(JsonError::new(
-            format!("{here}/type"),
-            "expected SCALAR, VEC2, VEC3, ...",
-        ));
-    };
-    let Checked::Valid(component) = accessor.component_type else {
-        let message = "expected one of 5120, 5121, 5122, 5123, 5125, 5126";
-        return Err(JsonError::new(format!("{here}/componentType"), message));
-    };
-    Ok((kind, component.0))
-}
-
-fn number(bytes: &[u8], component: ComponentType, normalized: bool) -> f64 {
-    let (value, largest) = match (component, bytes) {
-        (ComponentType::I8, &[a]) => (f64::from(i8::from_le_bytes([a])), 127.0),
-        (ComponentType::U8, &[a]) => (f64::from(a), 255.0),
-        (ComponentType::I16, &[a, b]) => (f64::from(i16::from_le_bytes([a, b])), 32767.0),
-        (ComponentType::U16, &[a, b]) => (f64::from(u16::from_le_bytes([a, b])), 65535.0),
-        (ComponentType::U32, &[a, b, c, d]) => (
-            f64::from(u32::from_le_bytes([a, b, c, d])),
-            f64::from(u32::MAX),
-        ),
-        (ComponentType::F32, &[a, b, c, d]) => return f64::from(f32::from_le_bytes([a, b, c, d])),
-        _ => return f64::NAN,
-    };
-    // The lowest signed integer stands for -1 as well as the one above it.
-    if normalized {
-        (value / largest).max(-1.0)
-    } else {
-        value
-    }
-}
-
-fn whole(bytes: &[u8], component: ComponentType) -> u32 {
-    match (component, bytes) {
-        (ComponentType::U8, &[a]) => u32::from(a),
-        (ComponentType::U16, &[a, b]) => u32::from(u16::from_le_bytes([a, b])),
-        (ComponentType::U32, &[a, b, c, d]) => u32::from_le_bytes([a, b, c, d]),
-        _ => u32::MAX,
-    }
-}
-
-fn type_name(kind: Type) -> &'static str {
-    match kind {
-        Type::Scalar => "SCALAR",
-        Type::Vec2 => "VEC2",
-        Type::Vec3 => "VEC3",
-        Type::Vec4 => "VEC4",
-        Type::Mat2 => "MAT2",
-        Type::Mat3 => "MAT3",
-        Type::Mat4 => "MAT4",
-    }
-}
-
-fn one_of(types: &[Type]) -> String {
-    types
-        .iter()
-        .map(|&kind| type_name(kind))
-        .collect::<Vec<_>>()
-        .join(" or ")
 }

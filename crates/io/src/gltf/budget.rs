@@ -10,7 +10,12 @@ const TIMES: u64 = 64;
 const FREE: u64 = 1 << 24;
 
 /// The bytes that may still be made.
-pub(super) struct Budget(Cell<u64>);
+#[derive(Default)]
+pub(super) struct Budget {
+    left: Cell<u64>,
+    /// Those that compressed views may still become.
+    inflation: Cell<u64>,
+}
 
 impl Budget {
     /// What an object takes that has no faces, about.
@@ -18,16 +23,18 @@ impl Budget {
 
     /// `size` is that of the file.
     pub(super) fn of(size: usize) -> Self {
-        let budget = Self(Cell::new(0));
+        let budget = Self::default();
         budget.grant(size as u64);
-        budget.0.set(budget.0.get().max(FREE));
+        budget.left.set(budget.left.get().max(FREE));
         budget
     }
 
     /// Adds what `size` further bytes pay for.
     pub(super) fn grant(&self, size: u64) {
         let more = size.saturating_mul(TIMES);
-        self.0.set(self.0.get().saturating_add(more));
+        for bytes in [&self.left, &self.inflation] {
+            bytes.set(bytes.get().saturating_add(more));
+        }
     }
 
     /// Takes bytes out of what the file pays for: many pieces may refer to the same bytes of it.
@@ -36,14 +43,35 @@ impl Budget {
     ///
     /// If the file has used up its share; `pointer` is the place that wants more.
     pub(super) fn spend(&self, bytes: u64, pointer: &str) -> Result<(), JsonError> {
-        let left = self.0.get().checked_sub(bytes).ok_or_else(|| {
+        let left = self.left.get().checked_sub(bytes).ok_or_else(|| {
             let message = format!(
                 "the file refers to the same data so often that it needs more than {TIMES} times its \
                  size in memory"
             );
             JsonError::new(pointer, message)
         })?;
-        self.0.set(left);
+        self.left.set(left);
         Ok(())
+    }
+
+    /// Takes the bytes that a compressed view becomes out of what the file pays for, and gives them as a
+    /// length in memory. Streams of zeros shrink to a thousandth, but no file consists of them.
+    ///
+    /// # Errors
+    ///
+    /// If the file has used up its share; `pointer` is the place that wants more.
+    pub(super) fn inflate(&self, bytes: u64, pointer: &str) -> Result<usize, JsonError> {
+        self.spend(bytes, pointer)?;
+        let left = self.inflation.get().checked_sub(bytes);
+        let length = usize::try_from(bytes).ok();
+        let (Some(left), Some(length)) = (left, length) else {
+            let message = format!(
+                "compressed views become {bytes} bytes more here, and together more than {TIMES} times \
+                 the size of the file"
+            );
+            return Err(JsonError::new(pointer, message));
+        };
+        self.inflation.set(left);
+        Ok(length)
     }
 }

@@ -89,7 +89,8 @@ pub(super) fn container(path: &Path, bytes: &[u8]) -> Result<Container, ReadErro
 }
 
 /// Finds the bytes of all buffers. `binary` is the chunk of a GLB file, which stays where it is. What files beside
-/// it pay for is added to the budget, a file that is read once more is taken from it.
+/// it pay for is added to the budget, a file that is read once more is taken from it. Of `fallbacks` nothing is
+/// read: they stay empty.
 ///
 /// # Errors
 ///
@@ -98,12 +99,17 @@ pub(super) fn container(path: &Path, bytes: &[u8]) -> Result<Container, ReadErro
 pub(super) fn load<'a>(
     path: &Path,
     buffers: &[Buffer],
+    fallbacks: &[bool],
     mut binary: Option<&'a [u8]>,
     budget: &Budget,
 ) -> Result<Vec<Cow<'a, [u8]>>, JsonError> {
     let mut loaded = Vec::new();
     let mut files = BTreeSet::new();
     for (i, buffer) in buffers.iter().enumerate() {
+        if fallbacks.get(i) == Some(&true) {
+            loaded.push(Cow::Borrowed(&[][..]));
+            continue;
+        }
         let length = buffer.byte_length.0;
         let mut bytes = match &buffer.uri {
             None => {
@@ -172,8 +178,16 @@ pub(super) fn data_uri(data: &str) -> Result<(&str, Vec<u8>), String> {
     Ok((mime, bytes))
 }
 
-/// Decodes base64 (RFC 4648), with or without its padding.
+/// Decodes base64 (RFC 4648), with or without its padding. White space in it means nothing.
 fn base64(encoded: &[u8]) -> Option<Vec<u8>> {
+    let joined: Vec<u8>;
+    let encoded = if encoded.iter().any(u8::is_ascii_whitespace) {
+        let digits = encoded.iter().filter(|byte| !byte.is_ascii_whitespace());
+        joined = digits.copied().collect();
+        &joined
+    } else {
+        encoded
+    };
     let padding = encoded
         .iter()
         .rev()
@@ -230,6 +244,7 @@ mod tests {
             ("Zm9v", b"foo"),
             ("Zm9vYg", b"foob"),
             ("Zm9vYmFy", b"foobar"),
+            (" Zm9v\r\n\tYg == \n", b"foob"),
         ] {
             assert_eq!(base64(text.as_bytes()).as_deref(), Some(bytes), "{text}");
         }

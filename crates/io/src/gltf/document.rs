@@ -8,38 +8,36 @@ use serde_json::Value;
 
 use super::JsonError;
 use super::budget::Budget;
+use super::meshopt::{self, Compressed, MESHOPT};
 use super::surface::{
     ImageJson, MaterialJson, STRENGTH, SamplerJson, TRANSFORM, TextureJson, UNLIT,
 };
 use crate::note::Notes;
 
 /// Extensions that the reader knows. With the first, positions and texture coordinates may be integers.
-const KNOWN_EXTENSIONS: [&str; 4] = ["KHR_mesh_quantization", TRANSFORM, STRENGTH, UNLIT];
+const KNOWN_EXTENSIONS: [&str; 6] = [
+    "KHR_mesh_quantization",
+    TRANSFORM,
+    STRENGTH,
+    UNLIT,
+    MESHOPT[0],
+    MESHOPT[1],
+];
 
 const LIGHTS: &str = "KHR_lights_punctual";
 
-/// What to do about extensions without which nothing of a file can be read.
-const COMPRESSED: [(&str, &str); 3] = [
-    (
-        "EXT_meshopt_compression",
-        "write it again without compression, such as with `gltfpack -noq` without `-c`",
-    ),
-    (
-        "KHR_meshopt_compression",
-        "write it again without compression, such as with `gltfpack -noq` without `-c`",
-    ),
-    (
-        "KHR_draco_mesh_compression",
-        "write it again without compression, such as with `gltf-transform copy`",
-    ),
-];
+const DRACO: &str = "KHR_draco_mesh_compression";
 
 /// What the reader needs of a glTF document.
 #[derive(Debug, Default)]
 pub(super) struct Document {
     pub(super) accessors: Vec<Accessor>,
     pub(super) buffers: Vec<Buffer>,
+    /// For each buffer whether nothing is ever read of it.
+    pub(super) fallbacks: Vec<bool>,
     pub(super) views: Vec<View>,
+    /// For each view how it is compressed, if it is.
+    pub(super) compressed: Vec<Option<Compressed>>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) meshes: Vec<Mesh>,
     pub(super) nodes: Vec<Node>,
@@ -59,10 +57,14 @@ impl Document {
     pub(super) fn new(json: &Value, budget: &Budget, notes: &mut Notes) -> Result<Self, JsonError> {
         check_version(json)?;
         check_extensions(json, notes)?;
+        let views: Vec<View> = pieces(json, "bufferViews", budget)?;
+        let compressed = meshopt::compressed(list(json, "bufferViews")?)?;
         let document = Self {
+            fallbacks: meshopt::fallbacks(list(json, "buffers")?, &views, &compressed),
+            compressed,
             accessors: pieces(json, "accessors", budget)?,
             buffers: pieces(json, "buffers", budget)?,
-            views: pieces(json, "bufferViews", budget)?,
+            views,
             materials: pieces(json, "materials", budget)?,
             meshes: pieces(json, "meshes", budget)?,
             nodes: pieces(json, "nodes", budget)?,
@@ -137,14 +139,15 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), JsonError> {
         if known(name) {
             continue;
         }
-        let compressed = COMPRESSED.iter().find(|(other, _)| *other == name);
-        let message = match compressed {
-            Some((_, advice)) => {
-                format!("the file is compressed with {name}, which is not read here: {advice}")
-            }
-            None => format!(
+        let message = if name == DRACO {
+            format!(
+                "the file is compressed with {name}, which is not read here: write it again without \
+                 compression, such as with `gltf-transform copy`"
+            )
+        } else {
+            format!(
                 "the file cannot be read without the extension \"{name}\", which is not known here"
-            ),
+            )
         };
         return Err(JsonError::new(pointer, message));
     }

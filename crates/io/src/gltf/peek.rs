@@ -53,11 +53,7 @@ pub(crate) fn peek(path: &Path, name: &str) -> Result<Vec<PeekObject>, ReadError
     let mut notes = Notes::of(path);
     let budget = Budget::of(length);
     let document = Document::new(&json, &budget, &mut notes).map_err(in_file)?;
-    let reader = Reader {
-        document: &document,
-        buffers: &[],
-        budget: &budget,
-    };
+    let reader = Reader::new(&document, &[], &budget);
     let mut meshes = BTreeMap::new();
     let mut names = Names::default();
     let mut objects = Vec::new();

@@ -45,12 +45,9 @@ pub(crate) fn read(
     let document = Document::new(&json, &budget, notes).map_err(in_file)?;
     drop(json);
     let binary = container.binary.map(|range| &bytes[range]);
-    let loaded = buffers::load(path, &document.buffers, binary, &budget).map_err(in_file)?;
-    let reader = Reader {
-        document: &document,
-        buffers: &loaded,
-        budget: &budget,
-    };
+    let (buffers, fallbacks) = (&document.buffers, &document.fallbacks);
+    let loaded = buffers::load(path, buffers, fallbacks, binary, &budget).map_err(in_file)?;
+    let reader = Reader::new(&document, &loaded, &budget);
     objects(&reader, name, notes).map_err(in_file)
 }
 

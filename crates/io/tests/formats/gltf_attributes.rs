@@ -196,7 +196,6 @@ fn quantized_positions_normals_and_coordinates_are_read() {
 #[test]
 fn compressed_files_are_refused_with_advice() {
     for (name, words) in [
-        ("EXT_meshopt_compression", "gltfpack -noq"),
         ("KHR_draco_mesh_compression", "without compression"),
         ("KHR_something", "\"KHR_something\", which is not known"),
     ] {
@@ -212,4 +211,73 @@ fn compressed_files_are_refused_with_advice() {
             other => panic!("{other:?}"),
         }
     }
+}
+
+#[test]
+fn colors_of_every_type_are_read() {
+    // In fifths.
+    let colors = [[0_u8, 1, 5, 2], [5, 3, 0, 4]];
+    for components in [3_usize, 4] {
+        for (component, size) in [(5121, 1), (5123, 2), (5126, 4)] {
+            let mut bytes = floats(&SQUARE);
+            let stride = (components * size).next_multiple_of(4);
+            for i in 0..4 {
+                let start = bytes.len();
+                for &x in &colors[i % 2][..components] {
+                    match size {
+                        1 => bytes.push(x * 51),
+                        2 => bytes.extend((u16::from(x) * 13107).to_le_bytes()),
+                        _ => bytes.extend((f32::from(x) / 5.0).to_le_bytes()),
+                    }
+                }
+                bytes.resize(start + stride, 0);
+            }
+            let kind = format!("VEC{components}");
+            let accessors = json!([
+                { "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3" },
+                { "bufferView": 1, "componentType": component, "normalized": size < 4, "count": 4, "type": kind },
+            ]);
+            let attributes = json!({ "POSITION": 0, "COLOR_0": 1 });
+            let mut json = document(
+                &bytes,
+                &accessors,
+                &json!([{ "attributes": attributes, "mode": 6 }]),
+            );
+            json["bufferViews"] = json!([
+                { "buffer": 0, "byteLength": 48 },
+                { "buffer": 0, "byteOffset": 48, "byteLength": 4 * stride, "byteStride": stride },
+            ]);
+            let loaded = read_json(&json).unwrap();
+            assert!(loaded.notes.is_empty(), "{:?}", loaded.notes);
+            let mesh = loaded.objects[0].as_mesh().unwrap();
+            for (i, color) in mesh.get(mesh::COLOR).unwrap().iter().enumerate() {
+                let mut expected = DVec4::from_array(colors[i % 2].map(f64::from)) / 5.0;
+                if components == 3 {
+                    expected.w = 1.0;
+                }
+                assert!((*color - expected).length() < 1e-6, "{component} {kind}");
+            }
+        }
+    }
+}
+
+#[test]
+fn sparse_arrays_need_no_array_below() {
+    // The square as zeros, three of which are somewhere else.
+    let mut bytes = floats(&SQUARE[3..]);
+    bytes.extend([1_u8, 2, 3, 0]);
+    let accessors = json!([{
+        "componentType": 5126, "count": 4, "type": "VEC3",
+        "sparse": {
+            "count": 3,
+            "indices": { "bufferView": 0, "byteOffset": 36, "componentType": 5121 },
+            "values": { "bufferView": 0 },
+        },
+    }]);
+    let primitives = json!([{ "attributes": { "POSITION": 0 }, "mode": 6 }]);
+    let loaded = read_json(&document(&bytes, &accessors, &primitives)).unwrap();
+    let mesh = loaded.objects[0].as_mesh().unwrap();
+    let corner = |p: &[f32]| DVec3::new(p[0].into(), p[1].into(), p[2].into());
+    let expected: Vec<_> = SQUARE.chunks(3).map(corner).collect();
+    assert_eq!(mesh.positions(), expected);
 }

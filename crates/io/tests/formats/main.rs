@@ -7,6 +7,7 @@ mod gltf_attributes;
 mod gltf_broken;
 mod gltf_limits;
 mod gltf_materials;
+mod gltf_meshopt;
 mod gltf_read;
 mod gltf_written;
 mod obj_files;

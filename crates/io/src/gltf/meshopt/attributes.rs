@@ -1,0 +1,215 @@
+//! Attributes: each byte of an element as the difference to that of the element before, in few bits.
+//!
+//! ```text
+//! 0xa0 or 0xa1 | block | block | ... | zeros | the element before the first | modes of the channels
+//!                |
+//!                up to 256 elements: | controls | byte 0 | byte 1 | ...
+//!                                                 |
+//!                                     2 bits for each 16 elements | 16 differences | 16 differences | ...
+//! ```
+//!
+//! A channel is four bytes of an element. Controls and modes are in version 1 (`0xa1`) only.
+
+use super::{Broken, Input};
+
+/// Differences are stored for this many elements together.
+const GROUP: usize = 16;
+/// A block has no more bytes than this, ...
+const BLOCK_BYTES: usize = 8192;
+/// ... and no more elements.
+const BLOCK: usize = 256;
+
+/// How many bits a difference has for each of the four kinds of a group.
+type Bits = [u8; 4];
+
+const VERSION_0: Bits = [0, 2, 4, 8];
+const FEW_BITS: Bits = [0, 1, 2, 4];
+const MORE_BITS: Bits = [1, 2, 4, 8];
+
+/// How the differences of a channel are meant.
+#[derive(Clone, Copy)]
+enum Channel {
+    /// Each of four bytes.
+    Bytes,
+    /// Each of two numbers of 16 bits.
+    Shorts,
+    /// Bits that differ, turned to the left by so many places.
+    Bits(u32),
+}
+
+fn elements_in_block(stride: usize) -> usize {
+    (BLOCK_BYTES / stride / GROUP * GROUP).min(BLOCK)
+}
+
+/// No stream of `count` elements of `stride` bytes, at most 256, is shorter than this. In blocks of nothing
+/// but zeros version 0 has 2 bits for each 16 bytes, version 1 has 2 bits for each byte of the element.
+pub(super) fn shortest(count: u64, stride: u64) -> u64 {
+    let stride = usize::try_from(stride).unwrap_or(BLOCK).clamp(1, BLOCK);
+    let block = elements_in_block(stride) as u64;
+    let controls = (stride / 4) as u64;
+    // Header and tail of version 1, which are the shorter ones.
+    let around = 1 + (stride + stride / 4).max(24) as u64;
+    count
+        .div_ceil(block)
+        .saturating_mul(controls)
+        .saturating_add(around)
+}
+
+/// Decodes elements of `stride` bytes until `out` is full.
+///
+/// # Errors
+///
+/// The place at which the stream breaks the rules.
+pub(super) fn decode(stream: &[u8], stride: usize, out: &mut [u8]) -> Result<(), Broken> {
+    let n_channels = stride / 4;
+    let (is_old, in_tail) = match stream.first() {
+        Some(0xa0) => (true, stride),
+        Some(0xa1) => (false, stride + n_channels),
+        Some(found) => {
+            let message = format!("expected 0xa0 or 0xa1, found {found:#04x}");
+            return Err(Broken::new(0, message));
+        }
+        None => return Err(Broken::new(0, "the stream is empty")),
+    };
+    let mut input = Input::new(stream, in_tail.max(if is_old { 32 } else { 24 }))?;
+    let (mut before, modes) = {
+        let (before, modes) = stream[stream.len() - in_tail..].split_at(stride);
+        (before.to_vec(), modes)
+    };
+    let channels = if is_old {
+        vec![Channel::Bytes; n_channels]
+    } else {
+        let first = stream.len() - n_channels;
+        let channel = |(i, &mode)| channel(mode).map_err(|why| Broken::new(first + i, why));
+        modes
+            .iter()
+            .enumerate()
+            .map(channel)
+            .collect::<Result<_, _>>()?
+    };
+    let mut differences = vec![[0; BLOCK]; stride];
+    for block in out.chunks_mut(elements_in_block(stride) * stride) {
+        let n = block.len() / stride;
+        let controls = input.take(if is_old { 0 } else { n_channels })?;
+        for (k, differences) in differences.iter_mut().enumerate() {
+            let control = controls
+                .get(k / 4)
+                .map(|control| control >> (2 * (k % 4)) & 3);
+            match control {
+                None => groups(&mut input, VERSION_0, n, differences)?,
+                Some(0) => groups(&mut input, FEW_BITS, n, differences)?,
+                Some(1) => groups(&mut input, MORE_BITS, n, differences)?,
+                Some(2) => differences.fill(0),
+                Some(_) => differences[..n].copy_from_slice(input.take(n)?),
+            }
+        }
+        let channels = channels.iter().zip(before.as_chunks_mut().0);
+        let four = differences.as_chunks().0;
+        for (c, ((&channel, before), differences)) in channels.zip(four).enumerate() {
+            channel.sum(before, differences, c, stride, block);
+        }
+    }
+    input.end()
+}
+
+/// The differences of one byte of `n` elements.
+fn groups(
+    input: &mut Input,
+    bits: Bits,
+    n: usize,
+    differences: &mut [u8; BLOCK],
+) -> Result<(), Broken> {
+    let n = n.div_ceil(GROUP);
+    let kinds = input.take(n.div_ceil(4))?;
+    let groups = differences.as_chunks_mut::<GROUP>().0.iter_mut().take(n);
+    for (g, group) in groups.enumerate() {
+        let kind = kinds[g / 4] >> (2 * (g % 4)) & 3;
+        match bits[usize::from(kind)] {
+            0 => group.fill(0),
+            8 => group.copy_from_slice(input.take(GROUP)?),
+            bits => few_bits(input, usize::from(bits), group)?,
+        }
+    }
+    Ok(())
+}
+
+/// Differences of 1, 2 or 4 bits; those with all bits set follow as bytes.
+fn few_bits(input: &mut Input, bits: usize, group: &mut [u8; GROUP]) -> Result<(), Broken> {
+    let packed = input.take(2 * bits)?;
+    let (in_byte, all) = (8 / bits, (1 << bits) - 1);
+    for (i, slot) in group.iter_mut().enumerate() {
+        let place = match bits {
+            // Single bits begin with the lowest, pairs and fours with the highest.
+            1 => i % in_byte,
+            _ => bits * (in_byte - 1 - i % in_byte),
+        };
+        *slot = packed[i / in_byte] >> place & all;
+    }
+    for slot in group.iter_mut().filter(|slot| **slot == all) {
+        *slot = input.byte()?;
+    }
+    Ok(())
+}
+
+/// What the mode of a channel says.
+fn channel(mode: u8) -> Result<Channel, String> {
+    match (mode & 15, mode >> 4) {
+        (0, 0) => Ok(Channel::Bytes),
+        (1, 0) => Ok(Channel::Shorts),
+        (2, turn) => Ok(Channel::Bits(turn.into())),
+        _ => Err(format!("no channel has the mode {mode:#04x}")),
+    }
+}
+
+impl Channel {
+    /// Adds differences up, into bytes 4 * `c` to 4 * `c` + 4 of each element of a block. `before` is the
+    /// element before, and the last one afterwards.
+    fn sum(
+        self,
+        before: &mut [u8; 4],
+        differences: &[[u8; BLOCK]; 4],
+        c: usize,
+        stride: usize,
+        block: &mut [u8],
+    ) {
+        match self {
+            Self::Bytes => scan(before, differences, c, stride, block, |before, d| {
+                let byte =
+                    |k: usize| before[k].wrapping_add((d[k] >> 1) ^ (d[k] & 1).wrapping_neg());
+                [byte(0), byte(1), byte(2), byte(3)]
+            }),
+            Self::Shorts => scan(before, differences, c, stride, block, |before, d| {
+                let short = |k: usize| {
+                    let d = u16::from_le_bytes([d[k], d[k + 1]]);
+                    let before = u16::from_le_bytes([before[k], before[k + 1]]);
+                    before
+                        .wrapping_add((d >> 1) ^ (d & 1).wrapping_neg())
+                        .to_le_bytes()
+                };
+                let ([a, b], [c, d]) = (short(0), short(2));
+                [a, b, c, d]
+            }),
+            Self::Bits(turn) => scan(before, differences, c, stride, block, |before, d| {
+                let d = u32::from_le_bytes(d).rotate_right(turn);
+                (u32::from_le_bytes(before) ^ d).to_le_bytes()
+            }),
+        }
+    }
+}
+
+/// Makes each element's channel out of that of the one before and the differences.
+#[inline]
+fn scan(
+    before: &mut [u8; 4],
+    [p, q, r, s]: &[[u8; BLOCK]; 4],
+    c: usize,
+    stride: usize,
+    block: &mut [u8],
+    next: impl Fn([u8; 4], [u8; 4]) -> [u8; 4],
+) {
+    let differences = p.iter().zip(q).zip(r).zip(s);
+    for (element, (((p, q), r), s)) in block.chunks_exact_mut(stride).zip(differences) {
+        *before = next(*before, [*p, *q, *r, *s]);
+        element[4 * c..4 * c + 4].copy_from_slice(before);
+    }
+}

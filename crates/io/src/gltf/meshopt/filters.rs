@@ -1,0 +1,141 @@
+//! Filters: what decoded attributes stand for, in place.
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "values are rounded before, and the nearest inside is taken"
+)]
+
+use rayon::prelude::*;
+use serde::Deserialize;
+
+/// How many bytes are looked at by one task.
+const BLOCK: usize = 1 << 15;
+
+/// What the elements are before they are what the accessors say.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+pub(super) enum Filter {
+    /// That already.
+    #[default]
+    None,
+    /// Unit vectors as points of an octahedron.
+    Octahedral,
+    /// Unit quaternions without their largest component.
+    Quaternion,
+    /// Floats as a mantissa of 24 bits and an exponent of 8.
+    Exponential,
+    /// Colors as brightness and two differences.
+    Color,
+}
+
+impl Filter {
+    /// Whether there are such elements of `stride` bytes.
+    pub(super) fn fits(self, stride: u64) -> bool {
+        match self {
+            Self::None => true,
+            Self::Octahedral | Self::Color => stride == 4 || stride == 8,
+            Self::Quaternion => stride == 8,
+            Self::Exponential => stride.is_multiple_of(4),
+        }
+    }
+
+    /// Turns elements into what they stand for.
+    pub(super) fn apply(self, bytes: &mut [u8], stride: usize) {
+        match (self, stride) {
+            (Self::None, _) => {}
+            (Self::Octahedral, 4) => each(bytes, |bytes: &mut [u8; 4]| {
+                let [x, y, one, w] = *bytes;
+                let input = [x, y, one].map(|x| f32::from(x.cast_signed()));
+                let [x, y, z] = octahedral(input, 127.0).map(|x| (x as i8).cast_unsigned());
+                *bytes = [x, y, z, w];
+            }),
+            (Self::Octahedral, _) => each(bytes, |bytes: &mut [u8; 8]| {
+                let [x, y, one, w] = shorts(*bytes);
+                let input = [x, y, one].map(|x| f32::from(x.cast_signed()));
+                let [x, y, z] = octahedral(input, 32767.0).map(|x| (x as i16).cast_unsigned());
+                *bytes = to_bytes([x, y, z, w]);
+            }),
+            (Self::Quaternion, _) => each(bytes, |bytes: &mut [u8; 8]| {
+                let input = shorts(*bytes).map(u16::cast_signed);
+                *bytes = to_bytes(quaternion(input).map(|x| (x as i16).cast_unsigned()));
+            }),
+            (Self::Exponential, _) => each(bytes, |bytes: &mut [u8; 4]| {
+                *bytes = exponential(i32::from_le_bytes(*bytes)).to_le_bytes();
+            }),
+            (Self::Color, 4) => each(bytes, |bytes: &mut [u8; 4]| {
+                let [y, co, cg, a] = *bytes;
+                let signed = |x: u8| i32::from(x.cast_signed());
+                let color = color(y.into(), signed(co), signed(cg), a.into(), 255.0);
+                *bytes = color.map(|x| x as u8);
+            }),
+            (Self::Color, _) => each(bytes, |bytes: &mut [u8; 8]| {
+                let [y, co, cg, a] = shorts(*bytes);
+                let signed = |x: u16| i32::from(x.cast_signed());
+                let color = color(y.into(), signed(co), signed(cg), a.into(), 65535.0);
+                *bytes = to_bytes(color.map(|x| x as u16));
+            }),
+        }
+    }
+}
+
+/// Applies `turn` to each N bytes, in parallel.
+fn each<const N: usize>(bytes: &mut [u8], turn: impl Fn(&mut [u8; N]) + Sync) {
+    bytes
+        .par_chunks_mut(BLOCK)
+        .for_each(|block| block.as_chunks_mut().0.iter_mut().for_each(&turn));
+}
+
+fn shorts(bytes: [u8; 8]) -> [u16; 4] {
+    let [a, b, c, d, e, f, g, h] = bytes;
+    [[a, b], [c, d], [e, f], [g, h]].map(u16::from_le_bytes)
+}
+
+fn to_bytes(values: [u16; 4]) -> [u8; 8] {
+    let [[a, b], [c, d], [e, f], [g, h]] = values.map(u16::to_le_bytes);
+    [a, b, c, d, e, f, g, h]
+}
+
+/// The unit vector at (x, y) of the unfolded octahedron, times `largest` and rounded.
+///
+/// The third number says what 1 is. Cigolle et al., "A Survey of Efficient Representations for Independent
+/// Unit Vectors", 2014, section 3.3.
+fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
+    let (x, y) = (x / one, y / one);
+    let z = 1.0 - x.abs() - y.abs();
+    // The lower half is folded over the edges of the upper one.
+    let fold = z.min(0.0);
+    let (x, y) = (x - fold.copysign(x), y - fold.copysign(y));
+    let length = (x * x + y * y + z * z).sqrt();
+    [x, y, z].map(|x| (x / length * largest).round())
+}
+
+/// The unit quaternion whose largest component is left out, times 32767 and rounded.
+///
+/// The last number says what 1 is, and in its lowest bits which component is the largest.
+fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
+    let one = f32::from(last | 3);
+    let [x, y, z] = [x, y, z].map(|x| f32::from(x) / one * std::f32::consts::FRAC_1_SQRT_2);
+    let w = (1.0 - x * x - y * y - z * z).max(0.0).sqrt();
+    let mut quaternion = [w, x, y, z].map(|x| (x * 32767.0).round());
+    quaternion.rotate_right(usize::from(last.cast_unsigned() & 3));
+    quaternion
+}
+
+/// The mantissa in the lower 24 bits times 2 to the exponent in the upper 8; infinite if that is too large.
+fn exponential(bits: i32) -> f32 {
+    let (exponent, mantissa) = (bits >> 24, bits << 8 >> 8);
+    // With 64 bits it is exact, whatever the exponent.
+    libm::ldexp(f64::from(mantissa), exponent) as f32
+}
+
+/// Red, green, blue and alpha up to `largest`, rounded, of brightness and differences: the top bit of alpha
+/// says how many bits they have.
+fn color(y: i32, co: i32, cg: i32, a: i32, largest: f32) -> [f32; 4] {
+    let bits = i32::BITS - a.leading_zeros();
+    let all = (1 << bits) - 1;
+    let alpha = a & (all >> 1);
+    let alpha = (alpha << 1) | (alpha & 1);
+    // Without bits nothing is known.
+    let scale = largest / (all.max(1) as f32);
+    [y + co - cg, y + cg, y - co - cg, alpha].map(|x| (x as f32 * scale).round())
+}

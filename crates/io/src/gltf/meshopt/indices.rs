@@ -1,0 +1,38 @@
+//! Indices in any order: differences to one of two numbers.
+//!
+//! ```text
+//! 0xd1 | a number for each index | 4 bytes
+//! ```
+//!
+//! The lowest bit of a number says which of the two it goes on from, the others how far.
+
+use super::{Broken, Input, header, zigzag};
+
+/// The length of the end, which says nothing.
+const TAIL: u8 = 4;
+
+/// The shortest stream of `count` indices, in bytes.
+pub(super) fn shortest(count: u64) -> u64 {
+    count.saturating_add(1 + u64::from(TAIL))
+}
+
+/// Decodes an index for each of the slots.
+///
+/// # Errors
+///
+/// The place at which the stream breaks the rules.
+pub(super) fn decode(
+    stream: &[u8],
+    slots: impl Iterator<Item = impl FnOnce(u32)>,
+) -> Result<(), Broken> {
+    header(stream, 0xd1)?;
+    let mut input = Input::new(stream, TAIL.into())?;
+    let mut last = [0_u32; 2];
+    for slot in slots {
+        let number = input.number()?;
+        let last = &mut last[(number & 1) as usize];
+        *last = last.wrapping_add(zigzag(number >> 1));
+        slot(*last);
+    }
+    input.end()
+}

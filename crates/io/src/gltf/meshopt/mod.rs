@@ -1,0 +1,321 @@
+//! Compressed buffer views: `EXT_meshopt_compression` and `KHR_meshopt_compression`.
+//!
+//! ```text
+//! buffer view     count * byteStride bytes, as if they lay in its buffer
+//!  `- extension   buffer, byteOffset, byteLength: where the stream lies
+//!                 mode:   ATTRIBUTES, TRIANGLES or INDICES
+//!                 filter: NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL or COLOR
+//! ```
+//!
+//! Both extensions are read the same way: the second one adds version 1 of the attributes and the filter of
+//! colors. The codecs follow appendix A of Kapoulkine et al., "`KHR_meshopt_compression`", Khronos Group,
+//! 2025, the filters appendix B.
+
+mod attributes;
+mod filters;
+mod indices;
+#[cfg(test)]
+mod tests;
+mod triangles;
+
+use gltf_json::buffer::View;
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::JsonError;
+use filters::Filter;
+
+/// The names of the extension.
+pub(super) const MESHOPT: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+
+/// The longest element, in bytes.
+const LONGEST: u64 = 256;
+
+/// What the extension says about a buffer view.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Compressed {
+    /// The buffer with the stream.
+    pub(super) buffer: usize,
+    #[serde(default)]
+    pub(super) byte_offset: u64,
+    /// The length of the stream.
+    pub(super) byte_length: u64,
+    byte_stride: u64,
+    /// How many elements there are.
+    count: u64,
+    mode: Mode,
+    #[serde(default)]
+    filter: Filter,
+    /// Which of the two extensions it is.
+    #[serde(skip)]
+    pub(super) extension: &'static str,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+enum Mode {
+    Attributes,
+    Triangles,
+    Indices,
+}
+
+/// What is wrong with a stream.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Broken {
+    /// The byte of the stream, from 0.
+    at: usize,
+    message: String,
+}
+
+impl Broken {
+    fn new(at: usize, message: impl Into<String>) -> Self {
+        Self {
+            at,
+            message: message.into(),
+        }
+    }
+}
+
+/// What the extensions say about each of the buffer views in the document.
+///
+/// # Errors
+///
+/// The first that is not what it should be.
+pub(super) fn compressed(views: &[Value]) -> Result<Vec<Option<Compressed>>, JsonError> {
+    let one = |(i, view): (usize, &Value)| {
+        let Some((extension, json)) = extension(view) else {
+            return Ok(None);
+        };
+        let read = Compressed::deserialize(json)
+            .map_err(|e| JsonError::new(pointer(i, extension), e.to_string()))?;
+        Ok(Some(Compressed { extension, ..read }))
+    };
+    views.iter().enumerate().map(one).collect()
+}
+
+fn extension(of: &Value) -> Option<(&'static str, &Value)> {
+    let extensions = of.get("extensions")?;
+    MESHOPT
+        .iter()
+        .find_map(|&name| Some((name, extensions.get(name)?)))
+}
+
+/// Where the document says how buffer view number `view` is compressed.
+pub(super) fn pointer(view: usize, extension: &str) -> String {
+    format!("/bufferViews/{view}/extensions/{extension}")
+}
+
+/// For each buffer whether nothing is ever read of it: it says so, or only the places of compressed views
+/// are in it.
+pub(super) fn fallbacks(
+    buffers: &[Value],
+    views: &[View],
+    compressed: &[Option<Compressed>],
+) -> Vec<bool> {
+    let mut stands_in = vec![false; buffers.len()];
+    let mut is_read = vec![false; buffers.len()];
+    for (view, compressed) in views.iter().zip(compressed) {
+        let buffer = view.buffer.value();
+        let (flags, stream) = match compressed {
+            Some(compressed) => (&mut stands_in, Some(compressed.buffer)),
+            None => (&mut is_read, None),
+        };
+        if let Some(flag) = flags.get_mut(buffer) {
+            *flag = true;
+        }
+        if let Some(flag) = stream.and_then(|stream| is_read.get_mut(stream)) {
+            *flag = true;
+        }
+    }
+    let says_so = |buffer| {
+        let json = extension(buffer).and_then(|(_, json)| json.get("fallback"));
+        json == Some(&Value::Bool(true))
+    };
+    let both = stands_in.into_iter().zip(is_read);
+    both.zip(buffers)
+        .map(|((stands_in, is_read), buffer)| says_so(buffer) || stands_in && !is_read)
+        .collect()
+}
+
+impl Compressed {
+    /// How many bytes the stream becomes.
+    ///
+    /// # Errors
+    ///
+    /// Why that is impossible: the extension breaks its rules, does not agree with the view, or promises
+    /// more than any stream of this length holds.
+    pub(super) fn decoded_length(&self, view: &View) -> Result<u64, String> {
+        let (stride, count) = (self.byte_stride, self.count);
+        let allowed = match self.mode {
+            Mode::Attributes => stride.is_multiple_of(4) && (4..=LONGEST).contains(&stride),
+            Mode::Triangles | Mode::Indices => stride == 2 || stride == 4,
+        };
+        if !allowed {
+            let expected = match self.mode {
+                Mode::Attributes => "a multiple of 4 from 4 to 256",
+                Mode::Triangles | Mode::Indices => "2 or 4",
+            };
+            return Err(format!("expected {expected} as byteStride, found {stride}"));
+        }
+        if self.filter != Filter::None
+            && (self.mode != Mode::Attributes || !self.filter.fits(stride))
+        {
+            return Err(format!(
+                "the filter {:?} is not for elements of {stride} bytes in this mode",
+                self.filter
+            ));
+        }
+        if self.mode == Mode::Triangles && !count.is_multiple_of(3) {
+            return Err(format!("expected a multiple of 3 as count, found {count}"));
+        }
+        if view
+            .byte_stride
+            .is_some_and(|other| other.0 as u64 != stride)
+        {
+            return Err(format!(
+                "the byteStride {stride} is not that of the buffer view"
+            ));
+        }
+        let length = count.checked_mul(stride);
+        let length = length.filter(|&length| length == view.byte_length.0);
+        let length = length.ok_or_else(|| {
+            format!(
+                "{count} elements of {stride} bytes are not the {} bytes of the buffer view",
+                view.byte_length.0
+            )
+        })?;
+        let least = match self.mode {
+            Mode::Attributes => attributes::shortest(count, stride),
+            Mode::Triangles => triangles::shortest(count),
+            Mode::Indices => indices::shortest(count),
+        };
+        if least > self.byte_length {
+            return Err(format!(
+                "{count} elements of {stride} bytes need at least {least} compressed bytes, found {}",
+                self.byte_length
+            ));
+        }
+        Ok(length)
+    }
+
+    /// Decodes the stream into `length` bytes, which [`decoded_length`](Self::decoded_length) said.
+    ///
+    /// # Errors
+    ///
+    /// The byte at which it breaks the rules, and which.
+    pub(super) fn decode(&self, stream: &[u8], length: usize) -> Result<Vec<u8>, String> {
+        let mut decoded = mesh::zeroed::<u8>(length);
+        // It is between 2 and 256.
+        let stride = usize::try_from(self.byte_stride).unwrap_or(4);
+        let result = match (self.mode, stride) {
+            (Mode::Attributes, _) => attributes::decode(stream, stride, &mut decoded),
+            (Mode::Triangles, 2) => triangles::decode(stream, length / 6, shorts(&mut decoded)),
+            (Mode::Triangles, _) => triangles::decode(stream, length / 12, longs(&mut decoded)),
+            (Mode::Indices, 2) => indices::decode(stream, shorts(&mut decoded)),
+            (Mode::Indices, _) => indices::decode(stream, longs(&mut decoded)),
+        };
+        result.map_err(|broken| format!("byte {} of the stream: {}", broken.at, broken.message))?;
+        self.filter.apply(&mut decoded, stride);
+        Ok(decoded)
+    }
+}
+
+/// Places for indices of 16 bits: what is above is cut off.
+fn shorts(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
+    let slots = bytes.as_chunks_mut::<2>().0.iter_mut();
+    slots.map(|slot| {
+        move |i: u32| {
+            let [low, high, ..] = i.to_le_bytes();
+            *slot = [low, high];
+        }
+    })
+}
+
+/// Places for indices of 32 bits.
+fn longs(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
+    let slots = bytes.as_chunks_mut::<4>().0.iter_mut();
+    slots.map(|slot| move |i: u32| *slot = i.to_le_bytes())
+}
+
+/// Reads a stream between its header and its tail.
+struct Input<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Input<'a> {
+    /// Stands behind the first byte; ends `tail` bytes before the end.
+    ///
+    /// # Errors
+    ///
+    /// If the stream is shorter than that.
+    fn new(stream: &'a [u8], tail: usize) -> Result<Self, Broken> {
+        let end = stream.len().checked_sub(tail).filter(|&end| end > 0);
+        let end = end.ok_or_else(|| {
+            let message = format!("expected at least {} bytes", tail + 1);
+            Broken::new(stream.len(), message)
+        })?;
+        Ok(Self {
+            bytes: &stream[..end],
+            at: 1,
+        })
+    }
+
+    fn take(&mut self, n: usize) -> Result<&'a [u8], Broken> {
+        let rest = &self.bytes[self.at..];
+        let taken = rest.get(..n).ok_or_else(|| {
+            let message = format!("expected {n} more bytes, found {}", rest.len());
+            Broken::new(self.at, message)
+        })?;
+        self.at += n;
+        Ok(taken)
+    }
+
+    fn byte(&mut self) -> Result<u8, Broken> {
+        Ok(self.take(1)?[0])
+    }
+
+    /// A number in groups of 7 bits, the lowest first; each byte but the last one has its top bit set.
+    fn number(&mut self) -> Result<u32, Broken> {
+        let start = self.at;
+        let mut number = 0;
+        for shift in (0..35).step_by(7) {
+            let byte = self.byte()?;
+            number |= u32::from(byte & 0x7f) << shift;
+            if byte < 0x80 {
+                return Ok(number);
+            }
+        }
+        Err(Broken::new(start, "expected a number of at most 5 bytes"))
+    }
+
+    /// # Errors
+    ///
+    /// If something is left.
+    fn end(&self) -> Result<(), Broken> {
+        let left = self.bytes.len() - self.at;
+        if left > 0 {
+            let message = format!("expected the end, found {left} more bytes");
+            return Err(Broken::new(self.at, message));
+        }
+        Ok(())
+    }
+}
+
+/// Checks the first byte of a stream.
+fn header(stream: &[u8], expected: u8) -> Result<(), Broken> {
+    match stream.first() {
+        Some(&found) if found == expected => Ok(()),
+        Some(found) => {
+            let message = format!("expected {expected:#04x}, found {found:#04x}");
+            Err(Broken::new(0, message))
+        }
+        None => Err(Broken::new(0, "the stream is empty")),
+    }
+}
+
+/// The signed difference behind a number: 0, -1, 1, -2, ...
+fn zigzag(v: u32) -> u32 {
+    (v >> 1) ^ (v & 1).wrapping_neg()
+}

@@ -1,0 +1,282 @@
+//! glTF files with compressed views, written by gltfpack: `meshopt/make.mjs` says how.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use mesh::{Domain, Mesh, Values};
+use mesh_io::ReadError;
+use proptest::prelude::*;
+use serde_json::{Value, json};
+
+use crate::gltf_read::{document, read_json};
+use crate::{Folder, assert_same, only, read};
+
+fn file(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/formats/meshopt");
+    folder.join(name)
+}
+
+fn torus(name: &str) -> Mesh {
+    only(&file(name)).as_mesh().unwrap().as_ref().clone()
+}
+
+/// A value of an attribute, wherever it is, at each corner of each face.
+fn corners(mesh: &Mesh, name: &str) -> Vec<Vec<f64>> {
+    let find = |domain| {
+        let columns = mesh.attributes().of(domain);
+        columns.iter().find(|column| column.name == name)
+    };
+    let column = find(Domain::Corner).or(find(Domain::Vertex)).unwrap();
+    let is_corner = find(Domain::Corner).is_some();
+    let half_edges = mesh.faces().flat_map(|f| mesh.face_half_edges(f));
+    half_edges
+        .map(|h| {
+            let v = mesh.origin(h);
+            let i = if is_corner { h.index() } else { v.index() };
+            match &column.values {
+                Values::Vec2(values) => values[i].to_array().to_vec(),
+                Values::Vec3(values) => values[i].to_array().to_vec(),
+                Values::Vec4(values) => values[i].to_array().to_vec(),
+                other => panic!("{other:?}"),
+            }
+        })
+        .collect()
+}
+
+/// All that a mesh has at the corners of each triangle, turned so that the lowest corner is first, in order.
+fn triangles(mesh: &Mesh) -> Vec<Vec<Vec<f64>>> {
+    let half_edges = mesh.faces().flat_map(|f| mesh.face_half_edges(f));
+    let corners: Vec<Vec<f64>> = half_edges
+        .zip(corners(mesh, "uv"))
+        .zip(
+            corners(mesh, "normal")
+                .into_iter()
+                .zip(corners(mesh, "color")),
+        )
+        .map(|((h, uv), (normal, color))| {
+            let position = mesh.position(mesh.origin(h)).to_array();
+            [&position[..], &uv, &normal, &color].concat()
+        })
+        .collect();
+    let mut triangles: Vec<_> = corners.chunks(3).map(<[_]>::to_vec).collect();
+    for triangle in &mut triangles {
+        let lowest = (0..3).min_by(|&a, &b| triangle[a].partial_cmp(&triangle[b]).unwrap());
+        triangle.rotate_left(lowest.unwrap());
+    }
+    triangles.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    triangles
+}
+
+#[test]
+fn a_compressed_file_is_the_same_as_a_plain_one() {
+    let plain = torus("torus_plain.glb");
+    assert_eq!((plain.n_vertices(), plain.n_faces()), (12 * 8, 2 * 12 * 8));
+    // The codec of triangles turns them.
+    for name in ["torus_ext.glb", "torus_fallback.gltf"] {
+        let mesh = torus(name);
+        assert_eq!(mesh.positions(), plain.positions());
+        assert!(triangles(&mesh) == triangles(&plain), "{name}");
+    }
+}
+
+#[test]
+fn what_is_decoded_is_what_the_fallback_holds() {
+    let gltf = std::fs::read(file("torus_fallback.gltf")).unwrap();
+    let mut json: Value = serde_json::from_slice(&gltf).unwrap();
+    for key in ["bufferViews", "buffers"] {
+        for piece in json[key].as_array_mut().unwrap() {
+            piece.as_object_mut().unwrap().remove("extensions");
+        }
+    }
+    let folder = Folder::new();
+    for name in ["torus_fallback.bin", "torus_fallback.fallback.bin"] {
+        folder.with(name, std::fs::read(file(name)).unwrap());
+    }
+    let path = folder.with("a.gltf", json.to_string());
+    let fallback = only(&path);
+    let fallback = triangles(fallback.as_mesh().unwrap());
+    assert!(fallback == triangles(&torus("torus_fallback.gltf")));
+}
+
+#[test]
+fn filtered_values_are_near_and_positions_the_same() {
+    let plain = triangles(&torus("torus_fallback.gltf"));
+    let filtered = triangles(&torus("torus_khr.glb"));
+    assert_eq!(plain.len(), filtered.len());
+    for (a, b) in plain.concat().iter().zip(&filtered.concat()) {
+        // Position and texture coordinates.
+        assert_eq!(a[..5], b[..5]);
+        // Normals of 8 bits, then colors.
+        assert!(
+            a[5..8]
+                .iter()
+                .zip(&b[5..8])
+                .all(|(a, b)| (a - b).abs() < 2.5 / 127.0)
+        );
+        assert!(
+            a[8..]
+                .iter()
+                .zip(&b[8..])
+                .all(|(a, b)| (a - b).abs() < 1.5 / 255.0)
+        );
+    }
+}
+
+#[test]
+fn floats_come_out_where_they_were() {
+    let mesh = torus("torus_floats.glb");
+    assert_eq!(mesh.n_faces(), 2 * 12 * 8);
+    for p in mesh.positions() {
+        let from_circle = glam::DVec2::new(p.truncate().length() - 2.0, p.z).length();
+        assert!((from_circle - 0.75).abs() < 1e-3, "{p}");
+    }
+    for normal in corners(&mesh, "normal") {
+        let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        assert!((length - 1.0).abs() < 1e-2);
+    }
+}
+
+#[test]
+fn fallback_buffers_are_never_read() {
+    let folder = Folder::new();
+    let gltf = std::fs::read(file("torus_fallback.gltf")).unwrap();
+    folder.with(
+        "torus_fallback.bin",
+        std::fs::read(file("torus_fallback.bin")).unwrap(),
+    );
+    // Their file is not there; and with or without the mark.
+    let path = folder.with("a.gltf", &gltf);
+    assert_same(
+        only(&path).as_mesh().unwrap(),
+        &torus("torus_fallback.gltf"),
+    );
+    let mut json: Value = serde_json::from_slice(&gltf).unwrap();
+    for buffer in json["buffers"].as_array_mut().unwrap() {
+        buffer.as_object_mut().unwrap().remove("extensions");
+    }
+    let path = folder.with("b.gltf", json.to_string());
+    assert_same(
+        only(&path).as_mesh().unwrap(),
+        &torus("torus_fallback.gltf"),
+    );
+    // But what a view without compression shows there is missing.
+    json["bufferViews"][0]
+        .as_object_mut()
+        .unwrap()
+        .remove("extensions");
+    let path = folder.with("c.gltf", json.to_string());
+    assert!(matches!(read(&path), Err(ReadError::Json { .. })));
+}
+
+/// A document whose positions are `count` elements in a stream, behind one another without indices.
+fn points(stream: &[u8], count: u64) -> Value {
+    let accessors =
+        json!([{ "bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3" }]);
+    let mut json = document(
+        stream,
+        &accessors,
+        &json!([{ "attributes": { "POSITION": 0 } }]),
+    );
+    let length = count.saturating_mul(12);
+    json["bufferViews"] = json!([{
+        "buffer": 1, "byteLength": length, "byteStride": 12,
+        "extensions": { "EXT_meshopt_compression": {
+            "buffer": 0, "byteLength": stream.len(), "byteStride": 12, "count": count, "mode": "ATTRIBUTES",
+        } },
+    }]);
+    let buffers = json["buffers"].as_array_mut().unwrap();
+    buffers.push(json!({ "byteLength": length }));
+    json["extensionsUsed"] = json!(["EXT_meshopt_compression"]);
+    json["extensionsRequired"] = json!(["EXT_meshopt_compression"]);
+    json
+}
+
+#[test]
+fn broken_streams_are_refused_at_the_pointer() {
+    let mut stream = vec![0xa0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    stream.extend([0; 32]);
+    assert!(read_json(&points(&stream, 6)).is_ok());
+    for (change, to, pointer, words) in [
+        ("/byteLength", json!(44), "", "expected 1 more bytes"),
+        ("/byteLength", json!(46), "/byteLength", "46 bytes from 0"),
+        ("/byteOffset", json!(1), "/byteLength", "45 bytes from 1"),
+        (
+            "/byteOffset",
+            json!(u64::MAX),
+            "/byteLength",
+            "45 bytes from",
+        ),
+        ("/buffer", json!(9), "/buffer", "buffer 9, but there are 2"),
+        ("/count", json!(7), "", "not the 72 bytes"),
+        ("/count", json!(-1), "", "invalid value"),
+        ("/mode", json!("TRIANGLES"), "", "2 or 4"),
+        ("/filter", json!("COLOR"), "", "Color"),
+        ("/mode", json!(null), "", "expected"),
+    ] {
+        let mut json = points(&stream, 6);
+        let at = "/bufferViews/0/extensions/EXT_meshopt_compression";
+        json.pointer_mut(at).unwrap()[&change[1..]] = to;
+        match read_json(&json) {
+            Err(ReadError::Json {
+                pointer: found,
+                message,
+                ..
+            }) => {
+                assert_eq!(found, format!("{at}{pointer}"), "{change}: {message}");
+                assert!(message.contains(words), "{change}: {message}");
+            }
+            other => panic!("{change}: {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn a_small_stream_of_four_billion_vertices_is_refused_at_once() {
+    for count in [4_294_967_295_u64, u64::MAX / 12, u64::MAX] {
+        let json = points(&[0xa0; 60], count);
+        let start = Instant::now();
+        let error = read_json(&json).unwrap_err();
+        assert!(start.elapsed() < Duration::from_millis(50));
+        assert!(error.to_string().contains("bytes"), "{error}");
+    }
+}
+
+#[test]
+fn what_grows_to_more_than_64_times_the_file_is_refused() {
+    // Blocks of 256 equal elements, in 3 bytes each.
+    let stream = |blocks: usize| {
+        let mut stream = vec![0xa1];
+        stream.resize(1 + 3 * blocks, 0xaa);
+        stream.resize(1 + 3 * blocks + 24, 0);
+        stream
+    };
+    let count = |blocks: usize| 256 * blocks as u64 / 3 * 3;
+    for (blocks, is_fine) in [(10, true), (10_000, false)] {
+        let mut json = points(&stream(blocks), count(blocks));
+        // Elements that are equal are one point, and triangles of it are none.
+        json["meshes"][0]["primitives"][0]["mode"] = json!(4);
+        let result = read_json(&json);
+        assert_eq!(result.is_ok(), is_fine, "{blocks}");
+        if let Err(error) = result {
+            assert!(error.to_string().contains("more than 64 times"), "{error}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn changed_files_are_read_or_refused(
+        name in prop::sample::select(vec!["torus_ext.glb", "torus_khr.glb", "torus_floats.glb"]),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+    ) {
+        let mut bytes = std::fs::read(file(name)).unwrap();
+        for (place, byte) in changes {
+            let place = place.index(bytes.len());
+            bytes[place] = byte;
+        }
+        let folder = Folder::new();
+        let _ = read(&folder.with("a.glb", bytes));
+    }
+}

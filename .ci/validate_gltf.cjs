@@ -18,7 +18,9 @@ function* files(folder) {
     for (const file of files(root)) {
         const report = await validator.validateBytes(new Uint8Array(fs.readFileSync(file)), {
             externalResourceFunction: (uri) =>
-                Promise.resolve(new Uint8Array(fs.readFileSync(path.join(path.dirname(file), uri)))),
+                Promise.resolve(
+                    new Uint8Array(fs.readFileSync(path.join(path.dirname(file), decodeURIComponent(uri)))),
+                ),
         });
         const { numErrors, numWarnings, messages } = report.issues;
         checked += 1;

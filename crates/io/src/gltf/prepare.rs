@@ -61,12 +61,12 @@ impl<'a> Prepared<'a> {
             polygons,
             "glTF holds triangles: the polygons are cut",
         );
-        if isolated == 0 && mesh.n_faces() == 0 {
+        if mesh.n_faces() == 0 {
             losses.add(
                 None,
                 "mesh",
                 1,
-                "an empty mesh is written as a node without one",
+                "glTF has no meshes without faces: the object is not written",
             );
         }
         let bounds = bounds(mesh, &split).map_err(|v| {

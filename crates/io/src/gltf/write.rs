@@ -55,6 +55,10 @@ pub(crate) fn write(
         materials,
         ..
     } = writer;
+    // A scene without nodes says nothing.
+    if root.nodes.is_empty() {
+        (root.scene, root.scenes) = (None, Vec::new());
+    }
     let length = pieces.last().map_or(0, Piece::end);
     if u32::try_from(length).is_err() {
         let message = format!("a glTF file holds less than 4 GB, the scene needs {length} bytes");

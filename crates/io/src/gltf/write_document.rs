@@ -53,21 +53,22 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Adds a node with the mesh of an object.
+    /// Adds a node with the mesh of an object, if it has faces.
     pub(super) fn object(&mut self, prepared: &'a Prepared<'a>, losses: &mut Losses) {
         let primitives = self.primitives(prepared, losses);
+        if primitives.is_empty() {
+            return;
+        }
         let name = Some(prepared.object.name.clone());
-        let index = (!primitives.is_empty()).then(|| {
-            self.root.push(gltf_json::Mesh {
-                extensions: None,
-                extras: None,
-                name: name.clone(),
-                primitives,
-                weights: None,
-            })
+        let mesh = self.root.push(gltf_json::Mesh {
+            extensions: None,
+            extras: None,
+            name: name.clone(),
+            primitives,
+            weights: None,
         });
         let node = self.root.push(Node {
-            mesh: index,
+            mesh: Some(mesh),
             name,
             ..Node::default()
         });

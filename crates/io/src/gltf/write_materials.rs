@@ -44,6 +44,11 @@ impl MaterialWriter {
             Image::Embedded { mime, .. } => matches!(mime.as_str(), "image/png" | "image/jpeg"),
         });
         losses.add(None, &material.name, dropped, reason);
+        if material.unlit && material.emissive_strength != 1.0 {
+            material.emissive_strength = 1.0;
+            let reason = "an unlit material has no strength of its own light: not written";
+            losses.add(None, &material.name, 1, reason);
+        }
         if let Some(place) = self.known.iter().position(|known| *known == material) {
             return place;
         }

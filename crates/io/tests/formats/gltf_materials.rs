@@ -26,7 +26,7 @@ fn picture() -> Image {
 }
 
 /// Triangles with two sets of texture coordinates and this material on all faces.
-fn painted(name: &str, material: Material) -> Object {
+pub(crate) fn painted(name: &str, material: Material) -> Object {
     let mut mesh: Mesh = shapes::octahedron();
     let uvs = |k: usize| DVec2::new((k % 3) as f64 * 0.25, (k % 5) as f64 * 0.125);
     let values: Vec<DVec2> = (0..mesh.n_half_edges()).map(uvs).collect();
@@ -40,7 +40,7 @@ fn painted(name: &str, material: Material) -> Object {
 }
 
 /// A material with everything that can be said, all different.
-fn rich() -> Material {
+pub(crate) fn rich() -> Material {
     let texture = |u: f64| Texture {
         uv_set: 1,
         sampler: Sampler {
@@ -71,7 +71,6 @@ fn rich() -> Material {
         emissive_texture: Some(Texture::new(picture())),
         alpha: AlphaMode::Mask(0.3),
         double_sided: true,
-        unlit: true,
         ..Material::new("everything")
     }
 }
@@ -120,6 +119,24 @@ fn each_part_of_a_material_comes_back_alone() {
         assert_eq!(write(&path, [painted("a", material.clone())]).losses, []);
         assert_eq!(only(&path).materials, [material]);
     }
+}
+
+#[test]
+fn unlit_materials_lose_the_strength_of_their_light() {
+    let folder = Folder::new();
+    let path = folder.path("a.glb");
+    let material = Material {
+        unlit: true,
+        emissive_strength: 4.5,
+        ..Material::new("a")
+    };
+    let report = write(&path, [painted("a", material.clone())]);
+    assert_eq!((report.losses.len(), report.losses[0].count), (1, 1));
+    let expected = Material {
+        emissive_strength: 1.0,
+        ..material
+    };
+    assert_eq!(only(&path).materials, [expected]);
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod gltf_limits;
 mod gltf_materials;
 mod gltf_meshopt;
 mod gltf_read;
+mod gltf_valid;
 mod gltf_written;
 mod obj_files;
 mod obj_limits;

@@ -9,6 +9,10 @@ const TIMES: u64 = 64;
 /// ... and this many bytes in any case.
 const FREE: u64 = 1 << 24;
 
+/// A byte of a buffer with compressed views pays for as much as this many others. A triangle with its part of the
+/// vertices takes two bytes there and twenty or more elsewhere, and the mesh of it is as large.
+const COMPRESSED: u64 = 4;
+
 /// The bytes that may still be made.
 #[derive(Default)]
 pub(super) struct Budget {
@@ -35,6 +39,12 @@ impl Budget {
         for bytes in [&self.left, &self.inflation] {
             bytes.set(bytes.get().saturating_add(more));
         }
+    }
+
+    /// Adds what compressed views pay for in buffers of `size` bytes, which have been granted already.
+    pub(super) fn grant_compressed(&self, size: u64) {
+        let more = size.saturating_mul(TIMES * (COMPRESSED - 1));
+        self.left.set(self.left.get().saturating_add(more));
     }
 
     /// Takes bytes out of what the file pays for: many pieces may refer to the same bytes of it.

@@ -1,5 +1,6 @@
 //! The JSON of a glTF file, piece by piece.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 use gltf_json::{Accessor, Buffer, Mesh, Node, buffer::View};
@@ -58,6 +59,9 @@ impl Document {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
+        // What is known of each view beside.
+        let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
+        budget.spend(more as u64, "/bufferViews")?;
         let compressed = meshopt::compressed(list(json, "bufferViews")?)?;
         let document = Self {
             fallbacks: meshopt::fallbacks(list(json, "buffers")?, &views, &compressed),

@@ -47,6 +47,9 @@ pub(crate) fn read(
     let binary = container.binary.map(|range| &bytes[range]);
     let (buffers, fallbacks) = (&document.buffers, &document.fallbacks);
     let loaded = buffers::load(path, buffers, fallbacks, binary, &budget).map_err(in_file)?;
+    if document.compressed.iter().any(Option::is_some) {
+        budget.grant_compressed(loaded.iter().map(|buffer| buffer.len() as u64).sum());
+    }
     let reader = Reader::new(&document, &loaded, &budget);
     objects(&reader, name, notes).map_err(in_file)
 }

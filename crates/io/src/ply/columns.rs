@@ -1,6 +1,7 @@
 //! Whole columns of values, decoded by all threads: what the types are is looked at once for each
 //! column, not once for each value.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::{DVec2, DVec3, DVec4};
@@ -90,6 +91,9 @@ pub(super) fn values(table: &Table, first: usize, kind: Kind) -> Values {
     }
 }
 
+/// Decodes the rows from a number on, as many as there are values.
+type Decode<'a, V> = Box<dyn Fn(usize, &mut [V]) + Sync + 'a>;
+
 /// One value for each row, made of `N` scalar properties.
 pub(super) fn numbers<const N: usize, V: Value>(
     table: &Table,
@@ -97,44 +101,44 @@ pub(super) fn numbers<const N: usize, V: Value>(
     make: impl Fn([f64; N]) -> V + Sync,
 ) -> Vec<V> {
     let types = properties.map(|p| table.properties[p].value);
-    let mut out = zeroed(table.rows);
-    if types.iter().all(|&t| t == types[0]) {
-        with_scalar!(types[0], table.big, S => alike::<S, N, V>(table, properties, &mut out, &make));
+    // One parallel loop calls all of these: a loop for each type is what compilers take minutes for.
+    let decode: Decode<V> = if types.iter().all(|&t| t == types[0]) {
+        with_scalar!(types[0], table.big, S => alike::<S, N, V>(table, properties, &make))
     } else {
-        out.par_iter_mut()
-            .with_min_len(BLOCK)
-            .enumerate()
-            .for_each(|(row, value)| {
+        Box::new(|first, out| {
+            for (row, value) in (first..).zip(out) {
                 *value = make(std::array::from_fn(|i| {
                     let at = table.at(properties[i], row);
                     number(types[i], table.big, &table.bytes[at..])
                 }));
-            });
-    }
+            }
+        })
+    };
+    let mut out = zeroed(table.rows);
+    let blocks = out.par_chunks_mut(BLOCK).enumerate();
+    blocks.for_each(|(block, out)| decode(block * BLOCK, out));
     out
 }
 
-fn alike<S: Scalar, const N: usize, V: Value>(
-    table: &Table,
+/// What decodes properties that all have the same type.
+fn alike<'a, S: Scalar, const N: usize, V: Value>(
+    table: &'a Table,
     properties: [usize; N],
-    out: &mut [V],
-    make: &(impl Fn([f64; N]) -> V + Sync),
-) {
+    make: &'a (impl Fn([f64; N]) -> V + Sync),
+) -> Decode<'a, V> {
     if let Some((stride, places)) = table.stride(properties) {
-        let blocks = table.bytes.par_chunks(BLOCK * stride.max(1));
-        let decode = |(out, rows): (&mut [V], &[u8])| {
-            for (value, row) in out.iter_mut().zip(rows.chunks_exact(stride)) {
+        Box::new(move |first, out| {
+            let rows = table.bytes[first * stride..].chunks_exact(stride);
+            for (value, row) in out.iter_mut().zip(rows) {
                 *value = make(places.map(|at| S::number(&row[at..at + S::SIZE])));
             }
-        };
-        out.par_chunks_mut(BLOCK).zip(blocks).for_each(decode);
+        })
     } else {
-        out.par_iter_mut()
-            .with_min_len(BLOCK)
-            .enumerate()
-            .for_each(|(row, value)| {
+        Box::new(move |first, out| {
+            for (row, value) in (first..).zip(out) {
                 *value = make(properties.map(|p| S::number(&table.bytes[table.at(p, row)..])));
-            });
+            }
+        })
     }
 }
 
@@ -157,7 +161,7 @@ pub(super) fn indices(
     let limit = i64::try_from(n_vertices).unwrap_or(i64::MAX);
     let kind = table.properties[property].value;
     with_scalar!(kind, table.big, S => {
-        for_blocks(&offsets, &mut corners, |rows, mut out| {
+        for_blocks(&offsets, &mut corners, &|rows, mut out| {
             let mut all = true;
             for row in rows {
                 let n = (offsets[row + 1] - offsets[row]) as usize;
@@ -224,7 +228,7 @@ fn offsets(table: &Table, property: usize) -> Option<(Vec<u32>, usize)> {
 fn for_blocks<V: Send>(
     offsets: &[u32],
     out: &mut [V],
-    work: impl Fn(std::ops::Range<usize>, &mut [V]) + Sync,
+    work: &(dyn Fn(Range<usize>, &mut [V]) + Sync),
 ) {
     let rows = offsets.len() - 1;
     let mut blocks = Vec::with_capacity(rows.div_ceil(BLOCK));
@@ -268,7 +272,7 @@ fn items<const N: usize, V: Value>(
     let kind = table.properties[property].value;
     let degree = |f: usize| (faces[f + 1] - faces[f]) as usize;
     with_scalar!(kind, table.big, S => {
-        for_blocks(faces, &mut out, |rows, mut out| {
+        for_blocks(faces, &mut out, &|rows, mut out| {
             for row in rows {
                 let (these, others) = out.split_at_mut(degree(row));
                 out = others;

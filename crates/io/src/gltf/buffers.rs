@@ -120,21 +120,19 @@ pub(super) fn load<'a>(
             Some(uri) => {
                 let pointer = format!("/buffers/{i}/uri");
                 let error = |message| JsonError::new(&pointer, message);
-                Cow::Owned(match uri.strip_prefix("data:") {
-                    Some(data) => data_uri(data).map_err(error)?.1,
-                    None => {
-                        let name = file_of(uri).map_err(error)?;
-                        if files.contains(&name) {
-                            budget.spend(length, &pointer)?;
-                        }
-                        let bytes = read_beside(path, &name, length).map_err(|cause| {
-                            error(format!("cannot read {:?}: {cause}", shown(uri)))
-                        })?;
-                        if files.insert(name) {
-                            budget.grant(bytes.len() as u64);
-                        }
-                        bytes
+                Cow::Owned(if let Some(data) = uri.strip_prefix("data:") {
+                    data_uri(data).map_err(error)?.1
+                } else {
+                    let name = file_of(uri).map_err(error)?;
+                    if files.contains(&name) {
+                        budget.spend(length, &pointer)?;
                     }
+                    let bytes = read_beside(path, &name, length)
+                        .map_err(|cause| error(format!("cannot read {:?}: {cause}", shown(uri))))?;
+                    if files.insert(name) {
+                        budget.grant(bytes.len() as u64);
+                    }
+                    bytes
                 })
             }
         };

@@ -112,7 +112,7 @@ fn attributes_that_each_primitive_has_alone_are_refused() {
 
 #[test]
 fn a_sparse_part_that_is_used_again_and_again_is_refused() {
-    let mut json = square(&[0; 200_000], 4);
+    let mut json = square(&vec![0; 200_000], 4);
     json["accessors"][0]["sparse"] = json!({
         "count": 30_000,
         "indices": { "bufferView": 0, "byteOffset": 48, "componentType": 5123 },

@@ -1,4 +1,5 @@
-// Validates every glTF file below a folder with the Khronos validator: no errors, no warnings.
+// Validates every glTF file below a folder with the Khronos validator: no errors, no warnings, and no
+// information but that texture coordinates have no texture yet, or a picture stands in a file of its own.
 const fs = require("fs");
 const path = require("path");
 
@@ -22,10 +23,12 @@ function* files(folder) {
                     new Uint8Array(fs.readFileSync(path.join(path.dirname(file), decodeURIComponent(uri)))),
                 ),
         });
-        const { numErrors, numWarnings, messages } = report.issues;
+        const isExpected = ({ code, pointer }) =>
+            (code === "UNUSED_OBJECT" && /\/TEXCOORD_\d+$/.test(pointer)) || code === "URI_GLB";
+        const found = report.issues.messages.filter((message) => !isExpected(message));
         checked += 1;
-        if (numErrors + numWarnings > 0) {
-            console.error(file, JSON.stringify(messages.slice(0, 5), null, 2));
+        if (found.length > 0) {
+            console.error(file, JSON.stringify(found.slice(0, 5), null, 2));
             process.exit(1);
         }
     }

@@ -15,8 +15,8 @@ use crate::text::{name, quoted};
 
 /// No material library is larger than this, in bytes.
 const LARGEST: u64 = 1 << 28;
-/// Further libraries of a file are left out.
-const MOST_LIBRARIES: usize = 256;
+/// Further names of libraries are left out, also of those that were read: looking for files takes time.
+const MOST_NAMES: usize = 512;
 /// No path is longer than this, in bytes.
 const LONGEST_PATH: usize = 1024;
 
@@ -34,10 +34,11 @@ pub(super) fn read_libraries(
     let mut materials: Vec<Material> = Vec::new();
     let mut known = BTreeSet::new();
     let mut libraries = BTreeSet::new();
-    let mut further = 0;
+    let (mut n_names, mut further) = (0, 0);
     let mut room = LARGEST;
     for (place, words) in &file.libraries {
-        let (names, rest) = library_names(words, folder_of(path), MOST_LIBRARIES - libraries.len());
+        let (names, rest) = library_names(words, folder_of(path), MOST_NAMES - n_names);
+        n_names += names.len();
         further += rest;
         for library in &names {
             let relative = inside(library).map_err(|why| {

@@ -195,12 +195,15 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
         None,
         "groups and objects left out: too many for a mesh of this size",
     );
-    let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; objects + groups - left_out];
+    let n_columns = objects + groups - left_out;
+    let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];
     // Objects come first: they matter more where not all fit.
     for (i, run) in file.runs.iter().enumerate() {
         let of_groups = file.group_sets[run.groups]
             .iter()
             .map(|&g| objects + g as usize);
+        // Sets are in order: nothing is looked at behind the first group that is left out.
+        let of_groups = of_groups.take_while(|&column| column < n_columns);
         for column in run.object.into_iter().chain(of_groups) {
             if let Some(marks) = columns.get_mut(column) {
                 marks[faces_of_run(file, i, n_faces)].fill(true);

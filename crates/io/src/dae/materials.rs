@@ -1,10 +1,12 @@
 //! From `<material>` and `<effect>` to materials.
 
+use std::collections::BTreeMap;
+
 use scene::{AlphaMode, Material, Texture};
 
 use super::Tally;
 use super::document::{
-    Document, Node, below, child, elements, error_at, exactly, is, named, numbers, text,
+    Document, Node, below, child, elements, error_at, exactly, is, named, number_of, numbers, text,
 };
 use crate::asset_path::inside_uri;
 use crate::error::TextError;
@@ -16,7 +18,8 @@ enum Paint {
     Picture(String),
 }
 
-/// The material of an element `<material>`.
+/// The material of an element `<material>`. `known` are those of materials and effects that were read before, by the
+/// numbers of their elements.
 ///
 /// # Errors
 ///
@@ -24,17 +27,42 @@ enum Paint {
 pub(super) fn material<'a>(
     document: &Document<'a>,
     node: Node<'a>,
+    known: &mut BTreeMap<u32, Material>,
     tally: &mut Tally,
 ) -> Result<Material, TextError> {
+    if let Some(material) = known.get(&number_of(node)) {
+        return Ok(material.clone());
+    }
     let name = node.attribute("name").filter(|name| !name.is_empty());
-    let mut material = Material::new(name.or(node.attribute("id")).unwrap_or_default());
-    let Some(instance) = child(node, "instance_effect") else {
-        return Ok(material);
-    };
-    let Some(effect) = document.follow(instance, "url", &["effect"])? else {
-        tally.left_out(1, instance, "effects in other files left out");
-        return Ok(material);
-    };
+    let name = name.or(node.attribute("id")).unwrap_or_default();
+    let mut material = Material::new(name);
+    if let Some(instance) = child(node, "instance_effect") {
+        match document.follow(instance, "url", &["effect"])? {
+            None => tally.left_out(1, instance, "effects in other files left out"),
+            Some(effect) => {
+                let look = match known.get(&number_of(effect)) {
+                    Some(look) => look.clone(),
+                    None => look_of(document, effect, tally)?,
+                };
+                known.insert(number_of(effect), look.clone());
+                material = Material {
+                    name: material.name,
+                    ..look
+                };
+            }
+        }
+    }
+    known.insert(number_of(node), material.clone());
+    Ok(material)
+}
+
+/// A material without a name that looks as an element `<effect>` says.
+fn look_of<'a>(
+    document: &Document<'a>,
+    effect: Node<'a>,
+    tally: &mut Tally,
+) -> Result<Material, TextError> {
+    let mut material = Material::new("");
     let others = elements(effect).filter(|profile| {
         let name = profile.tag_name().name();
         name.starts_with("profile_") && name != "profile_COMMON"

@@ -142,7 +142,7 @@ struct Object<'a, 'd> {
     document: &'d Document<'a>,
     placed: &'d Placed<'a>,
     surface: &'d Surface<'a>,
-    /// Those that were read before.
+    /// Those of materials and effects that were read before, by the numbers of their elements.
     materials: &'d mut BTreeMap<u32, Material>,
     tally: &'d mut Tally,
     budget: &'d mut Budget,
@@ -201,11 +201,8 @@ impl Object<'_, '_> {
             };
             place_of_symbol.push(*places.entry(number_of(node)).or_insert(next));
             if places[&number_of(node)] == next {
-                let material = match self.materials.get(&number_of(node)) {
-                    Some(known) => known.clone(),
-                    None => materials::material(self.document, node, self.tally)?,
-                };
-                self.materials.insert(number_of(node), material.clone());
+                let material =
+                    materials::material(self.document, node, self.materials, self.tally)?;
                 polygons.materials.push(material);
             }
         }

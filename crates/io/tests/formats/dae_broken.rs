@@ -350,6 +350,34 @@ fn instances_that_repeat_many_materials_or_a_long_name_are_refused() {
 }
 
 #[test]
+fn an_effect_that_many_materials_share_is_read_once() {
+    let n = 5000;
+    let materials: String = (0..n)
+        .map(|i| format!("<material id=\"x{i}\"><instance_effect url=\"#e\"/></material>"))
+        .collect();
+    let lists: String = (0..n)
+        .map(|i| {
+            format!(
+                "<polygons material=\"x{i}\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>\
+                 <p>0 1 2</p></polygons>"
+            )
+        })
+        .collect();
+    let parameters = "<newparam sid=\"x\"/>".repeat(50_000);
+    let text = SQUARE
+        .replacen("<material", &format!("{materials}<material"), 1)
+        .replacen("</mesh>", &format!("{lists}</mesh>"), 1)
+        .replacen("<technique>", &format!("{parameters}<technique>"), 1)
+        .replacen(
+            "<color>1 0 0</color>",
+            "<texture texture=\"t\" texcoord=\"u\"/>",
+            1,
+        );
+    let loaded = soon(&text).unwrap();
+    assert_eq!(loaded.objects[0].materials.len(), n + 1);
+}
+
+#[test]
 fn what_would_make_the_xml_parser_slow_is_refused() {
     let mut attributes = String::from("<COLLADA");
     let mut namespaces = String::from("<COLLADA");

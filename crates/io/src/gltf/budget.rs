@@ -23,7 +23,7 @@ pub(super) struct Budget {
 
 impl Budget {
     /// What an object takes that has no faces, about.
-    pub(super) const OBJECT: u64 = 500;
+    pub(super) const OBJECT: u64 = 300;
 
     /// `size` is that of the file.
     pub(super) fn of(size: usize) -> Self {

@@ -352,10 +352,10 @@ fn instances_that_repeat_many_materials_or_a_long_name_are_refused() {
 #[test]
 fn an_effect_that_many_materials_share_is_read_once() {
     let n = 5000;
-    let materials: String = (0..n)
+    let materials: Vec<String> = (0..n)
         .map(|i| format!("<material id=\"x{i}\"><instance_effect url=\"#e\"/></material>"))
         .collect();
-    let lists: String = (0..n)
+    let lists: Vec<String> = (0..n)
         .map(|i| {
             format!(
                 "<polygons material=\"x{i}\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>\
@@ -365,8 +365,8 @@ fn an_effect_that_many_materials_share_is_read_once() {
         .collect();
     let parameters = "<newparam sid=\"x\"/>".repeat(50_000);
     let text = SQUARE
-        .replacen("<material", &format!("{materials}<material"), 1)
-        .replacen("</mesh>", &format!("{lists}</mesh>"), 1)
+        .replacen("<material", &format!("{}<material", materials.concat()), 1)
+        .replacen("</mesh>", &format!("{}</mesh>", lists.concat()), 1)
         .replacen("<technique>", &format!("{parameters}<technique>"), 1)
         .replacen(
             "<color>1 0 0</color>",

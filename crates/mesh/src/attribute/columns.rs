@@ -1,0 +1,344 @@
+//! Named columns of values, and what edits do with them.
+
+use glam::DVec3;
+
+use super::{Domain, Rule, Values};
+use crate::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
+
+/// One attribute: a name, a rule and a value for each element of a domain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// The name, unique in its domain.
+    pub name: String,
+    /// What edits do with the values.
+    pub rule: Rule,
+    /// The values.
+    pub values: Values,
+}
+
+/// All attributes of a mesh, in order of their names in each domain.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attributes {
+    columns: [Vec<Column>; 4],
+}
+
+/// All columns with their domains, in the order of [`Attributes::iter`].
+impl IntoIterator for Attributes {
+    type Item = (Domain, Column);
+    type IntoIter = std::vec::IntoIter<(Domain, Column)>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        let domains = Domain::ALL.into_iter().zip(self.columns);
+        let columns = domains.flat_map(|(d, columns)| columns.into_iter().map(move |c| (d, c)));
+        columns.collect::<Vec<_>>().into_iter()
+    }
+}
+
+/// For each element of a new mesh the element of the old one that it takes its values from,
+/// `NONE` for zero values.
+#[derive(Clone, Copy, Debug)]
+pub struct Sources<'a> {
+    /// One for each new vertex.
+    pub vertices: &'a [VertexId],
+    /// One for each new half-edge.
+    pub corners: &'a [HalfEdgeId],
+    /// One for each new edge.
+    pub edges: &'a [EdgeId],
+    /// One for each new face.
+    pub faces: &'a [FaceId],
+}
+
+impl Attributes {
+    /// The columns of a domain, in order of their names.
+    pub fn of(&self, domain: Domain) -> &[Column] {
+        &self.columns[domain as usize]
+    }
+
+    /// All columns with their domains, in a fixed order.
+    pub fn iter(&self) -> impl Iterator<Item = (Domain, &Column)> {
+        Domain::ALL
+            .into_iter()
+            .flat_map(|d| self.of(d).iter().map(move |c| (d, c)))
+    }
+
+    /// The column of this domain and name.
+    pub fn column(&self, domain: Domain, name: &str) -> Option<&Column> {
+        self.of(domain).iter().find(|c| c.name == name)
+    }
+
+    pub(crate) fn of_mut(&mut self, domain: Domain) -> &mut [Column] {
+        &mut self.columns[domain as usize]
+    }
+
+    pub(crate) fn column_mut(&mut self, domain: Domain, name: &str) -> Option<&mut Column> {
+        self.columns[domain as usize]
+            .iter_mut()
+            .find(|c| c.name == name)
+    }
+
+    /// Puts a column into a domain, in place of one of the same name. Its length must be that of
+    /// the domain in the mesh that gets these attributes.
+    pub fn insert(&mut self, domain: Domain, column: Column) {
+        let columns = &mut self.columns[domain as usize];
+        match columns.binary_search_by(|c| c.name.cmp(&column.name)) {
+            Ok(i) => columns[i] = column,
+            Err(i) => columns.insert(i, column),
+        }
+    }
+
+    /// Takes a column out.
+    pub fn remove(&mut self, domain: Domain, name: &str) -> Option<Column> {
+        let columns = &mut self.columns[domain as usize];
+        columns
+            .iter()
+            .position(|c| c.name == name)
+            .map(|i| columns.remove(i))
+    }
+
+    /// The same columns on a new mesh, each value taken from the element that it came from.
+    #[must_use]
+    pub fn gathered(&self, sources: Sources) -> Self {
+        fn run<I: Id>(columns: &[Column], from: &[I]) -> Vec<Column> {
+            let source = |i: usize| (from[i] != I::NONE).then(|| from[i].index());
+            columns
+                .iter()
+                .map(|c| Column {
+                    values: c.values.gather(from.len(), source),
+                    ..c.clone_empty()
+                })
+                .collect()
+        }
+        Self {
+            columns: [
+                run(self.of(Domain::Vertex), sources.vertices),
+                run(self.of(Domain::Corner), sources.corners),
+                run(self.of(Domain::Edge), sources.edges),
+                run(self.of(Domain::Face), sources.faces),
+            ],
+        }
+    }
+
+    /// Puts the values of `other` behind these. `lens` are the counts of elements of this mesh,
+    /// `other_lens` those of the other. A column that only one of the two has gets zero values for
+    /// the other's elements; of columns with one name and two types the second is left out, and its
+    /// domain and name are returned.
+    pub fn append(
+        &mut self,
+        lens: [usize; 4],
+        other: &Self,
+        other_lens: [usize; 4],
+    ) -> Vec<(Domain, String)> {
+        let mut left_out = Vec::new();
+        for domain in Domain::ALL {
+            let (len, other_len) = (lens[domain as usize], other_lens[domain as usize]);
+            for column in other.of(domain) {
+                if self.column(domain, &column.name).is_none() {
+                    let values = column.values.gather(len, |_| None);
+                    self.insert(
+                        domain,
+                        Column {
+                            values,
+                            ..column.clone_empty()
+                        },
+                    );
+                }
+                let mine = self
+                    .column_mut(domain, &column.name)
+                    .expect("inserted above");
+                if !mine.values.append(&column.values) {
+                    left_out.push((domain, column.name.clone()));
+                }
+            }
+            for column in &mut self.columns[domain as usize] {
+                column.values.grow(len + other_len);
+            }
+        }
+        left_out
+    }
+
+    /// Grows all columns of a domain to `n` values.
+    pub(crate) fn grow(&mut self, domain: Domain, n: usize) {
+        for column in &mut self.columns[domain as usize] {
+            column.values.grow(n);
+        }
+    }
+
+    /// Gives element `to` the values of element `from`.
+    pub(crate) fn copy<I: Id>(&mut self, from: I, to: I) {
+        for column in &mut self.columns[I::DOMAIN as usize] {
+            column.values.copy(from.index(), to.index());
+        }
+    }
+
+    /// Exchanges the values of two elements.
+    pub(crate) fn swap<I: Id>(&mut self, a: I, b: I) {
+        for column in &mut self.columns[I::DOMAIN as usize] {
+            column.values.swap(a.index(), b.index());
+        }
+    }
+
+    /// Whether a domain has a column of normals.
+    pub(crate) fn has_normals(&self, domain: Domain) -> bool {
+        self.of(domain).iter().any(|c| c.rule == Rule::Normal)
+    }
+
+    /// Turns the normals of an element over.
+    pub(crate) fn turn_over<I: Id>(&mut self, element: I) {
+        for column in &mut self.columns[I::DOMAIN as usize] {
+            if let Some(normals) = column.normals_mut() {
+                normals[element.index()] = DVec3::ZERO - normals[element.index()];
+            }
+        }
+    }
+
+    /// Gives element `to`, which lies between `a` and `b`, the values that the rules say.
+    pub(crate) fn mix<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
+        for column in &mut self.columns[I::DOMAIN as usize] {
+            column.mix(a.index(), b.index(), t, to.index());
+        }
+    }
+
+    /// Gives corner `to`, in each column where it has the value of a corner `sides[_][end]`, the value
+    /// between the two corners of that side. None of them is `to`.
+    pub(crate) fn follow(
+        &mut self,
+        sides: [Option<[HalfEdgeId; 2]>; 2],
+        end: usize,
+        t: f64,
+        to: HalfEdgeId,
+    ) {
+        for column in &mut self.columns[Domain::Corner as usize] {
+            let is_same =
+                |side: &&[HalfEdgeId; 2]| column.values.same(side[end].index(), to.index());
+            if let Some([a, b]) = sides.iter().flatten().find(is_same) {
+                column.mix(a.index(), b.index(), t, to.index());
+            }
+        }
+    }
+
+    /// Gives edge `to` the larger number and the mark of either of two edges.
+    pub(crate) fn merge(&mut self, from: EdgeId, to: EdgeId) {
+        let (from, to) = (from.index(), to.index());
+        for column in &mut self.columns[Domain::Edge as usize] {
+            match &mut column.values {
+                Values::Float(v) if v[from] > v[to] => v[to] = v[from],
+                Values::Tag(v) => v[to] |= v[from],
+                _ => {}
+            }
+        }
+    }
+
+    /// Gives element `to` the mean of the values of `from`, where the rules say interpolate.
+    pub(crate) fn average<I: Id>(&mut self, from: &[I], to: I) {
+        for column in &mut self.columns[I::DOMAIN as usize] {
+            if matches!(column.rule, Rule::Interpolate | Rule::Normal) {
+                let weight = 1.0 / from.len().max(1) as f64;
+                let weights = |_: usize, add: &mut dyn FnMut(usize, f64)| {
+                    for i in from {
+                        add(i.index(), weight);
+                    }
+                };
+                let mean = column.values.blend(1, weights);
+                column.values.set(to.index(), &mean);
+                column.normalize(to.index());
+            }
+        }
+    }
+
+    /// The domain and name of a column whose rule is [`Rule::Drop`].
+    #[inline]
+    pub(crate) fn first_to_drop(&self) -> Option<(Domain, String)> {
+        self.iter()
+            .find(|(_, c)| c.rule == Rule::Drop)
+            .map(|(domain, c)| (domain, c.name.clone()))
+    }
+
+    /// Whether any corner column has different values at `a` and `b`.
+    pub(crate) fn corners_differ(&self, a: HalfEdgeId, b: HalfEdgeId) -> bool {
+        self.of(Domain::Corner)
+            .iter()
+            .any(|c| !c.values.same(a.index(), b.index()))
+    }
+
+    /// Removes the columns whose rule is [`Rule::Drop`]: for whatever changes connectivity.
+    pub fn drop_by_rule(&mut self) {
+        for columns in &mut self.columns {
+            columns.retain(|c| c.rule != Rule::Drop);
+        }
+    }
+}
+
+impl Column {
+    /// Gives element `to`, which lies between `a` and `b`, the value that the rule says.
+    fn mix(&mut self, a: usize, b: usize, t: f64, to: usize) {
+        if matches!(self.rule, Rule::Interpolate | Rule::Normal) {
+            self.values.mix(a, b, t, to);
+            self.normalize(to);
+        }
+    }
+
+    /// The values, if they are normals.
+    fn normals_mut(&mut self) -> Option<&mut [DVec3]> {
+        match (self.rule, &mut self.values) {
+            (Rule::Normal, Values::Vec3(normals)) => Some(normals),
+            _ => None,
+        }
+    }
+
+    /// Scales the value at `i` to length 1 if the rule asks for that.
+    fn normalize(&mut self, i: usize) {
+        if let Some(normals) = self.normals_mut() {
+            normals[i] = normals[i].normalize_or_zero();
+        }
+    }
+
+    /// Turns all values over if they are normals. A difference, so that 0 stays 0 and not -0.
+    pub(crate) fn turn_over(&mut self) {
+        for normal in self.normals_mut().into_iter().flatten() {
+            *normal = DVec3::ZERO - *normal;
+        }
+    }
+
+    /// A column of the same name, rule and type without values.
+    fn clone_empty(&self) -> Self {
+        Self {
+            name: self.name.clone(),
+            rule: self.rule,
+            values: self.values.gather(0, |_| None),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn appending_fills_what_one_side_lacks() {
+        let mut a = Attributes::default();
+        a.insert(
+            Domain::Face,
+            Column {
+                name: "x".into(),
+                rule: Rule::Copy,
+                values: Values::Int(vec![1]),
+            },
+        );
+        let mut b = Attributes::default();
+        b.insert(
+            Domain::Face,
+            Column {
+                name: "y".into(),
+                rule: Rule::Copy,
+                values: Values::Tag(vec![true, true]),
+            },
+        );
+        assert_eq!(a.append([0, 0, 0, 1], &b, [0, 0, 0, 2]), vec![]);
+        assert_eq!(
+            a.column(Domain::Face, "x").unwrap().values,
+            Values::Int(vec![1, 0, 0])
+        );
+        let tags = Values::Tag(vec![false, true, true]);
+        assert_eq!(a.column(Domain::Face, "y").unwrap().values, tags);
+    }
+}

@@ -10,11 +10,16 @@
 //! A `.bzc` file is the number of control points and then `x y` of each. Numbers are separated by
 //! blanks and line ends in any number. There are no comments.
 
+use std::path::Path;
+
 use bezier::{Curve, Patch};
 use glam::{DVec2, DVec3};
+use scene::{Geometry, Scene};
 
-use crate::error::TextError;
-use crate::text::{Cursor, number, push_number, quoted};
+use crate::Written;
+use crate::error::{TextError, Unwritable};
+use crate::loss::Losses;
+use crate::text::{Cursor, check_encoding, number, push_number, quoted};
 
 /// Reads the patches of a `.bez` file.
 ///
@@ -22,6 +27,7 @@ use crate::text::{Cursor, number, push_number, quoted};
 ///
 /// The place of the first thing that is not what it should be.
 pub(crate) fn read_patches(bytes: &[u8]) -> Result<Vec<Patch>, TextError> {
+    check_encoding(bytes)?;
     let mut cursor = Cursor::new(bytes);
     let n = count(&mut cursor, "patches", 16 * 3)?;
     let mut patches = Vec::with_capacity(n);
@@ -54,6 +60,7 @@ pub(crate) fn read_patches(bytes: &[u8]) -> Result<Vec<Patch>, TextError> {
 ///
 /// The place of the first thing that is not what it should be.
 pub(crate) fn read_curve(bytes: &[u8]) -> Result<Curve<DVec2>, TextError> {
+    check_encoding(bytes)?;
     let mut cursor = Cursor::new(bytes);
     cursor.skip_white();
     let place = cursor.place();
@@ -69,8 +76,80 @@ pub(crate) fn read_curve(bytes: &[u8]) -> Result<Curve<DVec2>, TextError> {
     Curve::new(points).map_err(|e| place.error(e.to_string()))
 }
 
+/// The file that holds the patches of `scene`, and what it does not hold.
+///
+/// # Errors
+///
+/// If an object has none.
+pub(crate) fn write_bez(path: &Path, scene: &Scene) -> Result<Written, Unwritable> {
+    let mut all = Vec::new();
+    let mut losses = Vec::new();
+    for object in scene.objects() {
+        let Geometry::Patches(patches) = &object.geometry else {
+            let message = format!(
+                "a .bez file holds Bezier patches, found {}",
+                object.geometry.kind()
+            );
+            return Err(Unwritable::object(&object.name, message));
+        };
+        all.extend_from_slice(patches);
+        let mut losses = Losses::of(&object.name, &mut losses);
+        losses.add(
+            None,
+            "materials",
+            object.materials.len(),
+            "a .bez file has no materials",
+        );
+        let others = scene.objects().len() - 1;
+        losses.add(
+            None,
+            "name",
+            others.min(1),
+            "the patches of all objects are written as one list",
+        );
+    }
+    Ok(Written {
+        files: vec![(path.to_path_buf(), write_patches(&all))],
+        losses,
+    })
+}
+
+/// The file that holds the curve of `scene`, and what it does not hold.
+///
+/// # Errors
+///
+/// If the scene is not one curve.
+pub(crate) fn write_bzc(path: &Path, scene: &Scene) -> Result<Written, Unwritable> {
+    let [object] = scene.objects() else {
+        let message = format!(
+            "a .bzc file holds one curve, found {} objects",
+            scene.objects().len()
+        );
+        return Err(Unwritable::Scene { message });
+    };
+    let Geometry::Curve(curve) = &object.geometry else {
+        let message = format!(
+            "a .bzc file holds a curve, found {}",
+            object.geometry.kind()
+        );
+        return Err(Unwritable::object(&object.name, message));
+    };
+    let mut losses = Vec::new();
+    let count = object.materials.len();
+    Losses::of(&object.name, &mut losses).add(
+        None,
+        "materials",
+        count,
+        "a .bzc file has no materials",
+    );
+    Ok(Written {
+        files: vec![(path.to_path_buf(), write_curve(curve))],
+        losses,
+    })
+}
+
 /// The text of a `.bez` file with these patches.
-pub(crate) fn write_patches(patches: &[Patch]) -> Vec<u8> {
+fn write_patches(patches: &[Patch]) -> Vec<u8> {
     let mut out = format!("{}\n", patches.len()).into_bytes();
     for patch in patches {
         for row in patch.points() {
@@ -83,7 +162,7 @@ pub(crate) fn write_patches(patches: &[Patch]) -> Vec<u8> {
 }
 
 /// The text of a `.bzc` file with this curve.
-pub(crate) fn write_curve(curve: &Curve<DVec2>) -> Vec<u8> {
+fn write_curve(curve: &Curve<DVec2>) -> Vec<u8> {
     let mut out = format!("{}\n", curve.points().len()).into_bytes();
     for point in curve.points() {
         push_line(&mut out, &point.to_array());

@@ -36,6 +36,7 @@
 //! assert_eq!(loaded.objects[0].as_mesh().unwrap().n_faces(), 6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![doc = include_str!("kept.md")]
 
 mod asset_path;
 mod bez;
@@ -76,7 +77,6 @@ pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject};
 pub use policy::{NonManifold, Orientation, Policies, Unwanted};
 pub use polygons::Polygons;
 
-use error::Unwritable;
 use note::Notes;
 
 /// How to read a file.
@@ -313,8 +313,8 @@ pub fn write(
         Format::Stl => stl::write(path, scene, options),
         Format::Off => off::write(path, scene, options),
         Format::Dae => return Err(unknown()),
-        Format::Bez => write_bez(path, scene),
-        Format::Bzc => write_bzc(path, scene),
+        Format::Bez => bez::write_bez(path, scene),
+        Format::Bzc => bez::write_bzc(path, scene),
     };
     let Written { files, losses } = written.map_err(|why| why.in_file(path))?;
     let bytes = files.iter().map(|(_, bytes)| bytes.len() as u64).sum();
@@ -330,68 +330,6 @@ struct Written {
     /// In the order in which they appear in their folder.
     files: Vec<(PathBuf, Vec<u8>)>,
     losses: Vec<Loss>,
-}
-
-fn write_bez(path: &Path, scene: &Scene) -> Result<Written, Unwritable> {
-    let mut all = Vec::new();
-    let mut losses = Vec::new();
-    for object in scene.objects() {
-        let Geometry::Patches(patches) = &object.geometry else {
-            let message = format!(
-                "a .bez file holds Bezier patches, found {}",
-                object.geometry.kind()
-            );
-            return Err(Unwritable::object(&object.name, message));
-        };
-        all.extend_from_slice(patches);
-        let mut losses = loss::Losses::of(&object.name, &mut losses);
-        losses.add(
-            None,
-            "materials",
-            object.materials.len(),
-            "a .bez file has no materials",
-        );
-        let others = scene.objects().len() - 1;
-        losses.add(
-            None,
-            "name",
-            others.min(1),
-            "the patches of all objects are written as one list",
-        );
-    }
-    Ok(Written {
-        files: vec![(path.to_path_buf(), bez::write_patches(&all))],
-        losses,
-    })
-}
-
-fn write_bzc(path: &Path, scene: &Scene) -> Result<Written, Unwritable> {
-    let [object] = scene.objects() else {
-        let message = format!(
-            "a .bzc file holds one curve, found {} objects",
-            scene.objects().len()
-        );
-        return Err(Unwritable::Scene { message });
-    };
-    let Geometry::Curve(curve) = &object.geometry else {
-        let message = format!(
-            "a .bzc file holds a curve, found {}",
-            object.geometry.kind()
-        );
-        return Err(Unwritable::object(&object.name, message));
-    };
-    let mut losses = Vec::new();
-    let count = object.materials.len();
-    loss::Losses::of(&object.name, &mut losses).add(
-        None,
-        "materials",
-        count,
-        "a .bzc file has no materials",
-    );
-    Ok(Written {
-        files: vec![(path.to_path_buf(), bez::write_curve(curve))],
-        losses,
-    })
 }
 
 fn known_format(path: &Path) -> Result<Format, ReadError> {

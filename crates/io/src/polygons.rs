@@ -94,8 +94,8 @@ impl Polygons {
     }
 
     /// The mesh of these polygons, and their materials. Values of corners become values of vertices where
-    /// the corners of each vertex agree; texture coordinates (names that begin with `uv`) stay with the
-    /// corners.
+    /// the corners of each vertex agree, unless vertices have some of this name; texture coordinates (names
+    /// that begin with `uv`) stay with the corners.
     ///
     /// # Errors
     ///
@@ -124,8 +124,11 @@ impl Polygons {
         for (domain, mut column) in self.attributes {
             column.values = sources.moved(domain, column.values);
             let mut domain = domain;
+            // Those of vertices come first, and stay.
+            let vertices = built.mesh.attributes();
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")
+                && vertices.column(Domain::Vertex, &column.name).is_none()
                 && let Some(values) = agreed(&built.mesh, &column.values)
             {
                 (domain, column.values) = (Domain::Vertex, values);

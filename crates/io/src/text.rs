@@ -219,14 +219,55 @@ pub(crate) fn number(place: Place, word: &[u8]) -> Result<f64, TextError> {
     {
         return Ok(x);
     }
-    let parsed = std::str::from_utf8(word)
-        .ok()
-        .and_then(|text| text.parse::<f64>().ok());
+    let text = std::str::from_utf8(word).unwrap_or_default();
+    let parsed = text.parse::<f64>().or_else(|error| {
+        // Fortran has a `d` before the exponent of long numbers.
+        let (mantissa, exponent) = text.split_once(['d', 'D']).ok_or(error)?;
+        format!("{mantissa}e{exponent}").parse()
+    });
     match parsed {
-        Some(x) if x.is_finite() => Ok(x),
-        Some(_) => Err(place.error(format!("expected a finite number, found {}", quoted(word)))),
-        None => Err(place.error(format!("expected a number, found {}", quoted(word)))),
+        Ok(x) if x.is_finite() => Ok(x),
+        Err(_) if !is_not_finite(word) => {
+            let hint = if word.contains(&b',') {
+                " (numbers have a point and no commas)"
+            } else {
+                ""
+            };
+            Err(place.error(format!("expected a number, found {}{hint}", quoted(word))))
+        }
+        _ => Err(place.error(format!("expected a finite number, found {}", quoted(word)))),
     }
+}
+
+/// Whether a word is what programs write for a number that is infinite or none: `nan`, `-inf`, `1.#IND`.
+pub(crate) fn is_not_finite(word: &[u8]) -> bool {
+    let word = word.strip_prefix(b"-").unwrap_or(word);
+    let word = word.strip_prefix(b"+").unwrap_or(word);
+    let begins = |with: &[u8]| {
+        let start = word.get(..with.len());
+        start.is_some_and(|start| start.eq_ignore_ascii_case(with))
+    };
+    [&b"nan"[..], b"inf", b"1.#"].into_iter().any(begins)
+}
+
+/// Refuses text in which a character takes two or four bytes.
+///
+/// # Errors
+///
+/// At the beginning, with the name of the encoding.
+pub(crate) fn check_encoding(bytes: &[u8]) -> Result<(), TextError> {
+    let is_wide = |first: usize| {
+        let mut pairs = bytes.chunks_exact(2).take(16);
+        bytes.len() >= 8 && pairs.all(|pair| pair[first] != 0 && pair[1 - first] == 0)
+    };
+    let encoding = match bytes {
+        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => "UTF-32",
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "UTF-16",
+        _ if is_wide(0) || is_wide(1) => "UTF-16",
+        _ => return Ok(()),
+    };
+    let message = format!("expected text in UTF-8 or ASCII, found {encoding}");
+    Err(Place { line: 1, column: 1 }.error(message))
 }
 
 /// A word of a file for a message: between backticks, cut if it is long.
@@ -272,6 +313,8 @@ mod tests {
             ("1e-3", 1e-3),
             ("2.5E+2", 250.0),
             ("0.1", 0.1),
+            ("1d5", 1e5),
+            ("-2.5D-03", -0.0025),
             ("123456789012345678901234567890", 1.234_567_890_123_456_8e29),
         ] {
             assert_eq!(number(HERE, text.as_bytes()), Ok(x), "{text}");
@@ -290,6 +333,11 @@ mod tests {
             "nan",
             "inf",
             "-infinity",
+            "1.#IND",
+            "-1.#QNAN00",
+            "d5",
+            "1d",
+            "1d1d1",
             "1e999",
             "0x10",
         ] {

@@ -67,9 +67,9 @@ impl<'a> MeshBody<'a> {
                 (Domain::Corner, "normal") => matches!(normals, Some(Normals::Corners(_))),
                 (Domain::Vertex, "normal") => matches!(normals, Some(Normals::Vertices(_))),
                 (Domain::Vertex, "color") => colors.is_some(),
+                (Domain::Face, _) if matches!(column.values, Values::Tag(_)) => true,
                 (Domain::Face, "material") => mesh.get(mesh::MATERIAL).is_some(),
                 (Domain::Face, "smoothing") => mesh.get(mesh::SMOOTHING).is_some(),
-                (Domain::Face, _) => matches!(column.values, Values::Tag(_)),
                 _ => false,
             }
         });

@@ -19,6 +19,8 @@ pub(super) struct ObjFile {
     pub(super) positions: Vec<DVec3>,
     /// One for each position, or none at all. A vertex without one is white.
     pub(super) colors: Vec<DVec4>,
+    /// What `ZBrush` says of vertices in comments: mask, red, green and blue, from the highest byte.
+    pub(super) painted: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
     pub(super) faces: Faces,
@@ -99,4 +101,6 @@ pub(super) enum LeftOut {
     Weights,
     /// Third coordinates of textures (`vt u v w`) other than 0.
     Depths,
+    /// Numbers of texture coordinates and normals that are not finite.
+    NotFinite,
 }

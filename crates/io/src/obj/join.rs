@@ -87,6 +87,7 @@ pub(super) fn join(mut parts: Vec<Part>) -> ObjFile {
     }
     file.colors = together(parts.iter_mut().map(|part| &mut part.colors));
     file.positions = together(parts.iter_mut().map(|part| &mut part.positions));
+    file.painted = together(parts.iter_mut().map(|part| &mut part.painted));
     file.uvs = together(parts.iter_mut().map(|part| &mut part.uvs));
     file.normals = together(parts.iter_mut().map(|part| &mut part.normals));
     file

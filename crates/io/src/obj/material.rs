@@ -11,7 +11,7 @@ use super::picture::Picture;
 use crate::asset_path::{folder_of, inside, read_beside};
 use crate::error::ReadError;
 use crate::note::Notes;
-use crate::text::{name, quoted};
+use crate::text::{check_encoding, name, quoted};
 
 /// No material library is larger than this, in bytes.
 const LARGEST: u64 = 1 << 28;
@@ -119,6 +119,14 @@ fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
     // Three kinds of line ends and names in Latin-1: tobj knows LF and UTF-8.
     let text = name(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
+    if let Err(error) = check_encoding(bytes) {
+        notes.left_out(
+            1,
+            1,
+            format!("material library left out: {}", error.message),
+        );
+        return Vec::new();
+    }
     let materials = statements(&without_broken_lines(&text, notes)).unwrap_or_default();
     let mut ignored = Ignored::default();
     let materials = materials

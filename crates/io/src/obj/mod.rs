@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | `v x y z` | position, and the order of the vertices is kept |
 //! | `v x y z r g b` | vertex attribute `color` |
+//! | `#MRGB` comments of `ZBrush` | vertex attribute `color`, if there is one for each vertex |
 //! | `vt`, `f v/vt` | corner attribute `uv` |
 //! | `vn`, `f v//vn` | `normal` of vertices if the corners of each agree, and otherwise of corners |
 //! | `f` | a polygon of any degree, in order |

@@ -15,6 +15,8 @@ pub(super) struct Part {
     pub(super) positions: Vec<DVec3>,
     /// One for each position, or none at all.
     pub(super) colors: Vec<DVec4>,
+    /// Of `#MRGB` comments: mask, red, green and blue, from the highest byte.
+    pub(super) painted: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
     /// For each face how many corners there are up to its end.

@@ -36,8 +36,9 @@ pub(crate) fn read(
     name: String,
     notes: &mut Notes,
 ) -> Result<Found, ReadError> {
-    let file = parse(bytes).map_err(|error| error.in_file(path))?;
+    let mut file = parse(bytes).map_err(|error| error.in_file(path))?;
     note_left_out(&file, notes);
+    take_paint(&mut file, notes);
     let n_lines = file.line_offsets.len() - 1;
     if file.faces.len() == 0 && n_lines > 0 {
         let lines = polylines(&file, notes);
@@ -50,6 +51,26 @@ pub(crate) fn read(
     );
     let materials = read_libraries(path, &file, notes)?;
     Ok(Found::polygons(name, polygons(file, materials, notes)))
+}
+
+/// Makes colors of vertices of what comments of `ZBrush` say.
+fn take_paint(file: &mut ObjFile, notes: &mut Notes) {
+    let painted = std::mem::take(&mut file.painted);
+    if painted.is_empty() {
+        return;
+    }
+    if painted.len() != file.positions.len() || !file.colors.is_empty() {
+        let what = "colors of `#MRGB` comments left out: not one for each vertex, or beside others";
+        notes.left_out(painted.len(), None, what);
+        return;
+    }
+    let masked = painted.iter().filter(|&&color| color >> 24 != 0xff).count();
+    notes.left_out(masked, None, "masks of `#MRGB` comments left out");
+    let color = |color: &u32| {
+        let [_, red, green, blue] = color.to_be_bytes().map(f64::from);
+        (DVec3::new(red, green, blue) / 255.0).extend(1.0)
+    };
+    file.colors = painted.iter().map(color).collect();
 }
 
 fn polylines(file: &ObjFile, notes: &mut Notes) -> Vec<Vec<DVec3>> {
@@ -265,6 +286,12 @@ fn note_left_out(file: &ObjFile, notes: &mut Notes) {
             LeftOut::Points => "points (`p`) left out".to_owned(),
             LeftOut::SmallFaces => "faces with fewer than 3 corners left out".to_owned(),
             LeftOut::Weights => "weights of vertices other than 1 left out".to_owned(),
+            LeftOut::NotFinite => {
+                let what =
+                    "numbers of texture coordinates and normals that are not finite: taken as 0";
+                notes.changed(count, line, what);
+                continue;
+            }
             LeftOut::Depths => "third texture coordinates other than 0 left out".to_owned(),
         };
         notes.left_out(count, line, text);

@@ -8,7 +8,10 @@ use super::corner::{Index, Limits, corner};
 use super::file::{LeftOut, NO_MATERIAL, NONE};
 use super::part::{Part, PartRun, to_u32};
 use crate::error::TextError;
-use crate::text::{Cursor, Place, name, number, quoted};
+use crate::text::{Cursor, Place, is_not_finite, name, number, quoted};
+
+/// What comments with colors of vertices begin with.
+const PAINT: &[u8] = b"#MRGB ";
 
 /// How many different unknown words are listed by name.
 pub(super) const LISTED: usize = 8;
@@ -65,6 +68,8 @@ impl<'a> Parser<'a> {
             }
             if let Some((place, keyword)) = self.cursor.argument() {
                 self.statement(place, keyword)?;
+            } else if self.cursor.ahead().starts_with(PAINT) {
+                self.paint();
             }
             self.cursor.skip_line();
         }
@@ -195,10 +200,27 @@ impl<'a> Parser<'a> {
                     "expected at most {N} numbers after `{keyword}`, found more"
                 )));
             };
-            *value = number(place, word)?;
+            *value = if keyword != "v" && is_not_finite(word) {
+                self.leave_out(place, 1, LeftOut::NotFinite);
+                0.0
+            } else {
+                number(place, word)?
+            };
             n += 1;
         }
         Ok((values, n))
+    }
+
+    /// Takes the colors of a comment of `ZBrush`: eight hexadecimal digits for each vertex.
+    fn paint(&mut self) {
+        let digits = self.cursor.ahead()[PAINT.len()..].trim_ascii_start();
+        for digits in digits.chunks_exact(8) {
+            let value = std::str::from_utf8(digits)
+                .ok()
+                .and_then(|digits| u32::from_str_radix(digits, 16).ok());
+            let Some(value) = value else { break };
+            self.part.painted.push(value);
+        }
     }
 
     // ---- Faces, lines, points ------------------------------------------------------------------

@@ -6,11 +6,13 @@ use glam::{DVec2, DVec3, DVec4};
 use mesh::{COLOR, Domain, Rule, UV, VERTEX_NORMAL};
 
 use super::COLOR_INDEX;
+use super::colors::Colors;
+use super::header::{Header, check_room, count, header, whole};
 use crate::error::{ReadError, TextError};
 use crate::lines::{count_rest, skip_empty_lines};
 use crate::note::Notes;
 use crate::peek::{PeekGeometry, PeekMesh};
-use crate::text::{Cursor, Place, number, quoted};
+use crate::text::{Cursor, Place, check_encoding, number, quoted};
 use crate::{Found, Polygons};
 
 /// The color of faces that have none, where others have one.
@@ -32,6 +34,7 @@ pub(crate) fn read(
 }
 
 fn polygons(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, TextError> {
+    check_encoding(bytes)?;
     let mut cursor = Cursor::new(bytes);
     let header = header(&mut cursor)?;
     let vertices = vertices(&mut cursor, &header, notes)?;
@@ -74,157 +77,6 @@ fn polygons(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, TextError> {
     }
     Ok(polygons)
 }
-
-// ---- The header --------------------------------------------------------------------------------
-
-struct Header {
-    normals: bool,
-    colors: bool,
-    uvs: bool,
-    n_vertices: usize,
-    n_faces: usize,
-}
-
-fn header(cursor: &mut Cursor) -> Result<Header, TextError> {
-    let mut header = Header {
-        normals: false,
-        colors: false,
-        uvs: false,
-        n_vertices: 0,
-        n_faces: 0,
-    };
-    skip_empty_lines(cursor);
-    let mut ahead = cursor.clone();
-    let Some((place, word)) = ahead.argument() else {
-        return Err(cursor
-            .place()
-            .error("expected `OFF`, found the end of the file"));
-    };
-    // Old files have no keyword.
-    if !word[0].is_ascii_digit() || word.ends_with(b"OFF") {
-        keyword(&mut header, place, word)?;
-        *cursor = ahead;
-        if let Some((place, b"BINARY")) = ahead_argument(cursor) {
-            return Err(place.error("expected an OFF file as text, found a binary one"));
-        }
-        skip_empty_lines(cursor);
-    }
-    header.n_vertices = count(cursor, "vertices")?;
-    header.n_faces = count(cursor, "faces")?;
-    // The count of edges is never right and sometimes missing.
-    if let Some((place, word)) = cursor.argument() {
-        number(place, word)?;
-        end_of_line(cursor)?;
-    }
-    cursor.skip_line();
-    Ok(header)
-}
-
-fn keyword(header: &mut Header, place: Place, word: &[u8]) -> Result<(), TextError> {
-    let refuse =
-        |expected: &str| Err(place.error(format!("expected {expected}, found {}", quoted(word))));
-    let Some(mut letters) = word.strip_suffix(b"OFF") else {
-        return refuse("`OFF`");
-    };
-    while let [letter, rest @ ..] = letters {
-        letters = rest;
-        match letter {
-            b'N' => header.normals = true,
-            b'C' => header.colors = true,
-            b'S' if rest.first() == Some(&b'T') => {
-                header.uvs = true;
-                letters = &rest[1..];
-            }
-            b'4' | b'n' => return refuse("an OFF file with three coordinates"),
-            _ => return refuse("`OFF` with `ST`, `C` or `N` before it"),
-        }
-    }
-    Ok(())
-}
-
-fn ahead_argument<'a>(cursor: &Cursor<'a>) -> Option<(Place, &'a [u8])> {
-    cursor.clone().argument()
-}
-
-fn count(cursor: &mut Cursor, what: &str) -> Result<usize, TextError> {
-    let found = cursor.argument();
-    let (place, word) = found.unwrap_or((cursor.place(), b""));
-    whole(word).ok_or_else(|| {
-        place.error(format!(
-            "expected how many {what} there are, found {}",
-            quoted(word)
-        ))
-    })
-}
-
-fn whole(word: &[u8]) -> Option<usize> {
-    std::str::from_utf8(word).ok()?.parse().ok()
-}
-
-/// Refuses counts that the rest of the file has no room for: each word takes two bytes, but for the last.
-fn check_room(cursor: &Cursor, n: usize, words: usize, what: &str) -> Result<(), TextError> {
-    let least = n.checked_mul(2 * words);
-    if least.is_none_or(|least| least > cursor.remaining() + 1) {
-        let message = format!("expected {n} {what}, found {} bytes", cursor.remaining());
-        return Err(cursor.place().error(message));
-    }
-    Ok(())
-}
-
-fn end_of_line(cursor: &mut Cursor) -> Result<(), TextError> {
-    match cursor.argument() {
-        None => Ok(()),
-        Some((place, word)) => {
-            let message = format!("expected the end of the line, found {}", quoted(word));
-            Err(place.error(message))
-        }
-    }
-}
-
-// ---- Colors ------------------------------------------------------------------------------------
-
-/// Colors as they are written, until it is known whether they are 255ths.
-#[derive(Default)]
-struct Colors {
-    values: Vec<DVec4>,
-    /// Which of them have no alpha.
-    opaque: Vec<bool>,
-    fraction: bool,
-    above_one: bool,
-}
-
-impl Colors {
-    /// Adds a color of three or four words.
-    fn push(&mut self, words: &[(Place, &[u8])]) -> Result<(), TextError> {
-        let mut color = DVec4::ONE;
-        for (i, &(place, word)) in words.iter().enumerate() {
-            color[i] = number(place, word)?;
-            self.fraction |= word.iter().any(|byte| matches!(byte, b'.' | b'e' | b'E'));
-            self.above_one |= color[i] > 1.0;
-        }
-        self.values.push(color);
-        self.opaque.push(words.len() == 3);
-        Ok(())
-    }
-
-    /// The place of a face without a color.
-    fn skip(&mut self) {
-        self.values.push(DVec4::ONE);
-        self.opaque.push(true);
-    }
-
-    fn finish(mut self) -> Vec<DVec4> {
-        if self.above_one && !self.fraction {
-            for (color, opaque) in self.values.iter_mut().zip(self.opaque) {
-                let alpha = if opaque { 1.0 } else { color.w / 255.0 };
-                *color = (color.truncate() / 255.0).extend(alpha);
-            }
-        }
-        self.values
-    }
-}
-
-// ---- Vertices and faces ------------------------------------------------------------------------
 
 #[derive(Default)]
 struct Vertices {
@@ -387,7 +239,7 @@ fn face_color(faces: &mut Faces, words: &[(Place, &[u8])]) -> Result<(), TextErr
     let f = faces.offsets.len() - 2;
     match *words {
         [_, _, _] | [_, _, _, _] => {
-            while faces.colors.values.len() < f {
+            while faces.colors.len() < f {
                 faces.colors.skip();
             }
             faces.colors.push(words)?;

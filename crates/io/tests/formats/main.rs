@@ -2,6 +2,7 @@
 
 mod broken;
 mod dae_broken;
+mod dae_nodes;
 mod dae_read;
 mod gltf_attributes;
 mod gltf_broken;
@@ -11,11 +12,17 @@ mod gltf_meshopt;
 mod gltf_read;
 mod gltf_valid;
 mod gltf_written;
+mod obj_dialects;
 mod obj_files;
 mod obj_limits;
+mod obj_oracle;
 mod off_files;
+mod oracles;
 mod ply_broken;
+mod ply_dialects;
 mod ply_files;
+mod ply_layouts;
+mod round_trips;
 mod stl_files;
 
 use std::fmt::Debug;

@@ -238,6 +238,7 @@ fn what_a_file_does_not_hold_is_a_loss() {
             ("name", 2),
             ("color", 12),
             ("position", 1),
+            ("position", 4),
             ("polygon", 6)
         ]
     );

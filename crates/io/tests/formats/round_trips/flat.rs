@@ -1,0 +1,370 @@
+//! Scenes as plain lists of bits, and what differs between two of them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::DVec3;
+use mesh::triangulate::Cutter;
+use mesh::{Column, Domain, HalfEdgeId, Mesh, Rule, Values, VertexId};
+use scene::{Geometry, Object};
+
+/// What differs: values of a domain with this name, or something else of an object. The words are those
+/// of losses.
+pub(super) type Key = (Option<Domain>, String);
+
+/// How far two scenes differ in something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Difference {
+    /// The numbers are the same with 32 bits.
+    Rounded,
+    /// Something else.
+    Other,
+}
+
+pub(super) type Differences = BTreeMap<Key, Difference>;
+
+pub(super) fn key(domain: impl Into<Option<Domain>>, name: &str) -> Key {
+    (domain.into(), name.to_owned())
+}
+
+/// The bits of the numbers of a value.
+type Row = Vec<u64>;
+
+/// The type of values and what edits do with them.
+type Kind = (&'static str, Rule);
+
+/// A mesh as lists. Values of corners follow the faces and their corners.
+#[derive(Clone, Debug, PartialEq)]
+struct Flat {
+    positions: Vec<Row>,
+    faces: Vec<Vec<usize>>,
+    columns: BTreeMap<Key, (Kind, Vec<Row>)>,
+    /// Edges as the lower and the higher vertex, with the place of their values.
+    edges: Vec<([usize; 2], usize)>,
+}
+
+/// What differs between a scene and what was read back from a file. Formats that hold triangles alone,
+/// `soup`, may give vertices and faces another order.
+pub(super) fn differences(before: &[Object], after: &[Object], soup: bool) -> Differences {
+    let mut all = Differences::new();
+    if before.len() != after.len() {
+        all.insert(key(None, "name"), Difference::Other);
+        return all;
+    }
+    for (a, b) in before.iter().zip(after) {
+        if a.name != b.name {
+            all.insert(key(None, "name"), Difference::Other);
+        }
+        materials(a, b, &mut all);
+        match (&a.geometry, &b.geometry) {
+            (Geometry::Mesh(a), Geometry::Mesh(b)) => meshes(a, b, soup, &mut all),
+            (a, b) if a == b => {}
+            _ => add(&mut all, key(None, "geometry"), Difference::Other),
+        }
+    }
+    all
+}
+
+fn add(all: &mut Differences, key: Key, difference: Difference) {
+    let known = all.entry(key).or_insert(difference);
+    *known = difference.max(*known);
+}
+
+fn materials(a: &Object, b: &Object, all: &mut Differences) {
+    if a.materials != b.materials {
+        add(all, key(None, "materials"), Difference::Other);
+    }
+}
+
+fn meshes(a: &Mesh, b: &Mesh, soup: bool, all: &mut Differences) {
+    let cuts = soup && a.faces().any(|f| !a.is_triangle(f));
+    let mut before = Flat::of(a, cuts);
+    let mut after = Flat::of(b, false);
+    if cuts {
+        add(all, key(Domain::Face, "polygon"), Difference::Other);
+    }
+    if soup {
+        if before.drop_isolated() {
+            add(all, key(Domain::Vertex, "position"), Difference::Other);
+        }
+        if before.has_equal_positions() {
+            add(all, key(Domain::Vertex, "merged"), Difference::Other);
+            return;
+        }
+        let places = |flat: &Flat| {
+            (0..flat.positions.len())
+                .map(|v| flat.place(v))
+                .collect::<Vec<_>>()
+        };
+        if places(&before) != places(&after) {
+            add(all, key(None, "order"), Difference::Other);
+        } else if before.faces != after.faces {
+            add(all, key(None, "order of faces"), Difference::Other);
+        }
+        before.sort();
+        after.sort();
+    }
+    let of_corners = |(domain, name): &Key| {
+        let is_there = |domain| after.columns.contains_key(&key(domain, name));
+        let moved = *domain == Some(Domain::Corner);
+        moved && is_there(Domain::Vertex) && !is_there(Domain::Corner)
+    };
+    let moved: Vec<Key> = before
+        .columns
+        .keys()
+        .filter(|key| of_corners(key))
+        .cloned()
+        .collect();
+    for (_, name) in moved {
+        if before.agree(&name) {
+            add(all, key(None, "domain"), Difference::Other);
+        }
+    }
+    if let Some(difference) = rows_differ(&before.positions, &after.positions) {
+        add(all, key(Domain::Vertex, "position"), difference);
+    }
+    if before.faces != after.faces {
+        add(all, key(Domain::Face, "polygon"), Difference::Other);
+    }
+    let names: BTreeSet<&Key> = before.columns.keys().chain(after.columns.keys()).collect();
+    for name in names {
+        let difference = match (before.columns.get(name), after.columns.get(name)) {
+            (Some((kind, a)), Some((other, b))) if kind.0 == other.0 => {
+                if kind.1 != other.1 {
+                    add(all, key(None, "rule"), Difference::Other);
+                }
+                if name.0 == Some(Domain::Edge) {
+                    rows_differ(&before.of_edges(a), &after.of_edges(b))
+                } else {
+                    rows_differ(a, b)
+                }
+            }
+            _ => Some(Difference::Other),
+        };
+        if let Some(difference) = difference {
+            add(all, name.clone(), difference);
+        }
+    }
+}
+
+/// How numbers differ. With 32 bits they are near: of texture coordinates glTF has 1 - v.
+fn rows_differ(a: &[Row], b: &[Row]) -> Option<Difference> {
+    if a == b {
+        return None;
+    }
+    let is_near = |(a, b): (&u64, &u64)| {
+        let [a, b] = [*a, *b].map(f64::from_bits);
+        (a - b).abs() <= a.abs().min(1e300).max(1.0) / f64::from(1 << 24)
+    };
+    let all_near = |(a, b): (&Row, &Row)| a.len() == b.len() && a.iter().zip(b).all(is_near);
+    let same = a.len() == b.len() && a.iter().zip(b).all(all_near);
+    Some(if same {
+        Difference::Rounded
+    } else {
+        Difference::Other
+    })
+}
+
+impl Flat {
+    fn of(mesh: &Mesh, cuts: bool) -> Self {
+        let mut cutter = Cutter::default();
+        let mut corners: Vec<Vec<HalfEdgeId>> = Vec::new();
+        let mut sources = Vec::new();
+        for f in mesh.faces() {
+            let around: Vec<HalfEdgeId> = mesh.face_half_edges(f).collect();
+            if cuts && around.len() > 3 {
+                for triangle in cutter.cut(mesh, f).triangles() {
+                    corners.push(triangle.iter().map(|&k| around[k as usize]).collect());
+                    sources.push(f.index());
+                }
+            } else {
+                corners.push(around);
+                sources.push(f.index());
+            }
+        }
+        let column = |(domain, column): (Domain, &Column)| {
+            let Column { name, rule, values } = column;
+            let rows = match domain {
+                Domain::Vertex | Domain::Edge => {
+                    (0..values.len()).map(|i| row(values, i)).collect()
+                }
+                Domain::Corner => {
+                    let all = corners.iter().flatten();
+                    all.map(|h| row(values, h.index())).collect()
+                }
+                Domain::Face => sources.iter().map(|&f| row(values, f)).collect(),
+            };
+            let kind = (values.type_name(), *rule);
+            (key(domain, name), (kind, rows))
+        };
+        let faces = corners.iter().map(|corners| {
+            let vertices = corners.iter().map(|&h| mesh.origin(h).index());
+            vertices.collect()
+        });
+        let edges = mesh.edges().map(|e| {
+            let mut ends = mesh.edge_vertices(e).map(VertexId::index);
+            ends.sort_unstable();
+            (ends, e.index())
+        });
+        Self {
+            positions: mesh
+                .positions()
+                .iter()
+                .map(|p| bits(&p.to_array()))
+                .collect(),
+            faces: faces.collect(),
+            edges: edges.collect(),
+            columns: mesh
+                .attributes()
+                .iter()
+                .filter(|(_, column)| !says_nothing(column))
+                .map(column)
+                .collect(),
+        }
+    }
+
+    /// The values of edges, with their ends, in the order of these.
+    fn of_edges(&self, rows: &[Row]) -> Vec<Row> {
+        let with_ends = self.edges.iter().map(|([a, b], place)| {
+            let ends = [*a, *b].map(|v| v as u64);
+            [&ends, &rows[*place][..]].concat()
+        });
+        let mut all: Vec<Row> = with_ends.collect();
+        all.sort_unstable();
+        all
+    }
+
+    fn place(&self, v: usize) -> [u32; 3] {
+        #[expect(clippy::cast_possible_truncation, reason = "that is what is asked")]
+        let narrow = |k: usize| (f64::from_bits(self.positions[v][k]) as f32 + 0.0).to_bits();
+        [narrow(0), narrow(1), narrow(2)]
+    }
+
+    fn has_equal_positions(&self) -> bool {
+        let places: BTreeSet<_> = (0..self.positions.len()).map(|v| self.place(v)).collect();
+        places.len() < self.positions.len()
+    }
+
+    /// Keeps these vertices, in this order.
+    fn renumber(&mut self, order: &[usize]) {
+        let mut new = vec![usize::MAX; self.positions.len()];
+        for (to, &from) in order.iter().enumerate() {
+            new[from] = to;
+        }
+        let pick = |rows: &[Row]| order.iter().map(|&v| rows[v].clone()).collect();
+        self.positions = pick(&self.positions);
+        for ((domain, _), (_, rows)) in &mut self.columns {
+            if *domain == Some(Domain::Vertex) {
+                *rows = pick(rows);
+            }
+        }
+        for v in self.faces.iter_mut().flatten() {
+            *v = new[*v];
+        }
+        for (ends, _) in &mut self.edges {
+            *ends = ends.map(|v| new[v]);
+            ends.sort_unstable();
+        }
+    }
+
+    fn drop_isolated(&mut self) -> bool {
+        let used: BTreeSet<usize> = self.faces.iter().flatten().copied().collect();
+        let dropped = used.len() < self.positions.len();
+        if dropped {
+            self.renumber(&used.into_iter().collect::<Vec<_>>());
+        }
+        dropped
+    }
+
+    /// Sorts vertices by their positions, corners and faces by their vertices.
+    fn sort(&mut self) {
+        let mut order: Vec<usize> = (0..self.positions.len()).collect();
+        order.sort_by_key(|&v| self.place(v));
+        self.renumber(&order);
+        let starts: Vec<usize> = self
+            .faces
+            .iter()
+            .scan(0, |end, face| {
+                *end += face.len();
+                Some(*end - face.len())
+            })
+            .collect();
+        // For each face its corners, turned so that the lowest vertex comes first.
+        let mut turned: Vec<(Vec<usize>, Vec<usize>, usize)> = Vec::new();
+        for (f, face) in self.faces.iter().enumerate() {
+            let n = face.len();
+            let first = (0..n).min_by_key(|&i| face[i]).unwrap_or(0);
+            let places: Vec<usize> = (0..n).map(|i| (first + i) % n).collect();
+            turned.push((
+                places.iter().map(|&i| face[i]).collect(),
+                places.iter().map(|&i| starts[f] + i).collect(),
+                f,
+            ));
+        }
+        turned.sort();
+        for ((domain, _), (_, rows)) in &mut self.columns {
+            let sources: Vec<usize> = match domain {
+                Some(Domain::Corner) => turned.iter().flat_map(|t| t.1.clone()).collect(),
+                Some(Domain::Face) => turned.iter().map(|t| t.2).collect(),
+                _ => continue,
+            };
+            *rows = sources.iter().map(|&i| rows[i].clone()).collect();
+        }
+        self.faces = turned.into_iter().map(|t| t.0).collect();
+    }
+
+    /// Moves values of corners to the vertices if they agree around each, and no others are there.
+    fn agree(&mut self, name: &str) -> bool {
+        let (from, to) = (key(Domain::Corner, name), key(Domain::Vertex, name));
+        let (kind, rows) = &self.columns[&from];
+        let width = rows.first().map_or(0, Vec::len);
+        let mut values: Vec<Option<&Row>> = vec![None; self.positions.len()];
+        let mut corners = self.faces.iter().flatten().zip(rows);
+        let agrees = corners.all(|(&v, row)| {
+            let known = values[v].replace(row);
+            known.is_none_or(|known| same_numbers(known, row))
+        });
+        if !agrees || self.columns.contains_key(&to) {
+            return false;
+        }
+        let values = values.into_iter();
+        let values = values.map(|value| value.cloned().unwrap_or_else(|| vec![0; width]));
+        let column = (*kind, values.collect());
+        self.columns.remove(&from);
+        self.columns.insert(to, column);
+        true
+    }
+}
+
+/// Whether there are no values, or those that stand for no material and no smoothing group.
+fn says_nothing(column: &Column) -> bool {
+    match (&column.values, column.name.as_str()) {
+        (Values::Int(values), "material") => values.iter().all(|&m| m == -1),
+        (Values::Int(values), "smoothing") => values.iter().all(|&group| group == 0),
+        (values, _) => values.is_empty(),
+    }
+}
+
+fn same_numbers(a: &Row, b: &Row) -> bool {
+    let equal = |(a, b): (&u64, &u64)| f64::from_bits(*a) == f64::from_bits(*b);
+    a.iter().zip(b).all(equal)
+}
+
+fn bits(numbers: &[f64]) -> Row {
+    numbers.iter().map(|x| x.to_bits()).collect()
+}
+
+fn row(values: &Values, i: usize) -> Row {
+    match values {
+        Values::Float(v) => bits(&[v[i]]),
+        Values::Vec2(v) => bits(&v[i].to_array()),
+        Values::Vec3(v) => bits(&DVec3::to_array(&v[i])),
+        Values::Vec4(v) => bits(&v[i].to_array()),
+        Values::Int(v) => bits(&[f64::from(v[i])]),
+        Values::Tag(v) => bits(&[f64::from(u8::from(v[i]))]),
+    }
+}
+
+/// Whether a rule fits values: unit vectors have three numbers.
+pub(super) fn fits(rule: Rule, values: &Values) -> bool {
+    rule != Rule::Normal || matches!(values, Values::Vec3(_))
+}

@@ -75,7 +75,7 @@ fn note_losses(mesh: &Mesh, losses: &mut Losses) {
     losses.add(Domain::Vertex, "position", isolated, reason);
     let used = mesh
         .vertices()
-        .filter(|&v| !mesh.vertex_half_edge(v).is_none());
+        .filter(|&v| mesh.vertex_half_edge(v).is_some());
     let places: Vec<DVec3> = used
         .map(|v| mesh.position(v).as_vec3().as_dvec3())
         .collect();

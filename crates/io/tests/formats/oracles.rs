@@ -125,9 +125,12 @@ const COUNT: usize = 12;
 
 impl Spelling {
     fn text(self, v: usize) -> String {
-        let number = |negative: bool| match negative {
-            true => format!("-{}", COUNT - v),
-            false => format!("{}", v + 1),
+        let number = |negative: bool| {
+            if negative {
+                format!("-{}", COUNT - v)
+            } else {
+                format!("{}", v + 1)
+            }
         };
         let [p, uv, normal] = self.negative.map(number);
         match (self.has_uv, self.has_normal) {

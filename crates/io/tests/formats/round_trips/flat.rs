@@ -153,7 +153,7 @@ fn rows_differ(a: &[Row], b: &[Row]) -> Option<Difference> {
     }
     let is_near = |(a, b): (&u64, &u64)| {
         let [a, b] = [*a, *b].map(f64::from_bits);
-        (a - b).abs() <= a.abs().min(1e300).max(1.0) / f64::from(1 << 24)
+        (a - b).abs() <= a.abs().clamp(1.0, 1e300) / f64::from(1 << 24)
     };
     let all_near = |(a, b): (&Row, &Row)| a.len() == b.len() && a.iter().zip(b).all(is_near);
     let same = a.len() == b.len() && a.iter().zip(b).all(all_near);

@@ -184,6 +184,7 @@ fn geometry() -> Vec<Feature> {
     ]
 }
 
+#[expect(clippy::too_many_lines, reason = "a list")]
 fn attributes() -> Vec<Feature> {
     use Domain::{Corner, Edge, Face, Vertex};
     let mut both = base();

@@ -1,5 +1,6 @@
 //! What becomes of values, and laws of collapsing.
 
+use super::oracle::samples;
 use super::*;
 
 #[test]

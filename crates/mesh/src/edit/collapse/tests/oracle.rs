@@ -3,7 +3,7 @@
 use super::*;
 
 /// Shapes of all kinds, small enough that everything is within reach of everything.
-fn samples() -> Vec<Mesh> {
+pub(super) fn samples() -> Vec<Mesh> {
     let fans = |mesh: Mesh| shapes::fans(&mesh);
     vec![
         shapes::square(),

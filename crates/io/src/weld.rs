@@ -8,6 +8,7 @@ use std::hash::{BuildHasher, RandomState};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::DVec3;
+use mesh::{Mesh, VertexId};
 use rayon::prelude::*;
 
 /// How many positions are hashed and numbered at a time.
@@ -15,6 +16,20 @@ const CHUNK: usize = 1 << 15;
 /// How many positions a bucket has, about.
 const BUCKET: usize = 1 << 14;
 const MOST_BUCKETS: usize = 1 << 10;
+
+/// How many vertices with faces are at the place of an earlier one, when positions have 32 bits: formats that
+/// know vertices by their places have one for them.
+pub(crate) fn n_merged(mesh: &Mesh) -> usize {
+    let used = (0..mesh.n_vertices())
+        .into_par_iter()
+        .map(VertexId::new)
+        .filter(|&v| mesh.vertex_half_edge(v).is_some());
+    let places: Vec<DVec3> = used
+        .map(|v| mesh.position(v).as_vec3().as_dvec3())
+        .collect();
+    let n = places.len();
+    n - weld(places).0.len()
+}
 
 /// The different positions in the order in which each comes first, and for each position its place among
 /// them. Zero is the same with either sign. There must be fewer than 2^32 - 1 positions.

@@ -12,6 +12,7 @@ use super::split::{Split, split};
 use super::streams::{Stream, streams};
 use crate::error::Unwritable;
 use crate::loss::Losses;
+use crate::weld::n_merged;
 
 /// An object of which everything is known but its place in the document.
 pub(super) struct Prepared<'a> {
@@ -53,6 +54,12 @@ impl<'a> Prepared<'a> {
             "position",
             isolated,
             "isolated vertices: glTF holds triangles",
+        );
+        losses.add(
+            Domain::Vertex,
+            "position",
+            n_merged(mesh),
+            "vertices at the place of another: glTF knows vertices of a mesh by their places",
         );
         let polygons = mesh.faces().filter(|&f| !mesh.is_triangle(f)).count();
         losses.add(

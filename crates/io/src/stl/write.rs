@@ -12,7 +12,7 @@ use super::binary::{FACET, HEADER};
 use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
-use crate::weld::weld;
+use crate::weld::n_merged;
 use crate::{WriteOptions, Written};
 
 /// Faces that one task works on.
@@ -73,16 +73,8 @@ fn note_losses(mesh: &Mesh, losses: &mut Losses) {
     let isolated = mesh.n_isolated_vertices();
     let reason = "isolated vertices: STL holds triangles";
     losses.add(Domain::Vertex, "position", isolated, reason);
-    let used = mesh
-        .vertices()
-        .filter(|&v| mesh.vertex_half_edge(v).is_some());
-    let places: Vec<DVec3> = used
-        .map(|v| mesh.position(v).as_vec3().as_dvec3())
-        .collect();
-    let n_used = places.len();
-    let merged = n_used - weld(places).0.len();
     let reason = "vertices at the place of another: readers of STL see one";
-    losses.add(Domain::Vertex, "position", merged, reason);
+    losses.add(Domain::Vertex, "position", n_merged(mesh), reason);
     let faces = (0..mesh.n_faces()).into_par_iter().with_min_len(BLOCK);
     let polygons = faces.filter(|&f| !mesh.is_triangle(FaceId::new(f))).count();
     let reason = "STL holds triangles: the polygons are cut";

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     FaceSelection, Region, Select, Shared, VertexSelection, lowest, marks, named_vertex, one,
-    shared, shared_count, shared_mask,
+    shared, shared_count, shared_mask, walk,
 };
 use crate::{Context, MeshPlan, OpError, Range, Refusal, Vector};
 
@@ -51,6 +51,18 @@ pub enum EdgeSelection {
     EdgesAround(VertexSelection),
     /// Edges with both ends in these vertices.
     EdgesWithin(VertexSelection),
+    /// These, and those that go on straight from one of them: across vertices with four edges inside the mesh,
+    /// and along the boundary from an edge of it.
+    EdgeLoop(Box<Self>),
+    /// These, and those across from them in faces with four corners, and so on.
+    EdgeRing(Box<Self>),
+    /// The shortest path along edges from one vertex to another; refused if there is none.
+    Path {
+        /// The number of the vertex at its beginning.
+        from: u32,
+        /// The number of the vertex at its end.
+        to: u32,
+    },
     /// The longest; of equal lengths the lower numbers.
     Longest {
         /// How many; all if there are fewer.
@@ -74,6 +86,8 @@ pub enum EdgeSelection {
     Grow(Box<Self>),
     /// Those of these that share a vertex with no other one outside.
     Shrink(Box<Self>),
+    /// All of the connected pieces of the mesh that one of these belongs to.
+    Component(Box<Self>),
     /// Drawn by chance, the same for the same seed and step.
     Random {
         /// How many; all if there are fewer.
@@ -169,6 +183,16 @@ impl Select for EdgeSelection {
                 marks::<Self>(mesh, |e| {
                     mesh.edge_vertices(e).iter().all(|v| ends[v.index()])
                 })
+            }
+            Self::EdgeLoop(of) => walk::edge_loops(mesh, &of.resolve(mesh, cx)?),
+            Self::EdgeRing(of) => walk::edge_rings(mesh, &of.resolve(mesh, cx)?),
+            Self::Path { from, to } => {
+                let (from, to) = (named_vertex(mesh, *from)?, named_vertex(mesh, *to)?);
+                let mut mask = marks::<Self>(mesh, |_| false);
+                for e in walk::shortest_path(mesh, from, to)? {
+                    mask[e.index()] = true;
+                }
+                mask
             }
             Self::Longest { count, of } => {
                 lowest::<Self, f64>(mesh, *count, &of.mask(mesh, cx)?, |e| -length(e))

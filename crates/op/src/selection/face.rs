@@ -1,12 +1,12 @@
 //! Selections of faces.
 
-use mesh::{FaceId, MATERIAL, Mesh, VertexId};
+use mesh::{DVec3, FaceId, MATERIAL, Mesh, VertexId, angle_between};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
     EdgeSelection, Region, Select, Shared, VertexSelection, marks, one, shared, shared_count,
-    shared_mask,
+    shared_mask, walk,
 };
 use crate::{Context, MeshPlan, OpError, Range, Refusal, Vector};
 
@@ -29,6 +29,22 @@ pub enum FaceSelection {
     FacesAround(Box<VertexSelection>),
     /// Faces beside these edges.
     FacesBeside(Box<EdgeSelection>),
+    /// Faces that face a direction.
+    Facing {
+        /// Of any length but 0.
+        direction: Vector,
+        /// By how many degrees the normal may turn away from it.
+        #[schemars(range(min = 0.0, max = 180.0))]
+        within: f64,
+    },
+    /// These, and the faces reached from them over edges that turn by at most an angle.
+    Expand {
+        /// In degrees, from 0 (flat) to 180.
+        #[schemars(range(min = 0.0, max = 180.0))]
+        to_angle: f64,
+        /// From which.
+        of: Box<Self>,
+    },
     /// Faces whose vertices all lie in a region, its surface included.
     Inside(Region),
     /// Faces marked by a tag of this name.
@@ -43,6 +59,8 @@ pub enum FaceSelection {
     Grow(Box<Self>),
     /// Those of these that share a vertex with no other one outside.
     Shrink(Box<Self>),
+    /// All of the connected pieces of the mesh that one of these belongs to.
+    Component(Box<Self>),
     /// Drawn by chance, the same for the same seed and step.
     Random {
         /// How many; all if there are fewer.
@@ -129,6 +147,15 @@ impl Select for FaceSelection {
                     mesh.face_half_edges(f).any(|h| sides[h.edge().index()])
                 })
             }
+            Self::Facing { direction, within } => {
+                let direction = DVec3::from(*direction);
+                marks::<Self>(mesh, |f| {
+                    let normal = mesh.face_normal(f);
+                    let turn = angle_between(normal, direction).to_degrees();
+                    normal != DVec3::ZERO && direction != DVec3::ZERO && turn <= *within
+                })
+            }
+            Self::Expand { to_angle, of } => walk::spread(mesh, of.mask(mesh, cx)?, *to_angle),
             _ => unreachable!("the shared part is evaluated above"),
         })
     }

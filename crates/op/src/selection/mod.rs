@@ -1,6 +1,6 @@
 //! Selections: values that say which vertices, edges or faces an operation works on.
 //!
-//! The three types share one algebra: `And`, `Or`, `Not`, `Grow`, `Shrink`, choices (`Random`,
+//! The three types share one algebra: `And`, `Or`, `Not`, `Grow`, `Shrink`, `Component`, choices (`Random`,
 //! `Nearest`, ...) from another selection, and `Expect`, which fails unless the number of elements is
 //! the expected one. A selection is evaluated once, before the first edit.
 
@@ -8,6 +8,7 @@ mod edge;
 mod face;
 mod region;
 mod vertex;
+mod walk;
 
 use mesh::{DVec3, Domain, Id, Mesh, VertexId};
 
@@ -36,6 +37,8 @@ pub(crate) enum Shared<'a, S> {
     Grow(&'a S),
     /// Those of which no element that shares a vertex is outside.
     Shrink(&'a S),
+    /// These and all elements that edges lead to from them.
+    Component(&'a S),
     /// So many, drawn by chance.
     Random { count: u32, of: &'a S, seed: u64 },
     /// The so many whose middles are nearest to a point.
@@ -123,6 +126,16 @@ fn shared_mask<S: Select>(
             let outside = grow::<S>(mesh, &marks::<S>(mesh, |id| !mask[id.index()]));
             marks::<S>(mesh, |id| !outside[id.index()])
         }
+        Shared::Component(of) => {
+            let mut vertices = vec![false; mesh.domain_len(Domain::Vertex)];
+            for v in (of.resolve(mesh, cx)?.into_iter()).flat_map(|id| S::vertices(mesh, id)) {
+                vertices[v.index()] = true;
+            }
+            let vertices = walk::connected(mesh, vertices);
+            marks::<S>(mesh, |id| {
+                S::vertices(mesh, id).iter().any(|v| vertices[v.index()])
+            })
+        }
         Shared::Random { count, of, seed } => {
             let stream = mix(
                 *seed,
@@ -167,7 +180,8 @@ fn shared_count<S: Select>(shared: &Shared<S>, all: Range, plan: &MeshPlan) -> R
         | Shared::Or(_)
         | Shared::Not(_)
         | Shared::Grow(_)
-        | Shared::Shrink(_) => all.or_less(),
+        | Shared::Shrink(_)
+        | Shared::Component(_) => all.or_less(),
     }
 }
 
@@ -280,6 +294,7 @@ macro_rules! shared {
             Self::Not(of) => Some(Shared::Not(of)),
             Self::Grow(of) => Some(Shared::Grow(of)),
             Self::Shrink(of) => Some(Shared::Shrink(of)),
+            Self::Component(of) => Some(Shared::Component(of)),
             Self::Random { count, of, seed } => Some(Shared::Random {
                 count: *count,
                 of,

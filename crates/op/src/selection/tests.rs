@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{Files, NoProgress};
-use mesh::{EdgeId, shapes};
+use mesh::{EdgeId, FaceId, shapes};
 use proptest::prelude::*;
 
 fn edges(selection: &EdgeSelection, mesh: &Mesh) -> Vec<EdgeId> {
@@ -220,4 +220,108 @@ proptest! {
     fn a_selection_comes_back_from_its_text(a in any_selection()) {
         prop_assert_eq!(parse(&ron::to_string(&a).unwrap()), a);
     }
+}
+
+fn faces(text: &str, mesh: &Mesh) -> Vec<usize> {
+    let files = Files::default();
+    let selection: FaceSelection = ron::from_str(text).unwrap();
+    let found = selection.resolve(mesh, &Context::new(&NoProgress, &files));
+    found.unwrap().into_iter().map(FaceId::index).collect()
+}
+
+/// The vertices of the selected edges, each once.
+fn ends(text: &str, mesh: &Mesh) -> Vec<usize> {
+    let found = edges(&parse(text), mesh);
+    let ends = found.iter().flat_map(|&e| mesh.edge_vertices(e));
+    let ends: std::collections::BTreeSet<_> = ends.map(VertexId::index).collect();
+    ends.into_iter().collect()
+}
+
+#[test]
+fn loops_and_rings_go_around_a_torus() {
+    // Vertex 5 i + j is the j-th of 5 around the tube, at the i-th of 7 places.
+    let torus = shapes::torus(7, 5, 2.0, 1.0);
+    let across: Vec<usize> = (0..5).collect();
+    assert_eq!(ends("EdgeLoop(Between(0, 1))", &torus), across);
+    let around: Vec<usize> = (0..7).map(|i| 5 * i).collect();
+    assert_eq!(ends("EdgeLoop(Between(0, 5))", &torus), around);
+    let ring = edges(&parse("EdgeRing(Between(0, 5))"), &torus);
+    let expected = (0..5).map(|j| torus.find_half_edge(VertexId::new(j), VertexId::new(j + 5)));
+    let mut expected: Vec<_> = expected.map(|h| h.unwrap().edge()).collect();
+    expected.sort();
+    assert_eq!(ring, expected);
+    assert_eq!(edges(&parse("EdgeRing(Between(0, 1))"), &torus).len(), 7);
+}
+
+#[test]
+fn loops_end_where_four_edges_do_not_cross() {
+    let grid = shapes::grid(4, 3);
+    // From one side of the sheet to the other, and no further.
+    assert_eq!(ends("EdgeLoop(Between(6, 7))", &grid), [5, 6, 7, 8, 9]);
+    assert_eq!(edges(&parse("EdgeLoop(Between(0, 1))"), &grid).len(), 14);
+    assert_eq!(edges(&parse("EdgeRing(Between(0, 1))"), &grid).len(), 4);
+    // Three edges meet at the corners of a cube, and the faces of triangles have no edge across.
+    assert_eq!(
+        edges(&parse("EdgeLoop(Between(0, 1))"), &shapes::cube()).len(),
+        1
+    );
+    assert_eq!(
+        edges(&parse("EdgeRing(Between(0, 1))"), &shapes::cube()).len(),
+        4
+    );
+    let triangles = shapes::fans(&grid);
+    assert_eq!(
+        edges(&parse("EdgeRing(Between(6, 7))"), &triangles).len(),
+        1
+    );
+}
+
+#[test]
+fn a_path_is_the_shortest() {
+    let grid = shapes::grid(4, 3);
+    assert_eq!(ends("Path(from: 5, to: 8)", &grid), [5, 6, 7, 8]);
+    assert_eq!(edges(&parse("Path(from: 0, to: 19)"), &grid).len(), 7);
+    assert_eq!(edges(&parse("Path(from: 3, to: 3)"), &grid).len(), 0);
+    // A detour of many short edges is shorter than a long edge.
+    let mut fans = shapes::fans(&grid);
+    fans.positions_mut()[7] += DVec3::new(0.0, 0.0, 100.0);
+    assert!(!ends("Path(from: 6, to: 8)", &fans).contains(&7));
+    let two = "Path(from: 0, to: 4)";
+    let apart = Mesh::from_polygons(
+        [0, 1, 2, 0, 1, 2]
+            .map(|i: u8| DVec3::new(f64::from(i % 2), f64::from(i / 2), 0.0))
+            .to_vec(),
+        &[[0, 1, 2], [3, 4, 5]],
+    );
+    let (reason, message) = refusal(&parse(two), &apart.unwrap().0);
+    assert_eq!(reason, Refusal::Missing);
+    assert_eq!(message, "no edges lead from vertex 0 to vertex 4");
+}
+
+#[test]
+fn faces_are_selected_by_where_they_face_and_what_they_belong_to() {
+    let cube = shapes::cube();
+    let up = faces("Facing(direction: (0, 0, 3), within: 10)", &cube);
+    assert_eq!(up.len(), 1);
+    assert!(cube.face_normal(FaceId::new(up[0])).z > 0.9);
+    assert_eq!(
+        faces("Facing(direction: (1, 1, 1), within: 60)", &cube).len(),
+        3
+    );
+    assert_eq!(
+        faces("Facing(direction: (0, 0, 0), within: 180)", &cube).len(),
+        0
+    );
+    assert_eq!(faces("Expand(to_angle: 89, of: Faces([2]))", &cube), [2]);
+    assert_eq!(
+        faces("Expand(to_angle: 91, of: Faces([2]))", &cube).len(),
+        6
+    );
+    let sides = shapes::fans(&cube);
+    assert_eq!(
+        faces("Expand(to_angle: 1, of: Faces([0]))", &sides).len(),
+        2
+    );
+    assert_eq!(faces("Component(Faces([3]))", &sides).len(), 12);
+    assert_eq!(faces("Component(Not(All))", &sides).len(), 0);
 }

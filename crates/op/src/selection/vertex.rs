@@ -43,6 +43,8 @@ pub enum VertexSelection {
     Grow(Box<Self>),
     /// Those of these that share an edge with no other one outside.
     Shrink(Box<Self>),
+    /// All of the connected pieces of the mesh that one of these belongs to.
+    Component(Box<Self>),
     /// Drawn by chance, the same for the same seed and step.
     Random {
         /// How many; all if there are fewer.

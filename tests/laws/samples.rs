@@ -311,6 +311,28 @@ const SAMPLES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "TagVertices",
+        &[
+            r#"(name: "some", vertices: Boundary)"#,
+            r#"(name: "some", vertices: Component(Vertices([0])))"#,
+        ],
+    ),
+    (
+        "TagEdges",
+        &[
+            r#"(name: "marked", edges: EdgeLoop(Longest(count: 2)))"#,
+            r#"(name: "some", edges: EdgeRing(Random(count: 3, seed: 1)))"#,
+            r#"(name: "some", edges: Path(from: 0, to: 1))"#,
+        ],
+    ),
+    (
+        "TagFaces",
+        &[
+            r#"(name: "some", faces: Facing(direction: (0, 0, 1), within: 45))"#,
+            r#"(name: "some", faces: Expand(to_angle: 30, of: Faces([0])))"#,
+        ],
+    ),
+    (
         "LoopSubdivide",
         &[
             "(levels: 0)",

@@ -54,6 +54,7 @@ mod registry;
 mod report;
 mod selection;
 mod source;
+mod tag;
 pub mod test;
 mod turn;
 
@@ -71,4 +72,5 @@ pub use registry::{DuplicateOperation, Entry, Registry, Step};
 pub use report::{Loss, Refused, Report};
 pub use selection::{EdgeSelection, FaceSelection, Region, Select, VertexSelection};
 pub use source::{Source, change_curves, check_name, made, named_object, plan_curves};
+pub use tag::{tag, tag_problems};
 pub use turn::Turn;

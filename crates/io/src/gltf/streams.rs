@@ -106,7 +106,7 @@ impl Stream<'_> {
         let [x, y, z, _] = value;
         match self.meaning {
             Meaning::Normal => {
-                let unit = DVec3::new(x, y, z).try_normalize();
+                let unit = unit(DVec3::new(x, y, z));
                 let [x, y, z] = unit
                     .unwrap_or_else(|| face_normal(mesh, mesh.face(h)))
                     .to_array();
@@ -148,6 +148,16 @@ fn narrow(value: [f64; 4], good: bool) -> ([f32; 4], bool) {
         return (narrow, good);
     }
     (narrow.map(|x| if x.is_finite() { x } else { 0.0 }), false)
+}
+
+/// The vector with length 1, if it has a direction. A unit vector of 32 bits stays as it is: its length is not
+/// quite 1, and dividing by it would change it a little whenever it is written.
+fn unit(v: DVec3) -> Option<DVec3> {
+    const ROUNDING: f64 = 1e-6;
+    if (v.length_squared() - 1.0).abs() < ROUNDING {
+        return Some(v);
+    }
+    v.try_normalize()
 }
 
 fn face_normal(mesh: &Mesh, f: Option<FaceId>) -> DVec3 {

@@ -146,6 +146,26 @@ fn normals_on_vertices_stay_there() {
 }
 
 #[test]
+fn normals_of_32_bits_are_written_as_they_are() {
+    // Dividing this one by its length changes the last digit of z, again and again.
+    let normal = DVec3::new(
+        -0.725_670_099_258_422_9,
+        0.688_042_759_895_324_7,
+        -7.422_940_143_442_247e-6,
+    );
+    let mut mesh = shapes::tetrahedron();
+    mesh.set(VERTEX_NORMAL, vec![normal; 4]);
+    let folder = Folder::new();
+    let path = folder.path("a.glb");
+    write(&path, [Object::mesh("a", mesh.clone())]);
+    let back = only(&path);
+    assert_eq!(
+        back.as_mesh().unwrap().get(VERTEX_NORMAL),
+        mesh.get(VERTEX_NORMAL)
+    );
+}
+
+#[test]
 fn what_gltf_cannot_hold_is_counted() {
     let folder = Folder::new();
     let path = folder.path("a.glb");

@@ -14,7 +14,7 @@ use mesh_io::{Loaded, Loss, Note, NoteKind, WriteError, WriteOptions};
 use scene::Object;
 
 use crate::{Folder, read, scene};
-use flat::{Difference, Key, differences, key};
+use flat::{Difference, Key, differences, key, says_nothing};
 use models::{Feature, features};
 
 /// The formats that are written, in the order of the table. `gltf` and `glb` hold the same.
@@ -196,8 +196,19 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
             .losses
             .iter()
             .any(|loss| loss.reason.contains(&new_name));
-        let is_known =
-            told.contains(what) || untold.get(what).is_some_and(|d| d >= difference) || is_new_name;
+        // Values of corners may have moved to the vertices after they were told of.
+        let as_corners = key(Domain::Corner, &what.1);
+        let is_told = told.contains(what)
+            || what.0 == Some(Domain::Vertex) && told.contains(&as_corners)
+            // Without those that no face has, the others have other numbers.
+            || *what == key(Domain::Face, "material") && told.contains(&key(None, "materials"));
+        // What the table says of one name holds for all that have no meaning.
+        let other = key(Domain::Vertex, "heat");
+        let like_others = *difference == Difference::Rounded
+            && matches!(what.0, Some(Domain::Vertex | Domain::Corner))
+            && untold.get(&other) == Some(difference);
+        let is_listed = untold.get(what).is_some_and(|d| d >= difference) || like_others;
+        let is_known = is_told || is_listed || is_new_name;
         ensure(is_known, || {
             format!("{what:?} is another and nothing tells: {told:?}")
         })?;
@@ -207,7 +218,8 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
     if is_whole && !is_merged {
         for what in told.iter().filter(|_| !has_empty_columns(objects)) {
             let losses = &first.losses;
-            let is_lost = all.contains_key(what) || what.1 == "merged";
+            let is_lost =
+                all.contains_key(what) || what.1 == "merged" || says_nothing_of(objects, what);
             ensure(is_lost, || {
                 format!("told as lost, but there: {what:?} of {losses:?}")
             })?;
@@ -252,6 +264,13 @@ fn check_laws(objects: &[Object], extension: &str) -> Result<(), String> {
             text(&second)
         )
     })
+}
+
+/// Whether a column stands for nothing, such as no material at all.
+fn says_nothing_of(objects: &[Object], (domain, name): &Key) -> bool {
+    let meshes = objects.iter().filter_map(Object::as_mesh);
+    let mut columns = meshes.flat_map(|mesh| mesh.attributes().iter());
+    columns.any(|(of, column)| Some(of) == *domain && column.name == *name && says_nothing(column))
 }
 
 /// Whether there are attributes of elements of which there are none.

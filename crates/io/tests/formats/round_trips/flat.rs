@@ -336,7 +336,7 @@ impl Flat {
 }
 
 /// Whether there are no values, or those that stand for no material and no smoothing group.
-fn says_nothing(column: &Column) -> bool {
+pub(super) fn says_nothing(column: &Column) -> bool {
     match (&column.values, column.name.as_str()) {
         (Values::Int(values), "material") => values.iter().all(|&m| m == -1),
         (Values::Int(values), "smoothing") => values.iter().all(|&group| group == 0),

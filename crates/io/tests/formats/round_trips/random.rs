@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{Domain, MATERIAL, Mesh, Rule, Values, VertexId};
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use scene::{Material, Object};
 
 use super::check_laws;
@@ -145,8 +146,36 @@ fn made(positions: Vec<DVec3>, faces: &[Vec<u32>], columns: &[Sketch]) -> Vec<Ob
     objects
 }
 
+/// Whether two edges join the same vertices, as splitting may leave them: a file cannot tell them apart, and
+/// reading it splits them again.
+fn has_double_edges(objects: &[Object]) -> bool {
+    let mesh = objects[0].as_mesh().unwrap();
+    let mut ends: Vec<_> = mesh
+        .edges()
+        .map(|e| {
+            let [a, b] = mesh.edge_vertices(e);
+            [a.min(b), a.max(b)]
+        })
+        .collect();
+    ends.sort();
+    ends.windows(2).any(|pair| pair[0] == pair[1])
+}
+
+/// The same cases in every run; `PROPTEST_RNG_SEED=2 PROPTEST_CASES=1000` tries others.
+fn cases() -> ProptestConfig {
+    let config = ProptestConfig::default();
+    match config.rng_seed {
+        RngSeed::Random => ProptestConfig {
+            rng_seed: RngSeed::Fixed(1),
+            cases: 64,
+            ..config
+        },
+        RngSeed::Fixed(_) => config,
+    }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(cases())]
 
     #[test]
     fn any_polygons_with_any_values_come_back_as_told(
@@ -156,6 +185,7 @@ proptest! {
     ) {
         let positions = numbers.chunks(3).map(DVec3::from_slice).collect();
         let mut objects = made(positions, &faces, &columns);
+        prop_assume!(!has_double_edges(&objects));
         for extension in ["obj", "ply", "off"] {
             prop_assert_eq!(check_laws(&objects, extension).map_err(|why| format!("{extension}: {why}")), Ok(()));
         }

@@ -1,4 +1,4 @@
-//! TagEdges: marks edges with a tag.
+//! `TagEdges`: marks edges with a tag.
 
 use mesh::{Domain, Mesh};
 use op::{Context, EdgeSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};

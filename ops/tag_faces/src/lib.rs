@@ -1,4 +1,4 @@
-//! TagFaces: marks faces with a tag.
+//! `TagFaces`: marks faces with a tag.
 
 use mesh::{Domain, Mesh};
 use op::{Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};

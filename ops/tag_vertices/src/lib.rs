@@ -1,4 +1,4 @@
-//! TagVertices: marks vertices with a tag.
+//! `TagVertices`: marks vertices with a tag.
 
 use mesh::{Domain, Mesh};
 use op::{

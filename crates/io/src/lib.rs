@@ -42,6 +42,7 @@ mod asset_path;
 mod bez;
 mod build;
 mod clean;
+mod color;
 mod corners;
 mod dae;
 mod decimal;

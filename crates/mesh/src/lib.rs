@@ -99,7 +99,7 @@ pub use edit::{Bisection, EditError, Seams};
 pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use id::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
 pub use journal::Change;
-pub use measure::angle_between;
+pub use measure::{angle_between, sin_cos_degrees};
 pub use mesh::{Connectivity, Mesh};
 pub use traverse::Orbit;
 pub use validate::Defect;

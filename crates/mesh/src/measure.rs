@@ -12,6 +12,18 @@ pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
     libm::atan2(a.cross(b).length(), a.dot(b))
 }
 
+/// Sine and cosine of an angle in degrees, exact for multiples of 90, and the same bits on every platform.
+pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
+    let degrees = degrees % 360.0; // the remainder is exact
+    match degrees.abs() {
+        0.0 => (0.0, 1.0),
+        90.0 => (degrees.signum(), 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-degrees.signum(), 0.0),
+        _ => libm::sincos(degrees.to_radians()),
+    }
+}
+
 impl Mesh {
     /// The area vector of a face: its length is the area, its direction the normal.
     ///
@@ -220,6 +232,24 @@ impl Mesh {
 mod tests {
     use super::*;
     use crate::shapes;
+
+    #[test]
+    fn quarter_turns_have_exact_sines_and_cosines() {
+        let quarters = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)];
+        for k in -9..=9 {
+            let exact = quarters[usize::try_from(i32::rem_euclid(k, 4)).unwrap()];
+            assert_eq!(sin_cos_degrees(90.0 * f64::from(k)), exact, "{k} quarters");
+        }
+    }
+
+    #[test]
+    fn other_angles_lie_on_the_circle() {
+        for degrees in [1.0, 30.0, -45.0, 89.999_999, 1e6, -1e300] {
+            let (s, c) = sin_cos_degrees(degrees);
+            assert!((s * s + c * c - 1.0).abs() < 1e-15);
+        }
+        assert!((sin_cos_degrees(30.0).0 - 0.5).abs() < 1e-15);
+    }
 
     #[test]
     fn a_unit_cube_has_area_six_and_volume_one() {

@@ -1,6 +1,7 @@
 //! Turns around the coordinate axes.
 
 use glam::{DMat3, DVec3};
+use mesh::sin_cos_degrees;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +20,7 @@ pub struct Turn {
 impl Turn {
     /// The matrix of the turn.
     pub fn matrix(self) -> DMat3 {
-        let (s, c) = sin_cos(self.degrees);
+        let (s, c) = sin_cos_degrees(self.degrees);
         let [x, y, z] = match self.axis {
             Axis::X => [DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c)],
             Axis::Y => [DVec3::new(c, 0.0, -s), DVec3::Y, DVec3::new(s, 0.0, c)],
@@ -36,39 +37,9 @@ impl Turn {
     }
 }
 
-/// Sine and cosine of an angle in degrees, exact for multiples of 90.
-fn sin_cos(degrees: f64) -> (f64, f64) {
-    let degrees = degrees % 360.0; // the remainder is exact
-    match degrees.abs() {
-        0.0 => (0.0, 1.0),
-        90.0 => (degrees.signum(), 0.0),
-        180.0 => (0.0, -1.0),
-        270.0 => (-degrees.signum(), 0.0),
-        _ => libm::sincos(degrees.to_radians()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn quarter_turns_have_exact_sines_and_cosines() {
-        let quarters = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)];
-        for k in -9..=9 {
-            let exact = quarters[usize::try_from(i32::rem_euclid(k, 4)).unwrap()];
-            assert_eq!(sin_cos(90.0 * f64::from(k)), exact, "{k} quarters");
-        }
-    }
-
-    #[test]
-    fn other_angles_lie_on_the_circle() {
-        for degrees in [1.0, 30.0, -45.0, 89.999_999, 1e6, -1e300] {
-            let (s, c) = sin_cos(degrees);
-            assert!((s * s + c * c - 1.0).abs() < 1e-15);
-        }
-        assert!((sin_cos(30.0).0 - 0.5).abs() < 1e-15);
-    }
 
     #[test]
     fn turns_follow_the_right_hand() {

@@ -301,21 +301,9 @@ fn rotation([x, y, z, degrees]: [f64; 4]) -> DMat3 {
     if axis == DVec3::ZERO {
         return DMat3::IDENTITY;
     }
-    let (s, c) = sin_cos(degrees);
+    let (s, c) = mesh::sin_cos_degrees(degrees);
     let column = |unit: DVec3| c * unit + s * axis.cross(unit) + (1.0 - c) * axis.dot(unit) * axis;
     DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
-}
-
-/// Sine and cosine of an angle in degrees, exact for multiples of 90.
-fn sin_cos(degrees: f64) -> (f64, f64) {
-    let degrees = degrees % 360.0; // the remainder is exact
-    match degrees.abs() {
-        0.0 => (0.0, 1.0),
-        90.0 => (degrees.signum(), 0.0),
-        180.0 => (0.0, -1.0),
-        270.0 => (-degrees.signum(), 0.0),
-        _ => libm::sincos(degrees.to_radians()),
-    }
 }
 
 /// The frame of an eye that looks along its -z.

@@ -8,6 +8,7 @@ use mesh::{COLOR, Domain, Mesh, Rule, UV, VERTEX_NORMAL, Value};
 use scene::Scene;
 
 use super::COLOR_INDEX;
+use crate::color::{is_byte, to_byte};
 use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
 use crate::joined::joined;
@@ -186,18 +187,8 @@ fn push_numbers(out: &mut Vec<u8>, numbers: &[f64]) {
 
 /// Whether all colors are exactly so many 255ths, and not so dark that a reader takes them for parts of 1.
 fn are_bytes(colors: &[DVec4]) -> bool {
-    let is_byte = |x: f64| (f64::from(to_byte(x)) / 255.0).to_bits() == x.to_bits();
     let all = colors.iter().all(|c| c.to_array().into_iter().all(is_byte));
     all && colors.iter().any(|c| c.max_element() > 1.0 / 255.0)
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "compared with the original"
-)]
-fn to_byte(x: f64) -> u8 {
-    (x * 255.0).round() as u8
 }
 
 fn push_color(out: &mut Vec<u8>, color: DVec4, as_bytes: bool) {

@@ -16,6 +16,7 @@ use super::read::plain_rule;
 use super::roles;
 use super::table::BLOCK;
 use super::types::Type;
+use crate::color::{is_byte, to_byte};
 use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
@@ -397,24 +398,10 @@ fn push_numbers(out: &mut Vec<u8>, numbers: &[f64], form: Type) {
 
 #[expect(
     clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "asked for where it fits"
-)]
-fn to_byte(x: f64) -> u8 {
-    (x * 255.0).round() as u8
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
     reason = "asked for where it is exact"
 )]
 fn to_float(x: f64) -> f32 {
     x as f32
-}
-
-/// Whether a part of a color is exactly that many 255ths.
-fn is_byte(x: f64) -> bool {
-    (f64::from(to_byte(x)) / 255.0).to_bits() == x.to_bits()
 }
 
 fn is_float(x: f64) -> bool {

@@ -47,7 +47,7 @@ fn deep_json_is_refused() {
 #[test]
 fn many_nodes_are_read() {
     let mut json = square(&[0, 1, 2], 4);
-    let n = 5_000;
+    let n = 20_000;
     json["nodes"] = vec![json!({ "mesh": 0 }); n].into();
     json["scenes"][0]["nodes"] = (0..n).collect();
     assert_eq!(read_json(&json).unwrap().objects.len(), n);

@@ -29,7 +29,7 @@ use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 
 use mesh::{Column, Domain, Mesh, Rule, Values, VertexId};
-use mesh_io::{Loaded, ReadError, ReadOptions, WriteOptions, WriteReport};
+use mesh_io::{Loaded, Polygons, ReadError, ReadOptions, WriteOptions, WriteReport};
 use scene::{Object, Scene};
 
 /// A folder that is gone after the test.
@@ -71,6 +71,19 @@ fn scene(objects: impl IntoIterator<Item = Object>) -> Scene {
         scene.insert(object).unwrap();
     }
     scene
+}
+
+/// The polygons of a file with this content, and the notes of reading it.
+fn found(name: &str, content: impl AsRef<[u8]>) -> (Polygons, Vec<String>) {
+    let folder = Folder::new();
+    let path = folder.with(name, content);
+    let mut all = mesh_io::read_polygons(&path, &ReadOptions::default()).unwrap();
+    let notes = read(&path).unwrap().notes;
+    let notes = notes
+        .iter()
+        .map(|note| format!("{} {}", note.count, note.what))
+        .collect();
+    (all.remove(0).1, notes)
 }
 
 /// The one object of a file, read without notes.

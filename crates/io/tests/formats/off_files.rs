@@ -9,15 +9,7 @@ use scene::Object;
 use crate::{Folder, assert_same, only, read, scene, tag, write};
 
 fn found(text: impl AsRef<[u8]>) -> (Polygons, Vec<String>) {
-    let folder = Folder::new();
-    let path = folder.with("a.off", text);
-    let mut all = mesh_io::read_polygons(&path, &ReadOptions::default()).unwrap();
-    let notes = read(&path).unwrap().notes;
-    let notes = notes
-        .iter()
-        .map(|note| format!("{} {}", note.count, note.what))
-        .collect();
-    (all.remove(0).1, notes)
+    crate::found("a.off", text)
 }
 
 fn plain(text: &str) -> Polygons {

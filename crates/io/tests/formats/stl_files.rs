@@ -9,15 +9,7 @@ use scene::{Material, Object};
 use crate::{Folder, polygons, read, scene, write};
 
 fn found(bytes: impl AsRef<[u8]>) -> (Polygons, Vec<String>) {
-    let folder = Folder::new();
-    let path = folder.with("a.stl", bytes);
-    let mut all = mesh_io::read_polygons(&path, &ReadOptions::default()).unwrap();
-    let notes = read(&path).unwrap().notes;
-    let notes = notes
-        .iter()
-        .map(|note| format!("{} {}", note.count, note.what))
-        .collect();
-    (all.remove(0).1, notes)
+    crate::found("a.stl", bytes)
 }
 
 #[track_caller]

@@ -89,9 +89,10 @@ impl Scene {
     /// Reads, checks and runs `source` as if it stood in the file. Fails with everything that is wrong.
     fn run(&self, source: &str) -> Result<Run, String> {
         let out = tempfile::tempdir().map_err(|e| e.to_string())?;
-        let shown = self.path.display().to_string();
-        let render = |found: &[recipe::Diagnostic]| recipe::render(&shown, source, found, false);
-        let reading = recipe::read(source, &ops_all::registry(), &[], &folder());
+        let text = recipe::Source::new(&self.path, source);
+        let reading = recipe::read(&text, &ops_all::registry(), recipe::Values::default());
+        let sources = &reading.recipe.sources;
+        let render = |found: &[recipe::Diagnostic]| recipe::render(sources, found, false);
         if reading.has_errors() {
             return Err(render(&reading.diagnostics));
         }

@@ -106,7 +106,11 @@ struct Run {
 fn run(steps: &str, allowed: usize) -> Run {
     let source = format!("(recipe: 1, steps: [{steps}])");
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let reading = recipe::read(&source, &ops_all::registry(), &[], folder.path());
+    let reading = recipe::read(
+        &recipe::Source::new(folder.path().join("cancelled.ron"), source.as_str()),
+        &ops_all::registry(),
+        recipe::Values::default(),
+    );
     assert!(!reading.has_errors(), "{steps}: {:?}", reading.diagnostics);
     let stop = StopAfter::new(allowed);
     let settings = Settings {

@@ -116,8 +116,12 @@ fn json(source: &str) -> Json {
 }
 
 fn parameters(source: &str) -> Vec<Parameter> {
-    let reading = recipe::read(source, &ops_all::registry(), &[], Path::new(""));
-    reading.recipe.parameters
+    read(source).recipe.parameters().to_vec()
+}
+
+fn read(source: &str) -> recipe::Reading {
+    let source = recipe::Source::new("test.ron", source);
+    recipe::read(&source, &ops_all::registry(), recipe::Values::default())
 }
 
 /// A recipe as JSON, with these parameters.
@@ -290,7 +294,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
 ];
 
 fn reads(source: &str) -> bool {
-    !recipe::read(source, &ops_all::registry(), &[], Path::new("")).has_errors()
+    !read(source).has_errors()
 }
 
 #[test]

@@ -123,6 +123,9 @@ pub(crate) struct RecipeArgs {
     /// Set a parameter of the recipe
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
+    /// Take the values of one of the recipe's presets; --set goes before them
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
     /// The folder for outputs
     #[arg(long, default_value = "out", value_name = "DIR")]
     pub(crate) out: PathBuf,

@@ -4,14 +4,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use op::{Files, Registry};
-use recipe::{Diagnostic, Forecast, Recipe, Severity};
+use recipe::{Diagnostic, Forecast, Recipe, Severity, Source, Values};
 use scene::Object;
 
 use crate::args::RecipeArgs;
 
 /// A recipe that was read and checked.
 pub(crate) struct Loaded {
-    pub(crate) source: String,
     pub(crate) path: String,
     pub(crate) recipe: Recipe,
     pub(crate) files: Files,
@@ -34,38 +33,43 @@ impl Loaded {
 
     /// The diagnostics as a compiler shows them.
     pub(crate) fn render(&self, diagnostics: &[Diagnostic], colours: bool) -> String {
-        recipe::render(&self.path, &self.source, diagnostics, colours)
+        recipe::render(&self.recipe.sources, diagnostics, colours)
     }
 }
 
 /// Reads and checks the recipe of a command.
 pub(crate) fn load(args: &RecipeArgs, registry: &Registry) -> anyhow::Result<Loaded> {
-    load_recipe(&args.recipe, &args.set, &args.out, args.budget, registry)
+    let preset = args.preset.as_deref();
+    load_recipe(
+        &args.recipe,
+        &args.set,
+        preset,
+        &args.out,
+        args.budget,
+        registry,
+    )
 }
 
 /// Reads and checks a recipe.
 pub(crate) fn load_recipe(
     path: &Path,
     set: &[(String, String)],
+    preset: Option<&str>,
     out: &Path,
     budget: u64,
     registry: &Registry,
 ) -> anyhow::Result<Loaded> {
-    let shown = path.display().to_string();
-    let bytes = std::fs::read(path).with_context(|| format!("cannot read {shown}"))?;
-    let source = String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        let line = String::from_utf8_lossy(&error.as_bytes()[..at])
-            .matches('\n')
-            .count()
-            + 1;
-        anyhow::anyhow!("{shown}:{line}: the recipe is not UTF-8 text")
-    })?;
+    let source = Source::open(path).map_err(anyhow::Error::msg)?;
     let folder = std::env::current_dir().context("cannot tell the working directory")?;
-    let reading = recipe::read(&source, registry, set, &folder);
+    let values = Values {
+        set,
+        preset,
+        folder: Some(&folder),
+    };
+    let reading = recipe::read(&source, registry, values);
     let version = env!("CARGO_PKG_VERSION");
     let files = Files {
-        input: path.parent().map(Path::to_path_buf).unwrap_or_default(),
+        input: source.folder().to_path_buf(),
         output: out.to_path_buf(),
         placeholders: reading.recipe.placeholders(),
         provenance: Some(format!(
@@ -76,10 +80,9 @@ pub(crate) fn load_recipe(
     let forecast = recipe::check(&reading.recipe, &files, budget);
     let mut diagnostics = reading.diagnostics;
     diagnostics.extend(forecast.diagnostics.iter().cloned());
-    diagnostics.sort_by_key(|d| d.span);
+    diagnostics.sort_by_key(|d| (d.source, d.span));
     Ok(Loaded {
-        source,
-        path: shown,
+        path: path.display().to_string(),
         recipe: reading.recipe,
         files,
         forecast,

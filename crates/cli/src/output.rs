@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use recipe::{Outcome, Parameter, StepDone};
+use recipe::{LineIndex, Origin, Outcome, Recipe, Source, StepDone};
 
 use crate::loading::Loaded;
 
@@ -103,28 +103,31 @@ pub(crate) fn grouped(n: u64) -> String {
     text
 }
 
-/// Where the value of each parameter comes from.
-pub(crate) fn explain(parameters: &[Parameter]) -> String {
+/// Where the value of each parameter comes from: of the recipe, and of those that it calls.
+pub(crate) fn explain(recipe: &Recipe) -> String {
     let mut rows = vec![["parameter", "value", "from"].map(str::to_owned).to_vec()];
-    for parameter in parameters {
-        let from = if parameter.is_set {
-            "--set"
-        } else {
-            "the recipe's default"
-        };
-        rows.push(vec![
-            parameter.name.clone(),
-            parameter.literal.clone(),
-            from.to_owned(),
-        ]);
+    for scope in &recipe.scopes {
+        let path = recipe.sources[scope.source].path.display();
+        for parameter in &scope.parameters {
+            let name = match scope.called {
+                None => parameter.name.clone(),
+                Some(_) => format!("{path}: {}", parameter.name),
+            };
+            let from = match &parameter.origin {
+                Origin::Default => "the recipe's default".to_owned(),
+                Origin::Preset(name) => format!("the preset {name}"),
+                Origin::Call => "the call".to_owned(),
+                Origin::Set => "--set".to_owned(),
+            };
+            rows.push(vec![name, parameter.literal.clone(), from]);
+        }
     }
-    rows.push(vec!["(--set goes before the recipe's default)".to_owned()]);
-    table(&rows)
+    let order = "(--set goes before a preset, and a preset before the recipe's default)";
+    format!("{}{order}\n\n", table(&rows))
 }
 
 /// A run as one JSON object.
 pub(crate) fn run_json(loaded: &Loaded, outcome: &Outcome) -> serde_json::Value {
-    let lines = recipe::LineIndex::new(&loaded.source);
     let steps: Vec<_> = outcome
         .steps
         .iter()
@@ -159,21 +162,26 @@ pub(crate) fn run_json(loaded: &Loaded, outcome: &Outcome) -> serde_json::Value 
         "expectations": outcome.checked,
         "digest": outcome.digest.to_string(),
         "written": outcome.written.iter().map(|p| p.display().to_string()).collect::<Vec<_>>(),
-        "failures": problems_json(&outcome.failures, &lines),
+        "failures": problems_json(&outcome.failures, &loaded.recipe.sources),
     })
 }
 
 /// Diagnostics as JSON.
 pub(crate) fn problems_json(
     diagnostics: &[recipe::Diagnostic],
-    lines: &recipe::LineIndex,
+    sources: &[Source],
 ) -> serde_json::Value {
+    let lines: Vec<LineIndex> = sources.iter().map(|s| LineIndex::new(&s.text)).collect();
     diagnostics
         .iter()
         .map(|d| {
-            let place = d.span.map(|span| lines.position(span.start));
+            let place = d
+                .span
+                .and_then(|span| Some(lines.get(d.source)?.position(span.start)));
+            let file = sources.get(d.source).map(|s| s.path.display().to_string());
             serde_json::json!({
                 "severity": d.severity.name(),
+                "file": file,
                 "line": place.map(|p| p.0),
                 "column": place.map(|p| p.1),
                 "message": d.message,

@@ -129,6 +129,8 @@ pub struct MeshPlan {
     pub degrees: Range,
     /// Its attributes.
     pub attributes: Vec<PlannedAttribute>,
+    /// Whether it may have other attributes, as a mesh from a file has.
+    pub others: bool,
 }
 
 /// The bytes of a value of an attribute.
@@ -146,6 +148,7 @@ impl MeshPlan {
                 max: u64::MAX,
             },
             attributes: Vec::new(),
+            others: true,
         }
     }
 
@@ -157,6 +160,7 @@ impl MeshPlan {
             faces: Range::exactly(faces),
             degrees,
             attributes: Vec::new(),
+            others: false,
         }
     }
 
@@ -181,6 +185,7 @@ impl MeshPlan {
                     certain: c.rule != Rule::Drop,
                 })
                 .collect(),
+            others: false,
         }
     }
 

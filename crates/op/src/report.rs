@@ -35,7 +35,9 @@ pub struct Refused {
 pub struct Loss {
     /// The object that lost it.
     pub object: String,
-    /// What it was.
+    /// What it was, by the name that a recipe allows it to be lost by: that of an attribute.
+    pub name: String,
+    /// What it was, in words.
     pub what: String,
     /// Why it is gone.
     pub reason: String,
@@ -53,6 +55,7 @@ impl Loss {
         let what = format!("the {domain} attribute \"{name}\"");
         Self {
             object: object.to_owned(),
+            name: name.to_owned(),
             what,
             reason: reason.into(),
         }

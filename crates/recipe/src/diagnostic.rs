@@ -11,11 +11,13 @@
 //! ```
 
 use codespan_reporting::diagnostic as codespan;
-use codespan_reporting::files::SimpleFile;
+use codespan_reporting::files::SimpleFiles;
 use codespan_reporting::term::{self, termcolor};
 use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::ops::Range;
+
+use crate::source::Source;
 
 /// One problem of a recipe.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,12 +26,16 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// What is wrong, in one line: lower case, no full stop.
     pub message: String,
+    /// The text that the places are in, by its place in [`Recipe::sources`](crate::Recipe::sources).
+    pub source: usize,
     /// The place, if the problem has one.
     pub span: Option<Span>,
     /// Other places that matter, each with a few words on why.
     pub labels: Vec<(Span, String)>,
     /// What to do about it.
     pub help: Option<String>,
+    /// The calls that led to the text, the last one first: their texts and places.
+    pub calls: Vec<(usize, Span)>,
 }
 
 impl Diagnostic {
@@ -38,9 +44,11 @@ impl Diagnostic {
         Self {
             severity: Severity::Error,
             message: message.into(),
+            source: 0,
             span: Some(span),
             labels: Vec::new(),
             help: None,
+            calls: Vec::new(),
         }
     }
 
@@ -213,32 +221,51 @@ impl<'s> LineIndex<'s> {
 
 /// Shows diagnostics with the lines they are about, sorted by place.
 ///
-/// `path` names the recipe, `source` is its text. The text holds no colour codes unless `colours`.
-pub fn render(path: &str, source: &str, diagnostics: &[Diagnostic], colours: bool) -> String {
+/// `sources` are the texts of the recipe. The text holds no colour codes unless `colours`.
+pub fn render(sources: &[Source], diagnostics: &[Diagnostic], colours: bool) -> String {
     let mut sorted: Vec<&Diagnostic> = diagnostics.iter().collect();
-    sorted.sort_by_key(|d| (d.span, d.severity));
+    sorted.sort_by_key(|d| (d.source, d.span, d.severity));
 
-    let lines = LineIndex::new(source);
-    let file = SimpleFile::new(path, without_control_characters(source));
+    let mut texts = SimpleFiles::new();
+    let mut lines = Vec::new();
+    for source in sources {
+        let shown = source.path.display().to_string();
+        texts.add(shown, without_control_characters(&source.text));
+        lines.push(LineIndex::new(&source.text));
+    }
     let config = term::Config::default();
     let mut out = String::new();
     for diagnostic in sorted {
-        let rendered = if has_long_line(diagnostic, &lines) {
+        let (Some(source), Some(index)) =
+            (sources.get(diagnostic.source), lines.get(diagnostic.source))
+        else {
+            out += &format!("{}: {}\n", diagnostic.severity.name(), diagnostic.message);
+            continue;
+        };
+        let place = |(source, span): &(usize, Span)| {
+            let (line, column) = lines.get(*source)?.position(span.start);
+            let path = sources[*source].path.display();
+            Some(format!("called from {path}:{line}:{column}"))
+        };
+        let mut notes: Vec<String> = diagnostic.calls.iter().filter_map(place).collect();
+        notes.extend(diagnostic.help.iter().map(|help| format!("help: {help}")));
+        let rendered = if has_long_line(diagnostic, index) {
             None
         } else {
-            let report = to_codespan(diagnostic, source);
+            let report = to_codespan(diagnostic, &source.text).with_notes(notes.clone());
             if colours {
                 let mut buffer = termcolor::Ansi::new(Vec::new());
-                let written = term::emit_to_write_style(&mut buffer, &config, &file, &report);
+                let written = term::emit_to_write_style(&mut buffer, &config, &texts, &report);
                 written
                     .ok()
                     .and_then(|()| String::from_utf8(buffer.into_inner()).ok())
             } else {
-                term::emit_into_string(&config, &file, &report).ok()
+                term::emit_into_string(&config, &texts, &report).ok()
             }
         };
         // A line that no terminal can show is not shown; its place and message are.
-        out += &rendered.unwrap_or_else(|| in_short(path, diagnostic, &lines));
+        let path = source.path.display().to_string();
+        out += &rendered.unwrap_or_else(|| in_short(&path, diagnostic, index, &notes));
     }
     out
 }
@@ -257,19 +284,20 @@ fn has_long_line(diagnostic: &Diagnostic, lines: &LineIndex) -> bool {
     })
 }
 
-fn in_short(path: &str, diagnostic: &Diagnostic, lines: &LineIndex) -> String {
+fn in_short(path: &str, diagnostic: &Diagnostic, lines: &LineIndex, notes: &[String]) -> String {
     let mut out = diagnostic.short(path, lines) + "\n";
     for (span, text) in &diagnostic.labels {
         let (line, column) = lines.position(span.start);
         let _ = writeln!(out, "  {path}:{line}:{column}: {text}");
     }
-    if let Some(help) = &diagnostic.help {
-        let _ = writeln!(out, "  = help: {help}");
+    for note in notes {
+        let _ = writeln!(out, "  = {note}");
     }
     out + "\n"
 }
 
-fn to_codespan(diagnostic: &Diagnostic, source: &str) -> codespan::Diagnostic<()> {
+fn to_codespan(diagnostic: &Diagnostic, source: &str) -> codespan::Diagnostic<usize> {
+    let file = diagnostic.source;
     let severity = match diagnostic.severity {
         Severity::Error => codespan::Severity::Error,
         Severity::Warning => codespan::Severity::Warning,
@@ -280,21 +308,14 @@ fn to_codespan(diagnostic: &Diagnostic, source: &str) -> codespan::Diagnostic<()
     };
     let primary = diagnostic
         .span
-        .map(|span| codespan::Label::primary((), fit(span)));
+        .map(|span| codespan::Label::primary(file, fit(span)));
     let others = diagnostic
         .labels
         .iter()
-        .map(|(span, text)| codespan::Label::secondary((), fit(*span)).with_message(text));
+        .map(|(span, text)| codespan::Label::secondary(file, fit(*span)).with_message(text));
     codespan::Diagnostic::new(severity)
         .with_message(&diagnostic.message)
         .with_labels(primary.into_iter().chain(others).collect())
-        .with_notes(
-            diagnostic
-                .help
-                .iter()
-                .map(|help| format!("help: {help}"))
-                .collect(),
-        )
 }
 
 /// A text that cannot steer the terminal, every byte of which stands where it was.
@@ -319,6 +340,10 @@ fn char_start(source: &str, offset: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn render(path: &str, text: &str, diagnostics: &[Diagnostic], colours: bool) -> String {
+        super::render(&[Source::new(path, text)], diagnostics, colours)
+    }
 
     #[test]
     fn columns_count_characters() {
@@ -363,6 +388,22 @@ mod tests {
             problem.short("x.ron", &LineIndex::new(source)),
             "x.ron:1:14: error: too many"
         );
+    }
+
+    #[test]
+    fn a_problem_in_a_recipe_that_is_called_says_where_from() {
+        let sources = [Source::new("a.ron", "x\n  y"), Source::new("b.ron", "z")];
+        let problem = Diagnostic {
+            source: 1,
+            calls: vec![(0, Span::new(4, 5))],
+            ..Diagnostic::error(Span::new(0, 1), "bad").with_help("mend it")
+        };
+
+        let text = super::render(&sources, &[problem], false);
+
+        assert!(text.contains("b.ron:1:1"), "{text}");
+        let notes = "  = called from a.ron:2:3\n  = help: mend it\n";
+        assert!(text.contains(notes), "{text}");
     }
 
     #[test]

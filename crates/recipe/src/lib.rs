@@ -17,18 +17,22 @@ mod check;
 mod describe;
 mod params;
 mod read;
+mod recipe;
 mod run;
 mod schema;
+mod source;
 
 pub use check::{Forecast, StepForecast, check, mebibytes};
 pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
 pub use diagnostic::{Diagnostic, LineIndex, Severity, Span, render};
 pub use expect::{Expectation, ReadObjects};
-pub use params::Param;
-pub use read::{Parameter, Placed, Reading, Recipe, RecipeStep, VERSION, read};
+pub use params::{Move, Param};
+pub use read::{MAX_STEPS, Reading, VERSION, Values, read};
+pub use recipe::{OnLoss, Origin, Parameter, Placed, Recipe, RecipeStep, Scope};
 pub use run::{Listener, Outcome, Settings, Silent, StepDone, run};
 pub use schema::schema;
 pub use shape::did_you_mean;
+pub use source::Source;
 
 #[cfg(test)]
 mod tests;

@@ -5,7 +5,17 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::syntax::string_literal;
+use crate::source::seen_from;
+use crate::syntax::{Value, ValueKind, string_literal};
+
+/// Two folders: a relative path is seen from the one, and is to mean the same seen from the other.
+#[derive(Clone, Copy, Debug)]
+pub struct Move<'a> {
+    /// Where the path is seen from.
+    pub from: &'a Path,
+    /// Where it will be seen from.
+    pub to: &'a Path,
+}
 
 /// A parameter that a recipe declares. A step takes its value with `arg("name")`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -122,13 +132,53 @@ impl Param {
         }
     }
 
-    /// The RON literal of a value given as plain text, as on the command line. A relative path is put
-    /// behind `folder`, if one is given.
+    /// The RON literal of a value of a recipe, in another form than the parameter's own declaration has.
+    /// A relative path is led from one folder to another, if they are given.
+    ///
+    /// # Errors
+    ///
+    /// What was expected and what was there, if it is no value of this type or not allowed.
+    pub fn literal_of(&self, value: &Value, folders: Option<Move>) -> Result<String, String> {
+        let text = match (self, &value.kind) {
+            (Self::Int { .. }, ValueKind::Number(number)) => match number.to_int() {
+                Some(int) => int.to_string(),
+                None => number.text().to_owned(),
+            },
+            (Self::Float { .. }, ValueKind::Number(number)) => number.text().to_owned(),
+            (Self::Bool { .. }, ValueKind::Bool(value)) => value.to_string(),
+            (
+                Self::Text { .. } | Self::Path { .. } | Self::Choice { .. },
+                ValueKind::String(text),
+            )
+            | (Self::Choice { .. }, ValueKind::Name(text)) => text.to_string(),
+            (Self::Vector { .. }, ValueKind::Tuple(_)) => value.to_string(),
+            _ => {
+                let (expected, found) = (self.expected(), value.describe());
+                return Err(format!("expected {expected}, found {found}"));
+            }
+        };
+        self.literal(&text, folders)
+    }
+
+    fn expected(&self) -> &'static str {
+        match self {
+            Self::Int { .. } => "a whole number",
+            Self::Float { .. } => "a number",
+            Self::Bool { .. } => "true or false",
+            Self::Text { .. } => "a text in quotes",
+            Self::Path { .. } => "a path in quotes",
+            Self::Choice { .. } => "one of its words",
+            Self::Vector { .. } => "three numbers `(x, y, z)`",
+        }
+    }
+
+    /// The RON literal of a value given as plain text, as on the command line. A relative path is led from
+    /// one folder to another, if they are given.
     ///
     /// # Errors
     ///
     /// What was expected and what was there, if the text is no value of this type or not allowed.
-    pub fn literal(&self, text: &str, folder: Option<&Path>) -> Result<String, String> {
+    pub fn literal(&self, text: &str, folders: Option<Move>) -> Result<String, String> {
         match self {
             Self::Int { min, max, .. } => {
                 let plain = text.replace('_', "");
@@ -149,7 +199,7 @@ impl Param {
             },
             Self::Text { .. } => Ok(string_literal(text)),
             Self::Path { .. } => {
-                let path = folder.map_or_else(|| text.into(), |f| f.join(text));
+                let path = folders.map_or_else(|| text.into(), |f| seen_from(text, f.from, f.to));
                 Ok(string_literal(&path.to_string_lossy()))
             }
             Self::Choice { of, .. } => {
@@ -262,7 +312,8 @@ mod tests {
 
     #[test]
     fn a_path_that_is_set_is_seen_from_the_working_directory() {
-        let literal = param("Path(default: \"a.obj\")").literal("b.obj", Some(Path::new("/work")));
-        assert_eq!(literal, Ok("\"/work/b.obj\"".into()));
+        let (from, to) = (Path::new("/work"), Path::new("/work/scenes"));
+        let literal = param("Path(default: \"a.obj\")").literal("b.obj", Some(Move { from, to }));
+        assert_eq!(literal, Ok("\"../b.obj\"".into()));
     }
 }

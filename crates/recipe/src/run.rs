@@ -9,9 +9,10 @@ use std::time::{Duration, Instant};
 use op::{Context, Files, OpError, Progress, Refusal, Report};
 use scene::{Digest, Geometry, Scene};
 
+use crate::check::forbidden;
 use crate::diagnostic::Diagnostic;
 use crate::expect::{ReadObjects, Subject};
-use crate::read::{Recipe, RecipeStep};
+use crate::recipe::{Recipe, RecipeStep};
 
 /// Follows a run.
 pub trait Listener: Progress {
@@ -144,26 +145,35 @@ struct Runner<'a> {
 
 impl Runner<'_> {
     fn steps(&mut self, files: &Files, listener: &dyn Listener) {
+        let files = self.recipe.files(files);
         for (i, step) in self.recipe.steps.iter().enumerate() {
             listener.step_begins(i, step.label());
             let begin = Instant::now();
-            let (report, refused) = match self.step(step, files, listener) {
+            let (report, refused) = match self.step(step, &files[step.scope], listener) {
                 Ok(done) => done,
                 Err(None) => {
                     self.cancelled = true;
                     return;
                 }
                 Err(Some(message)) => {
-                    self.failures.push(Diagnostic::error(step.span, message));
+                    self.fail(step.scope, Diagnostic::error(step.span, message));
                     return;
                 }
             };
+            if let Some(loss) = step.on_loss.forbidden(&report.losses) {
+                self.fail(step.scope, forbidden(step, loss));
+                return;
+            }
             let done = self.done(step.label(), report, refused, begin.elapsed());
             listener.step_done(i, &done);
             self.steps.push(done);
-            self.expectations(Some(i));
+            self.expectations(Some(i), &files);
         }
-        self.expectations(None);
+        self.expectations(None, &files);
+    }
+
+    fn fail(&mut self, scope: usize, failure: Diagnostic) {
+        self.failures.push(self.recipe.located(failure, scope));
     }
 
     /// Does a step. Fails with a message, or without one if it was cancelled; the scene is then as it
@@ -239,22 +249,23 @@ impl Runner<'_> {
     }
 
     /// Holds the expectations after this step, or at the end, against the scene.
-    fn expectations(&mut self, after: Option<usize>) {
+    fn expectations(&mut self, after: Option<usize>, files: &[Files]) {
         for placed in self.recipe.expectations.iter().filter(|p| p.after == after) {
             let subject = Subject {
                 scene: &self.scene,
                 on: placed.on.as_deref(),
-                files: self.settings.files,
+                files: &files[placed.scope],
                 read: self.settings.read,
             };
             self.checked += 1;
             if let Err(message) = placed.that.check(subject) {
                 let failure = Diagnostic::error(placed.span, message);
-                let failure = match after.and_then(|i| self.recipe.steps.get(i)) {
+                let step = after.and_then(|i| self.recipe.steps.get(i));
+                let failure = match step.filter(|step| step.scope == placed.scope) {
                     Some(step) => failure.with_label(step.span, "after this step"),
                     None => failure,
                 };
-                self.failures.push(failure);
+                self.fail(placed.scope, failure);
             }
         }
     }

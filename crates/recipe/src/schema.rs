@@ -6,6 +6,8 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::expect::Expectation;
 use crate::params::Param;
+use crate::read::{Kind, MAX_STEPS};
+use crate::recipe::OnLoss;
 
 /// The schema of a type.
 pub(crate) fn of<T: JsonSchema>() -> Json {
@@ -14,13 +16,72 @@ pub(crate) fn of<T: JsonSchema>() -> Json {
 
 /// The fields around a recipe; steps and expectations can be anything.
 pub(crate) fn envelope() -> Json {
-    recipe(&json!({}), &json!({}), &json!({}))
+    with_definitions(&[("OnLoss", of::<OnLoss>())], |at| {
+        recipe(&json!({}), &json!({}), &json!({}), &at("OnLoss"))
+    })
 }
 
 /// The fields around an operation; the operation can be anything.
 pub(crate) fn step_envelope() -> Json {
-    with_definitions(&[("Refusal", of::<Refusal>())], |at| {
-        step_fields(&json!({}), &at("Refusal"))
+    let parts = [("Refusal", of::<Refusal>()), ("OnLoss", of::<OnLoss>())];
+    with_definitions(&parts, |at| {
+        step_fields(&json!({}), &at("Refusal"), &at("OnLoss"))
+    })
+}
+
+/// The parameters of a step that holds steps; the steps inside can be anything.
+pub(crate) fn flow(kind: Kind) -> Json {
+    flow_fields(kind, &json!({}))
+}
+
+fn flow_fields(kind: Kind, step: &Json) -> Json {
+    let steps = |doc: &str| json!({ "type": "array", "items": step, "description": doc });
+    let (doc, properties, required) = match kind {
+        Kind::Call => (
+            "Run another recipe on the scene as it is",
+            json!({
+                "recipe": {
+                    "type": "string",
+                    "description": "The recipe, seen from the folder of this one.",
+                },
+                "with": {
+                    "type": "object",
+                    "additionalProperties": {},
+                    "description": "Values for its parameters; the others keep their defaults.",
+                },
+            }),
+            json!(["recipe"]),
+        ),
+        Kind::Repeat => (
+            "Run steps several times",
+            json!({
+                "times": {
+                    "type": "integer",
+                    "minimum": 0,
+                    "maximum": MAX_STEPS,
+                    "description": "How many times.",
+                },
+                "steps": steps("The steps."),
+            }),
+            json!(["times", "steps"]),
+        ),
+        Kind::If => (
+            "Run steps if a parameter has a value",
+            json!({
+                "param": { "type": "string", "description": "The name of the parameter." },
+                "is": { "description": "The value that it must have; `true` if this is left out." },
+                "steps": steps("The steps that run if it has the value."),
+                "otherwise": steps("The steps that run if it has not."),
+            }),
+            json!(["param", "steps"]),
+        ),
+    };
+    json!({
+        "type": "object",
+        "description": doc,
+        "properties": properties,
+        "required": required,
+        "additionalProperties": false,
     })
 }
 
@@ -36,39 +97,52 @@ pub fn schema(registry: &Registry) -> Json {
         ("Param", of::<Param>()),
         ("Expectation", of::<Expectation>()),
         ("Refusal", of::<Refusal>()),
+        ("OnLoss", of::<OnLoss>()),
     ];
     parts.extend(registry.entries().iter().map(|e| (e.name, e.schema())));
+    // A step can hold steps, so it has a name.
+    let mut step = Json::Null;
     let mut schema = with_definitions(&parts, |at| {
+        let call = |name: &str, doc: &Json, parameters: &Json| {
+            json!({
+                "type": "object",
+                "description": doc,
+                "properties": { name: parameters },
+                "required": [name],
+                "additionalProperties": false,
+            })
+        };
+        let flows = Kind::ALL.map(|kind| {
+            let fields = flow_fields(kind, &at("Step"));
+            call(kind.name(), &fields["description"], &fields)
+        });
         let operations: Vec<Json> = registry
             .entries()
             .iter()
             .flat_map(|e| {
-                let call = json!({
-                    "type": "object",
-                    "description": e.summary,
-                    "properties": { e.name: at(e.name) },
-                    "required": [e.name],
-                    "additionalProperties": false,
-                });
+                let call = call(e.name, &json!(e.summary), &at(e.name));
                 let alone = json!({ "const": e.name, "description": e.summary });
                 let needs = e.schema().get("required").is_some();
                 if needs { vec![call] } else { vec![call, alone] }
             })
+            .chain(flows)
             .collect();
         let operation = json!({ "oneOf": operations });
-        let step = json!({ "oneOf": [operation.clone(), step_fields(&operation, &at("Refusal"))] });
+        let fields = step_fields(&operation, &at("Refusal"), &at("OnLoss"));
+        step = json!({ "oneOf": [operation, fields] });
         let expectation = at("Expectation");
         let many =
             json!({ "oneOf": [expectation.clone(), { "type": "array", "items": expectation }] });
         let placed = json!({ "oneOf": [at("Expectation"), expectation_fields(&many)] });
-        recipe(&at("Param"), &step, &placed)
+        recipe(&at("Param"), &at("Step"), &placed, &at("OnLoss"))
     });
+    schema["$defs"]["Step"] = step;
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     schema["title"] = json!("Meshwright recipe");
     schema
 }
 
-fn recipe(param: &Json, step: &Json, expectation: &Json) -> Json {
+fn recipe(param: &Json, step: &Json, expectation: &Json, on_loss: &Json) -> Json {
     json!({
         "type": "object",
         "properties": {
@@ -76,6 +150,11 @@ fn recipe(param: &Json, step: &Json, expectation: &Json) -> Json {
             "needs": { "type": "string" },
             "about": { "type": "string" },
             "params": { "type": "object", "additionalProperties": param },
+            "presets": {
+                "type": "object",
+                "additionalProperties": { "type": "object", "additionalProperties": {} },
+            },
+            "on_loss": on_loss,
             "steps": { "type": "array", "items": step },
             "expect": { "type": "array", "items": expectation },
         },
@@ -84,7 +163,7 @@ fn recipe(param: &Json, step: &Json, expectation: &Json) -> Json {
     })
 }
 
-fn step_fields(operation: &Json, refusal: &Json) -> Json {
+fn step_fields(operation: &Json, refusal: &Json, on_loss: &Json) -> Json {
     json!({
         "type": "object",
         "properties": {
@@ -93,6 +172,7 @@ fn step_fields(operation: &Json, refusal: &Json) -> Json {
             "on": { "type": "array", "items": { "type": "string" }, "minItems": 1 },
             "note": { "type": "string" },
             "refused": refusal,
+            "on_loss": on_loss,
         },
         "required": ["run"],
         "additionalProperties": false,
@@ -114,7 +194,10 @@ fn expectation_fields(that: &Json) -> Json {
 
 /// Puts schemas with definitions of their own side by side: each part and each of its definitions gets
 /// a name of its own, and references are led there.
-fn with_definitions(parts: &[(&str, Json)], build: impl Fn(&dyn Fn(&str) -> Json) -> Json) -> Json {
+fn with_definitions(
+    parts: &[(&str, Json)],
+    build: impl FnOnce(&dyn Fn(&str) -> Json) -> Json,
+) -> Json {
     let mut definitions = Map::new();
     for (name, schema) in parts {
         let mut schema = schema.clone();

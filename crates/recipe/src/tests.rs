@@ -1,6 +1,7 @@
 //! Recipes over a small registry of their own, from the text to the outcome.
 
 mod check;
+mod flow;
 mod read;
 mod run;
 
@@ -146,7 +147,15 @@ fn read(text: &str) -> Reading {
 fn read_with(text: &str, set: &[(&str, &str)]) -> Reading {
     let owned = |&(name, value): &(&str, &str)| (name.to_owned(), value.to_owned());
     let set: Vec<_> = set.iter().map(owned).collect();
-    crate::read(text, &registry(), &set, Path::new("/work"))
+    let values = crate::Values {
+        set: &set,
+        ..crate::Values::default()
+    };
+    crate::read(
+        &crate::Source::new("/work/test.ron", text),
+        &registry(),
+        values,
+    )
 }
 
 /// A recipe of these steps.

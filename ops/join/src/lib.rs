@@ -186,6 +186,7 @@ impl Join {
             joined.vertices = joined.vertices.plus(part.vertices);
             joined.edges = joined.edges.plus(part.edges);
             joined.faces = joined.faces.plus(part.faces);
+            joined.others |= part.others;
             joined.degrees.min = joined.degrees.min.min(part.degrees.min);
             joined.degrees.max = joined.degrees.max.max(part.degrees.max);
             for a in &part.attributes {

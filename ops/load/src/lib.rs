@@ -141,6 +141,7 @@ fn planned(peek: &PeekMesh) -> MeshPlan {
             max: peek.max_degree.max(3),
         },
         attributes: Vec::new(),
+        others: true,
     };
     let mut perhaps = |there: bool, domain, name: &str| {
         if there {

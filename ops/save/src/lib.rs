@@ -78,6 +78,7 @@ impl Operation for Save {
                 let what = format!("{domain}\"{}\" ({})", loss.attribute, loss.count);
                 Loss {
                     object: loss.object,
+                    name: loss.attribute,
                     what,
                     reason: loss.reason,
                 }

@@ -163,6 +163,7 @@ impl Tessellate {
             faces: at_most(faces),
             degrees,
             attributes: Vec::new(),
+            others: false,
         };
         if self.uvs {
             plan.provide(Domain::Corner, UV.name);

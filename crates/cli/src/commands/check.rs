@@ -12,7 +12,7 @@ pub(crate) fn run(args: &CheckArgs, registry: &Registry) -> anyhow::Result<bool>
     let loaded = load(&args.recipe, registry)?;
     let json = args.recipe.format == Format::Json;
     if args.explain && !json {
-        print(&explain(&loaded.recipe.parameters))?;
+        print(&explain(&loaded.recipe))?;
     }
     if loaded.has_errors() {
         return refuse(&loaded, json);
@@ -29,10 +29,9 @@ pub(crate) fn run(args: &CheckArgs, registry: &Registry) -> anyhow::Result<bool>
                 })
             })
             .collect();
-        let lines = recipe::LineIndex::new(&loaded.source);
         let report = serde_json::json!({
             "recipe": loaded.path, "succeeded": true, "forecast": forecast,
-            "warnings": problems_json(&loaded.diagnostics, &lines),
+            "warnings": problems_json(&loaded.diagnostics, &loaded.recipe.sources),
         });
         print(&format!("{report:#}\n"))?;
         return Ok(true);

@@ -24,7 +24,7 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
     }
     let json = args.recipe.format == Format::Json;
     if args.explain && !json {
-        print(&explain(&loaded.recipe.parameters))?;
+        print(&explain(&loaded.recipe))?;
     }
     if loaded.has_errors() {
         return refuse(&loaded, json);
@@ -65,7 +65,11 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
         complain("interrupted, nothing was written\n");
     } else {
         complain(&format!("{} failed, nothing was written\n", loaded.path));
-        let is_set = loaded.recipe.parameters.iter().any(|p| p.is_set);
+        let is_set = loaded
+            .recipe
+            .parameters()
+            .iter()
+            .any(recipe::Parameter::is_set);
         if is_set && outcome.steps.len() == loaded.recipe.steps.len() {
             complain(
                 "a parameter was set: expectations may be meant for its default; --no-expect runs without them\n",
@@ -78,8 +82,7 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
 /// Shows what is wrong with a recipe that cannot run.
 pub(crate) fn refuse(loaded: &Loaded, json: bool) -> anyhow::Result<bool> {
     if json {
-        let lines = recipe::LineIndex::new(&loaded.source);
-        let problems = problems_json(&loaded.diagnostics, &lines);
+        let problems = problems_json(&loaded.diagnostics, &loaded.recipe.sources);
         let report = serde_json::json!({
             "recipe": loaded.path, "succeeded": false, "failures": problems,
         });

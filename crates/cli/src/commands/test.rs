@@ -32,7 +32,7 @@ fn one(path: &Path, args: &TestArgs, registry: &Registry) -> anyhow::Result<bool
         _ => "out".into(),
     };
     let line = |word: &str, rest: &str| print(&format!("{word} {}{rest}\n", path.display()));
-    let loaded = match load_recipe(path, &[], &out, args.budget, registry) {
+    let loaded = match load_recipe(path, &[], None, &out, args.budget, registry) {
         Ok(loaded) => loaded,
         Err(error) => {
             line("FAILED", "")?;

@@ -45,7 +45,7 @@ struct Piece {
 pub fn substitute(
     source: &str,
     value: &Value,
-    mut resolve: impl FnMut(&str, Span) -> Result<String, Diagnostic>,
+    mut resolve: impl FnMut(&str, Span) -> Result<String, Box<Diagnostic>>,
 ) -> Result<Substituted, Vec<Diagnostic>> {
     let mut literals = Vec::new();
     let mut diagnostics = Vec::new();
@@ -58,7 +58,7 @@ pub fn substitute(
                 Some(value)
             }
             Err(diagnostic) => {
-                diagnostics.push(diagnostic);
+                diagnostics.push(*diagnostic);
                 None
             }
         },
@@ -154,12 +154,13 @@ fn fill(value: &mut Value, replacement: &mut impl FnMut(&Call, Span) -> Option<V
 fn literal(
     call: &Call,
     span: Span,
-    resolve: &mut impl FnMut(&str, Span) -> Result<String, Diagnostic>,
-) -> Result<(String, Value), Diagnostic> {
+    resolve: &mut impl FnMut(&str, Span) -> Result<String, Box<Diagnostic>>,
+) -> Result<(String, Value), Box<Diagnostic>> {
     let Some((name, name_span)) = call.body.single().and_then(|v| Some((v.as_str()?, v.span)))
     else {
         let message = "expected the name of one parameter of the recipe in `arg(..)`";
-        return Err(Diagnostic::error(span, message).with_help("write `arg(\"name\")`"));
+        let error = Diagnostic::error(span, message).with_help("write `arg(\"name\")`");
+        return Err(error.into());
     };
     let text = resolve(name, name_span)?;
     let parsed = parse(&text);
@@ -168,7 +169,7 @@ fn literal(
             "the value of parameter `{name}` is no RON: {}",
             problem.message
         );
-        return Err(Diagnostic::error(span, message));
+        return Err(Diagnostic::error(span, message).into());
     }
     let mut value = parsed.value;
     mark(&mut value, span, name);
@@ -291,7 +292,7 @@ mod tests {
 
         let errors = substitute(source, &value, |name, span| match name {
             "bad" => Ok("[1".to_owned()),
-            _ => Err(Diagnostic::error(span, "no such parameter")),
+            _ => Err(Diagnostic::error(span, "no such parameter").into()),
         })
         .unwrap_err();
 

@@ -118,6 +118,17 @@ impl Value {
             .map(|field| &field.value)
     }
 
+    /// The same, to be changed.
+    pub(crate) fn field_mut(&mut self, name: &str) -> Option<&mut Self> {
+        match &mut self.kind {
+            ValueKind::Struct(body) => (body.fields.iter_mut())
+                .find(|field| &*field.name.text == name)
+                .map(|field| &mut field.value),
+            ValueKind::Call(call) => call.body.field_mut(name),
+            _ => None,
+        }
+    }
+
     /// The name of `Name` and `Name(..)`, and where it stands.
     pub fn name(&self) -> Option<(&str, Span)> {
         match &self.kind {

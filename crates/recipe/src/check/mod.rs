@@ -1,13 +1,19 @@
 //! Checking a recipe without running it: every step is planned on what is known of the scene before it.
 
+mod attributes;
+
 use std::path::Path;
 
 use op::{Files, MeshPlan, Plan, PlanContext, PlannedGeometry, Problem, Range};
 
 use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::expect::Other;
-use crate::read::{Recipe, RecipeStep};
+use crate::recipe::{Placed, Recipe, RecipeStep};
 use crate::syntax::{PathItem, field_span};
+
+use attributes::Attributes;
+
+pub(crate) use attributes::forbidden;
 
 /// What is known of the scene after a step.
 #[derive(Clone, Debug)]
@@ -44,42 +50,50 @@ impl Forecast {
             .iter()
             .any(|d| d.severity == Severity::Error)
     }
+
+    fn add(&mut self, recipe: &Recipe, scope: usize, found: Vec<Diagnostic>) {
+        let located = found.into_iter().map(|d| recipe.located(d, scope));
+        self.diagnostics.extend(located);
+    }
 }
 
 /// Plans every step. `budget` is how many bytes meshes may take.
 pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
     let mut forecast = Forecast::default();
     let mut plan = Plan::default();
+    let mut attributes = Attributes::default();
     let mut over_budget = false;
+    let files = recipe.files(files);
+    // The expectations come in the order of their steps, those of the end last.
+    let mut expectations = recipe.expectations.iter().peekable();
     for (i, step) in recipe.steps.iter().enumerate() {
-        plan_step(step, &mut plan, files, budget, &mut forecast.diagnostics);
+        let mut found = Vec::new();
+        attributes.needs(step, &plan, &mut found);
+        let before = attributes::certain(&plan);
+        plan_step(step, &mut plan, &files[step.scope], budget, &mut found);
+        attributes.losses(step, &before, &plan, &mut found);
         let bytes = plan.bytes();
         // Once: later steps only make it worse.
         if bytes.min > budget && !over_budget {
             over_budget = true;
-            let has_error = |d: &Diagnostic| d.span.is_some_and(|s| step.value.span.contains(s));
-            if !forecast.diagnostics.iter().any(has_error) {
-                forecast.diagnostics.push(over(step, bytes.min, budget));
+            if !found.iter().any(|d| d.severity == Severity::Error) {
+                found.push(over(step, bytes.min, budget));
             }
         }
-        check_expected_names(recipe, i, &plan, &mut forecast.diagnostics);
+        forecast.add(recipe, step.scope, found);
+        while let Some(placed) = expectations.next_if(|p| p.after == Some(i)) {
+            let found = expected(placed, &plan, &attributes, &files);
+            forecast.add(recipe, placed.scope, found);
+        }
         forecast.steps.push(totals(step, &plan));
     }
-    for placed in recipe.expectations.iter().filter(|p| p.after.is_none()) {
-        check_names(
-            placed.on.as_deref(),
-            placed.that.others(),
-            placed.span,
-            &plan,
-            &mut forecast.diagnostics,
-        );
+    for placed in expectations {
+        let found = expected(placed, &plan, &attributes, &files);
+        forecast.add(recipe, placed.scope, found);
     }
-    for placed in &recipe.expectations {
-        if let Some(Other::File(path)) = placed.that.others() {
-            check_file(&files.to_read(path), placed.span, &mut forecast.diagnostics);
-        }
-    }
-    forecast.diagnostics.sort_by_key(|d| d.span);
+    forecast.diagnostics.sort_by_key(|d| (d.source, d.span));
+    // The turns of a repetition say the same.
+    forecast.diagnostics.dedup();
     forecast.outputs = plan.outputs;
     forecast.inputs = plan.inputs;
     forecast
@@ -183,41 +197,33 @@ pub fn mebibytes(bytes: u64) -> String {
     }
 }
 
-fn check_expected_names(recipe: &Recipe, i: usize, plan: &Plan, diagnostics: &mut Vec<Diagnostic>) {
-    for placed in recipe.expectations.iter().filter(|p| p.after == Some(i)) {
-        check_names(
-            placed.on.as_deref(),
-            placed.that.others(),
-            placed.span,
-            plan,
-            diagnostics,
-        );
-    }
-}
-
-fn check_names(
-    on: Option<&[String]>,
-    other: Option<&Other>,
-    span: Span,
+/// What is wrong with an expectation at this point.
+fn expected(
+    placed: &Placed,
     plan: &Plan,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
-    let mut names: Vec<&str> = on.unwrap_or_default().iter().map(String::as_str).collect();
-    if let Some(Other::Object(name)) = other {
-        names.push(name);
+    attributes: &Attributes,
+    files: &[Files],
+) -> Vec<Diagnostic> {
+    let on = placed.on.as_deref().unwrap_or_default();
+    let mut names: Vec<&str> = on.iter().map(String::as_str).collect();
+    let mut found = Vec::new();
+    match placed.that.others() {
+        Some(Other::Object(name)) => names.push(name),
+        Some(Other::File(path)) => {
+            let path = files[placed.scope].to_read(path);
+            found.extend(missing_file(&path, placed.span));
+        }
+        None => {}
     }
-    diagnostics.extend(
-        plan.check_names(names, "on")
-            .iter()
-            .map(|problem| diagnostic(problem, span)),
-    );
+    let problems = plan.check_names(names, "on");
+    found.extend(problems.iter().map(|p| diagnostic(p, placed.span)));
+    attributes.expected(placed, plan, &mut found);
+    found
 }
 
-fn check_file(path: &Path, span: Span, diagnostics: &mut Vec<Diagnostic>) {
-    if !path.is_file() {
-        let message = format!("there is no file {}", path.display());
-        diagnostics.push(Diagnostic::error(span, message));
-    }
+fn missing_file(path: &Path, span: Span) -> Option<Diagnostic> {
+    let message = format!("there is no file {}", path.display());
+    (!path.is_file()).then(|| Diagnostic::error(span, message))
 }
 
 fn totals(step: &RecipeStep, plan: &Plan) -> StepForecast {

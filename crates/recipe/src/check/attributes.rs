@@ -1,0 +1,192 @@
+//! The flow of attributes: what a step needs is there, and what it loses may be lost.
+//!
+//! The plan of each step says which attributes it keeps, provides and drops. What a mesh has for certain
+//! before a step and not after it is lost; what no step has made, on a mesh that has nothing else, is
+//! missing.
+
+use mesh::Domain;
+use op::{Loss, MeshPlan, Plan, PlannedAttribute, PlannedGeometry};
+
+use crate::diagnostic::{Diagnostic, Span};
+use crate::expect::Expectation;
+use crate::recipe::{OnLoss, Placed, RecipeStep};
+use crate::shape::did_you_mean;
+use crate::syntax::{Value, ValueKind};
+
+/// What steps have dropped so far.
+#[derive(Debug, Default)]
+pub(super) struct Attributes {
+    dropped: Vec<Dropped>,
+}
+
+#[derive(Debug)]
+struct Dropped {
+    object: String,
+    domain: Domain,
+    name: String,
+    /// The label of the step.
+    step: String,
+}
+
+/// The certain attributes of each mesh.
+pub(super) type Before = Vec<(String, Vec<PlannedAttribute>)>;
+
+/// What the meshes have for certain.
+pub(super) fn certain(plan: &Plan) -> Before {
+    let certain = |mesh: &MeshPlan| {
+        let attributes = mesh.attributes.iter().filter(|a| a.certain);
+        attributes.cloned().collect::<Vec<_>>()
+    };
+    meshes(plan)
+        .map(|(name, mesh)| (name.to_owned(), certain(mesh)))
+        .filter(|(_, attributes)| !attributes.is_empty())
+        .collect()
+}
+
+impl Attributes {
+    /// Reports what a step loses for certain and may not lose.
+    pub(super) fn losses(
+        &mut self,
+        step: &RecipeStep,
+        before: &Before,
+        plan: &Plan,
+        found: &mut Vec<Diagnostic>,
+    ) {
+        for (object, had) in before {
+            // An object that is gone was taken away, and not by accident.
+            let Some((_, mesh)) = meshes(plan).find(|(name, _)| name == object) else {
+                continue;
+            };
+            let is_kept = |a: &&PlannedAttribute| {
+                let has = |b: &PlannedAttribute| b.domain == a.domain && b.name == a.name;
+                !mesh.attributes.iter().any(has)
+            };
+            for lost in had.iter().filter(is_kept) {
+                let loss = Loss::attribute(object, lost.domain, &lost.name, "");
+                if !step.on_loss.allows(&lost.name) {
+                    found.push(forbidden(step, &loss));
+                }
+                self.dropped.push(Dropped {
+                    object: object.clone(),
+                    domain: lost.domain,
+                    name: lost.name.clone(),
+                    step: step.label().to_owned(),
+                });
+            }
+        }
+    }
+
+    /// Reports tags that a step selects by and that are on no element for certain.
+    pub(super) fn needs(&self, step: &RecipeStep, plan: &Plan, found: &mut Vec<Diagnostic>) {
+        // What must be refused may well lack something.
+        if plan.incomplete || step.refused.is_some() {
+            return;
+        }
+        let mut tags = Vec::new();
+        tagged(&step.value, &mut tags);
+        for (tag, span) in tags {
+            for (object, mesh) in meshes(plan) {
+                let is_chosen =
+                    (step.on.as_ref()).is_none_or(|on| on.iter().any(|(name, _)| name == object));
+                let has = |a: &PlannedAttribute| a.name == tag;
+                if is_chosen && !mesh.others && !mesh.attributes.iter().any(has) {
+                    let message = format!("nothing of \"{object}\" is tagged \"{tag}\"");
+                    let help = self.help(object, None, tag, mesh);
+                    found.push(Diagnostic::error(span, message).with_help(help));
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Reports an expected attribute that cannot be there.
+    pub(super) fn expected(&self, placed: &Placed, plan: &Plan, found: &mut Vec<Diagnostic>) {
+        let Expectation::HasAttribute { domain, name } = &placed.that else {
+            return;
+        };
+        let domain = Domain::from(*domain);
+        if plan.incomplete {
+            return;
+        }
+        for (object, mesh) in meshes(plan) {
+            let is_meant =
+                (placed.on.as_ref()).is_none_or(|on| on.iter().any(|name| name == object));
+            let has = |a: &PlannedAttribute| a.domain == domain && a.name == *name;
+            if is_meant && !mesh.others && !mesh.attributes.iter().any(has) {
+                let message = format!("\"{object}\" has no {domain} attribute \"{name}\" here");
+                let help = self.help(object, Some(domain), name, mesh);
+                found.push(Diagnostic::error(placed.span, message).with_help(help));
+                break;
+            }
+        }
+    }
+
+    /// Who dropped it, or else what it may have been meant to be.
+    fn help(&self, object: &str, domain: Option<Domain>, name: &str, mesh: &MeshPlan) -> String {
+        let is_it = |d: &&Dropped| {
+            d.object == object && d.name == name && domain.is_none_or(|domain| d.domain == domain)
+        };
+        if let Some(dropped) = self.dropped.iter().rev().find(is_it) {
+            return format!("the step {} has dropped it", dropped.step);
+        }
+        let here = mesh.attributes.iter();
+        let here = here.filter(|a| domain.is_none_or(|domain| a.domain == domain));
+        let mut names: Vec<&str> = here.map(|a| a.name.as_str()).collect();
+        names.dedup();
+        if names.is_empty() {
+            return "no step before has made one".to_owned();
+        }
+        did_you_mean(name, names)
+    }
+}
+
+/// The error for a loss that a step may not have.
+pub(crate) fn forbidden(step: &RecipeStep, loss: &Loss) -> Diagnostic {
+    let (what, object, name) = (&loss.what, &loss.object, &loss.name);
+    let message = format!(
+        "{} loses {what} of \"{object}\", and `on_loss` does not allow it",
+        step.name
+    );
+    let help = match &step.on_loss {
+        OnLoss::Allow(names) => {
+            let names = names.iter().chain([name]);
+            let names: Vec<String> = names.map(|name| format!("{name:?}")).collect();
+            format!("`on_loss: Allow([{}])` lets it go", names.join(", "))
+        }
+        _ => format!("`on_loss: Allow([{name:?}])` lets it go"),
+    };
+    Diagnostic::error(step.span, message).with_help(help)
+}
+
+fn meshes(plan: &Plan) -> impl Iterator<Item = (&str, &MeshPlan)> {
+    plan.objects
+        .iter()
+        .filter_map(|object| match &object.geometry {
+            PlannedGeometry::Mesh(mesh) => Some((object.name.as_str(), mesh)),
+            _ => None,
+        })
+}
+
+/// The names in `Tagged("..")` anywhere in a value, and their places.
+fn tagged<'v>(value: &'v Value, tags: &mut Vec<(&'v str, Span)>) {
+    match &value.kind {
+        ValueKind::Call(call) => {
+            let name = call.body.single().and_then(Value::as_str);
+            match name.filter(|_| &*call.name.text == "Tagged") {
+                Some(name) => tags.push((name, value.span)),
+                None => tagged(&call.body, tags),
+            }
+        }
+        ValueKind::Struct(body) => {
+            for field in &body.fields {
+                tagged(&field.value, tags);
+            }
+        }
+        ValueKind::Tuple(items) | ValueKind::List(items) => {
+            for item in items {
+                tagged(item, tags);
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,69 @@
+//! The expectations of a text.
+
+use super::{Draft, Reader};
+use crate::expect::Expectation;
+use crate::recipe::Placed;
+use crate::schema;
+use crate::shape::{check_shape, did_you_mean};
+use crate::syntax::{Value, ValueKind};
+
+impl Reader<'_, '_> {
+    /// `Name(..)`, or `(after: "id", on: [..], that: Name(..) or a list of them)`. Puts it behind the steps
+    /// with that id, or returns it if it must hold at the end of the text.
+    pub(super) fn expectation(&mut self, written: &Value, drafts: &mut [Draft]) -> Vec<Placed> {
+        let Some(value) = self.filled(written) else {
+            return Vec::new();
+        };
+        if !matches!(value.kind, ValueKind::Struct(_) | ValueKind::Unit) {
+            return self.placed(&value, None).into_iter().collect();
+        }
+        let wrong = check_shape(&value, &schema::expectation_envelope());
+        self.diagnostics.extend(wrong);
+        let after = value
+            .field("after")
+            .and_then(|id| Some((id.span, id.as_str()?)));
+        if let Some((span, id)) = after
+            && !self.ids.iter().any(|known| known == id)
+        {
+            let help = did_you_mean(id, self.ids.iter().map(String::as_str));
+            self.error(span, format!("no step has the id \"{id}\""), help);
+            return Vec::new();
+        }
+        let on = value.field("on").and_then(Value::items).map(|items| {
+            let names = items.iter().filter_map(Value::as_str);
+            names.map(str::to_owned).collect::<Vec<_>>()
+        });
+        let Some(that) = value.field("that") else {
+            return Vec::new();
+        };
+        let items = that.items().unwrap_or(std::slice::from_ref(that));
+        let placed: Vec<Placed> = items
+            .iter()
+            .filter_map(|item| self.placed(item, on.clone()))
+            .collect();
+        let Some((_, id)) = after else {
+            return placed;
+        };
+        // Each turn of a repetition has a step with the id, and a branch that is not taken has none.
+        for draft in drafts.iter_mut().filter(|d| d.ends.iter().any(|e| e == id)) {
+            draft.then.extend(placed.iter().cloned());
+        }
+        Vec::new()
+    }
+
+    fn placed(&mut self, value: &Value, on: Option<Vec<String>>) -> Option<Placed> {
+        let that: Expectation = self.typed(value, &schema::of::<Expectation>())?;
+        if let Some(problem) = that.problem() {
+            let help = "give it a bound, such as `eq`, `min` or `max`";
+            self.error(value.span, problem, help);
+            return None;
+        }
+        Some(Placed {
+            after: None,
+            on,
+            that,
+            scope: self.scope,
+            span: value.span,
+        })
+    }
+}

@@ -1,0 +1,312 @@
+//! Steps that hold steps:
+//!
+//! ```text
+//! Call(recipe: "clean.ron", with: {"distance": 1e-6})    the steps of another recipe
+//! Repeat(times: 3, steps: [..])                          the steps so many times
+//! If(param: "smooth", steps: [..], otherwise: [..])      the steps if a parameter is true, or is a value
+//! ```
+//!
+//! They are done while the recipe is read. A recipe that is called works on the scene as it is, reads
+//! from its own folder, knows its own parameters and ids only, and what it expects must hold when its
+//! steps are done.
+
+use std::path::Path;
+
+use super::{Draft, MAX_STEPS, Reader, real};
+use crate::diagnostic::Span;
+use crate::params::{Move, Param};
+use crate::recipe::{Origin, Scope};
+use crate::schema;
+use crate::shape::{check_shape, check_step, did_you_mean};
+use crate::source::Source;
+use crate::syntax::{Value, ValueKind};
+
+/// The most calls inside each other.
+const MAX_CALLS: usize = 32;
+
+/// Reading a text takes as long as so many steps.
+const PRICE_OF_CALL: usize = 20;
+
+/// A step that holds steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Call,
+    Repeat,
+    If,
+}
+
+impl Kind {
+    pub(crate) const ALL: [Self; 3] = [Self::Call, Self::Repeat, Self::If];
+
+    /// The name in recipes.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Call => "Call",
+            Self::Repeat => "Repeat",
+            Self::If => "If",
+        }
+    }
+}
+
+/// The kind of a step, if it is one that holds steps.
+pub(super) fn kind(written: &Value) -> Option<Kind> {
+    let is_envelope = matches!(written.kind, ValueKind::Struct(_));
+    let run = if is_envelope {
+        written.field("run")?
+    } else {
+        written
+    };
+    let name = run.name()?.0;
+    Kind::ALL.into_iter().find(|kind| kind.name() == name)
+}
+
+impl Reader<'_, '_> {
+    /// Does a step that holds steps.
+    pub(super) fn flow(&mut self, kind: Kind, written: &Value) -> Vec<Draft> {
+        let is_envelope = matches!(written.kind, ValueKind::Struct(_));
+        let run = written.field("run").filter(|_| is_envelope);
+        let bodies = ["steps", "otherwise"].map(|field| {
+            let body = run.unwrap_or(written).field(field);
+            body.and_then(Value::items).unwrap_or_default()
+        });
+        // The steps inside are filled in one by one, as all steps are.
+        let Some(value) = self.filled(&without_bodies(written)) else {
+            return self.broken_step(written);
+        };
+        let before = self.diagnostics.len();
+        let run = if is_envelope {
+            let wrong = check_shape(&value, &schema::step_envelope());
+            self.diagnostics.extend(wrong);
+            for field in ["on", "refused", "on_loss"] {
+                if let Some(found) = value.field(field) {
+                    let message = format!("{} does not take `{field}`", kind.name());
+                    let help = "give it to the steps inside";
+                    self.error(found.span, message, help);
+                }
+            }
+            value.field("run").unwrap_or(&value)
+        } else {
+            &value
+        };
+        let wrong = check_step(run, &schema::flow(kind));
+        self.diagnostics.extend(wrong);
+        let is_whole = self.diagnostics.len() == before && !run.has_errors();
+        let id = self.id(value.field("id").filter(|_| is_envelope));
+        let mut drafts = match kind {
+            Kind::Call if is_whole => self.call(run, id.as_deref()),
+            Kind::Call => Vec::new(),
+            Kind::Repeat => self.repeat(run, bodies[0]),
+            Kind::If => self.choice(run, bodies, is_whole),
+        };
+        if let (Some(id), Some(last)) = (id, drafts.last_mut()) {
+            last.ends.push(id);
+        }
+        drafts
+    }
+
+    fn repeat(&mut self, run: &Value, body: &[Value]) -> Vec<Draft> {
+        let body = self.steps(body);
+        let times = match run.field("times").map(|times| &times.kind) {
+            Some(ValueKind::Number(number)) => number.to_int().unwrap_or(1),
+            _ => 1,
+        };
+        let times = u32::try_from(times).unwrap_or(0);
+        let more = body.len().saturating_mul(times.saturating_sub(1) as usize);
+        let Some(left) = self.shared.left.checked_sub(more) else {
+            let n = (MAX_STEPS - self.shared.left).saturating_add(more);
+            self.too_many(run, n);
+            return body;
+        };
+        self.shared.left = left;
+        if body.is_empty() {
+            return body;
+        }
+        let turn = |turn| {
+            body.iter().map(move |draft| Draft {
+                step: draft.step.clone().in_turn(turn),
+                ..draft.clone()
+            })
+        };
+        (1..=times).flat_map(turn).collect()
+    }
+
+    fn choice(&mut self, run: &Value, bodies: [&[Value]; 2], is_whole: bool) -> Vec<Draft> {
+        // Both are read, so that a mistake is found in whichever is not taken.
+        let known = self.ids.len();
+        let then = self.steps(bodies[0]);
+        // Only one of them is done, so that both may have a step of one id.
+        let ids = self.ids.split_off(known);
+        let otherwise = self.steps(bodies[1]);
+        self.ids.extend(ids);
+        match is_whole.then(|| self.holds(run)).flatten() {
+            Some(false) => otherwise,
+            _ => then,
+        }
+    }
+
+    /// Whether the parameter of an `If` has the value it asks for.
+    fn holds(&mut self, run: &Value) -> Option<bool> {
+        let at = run.field("param")?;
+        let name = at.as_str()?;
+        self.used.push(name.to_owned());
+        if self.broken.iter().any(|b| b == name) {
+            return None;
+        }
+        let Some(parameter) = self.parameters.iter().find(|p| p.name == name) else {
+            let unknown = self.unknown(name, at.span);
+            self.diagnostics.push(unknown);
+            return None;
+        };
+        let Some(is) = run.field("is") else {
+            if let Param::Bool { .. } = parameter.param {
+                return Some(parameter.literal == "true");
+            }
+            let kind = parameter.param.type_name();
+            let message = format!("`{name}` is of the type {kind}, expected Bool");
+            self.error(at.span, message, "`is: value` asks for one of its values");
+            return None;
+        };
+        match parameter.param.literal_of(is, None) {
+            Ok(literal) => Some(parameter.literal == literal),
+            Err(problem) => {
+                let message = format!("`{name}` can never be this: {problem}");
+                self.error(is.span, message, "");
+                None
+            }
+        }
+    }
+
+    fn call(&mut self, run: &Value, id: Option<&str>) -> Vec<Draft> {
+        let Some((span, text)) = run
+            .field("recipe")
+            .and_then(|r| Some((r.span, r.as_str()?)))
+        else {
+            return Vec::new();
+        };
+        let path = self.source.folder().join(text);
+        let Some(source) = self.opened(&path, span) else {
+            return Vec::new();
+        };
+        if self.shared.left < PRICE_OF_CALL {
+            return self.too_many(run, MAX_STEPS + 1);
+        }
+        self.shared.left -= PRICE_OF_CALL;
+        let scope = self.shared.scopes.len();
+        self.shared.scopes.push(Scope {
+            source,
+            parameters: Vec::new(),
+            called: Some((self.scope, span)),
+        });
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let prefix = format!("{}{}/", self.prefix, id.unwrap_or(&stem));
+        let (from, on_loss) = (self.source.clone(), self.on_loss.clone());
+        let mut wrong = Vec::new();
+        let mut called = Reader::new(self.shared, scope, prefix);
+        called.on_loss = on_loss;
+        let (mut drafts, last) = called.text(|called| {
+            let Some(with) = run.field("with") else {
+                return;
+            };
+            let to = called.source.clone();
+            let folders = Move {
+                from: from.folder(),
+                to: to.folder(),
+            };
+            let (literals, problems) = called.literals(with, Some(folders));
+            called.assign(&literals, &Origin::Call);
+            wrong = problems;
+        });
+        called.close();
+        self.diagnostics.extend(wrong);
+        for draft in &mut drafts {
+            draft.ends.clear();
+        }
+        match drafts.last_mut() {
+            Some(draft) => draft.then.extend(last),
+            None if !last.is_empty() => {
+                let message = "the recipe expects something, but none of its steps is run";
+                self.error(span, message, "");
+            }
+            None => {}
+        }
+        drafts
+    }
+
+    /// The text of a recipe that is called, by its place; unless it cannot be read or calls this one.
+    fn opened(&mut self, path: &Path, span: Span) -> Option<usize> {
+        let mut chain = vec![self.scope];
+        while let Some((caller, _)) = self.shared.scopes[*chain.last()?].called {
+            chain.push(caller);
+        }
+        let sources = (chain.iter().rev()).map(|&scope| self.shared.scopes[scope].source);
+        let chain: Vec<usize> = sources.collect();
+        let real = real(path);
+        if let Some(first) = (chain.iter()).position(|&source| self.shared.real[source] == real) {
+            let names = chain[first..].iter();
+            let names = names.map(|&source| self.shared.sources[source].path.as_path());
+            let names: Vec<String> = (names.chain([path]))
+                .map(|p| p.display().to_string())
+                .collect();
+            let message = format!("the recipe calls itself: {}", names.join(" -> "));
+            self.error(span, message, "");
+            return None;
+        }
+        if chain.len() > MAX_CALLS {
+            let message = format!("more than {MAX_CALLS} calls inside each other");
+            self.error(span, message, "");
+            return None;
+        }
+        if let Some(known) = self.shared.sources.iter().position(|s| s.path == path) {
+            return Some(known);
+        }
+        match Source::open(path) {
+            Ok(source) => {
+                self.shared.sources.push(source);
+                self.shared.real.push(real);
+                Some(self.shared.sources.len() - 1)
+            }
+            Err(error) => {
+                self.error(span, error, neighbours(path));
+                None
+            }
+        }
+    }
+}
+
+/// The nearest names in the folder of a file that is not there.
+fn neighbours(path: &Path) -> String {
+    let folder = path.parent().filter(|_| !path.exists());
+    let entries = folder.and_then(|folder| std::fs::read_dir(folder).ok());
+    let mut names: Vec<String> = (entries.into_iter().flatten().flatten())
+        .filter(|entry| entry.path().extension().is_some_and(|e| e == "ron"))
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    if names.is_empty() {
+        return String::new();
+    }
+    did_you_mean(&name, names.iter().map(String::as_str))
+}
+
+/// The step without the steps inside.
+fn without_bodies(written: &Value) -> Value {
+    let mut value = written.clone();
+    let is_envelope = matches!(value.kind, ValueKind::Struct(_));
+    let mut run = Some(&mut value);
+    if is_envelope {
+        run = run.and_then(|v| v.field_mut("run"));
+    }
+    if let Some(run) = run {
+        for field in ["steps", "otherwise"] {
+            if let Some(Value {
+                kind: ValueKind::List(items),
+                ..
+            }) = run.field_mut(field)
+            {
+                items.clear();
+            }
+        }
+    }
+    value
+}

@@ -1,0 +1,300 @@
+//! Reading a recipe: text to operations with their parameters, and every error on the way.
+//!
+//! Three stages: the text becomes a tree that survives slips; each step is held against the schema of
+//! its operation; what passes is read into the operation's struct. One broken step hides no other.
+//!
+//! Steps that hold steps ([`flow`]) are done here: the recipe becomes one list, and later stages know of
+//! nothing else. A recipe that is called is read in a scope of its own, with its own parameters and ids.
+
+mod expectations;
+mod flow;
+mod parameters;
+mod steps;
+
+pub(crate) use flow::Kind;
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use op::Registry;
+use serde::de::DeserializeOwned;
+use serde_json::Value as Json;
+
+use crate::diagnostic::{Diagnostic, Severity, Span};
+use crate::recipe::{OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, located};
+use crate::schema;
+use crate::shape::check_shape;
+use crate::source::Source;
+use crate::syntax::{self, Value, ValueKind};
+
+/// The version of recipes that this program reads.
+pub const VERSION: i128 = 1;
+
+/// The most steps that calls and repetitions may become.
+pub const MAX_STEPS: usize = 100_000;
+
+/// A recipe and what is wrong with it.
+#[derive(Debug)]
+pub struct Reading {
+    /// The recipe, as far as it could be read.
+    pub recipe: Recipe,
+    /// What is wrong, in order.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Reading {
+    /// Whether the recipe cannot run.
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics
+            .iter()
+            .any(|d| d.severity == Severity::Error)
+    }
+}
+
+/// The values that a recipe's parameters get from outside; by default none.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Values<'a> {
+    /// Names of parameters and their values as text.
+    pub set: &'a [(String, String)],
+    /// One of the recipe's presets.
+    pub preset: Option<&'a str>,
+    /// The folder that relative paths in `set` are seen from, such as the working directory; the
+    /// recipe's own if `None`.
+    pub folder: Option<&'a Path>,
+}
+
+/// Reads a recipe, and those that it calls.
+pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
+    let mut shared = Shared {
+        registry,
+        sources: vec![source.clone()],
+        scopes: vec![Scope {
+            source: 0,
+            parameters: Vec::new(),
+            called: None,
+        }],
+        real: vec![real(&source.path)],
+        schemas: HashMap::new(),
+        left: MAX_STEPS,
+        diagnostics: Vec::new(),
+    };
+    let mut reader = Reader::new(&mut shared, 0, String::new());
+    let (drafts, last) = reader.text(|reader| {
+        reader.choose_preset(values.preset);
+        reader.set(values);
+    });
+    let (about, presets) = (reader.about.take(), std::mem::take(&mut reader.presets));
+    reader.close();
+
+    let mut steps = Vec::with_capacity(drafts.len());
+    let mut expectations = Vec::new();
+    for (i, draft) in drafts.into_iter().enumerate() {
+        steps.push(draft.step);
+        let then = draft.then.into_iter().map(|placed| Placed {
+            after: Some(i),
+            ..placed
+        });
+        expectations.extend(then);
+    }
+    expectations.extend(last);
+    let mut diagnostics = shared.diagnostics;
+    diagnostics.sort_by_key(|d| (d.source, d.span));
+    Reading {
+        recipe: Recipe {
+            about,
+            sources: shared.sources,
+            scopes: shared.scopes,
+            presets: presets.into_iter().map(|preset| preset.name).collect(),
+            steps,
+            expectations,
+        },
+        diagnostics,
+    }
+}
+
+/// What the texts of one recipe share while they are read.
+struct Shared<'a> {
+    registry: &'a Registry,
+    sources: Vec<Source>,
+    /// The files of the sources, links followed.
+    real: Vec<PathBuf>,
+    scopes: Vec<Scope>,
+    /// The schemas of operations, each made once.
+    schemas: HashMap<&'static str, Arc<Json>>,
+    /// How many more steps there may be.
+    left: usize,
+    diagnostics: Vec<Diagnostic>,
+}
+
+/// A path with its links followed, if the file is there.
+fn real(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_owned())
+}
+
+/// A step, and what hangs on it.
+#[derive(Clone)]
+struct Draft {
+    step: RecipeStep,
+    /// The ids of this text whose work ends with the step.
+    ends: Vec<String>,
+    /// What must hold after it.
+    then: Vec<Placed>,
+}
+
+/// Reads one text in one scope.
+struct Reader<'s, 'a> {
+    shared: &'s mut Shared<'a>,
+    source: Source,
+    /// The scope, by its place.
+    scope: usize,
+    /// What the labels of steps begin with.
+    prefix: String,
+    on_loss: OnLoss,
+    diagnostics: Vec<Diagnostic>,
+    about: Option<String>,
+    parameters: Vec<Parameter>,
+    presets: Vec<parameters::Preset>,
+    /// Parameters that are declared, but wrongly.
+    broken: Vec<String>,
+    /// Parameters that some `arg(..)` names.
+    used: Vec<String>,
+    /// The ids of steps.
+    ids: Vec<String>,
+}
+
+impl<'s, 'a> Reader<'s, 'a> {
+    fn new(shared: &'s mut Shared<'a>, scope: usize, prefix: String) -> Self {
+        let source = shared.sources[shared.scopes[scope].source].clone();
+        Self {
+            shared,
+            source,
+            scope,
+            prefix,
+            on_loss: OnLoss::default(),
+            diagnostics: Vec::new(),
+            about: None,
+            parameters: Vec::new(),
+            presets: Vec::new(),
+            broken: Vec::new(),
+            used: Vec::new(),
+            ids: Vec::new(),
+        }
+    }
+
+    /// Reads the text. `values` gives the parameters their values when they are declared. Returns the steps,
+    /// and what must hold at the end.
+    fn text(&mut self, values: impl FnOnce(&mut Self)) -> (Vec<Draft>, Vec<Placed>) {
+        let text = self.source.text.clone();
+        let parsed = syntax::parse(&text);
+        let root = &parsed.value;
+        self.diagnostics.extend(parsed.diagnostics);
+        let nothing = (Vec::new(), Vec::new());
+        // The version is read before anything else is interpreted.
+        if !self.version(root) {
+            return nothing;
+        }
+        if matches!(root.kind, ValueKind::Error) && !self.diagnostics.is_empty() {
+            return nothing;
+        }
+        let wrong = check_shape(root, &schema::envelope());
+        self.diagnostics.extend(wrong);
+        self.about = root
+            .field("about")
+            .and_then(Value::as_str)
+            .map(str::to_owned);
+        if let Some(needs) = root.field("needs") {
+            self.needs(needs);
+        }
+        if let Some(on_loss) = root.field("on_loss") {
+            // A wrong one was reported with the envelope.
+            if let Ok(on_loss) = syntax::ron_options().from_str(&on_loss.to_string()) {
+                self.on_loss = on_loss;
+            }
+        }
+        self.declare(root.field("params"));
+        self.declare_presets(root.field("presets"));
+        values(self);
+        self.shared.scopes[self.scope]
+            .parameters
+            .clone_from(&self.parameters);
+        let items = |field| root.field(field).and_then(Value::items).unwrap_or_default();
+        let mut drafts = self.steps(items("steps"));
+        let mut last = Vec::new();
+        for expectation in items("expect") {
+            last.extend(self.expectation(expectation, &mut drafts));
+        }
+        self.unused(root.field("params"));
+        (drafts, last)
+    }
+
+    /// Hands the diagnostics over, with their text and the calls that led to it.
+    fn close(self) {
+        let scopes = &self.shared.scopes;
+        let located = (self.diagnostics.into_iter()).map(|d| located(d, self.scope, scopes));
+        self.shared.diagnostics.extend(located);
+    }
+
+    /// Whether the text is of the version that is read here.
+    fn version(&mut self, root: &Value) -> bool {
+        let Some(version) = root.field("recipe") else {
+            return true;
+        };
+        let ValueKind::Number(number) = &version.kind else {
+            return true;
+        };
+        let Some(found) = number.to_int().filter(|&found| found != VERSION) else {
+            return true;
+        };
+        let message = format!("this recipe is of version {found}, expected {VERSION}");
+        let help = if found > VERSION {
+            "a newer meshwright can read it"
+        } else {
+            "write 1"
+        };
+        self.error(version.span, message, help);
+        false
+    }
+
+    fn needs(&mut self, needs: &Value) {
+        let numbers = |text: &str| -> Option<Vec<u64>> {
+            text.split('.').map(|part| part.parse().ok()).collect()
+        };
+        let here = env!("CARGO_PKG_VERSION");
+        let Some(text) = needs.as_str() else { return };
+        let problem = match numbers(text) {
+            None => format!("expected a version such as \"{here}\", found \"{text}\""),
+            Some(wanted) if Some(&wanted) > numbers(here).as_ref() => {
+                format!("this recipe needs meshwright {text}, and this is {here}")
+            }
+            Some(_) => return,
+        };
+        self.error(needs.span, problem, "");
+    }
+
+    /// Adds an error, with advice unless that is empty.
+    fn error(&mut self, span: Span, message: impl Into<String>, help: impl Into<String>) {
+        let (error, help) = (Diagnostic::error(span, message), help.into());
+        self.diagnostics.push(if help.is_empty() {
+            error
+        } else {
+            error.with_help(help)
+        });
+    }
+
+    /// Holds a value against a schema and reads it into its type.
+    fn typed<T: DeserializeOwned>(&mut self, value: &Value, schema: &Json) -> Option<T> {
+        let wrong = check_shape(value, schema);
+        if !wrong.is_empty() || value.has_errors() {
+            self.diagnostics.extend(wrong);
+            return None;
+        }
+        match syntax::ron_options().from_str(&value.to_string()) {
+            Ok(typed) => Some(typed),
+            Err(error) => {
+                self.error(value.span, error.code.to_string(), "");
+                None
+            }
+        }
+    }
+}

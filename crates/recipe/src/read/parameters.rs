@@ -1,0 +1,199 @@
+//! The parameters of a text: declared, given values, and filled in.
+
+use super::{Reader, Values};
+use crate::diagnostic::{Diagnostic, Severity, Span};
+use crate::params::{Move, Param};
+use crate::recipe::{Origin, Parameter};
+use crate::schema;
+use crate::shape::did_you_mean;
+use crate::syntax::{self, Value, ValueKind};
+
+/// Values for some parameters, under one name.
+pub(super) struct Preset {
+    /// Its name.
+    pub(super) name: String,
+    /// Names of parameters and their values as RON.
+    literals: Vec<(String, String)>,
+}
+
+impl Reader<'_, '_> {
+    /// Reads the declarations; each parameter has its default.
+    pub(super) fn declare(&mut self, params: Option<&Value>) {
+        for (key, value) in entries(params) {
+            let Some(name) = key.as_str() else { continue };
+            let Some(param): Option<Param> = self.typed(value, &schema::of::<Param>()) else {
+                self.broken.push(name.to_owned());
+                continue;
+            };
+            match param.default_literal() {
+                Ok(literal) => self.parameters.push(Parameter {
+                    name: name.to_owned(),
+                    param,
+                    literal,
+                    origin: Origin::Default,
+                }),
+                Err(problem) => {
+                    let message = format!("the default of `{name}` is not allowed: {problem}");
+                    self.error(value.span, message, "");
+                    self.broken.push(name.to_owned());
+                }
+            }
+        }
+    }
+
+    /// Reads the presets, all of them, whichever is chosen.
+    pub(super) fn declare_presets(&mut self, presets: Option<&Value>) {
+        for (key, values) in entries(presets) {
+            let Some(name) = key.as_str() else { continue };
+            let literals = self.literals(values, None);
+            let (literals, wrong) = literals;
+            self.diagnostics.extend(wrong);
+            self.presets.push(Preset {
+                name: name.to_owned(),
+                literals,
+            });
+        }
+    }
+
+    /// The values of `{"name": value}` as RON, and what is wrong with them.
+    pub(super) fn literals(
+        &self,
+        values: &Value,
+        folders: Option<Move>,
+    ) -> (Vec<(String, String)>, Vec<Diagnostic>) {
+        let (mut literals, mut wrong) = (Vec::new(), Vec::new());
+        for (key, value) in entries(Some(values)) {
+            let Some(name) = key.as_str() else { continue };
+            if self.broken.iter().any(|b| b == name) || value.has_errors() {
+                continue;
+            }
+            match self.parameters.iter().find(|p| p.name == name) {
+                None => wrong.push(self.unknown(name, key.span)),
+                Some(parameter) => match parameter.param.literal_of(value, folders) {
+                    Ok(literal) => literals.push((name.to_owned(), literal)),
+                    Err(problem) => {
+                        let message = format!("this value of `{name}` is not allowed: {problem}");
+                        wrong.push(Diagnostic::error(value.span, message));
+                    }
+                },
+            }
+        }
+        (literals, wrong)
+    }
+
+    /// Gives parameters values.
+    pub(super) fn assign(&mut self, literals: &[(String, String)], origin: &Origin) {
+        for (name, literal) in literals {
+            if let Some(parameter) = self.parameters.iter_mut().find(|p| p.name == *name) {
+                (parameter.literal, parameter.origin) = (literal.clone(), origin.clone());
+            }
+        }
+    }
+
+    /// Takes the values of one of the presets.
+    pub(super) fn choose_preset(&mut self, name: Option<&str>) {
+        let Some(name) = name else { return };
+        if let Some(preset) = self.presets.iter().find(|p| p.name == name) {
+            let literals = preset.literals.clone();
+            self.assign(&literals, &Origin::Preset(name.to_owned()));
+            return;
+        }
+        let help = if self.presets.is_empty() {
+            "it has none; `presets: {\"name\": {\"parameter\": value}}` makes one".to_owned()
+        } else {
+            did_you_mean(name, self.presets.iter().map(|p| p.name.as_str()))
+        };
+        let message = format!("the recipe has no preset `{name}`");
+        self.diagnostics
+            .push(Diagnostic::without_place(message).with_help(help));
+    }
+
+    /// Takes the values that are set from outside.
+    pub(super) fn set(&mut self, values: Values) {
+        for (name, text) in values.set {
+            if self.broken.contains(name) {
+                continue;
+            }
+            let Some(parameter) = self.parameters.iter_mut().find(|p| p.name == *name) else {
+                let unknown = self.unknown(name, Span::default());
+                self.diagnostics.push(Diagnostic {
+                    span: None,
+                    ..unknown
+                });
+                continue;
+            };
+            let to = self.source.folder();
+            let from = values.folder.unwrap_or(to);
+            match parameter.param.literal(text, Some(Move { from, to })) {
+                Ok(literal) => {
+                    (parameter.literal, parameter.origin) = (literal, Origin::Set);
+                }
+                Err(problem) => {
+                    let message = format!("the value set for `{name}` is not allowed: {problem}");
+                    self.diagnostics.push(Diagnostic::without_place(message));
+                }
+            }
+        }
+    }
+
+    pub(super) fn unknown(&self, name: &str, span: Span) -> Diagnostic {
+        let known = self.parameters.iter().map(|p| p.name.as_str());
+        Diagnostic::error(span, format!("the recipe has no parameter `{name}`"))
+            .with_help(did_you_mean(name, known))
+    }
+
+    /// Fills parameters in.
+    pub(super) fn filled(&mut self, value: &Value) -> Option<Value> {
+        let mut used = Vec::new();
+        // The declarations of these were reported already.
+        let mut reported = Vec::new();
+        let resolve = |name: &str, span: Span| {
+            used.push(name.to_owned());
+            if self.broken.iter().any(|b| b == name) {
+                reported.push(span);
+            }
+            let found = self.parameters.iter().find(|p| p.name == name);
+            found
+                .map(|p| p.literal.clone())
+                .ok_or_else(|| Box::new(self.unknown(name, span)))
+        };
+        let filled = syntax::substitute(&self.source.text, value, resolve);
+        self.used.extend(used);
+        match filled {
+            Ok(substituted) => Some(substituted.value),
+            Err(mut diagnostics) => {
+                diagnostics.retain(|d| d.span.is_none_or(|span| !reported.contains(&span)));
+                self.diagnostics.extend(diagnostics);
+                None
+            }
+        }
+    }
+
+    /// Warns of parameters that neither an `arg(..)`, an `If` nor a placeholder in a path names. Says
+    /// nothing beside errors: one of them may be the use.
+    pub(super) fn unused(&mut self, params: Option<&Value>) {
+        let is_error = |d: &Diagnostic| d.severity == Severity::Error;
+        if self.diagnostics.iter().any(is_error) {
+            return;
+        }
+        for (key, _) in entries(params) {
+            if let Some(name) = key.as_str()
+                && !self.used.iter().any(|used| used == name)
+                && !self.source.text.contains(&format!("{{{name}."))
+            {
+                let message = format!("the parameter `{name}` is never used");
+                let help = format!("a step takes its value with arg(\"{name}\")");
+                self.diagnostics
+                    .push(Diagnostic::warning(key.span, message).with_help(help));
+            }
+        }
+    }
+}
+
+/// The entries of a map; none if it is no map.
+fn entries(value: Option<&Value>) -> &[(Value, Value)] {
+    match value.map(|v| &v.kind) {
+        Some(ValueKind::Map(entries)) => entries,
+        _ => &[],
+    }
+}

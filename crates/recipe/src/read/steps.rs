@@ -1,0 +1,189 @@
+//! The steps of a text.
+
+use std::sync::Arc;
+
+use op::{Entry, Step};
+use serde_json::Value as Json;
+
+use super::{Draft, Kind, MAX_STEPS, Reader, flow};
+use crate::diagnostic::Diagnostic;
+use crate::recipe::RecipeStep;
+use crate::schema;
+use crate::shape::{check_shape, check_step, did_you_mean};
+use crate::syntax::{self, Value, ValueKind};
+
+impl Reader<'_, '_> {
+    /// Reads a list of steps.
+    pub(super) fn steps(&mut self, items: &[Value]) -> Vec<Draft> {
+        let mut drafts = Vec::new();
+        for item in items {
+            let step = self.step(item);
+            drafts.extend(step);
+        }
+        drafts
+    }
+
+    /// `Name(..)`, or `(id: .., run: Name(..), ..)`.
+    fn step(&mut self, written: &Value) -> Vec<Draft> {
+        let is_envelope = matches!(written.kind, ValueKind::Struct(_) | ValueKind::Unit);
+        if let Some(kind) = flow::kind(written) {
+            return self.flow(kind, written);
+        }
+        if self.shared.left == 0 {
+            return self.too_many(written, MAX_STEPS + 1);
+        }
+        self.shared.left -= 1;
+        let Some(value) = self.filled(written) else {
+            return self.broken_step(written);
+        };
+        let before = self.diagnostics.len();
+        let mut run = &value;
+        if is_envelope {
+            let wrong = check_shape(&value, &schema::step_envelope());
+            self.diagnostics.extend(wrong);
+            let Some(inner) = value.field("run") else {
+                return self.broken_step(&value);
+            };
+            run = inner;
+        }
+        let Some((name, span)) = run.name() else {
+            // A slip that was reported already leaves no name.
+            if !run.has_errors() && self.diagnostics.len() == before {
+                let message = format!("expected an operation, found {}", run.describe());
+                self.error(run.span, message, "");
+            }
+            return self.broken_step(&value);
+        };
+        let envelope = |field: &str| value.field(field).filter(|_| is_envelope);
+        let id = self.id(envelope("id"));
+        let entry = self.shared.registry.get(name).cloned();
+        let step = if let Some(entry) = &entry {
+            self.operation(entry, run)
+        } else {
+            let registry = self.shared.registry;
+            let known = registry.entries().iter().map(|e| e.name);
+            let help = did_you_mean(name, known.chain(Kind::ALL.map(Kind::name)));
+            self.error(span, format!("unknown operation `{name}`"), help);
+            None
+        };
+        let on = envelope("on").and_then(Value::items).map(|items| {
+            let named = |item: &Value| item.as_str().map(|name| (name.to_owned(), item.span));
+            items.iter().filter_map(named).collect()
+        });
+        if let (Some(entry), Some(on)) = (&entry, envelope("on"))
+            && !entry.takes_on
+        {
+            let help = "it names its objects in parameters of its own, or makes new ones";
+            self.error(on.span, format!("{} does not take `on`", entry.name), help);
+        }
+        // A wrong reason or a wrong name was reported with the envelope.
+        let refused = envelope("refused")
+            .and_then(|reason| syntax::ron_options().from_str(&reason.to_string()).ok());
+        let on_loss = envelope("on_loss")
+            .and_then(|on_loss| syntax::ron_options().from_str(&on_loss.to_string()).ok());
+        let step = RecipeStep {
+            step,
+            on,
+            refused,
+            on_loss: on_loss.unwrap_or_else(|| self.on_loss.clone()),
+            ..self.bare_step(id, name, run, span)
+        };
+        vec![Draft::new(step)]
+    }
+
+    fn operation(&mut self, entry: &Entry, run: &Value) -> Option<Arc<dyn Step>> {
+        let schema = self.schema(entry);
+        let wrong = check_step(run, &schema);
+        if !wrong.is_empty() || run.has_errors() {
+            self.diagnostics.extend(wrong);
+            return None;
+        }
+        // A name alone stands for a name with nothing in brackets.
+        let parameters = match &run.kind {
+            ValueKind::Call(call) => call.body.to_string(),
+            _ => "()".to_owned(),
+        };
+        match entry.parse(&parameters) {
+            Ok(step) => Some(step.into()),
+            Err(error) => {
+                let message = format!("{}: {}", entry.name, error.code);
+                self.error(run.span, message, "");
+                None
+            }
+        }
+    }
+
+    fn schema(&mut self, entry: &Entry) -> Arc<Json> {
+        let make = || Arc::new(entry.schema());
+        (self.shared.schemas.entry(entry.name))
+            .or_insert_with(make)
+            .clone()
+    }
+
+    /// A step that could not be read keeps its place in the list, and its id.
+    pub(super) fn broken_step(&mut self, written: &Value) -> Vec<Draft> {
+        let run = written.field("run").unwrap_or(written);
+        let (name, span) = run.name().unwrap_or(("?", written.span));
+        let id = written.field("id").and_then(Value::as_str);
+        let id = id.map(str::to_owned);
+        self.ids.extend(id.clone());
+        vec![Draft::new(self.bare_step(id, name, run, span))]
+    }
+
+    fn bare_step(
+        &self,
+        id: Option<String>,
+        name: &str,
+        run: &Value,
+        span: crate::Span,
+    ) -> RecipeStep {
+        let label = format!("{}{}", self.prefix, id.as_deref().unwrap_or(name));
+        RecipeStep {
+            id,
+            name: name.to_owned(),
+            label: label.clone(),
+            step: None,
+            on: None,
+            refused: None,
+            on_loss: self.on_loss.clone(),
+            scope: self.scope,
+            span,
+            value: run.clone(),
+            turns: Vec::new(),
+            stem: label,
+        }
+    }
+
+    /// Takes the id of a step, which no step before it may have.
+    pub(super) fn id(&mut self, id: Option<&Value>) -> Option<String> {
+        let (value, text) = id.and_then(|id| Some((id, id.as_str()?)))?;
+        if self.ids.iter().any(|known| known == text) {
+            let message = format!("two steps have the id \"{text}\"");
+            self.diagnostics
+                .push(Diagnostic::error(value.span, message));
+        }
+        self.ids.push(text.to_owned());
+        Some(text.to_owned())
+    }
+
+    /// Refuses a recipe of too many steps, once.
+    pub(super) fn too_many(&mut self, at: &Value, n: usize) -> Vec<Draft> {
+        let message = format!("the recipe has {n} steps or more, expected at most {MAX_STEPS}");
+        let told = |d: &Diagnostic| d.message.ends_with(&format!("at most {MAX_STEPS}"));
+        if !self.diagnostics.iter().any(told) {
+            let span = at.name().map_or(at.span, |(_, span)| span);
+            self.error(span, message, "");
+        }
+        Vec::new()
+    }
+}
+
+impl Draft {
+    fn new(step: RecipeStep) -> Self {
+        Self {
+            ends: step.id.iter().cloned().collect(),
+            step,
+            then: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,406 @@
+//! Steps that hold steps, parameter sets, and what may be lost.
+
+use std::path::Path;
+
+use super::{Reading, checked, files, read, registry, shown, steps};
+use crate::{Outcome, Settings, Silent, Source, Values};
+
+/// The labels of the steps.
+fn labels(reading: &Reading) -> Vec<&str> {
+    let steps = reading.recipe.steps.iter();
+    steps.map(crate::RecipeStep::label).collect()
+}
+
+/// The canonical parameters of the steps.
+fn canonical(reading: &Reading) -> Vec<String> {
+    let steps = reading.recipe.steps.iter();
+    steps
+        .map(|s| s.step.as_ref().expect("it was read").canonical())
+        .collect()
+}
+
+fn read_file(path: &Path, values: Values) -> Reading {
+    crate::read(&Source::open(path).unwrap(), &registry(), values)
+}
+
+/// A folder with these files.
+fn folder(texts: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in texts {
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    }
+    folder
+}
+
+fn run(reading: &Reading) -> Outcome {
+    assert!(!reading.has_errors(), "{:#?}", reading.diagnostics);
+    let files = files(reading, Path::new("out"));
+    let settings = Settings {
+        files: &files,
+        budget: u64::MAX,
+        read: &|_| Err("nothing is read".to_owned()),
+        keep_outputs: false,
+        writes: false,
+    };
+    crate::run(&reading.recipe, settings, &Silent)
+}
+
+#[test]
+fn a_repetition_is_its_steps_so_many_times() {
+    let reading = read(&steps(
+        r#"Sheet(columns: 2), Repeat(times: 2, steps: [
+            (id: "up", run: Lift(by: 1)),
+            Repeat(times: 2, steps: [Lift(by: 3)]),
+        ])"#,
+    ));
+    assert_eq!(
+        labels(&reading),
+        [
+            "Sheet", "up#1", "Lift#1.1", "Lift#1.2", "up#2", "Lift#2.1", "Lift#2.2"
+        ]
+    );
+}
+
+#[test]
+fn random_choices_differ_between_the_turns_of_a_repetition() {
+    let one = "Lift(by: 1, vertices: Random(count: 1, seed: 7))";
+    let highest = |times: u32| {
+        let text = steps(&format!(
+            "Sheet(columns: 50), Repeat(times: {times}, steps: [{one}])"
+        ));
+        let outcome = run(&read(&text));
+        let mesh = outcome.scene.objects()[0].as_mesh().unwrap();
+        let lifted = mesh.positions().iter().filter(|p| p.z > 0.0).count();
+        assert!(outcome.succeeded());
+        lifted
+    };
+    assert!(highest(20) > 10, "not always the same vertex");
+}
+
+#[test]
+fn what_is_expected_after_a_step_must_hold_after_each_turn() {
+    let text = r#"(recipe: 1, steps: [
+        Sheet(columns: 2),
+        (id: "all", run: Repeat(times: 3, steps: [(id: "up", run: Lift(by: 1))])),
+    ], expect: [
+        (after: "up", that: Bounds(min: (-1, -0.5, 1), max: (1, 0.5, 1))),
+        (after: "all", that: Bounds(min: (-1, -0.5, 3), max: (1, 0.5, 3))),
+    ])"#;
+    let outcome = run(&read(text));
+    assert_eq!(outcome.checked, 4);
+    let failed: Vec<_> = outcome.failures.iter().map(|f| f.span).collect();
+    assert_eq!(failed.len(), 2, "{:?}", outcome.failures);
+}
+
+#[test]
+fn a_choice_takes_one_of_its_branches_and_reads_both() {
+    let text = |by: &str| {
+        format!(
+            r#"(recipe: 1, params: {{
+                "high": Bool(default: true),
+                "kind": Choice(default: "Flat", of: ["Flat", "Steep"]),
+            }}, steps: [
+                Sheet(columns: 2),
+                If(param: "high", steps: [(id: "up", run: Lift(by: 1))], otherwise: [(id: "up", run: Lift(by: {by}))]),
+                If(param: "kind", is: Steep, steps: [Lift(by: 9)]),
+            ], expect: [(after: "up", that: Faces(eq: 2))])"#
+        )
+    };
+    let set = |pairs: &[(&str, &str)]| {
+        let pairs: Vec<_> = (pairs.iter())
+            .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
+            .collect();
+        let values = Values {
+            set: &pairs,
+            ..Values::default()
+        };
+        let reading = crate::read(&Source::new("a.ron", text("2")), &registry(), values);
+        assert_eq!(reading.diagnostics, []);
+        canonical(&reading)[1..]
+            .iter()
+            .map(|c| c[..6].to_owned())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(set(&[]), ["(by:1."]);
+    assert_eq!(set(&[("high", "false")]), ["(by:2."]);
+    assert_eq!(set(&[("kind", "Steep")]), ["(by:1.", "(by:9."]);
+    let wrong = text("\"no\"");
+    assert_eq!(
+        shown(&wrong, &read(&wrong).diagnostics)[0].1,
+        "expected a number for `by`, found the string \"no\""
+    );
+}
+
+#[test]
+fn mistakes_in_steps_that_hold_steps_are_told_like_others() {
+    let text = r#"(recipe: 1, params: {"n": Int(default: 2)}, steps: [
+        Repeat(times: -1, steps: []),
+        Repeat(tims: 1, steps: [Lft(by: 1)]),
+        If(param: "n", steps: []),
+        If(param: "m", steps: []),
+        If(param: "n", is: "two", steps: []),
+        (on: ["a"], run: If(param: "n", is: 1, steps: [])),
+        Repat(times: 1, steps: []),
+    ])"#;
+    let reading = read(text);
+    let found: Vec<_> = (shown(text, &reading.diagnostics).into_iter())
+        .map(|(place, message, _)| (place, message))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            ("-1", "`times` is -1, expected at least 0"),
+            ("Repeat", "`Repeat` needs `times`"),
+            ("tims", "unknown field `tims` in `Repeat`"),
+            ("Lft", "unknown operation `Lft`"),
+            ("\"n\"", "`n` is of the type Int, expected Bool"),
+            ("\"m\"", "the recipe has no parameter `m`"),
+            (
+                "\"two\"",
+                "`n` can never be this: expected a whole number, found the string \"two\""
+            ),
+            ("[\"a\"]", "If does not take `on`"),
+            ("Repat", "unknown operation `Repat`"),
+        ]
+    );
+    assert_eq!(
+        reading.diagnostics[8].help.as_deref(),
+        Some("did you mean `Repeat`?")
+    );
+}
+
+#[test]
+fn repetitions_of_repetitions_end_at_a_limit() {
+    let mut inner = "Lift(by: 1)".to_owned();
+    for _ in 0..20 {
+        inner = format!("Repeat(times: 100, steps: [{inner}])");
+    }
+    let text = steps(&format!("Sheet(columns: 1), {inner}"));
+    let reading = read(&text);
+    let messages: Vec<_> = reading
+        .diagnostics
+        .iter()
+        .map(|d| d.message.as_str())
+        .collect();
+    assert_eq!(
+        messages,
+        ["the recipe has 1000001 steps or more, expected at most 100000"]
+    );
+}
+
+const CLEAN: &str = r#"(recipe: 1,
+    params: {"by": Float(default: 1, max: 9), "model": Path(default: "own.obj")},
+    steps: [(id: "up", run: Lift(by: arg("by"))), Write(path: "{model.stem}.txt")],
+    expect: [Faces(eq: 2), (after: "up", that: Manifold)])"#;
+
+#[test]
+fn a_recipe_is_called_with_values_of_its_own() {
+    let folder = folder(&[
+        ("lib/clean.ron", CLEAN),
+        (
+            "main.ron",
+            r#"(recipe: 1, params: {"by": Float(default: 3)}, steps: [
+                Sheet(columns: 2),
+                Call(recipe: "lib/clean.ron"),
+                (id: "again", run: Call(recipe: "lib/clean.ron", with: {"by": arg("by"), "model": "cow.obj"})),
+                (id: "up", run: Lift(by: 1)),
+            ], expect: [(after: "again", that: Faces(eq: 2)), (after: "up", that: Faces(max: 2))])"#,
+        ),
+    ]);
+    let reading = read_file(&folder.path().join("main.ron"), Values::default());
+    assert_eq!(reading.diagnostics, []);
+    assert_eq!(
+        labels(&reading),
+        [
+            "Sheet",
+            "clean/up",
+            "clean/Write",
+            "again/up",
+            "again/Write",
+            "up"
+        ]
+    );
+    assert!(canonical(&reading)[3].starts_with("(by:3.0"));
+    let recipe = &reading.recipe;
+    let after: Vec<_> = recipe.expectations.iter().map(|p| p.after).collect();
+    assert_eq!(
+        after,
+        [Some(1), Some(2), Some(3), Some(4), Some(4), Some(5)]
+    );
+    let model = &recipe.scopes[2].parameters[1].literal;
+    assert_eq!(model, "\"../cow.obj\"", "the file beside the caller");
+    let called = &recipe.files(&op::Files::default())[2];
+    assert_eq!(called.input, folder.path().join("lib"));
+    assert_eq!(called.placeholders[0].1, "cow");
+}
+
+#[test]
+fn mistakes_of_a_call_stand_where_they_were_made() {
+    let folder = folder(&[
+        ("clean.ron", CLEAN),
+        ("broken.ron", "(recipe: 1, steps: [Lift(by: \"x\")])"),
+        (
+            "main.ron",
+            r#"(recipe: 1, steps: [
+                Sheet(columns: 2),
+                Call(recipe: "clean.ron", with: {"by": 10, "bye": 1}),
+                Call(recipe: "claen.ron"),
+                Call(recipe: "broken.ron"),
+            ])"#,
+        ),
+    ]);
+    let reading = read_file(&folder.path().join("main.ron"), Values::default());
+    let found: Vec<_> = (reading.diagnostics.iter())
+        .map(|d| (d.source, d.message.as_str()))
+        .collect();
+    let missing = folder.path().join("claen.ron");
+    let missing = format!(
+        "cannot read {}: No such file or directory (os error 2)",
+        missing.display()
+    );
+    assert_eq!(
+        found,
+        [
+            (
+                0,
+                "this value of `by` is not allowed: 10 is above the maximum 9"
+            ),
+            (0, "the recipe has no parameter `bye`"),
+            (0, missing.as_str()),
+            (2, "expected a number for `by`, found the string \"x\""),
+        ]
+    );
+    assert_eq!(
+        reading.diagnostics[2].help.as_deref(),
+        Some("did you mean `clean.ron`?")
+    );
+    let text = crate::render(&reading.recipe.sources, &reading.diagnostics, false);
+    assert!(text.contains("broken.ron:1:30"), "{text}");
+    assert!(text.contains("main.ron:5:30"), "called from there: {text}");
+}
+
+#[test]
+fn recipes_that_call_each_other_in_a_circle_are_shown_as_a_chain() {
+    let call = |name: &str| format!("(recipe: 1, steps: [Call(recipe: \"{name}\")])");
+    let folder = folder(&[
+        ("a.ron", &call("lib/b.ron")),
+        ("lib/b.ron", &call("c.ron")),
+        ("lib/c.ron", &call("../a.ron")),
+    ]);
+    let reading = read_file(&folder.path().join("a.ron"), Values::default());
+    let [circle] = &reading.diagnostics[..] else {
+        panic!("{:#?}", reading.diagnostics)
+    };
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    assert_eq!(
+        circle.message,
+        format!(
+            "the recipe calls itself: {} -> {} -> {} -> {}",
+            at("a.ron"),
+            at("lib/b.ron"),
+            at("lib/c.ron"),
+            at("lib/../a.ron")
+        )
+    );
+    assert_eq!((circle.source, circle.calls.len()), (2, 2));
+}
+
+#[test]
+fn calls_that_multiply_end_at_a_limit() {
+    let names: Vec<String> = (0..30).map(|i| format!("{i}.ron")).collect();
+    let texts: Vec<String> = (1..31)
+        .map(|next| {
+            let call = format!("Call(recipe: \"{next}.ron\")");
+            format!("(recipe: 1, steps: [{call}, {call}, {call}, {call}])")
+        })
+        .collect();
+    let mut files: Vec<(&str, &str)> = (names.iter().map(String::as_str))
+        .zip(texts.iter().map(String::as_str))
+        .collect();
+    files.push(("30.ron", "(recipe: 1, steps: [])"));
+    let folder = folder(&files);
+    let reading = read_file(&folder.path().join("0.ron"), Values::default());
+    assert!(reading.has_errors());
+    assert!(reading.recipe.scopes.len() <= crate::MAX_STEPS + 1);
+}
+
+const PRESETS: &str = r#"(recipe: 1,
+    params: {"n": Int(default: 2, max: 9), "by": Float(default: 1)},
+    presets: {"fine": {"n": 8}, "high": {"by": 5, "n": 3}},
+    steps: [Sheet(columns: arg("n")), Lift(by: arg("by"))])"#;
+
+#[test]
+fn a_preset_goes_before_defaults_and_what_is_set_before_a_preset() {
+    let with = |preset, set: &[(String, String)]| {
+        let values = Values {
+            set,
+            preset,
+            folder: None,
+        };
+        let reading = crate::read(&Source::new("a.ron", PRESETS), &registry(), values);
+        let parameters = reading.recipe.parameters().iter();
+        let literals: Vec<String> = parameters.map(|p| p.literal.clone()).collect();
+        (literals.join(" "), reading)
+    };
+    assert_eq!(with(None, &[]).0, "2 1.0");
+    assert_eq!(with(Some("fine"), &[]).0, "8 1.0");
+    let set = [("n".to_owned(), "4".to_owned())];
+    assert_eq!(with(Some("high"), &set).0, "4 5.0");
+    let unknown = with(Some("fien"), &[]).1.diagnostics;
+    assert_eq!(unknown[0].message, "the recipe has no preset `fien`");
+    assert_eq!(unknown[0].help.as_deref(), Some("did you mean `fine`?"));
+}
+
+#[test]
+fn every_preset_is_held_against_the_parameters() {
+    let text = PRESETS.replace("{\"n\": 8}", "{\"n\": 10, \"m\": 1, \"by\": Area}");
+    let reading = read(&text);
+    assert_eq!(
+        shown(&text, &reading.diagnostics),
+        [
+            (
+                "10",
+                "this value of `n` is not allowed: 10 is above the maximum 9",
+                ""
+            ),
+            (
+                "\"m\"",
+                "the recipe has no parameter `m`",
+                "did you mean `n`?"
+            ),
+            (
+                "Area",
+                "this value of `by` is not allowed: expected a number, found `Area`",
+                ""
+            ),
+        ]
+    );
+}
+
+#[test]
+fn a_tag_that_nothing_can_have_is_found_before_anything_runs() {
+    let text = steps("Sheet(columns: 2), Lift(by: 1, vertices: Or([Boundary, Tagged(\"rim\")]))");
+    let found = checked(&text, u64::MAX).diagnostics;
+    assert_eq!(
+        shown(&text, &found),
+        [(
+            "Tagged(\"rim\")",
+            "nothing of \"sheet\" is tagged \"rim\"",
+            "no step before has made one"
+        )]
+    );
+}
+
+#[test]
+fn an_attribute_that_is_expected_and_cannot_be_there_is_found_before_anything_runs() {
+    let text = r#"(recipe: 1, steps: [Sheet(columns: 2)],
+        expect: [HasAttribute(domain: Corner, name: "uv"), Not(HasAttribute(domain: Corner, name: "uv"))])"#;
+    let found = checked(text, u64::MAX).diagnostics;
+    assert_eq!(found.len(), 1);
+    assert_eq!(
+        found[0].message,
+        "\"sheet\" has no corner attribute \"uv\" here"
+    );
+}

@@ -49,6 +49,11 @@ pub(crate) enum Command {
         /// The file to write; its ending chooses the format
         output: PathBuf,
     },
+    /// Run the recipes that wrote files again, and compare the bytes
+    ///
+    /// A file says which recipe wrote it, with which parameters and from which inputs. The recipe is looked
+    /// for below the working directory.
+    Reproduce(ReproduceArgs),
     /// Print the JSON schema of recipes
     Schema,
     /// Write a new operation crate: its folder, a working sample with a test, and its line in ops/all
@@ -168,6 +173,19 @@ pub(crate) struct TestArgs {
     /// Keep outputs, each recipe's in a folder of its name below this one
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// The memory that meshes may take, such as 512MiB or 8GiB
+    #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
+    pub(crate) budget: u64,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct ReproduceArgs {
+    /// Files that recipes have written
+    #[arg(required = true)]
+    pub(crate) files: Vec<PathBuf>,
+    /// The recipe that has written them
+    #[arg(long, value_name = "RECIPE")]
+    pub(crate) recipe: Option<PathBuf>,
     /// The memory that meshes may take, such as 512MiB or 8GiB
     #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) budget: u64,

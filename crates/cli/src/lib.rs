@@ -13,6 +13,7 @@
 
 mod args;
 mod commands;
+mod events;
 mod listener;
 mod loading;
 mod output;
@@ -48,6 +49,7 @@ pub fn run(registry: Registry) -> ExitCode {
             read,
             output,
         } => commands::convert::run(&input, &read, &output),
+        Command::Reproduce(args) => commands::reproduce::run(&args, &registry),
         Command::Schema => commands::schema::run(&registry),
         Command::NewOp { name, dir } => commands::new_op::run(&name, &dir),
     };

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use op::{Files, Registry};
-use recipe::{Diagnostic, Forecast, Recipe, Severity, Source, Values};
+use recipe::{Diagnostic, Forecast, Recipe, Severity, Source, Stamp, Values};
 use scene::Object;
 
 use crate::args::RecipeArgs;
@@ -66,28 +66,39 @@ pub(crate) fn load_recipe(
         preset,
         folder: Some(&folder),
     };
-    let reading = recipe::read(&source, registry, values);
-    let version = env!("CARGO_PKG_VERSION");
-    let files = Files {
+    Ok(load_source(&source, values, out, budget, registry))
+}
+
+/// Reads and checks a recipe whose text is known.
+pub(crate) fn load_source(
+    source: &Source,
+    values: Values,
+    out: &Path,
+    budget: u64,
+    registry: &Registry,
+) -> Loaded {
+    let reading = recipe::read(source, registry, values);
+    let mut files = Files {
         input: source.folder().to_path_buf(),
         output: out.to_path_buf(),
         placeholders: reading.recipe.placeholders(),
-        provenance: Some(format!(
-            "meshwright {version}, recipe {}",
-            reading.recipe.digest()
-        )),
+        provenance: None,
     };
     let forecast = recipe::check(&reading.recipe, &files, budget);
+    if !forecast.outputs.is_empty() && !forecast.has_errors() {
+        let stamp = Stamp::new(&reading.recipe, &forecast.inputs);
+        files.provenance = Some(stamp.to_string());
+    }
     let mut diagnostics = reading.diagnostics;
     diagnostics.extend(forecast.diagnostics.iter().cloned());
     diagnostics.sort_by_key(|d| (d.source, d.span));
-    Ok(Loaded {
-        path: path.display().to_string(),
+    Loaded {
+        path: source.path.display().to_string(),
         recipe: reading.recipe,
         files,
         forecast,
         diagnostics,
-    })
+    }
 }
 
 /// Reads the objects of a file, for expectations that compare with one.

@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use recipe::{LineIndex, Origin, Outcome, Recipe, Source, StepDone};
+use recipe::{LineIndex, Origin, Recipe, Source, StepDone};
 
 use crate::loading::Loaded;
 
@@ -113,57 +113,25 @@ pub(crate) fn explain(recipe: &Recipe) -> String {
                 None => parameter.name.clone(),
                 Some(_) => format!("{path}: {}", parameter.name),
             };
-            let from = match &parameter.origin {
-                Origin::Default => "the recipe's default".to_owned(),
-                Origin::Preset(name) => format!("the preset {name}"),
-                Origin::Call => "the call".to_owned(),
-                Origin::Set => "--set".to_owned(),
-            };
-            rows.push(vec![name, parameter.literal.clone(), from]);
+            rows.push(vec![
+                name,
+                parameter.literal.clone(),
+                origin(&parameter.origin),
+            ]);
         }
     }
     let order = "(--set goes before a preset, and a preset before the recipe's default)";
     format!("{}{order}\n\n", table(&rows))
 }
 
-/// A run as one JSON object.
-pub(crate) fn run_json(loaded: &Loaded, outcome: &Outcome) -> serde_json::Value {
-    let steps: Vec<_> = outcome
-        .steps
-        .iter()
-        .map(|step| {
-            let refused: Vec<_> = step
-                .report
-                .refused
-                .iter()
-                .map(|r| {
-                    let reason = format!("{:?}", r.reason);
-                    serde_json::json!({ "reason": reason, "count": r.count, "first": r.first })
-                })
-                .collect();
-            serde_json::json!({
-                "step": step.label,
-                "vertices": step.vertices,
-                "edges": step.edges,
-                "faces": step.faces,
-                "changed": step.report.changed,
-                "refused": refused,
-                "losses": step.report.losses.iter().map(ToString::to_string).collect::<Vec<_>>(),
-                "notes": step.report.notes,
-                "milliseconds": step.time.as_secs_f64() * 1e3,
-            })
-        })
-        .collect();
-    serde_json::json!({
-        "recipe": loaded.path,
-        "succeeded": outcome.succeeded(),
-        "cancelled": outcome.cancelled,
-        "steps": steps,
-        "expectations": outcome.checked,
-        "digest": outcome.digest.to_string(),
-        "written": outcome.written.iter().map(|p| p.display().to_string()).collect::<Vec<_>>(),
-        "failures": problems_json(&outcome.failures, &loaded.recipe.sources),
-    })
+/// Where a value comes from, in words.
+pub(crate) fn origin(origin: &Origin) -> String {
+    match origin {
+        Origin::Default => "the recipe's default".to_owned(),
+        Origin::Preset(name) => format!("the preset {name}"),
+        Origin::Call => "the call".to_owned(),
+        Origin::Set => "--set".to_owned(),
+    }
 }
 
 /// Diagnostics as JSON.

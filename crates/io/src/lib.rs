@@ -61,6 +61,7 @@ mod peek;
 mod ply;
 mod policy;
 mod polygons;
+mod provenance;
 mod save;
 mod stl;
 mod text;
@@ -77,6 +78,7 @@ pub use note::{Loss, Note, NoteKind};
 pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject};
 pub use policy::{NonManifold, Orientation, Policies, Unwanted};
 pub use polygons::Polygons;
+pub use provenance::provenance;
 
 use note::Notes;
 

@@ -21,6 +21,7 @@ mod recipe;
 mod run;
 mod schema;
 mod source;
+pub mod stamp;
 
 pub use check::{Forecast, StepForecast, check, mebibytes};
 pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
@@ -33,6 +34,7 @@ pub use run::{Listener, Outcome, Settings, Silent, StepDone, run};
 pub use schema::schema;
 pub use shape::did_you_mean;
 pub use source::Source;
+pub use stamp::Stamp;
 
 #[cfg(test)]
 mod tests;

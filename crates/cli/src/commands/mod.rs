@@ -5,6 +5,7 @@ pub(crate) mod convert;
 pub(crate) mod info;
 pub(crate) mod new_op;
 pub(crate) mod ops;
+pub(crate) mod reproduce;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod test;

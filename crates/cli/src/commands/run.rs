@@ -5,11 +5,10 @@ use op::Registry;
 use recipe::Settings;
 
 use crate::args::{Format, RunArgs};
+use crate::events::Events;
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::{Loaded, load, read_objects};
-use crate::output::{
-    complain, explain, print, problems_json, run_json, show, step_notes, step_table,
-};
+use crate::output::{complain, explain, print, problems_json, show, step_notes, step_table};
 
 pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
     if let Some(threads) = args.threads {
@@ -27,9 +26,15 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
         print(&explain(&loaded.recipe))?;
     }
     if loaded.has_errors() {
+        if json {
+            Events::start(&loaded, &op::NoProgress).refused()?;
+            return Ok(false);
+        }
         return refuse(&loaded, json);
     }
-    show(&loaded, &loaded.diagnostics);
+    if !json {
+        show(&loaded, &loaded.diagnostics);
+    }
 
     catch_interrupts();
     let terminal = Terminal::new();
@@ -40,12 +45,16 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
         keep_outputs: true,
         writes: !loaded.forecast.outputs.is_empty(),
     };
-    let outcome = recipe::run(&loaded.recipe, settings, &terminal);
-    terminal.clear();
     if json {
-        print(&format!("{:#}\n", run_json(&loaded, &outcome)))?;
+        let events = Events::start(&loaded, &terminal);
+        events.problems(&loaded.diagnostics);
+        let outcome = recipe::run(&loaded.recipe, settings, &events);
+        terminal.clear();
+        events.end(&outcome)?;
         return Ok(outcome.succeeded());
     }
+    let outcome = recipe::run(&loaded.recipe, settings, &terminal);
+    terminal.clear();
 
     if !outcome.steps.is_empty() {
         print(&step_table(&outcome.steps))?;

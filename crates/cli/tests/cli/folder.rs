@@ -118,6 +118,13 @@ impl Ended {
         serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {self:#?}"))
     }
 
+    /// The lines of the standard output, each a JSON object.
+    #[track_caller]
+    pub(crate) fn events(&self) -> Vec<serde_json::Value> {
+        let event = |line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {self:#?}"));
+        self.stdout.lines().map(event).collect()
+    }
+
     /// The digest that a run prints.
     #[track_caller]
     pub(crate) fn digest(&self) -> &str {

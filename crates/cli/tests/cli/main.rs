@@ -6,6 +6,7 @@ mod interrupt;
 mod new_op;
 mod ops;
 mod refusals;
+mod reproduce;
 mod run;
 mod test;
 mod usage;

@@ -118,13 +118,34 @@ fn a_path_that_is_set_is_seen_from_the_working_directory_and_names_the_output() 
 fn a_run_can_report_in_json() {
     let folder = Folder::with_recipe(TORUS);
     let ended = folder.run("run recipe.ron --format json").with_code(0);
-    let json = ended.json();
-    assert_eq!(json["succeeded"], true);
-    assert_eq!(json["steps"][2]["step"], "smooth");
-    assert_eq!(json["steps"][2]["faces"], 384);
-    assert_eq!(json["expectations"], 2);
-    assert_eq!(json["written"][1], "out/torus.obj");
-    let digest = json["digest"].as_str().unwrap();
+    let events = ended.events();
+    let of = |kind: &str| {
+        let found = events.iter().filter(|e| e["event"] == kind);
+        found.collect::<Vec<_>>()
+    };
+    assert_eq!(
+        (&events[0]["event"], &events[0]["format"]),
+        (&"start".into(), &1.into())
+    );
+    assert_eq!(events[0]["steps"], of("step").len());
+    let [begun, done] = [of("step")[2], of("done")[2]];
+    assert_eq!(
+        (&begun["label"], &begun["operation"]),
+        (&"smooth".into(), &"LoopSubdivide".into())
+    );
+    assert_eq!(
+        (&done["label"], &done["number"]),
+        (&"smooth".into(), &3.into())
+    );
+    assert_eq!(done["faces"], 384);
+    assert_eq!(of("wrote")[1]["path"], "out/torus.obj");
+    let end = events.last().unwrap();
+    assert_eq!(
+        (&end["event"], &end["succeeded"]),
+        (&"end".into(), &true.into())
+    );
+    assert_eq!(end["expectations"], 2);
+    let digest = end["digest"].as_str().unwrap();
     assert_eq!(folder.run("run recipe.ron").digest(), digest);
     assert_eq!(ended.stderr, "");
 }
@@ -132,12 +153,21 @@ fn a_run_can_report_in_json() {
 #[test]
 fn a_failure_is_reported_in_json_too() {
     let folder = Folder::with_recipe("(recipe: 1, steps: [\n  Cubee(name: \"a\"),\n])");
-    let json = folder
+    let events = folder
         .run("run recipe.ron --format json")
         .with_code(1)
-        .json();
-    assert_eq!(json["succeeded"], false);
-    let failure = &json["failures"][0];
+        .events();
+    let [start, failure, end] = &events[..] else {
+        panic!("{events:#?}")
+    };
+    assert_eq!(
+        (&start["event"], &end["event"]),
+        (&"start".into(), &"end".into())
+    );
+    assert_eq!(
+        (&end["succeeded"], &failure["file"]),
+        (&false.into(), &"recipe.ron".into())
+    );
     assert_eq!(failure["message"], "unknown operation `Cubee`");
     assert_eq!(failure["help"], "did you mean `Cube`?");
     assert_eq!(
@@ -148,13 +178,14 @@ fn a_failure_is_reported_in_json_too() {
     let folder = Folder::with_recipe(
         "(recipe: 1, steps: [Cube(name: \"a\")], expect: [Faces(eq: 7), Closed])",
     );
-    let json = folder
+    let events = folder
         .run("run recipe.ron --format json")
         .with_code(1)
-        .json();
-    assert_eq!(json["succeeded"], false);
-    assert_eq!(json["failures"][0]["message"], "expected 7 faces, found 6");
-    assert_eq!(json["failures"].as_array().unwrap().len(), 1);
+        .events();
+    let problems: Vec<_> = events.iter().filter(|e| e["event"] == "problem").collect();
+    assert_eq!(problems.len(), 1);
+    assert_eq!(problems[0]["message"], "expected 7 faces, found 6");
+    assert_eq!(events.last().unwrap()["succeeded"], false);
 }
 
 #[test]

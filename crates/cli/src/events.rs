@@ -1,0 +1,210 @@
+//! A run as events for other programs: one JSON object a line, as things happen.
+//!
+//! ```text
+//! {"event":"start", "format":1, "program":"meshwright 0.1.0", "recipe":"a.ron", "recipe_digest":"..",
+//!                   "parameters":[{"name":"levels", "value":"2", "from":"--set"}], "steps":7}
+//! {"event":"step", "number":1, "label":"smooth", "operation":"LoopSubdivide"}
+//! {"event":"progress", "number":1, "what":"..", "done":3, "total":8}      at most ten times a second
+//! {"event":"done", "number":1, "label":"smooth", "vertices":8, "edges":12, "faces":6, "changed":6,
+//!                  "refused":[{"reason":"Boundary", "count":2, "first":".."}],
+//!                  "losses":[{"object":"cow", "name":"uv", "message":".."}], "notes":[".."],
+//!                  "digest":"..", "milliseconds":1.5}
+//! {"event":"problem", "severity":"error", "file":"a.ron", "line":7, "column":9, "message":"..", "help":".."}
+//! {"event":"wrote", "path":"out/a.obj"}
+//! {"event":"end", "succeeded":true, "cancelled":false, "steps":7, "expectations":4, "digest":"..",
+//!                 "milliseconds":20.5}
+//! ```
+//!
+//! `format` is the version of this list: new events and new fields may come without another number, and
+//! readers pass over what they do not know. Numbers of steps begin at 1. `end` is always the last line,
+//! also of a recipe that could not be read. What is unknown is `null`.
+
+use std::io::{self, Write as _};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use op::Progress;
+use recipe::{Listener, Outcome, StepDone};
+use serde_json::{Value as Json, json};
+
+use crate::loading::Loaded;
+use crate::output::{origin, problems_json};
+
+/// The version of the events.
+const FORMAT: u32 = 1;
+
+/// The least time between two events of progress.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// Writes the events of one run. Stops the run when nobody reads them any more.
+pub(crate) struct Events<'a> {
+    loaded: &'a Loaded,
+    progress: &'a dyn Progress,
+    begin: Instant,
+    state: Mutex<State>,
+}
+
+struct State {
+    /// The step that runs, from 1.
+    number: usize,
+    /// When progress was told last.
+    told: Instant,
+    problem: Option<io::Error>,
+}
+
+impl<'a> Events<'a> {
+    /// Writes the start of a run. `progress` says whether to go on.
+    pub(crate) fn start(loaded: &'a Loaded, progress: &'a dyn Progress) -> Self {
+        let now = Instant::now();
+        let events = Self {
+            loaded,
+            progress,
+            begin: now,
+            state: Mutex::new(State {
+                number: 0,
+                told: now,
+                problem: None,
+            }),
+        };
+        let parameters: Vec<Json> = (loaded.recipe.parameters().iter())
+            .map(|p| json!({ "name": p.name, "value": p.literal, "from": origin(&p.origin) }))
+            .collect();
+        events.tell(&json!({
+            "event": "start",
+            "format": FORMAT,
+            "program": concat!("meshwright ", env!("CARGO_PKG_VERSION")),
+            "recipe": loaded.path,
+            "recipe_digest": loaded.recipe.digest(),
+            "parameters": parameters,
+            "steps": loaded.recipe.steps.len(),
+        }));
+        events
+    }
+
+    /// Writes what went wrong, what was written, and the end.
+    ///
+    /// # Errors
+    ///
+    /// The first line that could not be written.
+    pub(crate) fn end(self, outcome: &Outcome) -> io::Result<()> {
+        self.problems(&outcome.failures);
+        for path in &outcome.written {
+            self.tell(&json!({ "event": "wrote", "path": path.display().to_string() }));
+        }
+        self.tell(&json!({
+            "event": "end",
+            "succeeded": outcome.succeeded(),
+            "cancelled": outcome.cancelled,
+            "steps": outcome.steps.len(),
+            "expectations": outcome.checked,
+            "digest": outcome.digest.to_string(),
+            "milliseconds": milliseconds(self.begin.elapsed()),
+        }));
+        self.finish()
+    }
+
+    /// Writes the end of a recipe that cannot run.
+    ///
+    /// # Errors
+    ///
+    /// The first line that could not be written.
+    pub(crate) fn refused(self) -> io::Result<()> {
+        self.problems(&self.loaded.diagnostics);
+        self.tell(&json!({
+            "event": "end",
+            "succeeded": false,
+            "cancelled": false,
+            "steps": 0,
+            "expectations": 0,
+            "digest": null,
+            "milliseconds": milliseconds(self.begin.elapsed()),
+        }));
+        self.finish()
+    }
+
+    /// Writes problems, each as an event.
+    pub(crate) fn problems(&self, diagnostics: &[recipe::Diagnostic]) {
+        let problems = problems_json(diagnostics, &self.loaded.recipe.sources);
+        for problem in problems.as_array().into_iter().flatten() {
+            let mut event = json!({ "event": "problem" });
+            if let (Some(event), Some(problem)) = (event.as_object_mut(), problem.as_object()) {
+                event.extend(problem.clone());
+            }
+            self.tell(&event);
+        }
+    }
+
+    fn finish(self) -> io::Result<()> {
+        let state = self.state.into_inner();
+        let state = state.unwrap_or_else(std::sync::PoisonError::into_inner);
+        state.problem.map_or(Ok(()), Err)
+    }
+
+    fn state(&self) -> std::sync::MutexGuard<'_, State> {
+        let state = self.state.lock();
+        state.unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    fn tell(&self, event: &Json) {
+        let line = format!("{event}\n");
+        let mut out = io::stdout().lock();
+        let written = out.write_all(line.as_bytes()).and_then(|()| out.flush());
+        if let Err(error) = written {
+            self.state().problem.get_or_insert(error);
+        }
+    }
+}
+
+impl Progress for Events<'_> {
+    fn advance(&self, what: &str, done: u64, total: u64) -> bool {
+        let mut state = self.state();
+        let (number, is_read) = (state.number, state.problem.is_none());
+        let is_due = state.told.elapsed() >= PAUSE;
+        if is_due {
+            state.told = Instant::now();
+        }
+        drop(state);
+        if is_due {
+            self.tell(&json!({
+                "event": "progress", "number": number, "what": what, "done": done, "total": total,
+            }));
+        }
+        is_read && self.progress.advance(what, done, total)
+    }
+}
+
+impl Listener for Events<'_> {
+    fn step_begins(&self, number: usize, label: &str) {
+        self.state().number = number + 1;
+        let operation = &self.loaded.recipe.steps[number].name;
+        self.tell(&json!({
+            "event": "step", "number": number + 1, "label": label, "operation": operation,
+        }));
+    }
+
+    fn step_done(&self, number: usize, done: &StepDone) {
+        let refused = done.report.refused.iter().map(|r| {
+            let reason = format!("{:?}", r.reason);
+            json!({ "reason": reason, "count": r.count, "first": r.first })
+        });
+        let losses = (done.report.losses.iter())
+            .map(|l| json!({ "object": l.object, "name": l.name, "message": l.to_string() }));
+        self.tell(&json!({
+            "event": "done",
+            "number": number + 1,
+            "label": done.label,
+            "vertices": done.vertices,
+            "edges": done.edges,
+            "faces": done.faces,
+            "changed": done.report.changed,
+            "refused": refused.collect::<Vec<_>>(),
+            "losses": losses.collect::<Vec<_>>(),
+            "notes": done.report.notes,
+            "milliseconds": milliseconds(done.time),
+        }));
+    }
+}
+
+fn milliseconds(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
+}

@@ -1,0 +1,97 @@
+//! `meshwright reproduce`.
+
+use crate::folder::Folder;
+
+const RECIPE: &str = r#"(recipe: 1,
+    params: {"input": Path(default: "a.obj"), "levels": Int(default: 1)},
+    presets: {"fine": {"levels": 2}},
+    steps: [
+        Load(path: arg("input")),
+        LoopSubdivide(levels: arg("levels")),
+        Save(path: "{input.stem}.obj"), Save(path: "deep/a.glb"), Save(path: "a.gltf"), Save(path: "a.stl"),
+        Save(path: "a.ply"), Save(path: "a.off"),
+    ])"#;
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+fn folder() -> Folder {
+    Folder::new()
+        .with("scenes/r.ron", RECIPE)
+        .with("scenes/a.obj", TRIANGLE)
+}
+
+#[test]
+fn every_file_of_a_run_leads_back_to_its_recipe() {
+    let folder = folder();
+    folder.run("run scenes/r.ron --preset fine").with_code(0);
+    let files = "out/a.obj out/deep/a.glb out/a.gltf out/a.ply out/a.off";
+    folder
+        .run(&format!("reproduce {files}"))
+        .with_code(0)
+        .prints(&[
+            "out/a.obj is reproduced by scenes/r.ron, digest ",
+            "out/deep/a.glb is reproduced",
+            "out/a.off is reproduced",
+        ]);
+    // STL has no room for the preset.
+    folder.run("reproduce out/a.stl").with_code(1);
+    folder.run("run scenes/r.ron").with_code(0);
+    folder
+        .run("reproduce out/a.stl --recipe scenes/r.ron")
+        .with_code(0)
+        .prints(&["out/a.stl is reproduced"]);
+    folder.run("reproduce out/a.stl").with_code(0);
+}
+
+#[test]
+fn parameters_that_were_set_are_set_again() {
+    let folder = folder().with("other/b.obj", TRIANGLE);
+    folder
+        .run("run scenes/r.ron --set input=other/b.obj --set levels=3")
+        .with_code(0);
+    folder
+        .run("reproduce out/b.obj")
+        .with_code(0)
+        .prints(&["out/b.obj is reproduced by scenes/r.ron"]);
+}
+
+#[test]
+fn what_has_changed_since_is_told() {
+    let folder = folder();
+    folder.run("run scenes/r.ron").with_code(0);
+    let folder = folder.with("scenes/a.obj", "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.run("reproduce out/a.obj").with_code(1).complains(&[
+        "out/a.obj is not reproduced by scenes/r.ron",
+        "a.obj has changed",
+    ]);
+    let folder = folder.with("scenes/a.obj", TRIANGLE).with(
+        "scenes/r.ron",
+        RECIPE.replace("Int(default: 1)", "Int(default: 3)"),
+    );
+    folder
+        .run("reproduce out/a.obj")
+        .with_code(1)
+        .complains(&["is the first that differs", "the recipe has changed"]);
+    let folder = folder.with("scenes/r.ron", RECIPE);
+    let text = String::from_utf8(folder.read("out/a.obj")).unwrap();
+    let folder = folder.with("out/a.obj", text.replacen("v ", "v 1", 1));
+    folder
+        .run("reproduce out/a.obj")
+        .with_code(1)
+        .complains(&["it was changed afterwards"]);
+}
+
+#[test]
+fn a_file_that_says_nothing_needs_its_recipe_named() {
+    let folder = folder();
+    folder
+        .run("reproduce scenes/a.obj")
+        .with_code(1)
+        .complains(&["scenes/a.obj does not say where it comes from", "--recipe"]);
+    folder.run("run scenes/r.ron").with_code(0);
+    std::fs::remove_file(folder.path("scenes/r.ron")).unwrap();
+    folder
+        .run("reproduce out/a.obj")
+        .with_code(1)
+        .complains(&["comes from the recipe r.ron with the digest", "--recipe"]);
+}

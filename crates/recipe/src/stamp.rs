@@ -1,0 +1,175 @@
+//! The stamp: the line that a written file carries about the run that made it.
+//!
+//! ```text
+//! meshwright 0.1.0, recipe 1f0c..e2, {"file":"teapot.ron","set":{"levels":"2"},"inputs":{"a.bez":"9a.."}}
+//! ```
+//!
+//! The digest of the recipe stands first, so that formats with little room keep it. The stamp holds no path
+//! of the machine: inputs are seen from the recipe's folder, and absolute ones are named without folders.
+
+use std::fmt;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::recipe::{Origin, Recipe};
+
+/// What a stamp says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stamp {
+    /// The program and its version.
+    pub program: String,
+    /// The digest of the recipe, with its parameters.
+    pub recipe: String,
+    /// The rest, unless there was no room for it.
+    pub run: Option<Run>,
+}
+
+/// What is needed to run the recipe again.
+#[derive(Clone, Debug, Default, Deserialize, Eq, PartialEq, Serialize)]
+pub struct Run {
+    /// The name of the recipe's file.
+    pub file: String,
+    /// The preset that was chosen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub preset: Option<String>,
+    /// The parameters that were set, and their values as text; paths are seen from the recipe's folder.
+    #[serde(default, skip_serializing_if = "Pairs::is_empty")]
+    pub set: Pairs,
+    /// The files that were read, and their digests.
+    #[serde(default, skip_serializing_if = "Pairs::is_empty")]
+    pub inputs: Pairs,
+}
+
+/// Names with texts, in order.
+pub type Pairs = std::collections::BTreeMap<String, String>;
+
+impl Stamp {
+    /// The stamp of files that a run of `recipe` writes. `inputs` are the files that it reads.
+    pub fn new(recipe: &Recipe, inputs: &[impl AsRef<Path>]) -> Self {
+        let mut run = Run::default();
+        if let Some(source) = recipe.sources.first() {
+            let name = source.path.file_name().unwrap_or_default();
+            run.file = name.to_string_lossy().into_owned();
+            for input in inputs.iter().map(AsRef::as_ref) {
+                // What cannot be read fails the run that would write the stamp.
+                if let Ok(digest) = digest(input) {
+                    run.inputs.insert(shown(input, source.folder()), digest);
+                }
+            }
+        }
+        for parameter in recipe.parameters() {
+            match &parameter.origin {
+                Origin::Preset(name) => run.preset = Some(name.clone()),
+                Origin::Set => {
+                    let text = ron::from_str::<String>(&parameter.literal);
+                    let text = text.unwrap_or_else(|_| parameter.literal.clone());
+                    run.set.insert(parameter.name.clone(), text);
+                }
+                Origin::Default | Origin::Call => {}
+            }
+        }
+        Self {
+            program: concat!("meshwright ", env!("CARGO_PKG_VERSION")).to_owned(),
+            recipe: recipe.digest(),
+            run: Some(run),
+        }
+    }
+
+    /// Reads a stamp; `None` if the text is none.
+    pub fn parse(text: &str) -> Option<Self> {
+        let (program, rest) = text.split_once(", recipe ")?;
+        let (recipe, rest) = rest.split_once(", ").unwrap_or((rest, ""));
+        let is_digest = recipe.len() == 32 && recipe.bytes().all(|b| b.is_ascii_hexdigit());
+        (is_digest && program.starts_with("meshwright ")).then(|| Self {
+            program: program.to_owned(),
+            recipe: recipe.to_owned(),
+            run: serde_json::from_str(rest).ok(),
+        })
+    }
+}
+
+impl fmt::Display for Stamp {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, recipe {}", self.program, self.recipe)?;
+        if let Some(run) = &self.run {
+            let run = serde_json::to_string(run).map_err(|_| fmt::Error)?;
+            write!(f, ", {run}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The digest of a file's bytes.
+///
+/// # Errors
+///
+/// If the file cannot be read.
+pub fn digest(path: &Path) -> std::io::Result<String> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(std::fs::File::open(path)?)?;
+    Ok(hasher.finalize().to_hex()[..32].to_owned())
+}
+
+/// The name of an input in a stamp.
+pub fn shown(input: &Path, folder: &Path) -> String {
+    let seen = match input.strip_prefix(folder) {
+        Ok(below) => below.to_owned(),
+        Err(_) if input.is_relative() => {
+            pathdiff::diff_paths(input, folder).unwrap_or_else(|| input.to_owned())
+        }
+        Err(_) => input.file_name().unwrap_or_default().into(),
+    };
+    seen.to_string_lossy().replace('\\', "/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Source, Values};
+
+    #[test]
+    fn a_stamp_says_what_is_needed_to_run_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let input = folder.path().join("a.bez");
+        std::fs::write(&input, "0").unwrap();
+        let text = r#"(recipe: 1, params: {
+            "n": Int(default: 1), "s": Text(default: ""), "m": Float(default: 1),
+        }, presets: {"fine": {"m": 2}}, steps: [])"#;
+        let set = [("n", "7"), ("s", "a \"b\"\n")].map(|(a, b)| (a.to_owned(), b.to_owned()));
+        let values = Values {
+            set: &set,
+            preset: Some("fine"),
+            folder: None,
+        };
+        let source = Source::new(folder.path().join("x.ron"), text);
+        let registry = op::Registry::new();
+        let recipe = crate::read(&source, &registry, values).recipe;
+        let stamp = Stamp::new(&recipe, &[input]);
+        let line = stamp.to_string();
+        assert_eq!(Stamp::parse(&line).as_ref(), Some(&stamp), "{line}");
+        assert!(!line.contains('\n') && !line.contains(&*folder.path().to_string_lossy()));
+        let run = stamp.run.unwrap();
+        assert_eq!(
+            (run.file.as_str(), run.preset.as_deref()),
+            ("x.ron", Some("fine"))
+        );
+        assert_eq!(run.set.into_iter().collect::<Vec<_>>(), set);
+        assert_eq!(run.inputs.keys().collect::<Vec<_>>(), ["a.bez"]);
+    }
+
+    #[test]
+    fn a_stamp_that_was_cut_off_keeps_the_digest() {
+        let line = "meshwright 0.1.0, recipe 0123456789abcdef0123456789abcdef, {\"fi";
+        let stamp = Stamp::parse(line).unwrap();
+        assert_eq!((stamp.recipe.len(), stamp.run), (32, None));
+        for text in [
+            "",
+            "meshwright 0.1.0",
+            "blender, recipe 01",
+            "meshwright 1, recipe zz",
+        ] {
+            assert_eq!(Stamp::parse(text), None, "{text}");
+        }
+    }
+}

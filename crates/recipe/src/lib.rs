@@ -8,10 +8,14 @@
 //! [`check`] plans all steps without touching geometry: counts, memory, files, names. [`run`] runs them;
 //! outputs appear only when every step is done and every expectation holds.
 
+pub mod compare;
 pub mod diagnostic;
+pub mod distance;
 pub mod expect;
 pub mod shape;
 pub mod syntax;
+pub mod update;
+pub mod upgrade;
 
 mod check;
 mod describe;
@@ -20,6 +24,7 @@ mod read;
 mod recipe;
 mod run;
 mod schema;
+mod select;
 mod source;
 pub mod stamp;
 
@@ -30,8 +35,9 @@ pub use expect::{Expectation, ReadObjects};
 pub use params::{Move, Param};
 pub use read::{MAX_STEPS, Reading, VERSION, Values, read};
 pub use recipe::{OnLoss, Origin, Parameter, Placed, Recipe, RecipeStep, Scope};
-pub use run::{Listener, Outcome, Settings, Silent, StepDone, run};
+pub use run::{Listener, Outcome, Settings, Silent, StepDone, Unmet, run};
 pub use schema::schema;
+pub use select::{ElementKind, Selected, read_selection};
 pub use shape::did_you_mean;
 pub use source::Source;
 pub use stamp::Stamp;

@@ -109,7 +109,7 @@ impl OnLoss {
 pub struct RecipeStep {
     /// The name that later parts of its text know it by.
     pub id: Option<String>,
-    /// The name of its operation, as written.
+    /// The name that its operation has now, or as written if there is none of that name.
     pub name: String,
     /// The name to show, which also keys its random choices: the id or else the operation, behind the
     /// calls and before the turns of the repetitions that it stands in, as in `clean/Weld#2`.

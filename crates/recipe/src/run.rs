@@ -11,7 +11,7 @@ use scene::{Digest, Geometry, Scene};
 
 use crate::check::forbidden;
 use crate::diagnostic::Diagnostic;
-use crate::expect::{ReadObjects, Subject};
+use crate::expect::{Found, ReadObjects, Subject};
 use crate::recipe::{Recipe, RecipeStep};
 
 /// Follows a run.
@@ -48,6 +48,8 @@ pub struct Outcome {
     pub steps: Vec<StepDone>,
     /// What went wrong: one failed step, or expectations that do not hold.
     pub failures: Vec<Diagnostic>,
+    /// The expectations that do not hold.
+    pub unmet: Vec<Unmet>,
     /// Whether the run was cancelled.
     pub cancelled: bool,
     /// How many expectations were held against the scene.
@@ -58,6 +60,17 @@ pub struct Outcome {
     pub digest: Digest,
     /// The files that were written.
     pub written: Vec<PathBuf>,
+}
+
+/// An expectation that does not hold.
+#[derive(Clone, Debug)]
+pub struct Unmet {
+    /// Its place in [`Recipe::expectations`].
+    pub expectation: usize,
+    /// The place of what is told of it in [`Outcome::failures`].
+    pub failure: usize,
+    /// What was found, if a value that it records is another one.
+    pub found: Option<Found>,
 }
 
 impl Outcome {
@@ -90,6 +103,7 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
         scene: Scene::new(),
         steps: Vec::new(),
         failures: Vec::new(),
+        unmet: Vec::new(),
         cancelled: false,
         checked: 0,
     };
@@ -118,6 +132,7 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
         scene,
         steps,
         failures,
+        unmet,
         cancelled,
         checked,
         ..
@@ -125,6 +140,7 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
     Outcome {
         steps,
         failures,
+        unmet,
         cancelled,
         checked,
         scene,
@@ -139,6 +155,7 @@ struct Runner<'a> {
     scene: Scene,
     steps: Vec<StepDone>,
     failures: Vec<Diagnostic>,
+    unmet: Vec<Unmet>,
     cancelled: bool,
     checked: usize,
 }
@@ -250,7 +267,10 @@ impl Runner<'_> {
 
     /// Holds the expectations after this step, or at the end, against the scene.
     fn expectations(&mut self, after: Option<usize>, files: &[Files]) {
-        for placed in self.recipe.expectations.iter().filter(|p| p.after == after) {
+        for (i, placed) in self.recipe.expectations.iter().enumerate() {
+            if placed.after != after {
+                continue;
+            }
             let subject = Subject {
                 scene: &self.scene,
                 on: placed.on.as_deref(),
@@ -258,8 +278,13 @@ impl Runner<'_> {
                 read: self.settings.read,
             };
             self.checked += 1;
-            if let Err(message) = placed.that.check(subject) {
-                let failure = Diagnostic::error(placed.span, message);
+            if let Err(broken) = placed.that.hold(subject) {
+                self.unmet.push(Unmet {
+                    expectation: i,
+                    failure: self.failures.len(),
+                    found: broken.found,
+                });
+                let failure = Diagnostic::error(placed.span, broken.message);
                 let step = after.and_then(|i| self.recipe.steps.get(i));
                 let failure = match step.filter(|step| step.scope == placed.scope) {
                     Some(step) => failure.with_label(step.span, "after this step"),

@@ -4,6 +4,8 @@ mod check;
 mod flow;
 mod read;
 mod run;
+mod update;
+mod upgrade;
 
 use std::path::Path;
 
@@ -56,12 +58,37 @@ impl Operation for Sheet {
     }
 }
 
+/// A way to lift.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+enum Way {
+    /// Up.
+    #[default]
+    #[serde(alias = "North")]
+    #[schemars(extend("aliases" = ["North"]))]
+    Up,
+    /// By so much more.
+    #[serde(alias = "More")]
+    #[schemars(extend("aliases" = ["More"]))]
+    Further {
+        /// In scene units.
+        #[serde(alias = "amount")]
+        #[schemars(extend("aliases" = ["amount"]))]
+        than: f64,
+    },
+}
+
 /// Lifts vertices.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 struct Lift {
     /// How far.
+    #[serde(alias = "height")]
+    #[schemars(extend("aliases" = ["height"]))]
     by: f64,
+    /// Which way, by the words of today or those of before.
+    #[serde(default)]
+    way: Way,
     /// Which vertices.
     #[serde(default)]
     vertices: VertexSelection,
@@ -72,6 +99,8 @@ struct Lift {
 
 impl MeshOperation for Lift {
     const NAME: &'static str = "Lift";
+    const VERSION: u32 = 2;
+    const ALIASES: &'static [&'static str] = &["Raise", "Elevate"];
     const SUMMARY: &'static str = "Lift vertices";
 
     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
@@ -86,9 +115,13 @@ impl MeshOperation for Lift {
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let chosen = self.vertices.resolve(mesh, cx)?;
+        let by = match self.way {
+            Way::Up => self.by,
+            Way::Further { than } => self.by + than,
+        };
         for (done, &v) in chosen.iter().enumerate() {
             cx.advance("lift", done as u64, chosen.len() as u64)?;
-            mesh.positions_mut()[mesh::Id::index(v)] += DVec3::new(0.0, 0.0, self.by);
+            mesh.positions_mut()[mesh::Id::index(v)] += DVec3::new(0.0, 0.0, by);
             if let Some(reason) = self.fails
                 && done >= chosen.len() / 2
             {

@@ -4,8 +4,18 @@ use mesh::{Domain, Mesh};
 use op::Files;
 use scene::Object;
 
-use super::subject::{Failure, Subject, ends, fails_unless, near, selected, within};
-use super::{Elements, Expectation, distance, same, symmetry};
+use super::subject::{Failure, Found, Subject, ends, fails_unless, near, selected, within};
+use super::{Elements, Expectation, same, symmetry};
+use crate::distance::{Distance, TOLERANCE, diagonal};
+
+/// An expectation that does not hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Broken {
+    /// What was expected and what was found, in one line.
+    pub message: String,
+    /// What was found, if a value that the expectation records is another one.
+    pub found: Option<Found>,
+}
 
 impl Expectation {
     /// Holds the expectation against a scene.
@@ -14,8 +24,24 @@ impl Expectation {
     ///
     /// What was expected and what was found, in one line.
     pub fn check(&self, subject: Subject) -> Result<(), String> {
+        self.hold(subject).map_err(|broken| broken.message)
+    }
+
+    /// The same, with what was found in place of a value that the expectation records.
+    ///
+    /// # Errors
+    ///
+    /// As [`check`](Self::check).
+    pub fn hold(&self, subject: Subject) -> Result<(), Broken> {
         self.ask(subject).map_err(|failure| match failure {
-            Failure::Unmet(message) | Failure::Unknown(message) => message,
+            Failure::Recorded(message, found) => Broken {
+                message,
+                found: Some(found),
+            },
+            Failure::Unmet(message) | Failure::Unknown(message) => Broken {
+                message,
+                found: None,
+            },
         })
     }
 
@@ -26,15 +52,16 @@ impl Expectation {
                 Ok(()) => Err(Failure::Unmet(format!(
                     "expected {inner} not to hold, but it does"
                 ))),
-                Err(Failure::Unmet(_)) => Ok(()),
+                Err(Failure::Unmet(_) | Failure::Recorded(..)) => Ok(()),
                 Err(unknown) => Err(unknown),
             },
             Self::Digest(expected) => {
                 let found = subject.scene.digest().to_string();
-                let same = *expected == found;
-                fails_unless(same, || {
-                    format!("expected the digest {expected}, found {found}")
-                })
+                if *expected == found {
+                    return Ok(());
+                }
+                let message = format!("expected the digest {expected}, found {found}");
+                Err(Failure::Recorded(message, Found::Digest(found)))
             }
             Self::Objects { eq, min, max } => {
                 within("objects", subject.objects()?.len() as u64, *eq, *min, *max)
@@ -149,10 +176,7 @@ impl Expectation {
             }
             Self::DistanceTo { other, below } => {
                 let (_, mesh) = subject.one_mesh()?;
-                let found = distance::largest(mesh, subject.other(other)?.as_ref());
-                fails_unless(found < *below, || {
-                    format!("expected a distance below {below}, found {found}")
-                })
+                distance_below(mesh, subject.other(other)?.as_ref(), *below)
             }
             Self::SymmetricUnder {
                 group,
@@ -196,6 +220,32 @@ impl Elements {
         };
         Ok(n as u64)
     }
+}
+
+/// Whether the Hausdorff distance is below a limit for certain: what could be on either side of it is measured
+/// as finely as it takes.
+fn distance_below(mesh: &Mesh, other: &Mesh, below: f64) -> Result<(), Failure> {
+    let size = diagonal(mesh, other);
+    let tolerance = (TOLERANCE * size).min(1e-3 * below).max(1e-12 * size);
+    let Some(found) = Distance::between(mesh, other, Some(tolerance)) else {
+        let message = format!("expected a distance below {below}, but a mesh has no faces");
+        return Err(Failure::Unmet(message));
+    };
+    fails_unless(found.at_most() < below, || {
+        let (largest, worst) = (found.largest(), found.worst());
+        let range = if largest < below {
+            format!("{largest} to {}", found.at_most())
+        } else {
+            largest.to_string()
+        };
+        let (from, to) = (worst.from, worst.to);
+        let way = if found.is_worst_forth() {
+            format!("from {from} to {to} of the other")
+        } else {
+            format!("from {from} of the other to {to}")
+        };
+        format!("expected a distance below {below}, found {range}: {way}")
+    })
 }
 
 fn manifold(name: &str, mesh: &Mesh) -> Result<(), Failure> {

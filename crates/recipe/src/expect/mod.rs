@@ -1,7 +1,6 @@
 //! Expectations: what must hold for the scene after a step or at the end.
 
 mod check;
-mod distance;
 mod same;
 mod subject;
 mod symmetry;
@@ -13,7 +12,9 @@ use op::{EdgeSelection, FaceSelection, Vector, VertexSelection};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use subject::{ReadObjects, Subject};
+pub use check::Broken;
+pub(crate) use same::same_faces;
+pub use subject::{Found, ReadObjects, Subject};
 pub use symmetry::Group;
 
 /// What must hold for a scene. Where it speaks of the mesh, it means all meshes together, or those of
@@ -215,8 +216,8 @@ pub enum Expectation {
         #[serde(default = "yes")]
         connectivity: bool,
     },
-    /// The largest distance between the mesh and another: from the vertices and the middles of edges
-    /// and faces of each to the surface of the other.
+    /// The largest distance between the surfaces of the mesh and another: the Hausdorff distance, both ways.
+    /// What cannot be told from the limit does not hold.
     DistanceTo {
         /// The other.
         other: Other,

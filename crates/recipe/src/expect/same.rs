@@ -53,7 +53,7 @@ impl<'m> Points<'m> {
 
 /// Whether the faces of `other`, their vertices mapped, are those of `mesh`; turned round if
 /// `reversed`.
-pub(super) fn same_faces(mesh: &Mesh, other: &Mesh, map: &[VertexId], reversed: bool) -> bool {
+pub(crate) fn same_faces(mesh: &Mesh, other: &Mesh, map: &[VertexId], reversed: bool) -> bool {
     let canonical = |mut corners: Vec<VertexId>| {
         let lowest = corners
             .iter()

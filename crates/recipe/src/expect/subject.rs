@@ -20,6 +20,8 @@ pub type ReadObjects<'a> = &'a (dyn Fn(&Path) -> Result<Vec<Object>, String> + S
 pub(super) enum Failure {
     /// The scene is not as expected.
     Unmet(String),
+    /// A value that the recipe records is another one in the scene.
+    Recorded(String, Found),
     /// There is nothing to hold it against: then its contrary does not hold either.
     Unknown(String),
 }
@@ -28,6 +30,33 @@ impl From<String> for Failure {
     fn from(message: String) -> Self {
         Self::Unknown(message)
     }
+}
+
+/// What was found in place of a value that an expectation records.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Found {
+    /// A whole number, in place of `eq`.
+    Count(i128),
+    /// A number, in place of `eq`.
+    Number(f64),
+    /// The digest of the scene.
+    Digest(String),
+    /// A place, in place of `is`.
+    Position {
+        /// The place.
+        at: DVec3,
+        /// How far from there it might be.
+        tolerance: f64,
+    },
+    /// The lowest and highest coordinates.
+    Bounds {
+        /// The lowest.
+        min: DVec3,
+        /// The highest.
+        max: DVec3,
+        /// How far from there each might be.
+        tolerance: f64,
+    },
 }
 
 /// What expectations are held against.
@@ -139,11 +168,17 @@ impl<'a> Subject<'a> {
         let low = points.iter().fold(first, |a, &b| a.min(b));
         let high = points.iter().fold(first, |a, &b| a.max(b));
         let off = |a: DVec3, b: Vector| (a - DVec3::from(b)).abs().max_element();
-        let close = off(low, min) <= tolerance && off(high, max) <= tolerance;
-        fails_unless(close, || {
-            let (min, max) = (DVec3::from(min), DVec3::from(max));
-            format!("expected bounds from {min} to {max}, found {low} to {high}")
-        })
+        if off(low, min) <= tolerance && off(high, max) <= tolerance {
+            return Ok(());
+        }
+        let (min, max) = (DVec3::from(min), DVec3::from(max));
+        let message = format!("expected bounds from {min} to {max}, found {low} to {high}");
+        let found = Found::Bounds {
+            min: low,
+            max: high,
+            tolerance,
+        };
+        Err(Failure::Recorded(message, found))
     }
 
     pub(super) fn valence(
@@ -240,9 +275,7 @@ impl<'a> Subject<'a> {
             return Err(message.into());
         };
         let found = mesh.position(v);
-        fails_unless(found.distance(is) <= tolerance, || {
-            format!("expected {v} at {is}, found it at {found}")
-        })
+        found_at(found, is, tolerance, || v.to_string())
     }
 
     pub(super) fn point(
@@ -272,8 +305,8 @@ impl<'a> Subject<'a> {
             let message = format!("there is no point {index} on a polyline {line}");
             return Err(Failure::Unmet(message));
         };
-        fails_unless(found.distance(is) <= tolerance, || {
-            format!("expected point {index} of polyline {line} at {is}, found it at {found}")
+        found_at(found, is, tolerance, || {
+            format!("point {index} of polyline {line}")
         })
     }
 }
@@ -299,6 +332,22 @@ pub(super) fn ends(mesh: &Mesh, e: EdgeId) -> String {
     format!("the edge {v}-{w}")
 }
 
+fn found_at(
+    at: DVec3,
+    is: DVec3,
+    tolerance: f64,
+    what: impl FnOnce() -> String,
+) -> Result<(), Failure> {
+    if at.distance(is) <= tolerance {
+        return Ok(());
+    }
+    let message = format!("expected {} at {is}, found it at {at}", what());
+    Err(Failure::Recorded(
+        message,
+        Found::Position { at, tolerance },
+    ))
+}
+
 pub(super) fn fails_unless(holds: bool, message: impl FnOnce() -> String) -> Result<(), Failure> {
     if holds {
         Ok(())
@@ -307,7 +356,7 @@ pub(super) fn fails_unless(holds: bool, message: impl FnOnce() -> String) -> Res
     }
 }
 
-pub(super) fn within<T: PartialOrd + fmt::Display + Copy>(
+pub(super) fn within<T: PartialOrd + fmt::Display + Copy + Into<i128>>(
     what: &str,
     found: T,
     eq: Option<T>,
@@ -320,9 +369,15 @@ pub(super) fn within<T: PartialOrd + fmt::Display + Copy>(
         ("at most ", max, max.is_none_or(|n| found <= n)),
     ];
     match bounds.into_iter().find(|(_, _, holds)| !holds) {
-        Some((word, Some(n), _)) => Err(Failure::Unmet(format!(
-            "expected {word}{n} {what}, found {found}"
-        ))),
+        Some((word, Some(n), _)) => {
+            let message = format!("expected {word}{n} {what}, found {found}");
+            // A recorded value in place of the found one would not mend what is broken besides.
+            Err(if word.is_empty() && bounds[1].2 && bounds[2].2 {
+                Failure::Recorded(message, Found::Count(found.into()))
+            } else {
+                Failure::Unmet(message)
+            })
+        }
         _ => Ok(()),
     }
 }
@@ -333,15 +388,21 @@ pub(super) fn near(
     [eq, min, max]: [Option<f64>; 3],
     tolerance: f64,
 ) -> Result<(), Failure> {
+    const EQ: &str = "of ";
     let bounds = [
-        ("of ", eq, eq.is_none_or(|x| (found - x).abs() <= tolerance)),
+        (EQ, eq, eq.is_none_or(|x| (found - x).abs() <= tolerance)),
         ("of at least ", min, min.is_none_or(|x| found >= x)),
         ("of at most ", max, max.is_none_or(|x| found <= x)),
     ];
     match bounds.into_iter().find(|(_, _, holds)| !holds) {
-        Some((word, Some(x), _)) => Err(Failure::Unmet(format!(
-            "expected {what} {word}{x}, found {found}"
-        ))),
+        Some((word, Some(x), _)) => {
+            let message = format!("expected {what} {word}{x}, found {found}");
+            Err(if word == EQ && bounds[1].2 && bounds[2].2 {
+                Failure::Recorded(message, Found::Number(found))
+            } else {
+                Failure::Unmet(message)
+            })
+        }
         _ => Ok(()),
     }
 }

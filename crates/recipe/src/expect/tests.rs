@@ -513,7 +513,10 @@ fn the_distance_to_another_surface_is_below_a_limit() {
     );
     assert_eq!(
         check("DistanceTo(other: Object(\"far\"), below: 0.5)"),
-        Err("expected a distance below 0.5, found 0.5".to_owned())
+        Err(
+            "expected a distance below 0.5, found 0.5: from v0 at [-1, -1, -1] to f5 at [-1, -1, -0.5] of the other"
+                .to_owned()
+        )
     );
     assert_eq!(
         check_on(&two, None, "DistanceTo(other: Object(\"far\"), below: 1)"),

@@ -11,6 +11,7 @@ use crate::recipe::RecipeStep;
 use crate::schema;
 use crate::shape::{check_shape, check_step, did_you_mean};
 use crate::syntax::{self, Value, ValueKind};
+use crate::upgrade::{self, Rename};
 
 impl Reader<'_, '_> {
     /// Reads a list of steps.
@@ -81,6 +82,8 @@ impl Reader<'_, '_> {
             .and_then(|reason| syntax::ron_options().from_str(&reason.to_string()).ok());
         let on_loss = envelope("on_loss")
             .and_then(|on_loss| syntax::ron_options().from_str(&on_loss.to_string()).ok());
+        // The name keys random choices: an older one must not make others.
+        let name = entry.as_ref().map_or(name, |entry| entry.name);
         let step = RecipeStep {
             step,
             on,
@@ -98,6 +101,8 @@ impl Reader<'_, '_> {
             self.diagnostics.extend(wrong);
             return None;
         }
+        let renames = upgrade::in_step(run, entry, &schema);
+        self.diagnostics.extend(renames.iter().map(Rename::warning));
         // A name alone stands for a name with nothing in brackets.
         let parameters = match &run.kind {
             ValueKind::Call(call) => call.body.to_string(),

@@ -32,13 +32,20 @@ impl Checker {
                 return self.mismatch(value, &expected, place, help.map(str::to_owned));
             }
         };
+        let mut given = Vec::with_capacity(fields.len());
         for field in fields {
-            match schema.field(&field.name.text) {
-                Some(inner) => self.check(&field.value, &inner, Place::named(&field.name.text)),
-                None => self.unknown_field(value, field, schema, place),
+            let name = &*field.name.text;
+            let Some((current, inner)) = schema.field_or_alias(name) else {
+                self.unknown_field(value, field, schema, place);
+                continue;
+            };
+            if current != name {
+                self.renamed(value, field.name.span, name, current);
             }
+            given.push(current);
+            self.check(&field.value, &inner, Place::named(name));
         }
-        let is_given = |name: &&str| fields.iter().any(|field| &*field.name.text == *name);
+        let is_given = |name: &&str| given.contains(name);
         let missing: Vec<&str> = schema.required().filter(|name| !is_given(name)).collect();
         if complete && !missing.is_empty() {
             let subject = place

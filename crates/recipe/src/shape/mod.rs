@@ -30,6 +30,7 @@ pub use nearest::{did_you_mean, nearest};
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::{Value, ValueKind};
+use crate::upgrade::Rename;
 use schema::Schema;
 use serde_json::Value as Json;
 
@@ -41,6 +42,12 @@ pub fn check_shape(value: &Value, schema: &Json) -> Vec<Diagnostic> {
     let mut checker = Checker::default();
     checker.check(value, &Schema::root(schema), Place::default());
     checker.finish()
+}
+
+/// The names of the variants of an enumeration, in the order of its schema; none of another type.
+pub(crate) fn variants(schema: &Json) -> Vec<String> {
+    let choice = Schema::root(schema).choice().unwrap_or_default();
+    choice.names().map(str::to_owned).collect()
 }
 
 /// The same for a step `Name(parameters)`, or `Name`, whose name the caller knows already.
@@ -69,6 +76,24 @@ pub fn check_step(step: &Value, schema: &Json) -> Vec<Diagnostic> {
         _ => checker.check(step, &schema, place),
     }
     checker.finish()
+}
+
+/// The older names of fields and variants in a value that has the shape of `schema`, in the order of the
+/// text: those that the schema lists as `aliases`.
+pub(crate) fn renames(value: &Value, schema: &Json) -> Vec<Rename> {
+    let mut checker = Checker::default();
+    checker.check(value, &Schema::root(schema), Place::default());
+    checker.renames()
+}
+
+/// The same for a step, as [`check_step`].
+pub(crate) fn step_renames(step: &Value, schema: &Json) -> Vec<Rename> {
+    let mut checker = Checker::default();
+    if let ValueKind::Call(call) = &step.kind {
+        let place = Place::named(&call.name.text);
+        checker.check_struct(&call.body, &Schema::root(schema), place, call.name.span);
+    }
+    checker.renames()
 }
 
 /// Where a value stands, for messages.
@@ -121,6 +146,8 @@ struct Checker {
     more: usize,
     /// How many values around this one are tried against several schemas.
     trials: u32,
+    /// Older names that were met.
+    renames: Vec<Rename>,
 }
 
 /// Most problems of one value that are reported one by one.
@@ -137,6 +164,19 @@ impl Checker {
             self.diagnostics.push(Diagnostic::error(last, message));
         }
         self.diagnostics
+    }
+
+    fn renames(mut self) -> Vec<Rename> {
+        self.renames.sort_by_key(|rename| rename.span);
+        self.renames
+    }
+
+    /// Notes an older name, unless a parameter of the recipe brought it.
+    fn renamed(&mut self, value: &Value, span: Span, from: &str, to: &str) {
+        if value.parameter.is_none() {
+            let (from, to) = (from.to_owned(), to.to_owned());
+            self.renames.push(Rename { span, from, to });
+        }
     }
 
     /// Reports a problem of `value`, saying so if a parameter of the recipe brought it.

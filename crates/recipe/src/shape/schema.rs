@@ -275,6 +275,26 @@ impl<'s> Schema<'s> {
         found.next().map(|json| Self::new(self.root, json))
     }
 
+    /// The field of this name, or that had it before, with its name.
+    pub(super) fn field_or_alias(&self, name: &str) -> Option<(&'s str, Self)> {
+        let fields = || self.all("properties").filter_map(Json::as_object).flatten();
+        let (current, json) = fields()
+            .find(|(current, _)| *current == name)
+            .or_else(|| fields().find(|(_, json)| has_alias(json, name)))?;
+        Some((current, Self::new(self.root, json)))
+    }
+
+    /// The variant that had this name before.
+    pub(super) fn variant_by_alias(&self, name: &str) -> Option<&'s str> {
+        let parts = ["oneOf", "anyOf"].into_iter().flat_map(|key| self.all(key));
+        let part = parts
+            .filter_map(Json::as_array)
+            .flatten()
+            .find(|part| has_alias(part, name))?;
+        let unit = part["const"].as_str();
+        unit.or_else(|| Some(part["properties"].as_object()?.keys().next()?.as_str()))
+    }
+
     /// The fields that must be given.
     pub(super) fn required(&self) -> impl Iterator<Item = &'s str> {
         self.all("required")
@@ -383,6 +403,12 @@ impl<'s> Choice<'s> {
             .copied()
             .chain(self.variants.iter().map(|(name, _)| *name))
     }
+}
+
+/// Whether a field or variant had this name before.
+fn has_alias(json: &Json, name: &str) -> bool {
+    let aliases = json.get("aliases").and_then(Json::as_array);
+    aliases.is_some_and(|aliases| aliases.iter().any(|alias| alias == name))
 }
 
 fn dots(count: usize) -> String {

@@ -13,9 +13,9 @@ impl Checker {
         choice: &Choice,
         place: Place,
     ) {
-        let has_variant = value
-            .name()
-            .is_some_and(|(name, _)| choice.names().any(|n| n == name));
+        let has_variant = value.name().is_some_and(|(name, _)| {
+            choice.names().any(|n| n == name) || schema.variant_by_alias(name).is_some()
+        });
         match choice.others.as_slice() {
             [] => self.check_variant(value, schema, choice, place),
             _ if has_variant => self.check_variant(value, schema, choice, place),
@@ -34,6 +34,21 @@ impl Checker {
                 .map(|(_, s)| s)
         };
         let is_unit = |name: &str| choice.units.contains(&name);
+        let is_known = |name: &str| is_unit(name) || content(name).is_some();
+        // A variant that was renamed is checked under its name of today.
+        if let Some((name, span)) = value.name()
+            && !is_known(name)
+            && let Some(current) = schema.variant_by_alias(name).filter(|name| is_known(name))
+        {
+            self.renamed(value, span, name, current);
+            return match &value.kind {
+                ValueKind::Call(call) => match content(current) {
+                    Some(content) => self.check_content(call, content),
+                    None => self.check_variant(&renamed(value, current), schema, choice, place),
+                },
+                _ => self.check_variant(&renamed(value, current), schema, choice, place),
+            };
+        }
         match &value.kind {
             ValueKind::Name(name) if is_unit(name) => {}
             ValueKind::Name(name) => match content(name) {
@@ -151,6 +166,7 @@ impl Checker {
             };
             trial.check(value, other, place);
             if trial.diagnostics.is_empty() {
+                self.renames.extend(trial.renames);
                 return;
             }
             // What is wrong inside of the value is closer than a value of the wrong form.
@@ -165,10 +181,22 @@ impl Checker {
         match closest {
             Some(best) if best.diagnostics.iter().all(|d| d.span != Some(value.span)) => {
                 self.diagnostics.extend(best.diagnostics);
+                self.renames.extend(best.renames);
             }
             _ => self.mismatch(value, &schema.expectation(), place, None),
         }
     }
+}
+
+/// The same value under another name.
+fn renamed(value: &Value, name: &str) -> Value {
+    let mut renamed = value.clone();
+    match &mut renamed.kind {
+        ValueKind::Name(own) => *own = name.into(),
+        ValueKind::Call(call) => call.name.text = name.into(),
+        _ => {}
+    }
+    renamed
 }
 
 /// The list of the variants, if it is not too long to read.

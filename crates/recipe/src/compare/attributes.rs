@@ -1,0 +1,130 @@
+//! The attributes of two meshes side by side.
+
+use mesh::{Column, Domain, Id, Mesh, Values};
+
+use super::meshes::Order;
+
+/// An attribute that one of two meshes has, or both.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AttributeDifference {
+    /// What it belongs to.
+    pub domain: Domain,
+    /// Its name.
+    pub name: String,
+    /// What differs.
+    pub difference: ColumnDifference,
+}
+
+/// How an attribute of one mesh differs from that of another.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ColumnDifference {
+    /// Every value is the same.
+    None,
+    /// Only the first mesh has it.
+    OnlyFirst,
+    /// Only the second mesh has it.
+    OnlySecond,
+    /// The types of the values differ.
+    Types([&'static str; 2]),
+    /// Edits treat the values in another way.
+    Rules,
+    /// The meshes have other elements, so that values cannot be compared.
+    Unknown,
+    /// Values differ.
+    Values {
+        /// How many.
+        count: usize,
+        /// By how much at most: the largest difference of a number in them; 1 between tags.
+        by: f64,
+        /// The element with that difference, such as `v12`, in the numbers of the first mesh.
+        element: String,
+    },
+}
+
+impl AttributeDifference {
+    /// Whether both meshes have it and no value differs by more than `tolerance`.
+    pub fn is_within(&self, tolerance: f64) -> bool {
+        match &self.difference {
+            ColumnDifference::None => true,
+            ColumnDifference::Values { by, .. } => *by <= tolerance,
+            _ => false,
+        }
+    }
+}
+
+/// The attributes of both meshes; values are compared if the orders of their elements are given.
+pub(super) fn differences(
+    [a, b]: [&Mesh; 2],
+    orders: Option<&[Order; 2]>,
+) -> Vec<AttributeDifference> {
+    let mut found = Vec::new();
+    let mut add = |domain, name: &str, difference| {
+        found.push(AttributeDifference {
+            domain,
+            name: name.to_owned(),
+            difference,
+        });
+    };
+    for domain in Domain::ALL {
+        for column in a.attributes().of(domain) {
+            let difference = match (b.attributes().column(domain, &column.name), orders) {
+                (None, _) => ColumnDifference::OnlyFirst,
+                (Some(other), _) if column.values.type_name() != other.values.type_name() => {
+                    ColumnDifference::Types([column, other].map(|c| c.values.type_name()))
+                }
+                (Some(other), _) if column.rule != other.rule => ColumnDifference::Rules,
+                (Some(_), None) => ColumnDifference::Unknown,
+                (Some(other), Some([p, q])) => match domain {
+                    Domain::Vertex => values(column, other, &p.vertices, &q.vertices),
+                    Domain::Corner => values(column, other, &p.corners, &q.corners),
+                    Domain::Edge => values(column, other, &p.edges, &q.edges),
+                    Domain::Face => values(column, other, &p.faces, &q.faces),
+                },
+            };
+            add(domain, &column.name, difference);
+        }
+        for column in b.attributes().of(domain) {
+            if a.attributes().column(domain, &column.name).is_none() {
+                add(domain, &column.name, ColumnDifference::OnlySecond);
+            }
+        }
+    }
+    found
+}
+
+/// Compares the values of elements in pairs.
+fn values<I: Id>(a: &Column, b: &Column, first: &[I], second: &[I]) -> ColumnDifference {
+    let (mut count, mut most, mut element) = (0, 0.0, None);
+    for (&i, &j) in first.iter().zip(second) {
+        let by = apart(&a.values, i.index(), &b.values, j.index());
+        // What is no number on one side differs too.
+        if by == 0.0 {
+            continue;
+        }
+        count += 1;
+        if element.is_none() || by > most {
+            (most, element) = (by, Some(i));
+        }
+    }
+    match element {
+        None => ColumnDifference::None,
+        Some(element) => ColumnDifference::Values {
+            count,
+            by: most,
+            element: element.to_string(),
+        },
+    }
+}
+
+/// The largest difference between the numbers of two values of one type.
+fn apart(a: &Values, i: usize, b: &Values, j: usize) -> f64 {
+    match (a, b) {
+        (Values::Float(a), Values::Float(b)) => (a[i] - b[j]).abs(),
+        (Values::Vec2(a), Values::Vec2(b)) => (a[i] - b[j]).abs().max_element(),
+        (Values::Vec3(a), Values::Vec3(b)) => (a[i] - b[j]).abs().max_element(),
+        (Values::Vec4(a), Values::Vec4(b)) => (a[i] - b[j]).abs().max_element(),
+        (Values::Int(a), Values::Int(b)) => (f64::from(a[i]) - f64::from(b[j])).abs(),
+        (Values::Tag(a), Values::Tag(b)) => f64::from(u8::from(a[i] != b[j])),
+        _ => f64::INFINITY,
+    }
+}

@@ -1,0 +1,164 @@
+//! Two scenes side by side: what one has and the other has not, and how far apart they are.
+//!
+//! Objects are held against those of the same name. One object that is left over on each side is held
+//! against the other too: two files that hold one mesh each name it after themselves.
+
+mod attributes;
+mod meshes;
+
+use scene::{Geometry, Object, Scene};
+
+pub use attributes::{AttributeDifference, ColumnDifference};
+pub use meshes::{Connectivity, Counts, MeshDifference, Moved};
+
+/// Two scenes side by side.
+#[derive(Clone, Debug)]
+pub struct Difference {
+    /// Whether both have the same digest, or would have if their only objects were named alike.
+    pub identical: bool,
+    /// Objects that only the first scene has.
+    pub only_first: Vec<String>,
+    /// Objects that only the second scene has.
+    pub only_second: Vec<String>,
+    /// Objects that both have, in the order of the first.
+    pub objects: Vec<ObjectDifference>,
+}
+
+/// Two objects side by side.
+#[derive(Clone, Debug)]
+pub struct ObjectDifference {
+    /// Their names.
+    pub names: [String; 2],
+    /// The kinds of their geometry.
+    pub kinds: [&'static str; 2],
+    /// Whether they are equal bit by bit, names apart.
+    pub identical: bool,
+    /// What differs between the meshes, if both are.
+    pub mesh: Option<Box<MeshDifference>>,
+    /// Materials that only the first object has.
+    pub materials_only_first: Vec<String>,
+    /// Materials that only the second object has.
+    pub materials_only_second: Vec<String>,
+    /// Materials that both have under one name and that are not equal.
+    pub materials_differ: Vec<String>,
+    /// Whether both have the same names of materials, and in another order.
+    pub materials_reordered: bool,
+}
+
+impl Difference {
+    /// Holds two scenes against each other. Distances are measured between meshes that are not identical.
+    pub fn between(first: &Scene, second: &Scene) -> Self {
+        let is_in = |scene: &Scene, o: &&Object| scene.object(&o.name).is_some();
+        let mut pairs: Vec<(&Object, &Object)> = first
+            .objects()
+            .iter()
+            .filter_map(|o| Some((o, second.object(&o.name)?)))
+            .collect();
+        let mut only_first: Vec<&Object> = first.objects().iter().collect();
+        only_first.retain(|o| !is_in(second, o));
+        let mut only_second: Vec<&Object> = second.objects().iter().collect();
+        only_second.retain(|o| !is_in(first, o));
+        if let ([one], [other]) = (&only_first[..], &only_second[..]) {
+            pairs.push((one, other));
+            only_first.clear();
+            only_second.clear();
+        }
+        let objects: Vec<ObjectDifference> = pairs
+            .into_iter()
+            .map(|(a, b)| ObjectDifference::between(a, b))
+            .collect();
+        let names = |objects: Vec<&Object>| objects.iter().map(|o| o.name.clone()).collect();
+        let order = |scene: &Scene| -> Vec<String> {
+            let names = scene.objects().iter().map(|o| o.name.clone());
+            names
+                .filter(|name| {
+                    objects
+                        .iter()
+                        .any(|o| o.names == [name.clone(), name.clone()])
+                })
+                .collect()
+        };
+        let identical = only_first.is_empty()
+            && only_second.is_empty()
+            && objects.iter().all(|o| o.identical)
+            && order(first) == order(second);
+        Self {
+            identical,
+            only_first: names(only_first),
+            only_second: names(only_second),
+            objects,
+        }
+    }
+
+    /// Whether the scenes have the same objects with the same elements in the same order, and no position
+    /// and no value of an attribute differs by more than `tolerance`, in the unit that it has.
+    pub fn is_within(&self, tolerance: f64) -> bool {
+        self.identical
+            || (self.only_first.is_empty()
+                && self.only_second.is_empty()
+                && self.objects.iter().all(|o| o.is_within(tolerance)))
+    }
+}
+
+impl ObjectDifference {
+    fn between(a: &Object, b: &Object) -> Self {
+        let identical = same_bits(a, b);
+        let mesh = match (&a.geometry, &b.geometry) {
+            (Geometry::Mesh(mesh), Geometry::Mesh(other)) => {
+                Some(Box::new(MeshDifference::between(mesh, other, identical)))
+            }
+            _ => None,
+        };
+        let find = |o: &'_ Object, name: &str| o.materials.iter().position(|m| m.name == name);
+        let missing = |from: &Object, other: &Object| -> Vec<String> {
+            let names = from.materials.iter().map(|m| m.name.clone());
+            names.filter(|name| find(other, name).is_none()).collect()
+        };
+        let (materials_only_first, materials_only_second) = (missing(a, b), missing(b, a));
+        let differ = a
+            .materials
+            .iter()
+            .filter(|m| find(b, &m.name).is_some_and(|i| b.materials[i] != **m));
+        let order =
+            |o: &Object| -> Vec<String> { o.materials.iter().map(|m| m.name.clone()).collect() };
+        Self {
+            names: [a.name.clone(), b.name.clone()],
+            kinds: [a.geometry.kind(), b.geometry.kind()],
+            identical,
+            mesh,
+            materials_differ: differ.map(|m| m.name.clone()).collect(),
+            materials_reordered: materials_only_first.is_empty()
+                && materials_only_second.is_empty()
+                && order(a) != order(b),
+            materials_only_first,
+            materials_only_second,
+        }
+    }
+
+    /// As [`Difference::is_within`].
+    pub fn is_within(&self, tolerance: f64) -> bool {
+        let same_materials = self.materials_only_first.is_empty()
+            && self.materials_only_second.is_empty()
+            && self.materials_differ.is_empty()
+            && !self.materials_reordered;
+        let is_near = |mesh: &MeshDifference| mesh.is_within(tolerance);
+        self.identical || (same_materials && self.mesh.as_deref().is_some_and(is_near))
+    }
+}
+
+/// Whether two objects are the same but for their names, to the last bit.
+fn same_bits(a: &Object, b: &Object) -> bool {
+    let digest = |object: &Object| {
+        let mut scene = Scene::new();
+        let named = Object {
+            name: String::new(),
+            ..object.clone()
+        };
+        scene.insert(named).expect("the only object");
+        scene.digest()
+    };
+    digest(a) == digest(b)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,122 @@
+//! Older names: read with a warning, and rewritten.
+
+use super::{read, registry, shown, steps};
+use crate::upgrade::upgrade;
+
+const OLD: &str = "(
+    recipe: 1, // one
+    steps: [
+        Sheet(columns: 2),
+        (id: \"a\", run: Raise(height: 1 /* up */, way: North)),\r
+        Elevate( by: 2, way: More(amount: 0.5), vertices: Random(count: 1, seed: 3) ),
+    ],
+)";
+
+const NEW: &str = "(
+    recipe: 1, // one
+    steps: [
+        Sheet(columns: 2),
+        (id: \"a\", run: Lift(by: 1 /* up */, way: Up)),\r
+        Lift( by: 2, way: Further(than: 0.5), vertices: Random(count: 1, seed: 3) ),
+    ],
+)";
+
+#[test]
+fn older_names_are_read_with_a_warning_that_says_what_to_do() {
+    let reading = read(OLD);
+    assert!(!reading.has_errors(), "{:#?}", reading.diagnostics);
+    let help = "meshwright upgrade writes the new name into the recipe";
+    assert_eq!(
+        shown(OLD, &reading.diagnostics),
+        [
+            ("Raise", "`Raise` is called `Lift` now", help),
+            ("height", "`height` is called `by` now", help),
+            ("North", "`North` is called `Up` now", help),
+            ("Elevate", "`Elevate` is called `Lift` now", help),
+            ("More", "`More` is called `Further` now", help),
+            ("amount", "`amount` is called `than` now", help),
+        ]
+    );
+    assert!(read(NEW).diagnostics.is_empty());
+}
+
+#[test]
+fn upgrading_rewrites_older_names_and_nothing_else() {
+    let upgraded = upgrade(OLD, &registry()).unwrap();
+    assert_eq!(upgraded.text, NEW);
+    let told: Vec<_> = upgraded
+        .renames
+        .iter()
+        .map(|(line, r)| (*line, r.from.as_str(), r.to.as_str()))
+        .collect();
+    assert_eq!(told[0], (5, "Raise", "Lift"));
+    assert_eq!(told.len(), 6);
+    let again = upgrade(NEW, &registry()).unwrap();
+    assert_eq!((again.text.as_str(), again.renames.len()), (NEW, 0));
+}
+
+#[test]
+fn an_older_spelling_is_the_same_recipe() {
+    assert_eq!(read(OLD).recipe.digest(), read(NEW).recipe.digest());
+    let labels = |text| -> Vec<String> {
+        let recipe = read(text).recipe;
+        recipe.steps.iter().map(|s| s.label().to_owned()).collect()
+    };
+    assert_eq!(labels(OLD), labels(NEW));
+}
+
+#[test]
+fn a_field_under_both_names_is_an_error() {
+    let reading = read(&steps("Sheet(columns: 1), Lift(by: 1, height: 2)"));
+    assert!(reading.has_errors());
+}
+
+#[test]
+fn what_is_newer_or_no_recipe_is_refused_politely() {
+    let refused = |text| {
+        let problems = upgrade(text, &registry()).unwrap_err();
+        problems[0].message.clone()
+    };
+    assert_eq!(
+        refused("(recipe: 2, steps: [Raise(by: 1)])"),
+        "this recipe is of version 2, expected 1"
+    );
+    assert_eq!(
+        refused("(steps: [Raise(by: 1)])"),
+        "expected a recipe, found a text without `recipe: 1`"
+    );
+    assert_eq!(
+        refused("(recipe: \"1\", steps: [])"),
+        "expected version 1, found the string \"1\""
+    );
+    assert!(upgrade("(recipe: 1, steps: [Raise(by: 1)", &registry()).is_err());
+}
+
+#[test]
+fn a_recipe_with_other_mistakes_is_upgraded_all_the_same() {
+    let upgraded = upgrade(&steps("Raise(hight: 1), Nothing(a: 1)"), &registry()).unwrap();
+    assert_eq!(upgraded.text, steps("Lift(hight: 1), Nothing(a: 1)"));
+}
+
+#[test]
+fn steps_inside_of_steps_are_upgraded_too() {
+    let text = steps(
+        "Sheet(columns: 1), Repeat(times: 2, steps: [(id: \"a\", run: Raise(height: 1))]), \
+         (run: If(param: \"p\", steps: [Raise(by: 1)], otherwise: [Elevate(by: 2)]))",
+    );
+    let new = text
+        .replace("Raise", "Lift")
+        .replace("Elevate", "Lift")
+        .replace("height", "by");
+    assert_eq!(upgrade(&text, &registry()).unwrap().text, new);
+}
+
+#[test]
+fn a_value_of_a_parameter_is_left_to_its_declaration() {
+    let text =
+        "(recipe: 1, params: { \"way\": Choice(default: \"North\", of: [\"North\", \"Up\"]) },
+        steps: [Sheet(columns: 1), Lift(by: 1, way: arg(\"way\"))])";
+    let reading = read(text);
+    assert!(reading.diagnostics.is_empty(), "{:#?}", reading.diagnostics);
+    assert_eq!(upgrade(text, &registry()).unwrap().text, text);
+}

@@ -1,0 +1,292 @@
+//! Renewing what a recipe records: expectations whose recorded value is not the one that was found get the
+//! found one, in the text of the recipe, and everything else in the text stays as it is.
+//!
+//! Recorded are `eq`, `is`, the corners of `Bounds`, and `Digest`. What bounds a result from one side, such
+//! as `min` and `below`, and what holds or not, such as `Manifold`, is what somebody wants of it: it is never
+//! changed. A value that a parameter brings is changed by whoever changes the parameter.
+
+use crate::diagnostic::{Diagnostic, LineIndex, Span};
+use crate::expect::Found;
+use crate::recipe::Recipe;
+use crate::run::{Outcome, Unmet};
+use crate::syntax::{self, Value, ValueKind, string_literal};
+
+/// A recipe with its recorded values renewed.
+#[derive(Clone, Debug)]
+pub struct Update {
+    /// The text.
+    pub text: String,
+    /// What was changed, in the order of the text.
+    pub changes: Vec<Change>,
+    /// What went wrong and is not mended by that, each with a word on why, in the order of the run.
+    pub left: Vec<Diagnostic>,
+}
+
+/// A value that was changed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Change {
+    /// The place of the expectation in the text before.
+    pub span: Span,
+    /// Its line in the text before, from 1.
+    pub line: usize,
+    /// The expectation as it was, in one line.
+    pub was: String,
+    /// The value that it has now.
+    pub found: String,
+}
+
+/// Renews the recorded values in the text of the recipe itself by what its run found.
+pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
+    let source: &str = recipe.sources.first().map_or("", |source| &source.text);
+    let tree = syntax::parse(source).value;
+    let lines = LineIndex::new(source);
+    let (mut edits, mut changes, mut mended) = (Vec::new(), Vec::new(), Vec::new());
+    let mut left = outcome.failures.clone();
+    for unmet in &outcome.unmet {
+        match renewal(&tree, recipe, outcome, unmet) {
+            Ok((value, fix)) => {
+                let change = Change {
+                    span: value.span,
+                    line: lines.position(value.span.start).0,
+                    was: value.to_string(),
+                    found: fix.shown,
+                };
+                // Every turn of a repetition asks for it.
+                if !changes.contains(&change) {
+                    changes.push(change);
+                    edits.extend(fix.edits);
+                }
+                mended.push(unmet.failure);
+            }
+            Err(why) => {
+                if let Some(failure) = left.get_mut(unmet.failure) {
+                    failure.help.get_or_insert(why);
+                }
+            }
+        }
+    }
+    changes.sort_by_key(|change| change.span);
+    let mut number = 0..;
+    left.retain(|_| number.next().is_some_and(|i| !mended.contains(&i)));
+    // Expectations lie apart, and so do the values in them.
+    let text = syntax::replace(source, edits).unwrap_or_else(|_| source.to_owned());
+    Update {
+        text,
+        changes,
+        left,
+    }
+}
+
+/// What makes an expectation record what was found, and where it stands; or why that cannot be done.
+fn renewal<'t>(
+    tree: &'t Value,
+    recipe: &Recipe,
+    outcome: &Outcome,
+    unmet: &Unmet,
+) -> Result<(&'t Value, Fix), String> {
+    let placed = recipe
+        .expectations
+        .get(unmet.expectation)
+        .ok_or(NOT_RECORDED)?;
+    if recipe.source_of(placed.scope) != 0 {
+        let help = "it stands in a recipe that this one calls, so it is not updated";
+        return Err(help.to_owned());
+    }
+    let value = expectation_at(tree, placed.span).ok_or(NOT_RECORDED)?;
+    let fix = fix(value, unmet.found.as_ref())?;
+    // In a repetition it is held against the scene in each turn.
+    let others = recipe.expectations.iter().enumerate().filter(|(_, other)| {
+        let is_same = other.scope == placed.scope && other.span == placed.span;
+        is_same && other.after.is_none_or(|i| i < outcome.steps.len())
+    });
+    for (i, _) in others {
+        let other = outcome.unmet.iter().find(|other| other.expectation == i);
+        if other.is_none_or(|other| other.found != unmet.found) {
+            let help = "the turns of a repetition find different values, so it is not updated";
+            return Err(help.to_owned());
+        }
+    }
+    Ok((value, fix))
+}
+
+const NOT_RECORDED: &str =
+    "this is no recorded value (`eq`, `is`, `Bounds`, `Digest`), so it is not updated";
+
+/// The expectation that stands at `span`.
+fn expectation_at(tree: &Value, span: Span) -> Option<&Value> {
+    let listed = tree.field("expect")?.items()?;
+    listed
+        .iter()
+        .flat_map(|item| match (item.name(), item.field("that")) {
+            (None, Some(that)) => that.items().unwrap_or(std::slice::from_ref(that)),
+            _ => std::slice::from_ref(item),
+        })
+        .find(|item| item.span == span)
+}
+
+/// The changes of the text for one expectation.
+struct Fix {
+    edits: Vec<(Span, String)>,
+    /// The new value in a few words.
+    shown: String,
+}
+
+/// What makes the expectation record what was found, or why that cannot be done.
+fn fix(expectation: &Value, found: Option<&Found>) -> Result<Fix, String> {
+    let found = found.ok_or(NOT_RECORDED)?;
+    let recorded = |field: &str| -> Result<&Value, String> {
+        let value = expectation.field(field).ok_or(NOT_RECORDED)?;
+        Ok(value.some().unwrap_or(value))
+    };
+    match found {
+        Found::Count(n) => {
+            let value = recorded("eq")?;
+            let text = grouped_like(&n.to_string(), number_text(value)?);
+            Ok(Fix::one(value, text))
+        }
+        Found::Number(x) => {
+            let value = recorded("eq")?;
+            let text = float_like(*x, number_text(value)?)?;
+            Ok(Fix::one(value, text))
+        }
+        Found::Digest(digest) => {
+            let ValueKind::Call(call) = &expectation.kind else {
+                return Err(NOT_RECORDED.to_owned());
+            };
+            let value = call.body.single().ok_or(NOT_RECORDED)?;
+            not_from_parameter(value)?;
+            Ok(Fix::one(value, string_literal(digest)))
+        }
+        Found::Position { at, tolerance } => {
+            // With every coordinate off by no more than this, the place is near enough.
+            let edits = vector(recorded("is")?, at.to_array(), 0.5 * tolerance)?;
+            Fix::several(edits, format!("({}, {}, {})", at.x, at.y, at.z))
+        }
+        Found::Bounds {
+            min,
+            max,
+            tolerance,
+        } => {
+            // Each coordinate may be off by the whole tolerance.
+            let mut edits = vector(recorded("min")?, min.to_array(), *tolerance)?;
+            edits.extend(vector(recorded("max")?, max.to_array(), *tolerance)?);
+            let corner = |p: &mesh::DVec3| format!("({}, {}, {})", p.x, p.y, p.z);
+            Fix::several(edits, format!("{} to {}", corner(min), corner(max)))
+        }
+    }
+}
+
+impl Fix {
+    fn one(value: &Value, text: String) -> Self {
+        Self {
+            edits: vec![(value.span, text.clone())],
+            shown: text,
+        }
+    }
+
+    fn several(edits: Vec<(Span, String)>, shown: String) -> Result<Self, String> {
+        if edits.is_empty() {
+            return Err(NOT_RECORDED.to_owned());
+        }
+        Ok(Self { edits, shown })
+    }
+}
+
+/// The changes of the numbers of a vector that are off by more than `allowed`: the others stay as somebody
+/// wrote them.
+fn vector(value: &Value, found: [f64; 3], allowed: f64) -> Result<Vec<(Span, String)>, String> {
+    not_from_parameter(value)?;
+    let body = match &value.kind {
+        ValueKind::Call(call) => &call.body,
+        _ => value,
+    };
+    let ValueKind::Tuple(numbers) = &body.kind else {
+        return Err(NOT_RECORDED.to_owned());
+    };
+    let mut edits = Vec::new();
+    for (number, x) in numbers.iter().zip(found) {
+        not_from_parameter(number)?;
+        let ValueKind::Number(written) = &number.kind else {
+            return Err(NOT_RECORDED.to_owned());
+        };
+        let is_near = (written.to_float() - x).abs() <= allowed;
+        if !is_near {
+            edits.push((number.span, float_like(x, written.text())?));
+        }
+    }
+    Ok(edits)
+}
+
+fn number_text(value: &Value) -> Result<&str, String> {
+    not_from_parameter(value)?;
+    match &value.kind {
+        ValueKind::Number(number) => Ok(number.text()),
+        _ => Err(NOT_RECORDED.to_owned()),
+    }
+}
+
+/// A recipe is not changed where a parameter brings the value: others may use it.
+fn not_from_parameter(value: &Value) -> Result<(), String> {
+    match &value.kind {
+        ValueKind::Call(call) if &*call.name.text == "arg" => Err(format!(
+            "the value comes from {value}, so it is not updated"
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// A number as RON, in the way of the one that it stands for: with a point or without where both will do,
+/// and with groups of digits.
+fn float_like(x: f64, written: &str) -> Result<String, String> {
+    if !x.is_finite() {
+        return Err(format!("{x} cannot be recorded"));
+    }
+    // Zero has no sign here.
+    let text = format!("{:?}", x + 0.0);
+    let is_whole = !written.contains(['.', 'e', 'E']);
+    let text = match text.strip_suffix(".0") {
+        Some(whole) if is_whole => whole,
+        _ => &text,
+    };
+    Ok(grouped_like(text, written))
+}
+
+/// The digits before the point in groups of three, if those of `written` are in groups.
+fn grouped_like(text: &str, written: &str) -> String {
+    if !written.contains('_') || text.contains('e') {
+        return text.to_owned();
+    }
+    let (sign, digits) = text
+        .strip_prefix('-')
+        .map_or(("", text), |rest| ("-", rest));
+    let (whole, rest) = digits.split_at(digits.find('.').unwrap_or(digits.len()));
+    let mut grouped = sign.to_owned();
+    for (i, digit) in whole.chars().enumerate() {
+        if i > 0 && (whole.len() - i).is_multiple_of(3) {
+            grouped.push('_');
+        }
+        grouped.push(digit);
+    }
+    grouped + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_as_those_that_they_replace() {
+        let float = |x, written| float_like(x, written).unwrap();
+        assert_eq!(float(24.0, "23"), "24");
+        assert_eq!(float(24.0, "23.0"), "24.0");
+        assert_eq!(float(0.1, "23"), "0.1");
+        assert_eq!(float(-0.0, "1"), "0");
+        assert_eq!(float(1e-7, "1"), "1e-7");
+        assert_eq!(float(12_345.5, "1_000"), "12_345.5");
+        assert_eq!(float(-1_234_567.0, "1_000.0"), "-1_234_567.0");
+        assert!(float_like(f64::INFINITY, "1").is_err());
+        assert_eq!(grouped_like("16224", "16_225"), "16_224");
+        assert_eq!(grouped_like("224", "16_225"), "224");
+        assert_eq!(grouped_like("16224", "7"), "16224");
+    }
+}

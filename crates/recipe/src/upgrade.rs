@@ -1,0 +1,150 @@
+//! Older spellings in a recipe: found when it is read, and rewritten by `meshwright upgrade`.
+//!
+//! An operation that was renamed keeps its old names as aliases. A field or variant that was renamed keeps them
+//! for `serde` and in its schema:
+//!
+//! ```text
+//! #[serde(alias = "amount")]
+//! #[schemars(extend("aliases" = ["amount"]))]
+//! by: f64,
+//! ```
+
+use op::{Entry, Registry};
+use serde_json::Value as Json;
+
+use crate::diagnostic::{Diagnostic, LineIndex, Span};
+use crate::expect::Expectation;
+use crate::params::Param;
+use crate::read::VERSION;
+use crate::schema;
+use crate::shape::{renames, step_renames};
+use crate::syntax::{self, Value, ValueKind};
+
+/// An older name in a recipe.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rename {
+    /// Its place in the text.
+    pub span: Span,
+    /// The older name.
+    pub from: String,
+    /// The name that stands for it now.
+    pub to: String,
+}
+
+impl Rename {
+    /// What the reader says of it.
+    pub(crate) fn warning(&self) -> Diagnostic {
+        let message = format!("`{}` is called `{}` now", self.from, self.to);
+        Diagnostic::warning(self.span, message)
+            .with_help("meshwright upgrade writes the new name into the recipe")
+    }
+}
+
+/// A recipe in the spelling of today.
+#[derive(Clone, Debug)]
+pub struct Upgraded {
+    /// The text; comments and layout are as they were.
+    pub text: String,
+    /// What was rewritten, in the order of the text before, with the line of each, from 1.
+    pub renames: Vec<(usize, Rename)>,
+}
+
+/// Rewrites older spellings in a recipe. Nothing else about it needs to be right, as long as the text can be
+/// read.
+///
+/// # Errors
+///
+/// Everything that keeps the text from being read: slips, no version, a newer version.
+pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagnostic>> {
+    let parsed = syntax::parse(source);
+    let root = &parsed.value;
+    if !parsed.diagnostics.is_empty() {
+        return Err(parsed.diagnostics);
+    }
+    version(root).map_err(|problem| vec![problem])?;
+    let mut found = Vec::new();
+    if let Some(ValueKind::Map(params)) = root.field("params").map(|p| &p.kind) {
+        let schema = schema::of::<Param>();
+        found.extend(params.iter().flat_map(|(_, param)| renames(param, &schema)));
+    }
+    for list in ["steps", "expect"] {
+        for item in root.field(list).and_then(Value::items).unwrap_or_default() {
+            if list == "steps" {
+                step(item, registry, &mut found);
+            } else {
+                expectation(item, &mut found);
+            }
+        }
+    }
+    found.sort_by_key(|rename| rename.span);
+    found.dedup();
+    let edits = found.iter().map(|r| (r.span, r.to.clone())).collect();
+    let text = syntax::replace(source, edits).expect("names lie apart");
+    let lines = LineIndex::new(source);
+    let renames = found
+        .into_iter()
+        .map(|rename| (lines.position(rename.span.start).0, rename))
+        .collect();
+    Ok(Upgraded { text, renames })
+}
+
+fn version(root: &Value) -> Result<(), Diagnostic> {
+    let Some(version) = root.field("recipe") else {
+        let message = "expected a recipe, found a text without `recipe: 1`";
+        return Err(Diagnostic::error(root.span, message));
+    };
+    let number = match &version.kind {
+        ValueKind::Number(number) => number.to_int(),
+        _ => None,
+    };
+    match number {
+        Some(VERSION) => Ok(()),
+        Some(found) if found > VERSION => {
+            let message = format!("this recipe is of version {found}, expected {VERSION}");
+            Err(Diagnostic::error(version.span, message)
+                .with_help("a newer meshwright can read it; there is nothing to upgrade here"))
+        }
+        _ => {
+            let message = format!("expected version {VERSION}, found {}", version.describe());
+            Err(Diagnostic::error(version.span, message).with_help("write 1"))
+        }
+    }
+}
+
+/// `Name(..)`, or `(run: Name(..), ..)`; steps may hold lists of steps.
+fn step(written: &Value, registry: &Registry, found: &mut Vec<Rename>) {
+    let envelope = matches!(written.kind, ValueKind::Struct(_));
+    let run = written.field("run").filter(|_| envelope).unwrap_or(written);
+    if let Some(entry) = run.name().and_then(|(name, _)| registry.get(name)) {
+        found.extend(in_step(run, entry, &entry.schema()));
+        return;
+    }
+    for field in written.fields().iter().chain(run.fields()) {
+        for item in field.value.items().unwrap_or_default() {
+            step(item, registry, found);
+        }
+    }
+}
+
+/// The older names in a step `Name(..)` of this operation, its own among them.
+pub(crate) fn in_step(run: &Value, entry: &Entry, schema: &Json) -> Vec<Rename> {
+    let own = run.name().filter(|(name, _)| *name != entry.name);
+    let own = own.map(|(name, span)| Rename {
+        span,
+        from: name.to_owned(),
+        to: entry.name.to_owned(),
+    });
+    own.into_iter().chain(step_renames(run, schema)).collect()
+}
+
+fn expectation(written: &Value, found: &mut Vec<Rename>) {
+    let schema = schema::of::<Expectation>();
+    let that = match written.kind {
+        ValueKind::Struct(_) => written.field("that"),
+        _ => Some(written),
+    };
+    let Some(that) = that else { return };
+    for item in that.items().unwrap_or(std::slice::from_ref(that)) {
+        found.extend(renames(item, &schema));
+    }
+}

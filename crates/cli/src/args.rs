@@ -54,6 +54,12 @@ pub(crate) enum Command {
     /// A file says which recipe wrote it, with which parameters and from which inputs. The recipe is looked
     /// for below the working directory.
     Reproduce(ReproduceArgs),
+    /// Show the elements of a mesh that a selection matches
+    Select(SelectArgs),
+    /// Hold two files, or what two recipes make, against each other: exit code 0 if they are equal, 1 if not
+    Diff(DiffArgs),
+    /// Rewrite older spellings in recipes; comments and layout stay
+    Upgrade(UpgradeArgs),
     /// Print the JSON schema of recipes
     Schema,
     /// Write a new operation crate: its folder, a working sample with a test, and its line in ops/all
@@ -176,6 +182,88 @@ pub(crate) struct TestArgs {
     /// The memory that meshes may take, such as 512MiB or 8GiB
     #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) budget: u64,
+    /// Write the values that were found into the recipes, in place of recorded ones (eq, is, Bounds, Digest)
+    #[arg(long)]
+    pub(crate) update: bool,
+}
+
+/// Which elements.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Kind {
+    Vertices,
+    Edges,
+    Faces,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct SelectArgs {
+    /// A file of meshes, or a recipe (*.ron): then the scene at its end
+    pub(crate) file: PathBuf,
+    /// A selection as in recipes, such as 'Sharp(above: 30)'
+    pub(crate) selection: String,
+    /// What it selects, where the selection does not tell
+    #[arg(long, value_enum, value_name = "ELEMENTS")]
+    pub(crate) of: Option<Kind>,
+    /// Only on the object of this name; may be given more than once
+    #[arg(long, value_name = "OBJECT")]
+    pub(crate) on: Vec<String>,
+    /// The scene of a recipe after the step of this id
+    #[arg(long, value_name = "ID", conflicts_with = "before")]
+    pub(crate) after: Option<String>,
+    /// The scene of a recipe before the step of this id, with its random choices
+    #[arg(long, value_name = "ID")]
+    pub(crate) before: Option<String>,
+    /// Set a parameter of the recipe
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Show so many elements of each object
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    pub(crate) first: usize,
+    /// Show all elements
+    #[arg(long)]
+    pub(crate) all: bool,
+    /// Print only how many there are
+    #[arg(long)]
+    pub(crate) count: bool,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct DiffArgs {
+    /// A file of meshes, or a recipe (*.ron)
+    pub(crate) first: PathBuf,
+    /// Another one
+    pub(crate) second: PathBuf,
+    /// By how much positions and values of attributes may differ
+    #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = not_negative)]
+    pub(crate) tolerance: f64,
+    /// The files are records of runs, as run --format json prints them
+    #[arg(long)]
+    pub(crate) runs: bool,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct UpgradeArgs {
+    /// Recipes, or folders of recipes
+    #[arg(required = true)]
+    pub(crate) recipes: Vec<PathBuf>,
+    /// Change nothing, and fail if there is something to rewrite
+    #[arg(long)]
+    pub(crate) check: bool,
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x >= 0.0 => Ok(x),
+        _ => Err("expected a number that is not negative".to_owned()),
+    }
 }
 
 #[derive(Debug, ClapArgs)]

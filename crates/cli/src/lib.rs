@@ -17,6 +17,8 @@ mod events;
 mod listener;
 mod loading;
 mod output;
+mod replace;
+mod scenes;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -38,6 +40,7 @@ pub fn run(registry: Registry) -> ExitCode {
         complain(&format!("error: {clash}\n"));
         return ExitCode::FAILURE;
     }
+    let mut trouble = 1;
     let done = match args.command {
         Command::Run(args) => commands::run::run(&args, &registry),
         Command::Check(args) => commands::check::run(&args, &registry),
@@ -50,6 +53,13 @@ pub fn run(registry: Registry) -> ExitCode {
             output,
         } => commands::convert::run(&input, &read, &output),
         Command::Reproduce(args) => commands::reproduce::run(&args, &registry),
+        Command::Select(args) => commands::select::run(&args, &registry),
+        Command::Diff(args) => {
+            // As `diff` has it: 1 says that there is a difference, and nothing else does.
+            trouble = 2;
+            commands::diff::run(&args, &registry)
+        }
+        Command::Upgrade(args) => commands::upgrade::run(&args, &registry),
         Command::Schema => commands::schema::run(&registry),
         Command::NewOp { name, dir } => commands::new_op::run(&name, &dir),
     };
@@ -59,10 +69,15 @@ pub fn run(registry: Registry) -> ExitCode {
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             complain(&format!("error: {error:#}\n"));
-            ExitCode::FAILURE
+            ExitCode::from(if error.is::<WrongUsage>() { 2 } else { trouble })
         }
     }
 }
+
+/// Arguments that cannot be meant so, found after they were read: exit code 2.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub(crate) struct WrongUsage(pub(crate) String);
 
 fn flushed() -> anyhow::Result<()> {
     Ok(io::stdout().flush()?)

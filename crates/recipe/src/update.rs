@@ -5,6 +5,8 @@
 //! as `min` and `below`, and what holds or not, such as `Manifold`, is what somebody wants of it: it is never
 //! changed. A value that a parameter brings is changed by whoever changes the parameter.
 
+use std::collections::BTreeMap;
+
 use crate::diagnostic::{Diagnostic, LineIndex, Span};
 use crate::expect::Found;
 use crate::recipe::Recipe;
@@ -42,32 +44,35 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     let lines = LineIndex::new(source);
     let (mut edits, mut changes, mut mended) = (Vec::new(), Vec::new(), Vec::new());
     let mut left = outcome.failures.clone();
-    for unmet in &outcome.unmet {
-        match renewal(&tree, recipe, outcome, unmet) {
+    for turns in in_the_text(recipe, outcome) {
+        match renewal(&tree, recipe, &turns) {
             Ok((value, fix)) => {
-                let change = Change {
+                changes.push(Change {
                     span: value.span,
                     line: lines.position(value.span.start).0,
                     was: value.to_string(),
                     found: fix.shown,
-                };
-                // Every turn of a repetition asks for it.
-                if !changes.contains(&change) {
-                    changes.push(change);
-                    edits.extend(fix.edits);
-                }
-                mended.push(unmet.failure);
+                });
+                edits.extend(fix.edits);
+                mended.extend(turns.iter().flatten().map(|unmet| unmet.failure));
             }
             Err(why) => {
-                if let Some(failure) = left.get_mut(unmet.failure) {
-                    failure.help.get_or_insert(why);
+                for unmet in turns.iter().flatten() {
+                    if let Some(failure) = left.get_mut(unmet.failure) {
+                        failure.help.get_or_insert_with(|| why.clone());
+                    }
                 }
             }
         }
     }
+    mended.sort_unstable();
     changes.sort_by_key(|change| change.span);
     let mut number = 0..;
-    left.retain(|_| number.next().is_some_and(|i| !mended.contains(&i)));
+    left.retain(|_| {
+        number
+            .next()
+            .is_some_and(|i| mended.binary_search(&i).is_err())
+    });
     // Expectations lie apart, and so do the values in them.
     let text = syntax::replace(source, edits).unwrap_or_else(|_| source.to_owned());
     Update {
@@ -77,34 +82,47 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     }
 }
 
+/// The expectations that do not hold, together with those that stand at the same place in the text: in a
+/// repetition one of each turn, `None` for a turn in which it holds.
+fn in_the_text<'o>(recipe: &Recipe, outcome: &'o Outcome) -> Vec<Vec<Option<&'o Unmet>>> {
+    let mut unmet = vec![None; recipe.expectations.len()];
+    for broken in &outcome.unmet {
+        if let Some(slot) = unmet.get_mut(broken.expectation) {
+            *slot = Some(broken);
+        }
+    }
+    let mut places: BTreeMap<_, Vec<Option<&Unmet>>> = BTreeMap::new();
+    for (placed, unmet) in recipe.expectations.iter().zip(unmet) {
+        if placed.after.is_none_or(|i| i < outcome.steps.len()) {
+            let place = (placed.scope, placed.span);
+            places.entry(place).or_default().push(unmet);
+        }
+    }
+    places.retain(|_, turns| turns.iter().any(Option::is_some));
+    places.into_values().collect()
+}
+
 /// What makes an expectation record what was found, and where it stands; or why that cannot be done.
 fn renewal<'t>(
     tree: &'t Value,
     recipe: &Recipe,
-    outcome: &Outcome,
-    unmet: &Unmet,
+    turns: &[Option<&Unmet>],
 ) -> Result<(&'t Value, Fix), String> {
+    let broken = turns.iter().flatten().next().ok_or(NOT_RECORDED)?;
     let placed = recipe
         .expectations
-        .get(unmet.expectation)
+        .get(broken.expectation)
         .ok_or(NOT_RECORDED)?;
     if recipe.source_of(placed.scope) != 0 {
         let help = "it stands in a recipe that this one calls, so it is not updated";
         return Err(help.to_owned());
     }
     let value = expectation_at(tree, placed.span).ok_or(NOT_RECORDED)?;
-    let fix = fix(value, unmet.found.as_ref())?;
-    // In a repetition it is held against the scene in each turn.
-    let others = recipe.expectations.iter().enumerate().filter(|(_, other)| {
-        let is_same = other.scope == placed.scope && other.span == placed.span;
-        is_same && other.after.is_none_or(|i| i < outcome.steps.len())
-    });
-    for (i, _) in others {
-        let other = outcome.unmet.iter().find(|other| other.expectation == i);
-        if other.is_none_or(|other| other.found != unmet.found) {
-            let help = "the turns of a repetition find different values, so it is not updated";
-            return Err(help.to_owned());
-        }
+    let fix = fix(value, broken.found.as_ref())?;
+    let is_same = |turn: &Option<&Unmet>| turn.is_some_and(|turn| turn.found == broken.found);
+    if !turns.iter().all(is_same) {
+        let help = "the turns of a repetition find different values, so it is not updated";
+        return Err(help.to_owned());
     }
     Ok((value, fix))
 }

@@ -2,10 +2,15 @@
 
 pub(crate) mod check;
 pub(crate) mod convert;
+pub(crate) mod diff;
+mod diff_runs;
 pub(crate) mod info;
 pub(crate) mod new_op;
 pub(crate) mod ops;
 pub(crate) mod reproduce;
 pub(crate) mod run;
 pub(crate) mod schema;
+pub(crate) mod select;
 pub(crate) mod test;
+mod test_update;
+pub(crate) mod upgrade;

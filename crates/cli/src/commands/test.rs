@@ -6,6 +6,7 @@ use std::time::Instant;
 use op::Registry;
 use recipe::{Settings, Silent};
 
+use super::test_update::renew;
 use crate::args::TestArgs;
 use crate::loading::{load_recipe, read_objects, recipes};
 use crate::output::{complain, print, show};
@@ -52,7 +53,10 @@ fn one(path: &Path, args: &TestArgs, registry: &Registry) -> anyhow::Result<bool
         keep_outputs: args.out.is_some(),
         writes: !loaded.forecast.outputs.is_empty(),
     };
-    let outcome = recipe::run(&loaded.recipe, settings, &Silent);
+    let mut outcome = recipe::run(&loaded.recipe, settings, &Silent);
+    if args.update {
+        renew(path, &loaded, &mut outcome)?;
+    }
     let (n, time) = (outcome.checked, begin.elapsed().as_secs_f64() * 1e3);
     let word = if outcome.succeeded() {
         "ok    "

@@ -1,5 +1,6 @@
 //! Drives the real program in temporary folders.
 
+mod diff;
 mod files;
 mod folder;
 mod interrupt;
@@ -8,5 +9,7 @@ mod ops;
 mod refusals;
 mod reproduce;
 mod run;
+mod select;
 mod test;
+mod upgrade;
 mod usage;

@@ -1,0 +1,274 @@
+//! `meshwright diff`: two files, or what two recipes make, side by side.
+
+use op::Registry;
+use recipe::compare::{
+    AttributeDifference, ColumnDifference, Connectivity, Counts, Difference, MeshDifference,
+    ObjectDifference,
+};
+use recipe::distance::{Distance, OneSided};
+use serde_json::{Value as Json, json};
+
+use super::diff_runs;
+use crate::args::{DiffArgs, Format};
+use crate::output::{grouped, print, table};
+use crate::scenes::{Stop, find};
+
+pub(crate) fn run(args: &DiffArgs, registry: &Registry) -> anyhow::Result<bool> {
+    if args.runs {
+        return diff_runs::run(&args.first, &args.second, args.format);
+    }
+    let read = |path| find(path, &args.read.options(), &[], Stop::default(), registry);
+    let (first, second) = (read(&args.first)?.scene, read(&args.second)?.scene);
+    let difference = Difference::between(&first, &second);
+    let equal = difference.is_within(args.tolerance);
+    if args.format == Format::Json {
+        let objects: Vec<Json> = difference.objects.iter().map(object_json).collect();
+        let report = json!({
+            "first": args.first.display().to_string(),
+            "second": args.second.display().to_string(),
+            "equal": equal,
+            "identical": difference.identical,
+            "tolerance": args.tolerance,
+            "only_first": difference.only_first,
+            "only_second": difference.only_second,
+            "objects": objects,
+        });
+        print(&format!("{report:#}\n"))?;
+        return Ok(equal);
+    }
+    let files = [&args.first, &args.second].map(|path| path.display().to_string());
+    for (names, file) in [&difference.only_first, &difference.only_second]
+        .into_iter()
+        .zip(&files)
+    {
+        for name in names {
+            print(&format!("{name}: only in {file}\n"))?;
+        }
+    }
+    for object in &difference.objects {
+        print(&object_text(object, &files))?;
+    }
+    print(&match (difference.identical, equal) {
+        (true, _) => "equal bit by bit\n".to_owned(),
+        (false, true) if args.tolerance == 0.0 => "equal\n".to_owned(),
+        (false, true) => format!("equal within {}\n", args.tolerance),
+        (false, false) => "different\n".to_owned(),
+    })?;
+    Ok(equal)
+}
+
+fn object_text(object: &ObjectDifference, files: &[String; 2]) -> String {
+    let [name, other] = &object.names;
+    let name = if name == other {
+        name.clone()
+    } else {
+        format!("{name} and {other}")
+    };
+    let [kind, other] = object.kinds;
+    if object.identical {
+        return format!("{name}: {kind}, equal bit by bit\n");
+    }
+    if kind != other {
+        return format!("{name}: {kind} in {}, {other} in {}\n", files[0], files[1]);
+    }
+    let mut text = format!("{name}: {kind}\n");
+    match &object.mesh {
+        Some(mesh) => text += &mesh_text(mesh, files),
+        None => text += "  points differ\n",
+    }
+    for (names, file) in [&object.materials_only_first, &object.materials_only_second]
+        .into_iter()
+        .zip(files)
+    {
+        for name in names {
+            text += &format!("  material {name}: only in {file}\n");
+        }
+    }
+    for name in &object.materials_differ {
+        text += &format!("  material {name}: differs\n");
+    }
+    if object.materials_reordered {
+        text += "  materials: in another order\n";
+    }
+    text
+}
+
+fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
+    let mut rows = vec![vec![String::new(), files[0].clone(), files[1].clone()]];
+    for (what, show) in FACTS {
+        let [a, b] = mesh.counts.each_ref().map(show);
+        rows.push(vec![format!("  {what}"), a, b]);
+    }
+    let mut text = table(&rows);
+    let mut line = |what: &str, value: &str| text += &format!("  {what:<14} {value}\n");
+    line(
+        "connectivity",
+        match mesh.connectivity {
+            Connectivity::Same => "the same",
+            Connectivity::Reordered => "the same, with vertices or faces in another order",
+            Connectivity::Different => "different",
+        },
+    );
+    if mesh.connectivity == Connectivity::Same {
+        let moved = match &mesh.moved {
+            None => "the same".to_owned(),
+            Some(m) => format!(
+                "{} of {} differ, {} by {}",
+                grouped(m.count as u64),
+                grouped(mesh.counts[0].vertices as u64),
+                m.vertex,
+                m.by
+            ),
+        };
+        line("positions", &moved);
+    }
+    if let Some(distance) = &mesh.distance {
+        let worst = distance.worst();
+        line("distance", &largest(distance));
+        line("", &format!("from {} to {}", worst.from, worst.to));
+        let way = usize::from(!distance.is_worst_forth());
+        line("", &format!("the first is of {}", files[way]));
+        line("mean distance", &distance.mean().to_string());
+    }
+    for attribute in &mesh.attributes {
+        if attribute.difference != ColumnDifference::None {
+            let name = format!("{} {}", attribute.domain, attribute.name);
+            line(&name, &column_text(attribute, files));
+        }
+    }
+    text
+}
+
+type Show = fn(&Counts) -> String;
+
+const FACTS: [(&str, Show); 8] = [
+    ("vertices", |c| grouped(c.vertices as u64)),
+    ("edges", |c| grouped(c.edges as u64)),
+    ("faces", |c| grouped(c.faces as u64)),
+    ("components", |c| grouped(c.components as u64)),
+    ("boundary loops", |c| grouped(c.boundary_loops as u64)),
+    ("area", |c| c.area.to_string()),
+    ("volume", |c| {
+        if c.boundary_loops == 0 {
+            c.volume.to_string()
+        } else {
+            "open".to_owned()
+        }
+    }),
+    ("bounds", |c| {
+        c.bounds
+            .map_or("none".to_owned(), |[min, max]| format!("{min} to {max}"))
+    }),
+];
+
+/// The largest distance, as far as it is known.
+fn largest(distance: &Distance) -> String {
+    let (largest, most) = (distance.largest(), distance.at_most());
+    if most > largest {
+        format!("{largest}, and {most} at most")
+    } else {
+        largest.to_string()
+    }
+}
+
+fn column_text(attribute: &AttributeDifference, files: &[String; 2]) -> String {
+    match &attribute.difference {
+        ColumnDifference::None => "the same".to_owned(),
+        ColumnDifference::OnlyFirst => format!("only in {}", files[0]),
+        ColumnDifference::OnlySecond => format!("only in {}", files[1]),
+        ColumnDifference::Types([a, b]) => {
+            format!("{a} in {}, {b} in {}", files[0], files[1])
+        }
+        ColumnDifference::Rules => "edits treat it in another way".to_owned(),
+        ColumnDifference::Unknown => "in both, for other elements".to_owned(),
+        ColumnDifference::Values { count, by, element } => {
+            let n = grouped(*count as u64);
+            format!("{n} values differ, {element} by {by}")
+        }
+    }
+}
+
+fn object_json(object: &ObjectDifference) -> Json {
+    let mut json = json!({
+        "names": object.names,
+        "kinds": object.kinds,
+        "identical": object.identical,
+        "materials": {
+            "only_first": object.materials_only_first,
+            "only_second": object.materials_only_second,
+            "differ": object.materials_differ,
+            "reordered": object.materials_reordered,
+        },
+    });
+    if let Some(mesh) = &object.mesh {
+        let attributes: Vec<Json> = mesh.attributes.iter().map(attribute_json).collect();
+        let moved = mesh
+            .moved
+            .map(|m| json!({ "count": m.count, "vertex": m.vertex.index(), "by": m.by }));
+        let distance = mesh.distance.as_ref().map(|d| {
+            json!({
+                "largest": d.largest(), "at_most": d.at_most(), "mean": d.mean(),
+                "forth": side_json(&d.forth), "back": side_json(&d.back),
+            })
+        });
+        json["mesh"] = json!({
+            "counts": mesh.counts.each_ref().map(counts_json),
+            "connectivity": match mesh.connectivity {
+                Connectivity::Same => "same",
+                Connectivity::Reordered => "reordered",
+                Connectivity::Different => "different",
+            },
+            "moved": moved,
+            "attributes": attributes,
+            "distance": distance,
+        });
+    }
+    json
+}
+
+fn counts_json(counts: &Counts) -> Json {
+    json!({
+        "vertices": counts.vertices,
+        "edges": counts.edges,
+        "faces": counts.faces,
+        "components": counts.components,
+        "boundary_loops": counts.boundary_loops,
+        "area": counts.area,
+        "volume": counts.volume,
+        "bounds": counts.bounds.map(|b| b.map(|p| p.to_array())),
+    })
+}
+
+fn side_json(side: &OneSided) -> Json {
+    let place = |place: &recipe::distance::Place| json!({ "on": place.on.to_string(), "position": place.position.to_array() });
+    json!({
+        "largest": side.largest, "at_most": side.at_most, "mean": side.mean,
+        "from": place(&side.from), "to": place(&side.to),
+    })
+}
+
+fn attribute_json(attribute: &AttributeDifference) -> Json {
+    let mut json = json!({
+        "domain": attribute.domain.to_string(),
+        "name": attribute.name,
+    });
+    let word = match &attribute.difference {
+        ColumnDifference::None => "none",
+        ColumnDifference::OnlyFirst => "only_first",
+        ColumnDifference::OnlySecond => "only_second",
+        ColumnDifference::Types(types) => {
+            json["types"] = json!(types);
+            "types"
+        }
+        ColumnDifference::Rules => "rules",
+        ColumnDifference::Unknown => "unknown",
+        ColumnDifference::Values { count, by, element } => {
+            json["count"] = json!(count);
+            json["by"] = json!(by);
+            json["element"] = json!(element);
+            "values"
+        }
+    };
+    json["difference"] = json!(word);
+    json
+}

@@ -1,0 +1,180 @@
+//! `meshwright select`: shows the elements that a selection matches.
+
+use mesh::{EdgeId, Mesh, VertexId};
+use op::Registry;
+use recipe::expect::Elements;
+use recipe::{ElementKind, Selected, Source, read_selection};
+use scene::Object;
+use serde_json::{Value as Json, json};
+
+use crate::WrongUsage;
+use crate::args::{Format, Kind, SelectArgs};
+use crate::output::{complain, grouped, print};
+use crate::scenes::{Stop, find};
+
+pub(crate) fn run(args: &SelectArgs, registry: &Registry) -> anyhow::Result<bool> {
+    let kind = args.of.map(|kind| match kind {
+        Kind::Vertices => ElementKind::Vertices,
+        Kind::Edges => ElementKind::Edges,
+        Kind::Faces => ElementKind::Faces,
+    });
+    let elements = read_selection(&args.selection, kind).map_err(|wrong| {
+        let source = Source::new("selection", args.selection.as_str());
+        complain(&recipe::render(&[source], &wrong, false));
+        WrongUsage("the selection cannot be read".to_owned())
+    })?;
+    let stop = Stop {
+        after: args.after.as_deref(),
+        before: args.before.as_deref(),
+    };
+    let found = find(&args.file, &args.read.options(), &args.set, stop, registry)?;
+    let meshes = meshes(args, found.scene.objects())?;
+    let mut selected = Vec::new();
+    for (object, mesh) in meshes {
+        let chosen = elements
+            .resolve(object, mesh, &found.stream)
+            .map_err(|error| anyhow::anyhow!("{}: {error}", object.name))?;
+        selected.push((object, mesh, chosen));
+    }
+    match (args.format, args.count) {
+        (Format::Json, _) => print_json(args, &elements, &selected)?,
+        (Format::Human, true) => {
+            let count: usize = selected.iter().map(|(_, _, chosen)| chosen.len()).sum();
+            print(&format!("{count}\n"))?;
+        }
+        (Format::Human, false) => {
+            for (object, mesh, chosen) in &selected {
+                print_elements(args, object, mesh, chosen)?;
+            }
+        }
+    }
+    Ok(true)
+}
+
+/// The objects that are asked: all meshes, or those that are named.
+fn meshes<'s>(
+    args: &SelectArgs,
+    objects: &'s [Object],
+) -> anyhow::Result<Vec<(&'s Object, &'s Mesh)>> {
+    let mesh = |o: &'s Object| o.as_mesh().map(|mesh| (o, mesh.as_ref()));
+    if args.on.is_empty() {
+        let meshes: Vec<_> = objects.iter().filter_map(mesh).collect();
+        anyhow::ensure!(!meshes.is_empty(), "{} holds no mesh", args.file.display());
+        return Ok(meshes);
+    }
+    let named = |name: &String| {
+        let Some(object) = objects.iter().find(|o| o.name == *name) else {
+            let known = objects.iter().map(|o| o.name.as_str());
+            let help = recipe::did_you_mean(name, known);
+            return Err(WrongUsage(format!("no object is named \"{name}\": {help}")).into());
+        };
+        let kind = object.geometry.kind();
+        mesh(object).ok_or_else(|| anyhow::anyhow!("\"{name}\" is {kind}, expected a mesh"))
+    };
+    args.on.iter().map(named).collect()
+}
+
+/// The number of all elements of the kind that was selected.
+fn total(mesh: &Mesh, chosen: &Selected) -> usize {
+    match chosen {
+        Selected::Vertices(_) => mesh.n_vertices(),
+        Selected::Edges(_) => mesh.n_edges(),
+        Selected::Faces(_) => mesh.n_faces(),
+    }
+}
+
+fn word(chosen: &Selected) -> &'static str {
+    match chosen {
+        Selected::Vertices(_) => ElementKind::Vertices,
+        Selected::Edges(_) => ElementKind::Edges,
+        Selected::Faces(_) => ElementKind::Faces,
+    }
+    .word()
+}
+
+fn print_elements(
+    args: &SelectArgs,
+    object: &Object,
+    mesh: &Mesh,
+    chosen: &Selected,
+) -> anyhow::Result<()> {
+    let count = |n: usize| grouped(n as u64);
+    let (n, all, name) = (chosen.len(), total(mesh, chosen), &object.name);
+    let mut text = format!("{name}: {} of {} {}\n", count(n), count(all), word(chosen));
+    let shown = if args.all { n } else { n.min(args.first) };
+    for i in 0..shown {
+        text += &match chosen {
+            Selected::Vertices(list) => {
+                let p = mesh.position(list[i]);
+                format!("  {}  ({}, {}, {})\n", list[i].index(), p.x, p.y, p.z)
+            }
+            Selected::Edges(list) => {
+                let [v, w] = ends(mesh, list[i]);
+                format!("  Between({v}, {w})\n")
+            }
+            Selected::Faces(list) => {
+                let vertices: Vec<String> = mesh
+                    .face_vertices(list[i])
+                    .map(|v| v.index().to_string())
+                    .collect();
+                format!("  {}  of {}\n", list[i].index(), vertices.join(" "))
+            }
+        };
+    }
+    if shown < n {
+        text += &format!("  and {} more: --all shows them\n", count(n - shown));
+    }
+    Ok(print(&text)?)
+}
+
+/// The vertices of an edge, as `Between` names it.
+fn ends(mesh: &Mesh, e: EdgeId) -> [usize; 2] {
+    mesh.edge_vertices(e).map(VertexId::index)
+}
+
+/// All elements, without a limit: nobody reads this line by line.
+fn print_json(
+    args: &SelectArgs,
+    elements: &Elements,
+    selected: &[(&Object, &Mesh, Selected)],
+) -> anyhow::Result<()> {
+    let objects: Vec<Json> = selected
+        .iter()
+        .map(|(object, mesh, chosen)| {
+            let mut json = json!({
+                "name": object.name, "count": chosen.len(), "total": total(mesh, chosen),
+            });
+            if !args.count {
+                json["elements"] = listed(mesh, chosen).into();
+            }
+            json
+        })
+        .collect();
+    let report = json!({
+        "file": args.file.display().to_string(),
+        "of": elements.kind().word(),
+        "count": selected.iter().map(|(_, _, chosen)| chosen.len()).sum::<usize>(),
+        "objects": objects,
+    });
+    Ok(print(&format!("{report:#}\n"))?)
+}
+
+fn listed(mesh: &Mesh, chosen: &Selected) -> Vec<Json> {
+    match chosen {
+        Selected::Vertices(list) => list
+            .iter()
+            .map(|&v| json!({ "vertex": v.index(), "position": mesh.position(v).to_array() }))
+            .collect(),
+        Selected::Edges(list) => list
+            .iter()
+            .map(|&e| json!({ "vertices": ends(mesh, e) }))
+            .collect(),
+        Selected::Faces(list) => list
+            .iter()
+            .map(|&f| {
+                let vertices: Vec<usize> = mesh.face_vertices(f).map(VertexId::index).collect();
+                json!({ "face": f.index(), "vertices": vertices })
+            })
+            .collect(),
+    }
+}

@@ -1,0 +1,59 @@
+//! `meshwright upgrade`: rewrites older spellings in recipes.
+
+use std::path::Path;
+
+use anyhow::Context as _;
+use op::Registry;
+use recipe::Source;
+use recipe::upgrade::upgrade;
+
+use crate::args::UpgradeArgs;
+use crate::loading::recipes;
+use crate::output::{complain, print};
+use crate::replace::replace_file;
+
+pub(crate) fn run(args: &UpgradeArgs, registry: &Registry) -> anyhow::Result<bool> {
+    let recipes = recipes(&args.recipes)?;
+    let (mut failed, mut old) = (0, 0);
+    for path in &recipes {
+        match one(path, args.check, registry) {
+            Ok(true) => old += 1,
+            Ok(false) => {}
+            Err(error) => {
+                failed += 1;
+                complain(&format!("error: {error:#}\n"));
+            }
+        }
+    }
+    let n = recipes.len();
+    let s = if n == 1 { "" } else { "s" };
+    print(&match (old, args.check) {
+        (0, _) => format!("{n} recipe{s}, nothing to rewrite\n"),
+        (_, true) => format!("{n} recipe{s}, {old} to rewrite\n"),
+        (_, false) => format!("{n} recipe{s}, {old} rewritten\n"),
+    })?;
+    Ok(failed == 0 && !(args.check && old > 0))
+}
+
+/// Upgrades one recipe, or only says what there is to do. Returns whether it is of an older spelling.
+fn one(path: &Path, only_check: bool, registry: &Registry) -> anyhow::Result<bool> {
+    let source = Source::open(path).map_err(anyhow::Error::msg)?;
+    let shown = path.display().to_string();
+    let upgraded = match upgrade(&source.text, registry) {
+        Ok(upgraded) => upgraded,
+        Err(problems) => {
+            complain(&recipe::render(&[source], &problems, false));
+            anyhow::bail!("{shown} cannot be upgraded");
+        }
+    };
+    for (line, rename) in &upgraded.renames {
+        print(&format!(
+            "{shown}:{line}: {} -> {}\n",
+            rename.from, rename.to
+        ))?;
+    }
+    if !only_check && upgraded.text != *source.text {
+        replace_file(path, &upgraded.text).with_context(|| format!("cannot write {shown}"))?;
+    }
+    Ok(!upgraded.renames.is_empty())
+}

@@ -1,0 +1,39 @@
+//! `upgrade`: older spellings. The library's tests have operations that were renamed.
+
+use crate::folder::Folder;
+
+const GOOD: &str = "(recipe: 1, steps: [Cube(name: \"a\")]) // stays\r\n";
+
+#[test]
+fn a_recipe_of_today_stays_as_it_is() {
+    let folder = Folder::new().with("x/a.ron", GOOD).with("x/b.ron", GOOD);
+    for arguments in ["upgrade x", "upgrade x/a.ron x/b.ron --check"] {
+        folder
+            .run(arguments)
+            .with_code(0)
+            .prints(&["2 recipes, nothing to rewrite\n"]);
+    }
+    assert_eq!(folder.read("x/a.ron"), GOOD.as_bytes());
+    assert_eq!(folder.entries("x"), ["a.ron", "b.ron"]);
+}
+
+#[test]
+fn a_newer_recipe_is_refused_and_the_others_are_done() {
+    let folder = Folder::new()
+        .with("a.ron", "(recipe: 7, steps: [])")
+        .with("b.ron", GOOD);
+    folder
+        .run("upgrade a.ron b.ron")
+        .with_code(1)
+        .prints(&["2 recipes, nothing to rewrite\n"])
+        .complains(&[
+            "this recipe is of version 7, expected 1",
+            "a newer meshwright can read it",
+            "error: a.ron cannot be upgraded\n",
+        ]);
+    folder.run("upgrade").with_code(2);
+    folder
+        .run("upgrade nowhere.ron")
+        .with_code(1)
+        .complains(&["there is no file or folder nowhere.ron"]);
+}

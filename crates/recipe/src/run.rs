@@ -305,6 +305,12 @@ impl Progress for Forward<'_> {
     }
 }
 
+/// How the names of the folders begin in which the outputs of a process wait. They are there as long as
+/// a run goes on, and stay only if the process is killed.
+pub fn stage_prefix(process: u32) -> String {
+    format!(".meshwright-{process}-")
+}
+
 /// A folder inside the output folder where files wait until everything has held.
 fn staging(settings: Settings) -> Result<Option<tempfile::TempDir>, String> {
     if !settings.writes {
@@ -315,7 +321,7 @@ fn staging(settings: Settings) -> Result<Option<tempfile::TempDir>, String> {
         if settings.keep_outputs {
             std::fs::create_dir_all(folder)?;
             tempfile::Builder::new()
-                .prefix(".meshwright-")
+                .prefix(&stage_prefix(std::process::id()))
                 .tempdir_in(folder)
         } else {
             tempfile::Builder::new().prefix("meshwright-").tempdir()

@@ -28,11 +28,12 @@ mod schema;
 mod select;
 mod source;
 pub mod stamp;
+mod sweep;
 
 pub use check::{Forecast, StepForecast, check, mebibytes};
 pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
 pub use diagnostic::{Diagnostic, LineIndex, Severity, Span, render};
-pub use expect::{Expectation, ReadObjects};
+pub use expect::{Expectation, Measured, Metric, Other, ReadObjects};
 pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};
 pub use params::{Move, Param};
 pub use read::{MAX_STEPS, Reading, VERSION, Values, read};
@@ -43,6 +44,7 @@ pub use select::{ElementKind, Selected, read_selection};
 pub use shape::did_you_mean;
 pub use source::Source;
 pub use stamp::Stamp;
+pub use sweep::{Grid, MAX_CELLS, SWEEP_VERSION, Setting, Sweep, SweepReading, read_sweep};
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,7 @@
 //! Expectations: what must hold for the scene after a step or at the end.
 
 mod check;
+mod metric;
 mod same;
 mod subject;
 mod symmetry;
@@ -13,6 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use check::Broken;
+pub use metric::{Measured, Metric};
 pub(crate) use same::same_faces;
 pub use subject::{Found, ReadObjects, Subject};
 pub use symmetry::Group;

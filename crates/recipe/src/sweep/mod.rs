@@ -1,0 +1,338 @@
+//! Sweeps: one recipe with many values of its parameters.
+//!
+//! ```text
+//! (
+//!     sweep: 1,
+//!     about: "how fine is fine enough",
+//!     recipe: "cow.ron",                      seen from the folder of the sweep
+//!     over: { "levels": [0, 1, 2], "ratio": Range(from: 0.1, to: 0.5, steps: 5) },
+//!     zip: { "width": [1, 2], "height": [3, 4] },
+//!     set: { "smooth": true },                the same in every cell
+//!     expect: true,                           hold the expectations of the recipe too
+//!     keep: [Faces, Area, DistanceTo(other: File("cow.obj")), Seconds],
+//! )
+//! ```
+//!
+//! [`read_sweep`] reads the text and [`Sweep::grid`] holds its values against the parameters that the
+//! recipe declares; each reports everything that is wrong at once, with its place. The cells are the
+//! product of the lists of `over` in the order of the text, the last one changing first; the lists of
+//! `zip` go together and change before those of `over`.
+
+mod values;
+
+use std::path::Path;
+
+use serde_json::json;
+
+use crate::diagnostic::{Diagnostic, Severity, Span};
+use crate::expect::Metric;
+use crate::recipe::Parameter;
+use crate::schema;
+use crate::shape::{check_shape, did_you_mean};
+use crate::syntax::{self, Value, ValueKind};
+
+/// The version of sweeps that this program reads.
+pub const SWEEP_VERSION: i128 = 1;
+
+/// Most cells of a sweep.
+pub const MAX_CELLS: usize = 10_000;
+
+/// A sweep that was read, its values not yet held against a recipe.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// The path of the recipe, seen from the folder of the sweep.
+    pub recipe: String,
+    /// Where the path stands.
+    pub recipe_span: Span,
+    /// Whether the recipe's expectations must hold in every cell.
+    pub expects: bool,
+    /// What is kept of each cell, and where that stands.
+    pub keep: Vec<(Metric, Span)>,
+    over: Vec<Entry>,
+    zip: Vec<Entry>,
+    set: Vec<Entry>,
+}
+
+/// A parameter and what was written for it.
+#[derive(Clone, Debug)]
+struct Entry {
+    name: String,
+    name_span: Span,
+    value: Value,
+}
+
+/// The values of a sweep, held against the parameters of its recipe.
+#[derive(Clone, Debug, Default)]
+pub struct Grid {
+    /// The parameters that change, in the order of the text.
+    pub parameters: Vec<String>,
+    /// The values of these for each cell.
+    pub cells: Vec<Vec<Setting>>,
+    /// The parameters that are the same in every cell.
+    pub set: Vec<(String, Setting)>,
+}
+
+/// A value of a parameter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Setting {
+    /// The value as plain text, as [`read`](crate::read()) takes it; a path is seen from where the sweep
+    /// was said to be.
+    pub text: String,
+    /// The value as RON, as the sweep has it.
+    pub literal: String,
+}
+
+impl Setting {
+    /// The value as JSON.
+    pub fn json(&self) -> serde_json::Value {
+        syntax::to_json(&syntax::parse(&self.literal).value)
+    }
+}
+
+/// A sweep and what is wrong with its text.
+#[derive(Clone, Debug)]
+pub struct SweepReading {
+    /// The sweep; `None` if so much is wrong that nothing can be said of its parts.
+    pub sweep: Option<Sweep>,
+    /// What is wrong.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Reads the text of a sweep.
+pub fn read_sweep(source: &str) -> SweepReading {
+    let parsed = syntax::parse(source);
+    let mut diagnostics = parsed.diagnostics;
+    let root = parsed.value;
+    let failed = |diagnostics| SweepReading {
+        sweep: None,
+        diagnostics,
+    };
+    if let Some(version) = root.field("sweep")
+        && let ValueKind::Number(number) = &version.kind
+        && let Some(found) = number.to_int()
+        && found != SWEEP_VERSION
+    {
+        let message = format!("this sweep is of version {found}, expected {SWEEP_VERSION}");
+        return failed(vec![Diagnostic::error(version.span, message)]);
+    }
+    if matches!(root.kind, ValueKind::Error) && !diagnostics.is_empty() {
+        return failed(diagnostics);
+    }
+    diagnostics.extend(check_shape(&root, &envelope()));
+    let keep = keep(&root, &mut diagnostics);
+    let mut entries = |field: &str| entries(root.field(field), &mut diagnostics);
+    let (over, zip, set) = (entries("over"), entries("zip"), entries("set"));
+    diagnostics.sort_by_key(|d| d.span);
+    let Some(recipe) = root.field("recipe").filter(|r| r.as_str().is_some()) else {
+        return failed(diagnostics);
+    };
+    let sweep = Sweep {
+        recipe: recipe.as_str().unwrap_or_default().to_owned(),
+        recipe_span: recipe.span,
+        expects: matches!(
+            root.field("expect").map(|v| &v.kind),
+            Some(ValueKind::Bool(true))
+        ),
+        keep,
+        over,
+        zip,
+        set,
+    };
+    SweepReading {
+        sweep: Some(sweep),
+        diagnostics,
+    }
+}
+
+impl SweepReading {
+    /// Whether the sweep cannot run.
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics
+            .iter()
+            .any(|d| d.severity == Severity::Error)
+    }
+}
+
+/// The fields of a sweep; values of parameters can be anything.
+fn envelope() -> serde_json::Value {
+    let values = json!({ "type": "object", "additionalProperties": {} });
+    json!({
+        "type": "object",
+        "properties": {
+            "sweep": { "type": "integer", "const": 1 },
+            "about": { "type": "string" },
+            "recipe": { "type": "string", "minLength": 1 },
+            "over": values,
+            "zip": values,
+            "set": values,
+            "expect": { "type": "boolean" },
+            "keep": { "type": "array", "items": {}, "minItems": 1 },
+        },
+        "required": ["sweep", "recipe", "keep"],
+        "additionalProperties": false,
+    })
+}
+
+fn keep(root: &Value, diagnostics: &mut Vec<Diagnostic>) -> Vec<(Metric, Span)> {
+    let schema = schema::of::<Metric>();
+    let mut keep = Vec::new();
+    for item in root.field("keep").and_then(Value::items).unwrap_or(&[]) {
+        let wrong = check_shape(item, &schema);
+        if !wrong.is_empty() || item.has_errors() {
+            diagnostics.extend(wrong);
+            continue;
+        }
+        match syntax::ron_options().from_str(&item.to_string()) {
+            Ok(metric) => keep.push((metric, item.span)),
+            Err(error) => {
+                diagnostics.push(Diagnostic::error(item.span, error.code.to_string()));
+            }
+        }
+    }
+    keep
+}
+
+fn entries(map: Option<&Value>, diagnostics: &mut Vec<Diagnostic>) -> Vec<Entry> {
+    let Some(ValueKind::Map(written)) = map.map(|m| &m.kind) else {
+        return Vec::new();
+    };
+    let mut entries: Vec<Entry> = Vec::new();
+    for (key, value) in written {
+        let Some(name) = key.as_str() else { continue };
+        if entries.iter().any(|e| e.name == name) {
+            let message = format!("`{name}` has values twice");
+            diagnostics.push(Diagnostic::error(key.span, message));
+            continue;
+        }
+        entries.push(Entry {
+            name: name.to_owned(),
+            name_span: key.span,
+            value: value.clone(),
+        });
+    }
+    entries
+}
+
+impl Sweep {
+    /// Holds the values against the parameters of the recipe. `folder` is that of the sweep: relative
+    /// paths among the values are seen from there.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong: parameters that the recipe does not have, values of another type or
+    /// out of range, empty lists, a parameter that has values twice, lists of `zip` of different
+    /// lengths, more than [`MAX_CELLS`] cells.
+    pub fn grid(&self, parameters: &[Parameter], folder: &Path) -> Result<Grid, Vec<Diagnostic>> {
+        let mut diagnostics = Vec::new();
+        self.check_names(parameters, &mut diagnostics);
+        let mut held = |entries: &[Entry], single: bool| -> Vec<(String, Span, Vec<Setting>)> {
+            let mut lists = Vec::new();
+            for entry in entries {
+                let Some(parameter) = parameters.iter().find(|p| p.name == entry.name) else {
+                    continue;
+                };
+                let param = &parameter.param;
+                let settings = if single {
+                    values::setting(param, &entry.value, folder).map(|one| vec![one])
+                } else {
+                    values::settings(param, &entry.value, folder)
+                };
+                match settings {
+                    Ok(list) => lists.push((entry.name.clone(), entry.value.span, list)),
+                    Err(wrong) => diagnostics.extend(wrong),
+                }
+            }
+            lists
+        };
+        let (over, zip, set) = (
+            held(&self.over, false),
+            held(&self.zip, false),
+            held(&self.set, true),
+        );
+        if let Some((first, _, list)) = zip.first()
+            && let Some((other, span, found)) = zip.iter().find(|z| z.2.len() != list.len())
+        {
+            let message = format!(
+                "`{other}` has {} values and `{first}` has {}, expected as many",
+                found.len(),
+                list.len()
+            );
+            diagnostics.push(Diagnostic::error(*span, message).with_help(
+                "lists of `zip` go together, value by value; those of `over` meet each other",
+            ));
+        }
+        let columns = |lists: &[(String, Span, Vec<Setting>)]| -> Vec<Vec<Vec<Setting>>> {
+            let column = |list: &Vec<Setting>| list.iter().map(|s| vec![s.clone()]).collect();
+            lists.iter().map(|(_, _, list)| column(list)).collect()
+        };
+        let mut axes = columns(&over);
+        if !zip.is_empty() && diagnostics.is_empty() {
+            let row = |i: usize| zip.iter().map(|(_, _, list)| list[i].clone()).collect();
+            axes.push((0..zip[0].2.len()).map(row).collect());
+        }
+        let count = axes
+            .iter()
+            .try_fold(1, |n: usize, axis| n.checked_mul(axis.len()));
+        if count.is_none_or(|n| n > MAX_CELLS) {
+            let lengths: Vec<String> = axes.iter().map(|axis| axis.len().to_string()).collect();
+            let message = format!(
+                "the sweep has {} cells, expected at most {MAX_CELLS}",
+                lengths.join(" x ")
+            );
+            let span = self.over.first().or(self.zip.first()).map(|e| e.value.span);
+            let place = Diagnostic::error(span.unwrap_or(self.recipe_span), message);
+            diagnostics.push(place.with_help("take fewer values, or several sweeps"));
+        }
+        if !diagnostics.is_empty() {
+            diagnostics.sort_by_key(|d| d.span);
+            return Err(diagnostics);
+        }
+        let names = over.iter().chain(&zip).map(|(name, _, _)| name.clone());
+        let only = |(name, _, list): (String, Span, Vec<Setting>)| {
+            list.into_iter().next().map(|one| (name, one))
+        };
+        Ok(Grid {
+            parameters: names.collect(),
+            cells: product(&axes),
+            set: set.into_iter().filter_map(only).collect(),
+        })
+    }
+
+    /// Every name is a parameter, and has values once.
+    fn check_names(&self, parameters: &[Parameter], diagnostics: &mut Vec<Diagnostic>) {
+        let mut seen: Vec<&Entry> = Vec::new();
+        for entry in self.over.iter().chain(&self.zip).chain(&self.set) {
+            let name = &entry.name;
+            if !parameters.iter().any(|p| p.name == *name) {
+                let known = parameters.iter().map(|p| p.name.as_str());
+                let message = format!("the recipe has no parameter `{name}`");
+                let unknown = Diagnostic::error(entry.name_span, message);
+                diagnostics.push(unknown.with_help(did_you_mean(name, known)));
+            }
+            if let Some(earlier) = seen.iter().find(|e| e.name == *name) {
+                let message = format!("`{name}` has values in two places");
+                let twice = Diagnostic::error(entry.name_span, message);
+                diagnostics.push(twice.with_label(earlier.name_span, "here too"));
+            }
+            seen.push(entry);
+        }
+    }
+}
+
+/// All combinations of a row of each axis, the last axis changing first.
+fn product(axes: &[Vec<Vec<Setting>>]) -> Vec<Vec<Setting>> {
+    let mut cells = vec![Vec::new()];
+    for axis in axes {
+        cells = cells
+            .iter()
+            .flat_map(|cell| {
+                let extended = |row: &Vec<Setting>| [cell.as_slice(), row].concat();
+                axis.iter().map(extended)
+            })
+            .collect();
+    }
+    cells
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,159 @@
+//! The values that a sweep gives to a parameter.
+
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{MAX_CELLS, Setting};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::params::Param;
+use crate::schema;
+use crate::shape::check_shape;
+use crate::syntax::{self, Value, ValueKind};
+
+/// Values that are not listed one by one.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+enum Values {
+    /// Numbers at equal distances.
+    Range {
+        /// The first.
+        from: f64,
+        /// The last.
+        to: f64,
+        /// How many numbers, the first and the last included.
+        #[schemars(range(min = 1))]
+        steps: u32,
+    },
+}
+
+/// The values of `[..]` or `Range(..)` for a parameter.
+pub(super) fn settings(
+    param: &Param,
+    value: &Value,
+    folder: &Path,
+) -> Result<Vec<Setting>, Vec<Diagnostic>> {
+    if let ValueKind::List(items) = &value.kind {
+        if items.is_empty() {
+            let message = "expected a value, found none";
+            return Err(vec![Diagnostic::error(value.span, message)]);
+        }
+        return together(items.iter().map(|item| setting(param, item, folder)));
+    }
+    if !matches!(value.kind, ValueKind::Call(_)) {
+        let message = format!(
+            "expected a list of values `[..]` or `Range(from: .., to: .., steps: ..)`, found {}",
+            value.describe()
+        );
+        return Err(vec![Diagnostic::error(value.span, message)]);
+    }
+    let wrong = check_shape(value, &schema::of::<Values>());
+    if !wrong.is_empty() || value.has_errors() {
+        return Err(wrong);
+    }
+    match syntax::ron_options().from_str(&value.to_string()) {
+        Ok(Values::Range { from, to, steps }) => range(param, [from, to], steps, value.span),
+        Err(error) => Err(vec![Diagnostic::error(value.span, error.code.to_string())]),
+    }
+}
+
+/// All of them, or everything that is wrong.
+fn together(
+    each: impl Iterator<Item = Result<Setting, Vec<Diagnostic>>>,
+) -> Result<Vec<Setting>, Vec<Diagnostic>> {
+    let (mut settings, mut wrong) = (Vec::new(), Vec::new());
+    for one in each {
+        match one {
+            Ok(setting) => settings.push(setting),
+            Err(more) => wrong.extend(more),
+        }
+    }
+    if wrong.is_empty() {
+        Ok(settings)
+    } else {
+        Err(wrong)
+    }
+}
+
+fn range(
+    param: &Param,
+    [from, to]: [f64; 2],
+    steps: u32,
+    span: Span,
+) -> Result<Vec<Setting>, Vec<Diagnostic>> {
+    let problem = |message: String| vec![Diagnostic::error(span, message)];
+    let whole = match param {
+        Param::Int { .. } => true,
+        Param::Float { .. } => false,
+        _ => {
+            let kind = param.type_name();
+            let message = format!(
+                "expected a list of values `[..]`: the parameter is of type {kind}, and a range is for numbers"
+            );
+            return Err(problem(message));
+        }
+    };
+    if steps as usize > MAX_CELLS {
+        let message = format!("`steps` is {steps}, expected at most {MAX_CELLS}");
+        return Err(problem(message));
+    }
+    if steps == 1 && from != to {
+        let message = format!("one step has one value, and the range has {from} and {to}");
+        return Err(problem(message));
+    }
+    let last = f64::from(steps.max(2) - 1);
+    let each = (0..steps).map(|i| {
+        // Both ends weighed, so that 0.1 to 0.5 has 0.3 in its middle, and no rounding of a sum.
+        let i = f64::from(i);
+        let x = (from * (last - i) + to * i) / last;
+        if whole && x.fract() != 0.0 {
+            let message = format!("expected whole numbers, and {x} is in this range");
+            return Err(problem(message));
+        }
+        let text = if whole {
+            format!("{x:.0}")
+        } else {
+            format!("{x:?}")
+        };
+        literal(param, &text, span)
+    });
+    let settings = together(each);
+    // The first of them says it.
+    settings.map_err(|mut wrong| {
+        wrong.truncate(1);
+        wrong
+    })
+}
+
+fn literal(param: &Param, text: &str, span: Span) -> Result<Setting, Vec<Diagnostic>> {
+    match param.literal(text, None) {
+        Ok(literal) => Ok(Setting {
+            text: text.to_owned(),
+            literal,
+        }),
+        Err(problem) => Err(vec![Diagnostic::error(span, problem)]),
+    }
+}
+
+/// One value for a parameter.
+pub(super) fn setting(
+    param: &Param,
+    value: &Value,
+    folder: &Path,
+) -> Result<Setting, Vec<Diagnostic>> {
+    if value.has_errors() {
+        // What could not be read was reported.
+        return Err(Vec::new());
+    }
+    let literal = param
+        .literal_of(value, None)
+        .map_err(|problem| vec![Diagnostic::error(value.span, problem)])?;
+    // As plain text: what stands in quotes is without them, and all else is as RON has it.
+    let text = match (param, value.as_str()) {
+        (Param::Path { .. }, Some(path)) => folder.join(path).to_string_lossy().into_owned(),
+        (_, Some(text)) => text.to_owned(),
+        (_, None) => literal.clone(),
+    };
+    Ok(Setting { text, literal })
+}

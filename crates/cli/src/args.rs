@@ -171,17 +171,55 @@ pub(crate) struct CheckArgs {
     pub(crate) explain: bool,
 }
 
+/// What commands that run many recipes at once share.
 #[derive(Debug, ClapArgs)]
+pub(crate) struct ManyArgs {
+    /// The number of threads; by default one for each processor
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Most runs at once; by default one for each thread, and never more
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: Option<u16>,
+    /// The memory that the meshes of all runs at once may take, such as 512MiB or 8GiB
+    #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
+    pub(crate) budget: u64,
+}
+
+impl ManyArgs {
+    pub(crate) fn limits(&self) -> recipe::JobLimits {
+        recipe::JobLimits {
+            threads: self.threads.map_or(0, usize::from),
+            jobs: self.jobs.map_or(0, usize::from),
+            budget: self.budget,
+        }
+    }
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(
+    after_help = "Example: meshwright test scenes --filter cube --junit tests.xml
+
+Folders are searched with all folders in them, but for hidden ones and those named `assets`. Recipes
+without expectations, and parts that other recipes there call, are read and listed, but neither run nor
+counted as passed. A recipe that is named itself is run, whoever calls it."
+)]
 pub(crate) struct TestArgs {
     /// Recipes, or folders of recipes
     #[arg(default_value = "scenes")]
     pub(crate) paths: Vec<PathBuf>,
+    /// Only recipes with this text in their path
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) filter: Option<String>,
     /// Keep outputs, each recipe's in a folder of its name below this one
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// The memory that meshes may take, such as 512MiB or 8GiB
-    #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
-    pub(crate) budget: u64,
+    /// Write the results as JUnit XML too
+    #[arg(long, value_name = "FILE")]
+    pub(crate) junit: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) many: ManyArgs,
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
     /// Write the values that were found into the recipes, in place of recorded ones (eq, is, Bounds, Digest)
     #[arg(long)]
     pub(crate) update: bool,

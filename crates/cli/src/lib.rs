@@ -16,6 +16,7 @@ mod commands;
 mod events;
 mod listener;
 mod loading;
+mod many;
 mod output;
 mod replace;
 mod scenes;

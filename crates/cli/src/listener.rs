@@ -24,6 +24,25 @@ pub(crate) fn catch_interrupts() {
     });
 }
 
+/// Whether Ctrl-C was pressed.
+pub(crate) fn is_interrupted() -> bool {
+    interrupted().load(Ordering::Relaxed)
+}
+
+/// Shows nothing, and stops for Ctrl-C: for many runs at once.
+pub(crate) struct Quiet;
+
+impl Progress for Quiet {
+    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+        !is_interrupted()
+    }
+}
+
+impl Listener for Quiet {
+    fn step_begins(&self, _: usize, _: &str) {}
+    fn step_done(&self, _: usize, _: &StepDone) {}
+}
+
 /// Shows the step at work on a terminal, and nothing in a pipe.
 pub(crate) struct Terminal {
     bar: ProgressBar,
@@ -55,7 +74,7 @@ impl Progress for Terminal {
             self.bar.set_length(total.max(1));
             self.bar.set_position(done);
         }
-        !interrupted().load(Ordering::Relaxed)
+        !is_interrupted()
     }
 }
 

@@ -1,5 +1,6 @@
 //! From the path of a recipe to what runs it.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
@@ -15,6 +16,8 @@ pub(crate) struct Loaded {
     pub(crate) recipe: Recipe,
     pub(crate) files: Files,
     pub(crate) forecast: Forecast,
+    /// Whether every step and expectation could be read.
+    pub(crate) is_read: bool,
     /// Everything that is wrong, from reading and from checking, in order.
     pub(crate) diagnostics: Vec<Diagnostic>,
 }
@@ -60,6 +63,18 @@ pub(crate) fn load_recipe(
     registry: &Registry,
 ) -> anyhow::Result<Loaded> {
     let source = Source::open(path).map_err(anyhow::Error::msg)?;
+    load_source(&source, set, preset, out, budget, registry)
+}
+
+/// Reads and checks the text of a recipe.
+pub(crate) fn load_source(
+    source: &Source,
+    set: &[(String, String)],
+    preset: Option<&str>,
+    out: &Path,
+    budget: u64,
+    registry: &Registry,
+) -> anyhow::Result<Loaded> {
     let folder = std::env::current_dir().context("cannot tell the working directory")?;
     let values = Values {
         set,
@@ -89,6 +104,7 @@ pub(crate) fn load_source(
         let stamp = Stamp::new(&reading.recipe, &forecast.inputs);
         files.provenance = Some(stamp.to_string());
     }
+    let is_read = !reading.has_errors();
     let mut diagnostics = reading.diagnostics;
     diagnostics.extend(forecast.diagnostics.iter().cloned());
     diagnostics.sort_by_key(|d| (d.source, d.span));
@@ -97,6 +113,7 @@ pub(crate) fn load_source(
         recipe: reading.recipe,
         files,
         forecast,
+        is_read,
         diagnostics,
     }
 }
@@ -108,27 +125,73 @@ pub(crate) fn read_objects(path: &Path) -> Result<Vec<Object>, String> {
         .map_err(|error| error.to_string())
 }
 
-/// The recipes below the paths, in order; files as they are given.
-pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<PathBuf>> {
+/// A recipe that was found.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Found {
+    /// Its path.
+    pub(crate) path: PathBuf,
+    /// The folder below another one that is its own: its path in the folder that was searched, without
+    /// the ending.
+    pub(crate) own_folder: PathBuf,
+    /// Whether it was named itself, and not a folder around it.
+    pub(crate) is_named: bool,
+}
+
+/// The recipes in folders and in folders in them, in order, and files as they are given; each once.
+///
+/// Hidden ones, folders named `assets` and links to folders are passed over; so are files of other
+/// kinds, `*.sweep.ron`.
+pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<Found>> {
     let mut found = Vec::new();
     for path in paths {
         if path.is_dir() {
-            let entries = std::fs::read_dir(path)
-                .with_context(|| format!("cannot list {}", path.display()))?;
-            let mut here: Vec<PathBuf> = entries
-                .map(|entry| entry.map(|e| e.path()))
-                .collect::<Result<_, _>>()?;
-            here.retain(|p| p.extension().is_some_and(|e| e == "ron"));
-            here.sort();
-            found.extend(here);
+            search(path, path, &mut found)?;
         } else {
             anyhow::ensure!(
                 path.exists(),
                 "there is no file or folder {}",
                 path.display()
             );
-            found.push(path.clone());
+            let own_folder = path.file_stem().map(PathBuf::from).unwrap_or_default();
+            found.push(Found {
+                path: path.clone(),
+                own_folder,
+                is_named: true,
+            });
         }
     }
+    let mut seen = HashSet::new();
+    found.retain(|f| seen.insert(f.path.clone()));
     Ok(found)
+}
+
+fn search(top: &Path, folder: &Path, found: &mut Vec<Found>) -> anyhow::Result<()> {
+    let list = || -> std::io::Result<Vec<(PathBuf, bool)>> {
+        let entries = std::fs::read_dir(folder)?.map(|entry| {
+            let entry = entry?;
+            Ok((entry.path(), entry.file_type()?.is_dir()))
+        });
+        entries.collect()
+    };
+    let mut here = list().with_context(|| format!("cannot list {}", folder.display()))?;
+    here.sort();
+    for (path, is_folder) in here {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if name.starts_with('.') {
+            continue;
+        }
+        if is_folder {
+            if name != "assets" {
+                search(top, &path, found)?;
+            }
+        } else if path.extension().is_some_and(|e| e == "ron") && !name.ends_with(".sweep.ron") {
+            let own_folder = path.strip_prefix(top).unwrap_or(&path).with_extension("");
+            found.push(Found {
+                path,
+                own_folder,
+                is_named: false,
+            });
+        }
+    }
+    Ok(())
 }

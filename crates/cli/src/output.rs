@@ -1,7 +1,9 @@
 //! Texts that several commands print.
 
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 
+use anyhow::Context as _;
 use recipe::{LineIndex, Origin, Recipe, Source, StepDone};
 
 use crate::loading::Loaded;
@@ -18,8 +20,14 @@ pub(crate) fn complain(text: &str) {
 
 /// Shows diagnostics on the standard error, as a compiler does.
 pub(crate) fn show(loaded: &Loaded, diagnostics: &[recipe::Diagnostic]) {
+    show_texts(&loaded.recipe.sources, diagnostics);
+}
+
+/// The same for texts of any kind.
+pub(crate) fn show_texts(sources: &[Source], diagnostics: &[recipe::Diagnostic]) {
     if !diagnostics.is_empty() {
-        complain(&loaded.render(diagnostics, io::stderr().is_terminal()));
+        let colours = io::stderr().is_terminal();
+        complain(&recipe::render(sources, diagnostics, colours));
     }
 }
 
@@ -157,4 +165,29 @@ pub(crate) fn problems_json(
             })
         })
         .collect()
+}
+
+/// Writes a file whole or not at all: beside its place first, then renamed. Folders around it are made.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    let write = || -> io::Result<()> {
+        let folder = match path.parent() {
+            Some(folder) if folder != Path::new("") => folder,
+            _ => Path::new("."),
+        };
+        std::fs::create_dir_all(folder)?;
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".meshwright-");
+        // A temporary file is private to its user; the file that it becomes is as open as any other.
+        #[cfg(unix)]
+        let mode = std::os::unix::fs::PermissionsExt::from_mode(0o666);
+        #[cfg(unix)]
+        builder.permissions(mode);
+        let mut file = builder.tempfile_in(folder)?;
+        file.write_all(bytes)?;
+        // A full disk may only be told here.
+        file.as_file().sync_all()?;
+        file.persist(path).map_err(|failed| failed.error)?;
+        Ok(())
+    };
+    write().with_context(|| format!("cannot write {}", path.display()))
 }

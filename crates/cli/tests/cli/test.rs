@@ -140,3 +140,185 @@ fn a_renewed_recipe_keeps_its_rights_and_its_link() {
         BAD.replace("eq: 7", "eq: 6").as_bytes()
     );
 }
+
+#[test]
+fn the_order_and_the_results_do_not_depend_on_threads() {
+    let folder = (0..20).fold(Folder::new(), |folder, i| {
+        let text = if i % 7 == 3 { BAD } else { GOOD };
+        folder.with(&format!("scenes/{i:02}.ron"), text)
+    });
+    let made = |arguments: &str| {
+        let ended = folder.run(&format!("test {arguments}")).with_code(1);
+        let without_time = |line: &str| line.split(", ").filter(|p| !p.ends_with(" ms")).collect();
+        let lines: Vec<String> = ended.stdout.lines().map(without_time).collect();
+        (lines, ended.stderr)
+    };
+    let one = made("--threads 1");
+    assert_eq!(one.0.len(), 21);
+    assert_eq!(one.0[20], "17 passed3 failed");
+    for arguments in ["--threads 2", "--threads 8", "--jobs 3 --threads 8"] {
+        assert_eq!(made(arguments), one, "{arguments}");
+    }
+}
+
+#[test]
+fn folders_are_searched_but_for_assets_and_hidden_ones() {
+    let folder = Folder::new()
+        .with("scenes/b.ron", GOOD)
+        .with("scenes/a/deep/er.ron", GOOD)
+        .with("scenes/assets/part.ron", BAD)
+        .with("scenes/a/assets/part.ron", BAD)
+        .with("scenes/.git/x.ron", BAD)
+        .with("scenes/.x.ron", BAD)
+        .with("scenes/c.sweep.ron", "(sweep: 1)");
+    let ended = folder.run("test scenes --out kept").with_code(0).prints(&[
+        "ok     scenes/a/deep/er.ron (",
+        "ok     scenes/b.ron (",
+        "2 passed, 0 failed\n",
+    ]);
+    assert_eq!(ended.stdout.lines().count(), 3);
+    // What is named is tested, wherever it is; what is named twice is tested once.
+    folder
+        .run("test scenes/assets/part.ron scenes/b.ron scenes")
+        .with_code(1)
+        .prints(&["2 passed, 1 failed\n"]);
+    assert_eq!(folder.entries("kept/a/deep/er"), ["a.obj"]);
+    assert_eq!(folder.entries("kept"), ["a", "b"]);
+}
+
+#[test]
+fn a_recipe_without_expectations_is_listed_and_is_no_pass() {
+    let folder = Folder::new()
+        .with("scenes/a.ron", GOOD)
+        .with("scenes/part.ron", "(recipe: 1, steps: [Delete(objects: [\"of the caller\"])])")
+        .with(
+            "scenes/refused.ron",
+            "(recipe: 1, steps: [Grid(name: \"a\", columns: 1, rows: 1), (run: FlipEdges(edges: Boundary), refused: Boundary)])",
+        );
+    folder.run("test").with_code(0).prints(&[
+        "ok     scenes/a.ron (1 expectations, ",
+        "-      scenes/part.ron (no expectations, not run)\n",
+        "ok     scenes/refused.ron (0 expectations, ",
+        "2 passed, 0 failed, 1 without expectations\n",
+    ]);
+    folder
+        .run("test scenes/part.ron")
+        .with_code(1)
+        .prints(&["0 passed, 0 failed, 1 without expectations\n"])
+        .complains(&["error: nothing was tested: "]);
+}
+
+#[test]
+fn a_part_that_others_call_is_not_run_by_itself_unless_it_is_named() {
+    let folder = Folder::new()
+        .with("scenes/lib/smooth.ron", "(recipe: 1, steps: [LoopSubdivide(levels: 1)], expect: [Closed])")
+        .with(
+            "scenes/a.ron",
+            "(recipe: 1, steps: [Tetrahedron(name: \"a\"), Call(recipe: \"lib/smooth.ron\")], expect: [Faces(eq: 16)])",
+        );
+    folder.run("test").with_code(0).prints(&[
+        "ok     scenes/a.ron (",
+        "-      scenes/lib/smooth.ron (a part that others call, not run)\n",
+        "1 passed, 0 failed, 1 called by others\n",
+    ]);
+    folder
+        .run("test scenes/lib/smooth.ron")
+        .with_code(1)
+        .prints(&["FAILED scenes/lib/smooth.ron", "0 passed, 1 failed\n"]);
+}
+
+#[test]
+fn a_filter_chooses_by_the_path() {
+    let folder = Folder::new()
+        .with("scenes/cube.ron", GOOD)
+        .with("scenes/more/cube_flip.ron", GOOD)
+        .with("scenes/torus.ron", BAD);
+    folder
+        .run("test --filter cube")
+        .with_code(0)
+        .prints(&["2 passed, 0 failed\n"]);
+    folder
+        .run("test --filter cuboid")
+        .with_code(1)
+        .complains(&["error: none of 3 recipes has \"cuboid\" in its path\n"]);
+}
+
+#[test]
+fn two_recipes_that_would_keep_outputs_in_one_folder_are_refused() {
+    let folder = Folder::new().with("a/x.ron", GOOD).with("b/x.ron", GOOD);
+    folder
+        .run("test a b --out kept")
+        .with_code(1)
+        .complains(&["a/x.ron and b/x.ron would both write into kept/x"]);
+    folder.run("test a b").with_code(0);
+}
+
+#[test]
+fn all_results_are_one_json_object() {
+    let folder = Folder::new()
+        .with("scenes/a.ron", GOOD)
+        .with("scenes/b.ron", BAD)
+        .with("scenes/c.ron", b"\xff")
+        .with("scenes/d.ron", "(recipe: 1, steps: [Cube(name: \"a\")])");
+    let json = folder.run("test --format json").with_code(1).json();
+    assert_eq!(json["succeeded"], false);
+    assert_eq!(json["passed"], 1);
+    assert_eq!(json["failed"], 2);
+    assert_eq!(json["no_expectations"], 1);
+    let recipes = json["recipes"].as_array().unwrap();
+    let states: Vec<&str> = recipes
+        .iter()
+        .map(|r| r["state"].as_str().unwrap())
+        .collect();
+    assert_eq!(states, ["passed", "failed", "failed", "no expectations"]);
+    assert_eq!(
+        recipes[1]["failures"][0]["message"],
+        "expected 7 faces, found 6"
+    );
+    assert_eq!(recipes[1]["failures"][0]["line"], 1);
+    let message = recipes[2]["failures"][0]["message"].as_str().unwrap();
+    assert!(message.contains("not UTF-8"), "{message}");
+    assert_eq!(recipes[0]["digest"].as_str().unwrap().len(), 32);
+}
+
+#[test]
+fn junit_xml_is_well_formed_for_any_name_and_has_the_whole_failure() {
+    let mut folder = Folder::new()
+        .with("scenes/a & b <c>.ron", GOOD)
+        .with("scenes/b.ron", BAD)
+        .with("scenes/d.ron", "(recipe: 1, steps: [Cube(name: \"a\")])");
+    let mut failed = 1;
+    if cfg!(unix) {
+        folder = folder.with(
+            "scenes/new\nline \"quoted\" \u{1}.ron",
+            BAD.replace("a.obj", "]]>.obj"),
+        );
+        failed += 1;
+    }
+    folder.run("test --junit deep/tests.xml").with_code(1);
+    let text = String::from_utf8(folder.read("deep/tests.xml")).unwrap();
+    let document = roxmltree::Document::parse(&text).unwrap_or_else(|e| panic!("{e}: {text}"));
+    let suite = document
+        .descendants()
+        .find(|n| n.has_tag_name("testsuite"))
+        .unwrap();
+    let attribute = |name: &str| suite.attribute(name).unwrap().parse::<usize>().unwrap();
+    assert_eq!(attribute("tests"), 2 + failed);
+    assert_eq!(attribute("failures"), failed);
+    let cases: Vec<_> = document
+        .descendants()
+        .filter(|n| n.has_tag_name("testcase"))
+        .collect();
+    assert_eq!(cases[0].attribute("name"), Some("scenes/a & b <c>.ron"));
+    let failure = cases[1]
+        .children()
+        .find(|n| n.has_tag_name("failure"))
+        .unwrap();
+    assert_eq!(
+        failure.attribute("message"),
+        Some("expected 7 faces, found 6")
+    );
+    let description = failure.text().unwrap();
+    assert!(description.contains("scenes/b.ron:1:"), "{description}");
+    assert!(description.contains("^^^^"), "{description}");
+}

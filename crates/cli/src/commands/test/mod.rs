@@ -1,0 +1,363 @@
+//! `meshwright test`: runs recipes as tests, several at once.
+//!
+//! A line for each recipe, in the order of their paths, and a summary; or with `--format json` one
+//! object:
+//!
+//! ```text
+//! {
+//!   "succeeded": true,            none failed, none was left out by Ctrl-C
+//!   "passed": 1, "failed": 0,
+//!   "no_expectations": 1,         read, and not run
+//!   "called_by_others": 0,        read, and not run by themselves
+//!   "not_run": 0,                 because of Ctrl-C
+//!   "recipes": [{
+//!     "recipe": "scenes/a.ron",
+//!     "state": "passed",          or "failed", "no expectations", "called by others", "not run"
+//!     "expectations": 3,          how many were held against the scene
+//!     "digest": "..",             of the scene at the end; null if it was not run
+//!     "milliseconds": 12.5,
+//!     "changes": ["scenes/a.ron:7: Faces(eq: 4) -> 6"],          what --update has written
+//!     "failures": [{"severity": "error", "line": 4, "column": 9, "message": "..", "help": null}]
+//!   }]
+//! }
+//! ```
+
+mod junit;
+
+use std::collections::{HashMap, HashSet};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use anyhow::ensure;
+use op::Registry;
+use recipe::{Diagnostic, InOrder, JobEnd, Jobs};
+use serde_json::{Value as Json, json};
+
+use super::test_update::renew;
+use crate::args::{Format, TestArgs};
+use crate::listener::{catch_interrupts, is_interrupted};
+use crate::loading::{Found, Loaded, load_recipe, recipes};
+use crate::many::{all, panicked, run_quietly};
+use crate::output::{complain, print, problems_json, show, write_whole};
+
+pub(crate) fn run(args: &TestArgs, registry: &Registry) -> anyhow::Result<bool> {
+    let recipes = recipes(&args.paths)?;
+    ensure!(!recipes.is_empty(), "there are no recipes (*.ron) to test");
+    catch_interrupts();
+    let tests = tests(&recipes, args, registry)?;
+
+    let jobs = Jobs {
+        count: tests.len(),
+        bytes: |i: usize| tests[i].bytes(),
+        stop: is_interrupted,
+        work: |i: usize| tests[i].run(args),
+    };
+    let (mut order, mut results, mut printed) = (InOrder::default(), Vec::new(), Ok(()));
+    jobs.run(args.many.limits(), |ended| {
+        for (i, end) in ended {
+            order.put(i, end);
+        }
+        while let Some((i, end)) = order.take() {
+            let result = TestResult::of(end);
+            if args.format == Format::Human && printed.is_ok() {
+                printed = tests[i].show(&result);
+            }
+            results.push(result);
+        }
+    })?;
+    printed?;
+
+    if let Some(path) = &args.junit {
+        write_whole(path, junit::report(&tests, &results)?.as_bytes())?;
+    }
+    let count = |state: State| results.iter().filter(|r| r.state == state).count();
+    let (failed, not_run) = (count(State::Failed), count(State::NotRun));
+    let (passed, called) = (count(State::Passed), count(State::Called));
+    let unexpecting = count(State::NoExpectations);
+    if args.format == Format::Json {
+        let rows = tests.iter().zip(&results);
+        print(&format!(
+            "{:#}\n",
+            json!({
+                "succeeded": failed == 0 && not_run == 0 && passed > 0,
+                "passed": passed,
+                "failed": failed,
+                "no_expectations": unexpecting,
+                "called_by_others": called,
+                "not_run": not_run,
+                "recipes": rows.map(|(test, result)| test.json(result)).collect::<Vec<_>>(),
+            })
+        ))?;
+    } else {
+        let mut summary = format!("{passed} passed, {failed} failed");
+        if unexpecting > 0 {
+            summary += &format!(", {unexpecting} without expectations");
+        }
+        if called > 0 {
+            summary += &format!(", {called} called by others");
+        }
+        if not_run > 0 {
+            summary += &format!(", {not_run} not run: interrupted");
+        }
+        print(&format!("{summary}\n"))?;
+    }
+    if passed + failed + not_run == 0 {
+        complain(
+            "error: nothing was tested: no recipe has expectations, or others call all that have\n",
+        );
+    }
+    Ok(failed == 0 && not_run == 0 && passed > 0)
+}
+
+/// Reads and checks the recipes, and chooses those that were asked for.
+fn tests<'a>(
+    recipes: &'a [Found],
+    args: &TestArgs,
+    registry: &Registry,
+) -> anyhow::Result<Vec<Test<'a>>> {
+    let loaded = all(recipes.len(), args.many.limits(), |i| {
+        load(&recipes[i], args, registry)
+    })?;
+    let made = recipes.iter().zip(loaded);
+    let mut tests: Vec<Test> = made.map(|(found, end)| Test::new(found, end)).collect();
+    let place = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    let read = tests.iter().filter_map(|test| test.loaded.as_ref().ok());
+    let called: HashSet<PathBuf> = read
+        .flat_map(|loaded| loaded.recipe.sources.iter().skip(1))
+        .map(|source| place(&source.path))
+        .collect();
+    for test in &mut tests {
+        test.is_part = !test.found.is_named && called.contains(&place(&test.found.path));
+    }
+    if let Some(filter) = &args.filter {
+        tests.retain(|test| test.found.path.to_string_lossy().contains(filter));
+        let n = recipes.len();
+        ensure!(
+            !tests.is_empty(),
+            "none of {n} recipes has \"{filter}\" in its path"
+        );
+    }
+    if let Some(out) = &args.out {
+        let mut owners = HashMap::new();
+        for Test { found, .. } in &tests {
+            if let Some(other) = owners.insert(&found.own_folder, &found.path) {
+                anyhow::bail!(
+                    "{} and {} would both write into {}: test them one after the other",
+                    other.display(),
+                    found.path.display(),
+                    out.join(&found.own_folder).display()
+                );
+            }
+        }
+    }
+    Ok(tests)
+}
+
+fn load(found: &Found, args: &TestArgs, registry: &Registry) -> anyhow::Result<Loaded> {
+    let out = match &args.out {
+        Some(out) => out.join(&found.own_folder),
+        None => "out".into(),
+    };
+    load_recipe(&found.path, &[], None, &out, args.many.budget, registry)
+}
+
+/// A recipe to test.
+struct Test<'a> {
+    found: &'a Found,
+    /// What runs it; or why it cannot even be read.
+    loaded: Result<Loaded, String>,
+    /// Whether it was found beside recipes that call it, which hold its expectations then.
+    is_part: bool,
+}
+
+impl<'a> Test<'a> {
+    fn new(found: &'a Found, loaded: JobEnd<anyhow::Result<Loaded>>) -> Self {
+        let loaded = match loaded {
+            JobEnd::Done(loaded) => loaded.map_err(|error| format!("{error:#}")),
+            JobEnd::Panicked(message) => Err(panicked(&message)),
+            JobEnd::NotRun => Err("interrupted".to_owned()),
+        };
+        Self {
+            found,
+            loaded,
+            is_part: false,
+        }
+    }
+
+    /// The recipe that can run, if it can and should.
+    fn to_run(&self) -> Option<&Loaded> {
+        let loaded = self.loaded.as_ref().ok()?;
+        let runs = !loaded.has_errors() && !self.is_part && expects(loaded);
+        runs.then_some(loaded)
+    }
+
+    fn bytes(&self) -> u64 {
+        self.to_run().map_or(0, |l| l.forecast.peak_bytes())
+    }
+
+    fn run(&self, args: &TestArgs) -> TestResult {
+        let begin = Instant::now();
+        let loaded = match &self.loaded {
+            Ok(loaded) => loaded,
+            Err(message) => return TestResult::failed(Vec::new(), Some(message.clone())),
+        };
+        // What a part of other recipes needs from them is missing when it is checked alone.
+        if loaded.is_read && (self.is_part || !expects(loaded)) {
+            let state = if self.is_part {
+                State::Called
+            } else {
+                State::NoExpectations
+            };
+            return TestResult {
+                state,
+                ..TestResult::failed(Vec::new(), None)
+            };
+        }
+        if loaded.has_errors() {
+            return TestResult::failed(loaded.diagnostics.clone(), None);
+        }
+        let mut outcome = run_quietly(loaded, args.many.budget, args.out.is_some());
+        let mut changes = Vec::new();
+        if args.update {
+            match renew(&self.found.path, loaded, &mut outcome) {
+                Ok(lines) => changes = lines,
+                Err(error) => {
+                    return TestResult::failed(outcome.failures, Some(format!("{error:#}")));
+                }
+            }
+        }
+        let state = match (outcome.succeeded(), outcome.cancelled) {
+            (_, true) => State::NotRun,
+            (true, _) => State::Passed,
+            (false, _) => State::Failed,
+        };
+        TestResult {
+            state,
+            expectations: outcome.checked,
+            digest: (!outcome.cancelled).then(|| outcome.digest.to_string()),
+            time: begin.elapsed(),
+            changes,
+            diagnostics: outcome.failures,
+            message: None,
+        }
+    }
+
+    /// Prints the line of the recipe, and what is wrong with it.
+    fn show(&self, result: &TestResult) -> anyhow::Result<()> {
+        let path = self.found.path.display();
+        let word = match result.state {
+            State::Passed => "ok    ",
+            State::Failed => "FAILED",
+            State::NoExpectations | State::Called | State::NotRun => "-     ",
+        };
+        let rest = match (result.state, &result.digest) {
+            (State::NoExpectations, _) => " (no expectations, not run)".to_owned(),
+            (State::Called, _) => " (a part that others call, not run)".to_owned(),
+            (State::NotRun, _) => " (not run)".to_owned(),
+            (_, None) => String::new(),
+            (_, Some(digest)) => {
+                let (n, time) = (result.expectations, result.time.as_secs_f64() * 1e3);
+                format!(" ({n} expectations, {time:.0} ms, digest {digest})")
+            }
+        };
+        for line in &result.changes {
+            print(&format!("{line}\n"))?;
+        }
+        print(&format!("{word} {path}{rest}\n"))?;
+        if let Some(message) = &result.message {
+            complain(&format!("error: {message}\n"));
+        }
+        if let Ok(loaded) = &self.loaded {
+            show(loaded, &result.diagnostics);
+        }
+        Ok(())
+    }
+
+    fn json(&self, result: &TestResult) -> Json {
+        let mut failures = match &self.loaded {
+            Ok(loaded) => problems_json(&result.diagnostics, &loaded.recipe.sources),
+            Err(_) => json!([]),
+        };
+        if let (Some(message), Some(list)) = (&result.message, failures.as_array_mut()) {
+            list.push(json!({ "severity": "error", "message": message }));
+        }
+        json!({
+            "recipe": self.found.path.display().to_string(),
+            "state": result.state.name(),
+            "expectations": result.expectations,
+            "digest": result.digest,
+            "milliseconds": result.time.as_secs_f64() * 1e3,
+            "changes": result.changes,
+            "failures": failures,
+        })
+    }
+}
+
+/// Whether the recipe says what must come out, or what must be refused.
+fn expects(loaded: &Loaded) -> bool {
+    let recipe = &loaded.recipe;
+    !recipe.expectations.is_empty() || recipe.steps.iter().any(|step| step.refused.is_some())
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Passed,
+    Failed,
+    NoExpectations,
+    Called,
+    NotRun,
+}
+
+impl State {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Passed => "passed",
+            Self::Failed => "failed",
+            Self::NoExpectations => "no expectations",
+            Self::Called => "called by others",
+            Self::NotRun => "not run",
+        }
+    }
+}
+
+/// How a test ended.
+struct TestResult {
+    state: State,
+    /// How many expectations were held against the scene.
+    expectations: usize,
+    /// The digest of the scene at the end, if the recipe was run.
+    digest: Option<String>,
+    time: Duration,
+    /// What was written anew in the recipe, a line each.
+    changes: Vec<String>,
+    /// What is wrong with the recipe or with what it made.
+    diagnostics: Vec<Diagnostic>,
+    /// What is wrong beside that.
+    message: Option<String>,
+}
+
+impl TestResult {
+    fn of(end: JobEnd<Self>) -> Self {
+        match end {
+            JobEnd::Done(result) => result,
+            JobEnd::Panicked(message) => Self::failed(Vec::new(), Some(panicked(&message))),
+            JobEnd::NotRun => Self {
+                state: State::NotRun,
+                ..Self::failed(Vec::new(), None)
+            },
+        }
+    }
+
+    /// A recipe that was not run.
+    fn failed(diagnostics: Vec<Diagnostic>, message: Option<String>) -> Self {
+        Self {
+            state: State::Failed,
+            expectations: 0,
+            digest: None,
+            time: Duration::ZERO,
+            changes: Vec::new(),
+            diagnostics,
+            message,
+        }
+    }
+}

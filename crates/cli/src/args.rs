@@ -1,11 +1,14 @@
 //! The command line.
 
+use std::fmt;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 use mesh_io::{NonManifold, Orientation, Policies, ReadOptions, Unwanted};
 use serde::de::value::StrDeserializer;
 use serde::de::{DeserializeOwned, IntoDeserializer};
+use serde::{Deserialize, Serialize};
 
 /// Edit 3D meshes by recipe.
 #[derive(Debug, Parser)]
@@ -23,6 +26,10 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Run recipes as tests: one line each, and a summary
     Test(TestArgs),
+    /// Run one recipe on many files
+    Batch(BatchArgs),
+    /// Run one recipe with many values of its parameters, and measure what comes out
+    Sweep(SweepArgs),
     /// List the operations, or show one of them
     Ops {
         /// The operation to show
@@ -317,6 +324,116 @@ pub(crate) struct ReproduceArgs {
     pub(crate) budget: u64,
 }
 
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "Examples:
+  meshwright batch clean.ron --inputs 'models/**/*.obj' --out clean --report clean/report.csv
+  meshwright batch clean.ron --inputs 'models/*' --out clean --shard 1/3 --report one.json
+  meshwright batch --merge one.json two.json three.json --report all.csv
+
+A batch that was ended, even by a crash, goes on where it was when it is called again: files that are
+done, and did not change, are not done again. The journal of that is FOLDER/batch.jsonl.")]
+pub(crate) struct BatchArgs {
+    /// The recipe
+    #[arg(required_unless_present = "merge")]
+    pub(crate) recipe: Option<PathBuf>,
+    /// The files, as paths or patterns: `*` and `?` stay within a folder, `**` goes into folders
+    #[arg(long, value_name = "PATTERN", num_args = 1.., required_unless_present = "merge")]
+    pub(crate) inputs: Vec<String>,
+    /// The parameter of type Path that gets the files, if the recipe has several
+    #[arg(long, value_name = "NAME")]
+    pub(crate) param: Option<String>,
+    /// Set another parameter of the recipe
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Take the values of one of the recipe's presets; --set goes before them
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// The folder for outputs
+    #[arg(long, default_value = "out", value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Put the outputs of each file into a folder of its own, named as the file
+    #[arg(long)]
+    pub(crate) folders: bool,
+    /// Write a row for each file, as a table or as JSON
+    #[arg(long, value_name = "FILE.csv|.json|.jsonl")]
+    pub(crate) report: Option<PathBuf>,
+    /// Do the I-th of N parts of the files; a file is always in the same part
+    #[arg(long, value_name = "I/N")]
+    pub(crate) shard: Option<Shard>,
+    /// Try files again that failed before
+    #[arg(long)]
+    pub(crate) retry_failed: bool,
+    /// Join the reports (.json or .jsonl) of parts, and run nothing
+    #[arg(
+        long,
+        value_name = "REPORT",
+        num_args = 1..,
+        requires = "report",
+        conflicts_with_all = ["recipe", "inputs", "param", "set", "preset", "folders", "shard", "retry_failed"],
+    )]
+    pub(crate) merge: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) many: ManyArgs,
+}
+
+/// One of several parts of a list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
+pub(crate) struct Shard {
+    /// Which part, from 1.
+    pub(crate) index: u32,
+    /// Of how many.
+    pub(crate) of: u32,
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (index, of) = text.split_once('/').unwrap_or((text, ""));
+        match (index.parse(), of.parse()) {
+            (Ok(index), Ok(of)) if 1 <= index && index <= of => Ok(Self { index, of }),
+            _ => Err("expected I/N with I from 1 to N, such as 1/3".to_owned()),
+        }
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.index, self.of)
+    }
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(
+    after_help = "Example: meshwright sweep levels.sweep.ron --out levels.csv, with the file
+
+  (
+      sweep: 1,
+      recipe: \"cow.ron\",
+      over: { \"levels\": [0, 1, 2], \"ratio\": Range(from: 0.1, to: 0.5, steps: 5) },
+      set: { \"smooth\": true },
+      keep: [Faces, Area, MinAngle, DistanceTo(File(\"cow.obj\")), Seconds],
+  )
+
+Every value of the first parameter meets every value of the second, and so on; the last one changes
+first. Lists under `zip` in place of `over` go together, value by value. A cell that fails is a row
+with its error."
+)]
+pub(crate) struct SweepArgs {
+    /// The sweep
+    pub(crate) sweep: PathBuf,
+    /// Write the table to a file too
+    #[arg(long, value_name = "FILE.csv|.json")]
+    pub(crate) out: Option<PathBuf>,
+    /// Keep the outputs of each cell in a folder of its number below this one
+    #[arg(long, value_name = "DIR")]
+    pub(crate) keep_outputs: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) many: ManyArgs,
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
+
 fn assignment(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
@@ -352,6 +469,14 @@ mod tests {
     fn the_command_line_is_consistent() {
         use clap::CommandFactory;
         Args::command().debug_assert();
+    }
+
+    #[test]
+    fn parts_of_a_list_count_from_1() {
+        assert_eq!("2/3".parse(), Ok(Shard { index: 2, of: 3 }));
+        for wrong in ["0/3", "4/3", "1", "1/", "/1", "1/0", "-1/3", "a/b", "1/2/3"] {
+            assert!(wrong.parse::<Shard>().is_err(), "{wrong}");
+        }
     }
 
     #[test]

@@ -46,6 +46,8 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Run(args) => commands::run::run(&args, &registry),
         Command::Check(args) => commands::check::run(&args, &registry),
         Command::Test(args) => commands::test::run(&args, &registry),
+        Command::Batch(args) => commands::batch::run(&args, &registry),
+        Command::Sweep(args) => commands::sweep::run(&args, &registry),
         Command::Ops { name, markdown } => commands::ops::run(name.as_deref(), markdown, &registry),
         Command::Info { file, read, format } => commands::info::run(&file, &read, format),
         Command::Convert {

@@ -1,6 +1,6 @@
 //! What commands that run many recipes at once share.
 
-use recipe::{JobEnd, JobLimits, Jobs, Outcome, Settings};
+use recipe::{Diagnostic, JobEnd, JobLimits, Jobs, Outcome, Settings, Severity};
 
 use crate::listener::{Quiet, is_interrupted};
 use crate::loading::{Loaded, read_objects};
@@ -38,4 +38,17 @@ pub(crate) fn run_quietly(loaded: &Loaded, budget: u64, keep_outputs: bool) -> O
 /// What is said of a run that panicked.
 pub(crate) fn panicked(message: &str) -> String {
     format!("the program panicked in this run, which is a bug in it: {message}")
+}
+
+/// The first error in one line, and how many more there are.
+pub(crate) fn first_error(diagnostics: &[Diagnostic]) -> String {
+    let errors = || {
+        let is_error = |d: &&Diagnostic| d.severity == Severity::Error;
+        diagnostics.iter().filter(is_error)
+    };
+    let message = errors().next().map_or("failed", |d| d.message.as_str());
+    match errors().count() {
+        0 | 1 => message.to_owned(),
+        n => format!("{message} (and {} more)", n - 1),
+    }
 }

@@ -1,5 +1,6 @@
 //! Texts that several commands print.
 
+use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
@@ -165,6 +166,28 @@ pub(crate) fn problems_json(
             })
         })
         .collect()
+}
+
+/// A text that stays on its line and cannot steer the terminal.
+pub(crate) fn shown(text: &str) -> Cow<'_, str> {
+    if !text.contains(char::is_control) {
+        return Cow::Borrowed(text);
+    }
+    let escaped = |c: char| {
+        let control = c.is_control().then(|| c.escape_default().collect());
+        control.unwrap_or_else(|| c.to_string())
+    };
+    Cow::Owned(text.chars().map(escaped).collect())
+}
+
+/// A text as one word of a shell.
+pub(crate) fn quoted(text: &str) -> Cow<'_, str> {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./=:,+%@".contains(c);
+    if !text.is_empty() && text.chars().all(is_plain) {
+        Cow::Borrowed(text)
+    } else {
+        Cow::Owned(format!("'{}'", text.replace('\'', "'\\''")))
+    }
 }
 
 /// Writes a file whole or not at all: beside its place first, then renamed. Folders around it are made.

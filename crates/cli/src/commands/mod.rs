@@ -1,5 +1,6 @@
 //! The commands: one a file or folder. Each returns whether it succeeded.
 
+pub(crate) mod batch;
 pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod diff;
@@ -11,6 +12,7 @@ pub(crate) mod reproduce;
 pub(crate) mod run;
 pub(crate) mod schema;
 pub(crate) mod select;
+pub(crate) mod sweep;
 pub(crate) mod test;
 mod test_update;
 pub(crate) mod upgrade;

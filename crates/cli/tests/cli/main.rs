@@ -1,6 +1,7 @@
 //! Drives the real program in temporary folders.
 
 mod diff;
+mod batch;
 mod files;
 mod folder;
 mod interrupt;
@@ -10,6 +11,7 @@ mod refusals;
 mod reproduce;
 mod run;
 mod select;
+mod sweep;
 mod test;
 mod upgrade;
 mod usage;

@@ -1,0 +1,368 @@
+//! `meshwright batch`: one recipe on many files, several at once.
+//!
+//! ```text
+//! patterns -> sorted list -> collisions? -> this part -> done before? -> check -> run -> rows
+//!                                                             ^                     |
+//!                                                             +------ journal <-----+
+//! ```
+//!
+//! A line on the standard output for each file that was tried, in the order of the list, and a summary.
+//! [`row`] describes the reports, [`journal`] how a batch goes on after it was ended. Outputs, reports
+//! and notes are written beside their places and renamed; when the disk is full, the files at work fail,
+//! and if even the journal cannot be written, no other file is begun.
+
+mod failed;
+mod inputs;
+mod journal;
+mod merge;
+mod plan;
+mod row;
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use op::Registry;
+use recipe::{InOrder, JobEnd, Jobs, Outcome};
+
+use crate::args::BatchArgs;
+use crate::listener::{catch_interrupts, is_interrupted};
+use crate::loading::Loaded;
+use crate::many::{all, first_error, panicked, run_quietly};
+use crate::output::{print, shown};
+use inputs::Input;
+use journal::{Entry, Journal};
+use plan::{Batch, Planned};
+use row::{Form, Output, Report, Row, State};
+
+/// How many files are checked before the first of them is run: what is known of each stays in memory.
+const CHECKED_AHEAD: usize = 1000;
+
+pub(crate) fn run(args: &BatchArgs, registry: &Registry) -> anyhow::Result<bool> {
+    if let Some(report) = &args.report {
+        Form::of(report)?;
+    }
+    if !args.merge.is_empty() {
+        return merge::run(args);
+    }
+    let batch = match Batch::plan(args, registry)? {
+        Planned::Batch(batch) => batch,
+        Planned::Refused => return Ok(false),
+    };
+    catch_interrupts();
+    let mut journal = Journal::open(batch.journal())?;
+    batch.remove_stale(&journal.processes);
+    let mine = batch.mine();
+    let (mut rows, mut kept) = (Vec::with_capacity(mine.len()), 0);
+    for files in mine.chunks(CHECKED_AHEAD) {
+        let chunk = Chunk::check(&batch, files, &journal)?;
+        kept += chunk.count_kept();
+        rows.extend(chunk.run(&mut journal)?);
+    }
+    let report = Report::new(batch.header(), rows);
+    if let Some(path) = &args.report {
+        report.write(path)?;
+    }
+    print(&summary(&report, kept, args))?;
+    let header = &report.header;
+    Ok(header.failed == 0 && header.skipped == 0)
+}
+
+fn summary(report: &Report, kept: usize, args: &BatchArgs) -> String {
+    let header = &report.header;
+    let mut text = format!("{} ok, {} failed", header.ok, header.failed);
+    if header.failed > 0 {
+        let folder = failed::folder(&args.out);
+        text += &format!(" (see {})", folder.display());
+    }
+    if header.skipped > 0 {
+        text += &format!(", {} not done: interrupted", header.skipped);
+    }
+    if kept > 0 {
+        text += &format!("; {kept} of them were done before");
+    }
+    if let Some(shard) = header.shard {
+        text += &format!("; part {shard} of {} files", header.listed);
+    }
+    text + "\n"
+}
+
+/// What is to be done with a file.
+enum Task {
+    /// Nothing: this is what came of it before.
+    Keep(Row),
+    /// It can run, and takes so many bytes.
+    Run(Box<Loaded>, u64),
+    /// It cannot run.
+    Fail(Failure),
+}
+
+/// A file that failed: its row, and the whole of what is to be said.
+struct Failure {
+    row: Row,
+    text: String,
+    key: Option<String>,
+}
+
+/// What came of a file.
+struct Done {
+    row: Row,
+    /// What the row depends on; `None` if it is not to be noted.
+    key: Option<String>,
+    /// The whole of what is to be said of a failure.
+    text: String,
+}
+
+/// Files that are checked and then run.
+struct Chunk<'b> {
+    batch: &'b Batch<'b>,
+    files: &'b [&'b Input],
+    tasks: Vec<Task>,
+}
+
+impl<'b> Chunk<'b> {
+    fn check(
+        batch: &'b Batch<'b>,
+        files: &'b [&'b Input],
+        journal: &Journal,
+    ) -> anyhow::Result<Self> {
+        let limits = batch.args.many.limits();
+        let ends = all(files.len(), limits, |i| {
+            let known = journal.known(&files[i].path);
+            check(batch, files[i], known)
+        })?;
+        let task = |(end, file): (JobEnd<Task>, &&Input)| match end {
+            JobEnd::Done(task) => task,
+            JobEnd::Panicked(message) => Task::Fail(failure(file, panicked(&message))),
+            JobEnd::NotRun => Task::Keep(Row::not_done(&file.path, State::Skipped, None)),
+        };
+        Ok(Self {
+            batch,
+            files,
+            tasks: ends.into_iter().zip(files).map(task).collect(),
+        })
+    }
+
+    /// How many were done before.
+    fn count_kept(&self) -> usize {
+        let is_kept = |task: &&Task| matches!(task, Task::Keep(row) if row.state != State::Skipped);
+        self.tasks.iter().filter(is_kept).count()
+    }
+
+    /// Runs what is to be run, and returns the rows in the order of the files.
+    fn run(self, journal: &mut Journal) -> anyhow::Result<Vec<Row>> {
+        let broken = AtomicBool::new(false);
+        let jobs = Jobs {
+            count: self.tasks.len(),
+            bytes: |i: usize| match &self.tasks[i] {
+                Task::Run(_, bytes) => *bytes,
+                _ => 0,
+            },
+            stop: || is_interrupted() || broken.load(Ordering::Relaxed),
+            work: |i: usize| self.work(i),
+        };
+        let (mut order, mut rows) = (InOrder::default(), Vec::new());
+        let mut problem = Ok(());
+        jobs.run(self.batch.args.many.limits(), |ended| {
+            let ended: Vec<(usize, Done)> = ended
+                .into_iter()
+                .map(|(i, end)| (i, self.done(i, end)))
+                .collect();
+            if problem.is_ok() {
+                problem = self.note(&ended, journal);
+                broken.store(problem.is_err(), Ordering::Relaxed);
+            }
+            for (i, done) in ended {
+                order.put(i, done.row);
+            }
+            while let Some((i, row)) = order.take() {
+                if problem.is_ok() && !matches!(self.tasks[i], Task::Keep(_)) {
+                    problem = print(&line(&row)).map_err(Into::into);
+                    broken.store(problem.is_err(), Ordering::Relaxed);
+                }
+                rows.push(row);
+            }
+        })?;
+        problem.map(|()| rows)
+    }
+
+    /// What is done with a file, on one of many threads.
+    fn work(&self, i: usize) -> Done {
+        let (loaded, begin) = match &self.tasks[i] {
+            Task::Run(loaded, _) => (loaded, Instant::now()),
+            Task::Keep(row) => {
+                return Done {
+                    row: row.clone(),
+                    key: None,
+                    text: String::new(),
+                };
+            }
+            Task::Fail(failure) => {
+                return Done {
+                    row: failure.row.clone(),
+                    key: failure.key.clone(),
+                    text: failure.text.clone(),
+                };
+            }
+        };
+        // Before the run: what changes meanwhile is done again.
+        let key = self.batch.key(self.files[i], loaded);
+        let outcome = run_quietly(loaded, self.batch.args.many.budget, true);
+        let row = Row {
+            seconds: begin.elapsed().as_secs_f64(),
+            ..row(&self.files[i].path, loaded, &outcome)
+        };
+        Done {
+            key: key.filter(|_| row.state != State::Skipped),
+            row,
+            text: loaded.render(&outcome.failures, false),
+        }
+    }
+
+    fn done(&self, i: usize, end: JobEnd<Done>) -> Done {
+        match end {
+            JobEnd::Done(done) => done,
+            JobEnd::Panicked(message) => {
+                let failure = failure(self.files[i], panicked(&message));
+                Done {
+                    row: failure.row,
+                    key: None,
+                    text: failure.text,
+                }
+            }
+            JobEnd::NotRun => {
+                let path = &self.files[i].path;
+                let row = match &self.tasks[i] {
+                    Task::Keep(row) => row.clone(),
+                    _ => Row::not_done(path, State::Skipped, None),
+                };
+                Done {
+                    row,
+                    key: None,
+                    text: String::new(),
+                }
+            }
+        }
+    }
+
+    /// Puts what ended into the journal and the folder of failures.
+    fn note(&self, ended: &[(usize, Done)], journal: &mut Journal) -> anyhow::Result<()> {
+        let mut entries = Vec::new();
+        for (i, done) in ended {
+            if matches!(self.tasks[*i], Task::Keep(_)) {
+                continue;
+            }
+            match done.row.state {
+                State::Failed => failed::write(self.batch, self.files[*i], &done.row, &done.text)?,
+                State::Ok => failed::remove(self.batch, self.files[*i]),
+                State::Skipped => {}
+            }
+            if let Some(key) = &done.key {
+                entries.push(Entry {
+                    key: key.clone(),
+                    row: done.row.clone(),
+                });
+            }
+        }
+        journal.note(&entries)
+    }
+}
+
+/// Finds out what is to be done with a file.
+fn check(batch: &Batch, file: &Input, known: Option<&Entry>) -> Task {
+    let loaded = match batch.load(file) {
+        Ok(loaded) => loaded,
+        Err(error) => return Task::Fail(failure(file, format!("{error:#}"))),
+    };
+    let is_tried_again = |row: &Row| row.state == State::Failed && batch.args.retry_failed;
+    if let Some(entry) = known
+        && !is_tried_again(&entry.row)
+        && batch.key(file, &loaded).as_ref() == Some(&entry.key)
+        && entry.row.has_outputs()
+    {
+        return Task::Keep(entry.row.clone());
+    }
+    if loaded.has_errors() {
+        let mut failed = failure(file, first_error(&loaded.diagnostics));
+        failed.text = loaded.render(&loaded.diagnostics, false);
+        failed.key = batch.key(file, &loaded);
+        return Task::Fail(failed);
+    }
+    let bytes = loaded.forecast.peak_bytes();
+    Task::Run(Box::new(loaded), bytes)
+}
+
+fn failure(file: &Input, message: String) -> Failure {
+    Failure {
+        text: format!("error: {message}\n"),
+        row: Row::not_done(&file.path, State::Failed, Some(message)),
+        key: None,
+    }
+}
+
+/// The row of a file that was run.
+fn row(path: &str, loaded: &Loaded, outcome: &Outcome) -> Row {
+    let state = match (outcome.succeeded(), outcome.cancelled) {
+        (_, true) => return Row::not_done(path, State::Skipped, None),
+        (true, _) => State::Ok,
+        (false, _) => State::Failed,
+    };
+    let mut row = Row::not_done(path, state, None);
+    for step in &outcome.steps {
+        let losses = step.report.losses.iter();
+        row.losses
+            .extend(losses.map(|loss| format!("{}: {loss}", step.label)));
+    }
+    if state == State::Failed {
+        let failed = loaded.recipe.steps.get(outcome.steps.len());
+        row.step = failed.map(|step| step.label().to_owned());
+        row.message = Some(first_error(&outcome.failures));
+        return row;
+    }
+    let last = outcome.steps.last();
+    row.vertices = last.map(|step| step.vertices);
+    row.edges = last.map(|step| step.edges);
+    row.faces = last.map(|step| step.faces);
+    row.digest = Some(outcome.digest.to_string());
+    row.outputs = outcome
+        .written
+        .iter()
+        .map(|path| Output {
+            bytes: path.metadata().map_or(0, |m| m.len()),
+            path: path.display().to_string(),
+        })
+        .collect();
+    row
+}
+
+/// The line of a file.
+fn line(row: &Row) -> String {
+    let input = shown(&row.input);
+    match row.state {
+        State::Ok => {
+            let digest = row.digest.as_deref().unwrap_or_default();
+            format!(
+                "ok     {input} ({:.0} ms, digest {digest})\n",
+                row.seconds * 1e3
+            )
+        }
+        State::Failed => {
+            let step = row
+                .step
+                .as_ref()
+                .map(|s| format!("{s}: "))
+                .unwrap_or_default();
+            let message = row.message.as_deref().unwrap_or_default();
+            format!("FAILED {input}: {step}{}\n", shown(message))
+        }
+        State::Skipped => String::new(),
+    }
+}
+
+/// Where a batch keeps its journal.
+fn journal_path(out: &Path, shard: Option<crate::args::Shard>) -> PathBuf {
+    match shard {
+        None => out.join("batch.jsonl"),
+        Some(shard) => out.join(format!("batch-{}-of-{}.jsonl", shard.index, shard.of)),
+    }
+}

@@ -1,0 +1,306 @@
+//! The rows of a batch, and reports of them.
+//!
+//! `--report FILE.json` is one object; `.jsonl` has the same without `rows` in its first line, and then
+//! a row in each; `.csv` has only the rows, lists joined by `; `:
+//!
+//! ```text
+//! {
+//!   "batch": 1, "meshwright": "0.1.0",
+//!   "recipe": "clean.ron", "recipe_digest": "..",
+//!   "preset": null, "set": {"ratio": "0.5"},
+//!   "shard": {"index": 1, "of": 3},       null if the batch is one part
+//!   "listed": 12, "listed_digest": "..",  the files of all parts
+//!   "missing_shards": [],                 parts that a joined report does not have
+//!   "ok": 10, "failed": 2, "skipped": 0,
+//!   "rows": [{
+//!     "input": "models/cow.obj",
+//!     "state": "ok",                      or "failed", or "skipped": not done before Ctrl-C
+//!     "step": null, "message": null,      the step that failed, and why
+//!     "vertices": 8, "edges": 12, "faces": 6,
+//!     "digest": "..",
+//!     "losses": [".."],
+//!     "outputs": [{"path": "out/cow.glb", "bytes": 1200}],
+//!     "seconds": 0.01
+//!   }]
+//! }
+//! ```
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use anyhow::{Context as _, bail, ensure};
+use serde::{Deserialize, Serialize};
+
+use crate::args::Shard;
+use crate::output::write_whole;
+
+/// What became of one file.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub(super) struct Row {
+    pub(super) input: String,
+    pub(super) state: State,
+    pub(super) step: Option<String>,
+    pub(super) message: Option<String>,
+    pub(super) vertices: Option<usize>,
+    pub(super) edges: Option<usize>,
+    pub(super) faces: Option<usize>,
+    pub(super) digest: Option<String>,
+    pub(super) losses: Vec<String>,
+    pub(super) outputs: Vec<Output>,
+    pub(super) seconds: f64,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum State {
+    Ok,
+    Failed,
+    Skipped,
+}
+
+/// A file that was written.
+#[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
+pub(super) struct Output {
+    pub(super) path: String,
+    pub(super) bytes: u64,
+}
+
+impl Row {
+    /// A row of a file that was not done.
+    pub(super) fn not_done(input: &str, state: State, message: Option<String>) -> Self {
+        Self {
+            input: input.to_owned(),
+            state,
+            step: None,
+            message,
+            vertices: None,
+            edges: None,
+            faces: None,
+            digest: None,
+            losses: Vec::new(),
+            outputs: Vec::new(),
+            seconds: 0.0,
+        }
+    }
+
+    /// The same, whatever the time it took.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let seconds = self.seconds;
+        *self
+            == Self {
+                seconds,
+                ..other.clone()
+            }
+    }
+
+    /// Whether the outputs are still there with the sizes that they had.
+    pub(super) fn has_outputs(&self) -> bool {
+        self.outputs.iter().all(|output| {
+            Path::new(&output.path)
+                .metadata()
+                .is_ok_and(|m| m.is_file() && m.len() == output.bytes)
+        })
+    }
+
+    fn cells(&self) -> [String; 11] {
+        let number = |n: Option<usize>| n.map(|n| n.to_string()).unwrap_or_default();
+        let text = |text: &Option<String>| text.clone().unwrap_or_default();
+        let outputs: Vec<&str> = self.outputs.iter().map(|o| o.path.as_str()).collect();
+        [
+            self.input.clone(),
+            self.state.name().to_owned(),
+            text(&self.step),
+            text(&self.message),
+            number(self.vertices),
+            number(self.edges),
+            number(self.faces),
+            text(&self.digest),
+            self.losses.join("; "),
+            outputs.join("; "),
+            format!("{:.6}", self.seconds),
+        ]
+    }
+}
+
+const COLUMNS: [&str; 11] = [
+    "input", "state", "step", "message", "vertices", "edges", "faces", "digest", "losses",
+    "outputs", "seconds",
+];
+
+impl State {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Ok => "ok",
+            Self::Failed => "failed",
+            Self::Skipped => "skipped",
+        }
+    }
+}
+
+/// What the rows are about.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub(super) struct Header {
+    pub(super) batch: u32,
+    pub(super) meshwright: String,
+    pub(super) recipe: String,
+    pub(super) recipe_digest: String,
+    pub(super) preset: Option<String>,
+    pub(super) set: BTreeMap<String, String>,
+    pub(super) shard: Option<Shard>,
+    pub(super) listed: usize,
+    pub(super) listed_digest: String,
+    #[serde(default)]
+    pub(super) missing_shards: Vec<u32>,
+    #[serde(default)]
+    pub(super) ok: usize,
+    #[serde(default)]
+    pub(super) failed: usize,
+    #[serde(default)]
+    pub(super) skipped: usize,
+}
+
+/// A report of a batch or of a part of one.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub(super) struct Report {
+    #[serde(flatten)]
+    pub(super) header: Header,
+    pub(super) rows: Vec<Row>,
+}
+
+/// The forms that reports have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    Csv,
+    Json,
+    JsonLines,
+}
+
+impl Form {
+    /// The form that the ending of a path asks for.
+    pub(super) fn of(path: &Path) -> anyhow::Result<Self> {
+        match path.extension().and_then(|e| e.to_str()) {
+            Some("csv") => Ok(Self::Csv),
+            Some("json") => Ok(Self::Json),
+            Some("jsonl") => Ok(Self::JsonLines),
+            _ => bail!(
+                "{}: expected a report that ends in .csv, .json or .jsonl",
+                path.display()
+            ),
+        }
+    }
+}
+
+impl Report {
+    /// A report with its counts.
+    pub(super) fn new(mut header: Header, rows: Vec<Row>) -> Self {
+        let count = |state| rows.iter().filter(|row| row.state == state).count();
+        header.ok = count(State::Ok);
+        header.failed = count(State::Failed);
+        header.skipped = count(State::Skipped);
+        Self { header, rows }
+    }
+
+    /// Writes the report in the form that the ending of the path asks for.
+    pub(super) fn write(&self, path: &Path) -> anyhow::Result<()> {
+        let bytes = match Form::of(path)? {
+            Form::Csv => {
+                let mut table = csv::Writer::from_writer(Vec::new());
+                table.write_record(COLUMNS)?;
+                for row in &self.rows {
+                    table.write_record(row.cells())?;
+                }
+                table.into_inner()?
+            }
+            Form::Json => [serde_json::to_vec_pretty(self)?, b"\n".to_vec()].concat(),
+            Form::JsonLines => {
+                let mut text = serde_json::to_vec(&self.header)?;
+                text.push(b'\n');
+                for row in &self.rows {
+                    serde_json::to_writer(&mut text, row)?;
+                    text.push(b'\n');
+                }
+                text
+            }
+        };
+        write_whole(path, &bytes)
+    }
+
+    /// Reads a report that was written as JSON.
+    pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
+        let shown = path.display();
+        let form = Form::of(path)?;
+        ensure!(
+            form != Form::Csv,
+            "{shown}: a table does not say what it is a part of: join reports in .json or .jsonl"
+        );
+        let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {shown}"))?;
+        let no_report = || format!("{shown} is no report of a batch");
+        if form == Form::Json {
+            return serde_json::from_str(&text).with_context(no_report);
+        }
+        let mut lines = text.lines().enumerate();
+        let (_, first) = lines.next().with_context(no_report)?;
+        let header = serde_json::from_str(first).with_context(no_report)?;
+        let row = |(i, line): (usize, &str)| {
+            let row: Result<Row, _> = serde_json::from_str(line);
+            row.with_context(|| format!("{shown}:{}: this is no row of a batch", i + 1))
+        };
+        let rows = lines.map(row).collect::<anyhow::Result<_>>()?;
+        Ok(Self { header, rows })
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    pub(in crate::commands::batch) fn row(input: &str) -> Row {
+        Row {
+            vertices: Some(8),
+            losses: vec!["Save: cube lost \"a\", b".to_owned()],
+            outputs: vec![Output {
+                path: "out/a b.glb".to_owned(),
+                bytes: 12,
+            }],
+            seconds: 0.25,
+            ..Row::not_done(input, State::Ok, None)
+        }
+    }
+
+    fn report() -> Report {
+        let header = Header {
+            batch: 1,
+            meshwright: "0.1.0".to_owned(),
+            recipe: "a.ron".to_owned(),
+            recipe_digest: "d".to_owned(),
+            preset: None,
+            set: BTreeMap::from([("x".to_owned(), "1".to_owned())]),
+            shard: Some(Shard { index: 2, of: 3 }),
+            listed: 9,
+            listed_digest: "l".to_owned(),
+            missing_shards: Vec::new(),
+            ok: 0,
+            failed: 0,
+            skipped: 0,
+        };
+        Report::new(header, vec![row("a, \"b\"\nc.obj"), row("é.obj")])
+    }
+
+    #[test]
+    fn reports_read_back_as_they_were() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["a.json", "a.jsonl"] {
+            let path = folder.path().join(name);
+            report().write(&path).unwrap();
+            assert_eq!(Report::read(&path).unwrap(), report());
+        }
+        let path = folder.path().join("a.csv");
+        report().write(&path).unwrap();
+        let mut table = csv::Reader::from_path(&path).unwrap();
+        assert_eq!(table.headers().unwrap().len(), 11);
+        let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+        assert_eq!(&rows[0][0], "a, \"b\"\nc.obj");
+        assert_eq!(&rows[1][9], "out/a b.glb");
+        assert!(Report::read(&path).is_err());
+    }
+}

@@ -1,0 +1,133 @@
+//! The cells of a sweep: each is a run with values of its own.
+
+use std::path::PathBuf;
+
+use op::Registry;
+use recipe::{Grid, JobEnd, Measured, Metric, Source, Span};
+
+use crate::args::SweepArgs;
+use crate::loading::{Loaded, load_source, read_objects};
+use crate::many::{all, first_error, panicked, run_quietly};
+
+/// All cells.
+pub(super) struct Cells<'a> {
+    pub(super) args: &'a SweepArgs,
+    pub(super) registry: &'a Registry,
+    /// The text of the recipe.
+    pub(super) source: &'a Source,
+    pub(super) grid: &'a Grid,
+    pub(super) keep: &'a [(Metric, Span)],
+    /// Whether the recipe's expectations must hold.
+    pub(super) expects: bool,
+}
+
+/// A cell that is checked, or why it cannot run.
+pub(super) struct Task(Result<Loaded, String>);
+
+impl Task {
+    /// The bytes that it takes at its peak.
+    pub(super) fn bytes(&self) -> u64 {
+        self.0.as_ref().map_or(0, |l| l.forecast.peak_bytes())
+    }
+}
+
+/// What came of a cell.
+#[derive(Debug, Default)]
+pub(super) struct CellResult {
+    /// What is kept, if it succeeded.
+    pub(super) measures: Option<Vec<Measured>>,
+    /// The files that were written, if outputs are kept.
+    pub(super) outputs: Vec<PathBuf>,
+    pub(super) error: Option<String>,
+    /// Whether Ctrl-C came before it was done.
+    pub(super) is_not_run: bool,
+}
+
+impl CellResult {
+    pub(super) fn of(end: JobEnd<Self>) -> Self {
+        match end {
+            JobEnd::Done(result) => result,
+            JobEnd::Panicked(message) => Self::failed(panicked(&message)),
+            JobEnd::NotRun => Self::not_run(),
+        }
+    }
+
+    fn failed(error: String) -> Self {
+        Self {
+            error: Some(error),
+            ..Self::default()
+        }
+    }
+
+    fn not_run() -> Self {
+        Self {
+            is_not_run: true,
+            ..Self::default()
+        }
+    }
+}
+
+impl Cells<'_> {
+    /// Reads and checks the recipe for every cell.
+    pub(super) fn check(&self) -> anyhow::Result<Vec<Task>> {
+        let ends = all(self.grid.cells.len(), self.args.many.limits(), |i| {
+            self.load(i).map_err(|error| format!("{error:#}"))
+        })?;
+        let task = |end| match end {
+            JobEnd::Done(loaded) => Task(loaded),
+            JobEnd::Panicked(message) => Task(Err(panicked(&message))),
+            JobEnd::NotRun => Task(Err("interrupted".to_owned())),
+        };
+        Ok(ends.into_iter().map(task).collect())
+    }
+
+    fn load(&self, i: usize) -> anyhow::Result<Loaded> {
+        let grid = self.grid;
+        let shared = grid.set.iter().map(|(name, setting)| (name, setting));
+        let own = grid.parameters.iter().zip(&grid.cells[i]);
+        let set: Vec<(String, String)> = shared
+            .chain(own)
+            .map(|(name, setting)| (name.clone(), setting.text.clone()))
+            .collect();
+        let out = match &self.args.keep_outputs {
+            Some(folder) => folder.join((i + 1).to_string()),
+            None => "out".into(),
+        };
+        let budget = self.args.many.budget;
+        let mut loaded = load_source(self.source, &set, None, &out, budget, self.registry)?;
+        if !self.expects {
+            loaded.recipe.expectations.clear();
+        }
+        Ok(loaded)
+    }
+
+    pub(super) fn run(&self, task: &Task) -> CellResult {
+        let loaded = match &task.0 {
+            Ok(loaded) => loaded,
+            Err(error) => return CellResult::failed(error.clone()),
+        };
+        if loaded.has_errors() {
+            return CellResult::failed(first_error(&loaded.diagnostics));
+        }
+        let keeps = self.args.keep_outputs.is_some();
+        let outcome = run_quietly(loaded, self.args.many.budget, keeps);
+        if outcome.cancelled {
+            return CellResult::not_run();
+        }
+        if !outcome.succeeded() {
+            return CellResult::failed(first_error(&outcome.failures));
+        }
+        let measure = |(metric, _): &(Metric, Span)| {
+            let measured = metric.measure(&outcome, &loaded.files, &read_objects);
+            measured.map_err(|problem| format!("{metric:?}: {problem}"))
+        };
+        match self.keep.iter().map(measure).collect() {
+            Ok(measures) => CellResult {
+                measures: Some(measures),
+                outputs: outcome.written,
+                ..CellResult::default()
+            },
+            Err(error) => CellResult::failed(error),
+        }
+    }
+}

@@ -1,0 +1,313 @@
+//! `meshwright sweep`: one recipe with many values of its parameters, and what comes out as a table.
+//!
+//! [`recipe::read_sweep`] describes the file. The table has a row for each cell, in the order of the
+//! grid: its number, the values of the parameters that change, what is kept, and the error of a cell
+//! that failed. `--out FILE.csv` writes it as it is. `--out FILE.json` and `--format json` are one
+//! object:
+//!
+//! ```text
+//! {
+//!   "sweep": "levels.sweep.ron", "recipe": "cow.ron",
+//!   "succeeded": true,                  no cell failed, none was left out by Ctrl-C
+//!   "set": {"smooth": true},            the same in every cell
+//!   "parameters": ["levels"],           those that change
+//!   "keep": ["Faces", "Area"],
+//!   "cells": [{
+//!     "cell": 1,
+//!     "parameters": {"levels": 0},
+//!     "measures": {"Faces": 6, "Area": 6.0},    null if the cell failed; infinite numbers are null
+//!     "outputs": ["kept/1/cow.glb"],    if they are kept
+//!     "error": null
+//!   }]
+//! }
+//! ```
+
+mod cell;
+
+use std::path::Path;
+
+use anyhow::{Context as _, ensure};
+use op::Registry;
+use recipe::{
+    Diagnostic, Grid, InOrder, Jobs, Measured, Metric, Other, Setting, Severity, Source, Sweep,
+    read_sweep,
+};
+use serde_json::{Map, Value as Json, json};
+
+use crate::args::{Format, SweepArgs};
+use crate::commands::run::refuse;
+use crate::listener::{catch_interrupts, is_interrupted};
+use crate::loading::{Loaded, load_source};
+use crate::output::{complain, print, show_texts, shown, table, write_whole};
+use cell::{CellResult, Cells};
+
+pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool> {
+    if let Some(path) = &args.out {
+        let ending = path.extension().and_then(|e| e.to_str());
+        ensure!(
+            matches!(ending, Some("csv" | "json")),
+            "{}: expected a table that ends in .csv or .json",
+            path.display()
+        );
+    }
+    let Some(plan) = Plan::read(args, registry)? else {
+        return Ok(false);
+    };
+    catch_interrupts();
+    let cells = Cells {
+        args,
+        registry,
+        source: &plan.recipe,
+        grid: &plan.grid,
+        keep: &plan.sweep.keep,
+        expects: plan.sweep.expects,
+    };
+    let tasks = cells.check()?;
+    let jobs = Jobs {
+        count: tasks.len(),
+        bytes: |i: usize| tasks[i].bytes(),
+        stop: is_interrupted,
+        work: |i: usize| cells.run(&tasks[i]),
+    };
+    let (mut order, mut results) = (InOrder::default(), Vec::with_capacity(tasks.len()));
+    jobs.run(args.many.limits(), |ended| {
+        for (i, end) in ended {
+            order.put(i, end);
+        }
+        while let Some((_, end)) = order.take() {
+            results.push(CellResult::of(end));
+        }
+    })?;
+    finish(args, &plan, &results)
+}
+
+/// A sweep that can run.
+struct Plan {
+    sweep: Sweep,
+    /// The text of the sweep.
+    source: Source,
+    /// The text of the recipe.
+    recipe: Source,
+    /// The recipe with the values that all cells share.
+    loaded: Loaded,
+    grid: Grid,
+}
+
+impl Plan {
+    /// Reads the sweep and its recipe, and holds one against the other. `None` if something is wrong,
+    /// which was said.
+    fn read(args: &SweepArgs, registry: &Registry) -> anyhow::Result<Option<Self>> {
+        let source = Source::open(&args.sweep).map_err(anyhow::Error::msg)?;
+        let reading = read_sweep(&source.text);
+        let mut diagnostics = reading.diagnostics;
+        let mut plan = None;
+        if let Some(sweep) = reading.sweep {
+            let path = source.folder().join(&sweep.recipe);
+            if path.is_file() {
+                let recipe = Source::open(&path).map_err(anyhow::Error::msg)?;
+                let out = args.keep_outputs.as_deref().unwrap_or(Path::new("out"));
+                let loaded = load_source(&recipe, &[], None, out, args.many.budget, registry)?;
+                if !loaded.is_read {
+                    show_texts(&[source], &diagnostics);
+                    return refuse(&loaded, args.format == Format::Json).map(|_| None);
+                }
+                check_files(&sweep, &loaded, &mut diagnostics);
+                match sweep.grid(loaded.recipe.parameters(), source.folder()) {
+                    Ok(grid) => plan = Some((sweep, recipe, loaded, grid)),
+                    Err(wrong) => diagnostics.extend(wrong),
+                }
+            } else {
+                let message = format!("there is no file {}", path.display());
+                diagnostics.push(Diagnostic::error(sweep.recipe_span, message));
+            }
+        }
+        diagnostics.sort_by_key(|d| d.span);
+        show_texts(std::slice::from_ref(&source), &diagnostics);
+        let is_error = |d: &&Diagnostic| d.severity == Severity::Error;
+        let n = diagnostics.iter().filter(is_error).count();
+        match plan {
+            Some((sweep, recipe, loaded, grid)) if n == 0 => Ok(Some(Self {
+                sweep,
+                source,
+                recipe,
+                loaded,
+                grid,
+            })),
+            _ => {
+                let errors = if n == 1 { "error" } else { "errors" };
+                complain(&format!("{n} {errors}, nothing was run\n"));
+                Ok(None)
+            }
+        }
+    }
+
+    /// What is kept, as it is written in the sweep.
+    fn names(&self) -> Vec<String> {
+        let keep = self.sweep.keep.iter();
+        let written = keep.map(|(_, span)| span.of(&self.source.text));
+        written
+            .map(|text| text.split_whitespace().collect::<Vec<_>>().join(" "))
+            .collect()
+    }
+}
+
+/// Every file that cells are compared with is there.
+fn check_files(sweep: &Sweep, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>) {
+    for (metric, span) in &sweep.keep {
+        if let Some(Other::File(path)) = Metric::other(metric) {
+            let path = loaded.files.to_read(path);
+            if !path.is_file() {
+                let message = format!("there is no file {}", path.display());
+                diagnostics.push(Diagnostic::error(*span, message));
+            }
+        }
+    }
+}
+
+/// Prints and writes what came out.
+fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Result<bool> {
+    let failed = results.iter().filter(|r| r.error.is_some()).count();
+    let not_run = results.iter().filter(|r| r.is_not_run).count();
+    let succeeded = failed == 0 && not_run == 0;
+    let rows = rows(plan, results);
+    let is_json = |path: &Path| path.extension().is_some_and(|e| e == "json");
+    if let Some(path) = &args.out {
+        let bytes = if is_json(path) {
+            format!("{:#}\n", object(args, plan, results, succeeded)).into_bytes()
+        } else {
+            let mut writer = csv::Writer::from_writer(Vec::new());
+            for row in &rows {
+                writer.write_record(row)?;
+            }
+            writer.into_inner().context("cannot make the table")?
+        };
+        write_whole(path, &bytes)?;
+    }
+    if args.format == Format::Json {
+        print(&format!("{:#}\n", object(args, plan, results, succeeded)))?;
+        return Ok(succeeded);
+    }
+    print(&table(&on_a_terminal(rows)))?;
+    for (i, result) in results.iter().enumerate() {
+        if let Some(error) = &result.error {
+            complain(&format!("error: cell {}: {}\n", i + 1, shown(error)));
+        }
+    }
+    let mut summary = format!("{} cells", results.len());
+    if failed > 0 {
+        summary += &format!(", {failed} failed");
+    }
+    if not_run > 0 {
+        summary += &format!(", {not_run} not run: interrupted");
+    }
+    let unheld = plan.loaded.recipe.expectations.len();
+    if unheld > 0 && !plan.sweep.expects {
+        summary += &format!(
+            "; the {unheld} expectations of the recipe were not held, write `expect: true` to hold them"
+        );
+    }
+    print(&format!("{summary}\n"))?;
+    Ok(succeeded)
+}
+
+/// The table, with its heads.
+fn rows(plan: &Plan, results: &[CellResult]) -> Vec<Vec<String>> {
+    let mut heads = vec!["cell".to_owned()];
+    heads.extend(plan.grid.parameters.iter().cloned());
+    let names = plan.names();
+    heads.extend(names.iter().cloned());
+    heads.push("error".to_owned());
+    let mut rows = vec![heads];
+    for (i, (cell, result)) in plan.grid.cells.iter().zip(results).enumerate() {
+        let mut row = vec![(i + 1).to_string()];
+        row.extend(cell.iter().map(plain));
+        match &result.measures {
+            Some(measures) => row.extend(measures.iter().map(ToString::to_string)),
+            None => row.extend(names.iter().map(|_| String::new())),
+        }
+        row.push(match &result.error {
+            Some(error) => error.clone(),
+            None if result.is_not_run => "not run".to_owned(),
+            None => String::new(),
+        });
+        rows.push(row);
+    }
+    rows
+}
+
+/// The value of a parameter in a table: a text without its quotes.
+fn plain(setting: &Setting) -> String {
+    match setting.json() {
+        Json::String(text) => text,
+        _ => setting.literal.clone(),
+    }
+}
+
+/// The table as it is shown: errors stand below it, and numbers are short.
+fn on_a_terminal(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
+    let cell = |text: String| match text.parse::<f64>() {
+        Ok(number) if text.contains('.') && text.len() > 10 => format!("{number:.6}"),
+        _ => shown(&text).into_owned(),
+    };
+    rows.into_iter()
+        .map(|mut row| {
+            let error = row.pop().unwrap_or_default();
+            let mut row: Vec<String> = row.into_iter().map(cell).collect();
+            if error != "error" && !error.is_empty() {
+                row.push(if error == "not run" {
+                    error
+                } else {
+                    "FAILED".to_owned()
+                });
+            }
+            row
+        })
+        .collect()
+}
+
+fn object(args: &SweepArgs, plan: &Plan, results: &[CellResult], succeeded: bool) -> Json {
+    let named = |names: &[String], values: &mut dyn Iterator<Item = Json>| -> Json {
+        let map: Map<String, Json> = names.iter().cloned().zip(values).collect();
+        Json::Object(map)
+    };
+    let grid = &plan.grid;
+    let names = plan.names();
+    let cells: Vec<Json> = grid
+        .cells
+        .iter()
+        .zip(results)
+        .enumerate()
+        .map(|(i, (cell, result))| {
+            let measures = result.measures.as_ref();
+            json!({
+                "cell": i + 1,
+                "parameters": named(&grid.parameters, &mut cell.iter().map(Setting::json)),
+                "measures": measures.map(|m| named(&names, &mut m.iter().map(measured))),
+                "outputs": result.outputs,
+                "error": result.error,
+            })
+        })
+        .collect();
+    let (set, values): (Vec<String>, Vec<Json>) = grid
+        .set
+        .iter()
+        .map(|(name, setting)| (name.clone(), setting.json()))
+        .unzip();
+    json!({
+        "sweep": args.sweep.display().to_string(),
+        "recipe": plan.recipe.path.display().to_string(),
+        "succeeded": succeeded,
+        "set": named(&set, &mut values.into_iter()),
+        "parameters": grid.parameters,
+        "keep": names,
+        "cells": cells,
+    })
+}
+
+fn measured(measured: &Measured) -> Json {
+    match measured {
+        Measured::Whole(n) => json!(n),
+        Measured::Number(x) => json!(x),
+        Measured::Text(text) => json!(text),
+    }
+}

@@ -5,6 +5,9 @@ use recipe::{Diagnostic, JobEnd, JobLimits, Jobs, Outcome, Settings, Severity};
 use crate::listener::{Quiet, is_interrupted};
 use crate::loading::{Loaded, read_objects};
 
+/// How many runs are checked before the first of them begins: what is known of each stays in memory.
+pub(crate) const CHECKED_AHEAD: usize = 1000;
+
 /// Does jobs that take little memory, and returns their ends in the order of the jobs.
 pub(crate) fn all<T: Send>(
     count: usize,

@@ -195,6 +195,22 @@ fn files_that_are_done_are_not_done_again_until_something_changes() {
     assert_eq!(again("--set levels=2"), 8);
 }
 
+#[test]
+fn what_failed_for_want_of_memory_is_tried_again_with_more() {
+    let folder = with_models(2);
+    batch(&folder, "--set levels=6 --budget 100KiB")
+        .with_code(1)
+        .prints(&["0 ok, 2 failed"]);
+    let again = batch(&folder, "--set levels=6 --budget 100KiB").with_code(1);
+    assert!(
+        again.stdout.ends_with("2 of them were done before\n"),
+        "{again:#?}"
+    );
+    batch(&folder, "--set levels=6")
+        .with_code(0)
+        .prints(&["2 ok, 0 failed\n"]);
+}
+
 #[cfg(unix)]
 #[test]
 fn a_batch_that_is_killed_goes_on_where_it_was() {
@@ -610,6 +626,43 @@ fn links_that_go_round_in_circles_do_not_hang() {
     batch(&folder, "")
         .with_code(0)
         .prints(&["2 ok, 0 failed\n"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_cannot_be_written_whole_is_a_failure_and_leaves_nothing() {
+    // A limit on the size of files stands for a disk that is full.
+    let folder = with_models(3);
+    let limited = "trap '' XFSZ; ulimit -f 8; exec \"$0\" batch recipe.ron --inputs models/*.obj";
+    let ended = folder
+        .shell(&format!("{limited} --set levels=5"))
+        .with_code(1);
+    assert!(ended.stdout.contains("0 ok, 3 failed"), "{ended:#?}");
+    assert!(
+        ended.stdout.contains("FAILED models/m000.obj: Save: "),
+        "{ended:#?}"
+    );
+    assert_eq!(folder.entries("out"), ["batch.jsonl", "failed"]);
+    // With room it goes on.
+    batch(&folder, "--set levels=5 --retry-failed")
+        .with_code(0)
+        .prints(&["3 ok, 0 failed\n"]);
+
+    // A journal that cannot grow ends the batch; what it has is whole.
+    let folder = with_models(60);
+    let ended = folder.shell(&limited.replace("-f 8", "-f 4")).with_code(1);
+    assert!(
+        ended
+            .stderr
+            .contains("error: cannot write the journal out/batch.jsonl"),
+        "{ended:#?}"
+    );
+    let kept = |text: &str| {
+        let (_, rest) = text.split_once("; ").unwrap();
+        rest.split(' ').next().unwrap().parse::<usize>().unwrap()
+    };
+    let again = batch(&folder, "").with_code(0);
+    assert!((1..60).contains(&kept(&again.stdout)), "{again:#?}");
 }
 
 #[cfg(unix)]

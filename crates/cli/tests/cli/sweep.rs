@@ -202,7 +202,7 @@ fn everything_that_is_wrong_comes_at_once_with_its_place_and_nothing_runs() {
             "help: did you mean `around`?\n",
             "error: 2 is below the minimum 3\n",
             "a.sweep.ron:6:20\n",
-            "error: expected a whole number, found 8.5\n",
+            "error: expected a whole number, found `8.5`\n",
             "a.sweep.ron:6:23\n",
             "error: expected a whole number, found the string \"9\"\n",
             "error: expected a value, found none\n",

@@ -139,7 +139,7 @@ fn everything_that_is_wrong_with_the_values_comes_at_once() {
     );
     let expected = [
         ("\"m\"", "the recipe has no parameter `m`"),
-        ("1.5", "expected a whole number, found 1.5"),
+        ("1.5", "expected a whole number, found `1.5`"),
         ("12", "12 is above the maximum 9"),
         ("\"2\"", "expected a whole number, found the string \"2\""),
         ("[]", "expected a value, found none"),

@@ -9,7 +9,8 @@
 //! ```
 //!
 //! The key is a digest of everything that the row depends on: recipe, parameters, the path and the
-//! content of every file that is read, the paths of outputs, and the version of the program.
+//! content of every file that is read, the paths of outputs, the version of the program, and for a failure
+//! the budget.
 
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
@@ -56,6 +57,9 @@ impl Journal {
                 .truncate(false)
                 .clone();
             let mut file = options.open(&path)?;
+            if !file.metadata()?.is_file() {
+                return Err(std::io::Error::other("it is no file"));
+            }
             let mut bytes = Vec::new();
             file.read_to_end(&mut bytes)?;
             let whole = bytes.iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);

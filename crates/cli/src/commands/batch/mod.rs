@@ -28,15 +28,12 @@ use recipe::{InOrder, JobEnd, Jobs, Outcome};
 use crate::args::BatchArgs;
 use crate::listener::{catch_interrupts, is_interrupted};
 use crate::loading::Loaded;
-use crate::many::{all, first_error, panicked, run_quietly};
+use crate::many::{CHECKED_AHEAD, all, first_error, panicked, run_quietly};
 use crate::output::{print, shown};
 use inputs::Input;
 use journal::{Entry, Journal};
 use plan::{Batch, Planned};
 use row::{Form, Output, Report, Row, State};
-
-/// How many files are checked before the first of them is run: what is known of each stays in memory.
-const CHECKED_AHEAD: usize = 1000;
 
 pub(crate) fn run(args: &BatchArgs, registry: &Registry) -> anyhow::Result<bool> {
     if let Some(report) = &args.report {
@@ -213,7 +210,9 @@ impl<'b> Chunk<'b> {
             ..row(&self.files[i].path, loaded, &outcome)
         };
         Done {
-            key: key.filter(|_| row.state != State::Skipped),
+            key: key
+                .filter(|_| row.state != State::Skipped)
+                .map(|key| noted(key, &row, self.batch)),
             row,
             text: loaded.render(&outcome.failures, false),
         }
@@ -277,7 +276,8 @@ fn check(batch: &Batch, file: &Input, known: Option<&Entry>) -> Task {
     let is_tried_again = |row: &Row| row.state == State::Failed && batch.args.retry_failed;
     if let Some(entry) = known
         && !is_tried_again(&entry.row)
-        && batch.key(file, &loaded).as_ref() == Some(&entry.key)
+        && let Some(key) = batch.key(file, &loaded)
+        && noted(key, &entry.row, batch) == entry.key
         && entry.row.has_outputs()
     {
         return Task::Keep(entry.row.clone());
@@ -285,11 +285,20 @@ fn check(batch: &Batch, file: &Input, known: Option<&Entry>) -> Task {
     if loaded.has_errors() {
         let mut failed = failure(file, first_error(&loaded.diagnostics));
         failed.text = loaded.render(&loaded.diagnostics, false);
-        failed.key = batch.key(file, &loaded);
+        let key = batch.key(file, &loaded);
+        failed.key = key.map(|key| noted(key, &failed.row, batch));
         return Task::Fail(failed);
     }
     let bytes = loaded.forecast.peak_bytes();
     Task::Run(Box::new(loaded), bytes)
+}
+
+/// The key of a row for the journal: with another budget, what failed may be done.
+fn noted(key: String, row: &Row, batch: &Batch) -> String {
+    match row.state {
+        State::Failed => format!("{key}-{}", batch.args.many.budget),
+        _ => key,
+    }
 }
 
 fn failure(file: &Input, message: String) -> Failure {

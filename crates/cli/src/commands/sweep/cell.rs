@@ -1,5 +1,6 @@
 //! The cells of a sweep: each is a run with values of its own.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use op::Registry;
@@ -68,10 +69,11 @@ impl CellResult {
 }
 
 impl Cells<'_> {
-    /// Reads and checks the recipe for every cell.
-    pub(super) fn check(&self) -> anyhow::Result<Vec<Task>> {
-        let ends = all(self.grid.cells.len(), self.args.many.limits(), |i| {
-            self.load(i).map_err(|error| format!("{error:#}"))
+    /// Reads and checks the recipe for these cells.
+    pub(super) fn check(&self, cells: Range<usize>) -> anyhow::Result<Vec<Task>> {
+        let ends = all(cells.len(), self.args.many.limits(), |i| {
+            self.load(cells.start + i)
+                .map_err(|error| format!("{error:#}"))
         })?;
         let task = |end| match end {
             JobEnd::Done(loaded) => Task(loaded),

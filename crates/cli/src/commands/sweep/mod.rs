@@ -38,6 +38,7 @@ use crate::args::{Format, SweepArgs};
 use crate::commands::run::refuse;
 use crate::listener::{catch_interrupts, is_interrupted};
 use crate::loading::{Loaded, load_source};
+use crate::many::CHECKED_AHEAD;
 use crate::output::{complain, print, show_texts, shown, table, write_whole};
 use cell::{CellResult, Cells};
 
@@ -62,22 +63,26 @@ pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool>
         keep: &plan.sweep.keep,
         expects: plan.sweep.expects,
     };
-    let tasks = cells.check()?;
-    let jobs = Jobs {
-        count: tasks.len(),
-        bytes: |i: usize| tasks[i].bytes(),
-        stop: is_interrupted,
-        work: |i: usize| cells.run(&tasks[i]),
-    };
-    let (mut order, mut results) = (InOrder::default(), Vec::with_capacity(tasks.len()));
-    jobs.run(args.many.limits(), |ended| {
-        for (i, end) in ended {
-            order.put(i, end);
-        }
-        while let Some((_, end)) = order.take() {
-            results.push(CellResult::of(end));
-        }
-    })?;
+    let count = plan.grid.cells.len();
+    let mut results = Vec::with_capacity(count);
+    for first in (0..count).step_by(CHECKED_AHEAD) {
+        let tasks = cells.check(first..count.min(first + CHECKED_AHEAD))?;
+        let jobs = Jobs {
+            count: tasks.len(),
+            bytes: |i: usize| tasks[i].bytes(),
+            stop: is_interrupted,
+            work: |i: usize| cells.run(&tasks[i]),
+        };
+        let mut order = InOrder::default();
+        jobs.run(args.many.limits(), |ended| {
+            for (i, end) in ended {
+                order.put(i, end);
+            }
+            while let Some((_, end)) = order.take() {
+                results.push(CellResult::of(end));
+            }
+        })?;
+    }
     finish(args, &plan, &results)
 }
 

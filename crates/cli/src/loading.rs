@@ -63,11 +63,11 @@ pub(crate) fn load_recipe(
     registry: &Registry,
 ) -> anyhow::Result<Loaded> {
     let source = Source::open(path).map_err(anyhow::Error::msg)?;
-    load_source(&source, set, preset, out, budget, registry)
+    load_text(&source, set, preset, out, budget, registry)
 }
 
-/// Reads and checks the text of a recipe.
-pub(crate) fn load_source(
+/// The same for a recipe whose text is known; paths among the values are seen from the working directory.
+pub(crate) fn load_text(
     source: &Source,
     set: &[(String, String)],
     preset: Option<&str>,
@@ -81,10 +81,10 @@ pub(crate) fn load_source(
         preset,
         folder: Some(&folder),
     };
-    Ok(load_source(&source, values, out, budget, registry))
+    Ok(load_source(source, values, out, budget, registry))
 }
 
-/// Reads and checks a recipe whose text is known.
+/// Reads and checks a recipe whose text is known, with values that say from where paths are seen.
 pub(crate) fn load_source(
     source: &Source,
     values: Values,

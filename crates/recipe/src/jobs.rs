@@ -328,7 +328,9 @@ mod tests {
         };
         let (mut order, mut all) = (InOrder::default(), Vec::new());
         jobs.run(limits, |ended| {
-            ended.into_iter().for_each(|(i, end)| order.put(i, end));
+            for (i, end) in ended {
+                order.put(i, end);
+            }
             while let Some((i, end)) = order.take() {
                 assert_eq!(i, all.len());
                 all.push(end);

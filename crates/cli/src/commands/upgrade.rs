@@ -15,8 +15,8 @@ use crate::replace::replace_file;
 pub(crate) fn run(args: &UpgradeArgs, registry: &Registry) -> anyhow::Result<bool> {
     let recipes = recipes(&args.recipes)?;
     let (mut failed, mut old) = (0, 0);
-    for path in &recipes {
-        match one(path, args.check, registry) {
+    for found in &recipes {
+        match one(&found.path, args.check, registry) {
             Ok(true) => old += 1,
             Ok(false) => {}
             Err(error) => {

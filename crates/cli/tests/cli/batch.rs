@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 
 use serde_json::Value as Json;
 
@@ -36,6 +37,13 @@ fn batch(folder: &Folder, arguments: &str) -> Ended {
     folder.run(&format!(
         "batch recipe.ron --inputs models/**/*.obj {arguments}"
     ))
+}
+
+/// The names of the models in a folder.
+fn models(folder: &Folder, path: &str) -> Vec<String> {
+    let mut names = folder.entries(path);
+    names.retain(|name| Path::new(name).extension().is_some_and(|e| e == "obj"));
+    names
 }
 
 /// A report without what two runs do not share.
@@ -130,10 +138,7 @@ fn results_do_not_depend_on_jobs_threads_and_budget() {
         );
         assert_eq!(ended.code, Some(1), "{ended:#?}");
         let text = serde_json::to_string(&report(&folder, &format!("{out}.json"))).unwrap();
-        let files = folder
-            .entries(out)
-            .into_iter()
-            .filter(|n| n.ends_with(".obj"));
+        let files = models(&folder, out).into_iter();
         let files: Vec<Vec<u8>> = files.map(|n| folder.read(&format!("{out}/{n}"))).collect();
         let lines: Vec<String> = ended.stdout.lines().map(without_time).collect();
         (text.replace(&format!("\"{out}/"), "\"out/"), files, lines)
@@ -274,11 +279,9 @@ fn a_batch_that_is_killed_goes_on_where_it_was() {
         report(&folder, "whole.json")
     );
     assert_eq!(folder.entries("first"), folder.entries("out"));
-    for name in folder.entries("out") {
-        if name.ends_with(".obj") {
-            let [first, whole] = ["first", "out"].map(|out| folder.read(&format!("{out}/{name}")));
-            assert!(first == whole, "{name}");
-        }
+    for name in models(&folder, "out") {
+        let [first, whole] = ["first", "out"].map(|out| folder.read(&format!("{out}/{name}")));
+        assert!(first == whole, "{name}");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Drives the real program in temporary folders.
 
-mod diff;
 mod batch;
+mod diff;
 mod files;
 mod folder;
 mod interrupt;

@@ -32,8 +32,20 @@ fn wrong_usage_is_exit_code_2_and_nothing_runs() {
 fn help_and_version_are_exit_code_0() {
     let folder = Folder::new();
     let commands = [
-        "run", "check", "test", "batch", "sweep", "ops", "info", "convert", "reproduce", "select",
-        "diff", "upgrade", "schema", "new-op",
+        "run",
+        "check",
+        "test",
+        "batch",
+        "sweep",
+        "ops",
+        "info",
+        "convert",
+        "reproduce",
+        "select",
+        "diff",
+        "upgrade",
+        "schema",
+        "new-op",
     ];
     folder.run("--help").with_code(0).prints(&commands);
     for command in commands {

@@ -8,7 +8,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::subject::Subject;
-use super::{Other, ReadObjects, distance};
+use super::{Other, ReadObjects};
+use crate::distance::Distance;
 use crate::run::Outcome;
 
 /// What is kept of a run. Where it speaks of the mesh, it means all meshes at the end together.
@@ -37,8 +38,8 @@ pub enum Metric {
     Volume,
     /// The smallest angle between neighboring sides of a face, in degrees.
     MinAngle,
-    /// The largest distance between the mesh and another, as the expectation of this name takes it, in
-    /// scene units.
+    /// The largest distance between the surfaces of the mesh and another, as the expectation of this name
+    /// measures it, in scene units.
     DistanceTo {
         /// The other.
         other: Other,
@@ -96,7 +97,9 @@ impl Metric {
             Self::DistanceTo { other, on } => {
                 let on = on.as_ref().map(std::slice::from_ref);
                 let (_, mesh) = Subject { on, ..subject }.one_mesh()?;
-                Measured::Number(distance::largest(mesh, subject.other(other)?.as_ref()))
+                let other = subject.other(other)?;
+                let distance = Distance::between(mesh, other.as_ref(), None);
+                Measured::Number(distance.map_or(f64::INFINITY, |d| d.largest()))
             }
             Self::Seconds => {
                 let times = outcome.steps.iter().map(|step| step.time);

@@ -12,7 +12,7 @@ use super::journal_path;
 use super::row::Header;
 use crate::args::{BatchArgs, Shard};
 use crate::commands::run::refuse;
-use crate::loading::{Loaded, load_source};
+use crate::loading::{Loaded, load_text};
 
 /// A batch that can run.
 pub(super) struct Batch<'a> {
@@ -43,7 +43,7 @@ impl<'a> Batch<'a> {
         let source = Source::open(path).map_err(anyhow::Error::msg)?;
         let (preset, budget) = (args.preset.as_deref(), args.many.budget);
         // On the file that the recipe names itself, which may well be missing.
-        let loaded = load_source(&source, &args.set, preset, &args.out, budget, registry)?;
+        let loaded = load_text(&source, &args.set, preset, &args.out, budget, registry)?;
         if !loaded.is_read {
             refuse(&loaded, false)?;
             return Ok(Planned::Refused);
@@ -142,7 +142,7 @@ impl<'a> Batch<'a> {
         let mut set = args.set.clone();
         set.push((self.param.clone(), path.to_owned()));
         let preset = args.preset.as_deref();
-        load_source(
+        load_text(
             &self.source,
             &set,
             preset,

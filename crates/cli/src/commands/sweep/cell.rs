@@ -7,7 +7,7 @@ use op::Registry;
 use recipe::{Grid, JobEnd, Measured, Metric, Source, Span};
 
 use crate::args::SweepArgs;
-use crate::loading::{Loaded, load_source, read_objects};
+use crate::loading::{Loaded, load_text, read_objects};
 use crate::many::{all, first_error, panicked, run_quietly};
 
 /// All cells.
@@ -96,7 +96,7 @@ impl Cells<'_> {
             None => "out".into(),
         };
         let budget = self.args.many.budget;
-        let mut loaded = load_source(self.source, &set, None, &out, budget, self.registry)?;
+        let mut loaded = load_text(self.source, &set, None, &out, budget, self.registry)?;
         if !self.expects {
             loaded.recipe.expectations.clear();
         }

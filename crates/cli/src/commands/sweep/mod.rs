@@ -37,7 +37,7 @@ use serde_json::{Map, Value as Json, json};
 use crate::args::{Format, SweepArgs};
 use crate::commands::run::refuse;
 use crate::listener::{catch_interrupts, is_interrupted};
-use crate::loading::{Loaded, load_source};
+use crate::loading::{Loaded, load_text};
 use crate::many::CHECKED_AHEAD;
 use crate::output::{complain, print, show_texts, shown, table, write_whole};
 use cell::{CellResult, Cells};
@@ -111,7 +111,7 @@ impl Plan {
             if path.is_file() {
                 let recipe = Source::open(&path).map_err(anyhow::Error::msg)?;
                 let out = args.keep_outputs.as_deref().unwrap_or(Path::new("out"));
-                let loaded = load_source(&recipe, &[], None, out, args.many.budget, registry)?;
+                let loaded = load_text(&recipe, &[], None, out, args.many.budget, registry)?;
                 if !loaded.is_read {
                     show_texts(&[source], &diagnostics);
                     return refuse(&loaded, args.format == Format::Json).map(|_| None);

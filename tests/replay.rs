@@ -101,6 +101,7 @@ impl Scene {
             output: out.path().to_owned(),
             placeholders: reading.recipe.placeholders(),
             provenance: Some(format!("recipe {}", reading.recipe.digest())),
+            ..Files::default()
         };
         let forecast = recipe::check(&reading.recipe, &files, BUDGET);
         if forecast.has_errors() {
@@ -112,6 +113,7 @@ impl Scene {
             read: &read_objects,
             keep_outputs: true,
             writes: !forecast.outputs.is_empty(),
+            cache: None,
         };
         let outcome = recipe::run(&reading.recipe, settings, &Silent);
         if outcome.succeeded() {
@@ -126,7 +128,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
 }
 
-fn read_objects(path: &Path) -> Result<Vec<scene::Object>, String> {
+fn read_objects(path: &Path, _: &Files) -> Result<Vec<scene::Object>, String> {
     mesh_io::read(path, &mesh_io::ReadOptions::default())
         .map(|loaded| loaded.objects)
         .map_err(|error| error.to_string())

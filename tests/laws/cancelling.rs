@@ -116,9 +116,10 @@ fn run(steps: &str, allowed: usize) -> Run {
     let settings = Settings {
         files: &files(folder.path()),
         budget: u64::MAX,
-        read: &|_| Err("no expectation reads a file".to_owned()),
+        read: &|_, _| Err("no expectation reads a file".to_owned()),
         keep_outputs: true,
         writes: true,
+        cache: None,
     };
     let outcome = recipe::run(&reading.recipe, settings, &stop);
     let calls = stop.calls.load(Ordering::Relaxed);

@@ -37,7 +37,7 @@ fn keeps(scene: &Scene, eq: Option<u64>, max: Option<u64>) -> bool {
         connectivity: true,
     };
     let files = Files::default();
-    let read = |_: &std::path::Path| Err("no file is read".to_owned());
+    let read = |_: &std::path::Path, _: &Files| Err("no file is read".to_owned());
     symmetric
         .check(Subject {
             scene,

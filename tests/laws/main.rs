@@ -3,6 +3,7 @@
 
 mod all_edits;
 mod any_edit;
+mod cache;
 mod cancelling;
 mod cube_diagonals;
 mod every_op;

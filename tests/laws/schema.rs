@@ -1,7 +1,5 @@
 //! The schemas of operations and recipes: strict, documented, and of one mind with the reader.
 
-use std::path::Path;
-
 use jsonschema::Validator;
 use recipe::{Diagnostic, Parameter, syntax};
 use serde_json::Value as Json;
@@ -131,7 +129,9 @@ fn json_with(parameters: &[Parameter], source: &str) -> Json {
     let filled = syntax::substitute(source, &parsed.value, |name, span| {
         let found = parameters.iter().find(|p| p.name == name);
         let unknown = || Diagnostic::error(span, format!("no parameter {name}"));
-        found.map(|p| p.literal.clone()).ok_or_else(unknown)
+        found
+            .map(|p| p.literal.clone())
+            .ok_or_else(|| Box::new(unknown()))
     });
     syntax::to_json(&filled.expect("every parameter is declared").value)
 }

@@ -67,6 +67,8 @@ pub(crate) enum Command {
     Diff(DiffArgs),
     /// Rewrite older spellings in recipes; comments and layout stay
     Upgrade(UpgradeArgs),
+    /// Show where the cache is and what it holds, or empty it
+    Cache(CacheCommandArgs),
     /// Print the JSON schema of recipes
     Schema,
     /// Write a new operation crate: its folder, a working sample with a test, and its line in ops/all
@@ -164,9 +166,11 @@ pub(crate) struct RunArgs {
     /// Do not hold the recipe's expectations against the result
     #[arg(long)]
     pub(crate) no_expect: bool,
-    /// Print where the value of each parameter comes from
+    /// Print where the value of each parameter comes from, and for each step why it ran
     #[arg(long)]
     pub(crate) explain: bool,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -230,6 +234,8 @@ pub(crate) struct TestArgs {
     /// Write the values that were found into the recipes, in place of recorded ones (eq, is, Bounds, Digest)
     #[arg(long)]
     pub(crate) update: bool,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
 }
 
 /// Which elements.
@@ -322,6 +328,45 @@ pub(crate) struct ReproduceArgs {
     /// The memory that meshes may take, such as 512MiB or 8GiB
     #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) budget: u64,
+}
+
+/// What commands that run recipes share.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct CacheArgs {
+    #[command(flatten)]
+    pub(crate) folder: CacheFolder,
+    /// Run every step anew, and keep nothing
+    #[arg(long)]
+    pub(crate) no_cache: bool,
+    /// The size below which the cache is kept, such as 512MiB or 8GiB
+    #[arg(long, default_value = "4GiB", value_name = "SIZE", value_parser = size)]
+    pub(crate) cache_limit: u64,
+}
+
+/// Where the cache is.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct CacheFolder {
+    /// The folder that keeps the results of steps; by default one of the user's caches
+    #[arg(long, env = "MESHWRIGHT_CACHE", value_name = "DIR")]
+    pub(crate) cache: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct CacheCommandArgs {
+    #[command(subcommand)]
+    pub(crate) action: Option<CacheAction>,
+    #[command(flatten)]
+    pub(crate) folder: CacheFolder,
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Subcommand)]
+pub(crate) enum CacheAction {
+    /// Show the folder, its size and the number of results
+    Info,
+    /// Remove everything that is stored
+    Clear,
 }
 
 #[derive(Debug, ClapArgs)]

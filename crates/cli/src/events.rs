@@ -8,7 +8,7 @@
 //! {"event":"done", "number":1, "label":"smooth", "vertices":8, "edges":12, "faces":6, "changed":6,
 //!                  "refused":[{"reason":"Boundary", "count":2, "first":".."}],
 //!                  "losses":[{"object":"cow", "name":"uv", "message":".."}], "notes":[".."],
-//!                  "digest":"..", "milliseconds":1.5}
+//!                  "digest":"..", "milliseconds":1.5, "cached":false, "ran_because":"parameters changed: levels 1 -> 2"}
 //! {"event":"problem", "severity":"error", "file":"a.ron", "line":7, "column":9, "message":"..", "help":".."}
 //! {"event":"wrote", "path":"out/a.obj"}
 //! {"event":"end", "succeeded":true, "cancelled":false, "steps":7, "expectations":4, "digest":"..",
@@ -201,6 +201,8 @@ impl Listener for Events<'_> {
             "losses": losses.collect::<Vec<_>>(),
             "notes": done.report.notes,
             "milliseconds": milliseconds(done.time),
+            "cached": done.ran.is_none(),
+            "ran_because": done.ran.as_ref().map(ToString::to_string),
         }));
     }
 }

@@ -12,6 +12,7 @@
 //! Exit codes: 0 done, 1 failed, 2 wrong usage.
 
 mod args;
+mod cache;
 mod commands;
 mod events;
 mod listener;
@@ -63,6 +64,7 @@ pub fn run(registry: Registry) -> ExitCode {
             commands::diff::run(&args, &registry)
         }
         Command::Upgrade(args) => commands::upgrade::run(&args, &registry),
+        Command::Cache(args) => commands::cache::run(&args),
         Command::Schema => commands::schema::run(&registry),
         Command::NewOp { name, dir } => commands::new_op::run(&name, &dir),
     };

@@ -97,7 +97,7 @@ pub(crate) fn load_source(
         input: source.folder().to_path_buf(),
         output: out.to_path_buf(),
         placeholders: reading.recipe.placeholders(),
-        provenance: None,
+        ..Files::default()
     };
     let forecast = recipe::check(&reading.recipe, &files, budget);
     if !forecast.outputs.is_empty() && !forecast.has_errors() {
@@ -119,10 +119,17 @@ pub(crate) fn load_source(
 }
 
 /// Reads the objects of a file, for expectations that compare with one.
-pub(crate) fn read_objects(path: &Path) -> Result<Vec<Object>, String> {
-    mesh_io::read(path, &mesh_io::ReadOptions::default())
-        .map(|loaded| loaded.objects)
-        .map_err(|error| error.to_string())
+pub(crate) fn read_objects(path: &Path, files: &Files) -> Result<Vec<Object>, String> {
+    let loaded =
+        mesh_io::read(path, &mesh_io::ReadOptions::default()).map_err(|error| error.to_string())?;
+    for file in loaded.files {
+        if file.is_read {
+            files.has_read(file.path);
+        } else {
+            files.has_looked_for(file.path);
+        }
+    }
+    Ok(loaded.objects)
 }
 
 /// A recipe that was found.

@@ -1,6 +1,6 @@
 //! What commands that run many recipes at once share.
 
-use recipe::{Diagnostic, JobEnd, JobLimits, Jobs, Outcome, Settings, Severity};
+use recipe::{Caching, Diagnostic, JobEnd, JobLimits, Jobs, Outcome, Settings, Severity};
 
 use crate::listener::{Quiet, is_interrupted};
 use crate::loading::{Loaded, read_objects};
@@ -27,13 +27,19 @@ pub(crate) fn all<T: Send>(
 }
 
 /// Runs a recipe that can run, without a word, until Ctrl-C.
-pub(crate) fn run_quietly(loaded: &Loaded, budget: u64, keep_outputs: bool) -> Outcome {
+pub(crate) fn run_quietly(
+    loaded: &Loaded,
+    budget: u64,
+    keep_outputs: bool,
+    cache: Option<Caching>,
+) -> Outcome {
     let settings = Settings {
         files: &loaded.files,
         budget,
         read: &read_objects,
         keep_outputs,
         writes: !loaded.forecast.outputs.is_empty(),
+        cache,
     };
     recipe::run(&loaded.recipe, settings, &Quiet)
 }

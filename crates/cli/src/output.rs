@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
 use anyhow::Context as _;
-use recipe::{LineIndex, Origin, Recipe, Source, StepDone};
+use recipe::{LineIndex, Origin, Outcome, Recipe, Source, StepDone};
 
 use crate::loading::Loaded;
 
@@ -41,7 +41,10 @@ pub(crate) fn step_table(steps: &[StepDone]) -> String {
     ];
     for (i, step) in steps.iter().enumerate() {
         let count = |n: usize| grouped(n as u64);
-        let time = format!("{:.1} ms", step.time.as_secs_f64() * 1e3);
+        let time = match step.ran {
+            Some(_) => format!("{:.1} ms", step.time.as_secs_f64() * 1e3),
+            None => "cached".to_owned(),
+        };
         rows.push(vec![
             format!("{:>2} {}", i + 1, step.label),
             count(step.vertices),
@@ -131,6 +134,22 @@ pub(crate) fn explain(recipe: &Recipe) -> String {
     }
     let order = "(--set goes before a preset, and a preset before the recipe's default)";
     format!("{}{order}\n\n", table(&rows))
+}
+
+/// For each step whether it was in the cache, or why it ran; and what was not stored.
+pub(crate) fn explain_steps(outcome: &Outcome) -> String {
+    let mut text = String::new();
+    for (i, step) in outcome.steps.iter().enumerate() {
+        let (number, label) = (i + 1, &step.label);
+        text += &match &step.ran {
+            None => format!("{number} {label}: cached\n"),
+            Some(why) => format!("{number} {label}: ran because {why}\n"),
+        };
+    }
+    for note in &outcome.cache_notes {
+        text += &format!("{note}\n");
+    }
+    text
 }
 
 /// Where a value comes from, in words.

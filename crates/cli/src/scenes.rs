@@ -106,6 +106,7 @@ fn run(
         read: &read_objects,
         keep_outputs: false,
         writes: !loaded.forecast.outputs.is_empty(),
+        cache: None,
     };
     let outcome = recipe::run(&loaded.recipe, settings, &terminal);
     terminal.clear();
@@ -113,7 +114,7 @@ fn run(
     anyhow::ensure!(!outcome.cancelled, "interrupted");
     anyhow::ensure!(outcome.succeeded(), "{shown} failed");
     Ok(Found {
-        scene: outcome.scene,
+        scene: outcome.scene.expect("a run without a cache has its scene"),
         stream,
     })
 }

@@ -102,6 +102,17 @@ pub struct Loaded {
     pub objects: Vec<Object>,
     /// What was left out or changed.
     pub notes: Vec<Note>,
+    /// The files that this depends on, each once, sorted by path.
+    pub files: Vec<FileSeen>,
+}
+
+/// A file that a reader has looked at.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FileSeen {
+    /// Its path.
+    pub path: PathBuf,
+    /// Whether its content was wanted, be it there or not; otherwise only whether there is such a file.
+    pub is_read: bool,
 }
 
 /// How to write a file.
@@ -130,11 +141,19 @@ pub struct WriteReport {
 /// [`ReadError`] if the file cannot be read or breaks the rules of its format, with the place.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Loaded, ReadError> {
     known_format(path)?;
-    read_bytes(path, read_whole(path)?, options)
+    let mut loaded = read_bytes(path, read_whole(path)?, options)?;
+    let seen = FileSeen {
+        path: path.to_path_buf(),
+        is_read: true,
+    };
+    if let Err(place) = loaded.files.binary_search(&seen) {
+        loaded.files.insert(place, seen);
+    }
+    Ok(loaded)
 }
 
 /// Reads the objects of a file whose bytes are given. `path` says which format it has, what errors call it
-/// and where the files beside it are.
+/// and where the files beside it are. Only these are among the [`files`](Loaded::files) then.
 ///
 /// # Errors
 ///
@@ -154,11 +173,16 @@ pub fn read_bytes(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<
             Shape::Other(geometry) => Object::new(name, geometry),
         });
     }
+    let files = notes.take_files();
     let notes = notes.into_vec();
     if options.strict {
         refuse_left_out(path, &notes)?;
     }
-    Ok(Loaded { objects, notes })
+    Ok(Loaded {
+        objects,
+        notes,
+        files,
+    })
 }
 
 /// Reads the polygons of a file as they are, without building meshes: for programs that need no

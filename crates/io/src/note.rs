@@ -1,10 +1,12 @@
 //! What reading changed or left out, and what writing lost: nothing is dropped silently.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use mesh::{Domain, Elements};
+
+use crate::FileSeen;
 
 /// Something that a reader did not take as it stands in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,6 +58,8 @@ pub(crate) struct Notes {
     list: Vec<Note>,
     /// How many there are behind those of the list.
     further: BTreeMap<NoteKind, usize>,
+    /// The files beside it that were looked at.
+    files: BTreeSet<FileSeen>,
 }
 
 impl Notes {
@@ -64,7 +68,29 @@ impl Notes {
             path: path.to_path_buf(),
             list: Vec::new(),
             further: BTreeMap::new(),
+            files: BTreeSet::new(),
         }
+    }
+
+    /// Notes that the content of a file was wanted.
+    pub(crate) fn has_read(&mut self, path: PathBuf) {
+        self.files.insert(FileSeen {
+            path,
+            is_read: true,
+        });
+    }
+
+    /// Notes that it was looked whether there is such a file.
+    pub(crate) fn has_looked_for(&mut self, path: PathBuf) {
+        self.files.insert(FileSeen {
+            path,
+            is_read: false,
+        });
+    }
+
+    /// The files beside the one that was read, sorted.
+    pub(crate) fn take_files(&mut self) -> Vec<FileSeen> {
+        std::mem::take(&mut self.files).into_iter().collect()
     }
 
     /// Adds a note unless `count` is 0.
@@ -124,6 +150,7 @@ impl Notes {
 
     /// Adds the notes about another file.
     pub(crate) fn append(&mut self, other: Self) {
+        self.files.extend(other.files);
         for note in other.list {
             self.push(note);
         }
@@ -137,6 +164,7 @@ impl Notes {
             path,
             mut list,
             further,
+            ..
         } = self;
         list.extend(further.into_iter().map(|(kind, count)| {
             let what = match kind {

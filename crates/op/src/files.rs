@@ -2,8 +2,13 @@
 //!
 //! A recipe reads relative to its own folder. It writes only below the output folder, wherever the
 //! path in the recipe points: a path that leads out of it is refused.
+//!
+//! What operations ask for here is noted, for whoever wants to know what a step depends on: the cache
+//! of steps. An operation that reads a file says which files that were with [`Files::has_read`]; one that
+//! only asks for a path may have read anything beside it, and is run anew each time.
 
 use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Why a path cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -35,12 +40,77 @@ pub struct Files {
     pub placeholders: Vec<(String, String)>,
     /// A line that says where the outputs come from, for formats that can carry it.
     pub provenance: Option<String>,
+    /// What was asked for.
+    pub log: FileLog,
+}
+
+/// What was asked for of files, in order. Copies share one list.
+#[derive(Clone, Debug, Default)]
+pub struct FileLog(Arc<Mutex<Vec<FileUse>>>);
+
+/// Something that was done with a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FileUse {
+    /// Its path was asked for, to read it.
+    Asked {
+        /// As the recipe has it.
+        path: String,
+        /// As [`Files::to_read`] gave it.
+        full: PathBuf,
+    },
+    /// Its content was read.
+    Read(PathBuf),
+    /// It was only looked whether there is a plain file of this name.
+    LookedFor(PathBuf),
+    /// A path to write was asked for.
+    Written {
+        /// As the recipe has it, with placeholders.
+        path: String,
+        /// Below the output folder.
+        relative: PathBuf,
+    },
+}
+
+impl FileLog {
+    /// Adds a line.
+    pub fn note(&self, file: FileUse) {
+        self.lock().push(file);
+    }
+
+    /// Takes all lines out.
+    pub fn take(&self) -> Vec<FileUse> {
+        std::mem::take(&mut self.lock())
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Vec<FileUse>> {
+        // A list of whole lines, even after a panic.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 impl Files {
-    /// The path of a file to read: `path` seen from the recipe's folder.
+    /// The path of a file to read: `path` seen from the recipe's folder. Whoever reads it says so with
+    /// [`has_read`](Self::has_read).
     pub fn to_read(&self, path: &str) -> PathBuf {
-        self.input.join(path)
+        let full = self.input.join(path);
+        let file = FileUse::Asked {
+            path: path.to_owned(),
+            full: full.clone(),
+        };
+        self.log.note(file);
+        full
+    }
+
+    /// Says that a file was read: `path` as [`to_read`](Self::to_read) gave it, and each file that was read
+    /// because the first one names it. A step that says this for every path that it has asked for can be
+    /// kept in a cache; its result must depend on the contents of no other files.
+    pub fn has_read(&self, path: impl Into<PathBuf>) {
+        self.log.note(FileUse::Read(path.into()));
+    }
+
+    /// Says that it was looked whether there is a plain file of this name, without reading it.
+    pub fn has_looked_for(&self, path: impl Into<PathBuf>) {
+        self.log.note(FileUse::LookedFor(path.into()));
     }
 
     /// The path of a file to write: `path` below the output folder, placeholders filled in.
@@ -63,6 +133,11 @@ impl Files {
             return Err(FileError::NoName(filled));
         }
         self.check_links(relative)?;
+        let file = FileUse::Written {
+            path: path.to_owned(),
+            relative: relative.to_path_buf(),
+        };
+        self.log.note(file);
         Ok(self.output.join(relative))
     }
 
@@ -122,7 +197,7 @@ mod tests {
             input: "recipes".into(),
             output: "out".into(),
             placeholders: vec![("model.stem".into(), "cow".into())],
-            provenance: None,
+            ..Files::default()
         }
     }
 
@@ -163,5 +238,25 @@ mod tests {
             files().to_read("assets/a.obj"),
             PathBuf::from("recipes/assets/a.obj")
         );
+    }
+
+    #[test]
+    fn what_is_asked_for_is_noted_once_in_all_copies() {
+        let files = files();
+        let copy = files.clone();
+        let path = copy.to_read("a.obj");
+        copy.has_read(path.as_path());
+        copy.to_write("{model.stem}.obj").unwrap();
+        let written = FileUse::Written {
+            path: "{model.stem}.obj".into(),
+            relative: "cow.obj".into(),
+        };
+        let asked = FileUse::Asked {
+            path: "a.obj".into(),
+            full: path.clone(),
+        };
+        let expected = [asked, FileUse::Read(path), written];
+        assert_eq!(files.log.take(), expected);
+        assert_eq!(copy.log.take(), []);
     }
 }

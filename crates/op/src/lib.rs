@@ -62,7 +62,7 @@ pub use bevel::Cuts;
 pub use context::{Context, NoProgress, Progress};
 pub use edit::{OnRefusal, edit_each};
 pub use error::{OpError, Refusal};
-pub use files::{FileError, Files};
+pub use files::{FileError, FileLog, FileUse, Files};
 pub use operation::{MeshOperation, Operation};
 pub use parameter::{Axis, Vector, check_fraction};
 pub use plan::{

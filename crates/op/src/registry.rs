@@ -134,6 +134,8 @@ impl Registry {
 pub trait Step: fmt::Debug + Send + Sync {
     /// The name of the operation.
     fn name(&self) -> &'static str;
+    /// See [`Operation::VERSION`].
+    fn version(&self) -> u32;
     /// See [`Operation::plan`].
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem>;
     /// See [`Operation::apply`].
@@ -151,6 +153,10 @@ pub trait Step: fmt::Debug + Send + Sync {
 impl<T: Operation> Step for T {
     fn name(&self) -> &'static str {
         T::NAME
+    }
+
+    fn version(&self) -> u32 {
+        T::VERSION
     }
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {

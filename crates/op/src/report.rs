@@ -3,11 +3,12 @@
 use std::fmt;
 
 use mesh::Domain;
+use serde::{Deserialize, Serialize};
 
 use crate::{OpError, Refusal};
 
 /// What a step did: what it changed, what was refused, what was lost, and anything worth a line.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Report {
     /// How many elements were edited or made.
     pub changed: u64,
@@ -20,7 +21,7 @@ pub struct Report {
 }
 
 /// Refused edits of one reason.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Refused {
     /// The reason.
     pub reason: Refusal,
@@ -31,7 +32,7 @@ pub struct Refused {
 }
 
 /// Something that a step or a file format could not keep.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Loss {
     /// The object that lost it.
     pub object: String,

@@ -8,6 +8,7 @@
 //! [`check`] plans all steps without touching geometry: counts, memory, files, names. [`run`] runs them;
 //! outputs appear only when every step is done and every expectation holds.
 
+pub mod cache;
 pub mod compare;
 pub mod diagnostic;
 pub mod distance;
@@ -30,6 +31,7 @@ mod source;
 pub mod stamp;
 mod sweep;
 
+pub use cache::{Cache, CacheSize, Caching, Why};
 pub use check::{Forecast, StepForecast, check, mebibytes};
 pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
 pub use diagnostic::{Diagnostic, LineIndex, Severity, Span, render};

@@ -1,5 +1,6 @@
 //! Recipes over a small registry of their own, from the text to the outcome.
 
+mod cache;
 mod check;
 mod flow;
 mod read;

@@ -10,7 +10,7 @@
 
 use std::fmt;
 
-use bytemuck::Pod;
+use bytemuck::NoUninit;
 use mesh::{Mesh, Rule, Values};
 
 use crate::{
@@ -21,6 +21,18 @@ use crate::{
 /// BLAKE3 over the canonical form of a scene, 16 bytes of it.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Digest([u8; 16]);
+
+impl Digest {
+    /// The digest as bytes.
+    pub const fn to_bytes(self) -> [u8; 16] {
+        self.0
+    }
+
+    /// The digest of these bytes, as [`to_bytes`](Self::to_bytes) gave them.
+    pub const fn from_bytes(bytes: [u8; 16]) -> Self {
+        Self(bytes)
+    }
+}
 
 impl fmt::Display for Digest {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -53,11 +65,72 @@ impl Scene {
 
     /// Hands the canonical form to `sink`, piece by piece.
     pub fn encode(&self, sink: &mut impl FnMut(&[u8])) {
+        self.encode_to(&mut Together(sink));
+    }
+
+    /// The canonical form without the contents of arrays of at least `long` bytes, which go to `array`, each
+    /// whole, in their order. [`decode`](Self::decode) puts both together again.
+    pub fn encode_apart(&self, long: usize, array: &mut dyn FnMut(&[u8])) -> Vec<u8> {
+        let mut sink = Apart {
+            rest: Vec::new(),
+            long,
+            array,
+        };
+        self.encode_to(&mut sink);
+        sink.rest
+    }
+
+    fn encode_to(&self, sink: &mut impl Sink) {
         let mut encoder = Encoder { sink };
-        encoder.text("meshwright scene 1");
+        encoder.text(FORM);
         encoder.len(self.objects().len());
         for object in self.objects() {
             encoder.object(object);
+        }
+    }
+}
+
+/// The first text of the canonical form.
+pub(crate) const FORM: &str = "meshwright scene 1";
+/// Stands where the length of a text would be, before what else a material has.
+pub(crate) const MORE: u64 = u64::MAX;
+
+/// Takes the canonical form.
+trait Sink {
+    /// Some bytes.
+    fn bytes(&mut self, bytes: &[u8]);
+    /// The content of an array.
+    fn array(&mut self, bytes: &[u8]);
+}
+
+struct Together<'a, F>(&'a mut F);
+
+impl<F: FnMut(&[u8])> Sink for Together<'_, F> {
+    fn bytes(&mut self, bytes: &[u8]) {
+        (self.0)(bytes);
+    }
+
+    fn array(&mut self, bytes: &[u8]) {
+        (self.0)(bytes);
+    }
+}
+
+struct Apart<'a> {
+    rest: Vec<u8>,
+    long: usize,
+    array: &'a mut dyn FnMut(&[u8]),
+}
+
+impl Sink for Apart<'_> {
+    fn bytes(&mut self, bytes: &[u8]) {
+        self.rest.extend_from_slice(bytes);
+    }
+
+    fn array(&mut self, bytes: &[u8]) {
+        if bytes.len() < self.long {
+            self.bytes(bytes);
+        } else {
+            (self.array)(bytes);
         }
     }
 }
@@ -66,28 +139,28 @@ struct Encoder<'a, S> {
     sink: &'a mut S,
 }
 
-impl<S: FnMut(&[u8])> Encoder<'_, S> {
+impl<S: Sink> Encoder<'_, S> {
     fn len(&mut self, n: usize) {
-        (self.sink)(&(n as u64).to_le_bytes());
+        self.sink.bytes(&(n as u64).to_le_bytes());
     }
 
     fn text(&mut self, text: &str) {
         self.len(text.len());
-        (self.sink)(text.as_bytes());
+        self.sink.bytes(text.as_bytes());
     }
 
     /// An array of numbers, or of structs of numbers of `width` bytes each.
-    fn array<T: Pod>(&mut self, values: &[T], width: usize) {
+    fn array<T: NoUninit>(&mut self, values: &[T], width: usize) {
         self.len(values.len());
         let bytes: &[u8] = bytemuck::cast_slice(values);
         if cfg!(target_endian = "little") {
-            (self.sink)(bytes);
+            self.sink.array(bytes);
         } else {
-            for number in bytes.chunks_exact(width) {
-                let mut number = number.to_vec();
+            let mut turned = bytes.to_vec();
+            for number in turned.chunks_exact_mut(width) {
                 number.reverse();
-                (self.sink)(&number);
             }
+            self.sink.array(&turned);
         }
     }
 
@@ -180,7 +253,7 @@ impl<S: FnMut(&[u8])> Encoder<'_, S> {
         if textures.is_empty() && numbers.is_empty() {
             return;
         }
-        (self.sink)(&u64::MAX.to_le_bytes());
+        self.sink.bytes(&MORE.to_le_bytes());
         self.len(textures.len());
         for (name, texture) in textures {
             self.text(name);
@@ -263,9 +336,7 @@ impl<S: FnMut(&[u8])> Encoder<'_, S> {
                 Values::Vec3(v) => self.array(v, 8),
                 Values::Vec4(v) => self.array(v, 8),
                 Values::Int(v) => self.array(v, 4),
-                Values::Tag(v) => {
-                    self.array(&v.iter().map(|&b| u8::from(b)).collect::<Vec<_>>(), 1);
-                }
+                Values::Tag(v) => self.array(v, 1),
             }
         }
     }

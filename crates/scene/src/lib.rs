@@ -4,8 +4,10 @@
 //! move the points themselves. Names are unique. The [digest](Scene::digest) of a scene is the same on
 //! every machine for the same content.
 
+mod decode;
 mod digest;
 mod material;
+mod sound;
 
 use std::sync::Arc;
 
@@ -13,6 +15,7 @@ use bezier::{Curve, Patch};
 use glam::{DVec2, DVec3};
 use mesh::Mesh;
 
+pub use decode::{Arrays, DecodeError, NoArrays};
 pub use digest::Digest;
 pub use material::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
 

@@ -84,6 +84,13 @@ impl Operation for Load {
         let path = cx.files().to_read(&self.path);
         let loaded = mesh_io::read(&path, &self.options())
             .map_err(|error| OpError::File(error.to_string()))?;
+        for file in loaded.files {
+            if file.is_read {
+                cx.files().has_read(file.path);
+            } else {
+                cx.files().has_looked_for(file.path);
+            }
+        }
         let mut report = Report::changed(loaded.objects.len());
         for object in loaded.objects {
             let bytes = object.as_mesh().map_or(0, |mesh| mesh.bytes() as u64);
@@ -162,7 +169,7 @@ fn planned(peek: &PeekMesh) -> MeshPlan {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use op::{Files, NoProgress};
+    use op::{FileUse, Files, NoProgress};
 
     fn files(folder: &std::path::Path) -> Files {
         Files {
@@ -243,6 +250,35 @@ mod tests {
         assert_eq!(counts(all), Ok((3, 1, 4)));
         let strict = counts("(path: \"a.obj\", strict: true)").unwrap_err();
         assert!(strict.contains("points (`p`) left out"), "{strict}");
+    }
+
+    #[test]
+    fn all_files_that_were_looked_at_are_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let obj = "mtllib there.mtl\nmtllib not there.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+        std::fs::write(folder.path().join("a.obj"), obj).unwrap();
+        std::fs::write(folder.path().join("there.mtl"), "newmtl x\n").unwrap();
+        let files = files(folder.path());
+        let mut cx = Context::new(&NoProgress, &files);
+        load("(path: \"a.obj\")")
+            .apply(&mut Scene::new(), &mut cx)
+            .unwrap();
+        let path = |name| folder.path().join(name);
+        assert_eq!(
+            files.log.take(),
+            [
+                FileUse::Asked {
+                    path: "a.obj".into(),
+                    full: path("a.obj"),
+                },
+                FileUse::Read(path("a.obj")),
+                FileUse::LookedFor(path("not")),
+                FileUse::Read(path("not")),
+                FileUse::LookedFor(path("not there.mtl")),
+                FileUse::LookedFor(path("there.mtl")),
+                FileUse::Read(path("there.mtl")),
+            ]
+        );
     }
 
     #[test]

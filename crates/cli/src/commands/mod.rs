@@ -1,6 +1,7 @@
 //! The commands: one a file or folder. Each returns whether it succeeded.
 
 pub(crate) mod batch;
+pub(crate) mod cache;
 pub(crate) mod check;
 pub(crate) mod convert;
 pub(crate) mod diff;

@@ -135,6 +135,7 @@ impl Again {
             read: &read_objects,
             keep_outputs: true,
             writes: !loaded.forecast.outputs.is_empty(),
+            cache: None,
         };
         let outcome = recipe::run(&loaded.recipe, settings, &Silent);
         if !outcome.succeeded() {

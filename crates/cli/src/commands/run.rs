@@ -2,13 +2,16 @@
 
 use anyhow::Context as _;
 use op::Registry;
-use recipe::Settings;
+use recipe::{Outcome, Settings};
 
 use crate::args::{Format, RunArgs};
+use crate::cache;
 use crate::events::Events;
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::{Loaded, load, read_objects};
-use crate::output::{complain, explain, print, problems_json, show, step_notes, step_table};
+use crate::output::{
+    complain, explain, explain_steps, print, problems_json, show, step_notes, step_table,
+};
 
 pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
     if let Some(threads) = args.threads {
@@ -36,6 +39,7 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
         show(&loaded, &loaded.diagnostics);
     }
 
+    let cache = cache::open(&args.cache)?;
     catch_interrupts();
     let terminal = Terminal::new();
     let settings = Settings {
@@ -44,20 +48,28 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
         read: &read_objects,
         keep_outputs: true,
         writes: !loaded.forecast.outputs.is_empty(),
+        cache: cache
+            .as_ref()
+            .map(|cache| cache::using(cache, &args.recipe.recipe)),
     };
     if json {
         let events = Events::start(&loaded, &terminal);
         events.problems(&loaded.diagnostics);
         let outcome = recipe::run(&loaded.recipe, settings, &events);
         terminal.clear();
+        warn_of_cache(&outcome);
         events.end(&outcome)?;
         return Ok(outcome.succeeded());
     }
     let outcome = recipe::run(&loaded.recipe, settings, &terminal);
     terminal.clear();
+    warn_of_cache(&outcome);
 
     if !outcome.steps.is_empty() {
         print(&step_table(&outcome.steps))?;
+    }
+    if args.explain {
+        print(&explain_steps(&outcome))?;
     }
     print(&step_notes(&outcome.steps))?;
     show(&loaded, &outcome.failures);
@@ -86,6 +98,12 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
         }
     }
     Ok(outcome.succeeded())
+}
+
+fn warn_of_cache(outcome: &Outcome) {
+    if let Some(problem) = &outcome.cache_problem {
+        complain(&cache::warning(problem));
+    }
 }
 
 /// Shows what is wrong with a recipe that cannot run.

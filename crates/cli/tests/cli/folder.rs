@@ -9,8 +9,8 @@ use tempfile::TempDir;
 /// The program that is tested.
 pub(crate) const PROGRAM: &str = env!("CARGO_BIN_EXE_meshwright");
 
-/// A folder that is gone after the test.
-pub(crate) struct Folder(TempDir);
+/// A folder that is gone after the test, and one for the cache.
+pub(crate) struct Folder(TempDir, TempDir);
 
 /// How the program ended.
 #[derive(Debug)]
@@ -22,7 +22,7 @@ pub(crate) struct Ended {
 
 impl Folder {
     pub(crate) fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
+        Self(tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap())
     }
 
     /// A folder with one recipe, `recipe.ron`.
@@ -70,6 +70,7 @@ impl Folder {
         let output = Command::new(program)
             .args(arguments)
             .current_dir(self.0.path())
+            .env("MESHWRIGHT_CACHE", self.1.path())
             .output()
             .unwrap();
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();

@@ -21,7 +21,7 @@ fn interrupted_after(wait: Duration) {
         ])"#,
     );
     let mut child = Command::new(PROGRAM)
-        .args(["run", "recipe.ron"])
+        .args(["run", "recipe.ron", "--no-cache"])
         .current_dir(folder.path("."))
         .stdout(Stdio::null())
         .stderr(Stdio::piped())

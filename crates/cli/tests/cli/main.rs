@@ -1,6 +1,7 @@
 //! Drives the real program in temporary folders.
 
 mod batch;
+mod cache;
 mod diff;
 mod files;
 mod folder;

@@ -9,8 +9,9 @@ use gltf_json::Buffer;
 
 use super::JsonError;
 use super::budget::Budget;
-use crate::asset_path::{inside_uri, read_beside};
+use crate::asset_path::{folder_of, inside_uri, read_beside};
 use crate::error::ReadError;
+use crate::note::Notes;
 
 const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: &[u8] = b"JSON";
@@ -102,6 +103,7 @@ pub(super) fn load<'a>(
     fallbacks: &[bool],
     mut binary: Option<&'a [u8]>,
     budget: &Budget,
+    notes: &mut Notes,
 ) -> Result<Vec<Cow<'a, [u8]>>, JsonError> {
     let mut loaded = Vec::new();
     let mut files = BTreeSet::new();
@@ -127,6 +129,7 @@ pub(super) fn load<'a>(
                     if files.contains(&name) {
                         budget.spend(length, &pointer)?;
                     }
+                    notes.has_read(folder_of(path).join(&name));
                     let bytes = read_beside(path, &name, length)
                         .map_err(|cause| error(format!("cannot read {:?}: {cause}", shown(uri))))?;
                     if files.insert(name) {

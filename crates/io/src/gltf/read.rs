@@ -46,7 +46,8 @@ pub(crate) fn read(
     drop(json);
     let binary = container.binary.map(|range| &bytes[range]);
     let (buffers, fallbacks) = (&document.buffers, &document.fallbacks);
-    let loaded = buffers::load(path, buffers, fallbacks, binary, &budget).map_err(in_file)?;
+    let loaded =
+        buffers::load(path, buffers, fallbacks, binary, &budget, notes).map_err(in_file)?;
     if document.compressed.iter().any(Option::is_some) {
         budget.grant_compressed(loaded.iter().map(|buffer| buffer.len() as u64).sum());
     }

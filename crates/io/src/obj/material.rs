@@ -37,7 +37,8 @@ pub(super) fn read_libraries(
     let (mut n_names, mut further) = (0, 0);
     let mut room = LARGEST;
     for (place, words) in &file.libraries {
-        let (names, rest) = library_names(words, folder_of(path), MOST_NAMES - n_names);
+        let most = MOST_NAMES - n_names;
+        let (names, rest) = library_names(words, folder_of(path), most, notes);
         n_names += names.len();
         further += rest;
         for library in &names {
@@ -48,6 +49,7 @@ pub(super) fn read_libraries(
             if !libraries.insert(relative.clone()) {
                 continue;
             }
+            notes.has_read(folder_of(path).join(&relative));
             match read_beside(path, &relative, room) {
                 Ok(bytes) => {
                     room -= bytes.len() as u64;
@@ -87,9 +89,20 @@ pub(super) fn read_libraries(
 
 /// The names on an `mtllib` line: in quotes, or several words that are one file, or single words. At most so many,
 /// and how many words are behind them.
-fn library_names(words: &str, folder: &Path, most: usize) -> (Vec<String>, usize) {
-    let is_file = |name: &str| {
-        name.len() <= LONGEST_PATH && inside(name).is_ok_and(|name| folder.join(name).is_file())
+fn library_names(
+    words: &str,
+    folder: &Path,
+    most: usize,
+    notes: &mut Notes,
+) -> (Vec<String>, usize) {
+    let mut is_file = |name: &str| {
+        let short = Some(name).filter(|name| name.len() <= LONGEST_PATH);
+        let path = short.and_then(|name| Some(folder.join(inside(name).ok()?)));
+        path.is_some_and(|path| {
+            let is_there = path.is_file();
+            notes.has_looked_for(path);
+            is_there
+        })
     };
     let mut names = Vec::new();
     let mut rest = words.trim();

@@ -77,7 +77,9 @@ pub(crate) fn loaded(text: &str) -> Loaded {
 }
 
 pub(crate) fn only(text: &str) -> Object {
-    let Loaded { mut objects, notes } = loaded(text);
+    let Loaded {
+        mut objects, notes, ..
+    } = loaded(text);
     assert!(notes.is_empty(), "{notes:?}");
     assert_eq!(objects.len(), 1);
     objects.remove(0)

@@ -88,7 +88,9 @@ fn found(name: &str, content: impl AsRef<[u8]>) -> (Polygons, Vec<String>) {
 
 /// The one object of a file, read without notes.
 fn only(path: &Path) -> Object {
-    let Loaded { mut objects, notes } = read(path).unwrap();
+    let Loaded {
+        mut objects, notes, ..
+    } = read(path).unwrap();
     assert!(notes.is_empty(), "{notes:?}");
     assert_eq!(objects.len(), 1);
     objects.remove(0)

@@ -75,8 +75,9 @@ impl Metric {
         files: &Files,
         read: ReadObjects,
     ) -> Result<Measured, String> {
+        let scene = outcome.scene.as_ref();
         let subject = Subject {
-            scene: &outcome.scene,
+            scene: scene.ok_or("the scene stayed in the cache")?,
             on: None,
             files,
             read,

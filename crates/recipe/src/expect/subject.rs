@@ -13,8 +13,8 @@ use scene::{Geometry, Object, Scene};
 
 use super::Other;
 
-/// Reads the objects of a file.
-pub type ReadObjects<'a> = &'a (dyn Fn(&Path) -> Result<Vec<Object>, String> + Sync);
+/// Reads the objects of a file, and tells [`Files::has_read`] what was read.
+pub type ReadObjects<'a> = &'a (dyn Fn(&Path, &Files) -> Result<Vec<Object>, String> + Sync);
 
 /// Why an expectation does not hold.
 pub(super) enum Failure {
@@ -152,7 +152,7 @@ impl<'a> Subject<'a> {
                     .cloned()
                     .ok_or(format!("\"{name}\" is not a mesh"))
             }
-            Other::File(path) => (self.read)(&self.files.to_read(path))?
+            Other::File(path) => (self.read)(&self.files.to_read(path), self.files)?
                 .iter()
                 .find_map(Object::as_mesh)
                 .cloned()

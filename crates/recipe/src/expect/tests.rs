@@ -38,7 +38,7 @@ fn check_on(scene: &Scene, on: Option<&[String]>, text: &str) -> Result<(), Stri
         input: "folder".into(),
         ..Files::default()
     };
-    let read = |path: &Path| {
+    let read = |path: &Path, _: &Files| {
         if path == Path::new("folder/octahedron.obj") {
             Ok(vec![Object::mesh("octahedron", shapes::octahedron())])
         } else {

@@ -40,9 +40,10 @@ fn run(reading: &Reading) -> Outcome {
     let settings = Settings {
         files: &files,
         budget: u64::MAX,
-        read: &|_| Err("nothing is read".to_owned()),
+        read: &|_, _| Err("nothing is read".to_owned()),
         keep_outputs: false,
         writes: false,
+        cache: None,
     };
     crate::run(&reading.recipe, settings, &Silent)
 }
@@ -71,7 +72,9 @@ fn random_choices_differ_between_the_turns_of_a_repetition() {
             "Sheet(columns: 50), Repeat(times: {times}, steps: [{one}])"
         ));
         let outcome = run(&read(&text));
-        let mesh = outcome.scene.objects()[0].as_mesh().unwrap();
+        let mesh = outcome.scene.as_ref().unwrap().objects()[0]
+            .as_mesh()
+            .unwrap();
         let lifted = mesh.positions().iter().filter(|p| p.z > 0.0).count();
         assert!(outcome.succeeded());
         lifted

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use op::{Files, Progress};
+use scene::Scene;
 use tempfile::TempDir;
 
 use super::{files, read, read_with, shown, steps};
@@ -29,9 +30,10 @@ fn run_reading(
     let settings = Settings {
         files: &files,
         budget: u64::MAX,
-        read: &|path| Err(format!("{} is not read here", path.display())),
+        read: &|path, _| Err(format!("{} is not read here", path.display())),
         keep_outputs,
         writes: !forecast.outputs.is_empty(),
+        cache: None,
     };
     run(&reading.recipe, settings, listener)
 }
@@ -74,7 +76,7 @@ fn steps_run_in_order_and_outputs_appear() {
     let up = &outcome.steps[1];
     assert_eq!((up.label.as_str(), up.report.changed), ("up", 6));
     assert_eq!((up.vertices, up.edges, up.faces), (6, 7, 2));
-    assert_eq!(outcome.digest, outcome.scene.digest());
+    assert_eq!(outcome.digest, outcome.scene.unwrap().digest());
 }
 
 #[test]
@@ -252,14 +254,15 @@ fn a_mesh_over_the_budget_is_not_made() {
     let settings = Settings {
         files: &files,
         budget: 1000,
-        read: &|_| Err(String::new()),
+        read: &|_, _| Err(String::new()),
         keep_outputs: true,
         writes: false,
+        cache: None,
     };
     let outcome = run(&reading.recipe, settings, &Silent);
     assert_eq!(outcome.failures.len(), 1);
     assert!(outcome.failures[0].message.contains("the budget is 1000"));
-    assert!(outcome.scene.objects().is_empty());
+    assert!(outcome.scene.unwrap().objects().is_empty());
 }
 
 /// Cancels at a call, and remembers what it heard.
@@ -318,7 +321,7 @@ fn a_run_can_be_cancelled_at_every_moment_and_nothing_is_written() {
         assert!(outcome.failures.is_empty() && outcome.written.is_empty());
         assert!(written.is_empty(), "{at}: {written:?}");
         let flat = ran(&steps("Sheet(columns: 2)"), Path::new("out"));
-        assert!(outcome.scene.objects().is_empty() || outcome.scene == flat.scene);
+        assert!(outcome.scene == Some(Scene::new()) || outcome.scene == flat.scene);
     }
 }
 
@@ -332,9 +335,10 @@ fn a_link_does_not_lead_outputs_out_of_the_folder() {
     let settings = Settings {
         files: &files,
         budget: u64::MAX,
-        read: &|_| Err(String::new()),
+        read: &|_, _| Err(String::new()),
         keep_outputs: true,
         writes: true,
+        cache: None,
     };
     std::os::unix::fs::symlink(elsewhere.path(), folder.path().join("link")).unwrap();
     let outcome = run(&reading.recipe, settings, &Silent);

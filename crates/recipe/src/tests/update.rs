@@ -14,9 +14,10 @@ fn run(text: &str) -> (crate::Recipe, Outcome) {
     let settings = Settings {
         files: &files,
         budget: u64::MAX,
-        read: &|path| Err(format!("there is no file {}", path.display())),
+        read: &|path, _| Err(format!("there is no file {}", path.display())),
         keep_outputs: false,
         writes: false,
+        cache: None,
     };
     let outcome = crate::run(&reading.recipe, settings, &Silent);
     (reading.recipe, outcome)
@@ -172,7 +173,7 @@ proptest! {
             "(recipe: 1, steps: [Sheet(columns: {columns}),\n (id: \"l\", run: Lift(by: {by:?}))], expect: ["
         );
         let (_, outcome) = run(&format!("{head}])"));
-        let mesh = outcome.scene.objects()[0].as_mesh().unwrap().clone();
+        let mesh = outcome.scene.unwrap().objects()[0].as_mesh().unwrap().clone();
         let [min, max] = mesh.bounds().unwrap();
         let vector = |p: mesh::DVec3, d: f64| format!("({:?}, {:?}, {:?})", p.x, p.y, p.z + d);
         let line = |which: usize, off: i64| {

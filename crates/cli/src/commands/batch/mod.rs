@@ -204,7 +204,7 @@ impl<'b> Chunk<'b> {
         };
         // Before the run: what changes meanwhile is done again.
         let key = self.batch.key(self.files[i], loaded);
-        let outcome = run_quietly(loaded, self.batch.args.many.budget, true);
+        let outcome = run_quietly(loaded, self.batch.args.many.budget, true, None);
         let row = Row {
             seconds: begin.elapsed().as_secs_f64(),
             ..row(&self.files[i].path, loaded, &outcome)

@@ -112,7 +112,7 @@ impl Cells<'_> {
             return CellResult::failed(first_error(&loaded.diagnostics));
         }
         let keeps = self.args.keep_outputs.is_some();
-        let outcome = run_quietly(loaded, self.args.many.budget, keeps);
+        let outcome = run_quietly(loaded, self.args.many.budget, keeps, None);
         if outcome.cancelled {
             return CellResult::not_run();
         }

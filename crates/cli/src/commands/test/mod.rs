@@ -30,11 +30,12 @@ use std::time::{Duration, Instant};
 
 use anyhow::ensure;
 use op::Registry;
-use recipe::{Diagnostic, InOrder, JobEnd, Jobs};
+use recipe::{Cache, Diagnostic, InOrder, JobEnd, Jobs};
 use serde_json::{Value as Json, json};
 
 use super::test_update::renew;
 use crate::args::{Format, TestArgs};
+use crate::cache;
 use crate::listener::{catch_interrupts, is_interrupted};
 use crate::loading::{Found, Loaded, load_recipe, recipes};
 use crate::many::{all, panicked, run_quietly};
@@ -45,12 +46,13 @@ pub(crate) fn run(args: &TestArgs, registry: &Registry) -> anyhow::Result<bool> 
     ensure!(!recipes.is_empty(), "there are no recipes (*.ron) to test");
     catch_interrupts();
     let tests = tests(&recipes, args, registry)?;
+    let cache = cache::open(&args.cache)?;
 
     let jobs = Jobs {
         count: tests.len(),
         bytes: |i: usize| tests[i].bytes(),
         stop: is_interrupted,
-        work: |i: usize| tests[i].run(args),
+        work: |i: usize| tests[i].run(args, cache.as_ref()),
     };
     let (mut order, mut results, mut printed) = (InOrder::default(), Vec::new(), Ok(()));
     jobs.run(args.many.limits(), |ended| {
@@ -66,6 +68,9 @@ pub(crate) fn run(args: &TestArgs, registry: &Registry) -> anyhow::Result<bool> 
         }
     })?;
     printed?;
+    if let Some(problem) = cache.as_ref().and_then(Cache::problem) {
+        complain(&cache::warning(problem));
+    }
 
     if let Some(path) = &args.junit {
         write_whole(path, junit::report(&tests, &results)?.as_bytes())?;
@@ -195,7 +200,7 @@ impl<'a> Test<'a> {
         self.to_run().map_or(0, |l| l.forecast.peak_bytes())
     }
 
-    fn run(&self, args: &TestArgs) -> TestResult {
+    fn run(&self, args: &TestArgs, cache: Option<&Cache>) -> TestResult {
         let begin = Instant::now();
         let loaded = match &self.loaded {
             Ok(loaded) => loaded,
@@ -216,7 +221,9 @@ impl<'a> Test<'a> {
         if loaded.has_errors() {
             return TestResult::failed(loaded.diagnostics.clone(), None);
         }
-        let mut outcome = run_quietly(loaded, args.many.budget, args.out.is_some());
+        let keeps = args.out.is_some();
+        let caching = cache.map(|cache| cache::using(cache, &self.found.path));
+        let mut outcome = run_quietly(loaded, args.many.budget, keeps, caching);
         let mut changes = Vec::new();
         if args.update {
             match renew(&self.found.path, loaded, &mut outcome) {

@@ -1,0 +1,38 @@
+//! `meshwright cache`: says what the cache holds, or empties it.
+
+use anyhow::Context as _;
+use recipe::{Cache, mebibytes};
+
+use crate::args::{CacheAction, CacheCommandArgs, Format};
+use crate::cache::folder;
+use crate::output::{grouped, print};
+
+pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
+    let cache = Cache::new(folder(&args.folder)?, recipe::cache::LIMIT, "");
+    let shown = cache.folder().display().to_string();
+    let (size, word) = match args.action.unwrap_or(CacheAction::Info) {
+        CacheAction::Info => (cache.size(), "holds"),
+        CacheAction::Clear => (cache.clear(), "removed"),
+    };
+    let size = size.with_context(|| format!("cannot use the cache folder {shown}"))?;
+    if args.format == Format::Json {
+        let report = serde_json::json!({
+            "folder": shown,
+            "action": if word == "holds" { "info" } else { "clear" },
+            "bytes": size.bytes,
+            "steps": size.steps,
+            "blobs": size.blobs,
+        });
+        print(&format!("{report:#}\n"))?;
+        return Ok(true);
+    }
+    let (bytes, steps, blobs) = (
+        mebibytes(size.bytes),
+        grouped(size.steps),
+        grouped(size.blobs),
+    );
+    print(&format!(
+        "folder  {shown}\n{word}  {bytes}: {steps} steps, {blobs} arrays and files\n"
+    ))?;
+    Ok(true)
+}

@@ -1,0 +1,360 @@
+//! A scene from its canonical form. The bytes may be anything: lengths are looked at before memory is
+//! taken, and a mesh is only made of arrays that form one.
+
+use std::sync::Arc;
+
+use bezier::{BezierError, Curve, Patch};
+use bytemuck::{AnyBitPattern, NoUninit};
+use glam::DVec3;
+use mesh::{Column, Connectivity, Domain, Mesh, Rule, Values};
+
+use crate::digest::{FORM, MORE};
+use crate::sound::unsound;
+use crate::{
+    AlphaMode, DuplicateName, Filter, Geometry, Image, Material, Object, Sampler, Scene, Texture,
+    TextureTransform, Wrap,
+};
+
+/// Where the long arrays are that [`Scene::encode_apart`] took out.
+pub trait Arrays {
+    /// How many bytes the next array has; `None` if there is none.
+    fn next_len(&self) -> Option<u64>;
+
+    /// Reads the next array into `bytes`, which has its length.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be read.
+    fn read(&mut self, bytes: &mut [u8]) -> Result<(), String>;
+}
+
+/// No arrays apart: for the whole canonical form.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoArrays;
+
+impl Arrays for NoArrays {
+    fn next_len(&self) -> Option<u64> {
+        None
+    }
+
+    fn read(&mut self, _: &mut [u8]) -> Result<(), String> {
+        Err("there are no arrays apart".to_owned())
+    }
+}
+
+/// Why bytes are no scene.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DecodeError {
+    /// The bytes end before the scene does.
+    #[error("the bytes end before the scene does")]
+    Truncated,
+    /// There are bytes or arrays behind the scene.
+    #[error("expected the end of the scene, found more")]
+    More,
+    /// Something else was expected.
+    #[error("expected {0}")]
+    Expected(&'static str),
+    /// A long array cannot be read.
+    #[error("{0}")]
+    Array(String),
+    /// The arrays of a mesh do not form one.
+    #[error("the arrays form no mesh: {0}")]
+    Mesh(&'static str),
+    /// Two objects have one name.
+    #[error(transparent)]
+    Name(#[from] DuplicateName),
+    /// The points form no curve or patch.
+    #[error(transparent)]
+    Bezier(#[from] BezierError),
+}
+
+impl Scene {
+    /// The scene of this canonical form. Arrays of at least `long` bytes come from `arrays`: `usize::MAX` and
+    /// [`NoArrays`] for the form as [`encode`](Self::encode) gives it.
+    ///
+    /// # Errors
+    ///
+    /// [`DecodeError`] if the bytes are not the canonical form of a scene.
+    pub fn decode(bytes: &[u8], long: usize, arrays: &mut dyn Arrays) -> Result<Self, DecodeError> {
+        let mut decoder = Decoder {
+            rest: bytes,
+            long,
+            arrays,
+        };
+        if decoder.text()? != FORM {
+            return Err(DecodeError::Expected("the form of scenes of this version"));
+        }
+        let mut scene = Self::new();
+        for _ in 0..decoder.len()? {
+            scene.insert(decoder.object()?)?;
+        }
+        if decoder.rest.is_empty() && decoder.arrays.next_len().is_none() {
+            Ok(scene)
+        } else {
+            Err(DecodeError::More)
+        }
+    }
+}
+
+struct Decoder<'a> {
+    rest: &'a [u8],
+    long: usize,
+    arrays: &'a mut dyn Arrays,
+}
+
+impl<'a> Decoder<'a> {
+    fn take(&mut self, n: usize) -> Result<&'a [u8], DecodeError> {
+        let (taken, rest) = self
+            .rest
+            .split_at_checked(n)
+            .ok_or(DecodeError::Truncated)?;
+        self.rest = rest;
+        Ok(taken)
+    }
+
+    fn len(&mut self) -> Result<u64, DecodeError> {
+        let bytes = self.take(8)?.try_into().expect("eight bytes");
+        Ok(u64::from_le_bytes(bytes))
+    }
+
+    fn text(&mut self) -> Result<&'a str, DecodeError> {
+        let n = usize::try_from(self.len()?).map_err(|_| DecodeError::Truncated)?;
+        std::str::from_utf8(self.take(n)?).map_err(|_| DecodeError::Expected("a text in UTF-8"))
+    }
+
+    /// An array of numbers, or of structs of numbers of `width` bytes each.
+    fn array<T: AnyBitPattern + NoUninit>(&mut self, width: usize) -> Result<Vec<T>, DecodeError> {
+        let n = usize::try_from(self.len()?).map_err(|_| DecodeError::Truncated)?;
+        let n_bytes = n
+            .checked_mul(size_of::<T>())
+            .ok_or(DecodeError::Truncated)?;
+        let mut values: Vec<T>;
+        if n_bytes < self.long {
+            let bytes = self.take(n_bytes)?;
+            values = bytemuck::zeroed_vec(n);
+            bytemuck::cast_slice_mut(&mut values).copy_from_slice(bytes);
+        } else {
+            if self.arrays.next_len() != Some(n_bytes as u64) {
+                return Err(DecodeError::Expected("an array apart of another length"));
+            }
+            values = mesh::zeroed(n);
+            let bytes = bytemuck::cast_slice_mut(&mut values);
+            self.arrays.read(bytes).map_err(DecodeError::Array)?;
+        }
+        if cfg!(target_endian = "big") {
+            let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut values);
+            for number in bytes.chunks_exact_mut(width) {
+                number.reverse();
+            }
+        }
+        Ok(values)
+    }
+
+    /// An array of so many numbers.
+    fn numbers<const N: usize>(&mut self) -> Result<[f64; N], DecodeError> {
+        let numbers = self.array::<f64>(8)?;
+        numbers
+            .try_into()
+            .map_err(|_| DecodeError::Expected("another number of numbers"))
+    }
+
+    fn object(&mut self) -> Result<Object, DecodeError> {
+        let name = self.text()?.to_owned();
+        let mut materials = Vec::new();
+        for _ in 0..self.len()? {
+            materials.push(self.material()?);
+        }
+        let geometry = match self.text()? {
+            "mesh" => Geometry::Mesh(Arc::new(self.mesh()?)),
+            "patches" => {
+                let mut patches = Vec::new();
+                for _ in 0..self.len()? {
+                    let points: Vec<DVec3> = self.array(8)?;
+                    let mut rows = [[DVec3::ZERO; 4]; 4];
+                    if points.len() != 16 {
+                        return Err(DecodeError::Expected("16 points of a patch"));
+                    }
+                    rows.as_flattened_mut().copy_from_slice(&points);
+                    patches.push(Patch::new(rows)?);
+                }
+                Geometry::Patches(patches)
+            }
+            "curve" => Geometry::Curve(Curve::new(self.array(8)?)?),
+            "polylines" => {
+                let mut lines = Vec::new();
+                for _ in 0..self.len()? {
+                    lines.push(self.array(8)?);
+                }
+                Geometry::Polylines(lines)
+            }
+            _ => return Err(DecodeError::Expected("a kind of geometry")),
+        };
+        Ok(Object {
+            name,
+            geometry,
+            materials,
+        })
+    }
+
+    fn material(&mut self) -> Result<Material, DecodeError> {
+        let mut m = Material::new(self.text()?);
+        m.base_color = self.numbers()?;
+        [m.metallic, m.roughness] = self.numbers()?;
+        let path = self.text()?;
+        if !path.is_empty() {
+            m.base_color_texture = Some(Texture::file(path));
+        }
+        if m.base_color[3] < 1.0 {
+            m.alpha = AlphaMode::Blend;
+        }
+        // What else a material has follows behind a length that no text has.
+        if !self.rest.starts_with(&MORE.to_le_bytes()) {
+            return Ok(m);
+        }
+        self.len()?;
+        for _ in 0..self.len()? {
+            let slot = match self.text()? {
+                "base color texture" => &mut m.base_color_texture,
+                "metallic roughness texture" => &mut m.metallic_roughness_texture,
+                "normal texture" => &mut m.normal_texture,
+                "occlusion texture" => &mut m.occlusion_texture,
+                "emissive texture" => &mut m.emissive_texture,
+                _ => return Err(DecodeError::Expected("a texture of a material")),
+            };
+            *slot = Some(self.texture()?);
+        }
+        for _ in 0..self.len()? {
+            let name = self.text()?;
+            if name == "emissive" {
+                m.emissive = self.numbers()?;
+                continue;
+            }
+            let values = self.array::<f64>(8)?;
+            match (name, &values[..]) {
+                ("normal scale", &[scale]) => m.normal_scale = scale,
+                ("occlusion strength", &[strength]) => m.occlusion_strength = strength,
+                ("emissive strength", &[strength]) => m.emissive_strength = strength,
+                ("alpha", [0.0]) => m.alpha = AlphaMode::Opaque,
+                ("alpha", &[1.0, cutoff]) => m.alpha = AlphaMode::Mask(cutoff),
+                ("alpha", [2.0]) => m.alpha = AlphaMode::Blend,
+                ("double sided", [1.0]) => m.double_sided = true,
+                ("unlit", [1.0]) => m.unlit = true,
+                _ => return Err(DecodeError::Expected("a number of a material")),
+            }
+        }
+        Ok(m)
+    }
+
+    fn texture(&mut self) -> Result<Texture, DecodeError> {
+        let image = match self.text()? {
+            "file" => Image::File(self.text()?.to_owned()),
+            "embedded" => Image::Embedded {
+                mime: self.text()?.to_owned(),
+                bytes: self.array::<u8>(1)?.into(),
+            },
+            _ => return Err(DecodeError::Expected("a picture")),
+        };
+        let wrap = |code| match code {
+            0 => Ok(Wrap::Repeat),
+            1 => Ok(Wrap::Mirror),
+            2 => Ok(Wrap::Clamp),
+            _ => Err(DecodeError::Expected("how a texture is wrapped")),
+        };
+        let filter = |code| match code {
+            0 => Ok(None),
+            1 => Ok(Some(Filter::Nearest)),
+            2 => Ok(Some(Filter::Linear)),
+            _ => Err(DecodeError::Expected("how a texture is filtered")),
+        };
+        let codes = self.array::<u32>(4)?;
+        let &[uv_set, u, v, magnify, minify, mipmap] = &codes[..] else {
+            return Err(DecodeError::Expected("how a texture is sampled"));
+        };
+        let sampler = Sampler {
+            wrap: [wrap(u)?, wrap(v)?],
+            magnify: filter(magnify)?,
+            minify: filter(minify)?,
+            mipmap: filter(mipmap)?,
+        };
+        let [u, v, rotation, x, y] = self.numbers()?;
+        Ok(Texture {
+            image,
+            uv_set,
+            sampler,
+            transform: TextureTransform {
+                offset: [u, v],
+                rotation,
+                scale: [x, y],
+            },
+        })
+    }
+
+    fn mesh(&mut self) -> Result<Mesh, DecodeError> {
+        let connectivity = Connectivity {
+            next: self.array(4)?,
+            origin: self.array(4)?,
+            face: self.array(4)?,
+            vertex_half_edge: self.array(4)?,
+            face_half_edge: self.array(4)?,
+        };
+        let positions = self.array(8)?;
+        if let Some(why) = unsound(&connectivity, &positions) {
+            return Err(DecodeError::Mesh(why));
+        }
+        let mut mesh = Mesh::from_arrays(connectivity, positions);
+        for _ in 0..self.len()? {
+            let (domain, column) = self.column()?;
+            if column.values.len() != mesh.domain_len(domain) {
+                return Err(DecodeError::Mesh("an attribute has the wrong length"));
+            }
+            mesh.insert_column(domain, column);
+        }
+        Ok(mesh)
+    }
+
+    fn column(&mut self) -> Result<(Domain, Column), DecodeError> {
+        let (domain, name) = self
+            .text()?
+            .split_once(' ')
+            .ok_or(DecodeError::Expected("a domain and a name"))?;
+        let domain = match domain {
+            "vertex" => Domain::Vertex,
+            "corner" => Domain::Corner,
+            "edge" => Domain::Edge,
+            "face" => Domain::Face,
+            _ => return Err(DecodeError::Expected("a domain")),
+        };
+        let rule = match self.text()? {
+            "interpolate" => Rule::Interpolate,
+            "normal" => Rule::Normal,
+            "copy" => Rule::Copy,
+            "drop" => Rule::Drop,
+            _ => return Err(DecodeError::Expected("a rule")),
+        };
+        let values = match self.text()? {
+            "number" => Values::Float(self.array(8)?),
+            "2 numbers" => Values::Vec2(self.array(8)?),
+            "3 numbers" => Values::Vec3(self.array(8)?),
+            "4 numbers" => Values::Vec4(self.array(8)?),
+            "whole number" => Values::Int(self.array(4)?),
+            "tag" => Values::Tag(marks(&self.array(1)?)?),
+            _ => return Err(DecodeError::Expected("a type of values")),
+        };
+        let column = Column {
+            name: name.to_owned(),
+            rule,
+            values,
+        };
+        Ok((domain, column))
+    }
+}
+
+fn marks(bytes: &[u8]) -> Result<Vec<bool>, DecodeError> {
+    if bytes.iter().any(|&byte| byte > 1) {
+        return Err(DecodeError::Expected("marks of 0 or 1"));
+    }
+    Ok(bytes.iter().map(|&byte| byte == 1).collect())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,234 @@
+use super::*;
+use glam::{DVec2, DVec4};
+use mesh::{FaceId, HalfEdgeId, VertexId, shapes};
+use proptest::prelude::*;
+use std::collections::VecDeque;
+
+/// The arrays that were taken out, in order.
+struct Kept(VecDeque<Vec<u8>>);
+
+impl Arrays for Kept {
+    fn next_len(&self) -> Option<u64> {
+        self.0.front().map(|array| array.len() as u64)
+    }
+
+    fn read(&mut self, bytes: &mut [u8]) -> Result<(), String> {
+        let array = self.0.pop_front().ok_or("no array")?;
+        bytes.copy_from_slice(&array);
+        Ok(())
+    }
+}
+
+fn whole(scene: &Scene) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    scene.encode(&mut |piece| bytes.extend_from_slice(piece));
+    bytes
+}
+
+fn apart(scene: &Scene, long: usize) -> (Vec<u8>, Kept) {
+    let mut arrays = VecDeque::new();
+    let rest = scene.encode_apart(long, &mut |array| arrays.push_back(array.to_vec()));
+    (rest, Kept(arrays))
+}
+
+fn insert(scene: &mut Scene, name: &str, geometry: Geometry, materials: Vec<Material>) {
+    let object = Object {
+        materials,
+        ..Object::new(name, geometry)
+    };
+    scene.insert(object).unwrap();
+}
+
+/// Every kind of geometry, attribute and material.
+fn everything() -> Scene {
+    let mut scene = Scene::new();
+    let mut mesh = shapes::grid(3, 2);
+    let n = |domain| mesh.domain_len(domain);
+    let (vertices, corners, edges, faces) = (
+        n(Domain::Vertex),
+        n(Domain::Corner),
+        n(Domain::Edge),
+        n(Domain::Face),
+    );
+    mesh.set(mesh::UV, vec![DVec2::new(0.5, -0.0); corners]);
+    mesh.set(mesh::VERTEX_NORMAL, vec![DVec3::Z; vertices]);
+    mesh.set(mesh::COLOR, vec![DVec4::new(0.1, 0.2, 0.3, 1.0); vertices]);
+    mesh.set(mesh::CREASE, vec![2.5; edges]);
+    mesh.set(mesh::MATERIAL, vec![-1; faces]);
+    let tag = Column {
+        name: "two words".into(),
+        rule: Rule::Drop,
+        values: Values::Tag((0..faces).map(|i| i % 2 == 0).collect()),
+    };
+    mesh.insert_column(Domain::Face, tag);
+    let mut glass = Material::new("glass");
+    glass.base_color = [0.5, 0.25, 1.0, 0.5];
+    glass.alpha = AlphaMode::Mask(0.25);
+    glass.base_color_texture = Some(Texture::file("wood.png"));
+    glass.emissive = [0.5, 0.0, 0.125];
+    glass.emissive_strength = 3.0;
+    glass.normal_scale = 0.5;
+    glass.occlusion_strength = 0.25;
+    glass.double_sided = true;
+    glass.unlit = true;
+    let mut texture = Texture::new(Image::Embedded {
+        mime: "image/png".into(),
+        bytes: vec![7; 100].into(),
+    });
+    texture.uv_set = 2;
+    texture.sampler = Sampler {
+        wrap: [Wrap::Mirror, Wrap::Clamp],
+        magnify: Some(Filter::Nearest),
+        minify: Some(Filter::Linear),
+        mipmap: Some(Filter::Nearest),
+    };
+    texture.transform.rotation = 0.5;
+    glass.normal_texture = Some(texture);
+    let mut opaque = Material::new("opaque");
+    opaque.base_color[3] = 0.5;
+    opaque.alpha = AlphaMode::Opaque;
+    opaque.base_color_texture = Some(Texture::file(""));
+    let materials = vec![Material::new("plain"), glass, opaque];
+    insert(
+        &mut scene,
+        "grid",
+        Geometry::Mesh(Arc::new(mesh)),
+        materials,
+    );
+    insert(
+        &mut scene,
+        "nothing",
+        Geometry::Mesh(Arc::default()),
+        vec![],
+    );
+    let cube = shapes::cube();
+    insert(&mut scene, "cube", Geometry::Mesh(Arc::new(cube)), vec![]);
+    let patch = Patch::new([[DVec3::X; 4]; 4]).unwrap();
+    insert(&mut scene, "patch", Geometry::Patches(vec![patch]), vec![]);
+    let curve = Curve::new(vec![DVec2::X, DVec2::Y]).unwrap();
+    insert(&mut scene, "curve", Geometry::Curve(curve), vec![]);
+    let lines = vec![vec![DVec3::X, DVec3::Y], vec![]];
+    insert(&mut scene, "lines", Geometry::Polylines(lines), vec![]);
+    scene
+}
+
+#[test]
+fn what_is_decoded_is_what_was_encoded() {
+    let scene = everything();
+    let decoded = Scene::decode(&whole(&scene), usize::MAX, &mut NoArrays).unwrap();
+    assert_eq!(decoded, scene);
+    assert_eq!(whole(&decoded), whole(&scene));
+    for long in [0, 1, 48, 200, 1000] {
+        let (rest, mut arrays) = apart(&scene, long);
+        let decoded = Scene::decode(&rest, long, &mut arrays).unwrap();
+        assert_eq!(decoded, scene, "arrays of {long} bytes apart");
+        assert_eq!(decoded.digest(), scene.digest());
+    }
+}
+
+#[test]
+fn whatever_is_cut_off_is_missed() {
+    let bytes = whole(&everything());
+    for n in 0..bytes.len() {
+        assert!(
+            Scene::decode(&bytes[..n], usize::MAX, &mut NoArrays).is_err(),
+            "{n}"
+        );
+    }
+    let more = [&bytes[..], b"x"].concat();
+    assert_eq!(
+        Scene::decode(&more, usize::MAX, &mut NoArrays),
+        Err(DecodeError::More)
+    );
+}
+
+#[test]
+fn a_length_beyond_all_memory_is_refused() {
+    let mut bytes = whole(&Scene::new());
+    let at = bytes.len() - 8;
+    bytes[at..].copy_from_slice(&u64::MAX.to_le_bytes());
+    assert_eq!(
+        Scene::decode(&bytes, usize::MAX, &mut NoArrays),
+        Err(DecodeError::Truncated)
+    );
+    // The first array of a mesh.
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("a", shapes::cube())).unwrap();
+    let (mut rest, mut arrays) = apart(&scene, 1);
+    let n = 24_u64.to_le_bytes();
+    let at = rest.windows(8).position(|w| w == n).unwrap();
+    rest[at..at + 8].copy_from_slice(&(1_u64 << 60).to_le_bytes());
+    assert!(Scene::decode(&rest, 1, &mut arrays).is_err());
+}
+
+/// What is said of the arrays of a grid in which one thing was changed.
+fn after(change: impl FnOnce(&mut Connectivity, &mut Vec<DVec3>)) -> Option<&'static str> {
+    let mesh = shapes::grid(2, 2);
+    let (mut c, mut positions) = (mesh.connectivity().clone(), mesh.positions().to_vec());
+    assert_eq!(unsound(&c, &positions), None);
+    change(&mut c, &mut positions);
+    unsound(&c, &positions)
+}
+
+#[test]
+fn arrays_that_form_no_mesh_are_refused() {
+    assert!(after(|c, _| assert!(c.origin.pop().is_some())).is_some());
+    assert!(after(|c, _| c.next[3] = HalfEdgeId::new(999)).is_some());
+    assert!(after(|c, _| c.next[0] = c.next[2]).is_some());
+    assert!(after(|c, _| c.face[0] = FaceId::new(3)).is_some());
+    assert!(after(|c, _| c.origin[1] = c.origin[0]).is_some());
+    assert!(after(|c, _| c.face_half_edge[1] = c.face_half_edge[0]).is_some());
+    assert!(after(|c, _| c.face_half_edge[1] = HalfEdgeId::NONE).is_some());
+    assert!(after(|c, _| c.vertex_half_edge[4] = HalfEdgeId::NONE).is_some());
+    assert!(after(|c, _| c.vertex_half_edge[0] = c.next[c.vertex_half_edge[0].index()]).is_some());
+    assert!(after(|_, p| p[3].x = f64::NAN).is_some());
+    let origin = VertexId::new(8);
+    assert!(after(|c, _| c.origin[5] = origin).is_some());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// The fast check says what the slow one says, for a mesh with some entries changed.
+    #[test]
+    fn arrays_are_refused_exactly_if_they_have_defects(
+        changes in prop::collection::vec((0..5_usize, 0..200_usize, 0..60_usize), 0..4),
+        shape in 0..3,
+    ) {
+        let mesh = match shape {
+            0 => shapes::grid(2, 2),
+            1 => shapes::tetrahedron(),
+            _ => shapes::square(),
+        };
+        let mut c = mesh.connectivity().clone();
+        for (array, at, to) in changes {
+            // Mostly a value that is there.
+            match array {
+                0 => { let n = c.next.len(); c.next[at % n] = HalfEdgeId::new(to % (n + 1)); }
+                1 => { let n = c.origin.len(); c.origin[at % n] = VertexId::new(to % (mesh.n_vertices() + 1)); }
+                2 => { let n = c.face.len(); c.face[at % n] = if to == 0 { FaceId::NONE } else { FaceId::new(to % mesh.n_faces()) }; }
+                3 => { let n = c.vertex_half_edge.len(); c.vertex_half_edge[at % n] = HalfEdgeId::new(to % c.next.len()); }
+                _ => { let n = c.face_half_edge.len(); c.face_half_edge[at % n] = HalfEdgeId::new(to % c.next.len()); }
+            }
+        }
+        let mesh = Mesh::from_arrays(c.clone(), mesh.positions().to_vec());
+        prop_assert_eq!(unsound(&c, mesh.positions()).is_none(), mesh.defects().is_empty());
+    }
+
+    /// Nonsense is refused without a panic, and what is not refused is a valid scene.
+    #[test]
+    fn changed_bytes_give_an_error_or_a_valid_scene(
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
+    ) {
+        let mut bytes = whole(&everything());
+        for (at, byte) in changes {
+            let at = at.index(bytes.len());
+            bytes[at] = byte;
+        }
+        if let Ok(scene) = Scene::decode(&bytes, usize::MAX, &mut NoArrays) {
+            for mesh in scene.objects().iter().filter_map(Object::as_mesh) {
+                prop_assert_eq!(mesh.defects(), []);
+            }
+        }
+    }
+}

@@ -53,14 +53,14 @@ impl ElementKind {
         }
     }
 
-    fn typed(self, value: &Value) -> Result<Elements, Diagnostic> {
+    fn typed(self, value: &Value) -> Result<Elements, Vec<Diagnostic>> {
         let (text, options) = (value.to_string(), syntax::ron_options());
         match self {
             Self::Vertices => options.from_str(&text).map(Elements::Vertices),
             Self::Edges => options.from_str(&text).map(Elements::Edges),
             Self::Faces => options.from_str(&text).map(Elements::Faces),
         }
-        .map_err(|error| Diagnostic::error(value.span, error.code.to_string()))
+        .map_err(|error| vec![Diagnostic::error(value.span, error.code.to_string())])
     }
 }
 
@@ -83,7 +83,7 @@ pub fn read_selection(
     if let Some(kind) = kind {
         let wrong = check_shape(value, &kind.schema());
         return if wrong.is_empty() {
-            kind.typed(value).map_err(|error| vec![error])
+            kind.typed(value)
         } else {
             Err(wrong)
         };
@@ -95,7 +95,7 @@ pub fn read_selection(
         .map(|(kind, _)| *kind)
         .collect();
     match fitting[..] {
-        [kind] => kind.typed(value).map_err(|error| vec![error]),
+        [kind] => kind.typed(value),
         [] => Err(closest(value, trials)),
         ref several => {
             let words: Vec<&str> = several.iter().map(|kind| kind.word()).collect();

@@ -119,8 +119,8 @@ fn renewal<'t>(
     }
     let value = expectation_at(tree, placed.span).ok_or(NOT_RECORDED)?;
     let fix = fix(value, broken.found.as_ref())?;
-    let is_same = |turn: &Option<&Unmet>| turn.is_some_and(|turn| turn.found == broken.found);
-    if !turns.iter().all(is_same) {
+    let is_same = |turn: &Unmet| turn.found == broken.found;
+    if !turns.iter().all(|turn| turn.is_some_and(is_same)) {
         let help = "the turns of a repetition find different values, so it is not updated";
         return Err(help.to_owned());
     }

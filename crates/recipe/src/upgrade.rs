@@ -61,7 +61,9 @@ pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagno
     if !parsed.diagnostics.is_empty() {
         return Err(parsed.diagnostics);
     }
-    version(root).map_err(|problem| vec![problem])?;
+    if let Some(problem) = wrong_version(root) {
+        return Err(vec![problem]);
+    }
     let mut found = Vec::new();
     if let Some(ValueKind::Map(params)) = root.field("params").map(|p| &p.kind) {
         let schema = schema::of::<Param>();
@@ -88,25 +90,25 @@ pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagno
     Ok(Upgraded { text, renames })
 }
 
-fn version(root: &Value) -> Result<(), Diagnostic> {
+fn wrong_version(root: &Value) -> Option<Diagnostic> {
     let Some(version) = root.field("recipe") else {
         let message = "expected a recipe, found a text without `recipe: 1`";
-        return Err(Diagnostic::error(root.span, message));
+        return Some(Diagnostic::error(root.span, message));
     };
     let number = match &version.kind {
         ValueKind::Number(number) => number.to_int(),
         _ => None,
     };
     match number {
-        Some(VERSION) => Ok(()),
+        Some(VERSION) => None,
         Some(found) if found > VERSION => {
             let message = format!("this recipe is of version {found}, expected {VERSION}");
-            Err(Diagnostic::error(version.span, message)
-                .with_help("a newer meshwright can read it; there is nothing to upgrade here"))
+            let help = "a newer meshwright can read it; there is nothing to upgrade here";
+            Some(Diagnostic::error(version.span, message).with_help(help))
         }
         _ => {
             let message = format!("expected version {VERSION}, found {}", version.describe());
-            Err(Diagnostic::error(version.span, message).with_help("write 1"))
+            Some(Diagnostic::error(version.span, message).with_help("write 1"))
         }
     }
 }

@@ -168,7 +168,7 @@ impl OneSided {
         let mut found = farthest_vertex(from, &hits).expect("a mesh with faces has vertices");
         // A sample stands for at most so much area.
         let portion = from.area() / SAMPLES;
-        let enough = found.distance() + tolerance;
+        let enough = found.certain() + tolerance;
         let blocks: Vec<Block> = (0..slots.div_ceil(BLOCK))
             .into_par_iter()
             .map(|b| {
@@ -205,7 +205,7 @@ impl OneSided {
         let (found, at_most) = refine(pieces, found, ceiling, to, tolerance);
         let (from, to) = found.places(to);
         Self {
-            largest: found.distance(),
+            largest: found.certain(),
             at_most,
             mean,
             from,

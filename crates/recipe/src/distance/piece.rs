@@ -37,18 +37,18 @@ const BLOCK: usize = 256;
 const MOST_AT_ONCE: usize = 1 << 18;
 
 /// Most nodes of the other surface that are looked at: a few seconds.
-const MOST: u64 = 1 << 29;
+const MOST: u64 = 1 << 28;
 
 impl Farthest {
     /// How far away it is for certain.
-    pub(super) fn distance(&self) -> f64 {
+    pub(super) fn certain(&self) -> f64 {
         self.sample.hit.lower
     }
 
     /// The further one; this one of equals.
     pub(super) fn or(self, other: Option<Self>) -> Self {
         match other {
-            Some(other) if other.distance() > self.distance() => other,
+            Some(other) if other.certain() > self.certain() => other,
             _ => self,
         }
     }
@@ -129,6 +129,15 @@ impl Piece {
         self.corners.iter().map(distance).fold(0.0, f64::max)
     }
 
+    /// Whether smaller pieces would tell more: not where the distances of the corners, which are known only
+    /// nearly, are the bound already.
+    fn can_be_told(&self, tolerance: f64) -> bool {
+        let hits = self.corners.map(|s| s.hit);
+        let far = hits.iter().fold(0.0, |d, hit| hit.distance.max(d));
+        let is_known = hits.iter().all(|hit| hit.lower == hit.distance);
+        is_known || self.upper > far + tolerance
+    }
+
     /// The corner before the longest side, and the length of that.
     fn longest(&self) -> (usize, f64) {
         let length = |i: usize| self.corners[i].at.distance(self.corners[(i + 1) % 3].at);
@@ -192,9 +201,9 @@ pub(super) fn refine(
 ) -> (Farthest, f64) {
     let mut left = MOST;
     loop {
-        let enough = found.distance() + tolerance;
+        let enough = found.certain() + tolerance;
         wave.retain(|piece| {
-            let stays = piece.upper > enough;
+            let stays = piece.upper > enough && piece.can_be_told(tolerance);
             if !stays {
                 ceiling = ceiling.max(piece.upper);
             }
@@ -207,7 +216,7 @@ pub(super) fn refine(
         }
         if wave.is_empty() || left == 0 {
             let waiting = wave.iter().fold(ceiling, |c, piece| c.max(piece.upper));
-            return (found, waiting.max(found.distance()));
+            return (found, waiting.max(found.certain()));
         }
         let cut: Vec<_> = wave
             .par_chunks(BLOCK)

@@ -12,6 +12,7 @@ mod opensubdiv;
 mod outside;
 mod random_edits;
 mod registry;
+mod renewing;
 mod samples;
 mod schema;
 mod threads;

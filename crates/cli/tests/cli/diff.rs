@@ -100,7 +100,9 @@ fn runs_are_compared_step_by_step() {
         .with("a.json", &a)
         .with("again.json", &again)
         .with("b.json", &b)
-        .with("other.json", a.replace("\"edges\": 12", "\"edges\": 13"));
+        .with("half.json", a.lines().next().unwrap())
+        .with("newer.json", a.replace("\"format\":1", "\"format\":2"))
+        .with("other.json", a.replace("\"edges\":12", "\"edges\":13"));
     folder
         .run("diff --runs a.json again.json")
         .with_code(0)
@@ -110,7 +112,7 @@ fn runs_are_compared_step_by_step() {
         .with_code(1)
         .prints(&[
             "first difference: step 2, Save\n",
-            "  step\n    \"Save\"\n    \"Triangulate\"\n",
+            "  label\n    \"Save\"\n    \"Triangulate\"\n",
         ]);
     let json = folder
         .run("diff --runs a.json other.json --format json")
@@ -121,4 +123,30 @@ fn runs_are_compared_step_by_step() {
         json["differs"][0],
         json!({ "what": "edges", "first": 12, "second": 13 })
     );
+    folder
+        .run("diff --runs a.json half.json")
+        .with_code(2)
+        .complains(&["half.json is no whole record of a run"]);
+    folder
+        .run("diff --runs a.json newer.json")
+        .with_code(2)
+        .complains(&["newer.json is of version 2, expected 1"]);
+}
+
+#[test]
+fn runs_that_differ_by_a_parameter_say_so() {
+    let recipe = "(recipe: 1, params: { \"size\": Float(default: 2) },
+        steps: [Cube(name: \"a\", size: arg(\"size\"))])";
+    let folder = Folder::with_recipe(recipe);
+    let record = |set: &str| {
+        let run = format!("run recipe.ron --format json --set size={set}");
+        folder.run(&run).with_code(0).stdout
+    };
+    let records = Folder::new()
+        .with("a.json", record("2"))
+        .with("b.json", record("3"));
+    records
+        .run("diff --runs a.json b.json")
+        .with_code(1)
+        .prints(&["parameter size: \"2.0\" and \"3.0\"\n", "  digest\n"]);
 }

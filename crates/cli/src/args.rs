@@ -22,6 +22,8 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Run a recipe
     Run(RunArgs),
+    /// Run a recipe again whenever it or one of its inputs is saved
+    Watch(RunArgs),
     /// Check a recipe without running it, and forecast what it will make
     Check(CheckArgs),
     /// Run recipes as tests: one line each, and a summary
@@ -69,6 +71,8 @@ pub(crate) enum Command {
     Upgrade(UpgradeArgs),
     /// Show where the cache is and what it holds, or empty it
     Cache(CacheCommandArgs),
+    /// Make the mesh smaller on which a step of a recipe fails, and write it with the step
+    Shrink(ShrinkArgs),
     /// Print the JSON schema of recipes
     Schema,
     /// Write a new operation crate: its folder, a working sample with a test, and its line in ops/all
@@ -163,6 +167,9 @@ pub(crate) struct RunArgs {
     /// The number of threads; by default one for each processor
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
+    /// If a step fails, write the scene before it and a recipe of the rest into this folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) capsule: Option<PathBuf>,
     /// Do not hold the recipe's expectations against the result
     #[arg(long)]
     pub(crate) no_expect: bool,
@@ -315,6 +322,27 @@ fn not_negative(text: &str) -> Result<f64, String> {
         Ok(x) if x >= 0.0 => Ok(x),
         _ => Err("expected a number that is not negative".to_owned()),
     }
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct ShrinkArgs {
+    /// A recipe of which a step fails, such as that of a capsule
+    pub(crate) recipe: PathBuf,
+    /// Set a parameter of the recipe
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub(crate) set: Vec<(String, String)>,
+    /// Take the values of one of the recipe's presets; --set goes before them
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
+    /// The folder for the smaller scene and its recipe
+    #[arg(long, default_value = "shrunk", value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// How many smaller scenes to try
+    #[arg(long, default_value_t = 1000, value_name = "N")]
+    pub(crate) tries: usize,
+    /// The memory that meshes may take, such as 512MiB or 8GiB
+    #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
+    pub(crate) budget: u64,
 }
 
 #[derive(Debug, ClapArgs)]

@@ -13,6 +13,7 @@
 
 mod args;
 mod cache;
+mod capsule;
 mod commands;
 mod events;
 mod listener;
@@ -45,6 +46,7 @@ pub fn run(registry: Registry) -> ExitCode {
     let mut trouble = 1;
     let done = match args.command {
         Command::Run(args) => commands::run::run(&args, &registry),
+        Command::Watch(args) => commands::watch::run(&args, &registry),
         Command::Check(args) => commands::check::run(&args, &registry),
         Command::Test(args) => commands::test::run(&args, &registry),
         Command::Batch(args) => commands::batch::run(&args, &registry),
@@ -65,6 +67,7 @@ pub fn run(registry: Registry) -> ExitCode {
         }
         Command::Upgrade(args) => commands::upgrade::run(&args, &registry),
         Command::Cache(args) => commands::cache::run(&args),
+        Command::Shrink(args) => commands::shrink::run(&args, &registry),
         Command::Schema => commands::schema::run(&registry),
         Command::NewOp { name, dir } => commands::new_op::run(&name, &dir),
     };

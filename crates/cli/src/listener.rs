@@ -87,3 +87,25 @@ impl Listener for Terminal {
 
     fn step_done(&self, _: usize, _: &StepDone) {}
 }
+
+/// Another listener, and a reason of its own to stop.
+pub(crate) struct Stopping<'a> {
+    pub(crate) listener: &'a (dyn Listener + Sync),
+    pub(crate) go_on: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Progress for Stopping<'_> {
+    fn advance(&self, what: &str, done: u64, total: u64) -> bool {
+        self.listener.advance(what, done, total) && (self.go_on)()
+    }
+}
+
+impl Listener for Stopping<'_> {
+    fn step_begins(&self, number: usize, label: &str) {
+        self.listener.step_begins(number, label);
+    }
+
+    fn step_done(&self, number: usize, done: &StepDone) {
+        self.listener.step_done(number, done);
+    }
+}

@@ -20,6 +20,8 @@ pub enum Format {
     Off,
     /// COLLADA: polygons, materials and placed objects as XML. Only read.
     Dae,
+    /// A whole Meshwright scene, bit for bit.
+    Mws,
     /// Bicubic Bezier patches as text.
     Bez,
     /// One plane Bezier curve as text.
@@ -28,7 +30,7 @@ pub enum Format {
 
 impl Format {
     /// All formats, in the order in which messages list them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Obj,
         Self::Gltf,
         Self::Glb,
@@ -36,6 +38,7 @@ impl Format {
         Self::Stl,
         Self::Off,
         Self::Dae,
+        Self::Mws,
         Self::Bez,
         Self::Bzc,
     ];
@@ -50,6 +53,7 @@ impl Format {
             Self::Stl => "stl",
             Self::Off => "off",
             Self::Dae => "dae",
+            Self::Mws => "mws",
             Self::Bez => "bez",
             Self::Bzc => "bzc",
         }
@@ -95,6 +99,7 @@ impl fmt::Display for Format {
             Self::Stl => "STL",
             Self::Off => "OFF",
             Self::Dae => "COLLADA",
+            Self::Mws => "Meshwright scene",
             Self::Bez => "Bezier patches",
             Self::Bzc => "Bezier curve",
         })

@@ -53,6 +53,7 @@ mod gltf;
 mod joined;
 mod lines;
 mod loss;
+mod mws;
 mod names;
 mod note;
 mod obj;
@@ -119,7 +120,7 @@ pub struct FileSeen {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WriteOptions {
     /// Where the content comes from, such as the digest of a recipe: a comment in OBJ, MTL, PLY and OFF, in
-    /// the header of STL, `asset.extras.meshwright` in glTF. The Bezier formats have no place for it.
+    /// the header of STL, `asset.extras.meshwright` in glTF, the head of `.mws`. The Bezier formats have no place for it.
     pub provenance: Option<String>,
 }
 
@@ -171,6 +172,7 @@ pub fn read_bytes(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<
                 }
             }
             Shape::Other(geometry) => Object::new(name, geometry),
+            Shape::Whole(object) => *object,
         });
     }
     let files = notes.take_files();
@@ -199,7 +201,7 @@ pub fn read_polygons(
     let found = find(path, read_whole(path)?, options, &mut Notes::of(path))?;
     let polygons = found.into_iter().filter_map(|found| match found.shape {
         Shape::Polygons(polygons) => Some((found.name, polygons)),
-        Shape::Other(_) => None,
+        Shape::Other(_) | Shape::Whole(_) => None,
     });
     Ok(polygons.collect())
 }
@@ -213,6 +215,8 @@ struct Found {
 enum Shape {
     Polygons(Polygons),
     Other(Geometry),
+    /// An object with its name and its materials, as it was written.
+    Whole(Box<Object>),
 }
 
 impl Found {
@@ -245,6 +249,14 @@ fn find(
         Format::Stl => stl::read(path, &bytes, name, notes)?,
         Format::Off => off::read(path, &bytes, name, notes)?,
         Format::Dae => return dae::read(path, &bytes, &name, notes),
+        Format::Mws => {
+            let objects = mws::read(path, &bytes, options.name.as_deref())?;
+            let found = objects.into_iter().map(|object| Found {
+                name: object.name.clone(),
+                shape: Shape::Whole(object.into()),
+            });
+            return Ok(found.collect());
+        }
         Format::Bez => {
             let patches = bez::read_patches(&bytes).map_err(|error| error.in_file(path))?;
             Found::other(name, Geometry::Patches(patches))
@@ -297,6 +309,12 @@ pub fn peek(path: &Path, options: &ReadOptions) -> Result<Peek, ReadError> {
                 objects: dae::peek(path, &read_whole(path)?, &name)?,
             });
         }
+        Format::Mws => {
+            return Ok(Peek {
+                format,
+                objects: mws::peek(path, &read_whole(path)?, options.name.as_deref())?,
+            });
+        }
         Format::Bez => {
             let patches = bez::read_patches(&read_whole(path)?).map_err(|e| e.in_file(path))?;
             PeekGeometry::Patches {
@@ -340,6 +358,7 @@ pub fn write(
         Format::Stl => stl::write(path, scene, options),
         Format::Off => off::write(path, scene, options),
         Format::Dae => return Err(unknown()),
+        Format::Mws => Ok(mws::write(path, scene, options)),
         Format::Bez => bez::write_bez(path, scene),
         Format::Bzc => bez::write_bzc(path, scene),
     };

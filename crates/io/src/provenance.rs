@@ -50,6 +50,10 @@ pub fn provenance(path: &Path) -> Result<Option<String>, ReadError> {
             let text = rest.map(|(_, text)| text.trim_end_matches(['\0', ' ']));
             Ok(text.filter(|t| !t.is_empty()).map(str::to_owned))
         }
+        Some(Format::Mws) => {
+            let text = head(&mut file, HEAD).map_err(failed)?;
+            Ok(crate::mws::provenance(&text))
+        }
         _ => {
             file.seek(SeekFrom::Start(0)).map_err(failed)?;
             let text = head(&mut file, HEAD).map_err(failed)?;

@@ -9,11 +9,14 @@
 //! outputs appear only when every step is done and every expectation holds.
 
 pub mod cache;
+pub mod capsule;
 pub mod compare;
 pub mod diagnostic;
 pub mod distance;
 pub mod expect;
 pub mod shape;
+pub mod shrink;
+pub mod stamp;
 pub mod syntax;
 pub mod update;
 pub mod upgrade;
@@ -28,7 +31,7 @@ mod run;
 mod schema;
 mod select;
 mod source;
-pub mod stamp;
+
 mod sweep;
 
 pub use cache::{Cache, CacheSize, Caching, Why};

@@ -14,8 +14,8 @@ use serde::{Deserialize, Serialize};
 
 /// Reads the objects of a file into the scene.
 ///
-/// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches) and `.bzc` (a
-/// Bezier curve). An OBJ file is one object, whose `o` and `g` become face tags; a glTF or COLLADA file has an
+/// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier
+/// curve) and `.mws` (a whole scene). An OBJ file is one object, whose `o` and `g` become face tags; a glTF or COLLADA file has an
 /// object for each node with a mesh. What the scene cannot hold is counted and listed. A corner that repeats
 /// the one before it is taken once, and a face that still visits a vertex twice is left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Writes objects to a file below the output folder.
 ///
 /// The ending chooses the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for
-/// Bezier patches, `.bzc` for a curve. Everything that the format cannot hold is listed. The file appears
+/// Bezier patches, `.bzc` for a curve, `.mws` for everything, bit for bit. Everything that the format cannot hold is listed. The file appears
 /// when the whole recipe has succeeded.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]

@@ -2,77 +2,131 @@
 
 use anyhow::Context as _;
 use op::Registry;
-use recipe::{Outcome, Settings};
+use recipe::{Cache, Outcome, Settings};
 
 use crate::args::{Format, RunArgs};
 use crate::cache;
+use crate::capsule;
 use crate::events::Events;
-use crate::listener::{Terminal, catch_interrupts};
+use crate::listener::{Stopping, Terminal, catch_interrupts};
 use crate::loading::{Loaded, load, read_objects};
 use crate::output::{
     complain, explain, explain_steps, print, problems_json, show, step_notes, step_table,
 };
 
 pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
-    if let Some(threads) = args.threads {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads.into())
-            .build_global()
-            .context("cannot start the threads")?;
+    start_threads(args.threads)?;
+    let mut loaded = load_to_run(args, registry)?;
+    let cache = cache::open(&args.cache)?;
+    catch_interrupts();
+    let Some(outcome) = execute(args, &loaded, cache.as_ref(), &|| true)? else {
+        return Ok(false);
+    };
+    if args.recipe.format == Format::Human {
+        tell(args, &loaded, &outcome)?;
     }
+    let number = outcome.steps.len();
+    if let Some(folder) = &args.capsule
+        && !outcome.cancelled
+        && number < loaded.recipe.steps.len()
+    {
+        let message = outcome.failures.last().map(|f| f.message.clone());
+        let scene = capsule::scene_before(&mut loaded, number, args.recipe.budget)?;
+        capsule::write(
+            &loaded,
+            number,
+            &message.unwrap_or_default(),
+            &scene,
+            folder,
+        )?;
+        let path = folder.join("recipe.ron");
+        complain(&format!(
+            "see it fail again with: meshwright run {}\n",
+            path.display()
+        ));
+    }
+    Ok(outcome.succeeded())
+}
+
+/// Makes this program run on so many threads.
+pub(crate) fn start_threads(n: Option<u16>) -> anyhow::Result<()> {
+    let Some(n) = n else { return Ok(()) };
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(n.into())
+        .build_global()
+        .context("cannot start the threads")
+}
+
+/// Reads and checks the recipe of a command that runs it.
+pub(crate) fn load_to_run(args: &RunArgs, registry: &Registry) -> anyhow::Result<Loaded> {
     let mut loaded = load(&args.recipe, registry)?;
     if args.no_expect {
         loaded.recipe.expectations.clear();
     }
+    Ok(loaded)
+}
+
+/// Runs a recipe, if it can run, as long as `go_on` holds. Shows what is wrong with one that cannot, and
+/// events if the command asks for them.
+pub(crate) fn execute(
+    args: &RunArgs,
+    loaded: &Loaded,
+    cache: Option<&Cache>,
+    go_on: &(dyn Fn() -> bool + Sync),
+) -> anyhow::Result<Option<Outcome>> {
     let json = args.recipe.format == Format::Json;
     if args.explain && !json {
         print(&explain(&loaded.recipe))?;
     }
     if loaded.has_errors() {
         if json {
-            Events::start(&loaded, &op::NoProgress).refused()?;
-            return Ok(false);
+            Events::start(loaded, &op::NoProgress).refused()?;
+        } else {
+            refuse(loaded, json)?;
         }
-        return refuse(&loaded, json);
+        return Ok(None);
     }
     if !json {
-        show(&loaded, &loaded.diagnostics);
+        show(loaded, &loaded.diagnostics);
     }
-
-    let cache = cache::open(&args.cache)?;
-    catch_interrupts();
-    let terminal = Terminal::new();
     let settings = Settings {
         files: &loaded.files,
         budget: args.recipe.budget,
         read: &read_objects,
         keep_outputs: true,
         writes: !loaded.forecast.outputs.is_empty(),
-        cache: cache
-            .as_ref()
-            .map(|cache| cache::using(cache, &args.recipe.recipe)),
+        cache: cache.map(|cache| cache::using(cache, &args.recipe.recipe)),
     };
+    let terminal = Terminal::new();
+    let stopping = Stopping {
+        listener: &terminal,
+        go_on,
+    };
+    let outcome;
     if json {
-        let events = Events::start(&loaded, &terminal);
+        let events = Events::start(loaded, &stopping);
         events.problems(&loaded.diagnostics);
-        let outcome = recipe::run(&loaded.recipe, settings, &events);
+        outcome = recipe::run(&loaded.recipe, settings, &events);
         terminal.clear();
-        warn_of_cache(&outcome);
         events.end(&outcome)?;
-        return Ok(outcome.succeeded());
+    } else {
+        outcome = recipe::run(&loaded.recipe, settings, &stopping);
+        terminal.clear();
     }
-    let outcome = recipe::run(&loaded.recipe, settings, &terminal);
-    terminal.clear();
     warn_of_cache(&outcome);
+    Ok(Some(outcome))
+}
 
+/// Prints what a run has done.
+pub(crate) fn tell(args: &RunArgs, loaded: &Loaded, outcome: &Outcome) -> anyhow::Result<()> {
     if !outcome.steps.is_empty() {
         print(&step_table(&outcome.steps))?;
     }
     if args.explain {
-        print(&explain_steps(&outcome))?;
+        print(&explain_steps(outcome))?;
     }
     print(&step_notes(&outcome.steps))?;
-    show(&loaded, &outcome.failures);
+    show(loaded, &outcome.failures);
     for path in &outcome.written {
         print(&format!("wrote {}\n", path.display()))?;
     }
@@ -86,18 +140,15 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
         complain("interrupted, nothing was written\n");
     } else {
         complain(&format!("{} failed, nothing was written\n", loaded.path));
-        let is_set = loaded
-            .recipe
-            .parameters()
-            .iter()
-            .any(recipe::Parameter::is_set);
+        let parameters = loaded.recipe.parameters();
+        let is_set = parameters.iter().any(recipe::Parameter::is_set);
         if is_set && outcome.steps.len() == loaded.recipe.steps.len() {
             complain(
                 "a parameter was set: expectations may be meant for its default; --no-expect runs without them\n",
             );
         }
     }
-    Ok(outcome.succeeded())
+    Ok(())
 }
 
 fn warn_of_cache(outcome: &Outcome) {

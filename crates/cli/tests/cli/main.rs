@@ -2,6 +2,7 @@
 
 mod batch;
 mod cache;
+mod capsule;
 mod diff;
 mod files;
 mod folder;
@@ -16,3 +17,4 @@ mod sweep;
 mod test;
 mod upgrade;
 mod usage;
+mod watch;

@@ -152,6 +152,12 @@ impl Expectation {
                 max,
                 reaches,
             } => subject.dihedral(of, *min, *max, *reaches),
+            Self::EdgeLength { of, min, max } => subject.edge_length(of, *min, *max),
+            Self::MinAngle { of, min, max } => {
+                let (angle, at) = subject.smallest_angle(of)?;
+                let what = format!("a smallest corner angle, that of {at},");
+                near(&what, angle, [None, *min, *max], 0.0)
+            }
             Self::MeanFaceArea { of, min, max } => subject.mean_area(of, *min, *max),
             Self::Position { of, is, tolerance } => subject.position(of, (*is).into(), *tolerance),
             Self::Point {

@@ -3,11 +3,11 @@
 use std::fmt;
 
 use mesh::Mesh;
-use op::Files;
+use op::{FaceSelection, Files};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::subject::Subject;
+use super::subject::{Failure, Subject};
 use super::{Other, ReadObjects};
 use crate::distance::Distance;
 use crate::run::Outcome;
@@ -94,7 +94,10 @@ impl Metric {
             Self::Genus => Measured::Whole(subject.sum(Mesh::genus)?),
             Self::Area => Measured::Number(subject.sum(Mesh::area)?),
             Self::Volume => Measured::Number(subject.sum(Mesh::volume)?),
-            Self::MinAngle => Measured::Number(smallest_angle(subject)?),
+            Self::MinAngle => {
+                let smallest = subject.smallest_angle(&FaceSelection::All);
+                Measured::Number(smallest.map_err(Failure::into_message)?.0)
+            }
             Self::DistanceTo { other, on } => {
                 let on = on.as_ref().map(std::slice::from_ref);
                 let (_, mesh) = Subject { on, ..subject }.one_mesh()?;
@@ -117,20 +120,6 @@ impl Metric {
             _ => None,
         }
     }
-}
-
-/// The smallest corner angle of all faces, in degrees.
-fn smallest_angle(subject: Subject) -> Result<f64, String> {
-    let mut smallest = None;
-    for (_, mesh) in subject.meshes()? {
-        let corners = mesh.faces().flat_map(|f| mesh.face_half_edges(f));
-        for angle in corners.map(|h| mesh.corner_angle(h)) {
-            smallest = Some(smallest.map_or(angle, |least: f64| least.min(angle)));
-        }
-    }
-    smallest
-        .map(f64::to_degrees)
-        .ok_or_else(|| "expected faces to measure the angles of, found none".to_owned())
 }
 
 impl fmt::Display for Measured {

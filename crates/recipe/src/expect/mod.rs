@@ -172,6 +172,26 @@ pub enum Expectation {
         /// Some angle is at least this.
         reaches: Option<f64>,
     },
+    /// The lengths, in scene units, of all edges of a selection, which must not be empty.
+    EdgeLength {
+        /// Which edges.
+        #[serde(default)]
+        of: EdgeSelection,
+        /// The shortest is at least this.
+        min: Option<f64>,
+        /// The longest is at most this.
+        max: Option<f64>,
+    },
+    /// The smallest corner angle, in degrees, of all faces of a selection, which must not be empty.
+    MinAngle {
+        /// Which faces.
+        #[serde(default)]
+        of: FaceSelection,
+        /// At least this.
+        min: Option<f64>,
+        /// At most this.
+        max: Option<f64>,
+    },
     /// The mean area of the faces of a selection, in proportion to the median area of all faces.
     MeanFaceArea {
         /// Which faces.
@@ -335,7 +355,9 @@ impl Expectation {
             Self::DihedralAngle {
                 min, max, reaches, ..
             } => min.is_none() && max.is_none() && reaches.is_none(),
-            Self::MeanFaceArea { min, max, .. } => min.is_none() && max.is_none(),
+            Self::MeanFaceArea { min, max, .. }
+            | Self::EdgeLength { min, max, .. }
+            | Self::MinAngle { min, max, .. } => min.is_none() && max.is_none(),
             Self::Not(inner) => return inner.problem(),
             _ => false,
         };

@@ -26,6 +26,15 @@ pub(super) enum Failure {
     Unknown(String),
 }
 
+impl Failure {
+    /// What was expected and what was found.
+    pub(super) fn into_message(self) -> String {
+        match self {
+            Self::Unmet(message) | Self::Recorded(message, _) | Self::Unknown(message) => message,
+        }
+    }
+}
+
 impl From<String> for Failure {
     fn from(message: String) -> Self {
         Self::Unknown(message)
@@ -231,6 +240,49 @@ impl<'a> Subject<'a> {
             [None, reaches, None],
             0.0,
         )
+    }
+
+    pub(super) fn edge_length(
+        &self,
+        of: &EdgeSelection,
+        min: Option<f64>,
+        max: Option<f64>,
+    ) -> Result<(), Failure> {
+        let mut n = 0;
+        for (object, mesh) in self.meshes()? {
+            for e in selected(of, object, mesh, self.files)? {
+                n += 1;
+                let [v, w] = mesh.edge_vertices(e).map(|v| mesh.position(v));
+                let what = format!("a length of {}", ends(mesh, e));
+                near(&what, v.distance(w), [None, min, max], 0.0)?;
+            }
+        }
+        if n == 0 {
+            let message = "expected edges to be selected, found none";
+            return Err(message.to_owned().into());
+        }
+        Ok(())
+    }
+
+    /// The smallest corner angle of the faces of a selection, in degrees, and the face that has it.
+    pub(super) fn smallest_angle(&self, of: &FaceSelection) -> Result<(f64, FaceId), Failure> {
+        let mut smallest: Option<(f64, FaceId)> = None;
+        for (object, mesh) in self.meshes()? {
+            for f in selected(of, object, mesh, self.files)? {
+                for angle in mesh.face_half_edges(f).map(|h| mesh.corner_angle(h)) {
+                    if smallest.is_none_or(|(least, _)| angle < least) {
+                        smallest = Some((angle, f));
+                    }
+                }
+            }
+        }
+        smallest
+            .map(|(angle, f)| (angle.to_degrees(), f))
+            .ok_or_else(|| {
+                "expected faces to be selected, found none"
+                    .to_owned()
+                    .into()
+            })
     }
 
     pub(super) fn mean_area(

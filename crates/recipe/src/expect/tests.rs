@@ -708,6 +708,8 @@ fn what_has_no_bound_is_a_problem() {
         "Valence()",
         "DihedralAngle(of: Boundary)",
         "MeanFaceArea(of: All)",
+        "EdgeLength()",
+        "MinAngle(of: All)",
         "Not(Faces())",
     ] {
         let problem = expectation(text).problem();
@@ -744,4 +746,31 @@ fn what_it_compares_with_is_named() {
         Some(&Other::File("b".to_owned()))
     );
     assert_eq!(expectation("Closed").others(), None);
+}
+
+#[test]
+fn lengths_of_edges_and_angles_of_corners_are_measured() {
+    let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    // Angles of 90, 60 and 30 degrees, sides of 1, 2 and the root of 3.
+    let triangle = scene([(
+        "a",
+        of(
+            &[p(0.0, 0.0), p(1.0, 0.0), p(0.0, 3_f64.sqrt())],
+            &[&[0, 1, 2]],
+        ),
+    )]);
+    holds_and_fails(
+        &triangle,
+        "EdgeLength(min: 1, max: 2.000001)",
+        "EdgeLength(of: Between(0, 1), max: 0.5)",
+        "expected a length of the edge v0-v1 of at most 0.5, found 1",
+    );
+    assert!(check(&triangle, "MinAngle(min: 29.9999, max: 30.0001)").is_ok());
+    let error = check(&triangle, "MinAngle(min: 31)").unwrap_err();
+    assert!(
+        error.starts_with("expected a smallest corner angle, that of f0, of at least 31, found 30"),
+        "{error}"
+    );
+    assert!(check(&triangle, "EdgeLength(of: Not(All), min: 0)").is_err());
+    assert!(check(&triangle, "MinAngle(of: Not(All), min: 0)").is_err());
 }

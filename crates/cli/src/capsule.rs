@@ -1,0 +1,53 @@
+//! Failure capsules as the program writes them.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::Context as _;
+use recipe::capsule::{BEFORE, capsule};
+use recipe::{Settings, Silent};
+use scene::Scene;
+
+use crate::loading::{Loaded, read_objects};
+use crate::output::write_whole;
+
+/// The scene before a step of a recipe, all of whose steps before it can be done.
+pub(crate) fn scene_before(loaded: &mut Loaded, step: usize, budget: u64) -> anyhow::Result<Scene> {
+    let rest = loaded.recipe.steps.split_off(step);
+    let expectations = std::mem::take(&mut loaded.recipe.expectations);
+    let settings = Settings {
+        files: &loaded.files,
+        budget,
+        read: &read_objects,
+        keep_outputs: false,
+        writes: !loaded.forecast.outputs.is_empty(),
+        cache: None,
+    };
+    let outcome = recipe::run(&loaded.recipe, settings, &Silent);
+    loaded.recipe.steps.extend(rest);
+    loaded.recipe.expectations = expectations;
+    anyhow::ensure!(outcome.succeeded(), "the steps before it fail too now");
+    outcome.scene.context("the scene is not there")
+}
+
+/// Writes a capsule: the step that failed with what follows it, and the scene before it.
+pub(crate) fn write(
+    loaded: &Loaded,
+    step: usize,
+    message: &str,
+    scene: &Scene,
+    folder: &Path,
+) -> anyhow::Result<()> {
+    let failed = || format!("cannot write the capsule {}", folder.display());
+    fs::create_dir_all(folder).with_context(failed)?;
+    let options = mesh_io::WriteOptions::default();
+    mesh_io::write(&folder.join(BEFORE), scene, &options).with_context(failed)?;
+    let text = capsule(
+        &loaded.recipe,
+        step,
+        message,
+        &loaded.forecast.inputs,
+        folder,
+    );
+    write_whole(&folder.join("recipe.ron"), text.as_bytes())
+}

@@ -1,0 +1,104 @@
+//! `meshwright watch`: a real program beside the test, which saves files and waits for what is printed.
+
+use std::io::{BufRead as _, BufReader};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
+
+use crate::folder::{Folder, PROGRAM};
+
+/// Long enough for any machine: only a test that fails waits for it.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+struct Watching {
+    child: Child,
+    lines: Receiver<String>,
+}
+
+impl Watching {
+    fn start(folder: &Folder, arguments: &[&str]) -> Self {
+        let mut child = Command::new(PROGRAM)
+            .args(["watch", "--cache", "cache"])
+            .args(arguments)
+            .current_dir(folder.path("."))
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let (sender, lines) = channel();
+        let (stdout, stderr) = (child.stdout.take().unwrap(), child.stderr.take().unwrap());
+        let other = sender.clone();
+        std::thread::spawn(move || {
+            let lines = BufReader::new(stdout).lines().map_while(Result::ok);
+            lines.for_each(|line| drop(sender.send(line)));
+        });
+        std::thread::spawn(move || {
+            let lines = BufReader::new(stderr).lines().map_while(Result::ok);
+            lines.for_each(|line| drop(other.send(line)));
+        });
+        Self { child, lines }
+    }
+
+    /// Waits for a line with this text, and returns all lines until then.
+    #[track_caller]
+    fn wait_for(&self, text: &str) -> Vec<String> {
+        let mut seen = Vec::new();
+        loop {
+            let Ok(line) = self.lines.recv_timeout(PATIENCE) else {
+                panic!("expected {text:?} after {seen:#?}")
+            };
+            let is_it = line.contains(text);
+            seen.push(line);
+            if is_it {
+                return seen;
+            }
+        }
+    }
+}
+
+impl Drop for Watching {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+const RECIPE: &str = r#"(recipe: 1, params: {"levels": Int(default: 1)}, steps: [
+    Load(path: "a.obj"), LoopSubdivide(levels: arg("levels")), Save(path: "b.obj"),
+])"#;
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+#[test]
+fn a_saved_recipe_and_a_saved_input_run_again() {
+    let folder = Folder::with_recipe(RECIPE).with("a.obj", TRIANGLE);
+    let watching = Watching::start(&folder, &["recipe.ron", "--set", "levels=2", "--out", "."]);
+    watching.wait_for("wrote ./b.obj");
+    watching.wait_for("watching one folder");
+
+    // Overrides are kept, and only what changed runs.
+    let folder = folder.with("recipe.ron", RECIPE.replace("b.obj", "c.obj"));
+    watching.wait_for("recipe.ron changed");
+    let table = watching.wait_for("wrote ./c.obj");
+    let cached = table.iter().filter(|line| line.contains("cached")).count();
+    assert_eq!(cached, 2, "{table:#?}");
+    watching.wait_for("watching");
+
+    // A mistake is shown, and mended.
+    let folder = folder.with(
+        "recipe.ron",
+        RECIPE.replace("LoopSubdivide", "LoopSubdivde"),
+    );
+    watching.wait_for("did you mean `LoopSubdivide`?");
+    let folder = folder.with("recipe.ron", RECIPE);
+    watching.wait_for("wrote ./b.obj");
+    watching.wait_for("watching");
+
+    let _folder = folder.with("a.obj", TRIANGLE.replace("v 1", "v 2"));
+    watching.wait_for("a.obj changed");
+    let table = watching.wait_for("wrote ./b.obj");
+    assert!(
+        !table.iter().any(|line| line.contains("cached")),
+        "{table:#?}"
+    );
+}

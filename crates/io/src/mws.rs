@@ -1,0 +1,192 @@
+//! `.mws`: a whole Meshwright scene, bit for bit.
+//!
+//! ```text
+//! MWS1            4 bytes
+//! u64             how many bytes the provenance has, little-endian
+//! ..              the provenance, UTF-8
+//! ..              the canonical form of the scene, as its digest takes it
+//! ```
+//!
+//! Everything comes back as it was: the order of all elements, every attribute with its rule, names,
+//! materials with what they hold. For what another program is to read, take another format.
+
+use std::path::Path;
+
+use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
+use scene::{Geometry, NoArrays, Object, Scene};
+
+use crate::{PeekGeometry, PeekMesh, PeekObject, ReadError, WriteOptions, Written};
+
+const MAGIC: &[u8; 4] = b"MWS1";
+const HEADER: usize = MAGIC.len() + size_of::<u64>();
+
+/// Reads the objects of a file. One object alone may be given another name.
+pub(crate) fn read(
+    path: &Path,
+    bytes: &[u8],
+    name: Option<&str>,
+) -> Result<Vec<Object>, ReadError> {
+    let (offset, form) = split(bytes)
+        .map(|(provenance, form)| (HEADER + provenance.len(), form))
+        .ok_or_else(|| error(path, 0, "expected a Meshwright scene (MWS1)"))?;
+    let scene = Scene::decode(form, usize::MAX, &mut NoArrays)
+        .map_err(|why| error(path, offset, why.to_string()))?;
+    let mut objects: Vec<Object> = scene.objects().to_vec();
+    if let (Some(name), [object]) = (name, &mut objects[..]) {
+        name.clone_into(&mut object.name);
+    }
+    Ok(objects)
+}
+
+/// What reading will give: the file is read whole, since all of it must be sound.
+pub(crate) fn peek(
+    path: &Path,
+    bytes: &[u8],
+    name: Option<&str>,
+) -> Result<Vec<PeekObject>, ReadError> {
+    let objects = read(path, bytes, name)?;
+    let peeked = objects.into_iter().map(|object| PeekObject {
+        name: object.name,
+        geometry: match &object.geometry {
+            Geometry::Mesh(mesh) => PeekGeometry::Mesh(peek_mesh(mesh)),
+            Geometry::Patches(patches) => PeekGeometry::Patches {
+                patches: patches.len() as u64,
+            },
+            Geometry::Curve(curve) => PeekGeometry::Curve {
+                points: curve.points().len() as u64,
+            },
+            Geometry::Polylines(lines) => PeekGeometry::Polylines {
+                lines: lines.len() as u64,
+                points: lines.iter().map(|line| line.len() as u64).sum(),
+            },
+        },
+    });
+    Ok(peeked.collect())
+}
+
+fn peek_mesh(mesh: &Mesh) -> PeekMesh {
+    let has = |domain, name| mesh.attributes().column(domain, name).is_some();
+    let mut peek = PeekMesh {
+        vertices: mesh.n_vertices() as u64,
+        uvs: has(Domain::Corner, UV.name),
+        normals: has(Domain::Vertex, VERTEX_NORMAL.name) || has(Domain::Corner, CORNER_NORMAL.name),
+        colors: has(Domain::Vertex, COLOR.name),
+        materials: has(Domain::Face, MATERIAL.name),
+        ..PeekMesh::default()
+    };
+    for f in mesh.faces() {
+        peek.add_faces(1, mesh.degree(f) as u64);
+    }
+    peek
+}
+
+/// The file of a scene. Nothing is lost.
+pub(crate) fn write(path: &Path, scene: &Scene, options: &WriteOptions) -> Written {
+    let provenance = options.provenance.as_deref().unwrap_or_default();
+    let mut bytes = MAGIC.to_vec();
+    bytes.extend_from_slice(&(provenance.len() as u64).to_le_bytes());
+    bytes.extend_from_slice(provenance.as_bytes());
+    scene.encode(&mut |piece| bytes.extend_from_slice(piece));
+    Written {
+        files: vec![(path.to_path_buf(), bytes)],
+        losses: Vec::new(),
+    }
+}
+
+/// The provenance of a file, if its beginning is that of a scene.
+pub(crate) fn provenance(bytes: &[u8]) -> Option<String> {
+    let (provenance, _) = split(bytes)?;
+    let text = std::str::from_utf8(provenance).ok()?;
+    (!text.is_empty()).then(|| text.to_owned())
+}
+
+/// The provenance and the canonical form.
+fn split(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
+    let rest = bytes.strip_prefix(MAGIC)?;
+    let (length, rest) = rest.split_first_chunk()?;
+    let length = usize::try_from(u64::from_le_bytes(*length)).ok()?;
+    rest.split_at_checked(length)
+}
+
+fn error(path: &Path, offset: usize, message: impl Into<String>) -> ReadError {
+    ReadError::Binary {
+        path: path.to_path_buf(),
+        offset,
+        message: message.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ReadOptions, peek as peek_file, read as read_file, write as write_file};
+    use mesh::{Column, DVec3, Rule, Values, shapes};
+    use scene::Material;
+
+    fn scene() -> Scene {
+        let mut mesh = shapes::torus(5, 4, 2.0, 0.5);
+        mesh.positions_mut()[3] = DVec3::new(-0.0, f64::MIN_POSITIVE, 1.0 / 3.0);
+        let weights = (0..mesh.n_faces()).map(|i| i as f64 / 7.0).collect();
+        let column = Column {
+            name: "weight".to_owned(),
+            rule: Rule::Copy,
+            values: Values::Float(weights),
+        };
+        mesh.insert_column(Domain::Face, column);
+        let mut scene = Scene::new();
+        let object = Object {
+            materials: vec![Material::new("brass")],
+            ..Object::mesh("ring", mesh)
+        };
+        scene.insert(object).unwrap();
+        let lines = Geometry::Polylines(vec![vec![DVec3::X, DVec3::Y]]);
+        scene.insert(Object::new("line", lines)).unwrap();
+        scene
+    }
+
+    #[test]
+    fn a_scene_comes_back_bit_for_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.mws");
+        let report = write_file(&path, &scene(), &WriteOptions::default()).unwrap();
+        assert_eq!(report.losses, []);
+        let mut back = Scene::new();
+        for object in read_file(&path, &ReadOptions::default()).unwrap().objects {
+            back.insert(object).unwrap();
+        }
+        assert_eq!(back.digest(), scene().digest());
+        let peek = peek_file(&path, &ReadOptions::default()).unwrap();
+        let [ring, line] = &peek.objects[..] else {
+            panic!("two objects")
+        };
+        assert_eq!(ring.name, "ring");
+        assert!(
+            matches!(ring.geometry, PeekGeometry::Mesh(m) if (m.vertices, m.faces) == (20, 20))
+        );
+        let one = PeekGeometry::Polylines {
+            lines: 1,
+            points: 2,
+        };
+        assert_eq!(line.geometry, one);
+    }
+
+    #[test]
+    fn every_shortened_and_every_changed_file_is_read_or_refused() {
+        let path = Path::new("a.mws");
+        let written = write(path, &scene(), &WriteOptions::default());
+        let whole = &written.files[0].1;
+        for n in 0..whole.len() {
+            assert!(read(path, &whole[..n], None).is_err(), "{n} bytes");
+        }
+        for i in 0..whole.len() {
+            let mut changed = whole.clone();
+            changed[i] ^= 1 << (i % 8);
+            // What is still a scene is a sound one.
+            for object in read(path, &changed, None).into_iter().flatten() {
+                if let Some(mesh) = object.as_mesh() {
+                    assert_eq!(mesh.defects(), [], "byte {i}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! Makes a scene smaller on which a step fails: objects and faces are taken away as long as it fails in the
+//! same way.
+//!
+//! Faces go in blocks, halved down to single faces, as in the algorithm ddmin of Zeller and Hildebrandt,
+//! "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their numbers until the end, when
+//! those without faces go too, if the step still fails then.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+
+use mesh::FaceId;
+use op::{Context, Files, OpError, Progress};
+use scene::{Geometry, Scene};
+
+use crate::check::forbidden;
+use crate::recipe::RecipeStep;
+
+/// How a step fails on a scene; `None` if it does what the recipe wants of it. The scene stays as it is.
+///
+/// # Errors
+///
+/// [`OpError::Cancelled`] if `progress` asks to stop.
+pub fn failure(
+    step: &RecipeStep,
+    scene: &Scene,
+    files: &Files,
+    budget: u64,
+    progress: &dyn Progress,
+) -> Result<Option<String>, OpError> {
+    let Some(operation) = &step.step else {
+        return Ok(None);
+    };
+    let on = step.on_names();
+    let mut cx = Context::new(progress, files);
+    cx.on = on.as_deref();
+    cx.stream = step.label();
+    cx.budget = budget;
+    let mut scene = scene.clone();
+    // The copy is thrown away, whatever has become of it.
+    let applied = catch_unwind(AssertUnwindSafe(|| operation.apply(&mut scene, &mut cx)));
+    let Ok(result) = applied else {
+        return Ok(Some("panicked".to_owned()));
+    };
+    Ok(match (result, step.refused) {
+        (Err(OpError::Cancelled), _) => return Err(OpError::Cancelled),
+        (Err(OpError::Refused { reason, .. }), Some(expected)) if reason == expected => None,
+        (Err(error), _) => Some(error.to_string()),
+        (Ok(_), Some(expected)) => Some(format!("not refused as {expected:?}")),
+        (Ok(report), None) => {
+            (step.on_loss.forbidden(&report.losses)).map(|loss| forbidden(step, loss).message)
+        }
+    })
+}
+
+/// Whether two failures are the same but for the numbers in them.
+pub fn is_alike(a: &str, b: &str) -> bool {
+    let words = |text: &str| text.replace(|c: char| c.is_ascii_digit() || "+-.".contains(c), "");
+    words(a) == words(b)
+}
+
+/// A scene as small as it was found on which `fails` still holds, as it does for `scene`. Tries at most
+/// `tries` scenes.
+///
+/// # Errors
+///
+/// What `fails` returns.
+pub fn shrink(
+    scene: &Scene,
+    tries: usize,
+    fails: impl FnMut(&Scene) -> Result<bool, OpError>,
+) -> Result<Scene, OpError> {
+    let mut search = Search {
+        best: scene.clone(),
+        left: tries,
+        fails,
+    };
+    for name in names(scene) {
+        let mut without = search.best.clone();
+        if without.remove(&name).is_some() {
+            search.attempt(without)?;
+        }
+    }
+    for name in names(&search.best) {
+        search.faces(&name)?;
+    }
+    for name in names(&search.best) {
+        search.vertices(&name)?;
+    }
+    Ok(search.best)
+}
+
+fn names(scene: &Scene) -> Vec<String> {
+    scene.objects().iter().map(|o| o.name.clone()).collect()
+}
+
+struct Search<F> {
+    best: Scene,
+    left: usize,
+    fails: F,
+}
+
+impl<F: FnMut(&Scene) -> Result<bool, OpError>> Search<F> {
+    /// Takes a scene if the step fails on it too.
+    fn attempt(&mut self, scene: Scene) -> Result<bool, OpError> {
+        if self.left == 0 {
+            return Ok(false);
+        }
+        self.left -= 1;
+        let fails = (self.fails)(&scene)?;
+        if fails {
+            self.best = scene;
+        }
+        Ok(fails)
+    }
+
+    fn n_faces(&self, name: &str) -> usize {
+        let mesh = self.best.object(name).and_then(|o| o.as_mesh());
+        mesh.map_or(0, |mesh| mesh.n_faces())
+    }
+
+    fn faces(&mut self, name: &str) -> Result<(), OpError> {
+        let mut block = self.n_faces(name).div_ceil(2);
+        while block > 0 && self.left > 0 {
+            let mut first = 0;
+            let mut is_smaller = false;
+            while first < self.n_faces(name) {
+                let last = (first + block).min(self.n_faces(name));
+                let faces: Vec<FaceId> = (first..last).map(FaceId::new).collect();
+                let without = edited(&self.best, name, |mesh| mesh.delete_faces(&faces).is_ok());
+                let is_done = match without {
+                    Some(without) => self.attempt(without)?,
+                    None => false,
+                };
+                is_smaller |= is_done;
+                // The faces behind those that went have their numbers now.
+                first = if is_done { first } else { last };
+            }
+            // A face that could not go may be able to after others went.
+            block = if block == 1 && is_smaller {
+                1
+            } else {
+                block / 2
+            };
+        }
+        Ok(())
+    }
+
+    fn vertices(&mut self, name: &str) -> Result<(), OpError> {
+        let without = edited(&self.best, name, |mesh| mesh.delete_isolated_vertices() > 0);
+        if let Some(without) = without {
+            self.attempt(without)?;
+        }
+        Ok(())
+    }
+}
+
+/// The scene with an edit of one mesh, unless that cannot be done.
+fn edited(scene: &Scene, name: &str, edit: impl FnOnce(&mut mesh::Mesh) -> bool) -> Option<Scene> {
+    let mut scene = scene.clone();
+    let (Geometry::Mesh(mesh), _) = scene.parts_mut(name)? else {
+        return None;
+    };
+    let mesh = Arc::make_mut(mesh);
+    let is_done = edit(mesh);
+    mesh.compact();
+    is_done.then_some(scene)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::shapes;
+    use scene::Object;
+
+    fn scene() -> Scene {
+        let mut scene = Scene::new();
+        scene
+            .insert(Object::mesh("grid", shapes::grid(12, 9)))
+            .unwrap();
+        scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
+        scene
+    }
+
+    #[test]
+    fn what_does_not_matter_goes() {
+        // A square that has one corner in the middle of the sheet.
+        let corner = mesh::DVec3::ZERO;
+        let matters = |scene: &Scene| {
+            let near = |o: &Object| {
+                let mesh = o.as_mesh().unwrap();
+                mesh.faces().any(|f| {
+                    mesh.face_vertices(f)
+                        .any(|v| mesh.position(v).distance(corner) < 0.6)
+                })
+            };
+            Ok(scene.object("grid").is_some_and(near))
+        };
+        assert!(matters(&scene()).unwrap());
+        let small = shrink(&scene(), 1000, matters).unwrap();
+        let [grid] = small.objects() else {
+            panic!("the cube went")
+        };
+        let mesh = grid.as_mesh().unwrap();
+        assert_eq!((mesh.n_faces(), mesh.n_vertices()), (1, 4));
+        assert_eq!(mesh.defects(), []);
+    }
+
+    #[test]
+    fn nothing_goes_where_everything_matters_and_the_tries_end() {
+        let whole = scene().digest();
+        let mut n = 0;
+        let same = shrink(&scene(), 50, |scene| {
+            n += 1;
+            Ok(scene.digest() == whole)
+        });
+        assert_eq!((same.unwrap().digest(), n), (whole, 50));
+    }
+
+    #[test]
+    fn failures_are_alike_whatever_their_numbers() {
+        assert!(is_alike(
+            "the edge v0-v1 is on the boundary",
+            "the edge v17-v2 is on the boundary"
+        ));
+        assert!(!is_alike("v1 is isolated", "v1 is on the boundary"));
+    }
+}

@@ -132,9 +132,6 @@ pub(super) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result
     let path = folder.path(Kind::Blob, &blob.hash);
     let mut file = open_blob(&path, blob)?;
     let written = |error: io::Error| Unusable::Damaged(format!("{}: {error}", to.display()));
-    if let Some(parent) = to.parent() {
-        fs::create_dir_all(parent).map_err(written)?;
-    }
     let mut out = File::create(to).map_err(written)?;
     let mut failed = None;
     let copied = copy_hashed(&mut file, |piece| {

@@ -1,5 +1,6 @@
 //! One run and its cache: looks steps up, stores what ran, and brings scenes back.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Weak};
 use std::time::Duration;
@@ -180,7 +181,8 @@ impl<'a> Session<'a> {
         let Some(outputs) = &record.outputs else {
             return Ok(());
         };
-        if outputs.provenance != files.provenance {
+        // It stands in the files only, and nobody may want them.
+        if stage.is_some() && outputs.provenance != files.provenance {
             return Err(Why::Provenance);
         }
         let is_asked = |(path, relative): &(String, PathBuf)| {
@@ -193,17 +195,23 @@ impl<'a> Session<'a> {
         }
         let Some(stage) = stage else { return Ok(()) };
         let written = outputs.files.as_ref().ok_or(Why::NotKept)?;
-        for file in written {
-            let is_below = |path: &Path| {
-                let mut parts = path.components();
-                parts.all(|part| matches!(part, std::path::Component::Normal(_)))
-            };
+        // First all of them beside their places: what is there stays if one of them is damaged.
+        let part = |i: usize| stage.join(format!(".part-{i}"));
+        let mut restored = written.iter().enumerate().try_for_each(|(i, file)| {
             if !is_below(&file.path) {
-                return Err(Why::Damaged("a path leads out of the folder".to_owned()));
+                let how = "a path leads out of the output folder";
+                return Err(Why::Damaged(how.to_owned()));
             }
-            restore_file(self.folder, &file.content, &stage.join(&file.path)).map_err(lost)?;
+            restore_file(self.folder, &file.content, &part(i)).map_err(lost)
+        });
+        for (i, file) in written.iter().enumerate() {
+            if restored.is_ok() {
+                restored = put(&part(i), &stage.join(&file.path));
+            }
+            // Nothing is left there if all went well.
+            Folder::discard(&part(i));
         }
-        Ok(())
+        restored
     }
 
     /// Keeps what the next step has done, which was not found.
@@ -302,9 +310,13 @@ impl<'a> Session<'a> {
         if asked.is_empty() && done.written.is_empty() {
             return None;
         }
-        let len = |path: &PathBuf| std::fs::metadata(path).map_or(0, |meta| meta.len());
         let stored = done.stage.and_then(|stage| {
-            let total = done.written.iter().map(|path| len(&stage.join(path))).sum();
+            // A file that was written twice within a tick of the clock looks as it did before.
+            let asked = asked.iter().map(|(_, path)| path);
+            let asked = asked.filter(|path| stage.join(path).is_file());
+            let written: BTreeSet<&PathBuf> = done.written.iter().chain(asked).collect();
+            let len = |path: &PathBuf| std::fs::metadata(path).map_or(0, |meta| meta.len());
+            let total = written.iter().map(|path| len(&stage.join(path))).sum();
             let again = done.time + Duration::from_secs_f64(bytes(done.scene) as f64 / SPEED);
             if !is_worth(total, again) {
                 return None;
@@ -314,7 +326,7 @@ impl<'a> Session<'a> {
                 let path = path.clone();
                 Some(OutputFile { path, content })
             };
-            done.written.iter().map(store).collect()
+            written.into_iter().map(store).collect()
         });
         Some(Outputs {
             provenance: files.provenance.clone(),
@@ -440,6 +452,19 @@ impl<'a> Session<'a> {
     fn last(&self) -> &Position {
         self.positions.last().expect("never empty")
     }
+}
+
+/// Whether a path stays in its folder.
+fn is_below(path: &Path) -> bool {
+    let mut parts = path.components();
+    parts.all(|part| matches!(part, std::path::Component::Normal(_)))
+}
+
+/// Moves a file to its place.
+fn put(from: &Path, to: &Path) -> Result<(), Why> {
+    let folder = to.parent().map_or(Ok(()), std::fs::create_dir_all);
+    let moved = folder.and_then(|()| std::fs::rename(from, to));
+    moved.map_err(|error| Why::Damaged(format!("{}: {error}", to.display())))
 }
 
 fn lost(why: Unusable) -> Why {

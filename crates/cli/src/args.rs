@@ -381,17 +381,19 @@ pub(crate) struct CacheFolder {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct CacheCommandArgs {
-    #[command(subcommand)]
-    pub(crate) action: Option<CacheAction>,
+    /// What to do
+    #[arg(value_enum, default_value_t)]
+    pub(crate) action: CacheAction,
     #[command(flatten)]
     pub(crate) folder: CacheFolder,
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Subcommand)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum CacheAction {
     /// Show the folder, its size and the number of results
+    #[default]
     Info,
     /// Remove everything that is stored
     Clear,

@@ -10,7 +10,7 @@ use crate::output::{grouped, print};
 pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
     let cache = Cache::new(folder(&args.folder)?, recipe::cache::LIMIT, "");
     let shown = cache.folder().display().to_string();
-    let (size, word) = match args.action.unwrap_or(CacheAction::Info) {
+    let (size, word) = match args.action {
         CacheAction::Info => (cache.size(), "holds"),
         CacheAction::Clear => (cache.clear(), "removed"),
     };

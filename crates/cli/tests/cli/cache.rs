@@ -166,7 +166,7 @@ const LONGER: &str = r#"(recipe: 1, steps: [
     Triangulate,
     LoopSubdivide(levels: 2),
     VertexNormals(weight: Area),
-    (id: "tag", run: TagFaces(faces: Random(count: 100, seed: 3), tag: "t")),
+    (id: "tag", run: TagFaces(faces: Random(count: 100, seed: 3), name: "t")),
     Save(path: "a.obj"),
     Save(path: "a.glb"),
 ], expect: [Genus(eq: 1), Closed])"#;

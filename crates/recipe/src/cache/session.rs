@@ -69,8 +69,8 @@ pub(crate) struct Session<'a> {
     made_of: Option<Ingredients>,
     /// What computing took since the last scene that is stored.
     since: Duration,
-    /// The last step that ran: its number from 1 and its label.
-    ran: Option<(usize, String)>,
+    /// The last step that has left another state than before by itself: its number from 1 and its label.
+    changed: Option<(usize, String)>,
     notes: Vec<String>,
 }
 
@@ -92,7 +92,7 @@ impl<'a> Session<'a> {
             positions: vec![start],
             made_of: None,
             since: Duration::ZERO,
-            ran: None,
+            changed: None,
             notes: Vec::new(),
         }
     }
@@ -123,6 +123,13 @@ impl<'a> Session<'a> {
             Ok(record) => record,
             Err(why) => {
                 self.made_of = Some(made_of);
+                let keeps_state = matches!(
+                    why,
+                    Why::Earlier(..) | Why::Order | Why::Provenance | Why::Outputs | Why::NotKept
+                );
+                if !keeps_state {
+                    self.changed = Some((self.positions.len(), step.label().to_owned()));
+                }
                 return Err(why);
             }
         };
@@ -157,7 +164,7 @@ impl<'a> Session<'a> {
         stage: Option<&Path>,
     ) -> Result<Record, Why> {
         let records = load(self.folder, key).map_err(|why| match why {
-            Unusable::Missing => self.history.why(made_of, self.ran.clone()),
+            Unusable::Missing => self.history.why(made_of, self.changed.clone()),
             Unusable::Damaged(how) => Why::Damaged(how),
         })?;
         let mut first = None;
@@ -220,7 +227,6 @@ impl<'a> Session<'a> {
         let same = done.before.is_still(done.scene);
         let made_of = self.made_of.take();
         let read = self.eyes.read(done.uses);
-        self.ran = Some((number, label.to_owned()));
         let mut position = Position {
             state: None,
             step: None,

@@ -230,6 +230,8 @@ fn changes(from: &str, to: &str) -> String {
         }
     }
     let text = |value: Option<&syntax::Value>| {
+        // As recipes have it.
+        let value = value.map(|value| value.some().unwrap_or(value));
         value.map_or_else(|| "nothing".to_owned(), |value| short(&value.to_string()))
     };
     let changed = names.iter().filter_map(|name| {
@@ -276,6 +278,8 @@ mod tests {
             changes("(a:1,b:[1,2])", "(b:[1],c:\"x\")"),
             "a 1 -> nothing, b [1, 2] -> [1], c nothing -> \"x\""
         );
+        assert_eq!(changes("(a:Some(1))", "(a:Some(2))"), "a 1 -> 2");
+        assert_eq!(changes("(a:None)", "(a:Some(2))"), "a None -> 2");
         let long = |end: &str| format!("(text:\"{}{end}\")", "x".repeat(100));
         assert_eq!(changes(&long("a"), &long("b")), "text");
     }

@@ -235,7 +235,7 @@ fn everything_that_a_step_is_made_of_runs_it_again() {
         ),
         (
             with("(id: \"x\", run: Lift(by: 1, fails: Seam), refused: Seam)"),
-            "parameters changed: fails None -> Some(Seam)",
+            "parameters changed: fails None -> Seam",
         ),
         (
             base.replace("columns: 3", "columns: 4"),

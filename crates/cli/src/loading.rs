@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use op::{Files, Registry};
-use recipe::{Diagnostic, Forecast, Recipe, Severity, Source, Stamp, Values};
+use recipe::{Diagnostic, Forecast, Recipe, Schemas, Severity, Source, Stamp, Values};
 use scene::Object;
 
 use crate::args::RecipeArgs;
@@ -63,7 +63,7 @@ pub(crate) fn load_recipe(
     registry: &Registry,
 ) -> anyhow::Result<Loaded> {
     let source = Source::open(path).map_err(anyhow::Error::msg)?;
-    load_text(&source, set, preset, out, budget, registry)
+    load_text(&source, set, preset, out, budget, &Schemas::new(registry))
 }
 
 /// The same for a recipe whose text is known; paths among the values are seen from the working directory.
@@ -73,7 +73,7 @@ pub(crate) fn load_text(
     preset: Option<&str>,
     out: &Path,
     budget: u64,
-    registry: &Registry,
+    schemas: &Schemas,
 ) -> anyhow::Result<Loaded> {
     let folder = std::env::current_dir().context("cannot tell the working directory")?;
     let values = Values {
@@ -81,7 +81,7 @@ pub(crate) fn load_text(
         preset,
         folder: Some(&folder),
     };
-    Ok(load_source(source, values, out, budget, registry))
+    Ok(load_by(schemas, source, values, out, budget))
 }
 
 /// Reads and checks a recipe whose text is known, with values that say from where paths are seen.
@@ -92,7 +92,11 @@ pub(crate) fn load_source(
     budget: u64,
     registry: &Registry,
 ) -> Loaded {
-    let reading = recipe::read(source, registry, values);
+    load_by(&Schemas::new(registry), source, values, out, budget)
+}
+
+fn load_by(schemas: &Schemas, source: &Source, values: Values, out: &Path, budget: u64) -> Loaded {
+    let reading = recipe::read_by(schemas, source, values);
     let mut files = Files {
         input: source.folder().to_path_buf(),
         output: out.to_path_buf(),

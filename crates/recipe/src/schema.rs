@@ -1,6 +1,9 @@
 //! JSON schemas: of whole recipes for editors, and of their parts for the reader.
 
-use op::{Refusal, Registry};
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+
+use op::{Entry, Refusal, Registry};
 use schemars::JsonSchema;
 use serde_json::{Map, Value as Json, json};
 
@@ -9,24 +12,71 @@ use crate::params::Param;
 use crate::read::{Kind, MAX_STEPS};
 use crate::recipe::OnLoss;
 
+/// The operations of a registry and their schemas, each made when it is first asked for: for whoever reads
+/// many recipes, on any number of threads.
+#[derive(Debug)]
+pub struct Schemas<'r> {
+    pub(crate) registry: &'r Registry,
+    made: Mutex<HashMap<&'static str, Arc<Json>>>,
+}
+
+impl<'r> Schemas<'r> {
+    /// Those of `registry`; none is made yet.
+    pub fn new(registry: &'r Registry) -> Self {
+        Self {
+            registry,
+            made: Mutex::new(HashMap::new()),
+        }
+    }
+
+    /// The schema of an operation of the registry.
+    pub(crate) fn of(&self, entry: &Entry) -> Arc<Json> {
+        let made = || self.made.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(schema) = made().get(entry.name) {
+            return schema.clone();
+        }
+        // Made without the lock: at worst, twice.
+        let schema = Arc::new(entry.schema());
+        made().entry(entry.name).or_insert(schema).clone()
+    }
+}
+
 /// The schema of a type.
 pub(crate) fn of<T: JsonSchema>() -> Json {
     schemars::schema_for!(T).to_value()
 }
 
+/// The schema of a declared parameter.
+pub(crate) fn param() -> &'static Json {
+    static SCHEMA: LazyLock<Json> = LazyLock::new(of::<Param>);
+    &SCHEMA
+}
+
+/// The schema of an expectation alone.
+pub(crate) fn expectation() -> &'static Json {
+    static SCHEMA: LazyLock<Json> = LazyLock::new(of::<Expectation>);
+    &SCHEMA
+}
+
 /// The fields around a recipe; steps and expectations can be anything.
-pub(crate) fn envelope() -> Json {
-    with_definitions(&[("OnLoss", of::<OnLoss>())], |at| {
-        recipe(&json!({}), &json!({}), &json!({}), &at("OnLoss"))
-    })
+pub(crate) fn envelope() -> &'static Json {
+    static SCHEMA: LazyLock<Json> = LazyLock::new(|| {
+        with_definitions(&[("OnLoss", of::<OnLoss>())], |at| {
+            recipe(&json!({}), &json!({}), &json!({}), &at("OnLoss"))
+        })
+    });
+    &SCHEMA
 }
 
 /// The fields around an operation; the operation can be anything.
-pub(crate) fn step_envelope() -> Json {
-    let parts = [("Refusal", of::<Refusal>()), ("OnLoss", of::<OnLoss>())];
-    with_definitions(&parts, |at| {
-        step_fields(&json!({}), &at("Refusal"), &at("OnLoss"))
-    })
+pub(crate) fn step_envelope() -> &'static Json {
+    static SCHEMA: LazyLock<Json> = LazyLock::new(|| {
+        let parts = [("Refusal", of::<Refusal>()), ("OnLoss", of::<OnLoss>())];
+        with_definitions(&parts, |at| {
+            step_fields(&json!({}), &at("Refusal"), &at("OnLoss"))
+        })
+    });
+    &SCHEMA
 }
 
 /// The parameters of a step that holds steps; the steps inside can be anything.

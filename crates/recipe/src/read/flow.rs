@@ -75,7 +75,7 @@ impl Reader<'_, '_> {
         };
         let before = self.diagnostics.len();
         let run = if is_envelope {
-            let wrong = check_shape(&value, &schema::step_envelope());
+            let wrong = check_shape(&value, schema::step_envelope());
             self.diagnostics.extend(wrong);
             for field in ["on", "refused", "on_loss"] {
                 if let Some(found) = value.field(field) {

@@ -13,9 +13,7 @@ mod steps;
 
 pub(crate) use flow::Kind;
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use op::Registry;
 use serde::de::DeserializeOwned;
@@ -23,7 +21,7 @@ use serde_json::Value as Json;
 
 use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::recipe::{OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, located};
-use crate::schema;
+use crate::schema::{self, Schemas};
 use crate::shape::check_shape;
 use crate::source::Source;
 use crate::syntax::{self, Value, ValueKind};
@@ -66,8 +64,13 @@ pub struct Values<'a> {
 
 /// Reads a recipe, and those that it calls.
 pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
+    read_by(&Schemas::new(registry), source, values)
+}
+
+/// The same with schemas that serve several recipes.
+pub fn read_by(schemas: &Schemas, source: &Source, values: Values) -> Reading {
     let mut shared = Shared {
-        registry,
+        schemas,
         sources: vec![source.clone()],
         scopes: vec![Scope {
             source: 0,
@@ -75,7 +78,6 @@ pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
             called: None,
         }],
         real: vec![real(&source.path)],
-        schemas: HashMap::new(),
         left: MAX_STEPS,
         diagnostics: Vec::new(),
     };
@@ -115,13 +117,11 @@ pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
 
 /// What the texts of one recipe share while they are read.
 struct Shared<'a> {
-    registry: &'a Registry,
+    schemas: &'a Schemas<'a>,
     sources: Vec<Source>,
     /// The files of the sources, links followed.
     real: Vec<PathBuf>,
     scopes: Vec<Scope>,
-    /// The schemas of operations, each made once.
-    schemas: HashMap<&'static str, Arc<Json>>,
     /// How many more steps there may be.
     left: usize,
     diagnostics: Vec<Diagnostic>,
@@ -197,7 +197,7 @@ impl<'s, 'a> Reader<'s, 'a> {
         if matches!(root.kind, ValueKind::Error) && !self.diagnostics.is_empty() {
             return nothing;
         }
-        let wrong = check_shape(root, &schema::envelope());
+        let wrong = check_shape(root, schema::envelope());
         self.diagnostics.extend(wrong);
         self.about = root
             .field("about")

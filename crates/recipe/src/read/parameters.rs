@@ -21,7 +21,7 @@ impl Reader<'_, '_> {
     pub(super) fn declare(&mut self, params: Option<&Value>) {
         for (key, value) in entries(params) {
             let Some(name) = key.as_str() else { continue };
-            let Some(param): Option<Param> = self.typed(value, &schema::of::<Param>()) else {
+            let Some(param): Option<Param> = self.typed(value, schema::param()) else {
                 self.broken.push(name.to_owned());
                 continue;
             };

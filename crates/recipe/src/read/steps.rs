@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use op::{Entry, Step};
-use serde_json::Value as Json;
 
 use super::{Draft, Kind, MAX_STEPS, Reader, flow};
 use crate::diagnostic::Diagnostic;
@@ -40,7 +39,7 @@ impl Reader<'_, '_> {
         let before = self.diagnostics.len();
         let mut run = &value;
         if is_envelope {
-            let wrong = check_shape(&value, &schema::step_envelope());
+            let wrong = check_shape(&value, schema::step_envelope());
             self.diagnostics.extend(wrong);
             let Some(inner) = value.field("run") else {
                 return self.broken_step(&value);
@@ -57,11 +56,11 @@ impl Reader<'_, '_> {
         };
         let envelope = |field: &str| value.field(field).filter(|_| is_envelope);
         let id = self.id(envelope("id"));
-        let entry = self.shared.registry.get(name).cloned();
+        let entry = self.shared.schemas.registry.get(name).cloned();
         let step = if let Some(entry) = &entry {
             self.operation(entry, run)
         } else {
-            let registry = self.shared.registry;
+            let registry = self.shared.schemas.registry;
             let known = registry.entries().iter().map(|e| e.name);
             let help = did_you_mean(name, known.chain(Kind::ALL.map(Kind::name)));
             self.error(span, format!("unknown operation `{name}`"), help);
@@ -95,7 +94,7 @@ impl Reader<'_, '_> {
     }
 
     fn operation(&mut self, entry: &Entry, run: &Value) -> Option<Arc<dyn Step>> {
-        let schema = self.schema(entry);
+        let schema = self.shared.schemas.of(entry);
         let wrong = check_step(run, &schema);
         if !wrong.is_empty() || run.has_errors() {
             self.diagnostics.extend(wrong);
@@ -116,13 +115,6 @@ impl Reader<'_, '_> {
                 None
             }
         }
-    }
-
-    fn schema(&mut self, entry: &Entry) -> Arc<Json> {
-        let make = || Arc::new(entry.schema());
-        (self.shared.schemas.entry(entry.name))
-            .or_insert_with(make)
-            .clone()
     }
 
     /// A step that could not be read keeps its place in the list, and its id.

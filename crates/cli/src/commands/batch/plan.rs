@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf, absolute};
 
 use anyhow::{bail, ensure};
 use op::Registry;
-use recipe::{Other, Param, Parameter, Source, did_you_mean};
+use recipe::{Other, Param, Parameter, Schemas, Source, did_you_mean};
 
 use super::inputs::{self, Input};
 use super::journal_path;
@@ -20,7 +20,7 @@ pub(super) struct Batch<'a> {
     pub(super) path: &'a Path,
     /// The parameter that gets the files.
     pub(super) param: String,
-    registry: &'a Registry,
+    schemas: Schemas<'a>,
     /// The text of the recipe, read once: the same for all files.
     source: Source,
     /// The digest of what the recipe does and expects.
@@ -41,9 +41,10 @@ impl<'a> Batch<'a> {
     pub(super) fn plan(args: &'a BatchArgs, registry: &'a Registry) -> anyhow::Result<Planned<'a>> {
         let path = args.recipe.as_deref().unwrap_or(Path::new(""));
         let source = Source::open(path).map_err(anyhow::Error::msg)?;
+        let schemas = Schemas::new(registry);
         let (preset, budget) = (args.preset.as_deref(), args.many.budget);
         // On the file that the recipe names itself, which may well be missing.
-        let loaded = load_text(&source, &args.set, preset, &args.out, budget, registry)?;
+        let loaded = load_text(&source, &args.set, preset, &args.out, budget, &schemas)?;
         if !loaded.is_read {
             refuse(&loaded, false)?;
             return Ok(Planned::Refused);
@@ -53,7 +54,7 @@ impl<'a> Batch<'a> {
             args,
             path,
             param,
-            registry,
+            schemas,
             source,
             digest: digest(&loaded),
             inputs: inputs::list(&args.inputs)?,
@@ -148,7 +149,7 @@ impl<'a> Batch<'a> {
             preset,
             out,
             args.many.budget,
-            self.registry,
+            &self.schemas,
         )
     }
 

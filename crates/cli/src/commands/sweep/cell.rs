@@ -3,8 +3,7 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use op::Registry;
-use recipe::{Grid, JobEnd, Measured, Metric, Source, Span};
+use recipe::{Grid, JobEnd, Measured, Metric, Schemas, Source, Span};
 
 use crate::args::SweepArgs;
 use crate::loading::{Loaded, load_text, read_objects};
@@ -13,7 +12,7 @@ use crate::many::{all, first_error, panicked, run_quietly};
 /// All cells.
 pub(super) struct Cells<'a> {
     pub(super) args: &'a SweepArgs,
-    pub(super) registry: &'a Registry,
+    pub(super) schemas: &'a Schemas<'a>,
     /// The text of the recipe.
     pub(super) source: &'a Source,
     pub(super) grid: &'a Grid,
@@ -96,7 +95,7 @@ impl Cells<'_> {
             None => "out".into(),
         };
         let budget = self.args.many.budget;
-        let mut loaded = load_text(self.source, &set, None, &out, budget, self.registry)?;
+        let mut loaded = load_text(self.source, &set, None, &out, budget, self.schemas)?;
         if !self.expects {
             loaded.recipe.expectations.clear();
         }

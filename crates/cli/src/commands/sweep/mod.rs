@@ -29,8 +29,8 @@ use std::path::Path;
 use anyhow::{Context as _, ensure};
 use op::Registry;
 use recipe::{
-    Diagnostic, Grid, InOrder, Jobs, Measured, Metric, Other, Setting, Severity, Source, Sweep,
-    read_sweep,
+    Diagnostic, Grid, InOrder, Jobs, Measured, Metric, Other, Schemas, Setting, Severity, Source,
+    Sweep, read_sweep,
 };
 use serde_json::{Map, Value as Json, json};
 
@@ -51,13 +51,14 @@ pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool>
             path.display()
         );
     }
-    let Some(plan) = Plan::read(args, registry)? else {
+    let schemas = Schemas::new(registry);
+    let Some(plan) = Plan::read(args, &schemas)? else {
         return Ok(false);
     };
     catch_interrupts();
     let cells = Cells {
         args,
-        registry,
+        schemas: &schemas,
         source: &plan.recipe,
         grid: &plan.grid,
         keep: &plan.sweep.keep,
@@ -101,7 +102,7 @@ struct Plan {
 impl Plan {
     /// Reads the sweep and its recipe, and holds one against the other. `None` if something is wrong,
     /// which was said.
-    fn read(args: &SweepArgs, registry: &Registry) -> anyhow::Result<Option<Self>> {
+    fn read(args: &SweepArgs, schemas: &Schemas) -> anyhow::Result<Option<Self>> {
         let source = Source::open(&args.sweep).map_err(anyhow::Error::msg)?;
         let reading = read_sweep(&source.text);
         let mut diagnostics = reading.diagnostics;
@@ -111,7 +112,7 @@ impl Plan {
             if path.is_file() {
                 let recipe = Source::open(&path).map_err(anyhow::Error::msg)?;
                 let out = args.keep_outputs.as_deref().unwrap_or(Path::new("out"));
-                let loaded = load_text(&recipe, &[], None, out, args.many.budget, registry)?;
+                let loaded = load_text(&recipe, &[], None, out, args.many.budget, schemas)?;
                 if !loaded.is_read {
                     show_texts(&[source], &diagnostics);
                     return refuse(&loaded, args.format == Format::Json).map(|_| None);

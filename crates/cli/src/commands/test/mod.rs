@@ -30,14 +30,14 @@ use std::time::{Duration, Instant};
 
 use anyhow::ensure;
 use op::Registry;
-use recipe::{Cache, Diagnostic, InOrder, JobEnd, Jobs};
+use recipe::{Cache, Diagnostic, InOrder, JobEnd, Jobs, Schemas, Source};
 use serde_json::{Value as Json, json};
 
 use super::test_update::renew;
 use crate::args::{Format, TestArgs};
 use crate::cache;
 use crate::listener::{catch_interrupts, is_interrupted};
-use crate::loading::{Found, Loaded, load_recipe, recipes};
+use crate::loading::{Found, Loaded, load_text, recipes};
 use crate::many::{all, panicked, run_quietly};
 use crate::output::{complain, print, problems_json, show, write_whole};
 
@@ -120,8 +120,9 @@ fn tests<'a>(
     args: &TestArgs,
     registry: &Registry,
 ) -> anyhow::Result<Vec<Test<'a>>> {
+    let schemas = Schemas::new(registry);
     let loaded = all(recipes.len(), args.many.limits(), |i| {
-        load(&recipes[i], args, registry)
+        load(&recipes[i], args, &schemas)
     })?;
     let made = recipes.iter().zip(loaded);
     let mut tests: Vec<Test> = made.map(|(found, end)| Test::new(found, end)).collect();
@@ -158,12 +159,13 @@ fn tests<'a>(
     Ok(tests)
 }
 
-fn load(found: &Found, args: &TestArgs, registry: &Registry) -> anyhow::Result<Loaded> {
+fn load(found: &Found, args: &TestArgs, schemas: &Schemas) -> anyhow::Result<Loaded> {
     let out = match &args.out {
         Some(out) => out.join(&found.own_folder),
         None => "out".into(),
     };
-    load_recipe(&found.path, &[], None, &out, args.many.budget, registry)
+    let source = Source::open(&found.path).map_err(anyhow::Error::msg)?;
+    load_text(&source, &[], None, &out, args.many.budget, schemas)
 }
 
 /// A recipe to test.

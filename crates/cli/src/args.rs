@@ -505,6 +505,8 @@ pub(crate) struct SweepArgs {
     pub(crate) keep_outputs: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) many: ManyArgs,
+    #[command(flatten)]
+    pub(crate) cache: CacheArgs,
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
 }

@@ -57,11 +57,14 @@ impl Attributes {
             let Some((_, mesh)) = meshes(plan).find(|(name, _)| name == object) else {
                 continue;
             };
-            let is_kept = |a: &&PlannedAttribute| {
+            if mesh.attributes == *had {
+                continue;
+            }
+            let is_lost = |a: &&PlannedAttribute| {
                 let has = |b: &PlannedAttribute| b.domain == a.domain && b.name == a.name;
                 !mesh.attributes.iter().any(has)
             };
-            for lost in had.iter().filter(is_kept) {
+            for lost in had.iter().filter(is_lost) {
                 let loss = Loss::attribute(object, lost.domain, &lost.name, "");
                 if !step.on_loss.allows(&lost.name) {
                     found.push(forbidden(step, &loss));

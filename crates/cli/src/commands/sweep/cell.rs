@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use recipe::{Grid, JobEnd, Measured, Metric, Schemas, Source, Span};
+use recipe::{Cache, Caching, Grid, JobEnd, Measured, Metric, Schemas, Source, Span};
 
 use crate::args::SweepArgs;
 use crate::loading::{Loaded, load_text, read_objects};
@@ -12,6 +12,8 @@ use crate::many::{all, first_error, panicked, run_quietly};
 /// All cells.
 pub(super) struct Cells<'a> {
     pub(super) args: &'a SweepArgs,
+    /// Steps that cells share run once.
+    pub(super) cache: Option<&'a Cache>,
     pub(super) schemas: &'a Schemas<'a>,
     /// The text of the recipe.
     pub(super) source: &'a Source,
@@ -111,7 +113,12 @@ impl Cells<'_> {
             return CellResult::failed(first_error(&loaded.diagnostics));
         }
         let keeps = self.args.keep_outputs.is_some();
-        let outcome = run_quietly(loaded, self.args.many.budget, keeps, None);
+        let caching = self.cache.map(|cache| Caching {
+            cache,
+            recipe: None,
+            want_scene: true,
+        });
+        let outcome = run_quietly(loaded, self.args.many.budget, keeps, caching);
         if outcome.cancelled {
             return CellResult::not_run();
         }

@@ -35,6 +35,7 @@ use recipe::{
 use serde_json::{Map, Value as Json, json};
 
 use crate::args::{Format, SweepArgs};
+use crate::cache;
 use crate::commands::run::refuse;
 use crate::listener::{catch_interrupts, is_interrupted};
 use crate::loading::{Loaded, load_text};
@@ -56,8 +57,16 @@ pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool>
         return Ok(false);
     };
     catch_interrupts();
+    // What is measured in seconds must run.
+    let is_timed = |(metric, _): &(Metric, Span)| matches!(metric, Metric::Seconds);
+    let cache = if plan.sweep.keep.iter().any(is_timed) {
+        None
+    } else {
+        cache::open(&args.cache)?
+    };
     let cells = Cells {
         args,
+        cache: cache.as_ref(),
         schemas: &schemas,
         source: &plan.recipe,
         grid: &plan.grid,

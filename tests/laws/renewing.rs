@@ -82,9 +82,9 @@ fn renewed(source: &Source) -> Result<(String, usize), String> {
         input: source.folder().to_owned(),
         output: out.path().to_owned(),
         placeholders: reading.recipe.placeholders(),
-        provenance: None,
+        ..Files::default()
     };
-    let read = |path: &std::path::Path| {
+    let read = |path: &std::path::Path, _: &Files| {
         let loaded = mesh_io::read(path, &ReadOptions::default());
         loaded.map(|l| l.objects).map_err(|error| error.to_string())
     };

@@ -17,7 +17,7 @@
 //!
 //! `format` is the version of this list: new events and new fields may come without another number, and
 //! readers pass over what they do not know. Numbers of steps begin at 1. `end` is always the last line,
-//! also of a recipe that could not be read. What is unknown is `null`.
+//! also of a recipe with mistakes. What is unknown is `null`.
 
 use std::io::{self, Write as _};
 use std::sync::Mutex;
@@ -182,6 +182,10 @@ impl Listener for Events<'_> {
         }));
     }
 
+    fn wants_digests(&self) -> bool {
+        true
+    }
+
     fn step_done(&self, number: usize, done: &StepDone) {
         let refused = done.report.refused.iter().map(|r| {
             let reason = format!("{:?}", r.reason);
@@ -200,6 +204,7 @@ impl Listener for Events<'_> {
             "refused": refused.collect::<Vec<_>>(),
             "losses": losses.collect::<Vec<_>>(),
             "notes": done.report.notes,
+            "digest": done.digest.map(|digest| digest.to_string()),
             "milliseconds": milliseconds(done.time),
             "cached": done.ran.is_none(),
             "ran_because": done.ran.as_ref().map(ToString::to_string),

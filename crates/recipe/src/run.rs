@@ -27,6 +27,10 @@ pub trait Listener: Progress {
     fn step_begins(&self, number: usize, label: &str);
     /// A step is done.
     fn step_done(&self, number: usize, done: &StepDone);
+    /// Whether to tell the digest of the scene after each step, which takes a while for large ones.
+    fn wants_digests(&self) -> bool {
+        false
+    }
 }
 
 /// What a step left behind.
@@ -44,6 +48,8 @@ pub struct StepDone {
     pub edges: usize,
     /// The faces.
     pub faces: usize,
+    /// The digest of the scene after it, if the listener wants it.
+    pub digest: Option<Digest>,
     /// How long it took.
     pub time: Duration,
     /// Why it ran; `None` if its result was taken from the cache.
@@ -195,8 +201,11 @@ impl Runner<'_> {
         let recipe = self.recipe;
         for (i, step) in recipe.steps.iter().enumerate() {
             listener.step_begins(i, step.label());
-            let done = self.found_or_run(i, step, listener)?;
+            let mut done = self.found_or_run(i, step, listener)?;
             self.n_done = i + 1;
+            if listener.wants_digests() {
+                done.digest = Some(self.digest(listener)?);
+            }
             if let Some(loss) = step.on_loss.forbidden(&done.report.losses) {
                 self.fail(step.scope, forbidden(step, loss));
                 return Err(Stopped);
@@ -238,6 +247,7 @@ impl Runner<'_> {
                         vertices,
                         edges,
                         faces,
+                        digest: None,
                         time: begin.elapsed(),
                         ran: None,
                     });
@@ -282,9 +292,23 @@ impl Runner<'_> {
             vertices,
             edges,
             faces,
+            digest: None,
             time,
             ran: Some(why),
         })
+    }
+
+    /// The digest of the scene after the steps that are done.
+    fn digest(&mut self, listener: &dyn Listener) -> Result<Digest, Stopped> {
+        if let Some(known) = self.session.as_ref().and_then(Session::digest) {
+            return Ok(known);
+        }
+        self.bring(self.n_done, listener)?;
+        let digest = self.scene.digest();
+        if let Some(session) = &mut self.session {
+            session.set_digest(digest);
+        }
+        Ok(digest)
     }
 
     /// Makes the scene that of the place before step `to`, all steps before which are done: from the cache, and by

@@ -8,7 +8,7 @@
 //! sizes               how many bytes each run has added
 //! ```
 //!
-//! **Keys.** The [key](key::Ingredients) of a step is the digest of all that it is made of before it runs: the
+//! **Keys.** The key of a step is the digest of all that it is made of before it runs: the
 //! program, the operation with its version and parameters, the objects, the name that keys random choices, the
 //! budget, and the state before it. The state after it is made of its key and of the contents of the files that it
 //! read, which are known when it has run, and looked at again before its result is taken. Times of files are

@@ -58,7 +58,7 @@ pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool>
     };
     catch_interrupts();
     // What is measured in seconds must run.
-    let is_timed = |(metric, _): &(Metric, Span)| matches!(metric, Metric::Seconds);
+    let is_timed = |(metric, _): &(Metric, recipe::Span)| matches!(metric, Metric::Seconds);
     let cache = if plan.sweep.keep.iter().any(is_timed) {
         None
     } else {

@@ -214,15 +214,26 @@ fn recipe(param: &Json, step: &Json, expectation: &Json, on_loss: &Json) -> Json
 }
 
 fn step_fields(operation: &Json, refusal: &Json, on_loss: &Json) -> Json {
+    // What stands beside a reference or a choice goes with it.
+    let told = |schema: &Json, doc: &str| json!({ "allOf": [schema], "description": doc });
     json!({
         "type": "object",
         "properties": {
-            "id": { "type": "string", "minLength": 1 },
-            "run": operation,
-            "on": { "type": "array", "items": { "type": "string" }, "minItems": 1 },
-            "note": { "type": "string" },
-            "refused": refusal,
-            "on_loss": on_loss,
+            "id": {
+                "type": "string",
+                "minLength": 1,
+                "description": "The name that later parts of the recipe know the step by.",
+            },
+            "run": told(operation, "The operation."),
+            "on": {
+                "type": "array",
+                "items": { "type": "string" },
+                "minItems": 1,
+                "description": "The objects that it acts on; all that it can if this is left out.",
+            },
+            "note": { "type": "string", "description": "For readers." },
+            "refused": told(refusal, "The reason for which it must be refused, and change nothing."),
+            "on_loss": told(on_loss, "What may be lost; as the recipe says if this is left out."),
         },
         "required": ["run"],
         "additionalProperties": false,

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use op::{OpError, Progress};
 use recipe::{Listener, Outcome, Settings, StepDone};
 
+use crate::assert_none;
 use crate::every_op::{Case, files};
-use crate::{assert_none, samples};
 
 /// Goes on so many times and then says stop.
 struct StopAfter {
@@ -67,7 +67,7 @@ fn a_run_that_is_cancelled_ends_with_the_scene_from_before_the_step() {
     let registry = ops_all::registry();
     let mut failures = Vec::new();
     let steps = registry.entries().iter().flat_map(|entry| {
-        let samples = samples::of(entry.name).iter();
+        let samples = ops_all::samples(entry.name).iter();
         samples.map(|sample| format!("{}{sample}", entry.name))
     });
     for step in steps {

@@ -12,7 +12,7 @@ use op::{
 use scene::{Geometry, Object, Scene};
 
 use crate::threads::POOLS;
-use crate::{assert_none, fixtures, samples};
+use crate::{assert_none, fixtures};
 
 /// An operation with its parameters, and what it is tried on.
 pub(crate) struct Case {
@@ -31,7 +31,7 @@ impl Case {
         let scenes = fixtures::scenes();
         let registry = ops_all::registry();
         let steps = registry.entries().iter().flat_map(|entry| {
-            let samples = samples::of(entry.name).iter();
+            let samples = ops_all::samples(entry.name).iter();
             samples.map(move |sample| (entry, *sample))
         });
         steps

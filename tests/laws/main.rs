@@ -13,7 +13,6 @@ mod outside;
 mod random_edits;
 mod registry;
 mod renewing;
-mod samples;
 mod schema;
 mod threads;
 

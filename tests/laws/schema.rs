@@ -4,7 +4,7 @@ use jsonschema::Validator;
 use recipe::{Diagnostic, Parameter, syntax};
 use serde_json::Value as Json;
 
-use crate::{assert_none, recipes, samples};
+use crate::{assert_none, recipes};
 
 /// Calls `visit` with each schema below this one, and the way to it.
 fn walk<'s>(schema: &'s Json, way: &str, visit: &mut impl FnMut(&'s Json, &str)) {
@@ -89,7 +89,7 @@ fn a_field_that_is_unknown_is_refused_at_every_level() {
     let registry = ops_all::registry();
     let mut failures = Vec::new();
     for entry in registry.entries() {
-        for sample in samples::of(entry.name) {
+        for sample in ops_all::samples(entry.name) {
             for (at, _) in sample.match_indices('(') {
                 // Only brackets that hold fields: a tuple is no place for one.
                 let inside = &sample[at + 1..];
@@ -163,7 +163,7 @@ fn every_sample_fits_the_schema() {
     let validator = validator();
     let mut failures = Vec::new();
     for entry in registry.entries() {
-        for sample in samples::of(entry.name) {
+        for sample in ops_all::samples(entry.name) {
             let step = format!("{}{sample}", entry.name);
             let json = json(&format!("(recipe: 1, steps: [{step}])"));
             if let Err(error) = validator.validate(&json) {

@@ -26,9 +26,14 @@ pub(crate) fn show(loaded: &Loaded, diagnostics: &[recipe::Diagnostic]) {
 
 /// The same for texts of any kind.
 pub(crate) fn show_texts(sources: &[Source], diagnostics: &[recipe::Diagnostic]) {
+    const MOST: usize = 200;
     if !diagnostics.is_empty() {
         let colours = io::stderr().is_terminal();
-        complain(&recipe::render(sources, diagnostics, colours));
+        let shown = &diagnostics[..diagnostics.len().min(MOST)];
+        complain(&recipe::render(sources, shown, colours));
+        if diagnostics.len() > MOST {
+            complain(&format!("and {} more\n", diagnostics.len() - MOST));
+        }
     }
 }
 

@@ -84,6 +84,13 @@ pub(crate) fn flow(kind: Kind) -> Json {
     flow_fields(kind, &json!({}))
 }
 
+/// The steps that hold steps, [`Call`, `Repeat` and `If`](crate::read()): their names, and the schemas of their
+/// parameters.
+pub fn step_kinds() -> Vec<(&'static str, Json)> {
+    let kinds = Kind::ALL.into_iter();
+    kinds.map(|kind| (kind.name(), flow(kind))).collect()
+}
+
 fn flow_fields(kind: Kind, step: &Json) -> Json {
     let steps = |doc: &str| json!({ "type": "array", "items": step, "description": doc });
     let (doc, properties, required) = match kind {

@@ -1,6 +1,10 @@
 //! The list of built-in operations: one line each.
 
+mod samples;
+
 use op::Registry;
+
+pub use samples::samples;
 
 /// Every built-in operation, in the order of the reference.
 #[rustfmt::skip]

@@ -4,7 +4,8 @@
 use std::collections::BTreeMap;
 
 use op::{Entry, Registry};
-use recipe::{FieldDoc, TypeDoc, did_you_mean, fields, types};
+use recipe::{FieldDoc, TypeDoc, did_you_mean, fields, step_kinds, types};
+use serde_json::Value as Json;
 
 use crate::output::{print, table};
 
@@ -14,16 +15,25 @@ pub(crate) fn run(name: Option<&str>, markdown: bool, registry: &Registry) -> an
         return Ok(true);
     }
     let Some(name) = name else {
-        let rows: Vec<Vec<String>> = registry
+        let mut rows: Vec<Vec<String>> = registry
             .entries()
             .iter()
             .map(|e| vec![format!("{:<20} {}", e.name, e.summary)])
             .collect();
+        rows.extend(step_kinds().iter().map(|(name, schema)| {
+            let doc = schema["description"].as_str().unwrap_or_default();
+            vec![format!("{name:<20} {doc}")]
+        }));
         print(&table(&rows))?;
         return Ok(true);
     };
+    if let Some((name, schema)) = step_kinds().into_iter().find(|(kind, _)| *kind == name) {
+        print(&format!("{name}: {}", described(&schema)))?;
+        return Ok(true);
+    }
     let Some(entry) = registry.get(name) else {
         let known = registry.entries().iter().map(|e| e.name);
+        let known = known.chain(step_kinds().into_iter().map(|(name, _)| name));
         anyhow::bail!(
             "there is no operation `{name}`: {}",
             did_you_mean(name, known)
@@ -36,13 +46,35 @@ pub(crate) fn run(name: Option<&str>, markdown: bool, registry: &Registry) -> an
 fn detail(entry: &Entry) -> String {
     let schema = entry.schema();
     let mut text = format!(
-        "{} (version {}): {}\n",
-        entry.name, entry.version, entry.summary
+        "{} (version {}): {}\n\n{}",
+        entry.name,
+        entry.version,
+        entry.summary,
+        described(&schema)
     );
-    if let Some(description) = schema.get("description").and_then(|d| d.as_str()) {
-        text += &format!("\n{description}\n");
+    if entry.takes_on {
+        text += "\nTakes `on: [\"name\", ..]` to act on chosen objects; without it on all that it can.\n";
     }
-    let fields = fields(&schema);
+    if let Some(sample) = sample(entry.name) {
+        text += &format!("\nSample: {sample}\n");
+    }
+    text
+}
+
+/// A step as a recipe has it.
+fn sample(operation: &str) -> Option<String> {
+    let parameters = ops_all::samples(operation).first()?;
+    let words: Vec<&str> = parameters.split_whitespace().collect();
+    Some(format!("{operation}{}", words.join(" ")))
+}
+
+/// The description and the parameters.
+fn described(schema: &Json) -> String {
+    let mut text = String::new();
+    if let Some(description) = schema.get("description").and_then(|d| d.as_str()) {
+        text += &format!("{description}\n");
+    }
+    let fields = fields(schema);
     if fields.is_empty() {
         text += "\nNo parameters.\n";
     } else {
@@ -53,15 +85,12 @@ fn detail(entry: &Entry) -> String {
     }
     // What the parameters are made of, but for the variants that stand above.
     let shown = |t: &TypeDoc| fields.iter().any(|f| f.kind == t.name);
-    for t in types(&schema).iter().filter(|t| !shown(t)) {
+    for t in types(schema).iter().filter(|t| !shown(t)) {
         text += &format!("\n{}: {}\n", t.name, t.doc);
         for field in &t.fields {
             text += &field_text(field, "  ");
         }
         text += &variants_text(&t.variants, "  ");
-    }
-    if entry.takes_on {
-        text += "\nTakes `on: [\"name\", ..]` to act on chosen objects; without it on all that it can.\n";
     }
     text
 }
@@ -110,6 +139,9 @@ pub(crate) fn reference(registry: &Registry) -> String {
         if let Some(description) = schema.get("description").and_then(|d| d.as_str()) {
             text += &format!("{description}\n\n");
         }
+        if let Some(sample) = sample(entry.name) {
+            text += &format!("```ron\n{sample}\n```\n\n");
+        }
         let fields = fields(&schema);
         if fields.is_empty() {
             text += "No parameters.\n";
@@ -117,6 +149,14 @@ pub(crate) fn reference(registry: &Registry) -> String {
             text += &fields_table(&fields);
         }
         used.extend(types(&schema).into_iter().map(|t| (t.name.clone(), t)));
+    }
+    text += "\n# Steps that hold steps\n";
+    for (name, schema) in step_kinds() {
+        let doc = schema["description"].as_str().unwrap_or_default();
+        text += &format!(
+            "\n## {name}\n\n{doc}.\n\n{}",
+            fields_table(&fields(&schema))
+        );
     }
     text += "\n# Types of parameters\n";
     for t in used.values() {

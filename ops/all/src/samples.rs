@@ -1,6 +1,6 @@
-//! Parameters to try each operation with.
+//! Parameters of each operation as recipes write them: the first ones stand in the reference, and all of them
+//! are tried in the tests.
 
-/// For each operation parameters as a recipe gives them.
 const SAMPLES: &[(&str, &[&str])] = &[
     (
         "Load",
@@ -386,37 +386,43 @@ const SAMPLES: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// The parameters to try the operation of this name with.
-pub(crate) fn of(operation: &str) -> &'static [&'static str] {
+/// Parameters for a step of the built-in operation of this name, as in `(levels: 2)`, to show and to try; none for
+/// other names. Most of them work on a mesh that is there.
+pub fn samples(operation: &str) -> &'static [&'static str] {
     let found = SAMPLES.iter().find(|(name, _)| *name == operation);
     found.map_or(&[], |(_, samples)| samples)
 }
 
-#[test]
-fn every_operation_has_samples() {
-    let registry = ops_all::registry();
-    let missing: Vec<_> = registry
-        .entries()
-        .iter()
-        .map(|entry| entry.name)
-        .filter(|name| of(name).is_empty())
-        .collect();
-    assert!(
-        missing.is_empty(),
-        "tests/laws/samples.rs has no parameters to try for: {}",
-        missing.join(", ")
-    );
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-#[test]
-fn every_sample_is_of_an_operation() {
-    let registry = ops_all::registry();
-    for (name, samples) in SAMPLES {
-        let entry = registry.get(name);
-        let entry = entry.unwrap_or_else(|| panic!("{name} is not in the registry"));
-        for sample in *samples {
-            if let Err(error) = entry.parse(sample) {
-                panic!("{name}{sample}: {error}");
+    #[test]
+    fn every_operation_has_samples() {
+        let registry = crate::registry();
+        let missing: Vec<_> = registry
+            .entries()
+            .iter()
+            .map(|entry| entry.name)
+            .filter(|name| samples(name).is_empty())
+            .collect();
+        assert!(
+            missing.is_empty(),
+            "this table has no parameters to try for: {}",
+            missing.join(", ")
+        );
+    }
+
+    #[test]
+    fn every_sample_is_of_an_operation() {
+        let registry = crate::registry();
+        for (name, samples) in SAMPLES {
+            let entry = registry.get(name);
+            let entry = entry.unwrap_or_else(|| panic!("{name} is not in the registry"));
+            for sample in *samples {
+                if let Err(error) = entry.parse(sample) {
+                    panic!("{name}{sample}: {error}");
+                }
             }
         }
     }

@@ -75,18 +75,29 @@ pub struct PeekMesh {
 }
 
 impl PeekMesh {
-    /// Counts `n` more faces of `degree` corners.
-    pub(crate) fn add_faces(&mut self, n: u64, degree: u64) {
-        if n == 0 {
+    /// Adds the faces of another.
+    pub(crate) fn add(&mut self, other: &Self) {
+        if other.faces == 0 {
             return;
         }
         self.min_degree = if self.faces == 0 {
-            degree
+            other.min_degree
         } else {
-            self.min_degree.min(degree)
+            self.min_degree.min(other.min_degree)
         };
-        self.max_degree = self.max_degree.max(degree);
-        self.faces = self.faces.saturating_add(n);
-        self.corners = self.corners.saturating_add(n.saturating_mul(degree));
+        self.max_degree = self.max_degree.max(other.max_degree);
+        self.faces = self.faces.saturating_add(other.faces);
+        self.corners = self.corners.saturating_add(other.corners);
+    }
+
+    /// Counts `n` more faces of `degree` corners.
+    pub(crate) fn add_faces(&mut self, n: u64, degree: u64) {
+        self.add(&Self {
+            faces: n,
+            corners: n.saturating_mul(degree),
+            min_degree: degree,
+            max_degree: degree,
+            ..Self::default()
+        });
     }
 }

@@ -106,9 +106,9 @@ impl fmt::Display for Stamp {
 ///
 /// If the file cannot be read.
 pub fn digest(path: &Path) -> std::io::Result<String> {
-    let mut hasher = blake3::Hasher::new();
-    hasher.update_reader(std::fs::File::open(path)?)?;
-    Ok(hasher.finalize().to_hex()[..32].to_owned())
+    let bytes = std::fs::read(path)?;
+    let digest = blake3::Hasher::new().update_rayon(&bytes).finalize();
+    Ok(digest.to_hex()[..32].to_owned())
 }
 
 /// The name of an input in a stamp.

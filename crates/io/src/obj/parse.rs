@@ -11,7 +11,7 @@ use crate::error::TextError;
 use crate::text::{check_encoding, quoted};
 
 /// How many bytes a part has, as nearly as lines allow. Its arrays stay in the cache of a core.
-const PART: usize = 256 << 10;
+pub(super) const PART: usize = 256 << 10;
 
 /// Reads the statements of an OBJ file.
 ///
@@ -73,7 +73,7 @@ fn first_unknown(file: &ObjFile) -> Option<TextError> {
 }
 
 /// Cuts a text into parts of about `size` bytes: each but the last ends with a line that is not continued.
-fn cut(bytes: &[u8], size: usize) -> Vec<&[u8]> {
+pub(super) fn cut(bytes: &[u8], size: usize) -> Vec<&[u8]> {
     let mut parts = Vec::with_capacity(bytes.len() / size + 1);
     let mut start = 0;
     while bytes.len() - start > size {

@@ -1,53 +1,103 @@
 //! Counting the statements of an OBJ file without keeping them.
 
+use rayon::prelude::*;
+
 use super::file::NO_MATERIAL;
+use super::parse::{PART, cut};
 use crate::peek::{PeekGeometry, PeekMesh};
 use crate::text::Cursor;
 
 /// The counts of an OBJ file. Numbers and indices are not looked at, so a broken file has counts too.
 pub(crate) fn peek(bytes: &[u8]) -> PeekGeometry {
-    let mut mesh = PeekMesh::default();
-    let (mut lines, mut points) = (0, 0);
-    let mut material = false;
-    let mut cursor = Cursor::new(bytes);
-    while !cursor.is_at_end() {
-        match cursor.argument().map_or(&b""[..], |(_, word)| word) {
-            b"v" => {
-                mesh.vertices += 1;
-                // Colors are on all vertices or on none, as a rule: one look is enough.
-                mesh.colors |= mesh.vertices == 1 && arguments(&mut cursor) >= 6;
-            }
-            b"f" | b"fo" => {
-                let mut degree = 0;
-                while let Some((_, corner)) = cursor.argument() {
-                    if degree == 0 {
-                        let mut fields = corner.split(|&byte| byte == b'/').skip(1);
-                        mesh.uvs |= fields.next().is_some_and(|field| !field.is_empty());
-                        mesh.normals |= fields.next().is_some_and(|field| !field.is_empty());
+    peek_in_parts(bytes, PART)
+}
+
+fn peek_in_parts(bytes: &[u8], size: usize) -> PeekGeometry {
+    let parts: Vec<Counts> = (cut(bytes, size).into_par_iter())
+        .map(Counts::of_part)
+        .collect();
+    let mut all = Counts::default();
+    for part in parts {
+        all.add(&part);
+    }
+    if all.mesh.faces == 0 && all.lines > 0 {
+        return PeekGeometry::Polylines {
+            lines: all.lines,
+            points: all.points,
+        };
+    }
+    PeekGeometry::Mesh(all.mesh)
+}
+
+/// What the statements of a part of the text count.
+#[derive(Default)]
+struct Counts {
+    mesh: PeekMesh,
+    lines: u64,
+    points: u64,
+    /// Whether there are faces before the first statement about materials.
+    faces_first: bool,
+    /// What the last statement about materials says: whether faces have one from there on.
+    material: Option<bool>,
+}
+
+impl Counts {
+    fn of_part(bytes: &[u8]) -> Self {
+        let mut counts = Self::default();
+        let mesh = &mut counts.mesh;
+        let mut cursor = Cursor::new(bytes);
+        while !cursor.is_at_end() {
+            match cursor.argument().map_or(&b""[..], |(_, word)| word) {
+                b"v" => {
+                    mesh.vertices += 1;
+                    // Colors are on all vertices or on none, as a rule: one look is enough.
+                    mesh.colors |= mesh.vertices == 1 && arguments(&mut cursor) >= 6;
+                }
+                b"f" | b"fo" => {
+                    let mut degree = 0;
+                    while let Some((_, corner)) = cursor.argument() {
+                        if degree == 0 {
+                            let mut fields = corner.split(|&byte| byte == b'/').skip(1);
+                            mesh.uvs |= fields.next().is_some_and(|field| !field.is_empty());
+                            mesh.normals |= fields.next().is_some_and(|field| !field.is_empty());
+                        }
+                        degree += 1;
                     }
-                    degree += 1;
+                    if degree >= 3 {
+                        mesh.add_faces(1, degree);
+                        mesh.materials |= counts.material == Some(true);
+                        counts.faces_first |= counts.material.is_none();
+                    }
                 }
-                if degree >= 3 {
-                    mesh.add_faces(1, degree);
-                    mesh.materials |= material;
+                b"l" => {
+                    counts.lines += 1;
+                    counts.points += arguments(&mut cursor);
                 }
+                b"usemtl" => {
+                    let name = cursor.rest_of_line();
+                    counts.material = Some(!name.is_empty() && name != NO_MATERIAL);
+                }
+                _ => {}
             }
-            b"l" => {
-                lines += 1;
-                points += arguments(&mut cursor);
-            }
-            b"usemtl" => {
-                let name = cursor.rest_of_line();
-                material = !name.is_empty() && name != NO_MATERIAL;
-            }
-            _ => {}
+            cursor.skip_line();
         }
-        cursor.skip_line();
+        counts
     }
-    if mesh.faces == 0 && lines > 0 {
-        return PeekGeometry::Polylines { lines, points };
+
+    /// Adds the part that follows.
+    fn add(&mut self, next: &Self) {
+        let (mesh, other) = (&mut self.mesh, &next.mesh);
+        mesh.colors |= mesh.vertices == 0 && other.colors;
+        mesh.vertices += other.vertices;
+        mesh.add(other);
+        mesh.uvs |= other.uvs;
+        mesh.normals |= other.normals;
+        mesh.materials |= other.materials || next.faces_first && self.material == Some(true);
+        self.faces_first |= next.faces_first && self.material.is_none();
+        self.material = next.material.or(self.material);
+        self.lines += next.lines;
+        self.points += next.points;
     }
-    PeekGeometry::Mesh(mesh)
 }
 
 fn arguments(cursor: &mut Cursor) -> u64 {
@@ -78,6 +128,18 @@ mod tests {
             materials: true,
         };
         assert_eq!(peek(text), PeekGeometry::Mesh(expected));
+    }
+
+    #[test]
+    fn a_text_in_parts_counts_as_one() {
+        let text = b"v 0 0 0\nv 1 0 0 1 1 1\nf 1 2 3\nusemtl a\nv 1 1 0\nf 1 2 3 4\nl 1 2\nf 1/1 2 3 \\\n4 5\n\
+            usemtl\nf 1//1 2 3\nl 3 4 5\n";
+        for text in [&text[..], &text[..60], &text[20..], &text[24..40]] {
+            let whole = peek_in_parts(text, usize::MAX);
+            for size in 1..text.len() {
+                assert_eq!(peek_in_parts(text, size), whole, "{size}");
+            }
+        }
     }
 
     #[test]

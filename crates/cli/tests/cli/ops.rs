@@ -9,7 +9,12 @@ fn operations_are_listed_with_what_they_do() {
         let line = format!("{:<20} {}\n", entry.name, entry.summary);
         assert!(listed.stdout.contains(&line), "{line}");
     }
-    let n = ops_all::registry().entries().len();
+    let kinds = recipe::step_kinds();
+    for (name, _) in &kinds {
+        let line = format!("{name:<20} ");
+        assert!(listed.stdout.contains(&line), "{line}");
+    }
+    let n = ops_all::registry().entries().len() + kinds.len();
     assert_eq!(listed.stdout.lines().count(), n);
 }
 
@@ -23,6 +28,12 @@ fn one_operation_is_shown_with_its_parameters() {
         "  at: number above 0.0 below 1.0 = 0.5\n",
         "  on_refusal: ",
         "Takes `on: [\"name\", ..]`",
+        "Sample: SplitEdges(",
+    ]);
+    Folder::new().run("ops Repeat").with_code(0).prints(&[
+        "Repeat: Run steps several times",
+        "  times: ",
+        "  steps: ",
     ]);
 }
 

@@ -22,8 +22,9 @@ pub(super) struct Schema<'s> {
 pub(super) struct Choice<'s> {
     /// Variants without content.
     pub(super) units: Vec<&'s str>,
-    /// Variants with content.
-    pub(super) variants: Vec<(&'s str, Schema<'s>)>,
+    /// Variants with content, whose schemas are read when they are asked for.
+    variants: Vec<(&'s str, &'s Json)>,
+    root: Option<&'s Json>,
     /// Anything else, save null.
     pub(super) others: Vec<Schema<'s>>,
     /// Whether `None` is one of the choices.
@@ -145,26 +146,38 @@ impl<'s> Schema<'s> {
             Some(Json::Array(names)) => names.len() > 1 && names.iter().any(|name| name == "null"),
             _ => false,
         };
-        by_type || self.choice().is_some_and(|choice| choice.nullable)
+        by_type
+            || self
+                .parts()
+                .any(|part| part.get("type").is_some_and(|t| t == "null"))
+    }
+
+    /// The alternatives as they stand in the schema.
+    fn parts(&self) -> impl Iterator<Item = &'s Json> {
+        let lists = ["oneOf", "anyOf"].into_iter().flat_map(|key| self.all(key));
+        lists.filter_map(Json::as_array).flatten()
     }
 
     /// The alternatives of the schema, if it is a choice.
     pub(super) fn choice(&self) -> Option<Choice<'s>> {
-        let mut choice = Choice::default();
+        let mut choice = Choice {
+            root: Some(self.root),
+            ..Choice::default()
+        };
         let mut found = self.add_units(&mut choice);
-        for keyword in ["oneOf", "anyOf"] {
-            for part in self.all(keyword).filter_map(Json::as_array).flatten() {
-                found = true;
-                let schema = Self::new(self.root, part);
-                if schema.is_reference {
-                    choice.others.push(schema);
-                } else if schema.types() == ["null"] {
-                    choice.nullable = true;
-                } else if let Some((name, content)) = schema.variant() {
-                    choice.variants.push((name, content));
-                } else if !schema.add_units(&mut choice) {
-                    choice.others.push(schema);
-                }
+        for part in self.parts() {
+            found = true;
+            if let Some(variant) = variant(part) {
+                choice.variants.push(variant);
+                continue;
+            }
+            let schema = Self::new(self.root, part);
+            if schema.is_reference {
+                choice.others.push(schema);
+            } else if schema.types() == ["null"] {
+                choice.nullable = true;
+            } else if !schema.add_units(&mut choice) {
+                choice.others.push(schema);
             }
         }
         found.then_some(choice)
@@ -183,19 +196,6 @@ impl<'s> Schema<'s> {
         let before = choice.units.len();
         choice.units.extend(names.filter_map(Json::as_str));
         choice.units.len() > before
-    }
-
-    /// Name and content of the variant that the schema describes, if it does.
-    fn variant(&self) -> Option<(&'s str, Self)> {
-        let [layer] = self.layers.as_slice() else {
-            return None;
-        };
-        let properties = layer.get("properties")?.as_object()?;
-        let required = layer.get("required")?.as_array()?;
-        let closed = layer.get("additionalProperties") == Some(&Json::Bool(false));
-        let (name, content) = properties.iter().next()?;
-        let single = properties.len() == 1 && required.len() == 1 && required[0] == name.as_str();
-        (single && closed).then(|| (name.as_str(), Self::new(self.root, content)))
     }
 
     /// The schemas of the items, if the array has a fixed number of them.
@@ -286,11 +286,7 @@ impl<'s> Schema<'s> {
 
     /// The variant that had this name before.
     pub(super) fn variant_by_alias(&self, name: &str) -> Option<&'s str> {
-        let parts = ["oneOf", "anyOf"].into_iter().flat_map(|key| self.all(key));
-        let part = parts
-            .filter_map(Json::as_array)
-            .flatten()
-            .find(|part| has_alias(part, name))?;
+        let part = self.parts().find(|part| has_alias(part, name))?;
         let unit = part["const"].as_str();
         unit.or_else(|| Some(part["properties"].as_object()?.keys().next()?.as_str()))
     }
@@ -403,6 +399,26 @@ impl<'s> Choice<'s> {
             .copied()
             .chain(self.variants.iter().map(|(name, _)| *name))
     }
+
+    /// The schema of what stands in the brackets of a variant.
+    pub(super) fn content(&self, name: &str) -> Option<Schema<'s>> {
+        let (_, json) = self.variants.iter().find(|(n, _)| *n == name)?;
+        Some(Schema::new(self.root?, json))
+    }
+}
+
+/// Name and content of the variant that a schema describes, if it does.
+fn variant(schema: &Json) -> Option<(&str, &Json)> {
+    let layer = schema.as_object()?;
+    if layer.contains_key("$ref") || layer.contains_key("allOf") {
+        return None;
+    }
+    let properties = layer.get("properties")?.as_object()?;
+    let required = layer.get("required")?.as_array()?;
+    let closed = layer.get("additionalProperties") == Some(&Json::Bool(false));
+    let (name, content) = properties.iter().next()?;
+    let single = properties.len() == 1 && required.len() == 1 && required[0] == name.as_str();
+    (single && closed).then_some((name.as_str(), content))
 }
 
 /// Whether a field or variant had this name before.

@@ -26,13 +26,7 @@ impl Checker {
 
     /// Checks a value that should be a variant of an enumeration.
     fn check_variant(&mut self, value: &Value, schema: &Schema, choice: &Choice, place: Place) {
-        let content = |name: &str| {
-            choice
-                .variants
-                .iter()
-                .find(|(n, _)| *n == name)
-                .map(|(_, s)| s)
-        };
+        let content = |name: &str| choice.content(name);
         let is_unit = |name: &str| choice.units.contains(&name);
         let is_known = |name: &str| is_unit(name) || content(name).is_some();
         // A variant that was renamed is checked under its name of today.
@@ -43,7 +37,7 @@ impl Checker {
             self.renamed(value, span, name, current);
             return match &value.kind {
                 ValueKind::Call(call) => match content(current) {
-                    Some(content) => self.check_content(call, content),
+                    Some(content) => self.check_content(call, &content),
                     None => self.check_variant(&renamed(value, current), schema, choice, place),
                 },
                 _ => self.check_variant(&renamed(value, current), schema, choice, place),
@@ -64,7 +58,7 @@ impl Checker {
                 None => self.unknown_variant(value, name, value.span, choice, place),
             },
             ValueKind::Call(call) => match content(&call.name.text) {
-                Some(content) => self.check_content(call, content),
+                Some(content) => self.check_content(call, &content),
                 None if is_unit(&call.name.text) => {
                     let message = format!("`{}` takes no parameters", call.name.text);
                     let help = format!("write `{}` alone", call.name.text);

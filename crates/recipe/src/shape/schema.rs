@@ -167,6 +167,11 @@ impl<'s> Schema<'s> {
         let mut found = self.add_units(&mut choice);
         for part in self.parts() {
             found = true;
+            // Most alternatives are plain: a name alone, or one with content.
+            if let Some(name) = unit(part) {
+                choice.units.push(name);
+                continue;
+            }
             if let Some(variant) = variant(part) {
                 choice.variants.push(variant);
                 continue;
@@ -407,14 +412,27 @@ impl<'s> Choice<'s> {
     }
 }
 
+/// The name of the variant without content that a schema describes, if it does.
+fn unit(schema: &Json) -> Option<&str> {
+    let layer = schema.as_object()?;
+    let name = layer.get("const")?.as_str()?;
+    let is_text = layer.get("type").is_none_or(|t| t == "string");
+    (is_text && !layer.contains_key("enum") && !refers(layer)).then_some(name)
+}
+
+/// Whether a schema takes others in.
+fn refers(layer: &Map<String, Json>) -> bool {
+    layer.contains_key("$ref") || layer.contains_key("allOf")
+}
+
 /// Name and content of the variant that a schema describes, if it does.
 fn variant(schema: &Json) -> Option<(&str, &Json)> {
     let layer = schema.as_object()?;
-    if layer.contains_key("$ref") || layer.contains_key("allOf") {
-        return None;
-    }
     let properties = layer.get("properties")?.as_object()?;
     let required = layer.get("required")?.as_array()?;
+    if refers(layer) {
+        return None;
+    }
     let closed = layer.get("additionalProperties") == Some(&Json::Bool(false));
     let (name, content) = properties.iter().next()?;
     let single = properties.len() == 1 && required.len() == 1 && required[0] == name.as_str();

@@ -47,8 +47,8 @@ struct Node {
 /// Most triangles of a node without children.
 const LEAF: usize = 4;
 
-/// Most nodes that are looked at for one point before a good answer is enough; a hundred are usual.
-const MOST_NODES: u32 = 250;
+/// Most nodes that are looked at for one point before a good answer is enough; some hundred are usual at most.
+const MOST_NODES: u32 = 1000;
 
 /// The triangles of the fan of a face.
 pub(super) fn fan(mesh: &Mesh, face: FaceId) -> impl Iterator<Item = Triangle> {

@@ -8,6 +8,7 @@
 
 mod stage;
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -380,7 +381,13 @@ impl Runner<'_> {
         cx.on = on.as_deref();
         cx.stream = step.label();
         cx.budget = self.settings.budget;
-        let result = operation.apply(&mut self.scene, &mut cx);
+        // After a panic nothing is known of the scene, and nobody asks for it: the run ends.
+        let apply = AssertUnwindSafe(|| operation.apply(&mut self.scene, &mut cx));
+        let Ok(result) = catch_unwind(apply) else {
+            self.scene = before.unwrap_or_default();
+            let message = format!("{} has panicked, which is a mistake in it", step.name);
+            return Err(Some(message));
+        };
         if result.is_err() || step.refused.is_some() {
             self.scene = before.unwrap_or_else(|| std::mem::take(&mut self.scene));
         }

@@ -116,6 +116,7 @@ impl MeshOperation for Lift {
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         let chosen = self.vertices.resolve(mesh, cx)?;
+        assert!(self.by > -1e6, "nobody has thought of that");
         let by = match self.way {
             Way::Up => self.by,
             Way::Further { than } => self.by + than,

@@ -129,6 +129,24 @@ fn a_failure_is_kept_with_the_command_that_repeats_it() {
 }
 
 #[test]
+fn the_command_that_repeats_a_failure_takes_the_preset_too() {
+    let folder = Folder::with_recipe(
+        r#"(recipe: 1, params: {"model": Path(default: ""), "levels": Int(default: 0)},
+            presets: {"fine": {"levels": 2}},
+            steps: [Load(path: arg("model")), LoopSubdivide(levels: arg("levels"))], expect: [Faces(max: 4)])"#,
+    )
+    .with("models/a.obj", tetrahedron(1));
+    batch(&folder, "--preset fine").with_code(1);
+    let notes = folder.entries("out/failed");
+    let note = String::from_utf8(folder.read(&format!("out/failed/{}", notes[0]))).unwrap();
+    let again = note.lines().last().unwrap().replace("meshwright", "\"$0\"");
+    folder
+        .shell(&again)
+        .with_code(1)
+        .complains(&["expected at most 4 faces, found 64"]);
+}
+
+#[test]
 fn results_do_not_depend_on_jobs_threads_and_budget() {
     let folder = with_models(12).with("models/broken.obj", "f 1 2 3\n");
     let made = |arguments: &str, out: &str| {

@@ -346,3 +346,16 @@ fn a_link_does_not_lead_outputs_out_of_the_folder() {
     assert!(outcome.failures[0].message.contains("through a link"));
     assert!(entries(elsewhere.path()).is_empty());
 }
+
+#[test]
+fn a_step_that_panics_fails_the_run_and_nothing_is_written() {
+    let text = steps("Sheet(columns: 2), Write(path: \"a.txt\"), Lift(by: -1e7)");
+    let folder = folder();
+    let outcome = ran(&text, folder.path());
+    assert_eq!(
+        shown(&text, &outcome.failures),
+        [("Lift", "Lift has panicked, which is a mistake in it", "")]
+    );
+    assert_eq!(outcome.steps.len(), 2);
+    assert_eq!(entries(folder.path()), [""; 0]);
+}

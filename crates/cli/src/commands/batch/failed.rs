@@ -55,6 +55,9 @@ fn command(batch: &Batch, file: &Input) -> String {
     let args = batch.args;
     let mut words = vec!["meshwright".to_owned(), "run".to_owned()];
     words.push(batch.path.display().to_string());
+    if let Some(preset) = &args.preset {
+        words.extend(["--preset".to_owned(), preset.clone()]);
+    }
     let set = args
         .set
         .iter()

@@ -313,9 +313,9 @@ impl Polygons {
                     let far = p + q + r - x - y;
                     faces.extend([vec![x, m, far], vec![m, y, far]]);
                 }
-                (Some((x, _)), _) => {
+                (Some(side), _) => {
+                    let place = sides(face).position(|s| s == side).expect("a side");
                     let mut face = face.clone();
-                    let place = face.iter().position(|&v| v == x).expect("a corner");
                     face.insert(place + 1, m);
                     faces.push(face);
                 }
@@ -374,6 +374,17 @@ impl Polygons {
         };
         if !beside.contains(&None) && is_open(a) && is_open(b) {
             return Err(EditError::JoinsBoundaries(e));
+        }
+        // A triangle that lies within one larger face: both sides of the edge left of it would be in that face.
+        let around = |f: usize| sides(&self.faces[f]).map(|(x, y)| self.with_side(y, x));
+        let is_within = |f: usize, g: usize| {
+            let larger = self.faces[f].len() == 3 && self.faces[g].len() > 3;
+            larger && around(f).all(|face| face == Some(g))
+        };
+        if let [Some(f), Some(g)] = beside
+            && (is_within(f, g) || is_within(g, f))
+        {
+            return Err(EditError::SameFace(e));
         }
         let is_apex = |&v: &u32| {
             let mut triangles = beside.iter().flatten().map(|&f| &self.faces[f]);
@@ -461,26 +472,24 @@ impl Polygons {
         n
     }
 
-    /// How many groups the faces at a vertex form, where faces that share an edge at it are together.
+    /// How many groups the corners at a vertex form, where corners that share an edge at it are together.
     fn n_fans(&self, v: u32) -> usize {
         let mut fans: Vec<Vec<u32>> = Vec::new();
-        for face in self.faces.iter().filter(|face| face.contains(&v)) {
-            // The neighbors of v in this face name the two edges.
-            let mut fan: Vec<u32> = sides(face)
-                .filter_map(|(x, y)| match v {
-                    _ if x == v => Some(y),
-                    _ if y == v => Some(x),
-                    _ => None,
-                })
-                .collect();
-            fans.retain(|other| {
-                let is_joined = other.iter().any(|w| fan.contains(w));
-                if is_joined {
-                    fan.extend(other);
-                }
-                !is_joined
-            });
-            fans.push(fan);
+        for face in &self.faces {
+            let after = sides(face).cycle().skip(1);
+            let corners = sides(face).zip(after).filter(|&((_, at), _)| at == v);
+            for ((before, _), (_, after)) in corners {
+                // The neighbors of v in this corner name the two edges.
+                let mut fan = vec![before, after];
+                fans.retain(|other| {
+                    let is_joined = other.iter().any(|w| fan.contains(w));
+                    if is_joined {
+                        fan.extend(other);
+                    }
+                    !is_joined
+                });
+                fans.push(fan);
+            }
         }
         fans.len()
     }
@@ -491,7 +500,7 @@ fn v_count(positions: &[DVec3]) -> u32 {
 }
 
 /// The sides of a polygon: each corner with the next one.
-fn sides(face: &[u32]) -> impl Iterator<Item = (u32, u32)> {
+fn sides(face: &[u32]) -> impl Iterator<Item = (u32, u32)> + Clone {
     let next = face.iter().cycle().skip(1);
     face.iter().copied().zip(next.copied())
 }

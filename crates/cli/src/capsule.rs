@@ -5,25 +5,17 @@ use std::path::Path;
 
 use anyhow::Context as _;
 use recipe::capsule::{BEFORE, capsule};
-use recipe::{Settings, Silent};
 use scene::Scene;
 
-use crate::loading::{Loaded, read_objects};
+use crate::loading::Loaded;
+use crate::many::run_quietly;
 use crate::output::write_whole;
 
 /// The scene before a step of a recipe, all of whose steps before it can be done.
 pub(crate) fn scene_before(loaded: &mut Loaded, step: usize, budget: u64) -> anyhow::Result<Scene> {
     let rest = loaded.recipe.steps.split_off(step);
     let expectations = std::mem::take(&mut loaded.recipe.expectations);
-    let settings = Settings {
-        files: &loaded.files,
-        budget,
-        read: &read_objects,
-        keep_outputs: false,
-        writes: !loaded.forecast.outputs.is_empty(),
-        cache: None,
-    };
-    let outcome = recipe::run(&loaded.recipe, settings, &Silent);
+    let outcome = run_quietly(loaded, budget, false, None);
     loaded.recipe.steps.extend(rest);
     loaded.recipe.expectations = expectations;
     anyhow::ensure!(outcome.succeeded(), "the steps before it fail too now");

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use op::{Files, Registry};
-use recipe::{Diagnostic, Forecast, Recipe, Schemas, Severity, Source, Stamp, Values};
+use recipe::{Diagnostic, Forecast, Recipe, Schemas, Settings, Severity, Source, Stamp, Values};
 use scene::Object;
 
-use crate::args::RecipeArgs;
+use crate::args::{RecipeArgs, ValueArgs};
 
 /// A recipe that was read and checked.
 pub(crate) struct Loaded {
@@ -34,6 +34,18 @@ impl Loaded {
             .count()
     }
 
+    /// How to run it: nothing is kept, and nothing comes from a cache.
+    pub(crate) fn settings(&self, budget: u64) -> Settings<'_> {
+        Settings {
+            files: &self.files,
+            budget,
+            read: &read_objects,
+            keep_outputs: false,
+            writes: !self.forecast.outputs.is_empty(),
+            cache: None,
+        }
+    }
+
     /// The diagnostics as a compiler shows them.
     pub(crate) fn render(&self, diagnostics: &[Diagnostic], colours: bool) -> String {
         recipe::render(&self.recipe.sources, diagnostics, colours)
@@ -42,27 +54,19 @@ impl Loaded {
 
 /// Reads and checks the recipe of a command.
 pub(crate) fn load(args: &RecipeArgs, registry: &Registry) -> anyhow::Result<Loaded> {
-    let preset = args.preset.as_deref();
-    load_recipe(
-        &args.recipe,
-        &args.set,
-        preset,
-        &args.out,
-        args.budget,
-        registry,
-    )
+    load_recipe(&args.recipe, &args.values, &args.out, args.budget, registry)
 }
 
 /// Reads and checks a recipe.
 pub(crate) fn load_recipe(
     path: &Path,
-    set: &[(String, String)],
-    preset: Option<&str>,
+    values: &ValueArgs,
     out: &Path,
     budget: u64,
     registry: &Registry,
 ) -> anyhow::Result<Loaded> {
     let source = Source::open(path).map_err(anyhow::Error::msg)?;
+    let (set, preset) = (&values.set, values.preset.as_deref());
     load_text(&source, set, preset, out, budget, &Schemas::new(registry))
 }
 

@@ -3,7 +3,7 @@
 use recipe::{Caching, Diagnostic, JobEnd, JobLimits, Jobs, Outcome, Settings, Severity};
 
 use crate::listener::{Quiet, is_interrupted};
-use crate::loading::{Loaded, read_objects};
+use crate::loading::Loaded;
 
 /// How many runs are checked before the first of them begins: what is known of each stays in memory.
 pub(crate) const CHECKED_AHEAD: usize = 1000;
@@ -34,12 +34,9 @@ pub(crate) fn run_quietly(
     cache: Option<Caching>,
 ) -> Outcome {
     let settings = Settings {
-        files: &loaded.files,
-        budget,
-        read: &read_objects,
         keep_outputs,
-        writes: !loaded.forecast.outputs.is_empty(),
         cache,
+        ..loaded.settings(budget)
     };
     recipe::run(&loaded.recipe, settings, &Quiet)
 }

@@ -5,13 +5,14 @@ use std::path::Path;
 use anyhow::Context as _;
 use mesh_io::ReadOptions;
 use op::Registry;
+use recipe::RecipeStep;
 use recipe::shape::did_you_mean;
-use recipe::{RecipeStep, Settings};
 use scene::Scene;
 
 use crate::WrongUsage;
+use crate::args::ValueArgs;
 use crate::listener::{Terminal, catch_interrupts};
-use crate::loading::{load_recipe, read_objects};
+use crate::loading::load_recipe;
 use crate::output::{complain, show};
 
 /// Where a recipe stops.
@@ -39,15 +40,18 @@ pub(crate) fn is_recipe(path: &Path) -> bool {
 pub(crate) fn find(
     path: &Path,
     options: &ReadOptions,
-    set: &[(String, String)],
+    values: &ValueArgs,
     stop: Stop,
     registry: &Registry,
 ) -> anyhow::Result<Found> {
     if is_recipe(path) {
-        return run(path, set, stop, registry);
+        return run(path, values, stop, registry);
     }
-    if stop.after.is_some() || stop.before.is_some() || !set.is_empty() {
-        let message = format!("{} is no recipe (*.ron): it has no steps", path.display());
+    if stop.after.is_some() || stop.before.is_some() || !values.is_empty() {
+        let message = format!(
+            "{} is no recipe (*.ron): it has neither steps nor parameters",
+            path.display()
+        );
         return Err(WrongUsage(message).into());
     }
     let loaded = mesh_io::read(path, options).map_err(|error| anyhow::anyhow!("{error}"))?;
@@ -66,14 +70,9 @@ pub(crate) fn find(
     })
 }
 
-fn run(
-    path: &Path,
-    set: &[(String, String)],
-    stop: Stop,
-    registry: &Registry,
-) -> anyhow::Result<Found> {
+fn run(path: &Path, values: &ValueArgs, stop: Stop, registry: &Registry) -> anyhow::Result<Found> {
     let shown = path.display();
-    let mut loaded = load_recipe(path, set, None, Path::new("out"), BUDGET, registry)?;
+    let mut loaded = load_recipe(path, values, Path::new("out"), BUDGET, registry)?;
     show(&loaded, &loaded.diagnostics);
     anyhow::ensure!(!loaded.has_errors(), "{shown} cannot run");
     let steps = &loaded.recipe.steps;
@@ -100,14 +99,7 @@ fn run(
 
     catch_interrupts();
     let terminal = Terminal::new();
-    let settings = Settings {
-        files: &loaded.files,
-        budget: BUDGET,
-        read: &read_objects,
-        keep_outputs: false,
-        writes: !loaded.forecast.outputs.is_empty(),
-        cache: None,
-    };
+    let settings = loaded.settings(BUDGET);
     let outcome = recipe::run(&loaded.recipe, settings, &terminal);
     terminal.clear();
     show(&loaded, &outcome.failures);

@@ -9,7 +9,7 @@ use recipe::distance::{Distance, OneSided};
 use serde_json::{Value as Json, json};
 
 use super::diff_runs;
-use crate::args::{DiffArgs, Format};
+use crate::args::{DiffArgs, Format, ValueArgs};
 use crate::output::{grouped, print, table};
 use crate::scenes::{Stop, find};
 
@@ -17,7 +17,16 @@ pub(crate) fn run(args: &DiffArgs, registry: &Registry) -> anyhow::Result<bool> 
     if args.runs {
         return diff_runs::run(&args.first, &args.second, args.format);
     }
-    let read = |path| find(path, &args.read.options(), &[], Stop::default(), registry);
+    let values = ValueArgs::default();
+    let read = |path| {
+        find(
+            path,
+            &args.read.options(),
+            &values,
+            Stop::default(),
+            registry,
+        )
+    };
     let (first, second) = (read(&args.first)?.scene, read(&args.second)?.scene);
     let difference = Difference::between(&first, &second);
     let equal = difference.is_within(args.tolerance);

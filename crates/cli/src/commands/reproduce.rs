@@ -6,13 +6,17 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use op::Registry;
 use recipe::stamp::{self, Run, Stamp};
-use recipe::{Outcome, Settings, Silent, Source, Values};
+use recipe::{Outcome, Source, Values};
+use walkdir::{DirEntry, WalkDir};
 
 use crate::args::ReproduceArgs;
-use crate::loading::{Loaded, load_source, read_objects};
+use crate::listener::catch_interrupts;
+use crate::loading::{Loaded, load_source};
+use crate::many::run_quietly;
 use crate::output::{complain, print, show};
 
 pub(crate) fn run(args: &ReproduceArgs, registry: &Registry) -> anyhow::Result<bool> {
+    catch_interrupts();
     let mut last: Option<Again> = None;
     let mut all_are_same = true;
     for file in &args.files {
@@ -46,8 +50,7 @@ fn recipe_of(
         format!("{shown} does not say where it comes from: name the recipe with --recipe")
     })?;
     // The name may have changed, and another recipe may have it.
-    let mut candidates = Vec::new();
-    find(Path::new(""), 0, &mut candidates);
+    let mut candidates = recipes_here();
     let is_named = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         run.as_ref().is_some_and(|run| run.file == name)
@@ -71,28 +74,19 @@ fn recipe_of(
     }
 }
 
-/// The recipes below a folder, hidden folders and those of builds left out.
-fn find(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) {
-    const DEEPEST: usize = 8;
-    let here = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
+/// The recipes below the working directory; hidden files and folders and those of builds are left out.
+fn recipes_here() -> Vec<PathBuf> {
+    const DEEPEST: usize = 9;
+    let is_meant = |entry: &DirEntry| {
+        let name = entry.file_name().to_string_lossy();
+        entry.depth() == 0 || !(name.starts_with('.') || name == "target" || name == "node_modules")
     };
-    let Ok(entries) = fs::read_dir(here) else {
-        return;
-    };
-    for entry in entries.flatten() {
-        let (name, path) = (entry.file_name(), folder.join(entry.file_name()));
-        let name = name.to_string_lossy();
-        let is_folder = entry.file_type().is_ok_and(|t| t.is_dir());
-        let is_skipped = name.starts_with('.') || name == "target" || name == "node_modules";
-        if is_folder && !is_skipped && depth < DEEPEST {
-            find(&path, depth + 1, found);
-        } else if !is_folder && path.extension().is_some_and(|e| e == "ron") {
-            found.push(path);
-        }
-    }
+    let entries = WalkDir::new(".").max_depth(DEEPEST).into_iter();
+    let recipes = entries.filter_entry(is_meant).flatten().filter(|entry| {
+        !entry.file_type().is_dir() && entry.path().extension().is_some_and(|e| e == "ron")
+    });
+    let path = |entry: DirEntry| entry.path().strip_prefix(".").map(Path::to_path_buf);
+    recipes.flat_map(path).collect()
 }
 
 fn read(source: &Source, run: &Run, registry: &Registry) -> recipe::Reading {
@@ -129,15 +123,8 @@ impl Again {
         }
         // They may be meant for other parameters; the bytes are what counts here.
         loaded.recipe.expectations.clear();
-        let settings = Settings {
-            files: &loaded.files,
-            budget,
-            read: &read_objects,
-            keep_outputs: true,
-            writes: !loaded.forecast.outputs.is_empty(),
-            cache: None,
-        };
-        let outcome = recipe::run(&loaded.recipe, settings, &Silent);
+        let outcome = run_quietly(&loaded, budget, true, None);
+        anyhow::ensure!(!outcome.cancelled, "interrupted");
         if !outcome.succeeded() {
             show(&loaded, &outcome.failures);
             anyhow::bail!("{} failed", loaded.path);

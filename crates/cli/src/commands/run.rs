@@ -9,7 +9,7 @@ use crate::cache;
 use crate::capsule;
 use crate::events::Events;
 use crate::listener::{Stopping, Terminal, catch_interrupts};
-use crate::loading::{Loaded, load, read_objects};
+use crate::loading::{Loaded, load};
 use crate::output::{
     complain, explain, explain_steps, print, problems_json, show, step_notes, step_table,
 };
@@ -90,12 +90,9 @@ pub(crate) fn execute(
         show(loaded, &loaded.diagnostics);
     }
     let settings = Settings {
-        files: &loaded.files,
-        budget: args.recipe.budget,
-        read: &read_objects,
         keep_outputs: true,
-        writes: !loaded.forecast.outputs.is_empty(),
         cache: cache.map(|cache| cache::using(cache, &args.recipe.recipe)),
+        ..loaded.settings(args.recipe.budget)
     };
     let terminal = Terminal::new();
     let stopping = Stopping {

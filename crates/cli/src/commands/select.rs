@@ -27,7 +27,13 @@ pub(crate) fn run(args: &SelectArgs, registry: &Registry) -> anyhow::Result<bool
         after: args.after.as_deref(),
         before: args.before.as_deref(),
     };
-    let found = find(&args.file, &args.read.options(), &args.set, stop, registry)?;
+    let found = find(
+        &args.file,
+        &args.read.options(),
+        &args.values,
+        stop,
+        registry,
+    )?;
     let meshes = meshes(args, found.scene.objects())?;
     let mut selected = Vec::new();
     for (object, mesh) in meshes {

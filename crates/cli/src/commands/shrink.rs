@@ -2,33 +2,25 @@
 
 use op::{OpError, Registry};
 use recipe::shrink::{failure, is_alike, shrink};
-use recipe::{Settings, Silent};
 use scene::Scene;
 
 use crate::args::ShrinkArgs;
 use crate::capsule;
 use crate::commands::run::refuse;
 use crate::listener::{Terminal, catch_interrupts};
-use crate::loading::{load_recipe, read_objects};
+use crate::loading::load_recipe;
+use crate::many::run_quietly;
 use crate::output::{complain, print};
 
 pub(crate) fn run(args: &ShrinkArgs, registry: &Registry) -> anyhow::Result<bool> {
-    let preset = args.preset.as_deref();
     let (path, out) = (&args.recipe, &args.out);
-    let mut loaded = load_recipe(path, &args.set, preset, out, args.budget, registry)?;
+    let mut loaded = load_recipe(path, &args.values, out, args.budget, registry)?;
     if loaded.has_errors() {
         return refuse(&loaded, false);
     }
     catch_interrupts();
-    let settings = Settings {
-        files: &loaded.files,
-        budget: args.budget,
-        read: &read_objects,
-        keep_outputs: false,
-        writes: !loaded.forecast.outputs.is_empty(),
-        cache: None,
-    };
-    let outcome = recipe::run(&loaded.recipe, settings, &Silent);
+    let outcome = run_quietly(&loaded, args.budget, false, None);
+    anyhow::ensure!(!outcome.cancelled, "interrupted, nothing was written");
     let number = outcome.steps.len();
     if number == loaded.recipe.steps.len() {
         complain(&format!("error: no step of {} fails\n", loaded.path));

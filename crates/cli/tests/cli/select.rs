@@ -10,6 +10,7 @@ const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 
 const RECIPE: &str = r#"(
     recipe: 1,
     params: { "name": Text(default: "cube") },
+    presets: { "crate": { "name": "crate" } },
     steps: [
         (id: "make", run: Cube(name: arg("name"))),
         (id: "tag", run: TagFaces(name: "top", faces: Faces([1]))),
@@ -125,10 +126,25 @@ fn a_recipe_is_asked_where_it_stops_and_writes_nothing() {
         .with_code(0)
         .prints(&["box: 5 of 9 faces\n"]);
     folder
+        .run_all(&["select", "recipe.ron", "Degree(4)", "--preset", "crate"])
+        .with_code(0)
+        .prints(&["crate: 5 of 9 faces\n"]);
+    folder
         .run_all(&["select", "recipe.ron", "Degree(4)", "--after", "pok"])
         .with_code(2)
         .complains(&["no step of recipe.ron has the id \"pok\": did you mean `poke`?"]);
     assert_eq!(folder.entries("."), ["recipe.ron"]);
+}
+
+#[test]
+fn a_file_of_meshes_has_no_parameters() {
+    for more in [["--set", "name=box"], ["--preset", "crate"]] {
+        let arguments = [&["select", "cube.obj", "Degree(4)"][..], &more].concat();
+        cube()
+            .run_all(&arguments)
+            .with_code(2)
+            .complains(&["cube.obj is no recipe (*.ron): it has neither steps nor parameters"]);
+    }
 }
 
 #[test]

@@ -55,10 +55,11 @@ fn command(batch: &Batch, file: &Input) -> String {
     let args = batch.args;
     let mut words = vec!["meshwright".to_owned(), "run".to_owned()];
     words.push(batch.path.display().to_string());
-    if let Some(preset) = &args.preset {
+    if let Some(preset) = &args.values.preset {
         words.extend(["--preset".to_owned(), preset.clone()]);
     }
     let set = args
+        .values
         .set
         .iter()
         .map(|(name, value)| (name.as_str(), value.as_str()));

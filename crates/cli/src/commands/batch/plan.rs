@@ -42,9 +42,16 @@ impl<'a> Batch<'a> {
         let path = args.recipe.as_deref().unwrap_or(Path::new(""));
         let source = Source::open(path).map_err(anyhow::Error::msg)?;
         let schemas = Schemas::new(registry);
-        let (preset, budget) = (args.preset.as_deref(), args.many.budget);
+        let (preset, budget) = (args.values.preset.as_deref(), args.many.budget);
         // On the file that the recipe names itself, which may well be missing.
-        let loaded = load_text(&source, &args.set, preset, &args.out, budget, &schemas)?;
+        let loaded = load_text(
+            &source,
+            &args.values.set,
+            preset,
+            &args.out,
+            budget,
+            &schemas,
+        )?;
         if !loaded.is_read {
             refuse(&loaded, false)?;
             return Ok(Planned::Refused);
@@ -140,9 +147,9 @@ impl<'a> Batch<'a> {
 
     fn load_at(&self, path: &str, out: &Path) -> anyhow::Result<Loaded> {
         let args = self.args;
-        let mut set = args.set.clone();
+        let mut set = args.values.set.clone();
         set.push((self.param.clone(), path.to_owned()));
-        let preset = args.preset.as_deref();
+        let preset = args.values.preset.as_deref();
         load_text(
             &self.source,
             &set,
@@ -164,8 +171,15 @@ impl<'a> Batch<'a> {
         };
         part(env!("CARGO_PKG_VERSION").as_bytes());
         part(self.digest.as_bytes());
-        part(self.args.preset.as_deref().unwrap_or_default().as_bytes());
-        for (name, value) in &self.args.set {
+        part(
+            self.args
+                .values
+                .preset
+                .as_deref()
+                .unwrap_or_default()
+                .as_bytes(),
+        );
+        for (name, value) in &self.args.values.set {
             part(name.as_bytes());
             part(value.as_bytes());
         }
@@ -227,8 +241,14 @@ impl<'a> Batch<'a> {
             meshwright: env!("CARGO_PKG_VERSION").to_owned(),
             recipe: self.path.display().to_string(),
             recipe_digest: self.digest.clone(),
-            preset: self.args.preset.clone(),
-            set: self.args.set.iter().cloned().collect::<BTreeMap<_, _>>(),
+            preset: self.args.values.preset.clone(),
+            set: self
+                .args
+                .values
+                .set
+                .iter()
+                .cloned()
+                .collect::<BTreeMap<_, _>>(),
             shard: self
                 .args
                 .shard
@@ -275,7 +295,7 @@ fn parameter(args: &BatchArgs, parameters: &[Parameter]) -> anyhow::Result<Strin
             several.join(", ")
         ),
     };
-    let is_set = args.set.iter().any(|(set, _)| *set == name);
+    let is_set = args.values.set.iter().any(|(set, _)| *set == name);
     ensure!(
         !is_set,
         "the parameter `{name}` takes the files, so it cannot be set with --set"

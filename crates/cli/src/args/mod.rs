@@ -1,0 +1,149 @@
+//! The command line.
+
+mod cache;
+mod look;
+mod many;
+mod read;
+mod run;
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
+pub(crate) use look::{DiffArgs, Kind, SelectArgs};
+pub(crate) use many::{BatchArgs, Shard, SweepArgs, TestArgs};
+pub(crate) use read::ReadArgs;
+pub(crate) use run::{
+    CheckArgs, RecipeArgs, ReproduceArgs, RunArgs, ShrinkArgs, UpgradeArgs, ValueArgs,
+};
+
+/// Edit 3D meshes by recipe.
+#[derive(Debug, Parser)]
+#[command(name = "meshwright", version, max_term_width = 100)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run a recipe
+    Run(RunArgs),
+    /// Run a recipe again whenever it or one of its inputs is saved
+    Watch(RunArgs),
+    /// Check a recipe without running it, and forecast what it will make
+    Check(CheckArgs),
+    /// Run recipes as tests: one line each, and a summary
+    Test(TestArgs),
+    /// Run one recipe on many files
+    Batch(BatchArgs),
+    /// Run one recipe with many values of its parameters, and measure what comes out
+    Sweep(SweepArgs),
+    /// List the operations, or show one of them
+    Ops {
+        /// The operation to show
+        name: Option<String>,
+        /// Print the whole reference as Markdown
+        #[arg(long, conflicts_with = "name")]
+        markdown: bool,
+    },
+    /// Show what a file holds
+    Info {
+        /// A mesh, patch or curve file
+        file: PathBuf,
+        #[command(flatten)]
+        read: ReadArgs,
+        #[arg(long, value_enum, default_value_t)]
+        format: Format,
+    },
+    /// Read a file and write it in another format
+    Convert {
+        /// The file to read
+        input: PathBuf,
+        #[command(flatten)]
+        read: ReadArgs,
+        /// The file to write; its ending chooses the format
+        output: PathBuf,
+    },
+    /// Run the recipes that wrote files again, and compare the bytes
+    ///
+    /// A file says which recipe wrote it, with which parameters and from which inputs. The recipe is looked
+    /// for below the working directory.
+    Reproduce(ReproduceArgs),
+    /// Show the elements of a mesh that a selection matches
+    Select(SelectArgs),
+    /// Hold two files, or what two recipes make, against each other: exit code 0 if they are equal, 1 if not
+    Diff(DiffArgs),
+    /// Rewrite older spellings in recipes; comments and layout stay
+    Upgrade(UpgradeArgs),
+    /// Show where the cache is and what it holds, or empty it
+    Cache(CacheCommandArgs),
+    /// Make the mesh smaller on which a step of a recipe fails, and write it with the step
+    Shrink(ShrinkArgs),
+    /// Print the JSON schema of recipes
+    Schema,
+    /// Write a new operation crate: its folder, a working sample with a test, and its line in ops/all
+    NewOp {
+        /// The name of the operation in camel case, such as `InflateFaces`
+        name: String,
+        /// The root of the workspace
+        #[arg(long, default_value = ".")]
+        dir: PathBuf,
+    },
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// For people
+    #[default]
+    Human,
+    /// One JSON object
+    Json,
+}
+
+fn assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() => Ok((name.to_owned(), value.to_owned())),
+        _ => Err("expected NAME=VALUE".to_owned()),
+    }
+}
+
+fn size(text: &str) -> Result<u64, String> {
+    let digits = text
+        .find(|c: char| !c.is_ascii_digit())
+        .unwrap_or(text.len());
+    let (number, unit) = text.split_at(digits);
+    let shift = match unit.trim() {
+        "" | "B" => 0,
+        "KiB" | "K" => 10,
+        "MiB" | "M" => 20,
+        "GiB" | "G" => 30,
+        "TiB" | "T" => 40,
+        _ => return Err("expected a size such as 512MiB or 8GiB".to_owned()),
+    };
+    number
+        .parse::<u64>()
+        .ok()
+        .and_then(|n| n.checked_mul(1 << shift))
+        .ok_or_else(|| "expected a size such as 512MiB or 8GiB".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory;
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_have_units() {
+        assert_eq!(size("2KiB"), Ok(2048));
+        assert_eq!(size("3G"), Ok(3 << 30));
+        assert_eq!(size("17"), Ok(17));
+        assert!(size("much").is_err() && size("-1").is_err() && size("99999999T").is_err());
+    }
+}

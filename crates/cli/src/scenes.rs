@@ -18,9 +18,9 @@ use crate::output::{complain, show};
 /// Where a recipe stops.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Stop<'a> {
-    /// After the step of this id, or of this label; after its last turn.
+    /// After the step or call of this id, or of this label; after its last turn.
     pub(crate) after: Option<&'a str>,
-    /// Before the step of this id, or of this label; before its first turn.
+    /// Before the step or call of this id, or of this label; before its first turn.
     pub(crate) before: Option<&'a str>,
 }
 
@@ -77,7 +77,12 @@ fn run(path: &Path, values: &ValueArgs, stop: Stop, registry: &Registry) -> anyh
     anyhow::ensure!(!loaded.has_errors(), "{shown} cannot run");
     let steps = &loaded.recipe.steps;
     let is_meant = |step: &RecipeStep, id: &str| {
-        step.label == id || (step.scope == 0 && step.id.as_deref() == Some(id))
+        let is_in_call = || {
+            step.label
+                .strip_prefix(id)
+                .is_some_and(|rest| rest.starts_with('/'))
+        };
+        step.label == id || (step.scope == 0 && step.id.as_deref() == Some(id)) || is_in_call()
     };
     let unknown = |id: &str| {
         let known = steps.iter().filter_map(|step| step.id.as_deref());

@@ -26,10 +26,10 @@ pub(crate) struct SelectArgs {
     /// Only on the object of this name; may be given more than once
     #[arg(long, value_name = "OBJECT")]
     pub(crate) on: Vec<String>,
-    /// The scene of a recipe after the step of this id
+    /// The scene of a recipe after the step or call of this id
     #[arg(long, value_name = "ID", conflicts_with = "before")]
     pub(crate) after: Option<String>,
-    /// The scene of a recipe before the step of this id, with its random choices
+    /// The scene of a recipe before the step or call of this id, with its random choices
     #[arg(long, value_name = "ID")]
     pub(crate) before: Option<String>,
     #[command(flatten)]

@@ -137,6 +137,25 @@ fn a_recipe_is_asked_where_it_stops_and_writes_nothing() {
 }
 
 #[test]
+fn a_call_is_known_by_its_id_or_the_name_of_its_recipe() {
+    let part = RECIPE.replace("Save(path: \"cube.obj\"),", "");
+    let folder = Folder::new().with("recipe.ron", &part).with(
+        "twice.ron",
+        r#"(recipe: 1, steps: [
+            (id: "first", run: Call(recipe: "recipe.ron")),
+            Call(recipe: "recipe.ron", with: {"name": "other"}),
+        ])"#,
+    );
+    let count = |at: [&str; 2]| {
+        let arguments = [&["select", "twice.ron", "All", "--of", "faces"][..], &at].concat();
+        folder.run_all(&arguments).with_code(0).stdout
+    };
+    assert!(count(["--before", "recipe"]).starts_with("cube: 9 of 9 faces"));
+    assert_eq!(count(["--after", "first"]), count(["--before", "recipe"]));
+    assert!(count(["--after", "recipe"]).contains("other: 9 of 9 faces"));
+}
+
+#[test]
 fn a_file_of_meshes_has_no_parameters() {
     for more in [["--set", "name=box"], ["--preset", "crate"]] {
         let arguments = [&["select", "cube.obj", "Degree(4)"][..], &more].concat();

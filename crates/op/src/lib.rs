@@ -70,7 +70,9 @@ pub use plan::{
 };
 pub use registry::{DuplicateOperation, Entry, Registry, Step};
 pub use report::{Loss, Refused, Report};
-pub use selection::{EdgeSelection, FaceSelection, Region, Select, VertexSelection};
+pub use selection::{
+    EdgeSelection, ElementKind, Elements, FaceSelection, Region, Select, Selected, VertexSelection,
+};
 pub use source::{Source, change_curves, check_name, made, named_object, plan_curves};
 pub use tag::{tag, tag_problems};
 pub use turn::Turn;

@@ -45,7 +45,7 @@ pub use read::{MAX_STEPS, Reading, VERSION, Values, read, read_by};
 pub use recipe::{OnLoss, Origin, Parameter, Placed, Recipe, RecipeStep, Scope};
 pub use run::{Listener, Outcome, Settings, Silent, StepDone, Unmet, run, stage_prefix};
 pub use schema::{Schemas, schema, step_kinds};
-pub use select::{ElementKind, Selected, read_selection};
+pub use select::{read_selection, resolve};
 pub use shape::did_you_mean;
 pub use source::Source;
 pub use stamp::Stamp;

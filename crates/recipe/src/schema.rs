@@ -274,16 +274,39 @@ fn with_definitions(
             if let Some(Json::Object(own)) = object.remove("$defs") {
                 for (key, mut definition) in own {
                     lead(&mut definition, name);
+                    allow_shorthand(&mut definition);
                     definitions.insert(format!("{name}.{key}"), definition);
                 }
             }
         }
         lead(&mut schema, name);
+        allow_shorthand(&mut schema);
         definitions.insert((*name).to_owned(), schema);
     }
     let mut schema = build(&|name| json!({ "$ref": format!("#/$defs/{name}") }));
     schema["$defs"] = Json::Object(definitions);
     schema
+}
+
+/// Where the outer name of a value may be left out, lets what stands in its brackets stand alone.
+fn allow_shorthand(schema: &mut Json) {
+    match schema {
+        Json::Object(object) => {
+            object.values_mut().for_each(allow_shorthand);
+            if object.remove("x-shorthand").is_some()
+                && let Some(Json::Array(variants)) = object.remove("oneOf")
+            {
+                let contents: Vec<Json> = variants
+                    .iter()
+                    .filter_map(|variant| variant["properties"].as_object())
+                    .flat_map(|properties| properties.values().cloned())
+                    .collect();
+                object.insert("anyOf".into(), [variants, contents].concat().into());
+            }
+        }
+        Json::Array(items) => items.iter_mut().for_each(allow_shorthand),
+        _ => {}
+    }
 }
 
 /// Leads references in the schema of `part` to the definitions of that part.

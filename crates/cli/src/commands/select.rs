@@ -1,9 +1,8 @@
 //! `meshwright select`: shows the elements that a selection matches.
 
 use mesh::{EdgeId, Mesh, VertexId};
-use op::Registry;
-use recipe::expect::Elements;
-use recipe::{ElementKind, Selected, Source, read_selection};
+use op::{ElementKind, Elements, Registry, Selected};
+use recipe::{Source, read_selection, resolve};
 use scene::Object;
 use serde_json::{Value as Json, json};
 
@@ -37,8 +36,7 @@ pub(crate) fn run(args: &SelectArgs, registry: &Registry) -> anyhow::Result<bool
     let meshes = meshes(args, found.scene.objects())?;
     let mut selected = Vec::new();
     for (object, mesh) in meshes {
-        let chosen = elements
-            .resolve(object, mesh, &found.stream)
+        let chosen = resolve(&elements, object, mesh, &found.stream)
             .map_err(|error| anyhow::anyhow!("{}: {error}", object.name))?;
         selected.push((object, mesh, chosen));
     }

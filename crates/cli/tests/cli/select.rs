@@ -65,7 +65,7 @@ fn a_selection_that_several_kinds_have_asks_for_one() {
         .with_code(2)
         .complains(&[
             "this selects vertices or edges or faces: say which are meant",
-            "give --of vertices or --of edges or --of faces",
+            "write `Vertices(All)` or `Edges(All)` or `Faces(All)`",
         ]);
     let ended = folder
         .run_all(&["select", "cube.obj", "All", "--of", "edges", "--count"])

@@ -5,6 +5,7 @@
 //! the expected one. A selection is evaluated once, before the first edit.
 
 mod edge;
+mod elements;
 mod face;
 mod region;
 mod vertex;
@@ -15,6 +16,7 @@ use mesh::{DVec3, Domain, Id, Mesh, VertexId};
 use crate::{Context, MeshPlan, OpError, Range, Refusal, Vector};
 
 pub use edge::EdgeSelection;
+pub use elements::{ElementKind, Elements, Selected};
 pub use face::FaceSelection;
 pub use region::Region;
 pub use vertex::VertexSelection;

@@ -1,11 +1,11 @@
 //! Holding an expectation against a scene.
 
 use mesh::{Domain, Mesh};
-use op::Files;
+use op::{Elements, Files};
 use scene::Object;
 
 use super::subject::{Failure, Found, Subject, ends, fails_unless, near, selected, within};
-use super::{Elements, Expectation, same, symmetry};
+use super::{Expectation, same, symmetry};
 use crate::distance::{Distance, TOLERANCE, diagonal};
 
 /// An expectation that does not hold.
@@ -141,9 +141,15 @@ impl Expectation {
             Self::Count { of, eq, min, max } => {
                 let mut found = 0;
                 for (object, mesh) in subject.meshes()? {
-                    found += of.count(object, mesh, subject.files)?;
+                    found += count(of, object, mesh, subject.files)?;
                 }
-                within(of.word(), found, *eq, *min, *max)
+                within(
+                    &format!("selected {}", of.kind().word()),
+                    found,
+                    *eq,
+                    *min,
+                    *max,
+                )
             }
             Self::Valence { of, min, max } => subject.valence(of, *min, *max),
             Self::DihedralAngle {
@@ -209,23 +215,13 @@ impl Expectation {
     }
 }
 
-impl Elements {
-    fn word(&self) -> &'static str {
-        match self {
-            Self::Vertices(_) => "selected vertices",
-            Self::Edges(_) => "selected edges",
-            Self::Faces(_) => "selected faces",
-        }
-    }
-
-    fn count(&self, object: &Object, mesh: &Mesh, files: &Files) -> Result<u64, Failure> {
-        let n = match self {
-            Self::Vertices(s) => selected(s, object, mesh, files)?.len(),
-            Self::Edges(s) => selected(s, object, mesh, files)?.len(),
-            Self::Faces(s) => selected(s, object, mesh, files)?.len(),
-        };
-        Ok(n as u64)
-    }
+fn count(of: &Elements, object: &Object, mesh: &Mesh, files: &Files) -> Result<u64, Failure> {
+    let n = match of {
+        Elements::Vertices(s) => selected(s, object, mesh, files)?.len(),
+        Elements::Edges(s) => selected(s, object, mesh, files)?.len(),
+        Elements::Faces(s) => selected(s, object, mesh, files)?.len(),
+    };
+    Ok(n as u64)
 }
 
 /// Whether the Hausdorff distance is below a limit for certain: what could be on either side of it is measured

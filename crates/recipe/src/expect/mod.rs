@@ -9,7 +9,7 @@ mod symmetry;
 use std::fmt;
 
 use mesh::Domain;
-use op::{EdgeSelection, FaceSelection, Vector, VertexSelection};
+use op::{EdgeSelection, Elements, FaceSelection, Vector, VertexSelection};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -277,18 +277,6 @@ pub enum Expectation {
     Digest(String),
     /// The contrary holds. What cannot be told, as about a file that cannot be read, does not.
     Not(Box<Self>),
-}
-
-/// The elements that [`Expectation::Count`] counts.
-#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub enum Elements {
-    /// Vertices.
-    Vertices(VertexSelection),
-    /// Edges.
-    Edges(EdgeSelection),
-    /// Faces.
-    Faces(FaceSelection),
 }
 
 /// Another mesh to compare with.

@@ -88,7 +88,7 @@ impl Reader<'_, '_> {
         } else {
             &value
         };
-        let wrong = check_step(run, &schema::flow(kind));
+        let wrong = check_step(run, &schema::flow(kind)).wrong;
         self.diagnostics.extend(wrong);
         let is_whole = self.diagnostics.len() == before && !run.has_errors();
         let id = self.id(value.field("id").filter(|_| is_envelope));

@@ -22,7 +22,7 @@ use serde_json::Value as Json;
 use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::recipe::{OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, located};
 use crate::schema::{self, Schemas};
-use crate::shape::check_shape;
+use crate::shape::{self, check_shape};
 use crate::source::Source;
 use crate::syntax::{self, Value, ValueKind};
 
@@ -284,15 +284,10 @@ impl<'s, 'a> Reader<'s, 'a> {
 
     /// Holds a value against a schema and reads it into its type.
     fn typed<T: DeserializeOwned>(&mut self, value: &Value, schema: &Json) -> Option<T> {
-        let wrong = check_shape(value, schema);
-        if !wrong.is_empty() || value.has_errors() {
-            self.diagnostics.extend(wrong);
-            return None;
-        }
-        match syntax::ron_options().from_str(&value.to_string()) {
+        match shape::typed(value, schema) {
             Ok(typed) => Some(typed),
-            Err(error) => {
-                self.error(value.span, error.code.to_string(), "");
+            Err(wrong) => {
+                self.diagnostics.extend(wrong);
                 None
             }
         }

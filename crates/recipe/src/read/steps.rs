@@ -95,15 +95,15 @@ impl Reader<'_, '_> {
 
     fn operation(&mut self, entry: &Entry, run: &Value) -> Option<Arc<dyn Step>> {
         let schema = self.shared.schemas.of(entry);
-        let wrong = check_step(run, &schema);
-        if !wrong.is_empty() || run.has_errors() {
-            self.diagnostics.extend(wrong);
+        let checked = check_step(run, &schema);
+        if !checked.wrong.is_empty() || run.has_errors() {
+            self.diagnostics.extend(checked.wrong);
             return None;
         }
         let renames = upgrade::in_step(run, entry, &schema);
         self.diagnostics.extend(renames.iter().map(Rename::warning));
         // A name alone stands for a name with nothing in brackets.
-        let parameters = match &run.kind {
+        let parameters = match &checked.in_full(run).kind {
             ValueKind::Call(call) => call.body.to_string(),
             _ => "()".to_owned(),
         };

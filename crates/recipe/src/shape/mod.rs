@@ -24,36 +24,57 @@ mod fields;
 mod nearest;
 mod range;
 mod schema;
+mod shorthand;
 mod variants;
 
 pub use nearest::{did_you_mean, nearest};
+pub(crate) use shorthand::Checked;
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::syntax::{Value, ValueKind};
+use crate::syntax::{self, Value, ValueKind};
 use crate::upgrade::Rename;
 use schema::Schema;
+use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
+use shorthand::Short;
 
 /// Every way in which `value` does not fit `schema`, in the order of the text.
 ///
 /// `schema` is a root schema: references in it are looked up in its `$defs`. Parts of the value
 /// that could not be read are passed over.
 pub fn check_shape(value: &Value, schema: &Json) -> Vec<Diagnostic> {
+    checked(value, schema).wrong
+}
+
+fn checked(value: &Value, schema: &Json) -> Checked {
     let mut checker = Checker::default();
     checker.check(value, &Schema::root(schema), Place::default());
     checker.finish()
 }
 
-/// The names of the variants of an enumeration, in the order of its schema; none of another type.
-pub(crate) fn variants(schema: &Json) -> Vec<String> {
-    let choice = Schema::root(schema).choice().unwrap_or_default();
-    choice.names().map(str::to_owned).collect()
+/// Reads a value into its type, whose schema is `schema`.
+///
+/// # Errors
+///
+/// Every way in which it does not fit. None if it holds something that could not be read, of which a
+/// diagnostic tells already.
+pub(crate) fn typed<T: DeserializeOwned>(
+    value: &Value,
+    schema: &Json,
+) -> Result<T, Vec<Diagnostic>> {
+    let checked = checked(value, schema);
+    if !checked.wrong.is_empty() || value.has_errors() {
+        return Err(checked.wrong);
+    }
+    let text = checked.in_full(value).to_string();
+    let read = syntax::ron_options().from_str(&text);
+    read.map_err(|error| vec![Diagnostic::error(value.span, error.code.to_string())])
 }
 
 /// The same for a step `Name(parameters)`, or `Name`, whose name the caller knows already.
 ///
 /// The schema is that of the parameters.
-pub fn check_step(step: &Value, schema: &Json) -> Vec<Diagnostic> {
+pub(crate) fn check_step(step: &Value, schema: &Json) -> Checked {
     let mut checker = Checker::default();
     let schema = Schema::root(schema);
     let place = Place::default();
@@ -148,6 +169,8 @@ struct Checker {
     trials: u32,
     /// Older names that were met.
     renames: Vec<Rename>,
+    /// Names that were left out.
+    shorts: Vec<Short>,
 }
 
 /// Most problems of one value that are reported one by one.
@@ -157,13 +180,16 @@ const MAX_DIAGNOSTICS: usize = 100;
 const MAX_TRIALS: u32 = 4;
 
 impl Checker {
-    fn finish(mut self) -> Vec<Diagnostic> {
+    fn finish(mut self) -> Checked {
         self.diagnostics.sort_by_key(|d| d.span);
         if let (1.., Some(last)) = (self.more, self.diagnostics.last().and_then(|d| d.span)) {
             let message = format!("and {} more errors like these", self.more);
             self.diagnostics.push(Diagnostic::error(last, message));
         }
-        self.diagnostics
+        Checked {
+            wrong: self.diagnostics,
+            shorts: self.shorts,
+        }
     }
 
     fn renames(mut self) -> Vec<Rename> {

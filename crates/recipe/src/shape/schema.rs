@@ -140,6 +140,11 @@ impl<'s> Schema<'s> {
         self.all(keyword).next().is_some()
     }
 
+    /// Whether the outer name of a value may be left out.
+    pub(super) fn is_shorthand(&self) -> bool {
+        self.all("x-shorthand").any(|is| is == &Json::Bool(true))
+    }
+
     /// Whether `None` is allowed besides something else.
     pub(super) fn is_nullable(&self) -> bool {
         let by_type = match self.all("type").next() {
@@ -403,6 +408,11 @@ impl<'s> Choice<'s> {
             .iter()
             .copied()
             .chain(self.variants.iter().map(|(name, _)| *name))
+    }
+
+    /// Whether there is a variant of this name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.names().any(|n| n == name)
     }
 
     /// The schema of what stands in the brackets of a variant.

@@ -118,7 +118,7 @@ fn schema() -> Json {
 fn problems(source: &str) -> Vec<String> {
     let parsed = parse(source);
     assert_eq!(parsed.diagnostics, [], "{source}");
-    let problems = check_step(&parsed.value, &schema());
+    let problems = check_step(&parsed.value, &schema()).wrong;
     problems
         .iter()
         .map(|d| format!("{}: {}", d.span.unwrap().of(source), d.message))
@@ -135,7 +135,11 @@ fn problem(parameters: &str) -> String {
 /// The advice on the only problem with some parameters.
 fn help(parameters: &str) -> String {
     let parsed = parse(&format!("Everything(levels: 1, {parameters})"));
-    check_step(&parsed.value, &schema()).remove(0).help.unwrap()
+    check_step(&parsed.value, &schema())
+        .wrong
+        .remove(0)
+        .help
+        .unwrap()
 }
 
 /// Parameters that are right, each with something of its own.
@@ -513,7 +517,7 @@ fn what_could_not_be_read_is_not_missed() {
     ] {
         let parsed = parse(source);
         assert_ne!(parsed.diagnostics, []);
-        assert_eq!(check_step(&parsed.value, &schema()), [], "{source}");
+        assert_eq!(check_step(&parsed.value, &schema()).wrong, [], "{source}");
     }
 }
 
@@ -523,7 +527,7 @@ fn a_parameter_is_named_with_its_value() {
     let value = parse(source).value;
     let filled = substitute(source, &value, |_, _| Ok("9".to_owned())).unwrap();
 
-    let found = check_step(&filled.value, &schema());
+    let found = check_step(&filled.value, &schema()).wrong;
 
     assert_eq!(
         found[0].message,
@@ -555,7 +559,7 @@ fn thousands_of_errors_are_counted() {
         "-1,".repeat(5000)
     );
 
-    let found = check_step(&parse(&source).value, &schema());
+    let found = check_step(&parse(&source).value, &schema()).wrong;
 
     assert_eq!(found.len(), 101);
     assert_eq!(found[100].message, "and 4900 more errors like these");
@@ -644,7 +648,7 @@ proptest! {
         }
         let source = format!("Everything({})", text.concat());
         let parsed = parse(&source);
-        if parsed.diagnostics.is_empty() && check_step(&parsed.value, &schema()).is_empty() {
+        if parsed.diagnostics.is_empty() && check_step(&parsed.value, &schema()).wrong.is_empty() {
             let body = match &parsed.value.kind {
                 ValueKind::Call(call) => call.body.span.of(&source),
                 _ => "()",

@@ -13,6 +13,9 @@ impl Checker {
         choice: &Choice,
         place: Place,
     ) {
+        if schema.is_shorthand() {
+            return self.check_shorthand(value, schema, choice, place);
+        }
         let has_variant = value.name().is_some_and(|(name, _)| {
             choice.names().any(|n| n == name) || schema.variant_by_alias(name).is_some()
         });
@@ -25,7 +28,13 @@ impl Checker {
     }
 
     /// Checks a value that should be a variant of an enumeration.
-    fn check_variant(&mut self, value: &Value, schema: &Schema, choice: &Choice, place: Place) {
+    pub(super) fn check_variant(
+        &mut self,
+        value: &Value,
+        schema: &Schema,
+        choice: &Choice,
+        place: Place,
+    ) {
         let content = |name: &str| choice.content(name);
         let is_unit = |name: &str| choice.units.contains(&name);
         let is_known = |name: &str| is_unit(name) || content(name).is_some();
@@ -160,8 +169,7 @@ impl Checker {
             };
             trial.check(value, other, place);
             if trial.diagnostics.is_empty() {
-                self.renames.extend(trial.renames);
-                return;
+                return self.take(trial);
             }
             // What is wrong inside of the value is closer than a value of the wrong form.
             let whole = |d: &Self| d.diagnostics.iter().any(|d| d.span == Some(value.span));
@@ -174,8 +182,7 @@ impl Checker {
         }
         match closest {
             Some(best) if best.diagnostics.iter().all(|d| d.span != Some(value.span)) => {
-                self.diagnostics.extend(best.diagnostics);
-                self.renames.extend(best.renames);
+                self.take(best);
             }
             _ => self.mismatch(value, &schema.expectation(), place, None),
         }

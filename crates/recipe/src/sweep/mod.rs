@@ -28,7 +28,7 @@ use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::expect::Metric;
 use crate::recipe::Parameter;
 use crate::schema;
-use crate::shape::{check_shape, did_you_mean};
+use crate::shape::{self, check_shape, did_you_mean};
 use crate::syntax::{self, Value, ValueKind};
 
 /// The version of sweeps that this program reads.
@@ -177,16 +177,9 @@ fn keep(root: &Value, diagnostics: &mut Vec<Diagnostic>) -> Vec<(Metric, Span)> 
     let schema = schema::of::<Metric>();
     let mut keep = Vec::new();
     for item in root.field("keep").and_then(Value::items).unwrap_or(&[]) {
-        let wrong = check_shape(item, &schema);
-        if !wrong.is_empty() || item.has_errors() {
-            diagnostics.extend(wrong);
-            continue;
-        }
-        match syntax::ron_options().from_str(&item.to_string()) {
+        match shape::typed(item, &schema) {
             Ok(metric) => keep.push((metric, item.span)),
-            Err(error) => {
-                diagnostics.push(Diagnostic::error(item.span, error.code.to_string()));
-            }
+            Err(wrong) => diagnostics.extend(wrong),
         }
     }
     keep

@@ -9,8 +9,8 @@ use super::{MAX_CELLS, Setting};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::params::Param;
 use crate::schema;
-use crate::shape::check_shape;
-use crate::syntax::{self, Value, ValueKind};
+use crate::shape;
+use crate::syntax::{Value, ValueKind};
 
 /// Values that are not listed one by one.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -48,14 +48,8 @@ pub(super) fn settings(
         );
         return Err(vec![Diagnostic::error(value.span, message)]);
     }
-    let wrong = check_shape(value, &schema::of::<Values>());
-    if !wrong.is_empty() || value.has_errors() {
-        return Err(wrong);
-    }
-    match syntax::ron_options().from_str(&value.to_string()) {
-        Ok(Values::Range { from, to, steps }) => range(param, [from, to], steps, value.span),
-        Err(error) => Err(vec![Diagnostic::error(value.span, error.code.to_string())]),
-    }
+    let Values::Range { from, to, steps } = shape::typed(value, &schema::of::<Values>())?;
+    range(param, [from, to], steps, value.span)
 }
 
 /// All of them, or everything that is wrong.

@@ -395,6 +395,7 @@ const SAMPLE: &str = r#"(
         Not(Closed),
         (after: "up", that: [Faces(eq: 2), Position(of: Vertices([0]), is: (0, 0, 0))]),
         (that: SymmetricUnder(group: AxisMirrors, min: 1)),
+        Not(Count(of: Sharp(above: 30), min: 1)),
     ],
 )"#;
 
@@ -417,12 +418,47 @@ fn the_schema_accepts_what_is_read_without_mistakes() {
         ("refused: Boundary", "refused: Whim"),
         ("Faces(eq: 2)", "Faces(equal: 2)"),
         ("default: 3", "default: \"3\""),
+        ("Sharp(above: 30)", "Shrp(above: 30)"),
+        ("Sharp(above: 30)", "Sharp(above: 300)"),
     ] {
         assert!(SAMPLE.contains(from));
         let wrong = SAMPLE.replace(from, to);
         assert!(!validator.is_valid(&json(&wrong)), "{to}");
         assert!(read(&wrong).has_errors(), "{to}");
     }
+}
+
+#[test]
+fn the_kind_of_a_selection_may_be_left_out_where_it_is_certain() {
+    let of = |selection: &str| {
+        let text = format!(
+            "(recipe: 1, params: {{\"least\": Float(default: 30)}}, steps: [Sheet(columns: 2)], \
+             expect: [Not(Count(of: {selection}, min: 1))])"
+        );
+        let reading = read(&text);
+        let that = reading.recipe.expectations.iter().map(|e| e.that.clone());
+        let errors: Vec<_> = (reading.diagnostics.iter())
+            .filter(|d| d.severity == Severity::Error)
+            .cloned()
+            .collect();
+        let told: Vec<[String; 3]> = shown(&text, &errors)
+            .iter()
+            .map(|&(a, b, c)| [a, b, c].map(Into::into))
+            .collect();
+        (that.collect::<Vec<_>>(), told)
+    };
+    for selection in [
+        "Sharp(above: 30)",
+        "And([Boundary, Sharp(above: arg(\"least\"))])",
+    ] {
+        let (short, wrong) = of(selection);
+        assert!(wrong.is_empty() && short.len() == 1, "{wrong:#?}");
+        assert_eq!(short, of(&format!("Edges({selection})")).0);
+    }
+    let (_, wrong) = of("Boundary");
+    let message = "this selects vertices or edges or faces: say which are meant";
+    let help = "write `Vertices(Boundary)` or `Edges(Boundary)` or `Faces(Boundary)`";
+    assert_eq!(wrong, [["Boundary", message, help]]);
 }
 
 #[test]

@@ -73,6 +73,8 @@ mod attribute;
 pub mod blocks;
 pub mod build;
 mod compact;
+mod curvature;
+pub mod distance;
 mod edit;
 mod id;
 mod journal;

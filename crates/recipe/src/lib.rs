@@ -12,7 +12,6 @@ pub mod cache;
 pub mod capsule;
 pub mod compare;
 pub mod diagnostic;
-pub mod distance;
 pub mod expect;
 pub mod shape;
 pub mod shrink;

@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use mesh::{DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use super::attributes::{AttributeDifference, differences};
-use crate::distance::Distance;
 use crate::expect::same_faces;
+use mesh::distance::Distance;
 
 /// Two meshes side by side; pairs are of the first and the second.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@ use scene::Object;
 
 use super::subject::{Failure, Found, Subject, ends, fails_unless, near, selected, within};
 use super::{Expectation, same, symmetry};
-use crate::distance::{Distance, TOLERANCE, diagonal};
+use mesh::distance::{Distance, TOLERANCE, diagonal};
 
 /// An expectation that does not hold.
 #[derive(Clone, Debug, PartialEq)]

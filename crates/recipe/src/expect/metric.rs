@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::subject::{Failure, Subject};
 use super::{Other, ReadObjects};
-use crate::distance::Distance;
 use crate::run::Outcome;
+use mesh::distance::Distance;
 
 /// What is kept of a run. Where it speaks of the mesh, it means all meshes at the end together.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]

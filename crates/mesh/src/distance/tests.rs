@@ -1,6 +1,6 @@
 //! Distances against cases that can be calculated, and against many samples.
 
-use mesh::shapes;
+use crate::shapes;
 
 use super::*;
 
@@ -253,4 +253,17 @@ fn a_surface_around_a_small_one_is_bounded_though_all_of_it_is_equally_near() {
         );
         assert!(side.at_most < 1.000_01, "{side:?}");
     }
+}
+
+#[test]
+fn each_vertex_has_its_distance() {
+    let (cube, mut moved) = (shapes::cube(), shapes::cube());
+    for p in moved.positions_mut() {
+        p.x += 0.25;
+    }
+    let distances = vertex_distances(&moved, &cube).unwrap();
+    let expected = |v: VertexId| if moved.position(v).x > 1.0 { 0.25 } else { 0.0 };
+    let is_right = |v: VertexId| (distances[v.index()] - expected(v)).abs() < 1e-12;
+    assert!(moved.vertices().all(is_right), "{distances:?}");
+    assert_eq!(vertex_distances(&cube, &Mesh::default()), None);
 }

@@ -21,7 +21,7 @@ mod piece;
 mod surface;
 mod triangle;
 
-use mesh::{DVec3, Domain, FaceId, Mesh, VertexId, blocks};
+use crate::{DVec3, Domain, FaceId, Mesh, VertexId, blocks};
 use rayon::prelude::*;
 
 use piece::{Farthest, Piece, Sample, refine};
@@ -306,6 +306,14 @@ fn vertex_hits(from: &Mesh, to: &Surface) -> Vec<Option<Hit>> {
             }
         });
     hits
+}
+
+/// The distance from each vertex of a mesh to the surface of another, by its place; not a number for removed
+/// vertices. `None` if the other one has no faces.
+pub fn vertex_distances(from: &Mesh, to: &Mesh) -> Option<Vec<f64>> {
+    let hits = vertex_hits(from, &Surface::new(to)?);
+    let distance = |hit: Option<Hit>| hit.map_or(f64::NAN, |hit| hit.distance);
+    Some(hits.into_iter().map(distance).collect())
 }
 
 fn farthest_vertex(from: &Mesh, hits: &[Option<Hit>]) -> Option<Farthest> {

@@ -1,6 +1,6 @@
 //! Pieces of triangles, and how far from the other surface they can be.
 
-use mesh::{DVec3, FaceId};
+use crate::{DVec3, FaceId};
 use rayon::prelude::*;
 
 use super::surface::{Hit, Surface};

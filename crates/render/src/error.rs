@@ -1,0 +1,37 @@
+//! What can go wrong with a picture.
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// The sides of an image are not from 1 to [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
+    #[error(
+        "expected an image of 1 to {limit} pixels a side, found {width} x {height}; choose another size",
+        limit = crate::LARGEST_SIDE
+    )]
+    Size {
+        /// Pixels from left to right.
+        width: u32,
+        /// Pixels from top to bottom.
+        height: u32,
+    },
+    /// The picture needs more memory than it may take.
+    #[error(
+        "the picture needs {needed} bytes of memory, and {budget} are allowed; make the image smaller, or \
+         allow more"
+    )]
+    Budget {
+        /// The bytes that it needs.
+        needed: u64,
+        /// The bytes that it may take.
+        budget: u64,
+    },
+    /// There is no view of the scene from this camera.
+    #[error("{0}")]
+    Camera(String),
+    /// The style asks for what the scene does not have.
+    #[error("{0}")]
+    Style(String),
+    /// An image cannot be encoded.
+    #[error("the image cannot be encoded: {0}")]
+    Encode(String),
+}

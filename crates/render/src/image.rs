@@ -1,0 +1,133 @@
+//! Images in memory, and their PNG files.
+
+use crate::PictureError;
+
+/// No side of an image is longer, in pixels.
+pub const LARGEST_SIDE: u32 = 16_384;
+
+/// An image of 8-bit colors.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub struct Image {
+    /// Pixels from left to right.
+    pub width: u32,
+    /// Pixels from top to bottom.
+    pub height: u32,
+    /// The rows from top to bottom, each from left to right: red, green, blue (sRGB) and alpha, which the
+    /// colors are not multiplied with.
+    pub pixels: Vec<[u8; 4]>,
+}
+
+impl Image {
+    /// An image of one color.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`].
+    pub fn filled(width: u32, height: u32, color: [u8; 4]) -> Result<Self, PictureError> {
+        let n = checked_size(width, height)?;
+        Ok(Self {
+            width,
+            height,
+            pixels: vec![color; n],
+        })
+    }
+
+    /// The image as a PNG file: without alpha where all is opaque. Each text is a keyword of 1 to 79
+    /// Latin-1 characters and what it says, for whoever asks where the file comes from.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Encode`] if there is nothing to encode, or a keyword is none.
+    pub fn to_png(&self, texts: &[(&str, &str)]) -> Result<Vec<u8>, PictureError> {
+        let failed = |error: png::EncodingError| PictureError::Encode(error.to_string());
+        let is_opaque = self.pixels.iter().all(|p| p[3] == u8::MAX);
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_color(if is_opaque {
+            png::ColorType::Rgb
+        } else {
+            png::ColorType::Rgba
+        });
+        encoder.set_compression(png::Compression::Balanced);
+        for (keyword, text) in texts {
+            encoder
+                .add_itxt_chunk((*keyword).to_owned(), (*text).to_owned())
+                .map_err(failed)?;
+        }
+        let mut writer = encoder.write_header().map_err(failed)?;
+        if is_opaque {
+            let rgb: Vec<u8> = self
+                .pixels
+                .iter()
+                .flat_map(|&[r, g, b, _]| [r, g, b])
+                .collect();
+            writer.write_image_data(&rgb).map_err(failed)?;
+        } else {
+            let rgba = self.pixels.as_flattened();
+            writer.write_image_data(rgba).map_err(failed)?;
+        }
+        writer.finish().map_err(failed)?;
+        Ok(bytes)
+    }
+}
+
+/// The number of pixels of an image, if its sides are allowed.
+pub(crate) fn checked_size(width: u32, height: u32) -> Result<usize, PictureError> {
+    let allowed = 1..=LARGEST_SIDE;
+    if allowed.contains(&width) && allowed.contains(&height) {
+        Ok(width as usize * height as usize)
+    } else {
+        Err(PictureError::Size { width, height })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The image in a PNG file, with the colors that it was made of.
+    fn decoded(bytes: &[u8]) -> (u32, u32, png::ColorType, Vec<u8>) {
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+            .read_info()
+            .unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut pixels).unwrap();
+        (info.width, info.height, info.color_type, pixels)
+    }
+
+    #[test]
+    fn a_png_file_has_the_pixels_of_the_image() {
+        let mut image = Image::filled(3, 2, [1, 2, 3, 255]).unwrap();
+        image.pixels[4] = [200, 100, 50, 255];
+        let (width, height, color, pixels) = decoded(&image.to_png(&[]).unwrap());
+        assert_eq!((width, height, color), (3, 2, png::ColorType::Rgb));
+        assert_eq!(pixels[..3], [1, 2, 3]);
+        assert_eq!(pixels[12..15], [200, 100, 50]);
+
+        image.pixels[0] = [9, 8, 7, 0];
+        let (_, _, color, pixels) = decoded(&image.to_png(&[]).unwrap());
+        assert_eq!(color, png::ColorType::Rgba);
+        assert_eq!(pixels, image.pixels.as_flattened());
+    }
+
+    #[test]
+    fn a_png_file_carries_texts() {
+        let image = Image::filled(1, 1, [0; 4]).unwrap();
+        let bytes = image.to_png(&[("Source", "teapot.ron")]).unwrap();
+        let reader = png::Decoder::new(std::io::Cursor::new(bytes))
+            .read_info()
+            .unwrap();
+        let text = &reader.info().utf8_text[0];
+        assert_eq!(text.keyword, "Source");
+        assert_eq!(text.get_text().unwrap(), "teapot.ron");
+    }
+
+    #[test]
+    fn images_without_pixels_or_too_large_are_refused() {
+        for (width, height) in [(0, 1), (1, 0), (LARGEST_SIDE + 1, 1), (u32::MAX, u32::MAX)] {
+            let refused = Image::filled(width, height, [0; 4]);
+            assert!(matches!(refused, Err(PictureError::Size { .. })));
+        }
+    }
+}

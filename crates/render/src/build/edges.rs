@@ -1,0 +1,169 @@
+//! Lines and points of meshes: wireframes, boundaries, creases, highlights, normals, numbers.
+
+use ::mesh::{CREASE, Domain, EdgeId, Mesh, VERTEX_NORMAL, VertexId};
+use glam::DVec3;
+use scene::Object;
+
+use super::{Builder, Coloring, Elements};
+use crate::PictureError;
+use crate::color::narrow;
+use crate::drawing::{Label, Line, NO_FACE};
+use crate::style::Ids;
+
+/// The diameter of vertices without edges, in pixels.
+const LONELY: f64 = 3.0;
+/// No more labels than this: they would cover each other.
+const MOST_IDS: usize = 2000;
+/// The sharpness that never fades.
+const SHARPEST: f64 = 10.0;
+
+impl Builder<'_, '_> {
+    /// Adds what lies on the last part.
+    pub(super) fn edges(
+        &mut self,
+        object: &Object,
+        mesh: &Mesh,
+        coloring: Option<&Coloring>,
+    ) -> Result<(), PictureError> {
+        let style = self.style;
+        if let Some(lines) = style.wireframe {
+            let color = lines.color.linear();
+            for e in mesh.edges() {
+                self.edge(mesh, e, lines.width, color, lines.hidden);
+            }
+        }
+        if let Some(c) = coloring.filter(|c| c.domain == Domain::Edge) {
+            for e in mesh.edges() {
+                let [r, g, b] = c.map.linear(c.values[e.index()], c.range);
+                self.edge(mesh, e, 3.0, [r, g, b, 1.0], 0.0);
+            }
+        }
+        if let (Some(lines), Some(creases)) = (style.creases, mesh.get(CREASE)) {
+            for e in mesh.edges() {
+                let sharpness = (creases[e.index()] / SHARPEST).clamp(0.0, 1.0);
+                if sharpness > 0.0 {
+                    let width = lines.width * (1.0 + sharpness);
+                    self.edge(mesh, e, width, lines.color.linear(), lines.hidden);
+                }
+            }
+        }
+        if let Some(lines) = style.boundary {
+            for e in mesh.edges().filter(|&e| mesh.is_boundary_edge(e)) {
+                self.edge(mesh, e, lines.width, lines.color.linear(), lines.hidden);
+            }
+        }
+        self.vertices(mesh);
+        for highlight in &self.overlays.highlights {
+            if highlight.object != object.name {
+                continue;
+            }
+            let color = highlight.color.linear();
+            match &highlight.elements {
+                Elements::Faces(_) => {}
+                Elements::Edges(edges) => {
+                    for &e in edges.iter().filter(|&&e| mesh.has_edge(e)) {
+                        self.edge(mesh, e, highlight.size, color, highlight.hidden);
+                    }
+                }
+                Elements::Vertices(vertices) => {
+                    for &v in vertices.iter().filter(|&&v| mesh.has_vertex(v)) {
+                        self.dot(mesh.position(v), highlight.size, color, highlight.hidden);
+                    }
+                }
+            }
+        }
+        self.ids(object, mesh)
+    }
+
+    fn edge(&mut self, mesh: &Mesh, e: EdgeId, width: f64, color: [f32; 4], hidden: f64) {
+        let ends = mesh.edge_vertices(e).map(|v| mesh.position(v));
+        let faces = mesh.edge_faces(e).map(|f| {
+            let face = f.and_then(|f| u32::try_from(f.index()).ok());
+            face.map_or(NO_FACE, |f| f.saturating_add(self.n_faces))
+        });
+        self.line(ends, width, color, faces, hidden);
+    }
+
+    /// Adds a line.
+    pub(super) fn line(
+        &mut self,
+        ends: [DVec3; 2],
+        width: f64,
+        color: [f32; 4],
+        faces: [u32; 2],
+        hidden: f64,
+    ) {
+        self.drawing.lines.push(Line {
+            ends,
+            width: narrow(width),
+            color,
+            faces,
+            hidden: narrow(hidden),
+        });
+    }
+
+    /// Adds a point.
+    pub(super) fn dot(&mut self, at: DVec3, diameter: f64, color: [f32; 4], hidden: f64) {
+        self.line([at; 2], diameter, color, [NO_FACE; 2], hidden);
+    }
+
+    /// Vertices without edges, normals, and dots on all vertices.
+    fn vertices(&mut self, mesh: &Mesh) {
+        let dark = crate::Color::rgb(28, 34, 48).linear();
+        for v in mesh
+            .vertices()
+            .filter(|&v| mesh.vertex_half_edge(v).is_none())
+        {
+            self.dot(mesh.position(v), LONELY, dark, 0.0);
+        }
+        if let Some(length) = self.style.normals {
+            let given = mesh.get(VERTEX_NORMAL);
+            let of = |v: VertexId| match given {
+                Some(given) => given[v.index()],
+                None => mesh.vertex_faces(v).map(|f| mesh.area_vector(f)).sum(),
+            };
+            let color = crate::Color::rgb(0, 114, 178).linear();
+            for v in mesh.vertices() {
+                let (p, n) = (mesh.position(v), of(v).normalize_or_zero());
+                if n != DVec3::ZERO {
+                    let end = p + n * (length * self.radius);
+                    self.line([p, end], 1.2, color, [NO_FACE; 2], 0.0);
+                }
+            }
+        }
+        if let Some(diameter) = self.style.points {
+            for v in mesh.vertices() {
+                self.dot(mesh.position(v), diameter, dark, 0.0);
+            }
+        }
+    }
+
+    /// Labels with the numbers of elements.
+    fn ids(&mut self, object: &Object, mesh: &Mesh) -> Result<(), PictureError> {
+        let labels: Vec<Label> = match self.style.ids {
+            None => return Ok(()),
+            Some(Ids::Vertices) => {
+                let label = |v: VertexId| Label {
+                    at: mesh.position(v),
+                    text: v.index().to_string(),
+                };
+                mesh.vertices().map(label).take(MOST_IDS + 1).collect()
+            }
+            Some(Ids::Faces) => {
+                let label = |f: ::mesh::FaceId| Label {
+                    at: mesh.face_center(f),
+                    text: f.index().to_string(),
+                };
+                mesh.faces().map(label).take(MOST_IDS + 1).collect()
+            }
+        };
+        if labels.len() > MOST_IDS {
+            return Err(PictureError::Style(format!(
+                "expected at most {MOST_IDS} elements to write numbers at, \"{}\" has more; leave `ids` away",
+                object.name
+            )));
+        }
+        self.drawing.labels.extend(labels);
+        Ok(())
+    }
+}

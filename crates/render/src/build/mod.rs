@@ -1,0 +1,203 @@
+//! From a scene to a drawing.
+
+mod edges;
+mod mesh_part;
+mod normals;
+mod others;
+
+use std::sync::Arc;
+
+use ::mesh::{EdgeId, FaceId, Mesh, VertexId};
+use glam::DVec3;
+use scene::{Geometry, Object, Scene};
+
+use crate::PictureError;
+use crate::color::Color;
+use crate::colormap::ColorMap;
+use crate::drawing::{Drawing, Label, Surface};
+use crate::style::Style;
+use crate::texture::Texture;
+
+/// What is shown beside the surfaces themselves.
+#[derive(Clone, Debug, Default)]
+pub struct Overlays {
+    /// Elements in colors of their own. What comes later lies on top.
+    pub highlights: Vec<Highlight>,
+    /// Numbers as colors, at most one for each object.
+    pub colorings: Vec<Coloring>,
+    /// Texts at places.
+    pub labels: Vec<Label>,
+}
+
+/// Elements of an object in a color of their own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Highlight {
+    /// The name of the object, which is a mesh.
+    pub object: String,
+    /// The elements. What the mesh does not have is left out.
+    pub elements: Elements,
+    /// Their color.
+    pub color: Color,
+    /// The diameter of vertices and the width of edges, in pixels.
+    pub size: f64,
+    /// How much of vertices and edges is seen where a surface is before them, from 0 to 1.
+    pub hidden: f64,
+}
+
+/// Elements of a mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Elements {
+    /// Vertices.
+    Vertices(Vec<VertexId>),
+    /// Edges.
+    Edges(Vec<EdgeId>),
+    /// Faces.
+    Faces(Vec<FaceId>),
+}
+
+/// Numbers on an object, shown as colors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coloring {
+    /// The name of the object, which is a mesh.
+    pub object: String,
+    /// What the numbers belong to. Those of edges become colored lines.
+    pub domain: ::mesh::Domain,
+    /// One for each element, by index; not a number where there is none.
+    pub values: Vec<f64>,
+    /// How they become colors.
+    pub map: ColorMap,
+    /// The numbers at the two ends of the map.
+    pub range: [f64; 2],
+}
+
+/// The colors of objects that have none, one after another.
+pub const PALETTE: [Color; 6] = [
+    Color::rgb(0xa3, 0xbb, 0xdb),
+    Color::rgb(0xe8, 0xc3, 0x8a),
+    Color::rgb(0xa9, 0xcf, 0xa5),
+    Color::rgb(0xd8, 0xa7, 0xc6),
+    Color::rgb(0xa0, 0xd0, 0xd0),
+    Color::rgb(0xd6, 0xd0, 0xb0),
+];
+
+/// Makes a drawing of a scene. `images` gives the bytes of a picture file for its path in a material; where it
+/// gives none, or they are no PNG or JPEG, the surface is drawn without, and the path is in the list that is
+/// returned, with the reason.
+///
+/// # Errors
+///
+/// [`PictureError::Style`] if a number of the style is out of its range, or an overlay does not fit its object.
+pub fn build<'s>(
+    scene: &'s Scene,
+    style: &Style,
+    overlays: &Overlays,
+    images: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
+) -> Result<(Drawing<'s>, Vec<String>), PictureError> {
+    style.check()?;
+    let mut builder = Builder {
+        style,
+        overlays,
+        images,
+        missing: Vec::new(),
+        drawing: Drawing::default(),
+        n_faces: 0,
+        radius: radius(scene),
+    };
+    for (i, object) in scene.objects().iter().enumerate() {
+        let color = style.color.unwrap_or(PALETTE[i % PALETTE.len()]);
+        match &object.geometry {
+            Geometry::Mesh(mesh) => builder.mesh(object, mesh, color)?,
+            Geometry::Patches(patches) => builder.patches(patches, color)?,
+            Geometry::Curve(curve) => builder.curve(curve, color),
+            Geometry::Polylines(lines) => builder.polylines(lines, color),
+        }
+    }
+    builder
+        .drawing
+        .labels
+        .extend(overlays.labels.iter().cloned());
+    Ok((builder.drawing, builder.missing))
+}
+
+struct Builder<'s, 'a> {
+    style: &'a Style,
+    overlays: &'a Overlays,
+    images: &'a mut dyn FnMut(&str) -> Option<Vec<u8>>,
+    missing: Vec<String>,
+    drawing: Drawing<'s>,
+    /// How many faces the parts before have.
+    n_faces: u32,
+    /// Of the sphere around the meshes of the scene.
+    radius: f64,
+}
+
+impl Builder<'_, '_> {
+    /// How a material looks, and which texture coordinates it needs.
+    fn surface(&mut self, material: &scene::Material) -> Surface {
+        let [r, g, b, alpha] = material.base_color.map(crate::color::narrow);
+        let alpha = if material.alpha == scene::AlphaMode::Blend {
+            alpha
+        } else {
+            1.0
+        };
+        let strength = material.emissive_strength;
+        let mut surface = Surface {
+            color: [r, g, b, alpha],
+            texture: None,
+            uv_set: 0,
+            unlit: material.unlit,
+            roughness: crate::color::narrow(material.roughness),
+            emissive: material
+                .emissive
+                .map(|e| crate::color::narrow(e * strength)),
+        };
+        if let (Some(texture), None) = (&material.base_color_texture, self.style.color) {
+            match self.decoded(texture) {
+                Ok(decoded) => surface.texture = Some(Arc::new(decoded)),
+                Err(why) => self.missing.push(why),
+            }
+        }
+        surface
+    }
+
+    fn decoded(&mut self, texture: &scene::Texture) -> Result<Texture, String> {
+        let (name, bytes) = match &texture.image {
+            scene::Image::File(path) => {
+                let bytes = (self.images)(path).ok_or_else(|| format!("{path}: not found"))?;
+                (path.as_str(), bytes)
+            }
+            scene::Image::Embedded { mime, bytes } => (mime.as_str(), bytes.to_vec()),
+        };
+        Texture::decode(&bytes, texture.sampler, texture.transform)
+            .map_err(|why| format!("{name}: {why}"))
+    }
+}
+
+/// The radius of a sphere around all meshes and patches; 1 if there is nothing.
+fn radius(scene: &Scene) -> f64 {
+    let mut corners: Vec<DVec3> = Vec::new();
+    for object in scene.objects() {
+        match &object.geometry {
+            Geometry::Mesh(mesh) => corners.extend(mesh.bounds().into_iter().flatten()),
+            Geometry::Patches(patches) => {
+                corners.extend(patches.iter().flat_map(|p| p.points().as_flattened()));
+            }
+            Geometry::Curve(curve) => corners.extend(curve.points().iter().map(|p| p.extend(0.0))),
+            Geometry::Polylines(lines) => corners.extend(lines.iter().flatten()),
+        }
+    }
+    let each = |f: &mut dyn FnMut(DVec3)| corners.iter().for_each(|&p| f(p));
+    crate::camera::sphere(&each).1
+}
+
+/// The overlay of an object that is a mesh.
+fn fits(object: &Object, mesh: &Mesh, coloring: &Coloring) -> Result<(), PictureError> {
+    let (expected, found) = (mesh.domain_len(coloring.domain), coloring.values.len());
+    if expected == found {
+        return Ok(());
+    }
+    Err(PictureError::Style(format!(
+        "expected {expected} numbers, one for each {} of \"{}\", found {found}",
+        coloring.domain, object.name
+    )))
+}

@@ -1,0 +1,148 @@
+//! Normals for surfaces that have none: area-weighted, and split at sharp edges.
+
+use ::mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, SMOOTHING, VertexId};
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::color::narrow;
+use crate::drawing::{Channel, Normals};
+
+/// Area vectors of faces in units of `size` squared, by index; zero for faces that are not there.
+pub(super) fn of_faces(mesh: &Mesh, size: f64) -> Vec<[f32; 3]> {
+    let scale = 1.0 / (size * size);
+    let mut areas = Vec::new();
+    (0..mesh.connectivity().face_half_edge.len())
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|i| {
+            let f = FaceId::new(i);
+            if mesh.has_face(f) {
+                (mesh.area_vector(f) * scale).to_array().map(narrow)
+            } else {
+                [0.0; 3]
+            }
+        })
+        .collect_into_vec(&mut areas);
+    areas
+}
+
+/// The sum of the area vectors around each vertex, by index. Gouraud, "Continuous Shading of Curved Surfaces",
+/// 1971, with weights by area.
+fn of_vertices(mesh: &Mesh, areas: &[[f32; 3]]) -> Vec<[f32; 3]> {
+    let mut normals = Vec::new();
+    (0..mesh.positions().len())
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|i| {
+            let v = VertexId::new(i);
+            if !mesh.has_vertex(v) {
+                return [0.0; 3];
+            }
+            let faces = mesh.vertex_faces(v);
+            faces.fold([0.0; 3], |sum, f| add(sum, areas[f.index()]))
+        })
+        .collect_into_vec(&mut normals);
+    normals
+}
+
+/// Smooth normals, split at edges whose faces differ by at least `sharp` degrees; where the mesh has smoothing
+/// groups, between faces of different groups instead.
+pub(super) fn smooth<'a>(mesh: &Mesh, size: f64, sharp: f64) -> Normals<'a> {
+    let areas = of_faces(mesh, size);
+    let is_sharp = sharp_edges(mesh, &areas, sharp);
+    if !is_sharp.par_iter().any(|&s| s) {
+        let normals = of_vertices(mesh, &areas);
+        return Normals::Given(Channel::Point(normals.into()));
+    }
+    let mut normals = Vec::new();
+    (0..mesh.connectivity().next.len())
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|i| {
+            let h = HalfEdgeId::new(i);
+            if mesh.has_edge(h.edge()) {
+                of_corner(mesh, h, &areas, &is_sharp)
+            } else {
+                [0.0; 3]
+            }
+        })
+        .collect_into_vec(&mut normals);
+    Normals::Given(Channel::Corner(normals.into()))
+}
+
+fn sharp_edges(mesh: &Mesh, areas: &[[f32; 3]], sharp: f64) -> Vec<bool> {
+    let groups = mesh.get(SMOOTHING);
+    let limit = libm::cos(sharp.to_radians());
+    let mut is_sharp = Vec::new();
+    (0..mesh.connectivity().next.len() / 2)
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|i| {
+            let e = EdgeId::new(i);
+            if !mesh.has_edge(e) {
+                return false;
+            }
+            let [Some(f), Some(g)] = mesh.edge_faces(e) else {
+                return false;
+            };
+            if let Some(groups) = groups {
+                let (f, g) = (groups[f.index()], groups[g.index()]);
+                return f != g || f == 0;
+            }
+            let of = |f: FaceId| DVec3::from(areas[f.index()].map(f64::from)).normalize_or_zero();
+            let (n, m) = (of(f), of(g));
+            n != DVec3::ZERO && m != DVec3::ZERO && n.dot(m) <= limit
+        })
+        .collect_into_vec(&mut is_sharp);
+    is_sharp
+}
+
+/// The sum of the area vectors around the origin of `h`, from its face to the next sharp edges.
+fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) -> [f32; 3] {
+    let Some(face) = mesh.face(h) else {
+        return [0.0; 3];
+    };
+    let mut sum = areas[face.index()];
+    // Counter-clockwise, across the edge before.
+    let mut g = h;
+    loop {
+        let before = mesh.prev(g);
+        if is_sharp[before.edge().index()] {
+            break;
+        }
+        g = before.twin();
+        match mesh.face(g) {
+            Some(_) if g == h => return sum,
+            Some(f) => sum = add(sum, areas[f.index()]),
+            None => break,
+        }
+    }
+    // Clockwise, across the edge itself.
+    g = h;
+    while !is_sharp[g.edge().index()] {
+        let Some(f) = mesh.face(g.twin()) else {
+            break;
+        };
+        g = mesh.next(g.twin());
+        if g == h {
+            break;
+        }
+        sum = add(sum, areas[f.index()]);
+    }
+    sum
+}
+
+fn add(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+/// Vectors as the drawing has them.
+pub(super) fn narrowed(vectors: &[DVec3]) -> Vec<[f32; 3]> {
+    let mut narrowed = Vec::new();
+    vectors
+        .par_iter()
+        .with_min_len(4096)
+        .map(|v| v.to_array().map(narrow))
+        .collect_into_vec(&mut narrowed);
+    narrowed
+}

@@ -1,0 +1,205 @@
+//! Colors: how recipes write them, and linear light.
+
+use std::fmt;
+use std::sync::OnceLock;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Serialize};
+
+/// A color: `"#rrggbb"` or `"#rgb"` in sRGB, with two more digits or one for alpha, or a name from the list
+/// [`NAMES`].
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Color(pub [u8; 4]);
+
+/// The names of colors. The saturated ones are told apart by most color-blind people: Okabe and Ito, "Color
+/// Universal Design", 2008.
+pub const NAMES: [(&str, [u8; 3]); 11] = [
+    ("black", [0, 0, 0]),
+    ("white", [255, 255, 255]),
+    ("gray", [128, 128, 128]),
+    ("orange", [230, 159, 0]),
+    ("sky", [86, 180, 233]),
+    ("green", [0, 158, 115]),
+    ("yellow", [240, 228, 66]),
+    ("blue", [0, 114, 178]),
+    ("red", [213, 94, 0]),
+    ("pink", [204, 121, 167]),
+    ("crimson", [190, 30, 60]),
+];
+
+/// A text is no color.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("expected a color like \"#4477aa\" or one of {names}, found \"{0}\"", names = names())]
+pub struct NoColor(String);
+
+fn names() -> String {
+    NAMES.map(|(name, _)| name).join(", ")
+}
+
+impl Color {
+    /// An opaque color of these red, green and blue in sRGB.
+    pub const fn rgb(r: u8, g: u8, b: u8) -> Self {
+        Self([r, g, b, 255])
+    }
+
+    /// Linear red, green and blue, and alpha, from 0 to 1.
+    pub fn linear(self) -> [f32; 4] {
+        let [r, g, b, a] = self.0;
+        [
+            to_linear(r),
+            to_linear(g),
+            to_linear(b),
+            f32::from(a) / 255.0,
+        ]
+    }
+}
+
+impl TryFrom<String> for Color {
+    type Error = NoColor;
+
+    fn try_from(text: String) -> Result<Self, NoColor> {
+        if let Some((_, [r, g, b])) = NAMES.into_iter().find(|&(name, _)| name == text) {
+            return Ok(Self::rgb(r, g, b));
+        }
+        let digits: Option<Vec<u8>> = text.strip_prefix('#').and_then(|digits| {
+            let digit = |c: char| c.to_digit(16).and_then(|d| u8::try_from(d).ok());
+            digits.chars().map(digit).collect()
+        });
+        match digits.as_deref() {
+            Some(&[r, g, b]) => Ok(Self::rgb(17 * r, 17 * g, 17 * b)),
+            Some(&[r, g, b, a]) => Ok(Self([17 * r, 17 * g, 17 * b, 17 * a])),
+            Some(&[r, s, g, h, b, c]) => Ok(Self::rgb(16 * r + s, 16 * g + h, 16 * b + c)),
+            Some(&[r, s, g, h, b, c, a, d]) => {
+                Ok(Self([16 * r + s, 16 * g + h, 16 * b + c, 16 * a + d]))
+            }
+            _ => Err(NoColor(text)),
+        }
+    }
+}
+
+impl From<Color> for String {
+    fn from(color: Color) -> Self {
+        color.to_string()
+    }
+}
+
+impl fmt::Display for Color {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [r, g, b, a] = self.0;
+        write!(f, "#{r:02x}{g:02x}{b:02x}")?;
+        if a == u8::MAX {
+            Ok(())
+        } else {
+            write!(f, "{a:02x}")
+        }
+    }
+}
+
+impl JsonSchema for Color {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Color".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        schemars::json_schema!({
+            "type": "string",
+            "description": format!("A color: \"#rrggbb\" or \"#rgb\" in sRGB, or one of {}.", names()),
+        })
+    }
+}
+
+/// The light of an sRGB value, from 0 to 1 (IEC 61966-2-1, 1999).
+pub fn to_linear(value: u8) -> f32 {
+    static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
+    let table = TABLE.get_or_init(|| {
+        std::array::from_fn(|i| {
+            let s = i as f64 / 255.0;
+            let light = if s <= 0.04045 {
+                s / 12.92
+            } else {
+                libm::pow((s + 0.055) / 1.055, 2.4)
+            };
+            narrow(light)
+        })
+    });
+    table[usize::from(value)]
+}
+
+/// The sRGB value of a light, which is taken between 0 and 1 (IEC 61966-2-1, 1999).
+pub fn to_srgb(light: f32) -> u8 {
+    /// Steps of the table: 20 for each value where the curve is steepest.
+    const STEPS: usize = 1 << 16;
+    static TABLE: OnceLock<Vec<u8>> = OnceLock::new();
+    let table = TABLE.get_or_init(|| {
+        let value = |i: usize| {
+            let light = i as f64 / STEPS as f64;
+            let s = if light <= 0.003_130_8 {
+                12.92 * light
+            } else {
+                1.055 * libm::pow(light, 1.0 / 2.4) - 0.055
+            };
+            byte(narrow(s))
+        };
+        (0..=STEPS).map(value).collect()
+    });
+    let light = light.clamp(0.0, 1.0);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "from 0 to 1; not a number becomes 0"
+    )]
+    table[(light * STEPS as f32 + 0.5) as usize]
+}
+
+/// From 0 to 1 to the nearest byte.
+pub(crate) fn byte(value: f32) -> u8 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "from 0 to 255; not a number becomes 0"
+    )]
+    let byte = (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+    byte
+}
+
+/// The nearest `f32`.
+#[expect(clippy::cast_possible_truncation, reason = "what it is for")]
+pub(crate) fn narrow(value: f64) -> f32 {
+    value as f32
+}
+
+/// The color at `t` on the way from `a` (0) to `b` (1).
+pub(crate) fn mix(a: [f32; 3], b: [f32; 3], t: f32) -> [f32; 3] {
+    std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_byte_comes_back_from_linear_light() {
+        for value in 0..=255 {
+            assert_eq!(to_srgb(to_linear(value)), value);
+        }
+    }
+
+    #[test]
+    fn colors_are_read_as_they_are_written() {
+        let read = |text: &str| Color::try_from(text.to_owned());
+        assert_eq!(read("#4477aa"), Ok(Color::rgb(0x44, 0x77, 0xaa)));
+        assert_eq!(read("#47a"), read("#4477aa"));
+        assert_eq!(read("#47a8"), Ok(Color([0x44, 0x77, 0xaa, 0x88])));
+        assert_eq!(read("white"), Ok(Color([255; 4])));
+        for (name, [r, g, b]) in NAMES {
+            let color = read(name).unwrap();
+            assert_eq!(color, Color::rgb(r, g, b));
+            assert_eq!(read(&color.to_string()), Ok(color));
+        }
+        for wrong in ["", "#", "#12", "#12345", "reddish", "#ggg", "4477aa", "#é"] {
+            let message = read(wrong).unwrap_err().to_string();
+            assert!(message.starts_with("expected a color like"), "{message}");
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Color maps: numbers as colors.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::color::{mix, narrow, to_linear};
+
+/// How numbers become colors.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum ColorMap {
+    /// From dark violet over green to yellow: evenly brighter, also in gray and for color-blind people.
+    #[default]
+    Viridis,
+    /// From blue over light gray to red: for numbers with a middle that matters.
+    Diverging,
+    /// From black to white.
+    Gray,
+    /// Colors that are easily told apart, one for each whole number: for labels and classes.
+    Classes,
+}
+
+/// Viridis (Smith and van der Walt, "A Better Default Colormap for Matplotlib", 2015; released under CC0) at
+/// 17 even steps.
+const VIRIDIS: [[u8; 3]; 17] = [
+    [68, 1, 84],
+    [72, 20, 103],
+    [71, 38, 119],
+    [66, 56, 131],
+    [59, 73, 137],
+    [51, 89, 140],
+    [44, 104, 142],
+    [38, 119, 142],
+    [33, 145, 140],
+    [31, 154, 138],
+    [39, 168, 131],
+    [58, 184, 119],
+    [88, 197, 101],
+    [127, 210, 78],
+    [170, 220, 50],
+    [213, 226, 26],
+    [253, 231, 37],
+];
+
+/// Moreland, "Diverging Color Maps for Scientific Visualization", 2009, at nine even steps.
+const DIVERGING: [[u8; 3]; 9] = [
+    [59, 76, 192],
+    [98, 130, 234],
+    [141, 176, 254],
+    [184, 208, 249],
+    [221, 221, 221],
+    [245, 196, 173],
+    [244, 154, 123],
+    [222, 96, 77],
+    [180, 4, 38],
+];
+
+/// Okabe and Ito, "Color Universal Design", 2008.
+const CLASSES: [[u8; 3]; 8] = [
+    [86, 180, 233],
+    [230, 159, 0],
+    [0, 158, 115],
+    [204, 121, 167],
+    [0, 114, 178],
+    [240, 228, 66],
+    [213, 94, 0],
+    [150, 150, 150],
+];
+
+impl ColorMap {
+    /// The sRGB color of `t`, which is taken between 0 and 1.
+    pub fn srgb(self, t: f64) -> [u8; 3] {
+        let stops: &[[u8; 3]] = match self {
+            Self::Viridis => &VIRIDIS,
+            Self::Diverging => &DIVERGING,
+            Self::Gray => &[[0; 3], [255; 3]],
+            Self::Classes => &CLASSES,
+        };
+        let last = stops.len() - 1;
+        let place = t.clamp(0.0, 1.0) * last as f64;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "from 0 to the last stop; not a number becomes 0"
+        )]
+        let below = (place as usize).min(last);
+        if self == Self::Classes {
+            return stops[below];
+        }
+        let above = stops[(below + 1).min(last)].map(f32::from);
+        let color = mix(
+            stops[below].map(f32::from),
+            above,
+            narrow(place - below as f64),
+        );
+        color.map(|c| crate::color::byte(c / 255.0))
+    }
+
+    /// Linear red, green and blue of a number where `range` becomes 0 to 1; gray if it is not a number. With
+    /// [`Classes`](Self::Classes) the color of a whole number, whatever the range.
+    pub fn linear(self, value: f64, [low, high]: [f64; 2]) -> [f32; 3] {
+        if value.is_nan() {
+            return [0.3; 3];
+        }
+        let t = match self {
+            Self::Classes => value.floor().rem_euclid(8.0) / 7.0,
+            _ if high > low => (value - low) / (high - low),
+            _ => 0.5,
+        };
+        // A little to the middle of its step, so that rounding does not find the class before.
+        let t = if self == Self::Classes { t + 1e-9 } else { t };
+        self.srgb(t).map(to_linear)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn maps_begin_and_end_with_their_first_and_last_color() {
+        assert_eq!(ColorMap::Viridis.srgb(0.0), [68, 1, 84]);
+        assert_eq!(ColorMap::Viridis.srgb(1.0), [253, 231, 37]);
+        assert_eq!(ColorMap::Diverging.srgb(0.5), [221; 3]);
+        assert_eq!(ColorMap::Gray.srgb(f64::NAN), [0; 3]);
+        assert_eq!(ColorMap::Gray.srgb(2.0), [255; 3]);
+    }
+
+    #[test]
+    fn viridis_becomes_brighter_all_the_way() {
+        let luminance = |t: f64| {
+            let [r, g, b] = ColorMap::Viridis.srgb(t).map(to_linear);
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let steps: Vec<f32> = (0..=16).map(|i| luminance(f64::from(i) / 16.0)).collect();
+        assert!(steps.windows(2).all(|w| w[0] < w[1]), "{steps:?}");
+    }
+
+    #[test]
+    fn each_class_has_its_color() {
+        for class in 0..16_u32 {
+            let color = ColorMap::Classes.linear(f64::from(class), [0.0, 0.0]);
+            let expected = CLASSES[class as usize % 8].map(to_linear);
+            assert_eq!(color, expected, "{class}");
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! Lines over triangles: of constant width, with round ends, hidden where something is before them.
+//!
+//! A sample of a line is compared with the surface at the nearest place on its axis: the plane of the
+//! triangle that the sample sees is continued to there. So a thick line on a slanted surface is seen from
+//! border to border, though half of it lies behind that surface.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::TILE;
+use super::project::GRID;
+use super::shade::Shader;
+use super::tile::{NOTHING, PLACES, SAMPLES, Tile};
+use crate::View;
+use crate::drawing::{Drawing, Line};
+
+/// A line in the picture.
+pub(super) struct FlatLine {
+    /// The ends in pixels.
+    ends: [DVec2; 2],
+    /// Their depths.
+    depths: [f64; 2],
+    /// Half the width in pixels.
+    radius: f64,
+}
+
+/// Where lines are seen; `None` for those behind the camera.
+pub(super) fn project(drawing: &Drawing, view: &View) -> Vec<Option<FlatLine>> {
+    let flat = |line: &Line| {
+        let [a, b] = line.ends.map(|p| view.turned(p));
+        let cut = |a: DVec3, b: DVec3| {
+            let (da, db) = (view.inside(0, 0.0, a), view.inside(0, 0.0, b));
+            if da >= 0.0 {
+                a
+            } else {
+                let mut cut = b + (a - b) * (db / (db - da));
+                cut.z = view.near();
+                cut
+            }
+        };
+        if view.inside(0, 0.0, a) < 0.0 && view.inside(0, 0.0, b) < 0.0 {
+            return None;
+        }
+        let seen = [cut(a, b), cut(b, a)].map(|v| view.project(v));
+        let flat = FlatLine {
+            ends: seen.map(|s| s.at),
+            depths: seen.map(|s| s.depth),
+            radius: 0.5 * f64::from(line.width),
+        };
+        (flat.ends[0].is_finite() && flat.ends[1].is_finite() && flat.radius > 0.0).then_some(flat)
+    };
+    let mut lines = Vec::new();
+    drawing
+        .lines
+        .par_iter()
+        .with_min_len(1024)
+        .map(flat)
+        .collect_into_vec(&mut lines);
+    lines
+}
+
+/// The box of a line in pixels: left, top, right and bottom.
+pub(super) fn limits(line: &FlatLine) -> [f64; 4] {
+    let [a, b] = line.ends;
+    let (min, max) = (a.min(b) - line.radius, a.max(b) + line.radius);
+    [min.x, min.y, max.x, max.y]
+}
+
+impl FlatLine {
+    /// How far along the line the place is that is nearest to `p`, from 0 to 1.
+    fn along(&self, p: DVec2) -> f64 {
+        let [a, b] = self.ends;
+        let length_squared = a.distance_squared(b);
+        if length_squared > 0.0 {
+            ((p - a).dot(b - a) / length_squared).clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
+    }
+
+    fn place(&self, t: f64) -> DVec2 {
+        self.ends[0] + (self.ends[1] - self.ends[0]) * t
+    }
+
+    fn distance(&self, p: DVec2) -> f64 {
+        p.distance(self.place(self.along(p)))
+    }
+}
+
+/// Draws a line into a tile.
+pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, shader: &Shader) {
+    let corner = DVec2::new(f64::from(tile.left), f64::from(tile.top));
+    let half = f64::from(TILE) / 2.0;
+    if flat.distance(corner + half) > half * std::f64::consts::SQRT_2 + flat.radius {
+        return;
+    }
+    let [left, top, right, bottom] = limits(flat);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between the borders of the tile"
+    )]
+    let pixel = |x: f64, low: u32, high: u32| x.clamp(f64::from(low), f64::from(high - 1)) as u32;
+    let (x0, x1) = (
+        pixel(left, tile.left, tile.right),
+        pixel(right, tile.left, tile.right),
+    );
+    let (y0, y1) = (
+        pixel(top, tile.top, tile.bottom),
+        pixel(bottom, tile.top, tile.bottom),
+    );
+    let radius_squared = flat.radius * flat.radius;
+    let mut sight = Sight {
+        flat,
+        line,
+        shader,
+        last: None,
+    };
+    for y in y0..=y1 {
+        for x in x0..=x1 {
+            let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+            if flat.distance(middle) > flat.radius + std::f64::consts::FRAC_1_SQRT_2 {
+                continue;
+            }
+            let place = tile.place(x, y);
+            for k in 0..SAMPLES {
+                let [dx, dy] = PLACES[k].map(|d| f64::from(d) / f64::from(GRID));
+                let p = middle + DVec2::new(dx, dy);
+                let t = flat.along(p);
+                if p.distance_squared(flat.place(t)) > radius_squared {
+                    continue;
+                }
+                let over = &mut tile.over[place][k];
+                if sight.is_seen(tile.seen[place][k], t) {
+                    *over = 2 * number + 2;
+                } else if line.hidden > 0.0 && (*over == 0 || *over & 1 == 1) {
+                    *over = 2 * number + 3;
+                }
+            }
+        }
+    }
+}
+
+/// Whether a line is before a triangle.
+struct Sight<'a> {
+    flat: &'a FlatLine,
+    line: &'a Line,
+    shader: &'a Shader<'a>,
+    /// The triangle that was asked for last: whether it is beside the line, a point of it and its normal.
+    last: Option<(u32, bool, DVec3, DVec3)>,
+}
+
+impl Sight<'_> {
+    /// Whether the line at `t` is before what is seen there.
+    fn is_seen(&mut self, seen: u32, t: f64) -> bool {
+        if seen == NOTHING {
+            return true;
+        }
+        let (is_beside, p, n) = match self.last {
+            Some((id, is_beside, p, n)) if id == seen => (is_beside, p, n),
+            _ => {
+                let is_beside = self.line.faces.contains(&self.shader.face(seen));
+                let (p, n) = self.shader.plane(seen);
+                self.last = Some((seen, is_beside, p, n));
+                (is_beside, p, n)
+            }
+        };
+        if is_beside {
+            return true;
+        }
+        let [d0, d1] = self.flat.depths;
+        let depth = d0 + (d1 - d0) * t;
+        let view = self.shader.view();
+        let Some(surface) = view.plane_depth(p, n, self.flat.place(t)) else {
+            return true;
+        };
+        // A curved surface comes forward beside its edges by less than this.
+        let bias = view.pixel(depth) * (1.0 + self.flat.radius);
+        surface >= depth - view.depth_of(bias, depth)
+    }
+}

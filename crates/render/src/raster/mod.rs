@@ -1,0 +1,302 @@
+//! From a drawing to pixels.
+//!
+//! The picture is cut into tiles. Triangles are sorted into the tiles that they touch; then each tile finds
+//! what its samples see and shades it, independently of all others: the same bytes for any number of
+//! threads.
+//!
+//! ```text
+//!   project    points to a grid of 1/256 pixel; triangles that reach too far are cut
+//!   bins       which triangles and lines touch which tile
+//!   tile       which triangle each of 16 samples a pixel sees
+//!   lines      which line lies over it
+//!   shade      the color of a triangle at a place
+//!   occlusion  how much of the surroundings a place sees
+//! ```
+
+mod bins;
+mod lines;
+mod occlusion;
+mod project;
+mod shade;
+#[cfg(test)]
+mod tests;
+mod tile;
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use crate::color::{byte, narrow, to_srgb};
+use crate::drawing::Drawing;
+use crate::image::{Image, checked_size};
+use crate::style::Shading;
+use crate::{PictureError, View};
+use project::GRID;
+use shade::Shader;
+use tile::{NOTHING, PLACES, SAMPLES, Tile};
+
+/// Pixels of a tile along each side.
+const TILE: u32 = 32;
+
+/// How a drawing is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// How light falls.
+    pub shading: Shading,
+    /// How dark places are that see little of their surroundings: from 0 (no darker) to 1.
+    pub occlusion: f32,
+    /// Linear red, green and blue, and alpha, of what is behind everything.
+    pub background: [f32; 4],
+}
+
+/// A drawing in pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rendered {
+    /// The pixels.
+    pub image: Image,
+    /// Where the labels of the drawing are, in its order; `None` for those behind the camera or beside the
+    /// picture.
+    pub labels: Vec<Option<PlacedLabel>>,
+}
+
+/// A label in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedLabel {
+    /// Pixels from the left and from the top.
+    pub at: DVec2,
+    /// Whether something is before it.
+    pub is_hidden: bool,
+}
+
+/// The size of a picture, and its tiles.
+struct Frame {
+    width: u32,
+    height: u32,
+    columns: u32,
+    rows: u32,
+}
+
+impl Frame {
+    fn new([width, height]: [u32; 2]) -> Self {
+        Self {
+            width,
+            height,
+            columns: width.div_ceil(TILE),
+            rows: height.div_ceil(TILE),
+        }
+    }
+
+    fn n_tiles(&self) -> usize {
+        self.columns as usize * self.rows as usize
+    }
+}
+
+/// The bytes of memory that [`render`] takes at most, beside the drawing: so many points, triangles and lines
+/// in a picture of this size.
+pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -> u64 {
+    let pixels = u64::from(width) * u64::from(height);
+    let n_points: u64 = drawing.parts.iter().map(|p| p.points.len() as u64).sum();
+    let (triangles, lines) = (drawing.n_triangles() as u64, drawing.lines.len() as u64);
+    let maps = if look.occlusion > 0.0 && triangles > 0 {
+        occlusion::bytes([width, height]) + 12 * n_points * rayon::current_num_threads() as u64
+    } else {
+        0
+    };
+    // A pixel of the image; a point on the grid; a triangle in the lists of a few tiles, twice while they
+    // are sorted; a number for each tile and chunk.
+    4 * pixels + 12 * n_points + 32 * triangles + 96 * lines + pixels / 8 + maps + (8 << 20)
+}
+
+/// Draws a drawing.
+///
+/// # Errors
+///
+/// [`PictureError::Size`] if the picture has no pixels or too many.
+pub fn render(
+    drawing: &Drawing,
+    view: &View,
+    size: [u32; 2],
+    look: &Look,
+) -> Result<Rendered, PictureError> {
+    let n_pixels = checked_size(size[0], size[1])?;
+    let frame = Frame::new(size);
+    let triangles = bins::Triangles::new(drawing, view, &frame);
+    let flat_lines = lines::project(drawing, view);
+    let line_bins = bins::Lines::new(
+        flat_lines.iter().map(|l| l.as_ref().map(lines::limits)),
+        &frame,
+    );
+    let shader = Shader::new(drawing, view, size, look);
+
+    let mut pixels = vec![[0; 4]; n_pixels];
+    let width = frame.width as usize;
+    pixels
+        .par_chunks_mut(width * TILE as usize)
+        .zip(0..frame.rows)
+        .for_each(|(band, row)| {
+            let tiles: Vec<Vec<[u8; 4]>> = (0..frame.columns)
+                .into_par_iter()
+                .map_init(Tile::new, |tile, column| {
+                    tile.begin(&frame, column, row);
+                    let number = (row * frame.columns + column) as usize;
+                    triangles.of(drawing, number, |id, flat| {
+                        tile.draw(id, flat, shader.mask(id));
+                    });
+                    for line in line_bins.of(number) {
+                        if let Some(flat) = &flat_lines[line as usize] {
+                            lines::draw(tile, line, flat, &drawing.lines[line as usize], &shader);
+                        }
+                    }
+                    resolve(tile, &shader, look)
+                })
+                .collect();
+            for (tile, left) in tiles.iter().zip((0..width).step_by(TILE as usize)) {
+                let n = (width - left).min(TILE as usize);
+                for (row, of_tile) in band.chunks_mut(width).zip(tile.chunks(n)) {
+                    row[left..left + n].copy_from_slice(of_tile);
+                }
+            }
+        });
+    let labels = drawing
+        .labels
+        .iter()
+        .map(|label| place(label.at, drawing, view, &frame, &triangles))
+        .collect();
+    Ok(Rendered {
+        image: Image {
+            width: frame.width,
+            height: frame.height,
+            pixels,
+        },
+        labels,
+    })
+}
+
+/// The pixels of a tile.
+fn resolve(tile: &Tile, shader: &Shader, look: &Look) -> Vec<[u8; 4]> {
+    let mut pixels =
+        Vec::with_capacity(((tile.right - tile.left) * (tile.bottom - tile.top)) as usize);
+    let nothing = finished([0.0; 4], look.background);
+    for y in tile.top..tile.bottom {
+        for x in tile.left..tile.right {
+            let place = tile.place(x, y);
+            let (seen, over) = (&tile.seen[place], &tile.over[place]);
+            let is_empty = *seen == [NOTHING; SAMPLES] && *over == [0; SAMPLES];
+            pixels.push(if is_empty {
+                nothing
+            } else {
+                finished(shaded([x, y], seen, over, shader), look.background)
+            });
+        }
+    }
+    pixels
+}
+
+/// Premultiplied linear light and alpha of a pixel.
+fn shaded(
+    [x, y]: [u32; 2],
+    seen: &[u32; SAMPLES],
+    over: &[u32; SAMPLES],
+    shader: &Shader,
+) -> [f32; 4] {
+    let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+    let mut sum = [0.0; 4];
+    let mut done = 0_u32;
+    let mut memory = None;
+    for first in 0..SAMPLES {
+        if done >> first & 1 == 1 {
+            continue;
+        }
+        // All samples that see the same.
+        let (mut n, mut place) = (0.0_f32, [0_i32; 2]);
+        for k in first..SAMPLES {
+            if seen[k] == seen[first] && over[k] == over[first] {
+                done |= 1 << k;
+                n += 1.0;
+                place = [place[0] + PLACES[k][0], place[1] + PLACES[k][1]];
+            }
+        }
+        let line = (over[first] > 0).then(|| shader.line_color(over[first]));
+        let line_alpha = line.map_or(0.0, |c| c[3]);
+        let mut color = [0.0; 4];
+        if seen[first] != NOTHING && line_alpha < 1.0 {
+            let scale = 1.0 / (f64::from(n) * f64::from(GRID));
+            let aside = DVec2::new(f64::from(place[0]), f64::from(place[1])) * scale;
+            let [r, g, b] = shader.shade(seen[first], middle + aside, &mut memory);
+            color = [r, g, b, 1.0];
+        }
+        if let Some([r, g, b, a]) = line {
+            let [s, t, u, v] = color;
+            let rest = 1.0 - a;
+            color = [
+                r * a + s * rest,
+                g * a + t * rest,
+                b * a + u * rest,
+                a + v * rest,
+            ];
+        }
+        for (sum, c) in sum.iter_mut().zip(color) {
+            *sum += c * n;
+        }
+    }
+    sum.map(|c| c / SAMPLES as f32)
+}
+
+/// A pixel from premultiplied linear light over a background.
+fn finished([r, g, b, a]: [f32; 4], [s, t, u, v]: [f32; 4]) -> [u8; 4] {
+    let rest = (1.0 - a) * v;
+    let alpha = a + rest;
+    if alpha <= 0.0 {
+        return [0; 4];
+    }
+    let light = [r + s * rest, g + t * rest, b + u * rest].map(|c| to_srgb(c / alpha));
+    [light[0], light[1], light[2], byte(alpha)]
+}
+
+/// Where a label is, and whether a triangle is before it.
+fn place(
+    at: glam::DVec3,
+    drawing: &Drawing,
+    view: &View,
+    frame: &Frame,
+    triangles: &bins::Triangles,
+) -> Option<PlacedLabel> {
+    let seen = view.see(at)?;
+    let (w, h) = (f64::from(frame.width), f64::from(frame.height));
+    if !(0.0..w).contains(&seen.at.x) || !(0.0..h).contains(&seen.at.y) {
+        return None;
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "inside the picture"
+    )]
+    let [x, y] = seen.at.to_array().map(|x| x as u32);
+    let number = (y / TILE * frame.columns + x / TILE) as usize;
+    let nearer = view.depth_of(2.0 * view.pixel(seen.depth), seen.depth);
+    let limit = narrow(seen.depth - nearer);
+    let mut is_hidden = false;
+    // As if it were a tile of one pixel.
+    let mut tile = Tile::new();
+    (tile.left, tile.top, tile.right, tile.bottom) = (x, y, x + 1, y + 1);
+    triangles.of(drawing, number, |id, flat| {
+        tile.draw(id, flat, u16::MAX);
+    });
+    let nearest = nearest_sample(seen.at);
+    is_hidden |= tile.depth[0][nearest] < limit;
+    Some(PlacedLabel {
+        at: seen.at,
+        is_hidden,
+    })
+}
+
+/// The sample of its pixel that is nearest to a place.
+fn nearest_sample(at: DVec2) -> usize {
+    let inside = (at - at.floor() - 0.5) * f64::from(GRID);
+    let distance = |k: &usize| {
+        let [x, y] = PLACES[*k];
+        inside.distance_squared(DVec2::new(f64::from(x), f64::from(y)))
+    };
+    (0..SAMPLES)
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .unwrap_or(0)
+}

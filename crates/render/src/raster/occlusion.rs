@@ -1,0 +1,197 @@
+//! Ambient occlusion: how much of its surroundings a place on the surface sees.
+//!
+//! Depth maps are drawn from directions that are spread evenly over the sphere; each map keeps the nearest
+//! and the farthest depth, and so serves two opposite directions. A place is then looked up in all maps. It
+//! does not depend on the camera, and there is no noise.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::color::narrow;
+use crate::drawing::Drawing;
+
+/// Maps, each for two opposite directions.
+const MAPS: usize = 48;
+/// A depth map has at most so many texels along each side.
+const LARGEST: u32 = 512;
+/// And at least so many.
+const SMALLEST: u32 = 64;
+
+/// Texels of a map along each side, for a picture of this size.
+fn side([width, height]: [u32; 2]) -> u32 {
+    (width.max(height) / 2).clamp(SMALLEST, LARGEST)
+}
+
+/// The bytes of the maps for a picture of this size.
+pub(super) fn bytes(size: [u32; 2]) -> u64 {
+    8 * MAPS as u64 * u64::from(side(size)) * u64::from(side(size))
+}
+
+/// Depth maps from all sides.
+pub(super) struct Occlusion {
+    center: DVec3,
+    /// A texel in scene units.
+    texel: f64,
+    side: usize,
+    maps: Vec<Map>,
+}
+
+struct Map {
+    /// The directions of its columns, of its rows, and of depth.
+    axes: [[f32; 3]; 3],
+    /// The least and the largest depth in each texel.
+    depths: Vec<[f32; 2]>,
+}
+
+/// Evenly spread directions of half a sphere: Swinbank and Purser, "Fibonacci grids", 2006.
+fn direction(i: usize) -> DVec3 {
+    // The golden angle.
+    let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt()) * i as f64;
+    let z = 1.0 - (i as f64 + 0.5) / MAPS as f64;
+    let r = (1.0 - z * z).max(0.0).sqrt();
+    let (sin, cos) = libm::sincos(turn);
+    DVec3::new(r * cos, r * sin, z)
+}
+
+fn single(v: DVec3) -> [f32; 3] {
+    v.to_array().map(narrow)
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+impl Occlusion {
+    pub(super) fn new(drawing: &Drawing, size: [u32; 2]) -> Self {
+        let all_points = |each: &mut dyn FnMut(DVec3)| {
+            for part in &drawing.parts {
+                part.points.iter().for_each(|&p| each(p));
+            }
+        };
+        let (center, radius) = crate::camera::sphere(&all_points);
+        let side = side(size) as usize;
+        // One texel stays free at each border.
+        let texel = 2.0 * radius / (side - 2) as f64;
+        let maps = (0..MAPS)
+            .into_par_iter()
+            .map(|i| {
+                let z = direction(i);
+                let x = z.any_orthonormal_vector();
+                let axes = [x, z.cross(x), z].map(|axis| single(axis));
+                let mut depths = vec![[f32::INFINITY, f32::NEG_INFINITY]; side * side];
+                let mut places = Vec::new();
+                for part in &drawing.parts {
+                    places.clear();
+                    let half = side as f32 / 2.0;
+                    places.extend(part.points.iter().map(|&p| {
+                        let p = single((p - center) / texel);
+                        [
+                            dot(axes[0], p) + half,
+                            dot(axes[1], p) + half,
+                            dot(axes[2], p),
+                        ]
+                    }));
+                    for triangle in &part.triangles {
+                        fill(&mut depths, side, triangle.map(|v| places[v as usize]));
+                    }
+                }
+                Map { axes, depths }
+            })
+            .collect();
+        Self {
+            center,
+            texel,
+            side,
+            maps,
+        }
+    }
+
+    /// How much of its surroundings a place with a unit normal sees, weighted by the cosine: 0 for none, 1
+    /// for all.
+    pub(super) fn open(&self, p: DVec3, normal: DVec3) -> f32 {
+        // Away from its own surface, which the maps know to a texel only.
+        let p = single((p - self.center) / self.texel + normal * 2.0);
+        let n = single(normal);
+        let half = self.side as f32 / 2.0 - 0.5;
+        let (mut open, mut all) = (0.0, 0.0);
+        for map in &self.maps {
+            let along = dot(map.axes[2], n);
+            let weight = along.abs();
+            all += weight;
+            let depth = dot(map.axes[2], p);
+            let (x, y) = (dot(map.axes[0], p) + half, dot(map.axes[1], p) + half);
+            let limit = (self.side - 2) as f32;
+            let (x, y) = (x.clamp(0.0, limit), y.clamp(0.0, limit));
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "inside the map"
+            )]
+            let (column, row) = (x as usize, y as usize);
+            let (s, t) = (x - column as f32, y - row as f32);
+            let at = row * self.side + column;
+            // Softly, over some texels of depth, and between four texels.
+            let is_front = along > 0.0;
+            let seen = |place: usize| {
+                let [least, most] = map.depths[place];
+                let before = if is_front {
+                    most - depth
+                } else {
+                    depth - least
+                };
+                (1.0 - before / 4.0).clamp(0.0, 1.0)
+            };
+            let upper = seen(at) * (1.0 - s) + seen(at + 1) * s;
+            let lower = seen(at + self.side) * (1.0 - s) + seen(at + self.side + 1) * s;
+            open += weight * (upper * (1.0 - t) + lower * t);
+        }
+        if all > 0.0 { open / all } else { 1.0 }
+    }
+}
+
+/// Draws a triangle into a depth map: the texels whose middles it covers.
+fn fill(depths: &mut [[f32; 2]], side: usize, [a, b, c]: [[f32; 3]; 3]) {
+    let limit = (side - 1) as f32;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "inside the map; what is less than 0 becomes 0"
+    )]
+    let range = |i: usize| {
+        let (min, max) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
+        // Middles are at halves.
+        let first = (min + 0.5).clamp(0.0, limit) as usize;
+        let end = (max + 0.5).clamp(0.0, limit) as usize;
+        first..end
+    };
+    let (columns, rows) = (range(0), range(1));
+    if columns.is_empty() || rows.is_empty() {
+        return;
+    }
+    let (ux, uy, vx, vy) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
+    let area = ux * vy - uy * vx;
+    if area == 0.0 {
+        return;
+    }
+    let (du, dv) = ((b[2] - a[2]) / area, (c[2] - a[2]) / area);
+    for row in rows {
+        let y = row as f32 + 0.5 - a[1];
+        for column in columns.clone() {
+            let x = column as f32 + 0.5 - a[0];
+            // Twice the areas beside b and c.
+            let (s, t) = (x * vy - y * vx, ux * y - uy * x);
+            let rest = area - s - t;
+            let is_inside = if area > 0.0 {
+                s >= 0.0 && t >= 0.0 && rest >= 0.0
+            } else {
+                s <= 0.0 && t <= 0.0 && rest <= 0.0
+            };
+            if is_inside {
+                let depth = a[2] + s * du + t * dv;
+                let [least, most] = &mut depths[row * side + column];
+                *least = least.min(depth);
+                *most = most.max(depth);
+            }
+        }
+    }
+}

@@ -1,0 +1,349 @@
+//! The color of a triangle at a place of the picture.
+//!
+//! Light comes from where the photographer stands: a key light from above and from the left, a weak one
+//! from the right, and a bright sky over a darker ground. Directions are those of the picture, so that every
+//! view is lit alike.
+
+use glam::{DVec2, DVec3};
+
+use super::Look;
+use super::occlusion::Occlusion;
+use crate::View;
+use crate::color::{mix, narrow};
+use crate::drawing::{Drawing, Normals, Part, Surface};
+use crate::style::Shading;
+
+/// Where the key light comes from: right, upwards, towards the camera. Not of length 1.
+pub(super) const KEY: DVec3 = DVec3::new(-0.45, 0.65, 0.75);
+/// Where the weak light comes from.
+pub(super) const FILL: DVec3 = DVec3::new(0.8, -0.05, 0.45);
+/// Linear light of the key light on what faces it, of the weak one, of the sky and of the ground.
+pub(super) const KEY_LIGHT: [f32; 3] = [0.64, 0.625, 0.60];
+pub(super) const FILL_LIGHT: [f32; 3] = [0.09, 0.10, 0.115];
+pub(super) const SKY: [f32; 3] = [0.43, 0.445, 0.47];
+pub(super) const GROUND: [f32; 3] = [0.19, 0.18, 0.17];
+
+/// What shading needs.
+pub(super) struct Shader<'a> {
+    drawing: &'a Drawing<'a>,
+    view: &'a View,
+    look: &'a Look,
+    occlusion: Option<Occlusion>,
+    /// The first triangle and the first face of each part.
+    firsts: Vec<[u32; 2]>,
+    /// Whether some surface is not opaque.
+    has_holes: bool,
+    key: DVec3,
+    fill: DVec3,
+}
+
+/// A place whose openness is known.
+#[derive(Clone, Copy)]
+pub(super) struct Known {
+    at: DVec3,
+    normal: DVec3,
+    open: f32,
+}
+
+/// A place on a triangle.
+struct Spot {
+    at: DVec3,
+    weights: [f32; 3],
+    /// Of the triangle, on the side of the camera, of length 1 or 0.
+    normal: DVec3,
+    is_back: bool,
+    /// Towards the camera.
+    to_eye: DVec3,
+}
+
+impl<'a> Shader<'a> {
+    pub(super) fn new(
+        drawing: &'a Drawing<'a>,
+        view: &'a View,
+        size: [u32; 2],
+        look: &'a Look,
+    ) -> Self {
+        let mut next = [0_u32; 2];
+        let mut firsts = Vec::new();
+        for part in &drawing.parts {
+            firsts.push(next);
+            let n = u32::try_from(part.triangles.len()).unwrap_or(u32::MAX);
+            next = [
+                next[0].saturating_add(n),
+                next[1].saturating_add(part.n_faces),
+            ];
+        }
+        let is_lit = look.shading != Shading::Plain;
+        let occlusion = (look.occlusion > 0.0 && is_lit && drawing.n_triangles() > 0)
+            .then(|| Occlusion::new(drawing, size));
+        let surfaces = drawing.parts.iter().flat_map(|p| &p.materials);
+        Self {
+            drawing,
+            view,
+            look,
+            occlusion,
+            firsts,
+            has_holes: surfaces.into_iter().any(|s| s.color[3] < 1.0),
+            key: KEY.normalize(),
+            fill: FILL.normalize(),
+        }
+    }
+
+    pub(super) fn view(&self) -> &View {
+        self.view
+    }
+
+    /// The part of a triangle, and its number in it.
+    fn find(&self, id: u32) -> (usize, usize) {
+        let part = self.firsts.partition_point(|first| first[0] <= id) - 1;
+        (part, (id - self.firsts[part][0]) as usize)
+    }
+
+    /// The face of a triangle, over all parts.
+    pub(super) fn face(&self, id: u32) -> u32 {
+        let (part, triangle) = self.find(id);
+        let face = u32::try_from(self.drawing.parts[part].face(triangle)).unwrap_or(0);
+        self.firsts[part][1].saturating_add(face)
+    }
+
+    /// A point of a triangle and its normal, of any length.
+    pub(super) fn plane(&self, id: u32) -> (DVec3, DVec3) {
+        let (part, triangle) = self.find(id);
+        let [a, b, c] = self.drawing.parts[part].corners_at(triangle);
+        (a, unit_cross(b - a, c - a))
+    }
+
+    /// The samples that a triangle may cover: fewer if it is transparent, others for each surface, so that
+    /// one is seen through another.
+    pub(super) fn mask(&self, id: u32) -> u16 {
+        if !self.has_holes {
+            return u16::MAX;
+        }
+        let (part, triangle) = self.find(id);
+        let p = &self.drawing.parts[part];
+        let place = surface_place(p, triangle);
+        let Some(surface) = p.materials.get(place) else {
+            return u16::MAX;
+        };
+        let [a, b, c] = p.corners_at(triangle);
+        let is_back = (b - a).cross(c - a).dot(self.view.axes()[2]) < 0.0;
+        let n = (surface.color[3].clamp(0.0, 1.0) * 16.0 + 0.5) as usize;
+        let turn = 5 * (part + place) + if is_back { 8 } else { 0 };
+        // Every third sample: those of the first few are spread over the pixel.
+        (0..n).fold(0, |mask, i| mask | 1 << ((i * 7 + turn) % 16))
+    }
+
+    /// The color of a line as the tile has noted it.
+    pub(super) fn line_color(&self, over: u32) -> [f32; 4] {
+        let line = &self.drawing.lines[((over - 2) / 2) as usize];
+        let [r, g, b, a] = line.color;
+        let seen = if over & 1 == 1 { line.hidden } else { 1.0 };
+        [r, g, b, a * seen]
+    }
+
+    /// Linear light of a triangle at a place of the picture. `known` is what it remembers from one place to
+    /// the next.
+    pub(super) fn shade(&self, id: u32, at: DVec2, known: &mut Option<Known>) -> [f32; 3] {
+        let (place, triangle) = self.find(id);
+        let part = &self.drawing.parts[place];
+        let corners = part.corners_at(triangle);
+        let spot = self.spot(corners, at);
+        let (color, surface) = self.color(part, triangle, &corners, &spot, at);
+        let is_plain = surface.is_some_and(|s| s.unlit) || self.look.shading == Shading::Plain;
+        let light = if is_plain {
+            color
+        } else {
+            let normal = self.normal(part, triangle, &spot);
+            let open = self.open(&spot, known);
+            self.lit(color, normal, spot.to_eye, open, surface)
+        };
+        let emissive = surface.map_or([0.0; 3], |s| s.emissive);
+        std::array::from_fn(|i| light[i] + emissive[i])
+    }
+
+    /// Where the ray through a place of the picture meets a triangle, or the nearest place in it.
+    fn spot(&self, corners: [DVec3; 3], at: DVec2) -> Spot {
+        let (origin, direction) = self.view.ray(at);
+        let [a, b, c] = corners;
+        let n = unit_cross(b - a, c - a);
+        let weights = barycentric(corners, n, origin, direction).map_or([1.0 / 3.0; 3], |w| {
+            let w = w.map(|w| w.max(0.0));
+            let sum = w[0] + w[1] + w[2];
+            w.map(|w| w / sum)
+        });
+        let to_eye = -direction.normalize();
+        let is_back = n.dot(to_eye) < 0.0;
+        Spot {
+            at: a * weights[0] + b * weights[1] + c * weights[2],
+            weights: weights.map(narrow),
+            normal: if is_back { -n } else { n },
+            is_back,
+            to_eye,
+        }
+    }
+
+    /// The normal that light falls on, of length 1.
+    fn normal(&self, part: &Part, triangle: usize, spot: &Spot) -> DVec3 {
+        let given = match &part.normals {
+            Normals::Triangle => DVec3::ZERO,
+            Normals::Given(channel) => {
+                DVec3::from(channel.at(part, triangle, spot.weights).map(f64::from))
+                    .normalize_or_zero()
+            }
+        };
+        if given == DVec3::ZERO {
+            return spot.normal;
+        }
+        let n = if spot.is_back { -given } else { given };
+        // A smooth normal may point away from the camera where the triangle does not.
+        let facing = n.dot(spot.to_eye);
+        if facing < 0.0 {
+            (n - spot.to_eye * facing).normalize_or(spot.normal)
+        } else {
+            n
+        }
+    }
+
+    /// How much a place sees of its surroundings, as far as the style wants it.
+    fn open(&self, spot: &Spot, known: &mut Option<Known>) -> f32 {
+        let Some(occlusion) = &self.occlusion else {
+            return 1.0;
+        };
+        // The samples of a pixel are near to each other, unless one surface ends before another.
+        let near = known.filter(|k| {
+            let seen = self
+                .view
+                .see(spot.at)
+                .map_or(0.0, |s| self.view.pixel(s.depth));
+            k.at.distance_squared(spot.at) < 4.0 * seen * seen && k.normal.dot(spot.normal) > 0.8
+        });
+        let open = near.map_or_else(|| occlusion.open(spot.at, spot.normal), |k| k.open);
+        *known = Some(Known {
+            at: spot.at,
+            normal: spot.normal,
+            open,
+        });
+        1.0 - self.look.occlusion * (1.0 - open)
+    }
+
+    /// The color without light, and the surface.
+    fn color(
+        &self,
+        part: &'a Part,
+        triangle: usize,
+        corners: &[DVec3; 3],
+        spot: &Spot,
+        at: DVec2,
+    ) -> ([f32; 3], Option<&'a Surface>) {
+        let surface = part.materials.get(surface_place(part, triangle));
+        let mut color = part.colors.at(part, triangle, spot.weights);
+        if let Some(s) = surface {
+            color = std::array::from_fn(|i| color[i] * s.color[i]);
+            if let (Some(texture), Some(uvs)) = (&s.texture, part.uvs.get(s.uv_set)) {
+                let uvs = part.corners[triangle].map(|c| uvs[c as usize]);
+                let place = |w: [f64; 3]| uvs[0] * w[0] + uvs[1] * w[1] + uvs[2] * w[2];
+                let here = place(spot.weights.map(f64::from));
+                let beside = [DVec2::X, DVec2::Y].map(|step| {
+                    let (origin, direction) = self.view.ray(at + step);
+                    let [a, b, c] = *corners;
+                    let n = unit_cross(b - a, c - a);
+                    barycentric(*corners, n, origin, direction)
+                        .map_or(DVec2::ZERO, |w| place(w) - here)
+                });
+                let texel = texture.at(here, beside);
+                color = std::array::from_fn(|i| color[i] * texel[i]);
+            }
+        }
+        if let (true, Some(back)) = (spot.is_back, part.back) {
+            color = back;
+        }
+        if let Some(&[r, g, b, a]) = part.marks.get(part.face(triangle)) {
+            color = mix(color, [r, g, b], a);
+        }
+        (color, surface)
+    }
+
+    /// What a surface of this color sends to the camera.
+    fn lit(
+        &self,
+        color: [f32; 3],
+        normal: DVec3,
+        to_eye: DVec3,
+        open: f32,
+        surface: Option<&Surface>,
+    ) -> [f32; 3] {
+        let [x, y, z] = self.view.axes();
+        let n = DVec3::new(normal.dot(x), normal.dot(y), normal.dot(z));
+        if self.look.shading == Shading::Matcap {
+            return matcap(color, n, open);
+        }
+        let key = narrow(n.dot(self.key).max(0.0));
+        let fill = narrow(n.dot(self.fill).max(0.0));
+        let sky = mix(GROUND, SKY, narrow(0.5 + 0.5 * n.y));
+        // Hollows are darker in the direct light too, but less: it casts no shadows.
+        let direct = 0.5 + 0.5 * open;
+        let light: [f32; 3] = std::array::from_fn(|i| {
+            color[i] * (sky[i] * open + direct * (KEY_LIGHT[i] * key + FILL_LIGHT[i] * fill))
+        });
+        if self.look.shading != Shading::Phong {
+            return light;
+        }
+        // Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977.
+        let eye = DVec3::new(to_eye.dot(x), to_eye.dot(y), to_eye.dot(z));
+        let roughness = surface.map_or(1.0, |s| s.roughness).clamp(0.0, 1.0);
+        let exponent = 24.0 + 200.0 * (1.0 - roughness);
+        let strength = 0.22 + 0.4 * (1.0 - roughness);
+        let half = (self.key + eye).normalize_or_zero();
+        let glint = libm::powf(narrow(n.dot(half).max(0.0)), exponent) * strength * direct;
+        light.map(|c| c + glint)
+    }
+}
+
+/// The color of a ball of clay in a studio where its normal is `n`: broad light from the upper left, a bright
+/// border, a soft highlight.
+fn matcap(color: [f32; 3], n: DVec3, open: f32) -> [f32; 3] {
+    let wrapped = narrow(n.dot(KEY.normalize())) * 0.5 + 0.5;
+    let broad = 0.16 + 0.84 * wrapped * wrapped;
+    let border = 1.0 - narrow(n.z.clamp(0.0, 1.0));
+    let border = border * border * border * 0.35;
+    let high = narrow(n.dot(DVec3::new(-0.28, 0.42, 0.86).normalize()).max(0.0));
+    let high = libm::powf(high, 30.0) * 0.16;
+    // Light that falls into hollows comes out warmer.
+    let tint = [1.0, 0.97, 0.94];
+    std::array::from_fn(|i| {
+        let shade = open + (1.0 - open) * color[i] * tint[i] * 0.5;
+        (color[i] * broad + border * (0.35 + 0.65 * color[i])) * shade + high
+    })
+}
+
+/// The place of a triangle's surface in the list of its part.
+fn surface_place(part: &Part, triangle: usize) -> usize {
+    let place = part.material_of_face.get(part.face(triangle));
+    place.map_or(0, |&m| m as usize)
+}
+
+/// The direction of the cross product, of length 1 or 0, also for vectors whose product is too small or too
+/// large for a number.
+fn unit_cross(u: DVec3, v: DVec3) -> DVec3 {
+    let scaled = |w: DVec3| {
+        let size = w.abs().max_element();
+        if size > 0.0 { w / size } else { w }
+    };
+    scaled(u).cross(scaled(v)).normalize_or_zero()
+}
+
+/// The barycentric coordinates of the place where a ray meets the plane of a triangle; `None` if it runs
+/// along the plane. `n` is the unit normal.
+fn barycentric(
+    [a, b, c]: [DVec3; 3],
+    n: DVec3,
+    origin: DVec3,
+    direction: DVec3,
+) -> Option<[f64; 3]> {
+    let p = origin + direction * (n.dot(a - origin) / n.dot(direction)) - a;
+    let (u, v) = (b - a, c - a);
+    let area = n.dot(u.cross(v));
+    let s = n.dot(p.cross(v)) / area;
+    let t = n.dot(u.cross(p)) / area;
+    (s.is_finite() && t.is_finite()).then_some([1.0 - s - t, s, t])
+}

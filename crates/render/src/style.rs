@@ -1,0 +1,224 @@
+//! How a picture looks: what a recipe can say about it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::color::narrow;
+use crate::raster::Look;
+use crate::{Color, PictureError};
+
+/// How light falls on surfaces.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Shading {
+    /// Each face has one shade.
+    Flat,
+    /// Shades change smoothly over edges that are not sharp; by the normals of corners or vertices, if there
+    /// are any.
+    #[default]
+    Smooth,
+    /// Smooth, with highlights.
+    Phong,
+    /// Like a ball of clay in a studio, wherever the surface has the same normal.
+    Matcap,
+    /// No light at all: the colors as they are.
+    Plain,
+}
+
+/// What is behind everything.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Background {
+    /// White.
+    #[default]
+    White,
+    /// Nothing: the picture can be laid over others.
+    Transparent,
+    /// This color.
+    Plain(Color),
+}
+
+/// Lines on a surface.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Lines {
+    /// Their width in pixels.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    #[serde(default = "line_width")]
+    pub width: f64,
+    /// Their color.
+    #[serde(default = "line_color")]
+    pub color: Color,
+    /// How much of them is seen where a surface is before them, from 0 (nothing) to 1.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    #[serde(default)]
+    pub hidden: f64,
+}
+
+impl Default for Lines {
+    fn default() -> Self {
+        Self {
+            width: line_width(),
+            color: line_color(),
+            hidden: 0.0,
+        }
+    }
+}
+
+fn line_width() -> f64 {
+    1.0
+}
+
+fn line_color() -> Color {
+    Color([28, 34, 48, 200])
+}
+
+/// How a picture looks.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Style {
+    /// How light falls on surfaces.
+    #[serde(default)]
+    pub shading: Shading,
+    /// Where surfaces have no normals of their own, edges with at least this angle between their faces look
+    /// sharp, in degrees.
+    #[serde(default = "sharp")]
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub sharp: f64,
+    /// How dark hollows are, from 0 (no darker) to 1.
+    #[serde(default = "occlusion")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub occlusion: f64,
+    /// What is behind everything.
+    #[serde(default)]
+    pub background: Background,
+    /// The color of all surfaces, in place of those that the scene has.
+    #[serde(default)]
+    pub color: Option<Color>,
+    /// The color of the backs of faces, which show where a mesh is open or turned inside out.
+    #[serde(default = "back")]
+    pub back: Option<Color>,
+    /// The edges of meshes.
+    #[serde(default)]
+    pub wireframe: Option<Lines>,
+    /// Edges with a face on one side only.
+    #[serde(default)]
+    pub boundary: Option<Lines>,
+    /// Edges with a crease: the sharper the wider, up to twice the width.
+    #[serde(default)]
+    pub creases: Option<Lines>,
+    /// Normals of vertices as short lines: their length as a fraction of the size of the scene.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub normals: Option<f64>,
+    /// Dots on all vertices: their diameter in pixels.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub points: Option<f64>,
+    /// The control nets of Bezier patches and the control polygons of curves.
+    #[serde(default)]
+    pub control_nets: Option<Lines>,
+    /// Elements that have their numbers written beside them; only on small meshes.
+    #[serde(default)]
+    pub ids: Option<Ids>,
+    /// The width of curves and polylines in pixels.
+    #[serde(default = "curve_width")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub curve_width: f64,
+}
+
+/// Elements that can have their numbers written beside them.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Ids {
+    /// Vertices.
+    Vertices,
+    /// Faces.
+    Faces,
+}
+
+impl Style {
+    /// Whether all numbers are in their ranges.
+    pub(crate) fn check(&self) -> Result<(), PictureError> {
+        let mut numbers = vec![
+            ("sharp", self.sharp, 180.0),
+            ("occlusion", self.occlusion, 1.0),
+            ("curve_width", self.curve_width, 100.0),
+        ];
+        numbers.extend(self.normals.map(|n| ("normals", n, 1.0)));
+        numbers.extend(self.points.map(|n| ("points", n, 100.0)));
+        let lines = [
+            self.wireframe,
+            self.boundary,
+            self.creases,
+            self.control_nets,
+        ];
+        for lines in lines.into_iter().flatten() {
+            numbers.push(("width", lines.width, 100.0));
+            numbers.push(("hidden", lines.hidden, 1.0));
+        }
+        match numbers
+            .into_iter()
+            .find(|&(_, n, most)| !(0.0..=most).contains(&n))
+        {
+            None => Ok(()),
+            Some((name, n, most)) => Err(PictureError::Style(format!(
+                "expected `{name}` from 0 to {most}, found {n}"
+            ))),
+        }
+    }
+
+    /// How a drawing in this style is drawn.
+    pub fn look(&self) -> Look {
+        Look {
+            shading: self.shading,
+            occlusion: narrow(self.occlusion),
+            background: match self.background {
+                Background::White => [1.0; 4],
+                Background::Transparent => [0.0; 4],
+                Background::Plain(color) => color.linear(),
+            },
+        }
+    }
+}
+
+impl Default for Style {
+    fn default() -> Self {
+        Self {
+            shading: Shading::default(),
+            sharp: sharp(),
+            occlusion: occlusion(),
+            background: Background::default(),
+            color: None,
+            back: back(),
+            wireframe: None,
+            boundary: None,
+            creases: None,
+            normals: None,
+            points: None,
+            control_nets: None,
+            ids: None,
+            curve_width: curve_width(),
+        }
+    }
+}
+
+fn sharp() -> f64 {
+    40.0
+}
+
+fn occlusion() -> f64 {
+    0.7
+}
+
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "the default of a field that may be None"
+)]
+fn back() -> Option<Color> {
+    Some(Color::rgb(0xd9, 0xa0, 0x82))
+}
+
+fn curve_width() -> f64 {
+    2.5
+}

@@ -1,0 +1,186 @@
+//! Textures: pictures on surfaces, with smaller copies for what is far away.
+
+use glam::DVec2;
+use image::{ImageReader, Limits};
+use scene::{Filter, Sampler, TextureTransform, Wrap};
+
+use crate::color::{byte, to_linear, to_srgb};
+
+/// A texture may have so many pixels along a side, and so many bytes.
+const LARGEST_SIDE: u32 = 16_384;
+const MOST_BYTES: u64 = 1 << 30;
+
+/// A picture in memory, and how it lies on a surface.
+#[derive(Clone, Debug)]
+pub struct Texture {
+    /// The picture and its copies, each half as large as the one before.
+    levels: Vec<Level>,
+    sampler: Sampler,
+    transform: TextureTransform,
+}
+
+#[derive(Clone, Debug)]
+struct Level {
+    width: usize,
+    height: usize,
+    pixels: Vec<[u8; 4]>,
+}
+
+impl Texture {
+    /// A texture from the bytes of a PNG or JPEG file.
+    ///
+    /// # Errors
+    ///
+    /// Why the bytes are no picture.
+    pub fn decode(
+        bytes: &[u8],
+        sampler: Sampler,
+        transform: TextureTransform,
+    ) -> Result<Self, String> {
+        let mut reader = ImageReader::new(std::io::Cursor::new(bytes))
+            .with_guessed_format()
+            .map_err(|e| e.to_string())?;
+        let mut limits = Limits::no_limits();
+        limits.max_image_width = Some(LARGEST_SIDE);
+        limits.max_image_height = Some(LARGEST_SIDE);
+        limits.max_alloc = Some(MOST_BYTES);
+        reader.limits(limits);
+        let picture = reader.decode().map_err(|e| e.to_string())?.into_rgba8();
+        let first = Level {
+            width: picture.width() as usize,
+            height: picture.height() as usize,
+            pixels: picture.pixels().map(|p| p.0).collect(),
+        };
+        if first.pixels.is_empty() {
+            return Err("expected pixels, found none".to_owned());
+        }
+        let mut levels = vec![first];
+        while let Some(half) = levels.last().and_then(Level::half) {
+            levels.push(half);
+        }
+        Ok(Self {
+            levels,
+            sampler,
+            transform,
+        })
+    }
+
+    /// Linear red, green and blue at texture coordinates with v upwards. `beside` says how far away the
+    /// next pixels of the picture are.
+    ///
+    /// Between the two copies whose pixels are as large as those of the picture: Williams, "Pyramidal
+    /// Parametrics", 1983.
+    pub(crate) fn at(&self, uv: DVec2, beside: [DVec2; 2]) -> [f32; 3] {
+        let (sin, cos) = libm::sincos(self.transform.rotation);
+        let [sx, sy] = self.transform.scale;
+        // Of the transform without its offset: linear, with v downwards.
+        let turned = |d: DVec2| {
+            let (x, y) = (d.x * sx, d.y * sy);
+            DVec2::new(cos * x + sin * y, cos * y - sin * x)
+        };
+        let place = turned(DVec2::new(uv.x, 1.0 - uv.y)) + DVec2::from(self.transform.offset);
+        let size = DVec2::new(self.levels[0].width as f64, self.levels[0].height as f64);
+        let [a, b] = beside.map(|d| (turned(DVec2::new(d.x, -d.y)) * size).length());
+        let wide = a.max(b);
+        let last = self.levels.len() - 1;
+        // A picture of large pixels is meant to be seen as such if its file says so.
+        if wide <= 1.0 {
+            let is_nearest = self.sampler.magnify == Some(Filter::Nearest);
+            return self.levels[0].at(place, self.sampler.wrap, is_nearest);
+        }
+        let level = libm::log2(wide).clamp(0.0, last as f64);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "from 0 to the last level"
+        )]
+        let below = (level as usize).min(last);
+        let t = crate::color::narrow(level - below as f64);
+        let [fine, coarse] = [below, (below + 1).min(last)]
+            .map(|l| self.levels[l].at(place, self.sampler.wrap, false));
+        crate::color::mix(fine, coarse, t)
+    }
+}
+
+impl Level {
+    /// The mean of each four pixels; `None` of a single pixel.
+    fn half(&self) -> Option<Self> {
+        if self.width * self.height == 1 {
+            return None;
+        }
+        let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
+        let mut pixels = Vec::with_capacity(width * height);
+        for y in 0..height {
+            for x in 0..width {
+                let (x1, y1) = (
+                    (2 * x + 1).min(self.width - 1),
+                    (2 * y + 1).min(self.height - 1),
+                );
+                let four = [(2 * x, 2 * y), (x1, 2 * y), (2 * x, y1), (x1, y1)]
+                    .map(|(x, y)| self.pixels[y * self.width + x]);
+                let mean = |i: usize| four.iter().map(|p| to_linear(p[i])).sum::<f32>() / 4.0;
+                let alpha = four.iter().map(|p| f32::from(p[3])).sum::<f32>() / 4.0;
+                pixels.push([
+                    to_srgb(mean(0)),
+                    to_srgb(mean(1)),
+                    to_srgb(mean(2)),
+                    byte(alpha / 255.0),
+                ]);
+            }
+        }
+        Some(Self {
+            width,
+            height,
+            pixels,
+        })
+    }
+
+    /// Linear light at a place from 0 to 1, and beyond as `wrap` says.
+    fn at(&self, place: DVec2, wrap: [Wrap; 2], is_nearest: bool) -> [f32; 3] {
+        let (w, h) = (self.width, self.height);
+        let x = place.x * w as f64;
+        let y = place.y * h as f64;
+        if is_nearest {
+            return self.light(
+                wrapped(x.floor(), w, wrap[0]),
+                wrapped(y.floor(), h, wrap[1]),
+            );
+        }
+        let (x, y) = (x - 0.5, y - 0.5);
+        let (left, top) = (x.floor(), y.floor());
+        let (s, t) = (
+            crate::color::narrow(x - left),
+            crate::color::narrow(y - top),
+        );
+        let [x0, x1] = [left, left + 1.0].map(|x| wrapped(x, w, wrap[0]));
+        let [y0, y1] = [top, top + 1.0].map(|y| wrapped(y, h, wrap[1]));
+        let upper = crate::color::mix(self.light(x0, y0), self.light(x1, y0), s);
+        let lower = crate::color::mix(self.light(x0, y1), self.light(x1, y1), s);
+        crate::color::mix(upper, lower, t)
+    }
+
+    fn light(&self, x: usize, y: usize) -> [f32; 3] {
+        let [r, g, b, _] = self.pixels[y * self.width + x];
+        [r, g, b].map(to_linear)
+    }
+}
+
+/// The pixel for a whole number, which may lie outside of the `n` pixels that there are.
+fn wrapped(x: f64, n: usize, wrap: Wrap) -> usize {
+    let size = n as f64;
+    let inside = match wrap {
+        Wrap::Repeat => x.rem_euclid(size),
+        Wrap::Mirror => {
+            let x = x.rem_euclid(2.0 * size);
+            x.min(2.0 * size - 1.0 - x)
+        }
+        Wrap::Clamp => x,
+    };
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "what is less than 0, or no number, becomes 0"
+    )]
+    let inside = inside as usize;
+    inside.min(n - 1)
+}

@@ -41,6 +41,7 @@ mod color;
 mod colormap;
 mod drawing;
 mod error;
+pub mod figure;
 mod image;
 mod raster;
 mod style;

@@ -1,0 +1,241 @@
+//! De Casteljau's construction of a point of a Bezier curve, drawn as in a textbook.
+//!
+//! ```text
+//!        b1 ---- o ------- b2          the control polygon b0 b1 b2 b3,
+//!       /      /    \        \         the legs of each level in the color of the level,
+//!      /      o--*---o        \        the point c(t), and the curve
+//!     /      /        \        \
+//!    o -----'          '------- o
+//!   /                            \
+//! b0                              b3
+//! ```
+//!
+//! Every level cuts the legs of the one before in the ratio t : 1 - t (de Casteljau, "Outillages méthodes
+//! calcul", 1959; Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §4.2, whose names `b_i^r` the points
+//! have).
+
+mod frame;
+mod key;
+mod names;
+mod panel;
+mod placing;
+mod trace;
+
+use bezier::Curve;
+use glam::DVec2;
+
+use self::frame::Frame;
+use super::svg::{Color, Font, Paint, Run, Svg};
+use crate::PictureError;
+
+/// The most control points of a curve that is drawn.
+pub const MAX_DRAWN: usize = 1024;
+
+/// The most control points of a curve whose levels are drawn.
+pub const MAX_CONSTRUCTED: usize = 64;
+
+/// The most panels of a figure.
+pub const MAX_PANELS: usize = 256;
+
+/// The widest figure, in pixels.
+pub const MAX_WIDTH: f64 = 8192.0;
+
+/// One picture of a figure: a curve, and the construction of one of its points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel<'a> {
+    /// The curve.
+    pub curve: &'a Curve<DVec2>,
+    /// What the curve was before, drawn faintly behind it, with arrows to the control points that moved.
+    pub before: Option<&'a Curve<DVec2>>,
+    /// The parameter of the point, from 0 to 1; without one, only the curve and its control polygon are drawn.
+    pub t: Option<f64>,
+    /// What stands above, before the parameter.
+    pub title: Option<&'a str>,
+}
+
+/// How a figure looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layout {
+    /// Pixels from left to right.
+    pub width: f64,
+    /// How many panels stand in a row, at least 1.
+    pub columns: usize,
+    /// Whether points have their names.
+    pub labels: bool,
+    /// Whether the colors are explained below.
+    pub legend: bool,
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        Self {
+            width: 640.0,
+            columns: 1,
+            labels: true,
+            legend: true,
+        }
+    }
+}
+
+const POLYGON: Color = [0x6b, 0x72, 0x80, 255];
+const CURVE: Color = [0x11, 0x18, 0x27, 255];
+const POINT: Color = [0xd5, 0x2b, 0x1e, 255];
+const FAINT: Color = [0xa3, 0xaa, 0xb5, 255];
+const TEXT: Color = [0x1f, 0x29, 0x37, 255];
+const WHITE: Color = [255; 4];
+
+/// The colors of the levels between the control polygon and the point, told apart by everyone (after Okabe and
+/// Ito, "Color universal design", 2008); the sixth level has the first one again.
+const LEVELS: [Color; 5] = [
+    [0x00, 0x72, 0xb2, 255],
+    [0x00, 0x9e, 0x73, 255],
+    [0xe6, 0x9f, 0x00, 255],
+    [0xb0, 0x4f, 0x9c, 255],
+    [0x3f, 0xa7, 0xe0, 255],
+];
+
+/// The color of level `r`, from 1.
+fn level_color(r: usize) -> Color {
+    LEVELS[(r - 1) % LEVELS.len()]
+}
+
+/// c(t), the name of the point.
+fn point_name() -> Vec<Run> {
+    vec![
+        Run::new(Font::Letter, "c"),
+        Run::new(Font::Digit, "("),
+        Run::new(Font::Letter, "t"),
+        Run::new(Font::Digit, ")"),
+    ]
+}
+
+/// How large things in a panel are, as a share of those in a panel as wide as a page.
+fn zoom(panel_width: f64) -> f64 {
+    (panel_width / 440.0).clamp(0.62, 1.0)
+}
+
+/// From the drawing to the edges of its panel, in pixels of a wide panel.
+const MARGIN: f64 = 32.0;
+
+/// The height of a title, in pixels of a wide panel.
+const TITLE: f64 = 30.0;
+
+/// The width of the narrowest drawing in a panel, in pixels.
+const NARROWEST: f64 = 32.0;
+
+/// A figure of these panels, in rows from left to right.
+///
+/// Each curve is as large as its panel allows, with the same scale in both directions, so that nothing of it and
+/// of its construction is cut off. A curve whose control points are all in one place is drawn as this point.
+///
+/// # Errors
+///
+/// [`PictureError::Style`] if there is no panel or there are more than [`MAX_PANELS`], if a curve has more than
+/// [`MAX_DRAWN`] control points or [`MAX_CONSTRUCTED`] where its levels are drawn, if a parameter is not from 0 to
+/// 1, or if the layout leaves no room or is wider than [`MAX_WIDTH`].
+pub fn construction(panels: &[Panel], layout: &Layout) -> Result<Svg, PictureError> {
+    check(panels)?;
+    let columns = layout.columns.clamp(1, panels.len());
+    let panel_width = layout.width / columns as f64;
+    let zoom = zoom(panel_width);
+    let inner = panel_width - 2.0 * MARGIN * zoom;
+    if inner.is_nan() || inner < NARROWEST || layout.width > MAX_WIDTH {
+        let least = (NARROWEST + 2.0 * MARGIN * 0.62) * columns as f64;
+        let message = format!(
+            "expected a figure of {} to {MAX_WIDTH} pixels for {columns} columns, found {}",
+            least.ceil(),
+            layout.width
+        );
+        return Err(PictureError::Style(message));
+    }
+    let rows: Vec<Row> = panels
+        .chunks(columns)
+        .map(|panels| Row::of(panels, inner, zoom))
+        .collect();
+    let key = if layout.legend {
+        key::entries(panels, layout.width)
+    } else {
+        Vec::new()
+    };
+    let drawings: f64 = rows.iter().map(|row| row.height).sum();
+    let height = drawings + key::height(&key);
+    let mut svg = Svg::new(layout.width.round(), height.round());
+    let size = DVec2::new(svg.width(), svg.height());
+    svg.rectangle(DVec2::ZERO, size, &Paint::fill(WHITE));
+    let mut top = 0.0;
+    for row in &rows {
+        for (i, (panel, frame)) in row.panels.iter().zip(&row.frames).enumerate() {
+            let corner = DVec2::new(i as f64 * panel_width, top);
+            let area = [
+                corner + DVec2::Y * row.title,
+                corner + DVec2::new(panel_width, row.height),
+            ];
+            let frame = frame.placed(area);
+            panel::draw(&mut svg, panel, &frame, area, layout.labels, zoom);
+            let middle = corner + DVec2::new(panel_width / 2.0, TITLE * 0.77 * zoom);
+            panel::draw_title(&mut svg, panel, middle, panel_width, zoom);
+        }
+        top += row.height;
+    }
+    key::draw(&mut svg, &key, drawings);
+    Ok(svg)
+}
+
+/// Panels that stand side by side.
+struct Row<'p, 'c> {
+    panels: &'p [Panel<'c>],
+    frames: Vec<Frame>,
+    /// The height of the titles.
+    title: f64,
+    /// The height of all.
+    height: f64,
+}
+
+impl<'p, 'c> Row<'p, 'c> {
+    fn of(panels: &'p [Panel<'c>], inner: f64, zoom: f64) -> Self {
+        let frames: Vec<Frame> = panels.iter().map(|p| Frame::of(p, inner)).collect();
+        let has_title = panels.iter().any(|p| p.title.is_some() || p.t.is_some());
+        let title = if has_title { TITLE * zoom } else { 0.0 };
+        let highest = frames.iter().fold(0.0, |h: f64, f| h.max(f.height()));
+        Self {
+            panels,
+            frames,
+            title,
+            height: highest + 2.0 * MARGIN * zoom + title,
+        }
+    }
+}
+
+fn check(panels: &[Panel]) -> Result<(), PictureError> {
+    let refused = |message: String| Err(PictureError::Style(message));
+    if !(1..=MAX_PANELS).contains(&panels.len()) {
+        let n = panels.len();
+        return refused(format!(
+            "expected 1 to {MAX_PANELS} pictures of curves, found {n}"
+        ));
+    }
+    for panel in panels {
+        let most = if panel.t.is_some() {
+            MAX_CONSTRUCTED
+        } else {
+            MAX_DRAWN
+        };
+        for (curve, most) in [(Some(panel.curve), most), (panel.before, MAX_DRAWN)] {
+            let n = curve.map_or(0, |c| c.points().len());
+            if n > most {
+                return refused(format!(
+                    "expected a curve of at most {most} control points, found {n}"
+                ));
+            }
+        }
+        if let Some(t) = panel.t
+            && !(0.0..=1.0).contains(&t)
+        {
+            return refused(format!("expected a parameter from 0 to 1, found {t:?}"));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

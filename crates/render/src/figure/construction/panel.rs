@@ -1,0 +1,171 @@
+//! Draws one picture of a construction.
+
+use bezier::Curve;
+use glam::DVec2;
+
+use super::frame::Frame;
+use super::trace::trace;
+use super::{CURVE, FAINT, POINT, POLYGON, Panel, TEXT, WHITE, level_color, names};
+use crate::figure::label::shortened;
+use crate::figure::svg::{Anchor, Font, Paint, Path, Run, Svg, Text};
+
+/// The radius of control points, in pixels of a wide panel.
+pub(super) const RADIUS: f64 = 4.2;
+
+/// The width of lines, in pixels of a wide panel.
+const LINE: f64 = 1.8;
+
+/// The width of the curve, in pixels of a wide panel.
+const BOLD: f64 = 3.2;
+
+/// Draws a panel into `area`; `frame` maps into it, and things are `zoom` times as large as in a wide panel.
+pub(super) fn draw(
+    svg: &mut Svg,
+    panel: &Panel,
+    frame: &Frame,
+    area: [DVec2; 2],
+    labels: bool,
+    zoom: f64,
+) {
+    let curve = frame.curve(panel.curve);
+    let points = curve.points();
+    let before = panel.before.map(|before| frame.curve(before));
+    if let Some(before) = &before {
+        draw_before(svg, before, &curve, zoom);
+    }
+    // A dense construction has finer lines.
+    let fine = zoom.sqrt() * if points.len() > 16 { 0.5 } else { 1.0 };
+    let levels = panel.t.map(|t| curve.levels(t)).unwrap_or_default();
+    let n = curve.degree();
+    svg.group("polygon", |svg| {
+        svg.polyline(points, &Paint::stroke(POLYGON, LINE * fine));
+    });
+    let between = || levels.iter().enumerate().take(n).skip(1);
+    svg.group("levels", |svg| {
+        for (r, level) in between() {
+            svg.polyline(level, &Paint::stroke(level_color(r), LINE * fine));
+        }
+    });
+    svg.group("curve", |svg| {
+        svg.path(&trace(&curve), &Paint::stroke(CURVE, BOLD * zoom.sqrt()));
+    });
+    svg.group("points", |svg| {
+        let paint = Paint::fill(WHITE).with_stroke(POLYGON, LINE * fine);
+        for &p in points {
+            svg.circle(p, RADIUS * fine, &paint);
+        }
+        for (r, level) in between() {
+            for &p in level {
+                svg.circle(p, RADIUS * 0.8 * fine, &Paint::fill(level_color(r)));
+            }
+        }
+        if let Some([p]) = levels.last().map(Vec::as_slice) {
+            let paint = Paint::fill(POINT).with_stroke(WHITE, 1.5 * zoom);
+            svg.circle(*p, 6.0 * zoom.sqrt(), &paint);
+        }
+    });
+    if labels {
+        let arrows = before.map(|before| arrows(&before, &curve));
+        let arrows = arrows.unwrap_or_default();
+        svg.group("names", |svg| {
+            names::draw(svg, &curve, &levels, &arrows, area, zoom);
+        });
+    }
+}
+
+/// A curve as it was: dashed and faint, with arrows to where its control points went.
+fn draw_before(svg: &mut Svg, before: &Curve<DVec2>, now: &Curve<DVec2>, zoom: f64) {
+    svg.group("before", |svg| {
+        let dashed = |width, dashes| Paint {
+            dashes,
+            ..Paint::stroke(FAINT, width)
+        };
+        svg.polyline(before.points(), &dashed(1.4, &[2.0, 5.0]));
+        svg.path(&trace(before), &dashed(2.4, &[7.0, 6.0]));
+        for &p in before.points() {
+            let paint = Paint::fill(WHITE).with_stroke(FAINT, 1.4);
+            svg.circle(p, RADIUS * 0.8 * zoom.sqrt(), &paint);
+        }
+        for [from, to] in arrows(before, now) {
+            let way = (to - from).normalize() * 8.0;
+            draw_arrow(svg, from + way, to - way);
+        }
+    });
+}
+
+/// From where a control point was to where it is, if that is far enough for an arrow.
+fn arrows(before: &Curve<DVec2>, now: &Curve<DVec2>) -> Vec<[DVec2; 2]> {
+    if before.degree() != now.degree() {
+        return Vec::new();
+    }
+    let pairs = before.points().iter().zip(now.points());
+    pairs
+        .map(|(&from, &to)| [from, to])
+        .filter(|[from, to]| from.distance(*to) > 28.0)
+        .collect()
+}
+
+fn draw_arrow(svg: &mut Svg, from: DVec2, to: DVec2) {
+    let way = (to - from).normalize_or_zero();
+    let side = way.perp() * 4.0;
+    let neck = to - way * 9.0;
+    svg.polyline(&[from, neck], &Paint::stroke(POLYGON, 1.3));
+    let mut head = Path::new();
+    head.move_to(to);
+    head.line_to(neck + side);
+    head.line_to(neck - side);
+    head.close();
+    svg.path(&head, &Paint::fill(POLYGON));
+}
+
+/// Writes the title and the parameter of a panel, around `middle`.
+pub(super) fn draw_title(svg: &mut Svg, panel: &Panel, middle: DVec2, width: f64, zoom: f64) {
+    let size = names::LETTERS * zoom;
+    let mut runs = Vec::new();
+    if let Some(title) = panel.title {
+        let gap = if panel.t.is_some() { "   " } else { "" };
+        let parameter = if panel.t.is_some() { size * 5.0 } else { 0.0 };
+        let title = shortened(title, Font::Title, size * 0.85, width - parameter - 8.0);
+        runs.push(Run {
+            size: 0.85,
+            ..Run::new(Font::Title, format!("{title}{gap}"))
+        });
+    }
+    if let Some(t) = panel.t {
+        runs.push(Run::new(Font::Letter, "t"));
+        runs.push(Run::new(Font::Digit, format!(" = {}", shown(t))));
+    }
+    if !runs.is_empty() {
+        svg.text(middle, &Text::of(runs, size, TEXT).anchored(Anchor::Middle));
+    }
+}
+
+/// A parameter with at most four decimals; what is rounded does not become an end that it is not.
+fn shown(t: f64) -> String {
+    let rounded = (t * 1e4).round() / 1e4;
+    let is_other_end = rounded != t && (rounded == 0.0 || rounded == 1.0);
+    if is_other_end {
+        format!("{t:e}")
+    } else {
+        format!("{rounded}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parameters_are_short_and_true() {
+        for (t, text) in [
+            (0.0, "0"),
+            (0.5, "0.5"),
+            (1.0 / 3.0, "0.3333"),
+            (1e-9, "1e-9"),
+            (1.0, "1"),
+        ] {
+            assert_eq!(shown(t), text);
+        }
+        assert_ne!(shown(1.0 - 1e-12), "1");
+    }
+}

@@ -1,0 +1,505 @@
+//! Writes SVG: shapes, texts and groups, in pixels from the top left corner.
+//!
+//! Only what every program shows alike is used, and what becomes the same pixels on every processor: no
+//! gradients, no arcs, no filters, no style sheets. Coordinates have three decimals.
+
+use std::fmt::Write;
+
+use glam::DVec2;
+
+/// A color: red, green and blue (sRGB) and alpha, from 0 to 255.
+pub type Color = [u8; 4];
+
+/// How a shape is filled and outlined.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Paint<'a> {
+    /// The color inside; none if nothing is filled.
+    pub fill: Option<Color>,
+    /// The color and the width, in pixels, of the outline.
+    pub stroke: Option<(Color, f64)>,
+    /// The lengths of dashes and gaps in pixels; a solid outline if empty.
+    pub dashes: &'a [f64],
+}
+
+impl Paint<'_> {
+    /// Filled with this color.
+    pub const fn fill(color: Color) -> Self {
+        Self {
+            fill: Some(color),
+            stroke: None,
+            dashes: &[],
+        }
+    }
+
+    /// Outlined in this color, `width` pixels wide.
+    pub const fn stroke(color: Color, width: f64) -> Self {
+        Self {
+            fill: None,
+            stroke: Some((color, width)),
+            dashes: &[],
+        }
+    }
+
+    /// The same, outlined.
+    #[must_use]
+    pub const fn with_stroke(mut self, color: Color, width: f64) -> Self {
+        self.stroke = Some((color, width));
+        self
+    }
+}
+
+/// Which of the embedded fonts a text is set in.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub enum Font {
+    /// Plain text.
+    #[default]
+    Plain,
+    /// Titles: the plain font, heavier.
+    Title,
+    /// Letters of formulas, in italics.
+    Letter,
+    /// Digits and brackets of formulas.
+    Digit,
+}
+
+impl Font {
+    /// The attributes that choose it, with what other machines have in its place.
+    fn attributes(self) -> &'static str {
+        match self {
+            Self::Plain => "font-family=\"Inter, Helvetica, Arial, sans-serif\"",
+            Self::Title => {
+                "font-family=\"Inter, Helvetica, Arial, sans-serif\" font-weight=\"600\""
+            }
+            Self::Letter => {
+                "font-family=\"KaTeX_Math, 'STIX Two Text', 'Times New Roman', serif\" font-style=\"italic\""
+            }
+            Self::Digit => "font-family=\"KaTeX_Main, 'STIX Two Text', 'Times New Roman', serif\"",
+        }
+    }
+}
+
+/// A part of a text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// What is written.
+    pub text: String,
+    /// The font.
+    pub font: Font,
+    /// How large the letters are, as a share of those of the whole text.
+    pub size: f64,
+    /// How far the letters are raised above the line, as a share of the size of the whole text.
+    pub raise: f64,
+    /// How far behind the part before it begins, as a share of the size of the whole text; below zero, back
+    /// over it.
+    pub skip: f64,
+}
+
+impl Run {
+    /// A part on the line, as large as the whole text.
+    pub fn new(font: Font, text: impl Into<String>) -> Self {
+        Self {
+            text: text.into(),
+            font,
+            size: 1.0,
+            raise: 0.0,
+            skip: 0.0,
+        }
+    }
+
+    /// A subscript of digits.
+    pub fn subscript(text: impl Into<String>) -> Self {
+        Self {
+            size: 0.7,
+            raise: -0.2,
+            skip: 0.02,
+            ..Self::new(Font::Digit, text)
+        }
+    }
+
+    /// A superscript of digits above a subscript of `below` digits.
+    pub fn superscript(text: impl Into<String>, below: usize) -> Self {
+        // A digit of the font is half as wide as high.
+        Self {
+            size: 0.7,
+            raise: 0.42,
+            skip: -0.35 * below as f64,
+            ..Self::new(Font::Digit, text)
+        }
+    }
+}
+
+/// Which point of a text stands at its place.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub enum Anchor {
+    /// The beginning.
+    #[default]
+    Start,
+    /// The middle.
+    Middle,
+    /// The end.
+    End,
+}
+
+/// A line of text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    /// Its parts from left to right.
+    pub runs: Vec<Run>,
+    /// The height of the letters in pixels, from their highest to their lowest point.
+    pub size: f64,
+    /// The color.
+    pub color: Color,
+    /// The color and the width, in pixels, of an outline behind the letters, which keeps them apart from
+    /// what they stand on.
+    pub halo: Option<(Color, f64)>,
+    /// Which point of it stands at its place.
+    pub anchor: Anchor,
+}
+
+impl Text {
+    /// A line in one font, which begins at its place.
+    pub fn new(font: Font, text: impl Into<String>, size: f64, color: Color) -> Self {
+        Self::of(vec![Run::new(font, text)], size, color)
+    }
+
+    /// A line of several parts, which begins at its place.
+    pub fn of(runs: Vec<Run>, size: f64, color: Color) -> Self {
+        Self {
+            runs,
+            size,
+            color,
+            halo: None,
+            anchor: Anchor::Start,
+        }
+    }
+
+    /// The same text with this point of it at its place.
+    #[must_use]
+    pub fn anchored(mut self, anchor: Anchor) -> Self {
+        self.anchor = anchor;
+        self
+    }
+
+    /// The same text with an outline behind the letters.
+    #[must_use]
+    pub fn with_halo(mut self, color: Color, width: f64) -> Self {
+        self.halo = Some((color, width));
+        self
+    }
+}
+
+/// A path of lines and Bezier curves.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Path {
+    data: String,
+}
+
+impl Path {
+    /// An empty path.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Begins a new part at `p`.
+    pub fn move_to(&mut self, p: DVec2) {
+        self.command('M', &[p]);
+    }
+
+    /// A straight line to `p`.
+    pub fn line_to(&mut self, p: DVec2) {
+        self.command('L', &[p]);
+    }
+
+    /// A quadratic Bezier curve with the inner control point `b`, to `p`.
+    pub fn quadratic_to(&mut self, b: DVec2, p: DVec2) {
+        self.command('Q', &[b, p]);
+    }
+
+    /// A cubic Bezier curve with the inner control points `b` and `c`, to `p`.
+    pub fn cubic_to(&mut self, b: DVec2, c: DVec2, p: DVec2) {
+        self.command('C', &[b, c, p]);
+    }
+
+    /// Joins the end of the part to its beginning.
+    pub fn close(&mut self) {
+        self.data.push('Z');
+    }
+
+    fn command(&mut self, letter: char, points: &[DVec2]) {
+        self.data.push(letter);
+        for (i, p) in points.iter().enumerate() {
+            let gap = if i == 0 { "" } else { " " };
+            write!(self.data, "{gap}{} {}", number(p.x), number(p.y)).expect(WRITTEN);
+        }
+    }
+}
+
+/// Strings take everything.
+const WRITTEN: &str = "a string can be written to";
+
+/// An SVG document: what is drawn later lies above.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Svg {
+    width: f64,
+    height: f64,
+    body: String,
+    depth: usize,
+}
+
+impl Svg {
+    /// An empty document of this size in pixels.
+    pub fn new(width: f64, height: f64) -> Self {
+        Self {
+            width,
+            height,
+            body: String::new(),
+            depth: 1,
+        }
+    }
+
+    /// Pixels from left to right.
+    pub fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// Pixels from top to bottom.
+    pub fn height(&self) -> f64 {
+        self.height
+    }
+
+    /// An axis-aligned rectangle with the corner `corner` at its top left.
+    pub fn rectangle(&mut self, corner: DVec2, size: DVec2, paint: &Paint) {
+        let [x, y, w, h] = [corner.x, corner.y, size.x, size.y].map(number);
+        self.shape(
+            &format!("rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\""),
+            paint,
+        );
+    }
+
+    /// A circle.
+    pub fn circle(&mut self, center: DVec2, radius: f64, paint: &Paint) {
+        let [x, y, r] = [center.x, center.y, radius].map(number);
+        self.shape(&format!("circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\""), paint);
+    }
+
+    /// Straight lines from point to point; nothing for less than two.
+    pub fn polyline(&mut self, points: &[DVec2], paint: &Paint) {
+        if points.len() < 2 {
+            return;
+        }
+        let mut data = String::new();
+        for p in points {
+            let gap = if data.is_empty() { "" } else { " " };
+            write!(data, "{gap}{},{}", number(p.x), number(p.y)).expect(WRITTEN);
+        }
+        self.shape(&format!("polyline points=\"{data}\""), paint);
+    }
+
+    /// A path.
+    pub fn path(&mut self, path: &Path, paint: &Paint) {
+        self.shape(&format!("path d=\"{}\"", path.data), paint);
+    }
+
+    /// A line of text at `place`, its base line at the height of `place`.
+    pub fn text(&mut self, place: DVec2, text: &Text) {
+        // Outline and letters are two elements: `paint-order` is not known everywhere.
+        if let Some((color, width)) = text.halo {
+            let stroke = format!(
+                "fill=\"none\"{} stroke-width=\"{}\" stroke-linejoin=\"round\"",
+                paint_attribute("stroke", color),
+                number(width * 2.0)
+            );
+            self.letters(place, text, &stroke);
+        }
+        let fill = paint_attribute("fill", text.color);
+        self.letters(place, text, fill.trim_start());
+    }
+
+    /// A group with an id: what `draw` draws.
+    pub fn group(&mut self, id: &str, draw: impl FnOnce(&mut Self)) {
+        self.line(&format!("<g id=\"{}\">", escaped(id)));
+        self.depth += 1;
+        draw(self);
+        self.depth -= 1;
+        self.line("</g>");
+    }
+
+    /// The document as a text. `provenance` says where it comes from, as its metadata.
+    pub fn finish(&self, provenance: Option<&str>) -> String {
+        let [w, h] = [self.width, self.height].map(number);
+        let mut text = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\">\n"
+        );
+        if let Some(provenance) = provenance {
+            text += &format!("  <metadata>{}</metadata>\n", escaped(provenance));
+        }
+        text + &self.body + "</svg>\n"
+    }
+
+    fn letters(&mut self, place: DVec2, text: &Text, attributes: &str) {
+        let anchor = match text.anchor {
+            Anchor::Start => "",
+            Anchor::Middle => " text-anchor=\"middle\"",
+            Anchor::End => " text-anchor=\"end\"",
+        };
+        let mut runs = String::new();
+        let mut raised = 0.0;
+        for run in &text.runs {
+            let mut more = String::new();
+            if run.size != 1.0 {
+                more += &format!(" font-size=\"{}\"", number(run.size * text.size));
+            }
+            if run.skip != 0.0 {
+                more += &format!(" dx=\"{}\"", number(run.skip * text.size));
+            }
+            if run.raise != raised {
+                more += &format!(" dy=\"{}\"", number((raised - run.raise) * text.size));
+                raised = run.raise;
+            }
+            runs += &format!(
+                "<tspan {}{more}>{}</tspan>",
+                run.font.attributes(),
+                escaped(&run.text)
+            );
+        }
+        let [x, y, size] = [place.x, place.y, text.size].map(number);
+        // Blanks at the ends and between parts count.
+        self.line(&format!(
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor} {attributes} xml:space=\"preserve\">{runs}</text>"
+        ));
+    }
+
+    fn shape(&mut self, shape: &str, paint: &Paint) {
+        let mut attributes = match paint.fill {
+            Some(color) => paint_attribute("fill", color),
+            None => " fill=\"none\"".to_owned(),
+        };
+        if let Some((color, width)) = paint.stroke {
+            attributes += &paint_attribute("stroke", color);
+            attributes += &format!(
+                " stroke-width=\"{}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"",
+                number(width)
+            );
+            if !paint.dashes.is_empty() {
+                let dashes: Vec<String> = paint.dashes.iter().map(|&d| number(d)).collect();
+                attributes += &format!(" stroke-dasharray=\"{}\"", dashes.join(" "));
+            }
+        }
+        self.line(&format!("<{shape}{attributes}/>"));
+    }
+
+    fn line(&mut self, text: &str) {
+        for _ in 0..self.depth {
+            self.body.push_str("  ");
+        }
+        self.body.push_str(text);
+        self.body.push('\n');
+    }
+}
+
+/// ` name="#rrggbb"`, and the opacity unless the color is opaque.
+fn paint_attribute(name: &str, [r, g, b, a]: Color) -> String {
+    let color = format!(" {name}=\"#{r:02x}{g:02x}{b:02x}\"");
+    if a == u8::MAX {
+        return color;
+    }
+    color + &format!(" {name}-opacity=\"{}\"", number(f64::from(a) / 255.0))
+}
+
+/// A number with at most three decimals. What is no number, or too large for a picture, is cut off.
+pub(crate) fn number(value: f64) -> String {
+    const LARGEST: f64 = 1e6;
+    if value.is_nan() {
+        return "0".to_owned();
+    }
+    let rounded = (value.clamp(-LARGEST, LARGEST) * 1000.0).round() / 1000.0;
+    // No "-0".
+    format!("{}", rounded + 0.0)
+}
+
+/// The text as XML: what has a meaning there is written in another way, and a character that XML does not
+/// allow becomes U+FFFD. Line ends and tabs become blanks.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut xml = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => xml.push_str("&amp;"),
+            '<' => xml.push_str("&lt;"),
+            '>' => xml.push_str("&gt;"),
+            '"' => xml.push_str("&quot;"),
+            '\t' | '\n' | '\r' => xml.push(' '),
+            '\0'..='\x1f' | '\x7f'..='\u{9f}' | '\u{fffe}' | '\u{ffff}' => xml.push('\u{fffd}'),
+            c => xml.push(c),
+        }
+    }
+    xml
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BLACK: Color = [0, 0, 0, 255];
+
+    #[test]
+    fn every_text_is_well_formed_and_comes_back() {
+        for text in crate::figure::ODD_TEXTS {
+            let mut svg = Svg::new(100.0, 50.0);
+            let line = Text::new(Font::Plain, *text, 12.0, BLACK).with_halo([255; 4], 2.0);
+            svg.group(text, |svg| svg.text(DVec2::new(3.0, 20.0), &line));
+            let xml = svg.finish(Some(text));
+            let document = roxmltree::Document::parse(&xml).unwrap();
+            let plain: String = text
+                .chars()
+                .map(|c| match c {
+                    '\t' | '\n' | '\r' => ' ',
+                    c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => '\u{fffd}',
+                    c => c,
+                })
+                .collect();
+            let texts: Vec<_> = document
+                .descendants()
+                .filter(|n| n.has_tag_name("tspan") || n.has_tag_name("metadata"))
+                .map(|n| n.text().unwrap_or_default())
+                .collect();
+            assert_eq!(texts, [plain.as_str(); 3]);
+            let group = document.descendants().find(|n| n.has_tag_name("g"));
+            assert_eq!(group.unwrap().attribute("id"), Some(plain.as_str()));
+        }
+    }
+
+    #[test]
+    fn numbers_are_short_and_never_broken() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-0.0001, "0"),
+            (1.0 / 3.0, "0.333"),
+            (-2.5, "-2.5"),
+            (f64::NAN, "0"),
+            (f64::INFINITY, "1000000"),
+            (-1e300, "-1000000"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn shapes_are_written_as_svg_has_them() {
+        let mut svg = Svg::new(10.0, 20.5);
+        let [a, b] = [DVec2::ZERO, DVec2::new(1.0, 2.25)];
+        svg.polyline(&[a], &Paint::fill(BLACK));
+        svg.polyline(&[a, b], &Paint::stroke([255, 0, 16, 51], 1.5));
+        let mut path = Path::new();
+        path.move_to(a);
+        path.cubic_to(a, b, b);
+        path.close();
+        svg.path(&path, &Paint::fill(BLACK));
+        assert_eq!(
+            svg.finish(None),
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"10\" height=\"20.5\" viewBox=\"0 0 10 20.5\">\n  \
+             <polyline points=\"0,0 1,2.25\" fill=\"none\" stroke=\"#ff0010\" stroke-opacity=\"0.2\" \
+             stroke-width=\"1.5\" stroke-linecap=\"round\" stroke-linejoin=\"round\"/>\n  \
+             <path d=\"M0 0C0 0 1 2.25 1 2.25Z\" fill=\"#000000\"/>\n</svg>\n"
+        );
+    }
+}

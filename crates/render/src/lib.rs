@@ -12,6 +12,9 @@
 //! [`picture`] does it all. [`build()`] makes a [`Drawing`] of triangles, lines and points out of a scene;
 //! [`render`] finds for 16 samples a pixel what is seen, and shades it in linear light.
 //!
+//! [`figure`] draws in the plane: constructions of curves, legends and labels. [`sheet`] puts images side by side,
+//! [`animation`] one after another.
+//!
 //! # Examples
 //!
 //! ```
@@ -35,6 +38,8 @@
 
 #![forbid(unsafe_code)]
 
+pub mod animation;
+mod blend;
 mod build;
 mod camera;
 mod color;
@@ -43,7 +48,9 @@ mod drawing;
 mod error;
 pub mod figure;
 mod image;
+pub mod palette;
 mod raster;
+pub mod sheet;
 mod style;
 mod texture;
 

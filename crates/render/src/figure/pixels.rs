@@ -6,10 +6,11 @@
 
 use std::sync::{Arc, LazyLock};
 
-use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Transform};
+use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{self, fontdb};
 
 use super::svg::Svg;
+use crate::blend::blended;
 use crate::image::checked_size;
 use crate::{Image, PictureError};
 
@@ -113,7 +114,9 @@ pub fn draw(image: &mut Image, svg: &Svg, scale: f64) -> Result<(), PictureError
         .skip(top as usize);
     for (from, to) in rows.zip(below) {
         for (&over, under) in from.iter().zip(&mut to[left as usize..]) {
-            *under = blended(over, *under);
+            let [r, g, b] = [over.red(), over.green(), over.blue()];
+            let color = [r, g, b].map(|c| u32::from(c) * 255);
+            *under = blended(color, over.alpha(), *under);
         }
     }
     Ok(())
@@ -148,32 +151,6 @@ fn parsed(xml: &str) -> Result<usvg::Tree, PictureError> {
         ..usvg::Options::default()
     };
     usvg::Tree::from_str(xml, &options).map_err(|error| PictureError::Encode(error.to_string()))
-}
-
-/// A color multiplied with its alpha over another one that is not, in whole numbers:
-/// a = s + d (1 - s), c = (C + D d (1 - s)) / a for C over D (Porter and Duff, "Compositing digital images", 1984).
-fn blended(over: PremultipliedColorU8, under: [u8; 4]) -> [u8; 4] {
-    let s = u32::from(over.alpha());
-    // Alphas are of 255, and their products of 255 * 255.
-    let rest = u32::from(under[3]) * (255 - s);
-    let alpha = s * 255 + rest;
-    if alpha == 0 {
-        return [0; 4];
-    }
-    let channel = |c_over: u8, c_under: u8| {
-        let sum = u32::from(c_over) * 255 * 255 + u32::from(c_under) * rest;
-        to_byte((sum + alpha / 2) / alpha)
-    };
-    [
-        channel(over.red(), under[0]),
-        channel(over.green(), under[1]),
-        channel(over.blue(), under[2]),
-        to_byte((alpha + 127) / 255),
-    ]
-}
-
-fn to_byte(x: u32) -> u8 {
-    u8::try_from(x).unwrap_or(u8::MAX)
 }
 
 #[cfg(test)]
@@ -279,17 +256,5 @@ mod tests {
             let refused = pixels(&Svg::new(side, 10.0), scale, WHITE);
             assert!(matches!(refused, Err(PictureError::Size { .. })));
         }
-    }
-
-    #[test]
-    fn colors_lie_over_colors_as_porter_and_duff_have_it() {
-        let over = |r, g, b, a| PremultipliedColorU8::from_rgba(r, g, b, a).unwrap();
-        let below = [10, 20, 30, 255];
-        assert_eq!(blended(over(0, 0, 0, 0), below), below);
-        assert_eq!(blended(over(1, 2, 3, 255), below), [1, 2, 3, 255]);
-        assert_eq!(blended(over(128, 0, 0, 128), [0; 4]), [255, 0, 0, 128]);
-        assert_eq!(blended(over(0, 0, 0, 0), [9, 9, 9, 0]), [0; 4]);
-        // Half black over white.
-        assert_eq!(blended(over(0, 0, 0, 128), WHITE), [127, 127, 127, 255]);
     }
 }

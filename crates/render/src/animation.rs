@@ -1,0 +1,297 @@
+//! Images one after another: APNG and GIF files.
+
+use crate::palette::Palette;
+use crate::{Image, PictureError};
+
+/// How long an animation shows an image, and how often it runs.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct Timing {
+    /// Milliseconds for each image. GIF counts in hundredths of a second, rounded up.
+    pub delay: u16,
+    /// How often the images are shown; 0 for without end.
+    pub turns: u16,
+}
+
+/// The images as an animated PNG file: all colors, and transparency. Each text is a keyword of 1 to 79 Latin-1
+/// characters and what it says.
+///
+/// # Errors
+///
+/// [`PictureError::Encode`] if there is no image, if one has another size than the first, or a keyword is none.
+pub fn to_apng(
+    frames: &[Image],
+    timing: Timing,
+    texts: &[(&str, &str)],
+) -> Result<Vec<u8>, PictureError> {
+    let (width, height) = common_size(frames)?;
+    let failed = |error: png::EncodingError| PictureError::Encode(error.to_string());
+    let n = u32::try_from(frames.len()).map_err(|_| encode("too many images"))?;
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_depth(png::BitDepth::Eight);
+    let is_opaque = frames.iter().flat_map(|f| &f.pixels).all(|p| p[3] == 255);
+    encoder.set_color(if is_opaque {
+        png::ColorType::Rgb
+    } else {
+        png::ColorType::Rgba
+    });
+    encoder.set_compression(png::Compression::Balanced);
+    encoder
+        .set_animated(n, u32::from(timing.turns))
+        .map_err(failed)?;
+    encoder
+        .set_frame_delay(timing.delay, 1000)
+        .map_err(failed)?;
+    for (keyword, text) in texts {
+        encoder
+            .add_itxt_chunk((*keyword).to_owned(), (*text).to_owned())
+            .map_err(failed)?;
+    }
+    let mut writer = encoder.write_header().map_err(failed)?;
+    for frame in frames {
+        let data: Vec<u8> = if is_opaque {
+            frame
+                .pixels
+                .iter()
+                .flat_map(|p| [p[0], p[1], p[2]])
+                .collect()
+        } else {
+            frame.pixels.as_flattened().to_vec()
+        };
+        writer.write_image_data(&data).map_err(failed)?;
+    }
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+/// The images as a GIF file, in the colors of one [`Palette`] for all of them. What is less than half opaque is not
+/// seen, and the rest is opaque. `comment` is a text for whoever asks where the file comes from.
+///
+/// # Errors
+///
+/// [`PictureError::Encode`] if there is no image, or if one has another size than the first.
+pub fn to_gif(
+    frames: &[Image],
+    timing: Timing,
+    comment: Option<&str>,
+) -> Result<Vec<u8>, PictureError> {
+    let (width, height) = common_size(frames)?;
+    let side = |side: u32| u16::try_from(side).map_err(|_| encode("the images are too large"));
+    let (width, height) = (side(width)?, side(height)?);
+    let failed = |error: gif::EncodingError| PictureError::Encode(error.to_string());
+    let mut palette = Palette::of(frames);
+    let colors = palette.colors().as_flattened().to_vec();
+    let mut bytes = Vec::new();
+    let mut encoder = gif::Encoder::new(&mut bytes, width, height, &colors).map_err(failed)?;
+    encoder
+        .set_repeat(match timing.turns {
+            0 => gif::Repeat::Infinite,
+            // What is counted are the turns after the first.
+            turns => gif::Repeat::Finite(turns - 1),
+        })
+        .map_err(failed)?;
+    if let Some(comment) = comment {
+        // Blocks of an extension have at most 255 bytes.
+        let blocks: Vec<&[u8]> = comment.as_bytes().chunks(255).collect();
+        encoder
+            .write_raw_extension(gif::Extension::Comment.into(), &blocks)
+            .map_err(failed)?;
+    }
+    for frame in frames {
+        let buffer: Vec<u8> = frame.pixels.iter().map(|&p| palette.index(p)).collect();
+        let frame = gif::Frame {
+            width,
+            height,
+            delay: timing.delay.div_ceil(10),
+            // A pixel that is not seen shows what was there before.
+            dispose: if palette.transparent().is_some() {
+                gif::DisposalMethod::Background
+            } else {
+                gif::DisposalMethod::Keep
+            },
+            transparent: palette.transparent(),
+            buffer: buffer.into(),
+            ..gif::Frame::default()
+        };
+        encoder.write_frame(&frame).map_err(failed)?;
+    }
+    drop(encoder);
+    Ok(bytes)
+}
+
+fn encode(message: &str) -> PictureError {
+    PictureError::Encode(message.to_owned())
+}
+
+/// The size of all images.
+fn common_size(frames: &[Image]) -> Result<(u32, u32), PictureError> {
+    let first = frames
+        .first()
+        .ok_or_else(|| encode("expected at least one image, found none"))?;
+    let size = (first.width, first.height);
+    for (i, frame) in frames.iter().enumerate() {
+        let (width, height) = (frame.width, frame.height);
+        if (width, height) != size {
+            return Err(PictureError::Encode(format!(
+                "expected images of one size, {} x {}, found {width} x {height} in image {i}",
+                size.0, size.1
+            )));
+        }
+    }
+    Ok(size)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Cursor;
+
+    const TIMING: Timing = Timing {
+        delay: 45,
+        turns: 0,
+    };
+
+    /// Frames of smooth colors, more than 256 of them, or of few.
+    fn frames(n: u8, is_smooth: bool, alpha: impl Fn(u8, u8) -> u8) -> Vec<Image> {
+        let color = |k: u8, x: u8, y: u8| {
+            if is_smooth {
+                [x * 4, y * 5, k * 40, alpha(x, y)]
+            } else {
+                [x / 16 * 60, y / 16 * 60, k * 20, alpha(x, y)]
+            }
+        };
+        let frame = |k| {
+            let mut image = Image::filled(64, 48, [0; 4]).unwrap();
+            let places = (0..48).flat_map(|y| (0..64).map(move |x| (x, y)));
+            image.pixels = places.map(|(x, y)| color(k, x, y)).collect();
+            image
+        };
+        (0..n).map(frame).collect()
+    }
+
+    /// The frames of an APNG file with their delays.
+    fn decoded_apng(bytes: &[u8]) -> Vec<(Vec<u8>, u16, u16)> {
+        let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
+        let n = reader.info().animation_control().unwrap().num_frames;
+        (0..n)
+            .map(|_| {
+                let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+                let size = reader.next_frame(&mut pixels).unwrap().buffer_size();
+                pixels.truncate(size);
+                let control = *reader.info().frame_control().unwrap();
+                (pixels, control.delay_num, control.delay_den)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn an_apng_file_has_all_pixels_of_all_images() {
+        for (alpha, channels) in [(255, 3), (77, 4)] {
+            let frames = frames(3, true, |_, _| alpha);
+            let bytes = to_apng(&frames, TIMING, &[("Software", "test")]).unwrap();
+            let decoded = decoded_apng(&bytes);
+            assert_eq!(decoded.len(), 3);
+            for ((pixels, num, den), frame) in decoded.iter().zip(&frames) {
+                let expected: Vec<u8> = frame
+                    .pixels
+                    .iter()
+                    .flat_map(|p| p[..channels].to_vec())
+                    .collect();
+                assert_eq!(*pixels, expected);
+                assert_eq!(u32::from(*num) * 1000 / u32::from(*den), 45);
+            }
+        }
+    }
+
+    /// The frames of a GIF file as RGBA, and the delays in hundredths of a second.
+    fn decoded_gif(bytes: &[u8]) -> Vec<(Vec<[u8; 4]>, u16)> {
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let mut decoder = options.read_info(bytes).unwrap();
+        let mut frames = Vec::new();
+        while let Some(frame) = decoder.read_next_frame().unwrap() {
+            let (pixels, rest) = frame.buffer.as_chunks();
+            assert!(rest.is_empty());
+            frames.push((pixels.to_vec(), frame.delay));
+        }
+        frames
+    }
+
+    #[test]
+    fn a_gif_file_of_few_colors_has_all_pixels() {
+        let frames = frames(4, false, |_, _| 255);
+        let decoded = decoded_gif(&to_gif(&frames, TIMING, Some("test")).unwrap());
+        assert_eq!(decoded.len(), 4);
+        for ((pixels, delay), frame) in decoded.iter().zip(&frames) {
+            assert_eq!(*pixels, frame.pixels);
+            assert_eq!(*delay, 5);
+        }
+    }
+
+    #[test]
+    fn a_gif_file_of_many_colors_has_colors_near_them() {
+        let mut frames = frames(3, true, |_, _| 255);
+        // A background that must stay as it is.
+        for frame in &mut frames {
+            frame.pixels[..900].fill([251, 253, 254, 255]);
+        }
+        let bytes = to_gif(&frames, TIMING, None).unwrap();
+        let decoded = decoded_gif(&bytes);
+        for ((pixels, _), frame) in decoded.iter().zip(&frames) {
+            assert_eq!(pixels[..900], frame.pixels[..900]);
+            let error: u32 = pixels
+                .as_flattened()
+                .iter()
+                .zip(frame.pixels.as_flattened())
+                .map(|(&p, &q)| u32::from(p.abs_diff(q)))
+                .sum();
+            let mean = f64::from(error) / (pixels.len() * 3) as f64;
+            assert!(mean < 8.0, "{mean}");
+        }
+        assert_eq!(bytes, to_gif(&frames, TIMING, None).unwrap());
+    }
+
+    #[test]
+    fn what_is_less_than_half_opaque_is_not_seen_in_a_gif_file() {
+        for is_smooth in [false, true] {
+            let frames = frames(2, is_smooth, |x, _| if x < 20 { 127 } else { 128 });
+            let decoded = decoded_gif(&to_gif(&frames, TIMING, None).unwrap());
+            for (pixels, _) in decoded {
+                for (i, p) in pixels.iter().enumerate() {
+                    assert_eq!(p[3], if i % 64 < 20 { 0 } else { 255 });
+                }
+            }
+        }
+        let nothing = Image::filled(3, 3, [9, 9, 9, 0]).unwrap();
+        let decoded = decoded_gif(&to_gif(&[nothing], TIMING, None).unwrap());
+        assert!(decoded[0].0.iter().all(|p| p[3] == 0));
+    }
+
+    #[test]
+    fn texts_and_comments_of_any_kind_do_no_harm() {
+        let frame = Image::filled(2, 2, [9, 9, 9, 255]).unwrap();
+        let long = "long ".repeat(200);
+        for text in crate::figure::ODD_TEXTS
+            .iter()
+            .copied()
+            .chain([long.as_str()])
+        {
+            let frames = std::slice::from_ref(&frame);
+            assert_eq!(
+                decoded_gif(&to_gif(frames, TIMING, Some(text)).unwrap()).len(),
+                1
+            );
+            to_apng(frames, TIMING, &[("Software", text)]).unwrap();
+        }
+    }
+
+    #[test]
+    fn images_of_several_sizes_and_no_images_are_refused() {
+        let image = |width| Image::filled(width, 2, [0; 4]).unwrap();
+        for frames in [vec![], vec![image(2), image(3)]] {
+            for made in [to_apng(&frames, TIMING, &[]), to_gif(&frames, TIMING, None)] {
+                assert!(matches!(made, Err(PictureError::Encode(_))));
+            }
+        }
+    }
+}

@@ -162,9 +162,9 @@ impl Drawing<'_> {
     }
 }
 
-/// The value at a place in a triangle: `weights` are its barycentric coordinates.
-pub(crate) trait Mixed: Copy {
-    /// The weighted sum of three values.
+/// What can be mixed inside a triangle.
+pub trait Mixed: Copy {
+    /// The sum of three values, each times its barycentric coordinate.
     fn mixed(values: [Self; 3], weights: [f32; 3]) -> Self;
 }
 

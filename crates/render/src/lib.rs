@@ -30,6 +30,7 @@
 //!     &Style::default(),
 //!     &Overlays::default(),
 //!     [64, 48],
+//!     1 << 30,
 //!     &mut |_| None,
 //! )?;
 //! assert_eq!(picture.image.pixels.len(), 64 * 48);
@@ -58,28 +59,35 @@ pub use build::{Coloring, Elements, Highlight, Overlays, PALETTE, build};
 pub use camera::{Camera, Projection, Seen, Side, Up, View};
 pub use color::{Color, NAMES, NoColor, to_linear, to_srgb};
 pub use colormap::ColorMap;
-pub use drawing::{Channel, Drawing, Label, Line, NO_FACE, Normals, Part, Surface};
+pub use drawing::{Channel, Drawing, Label, Line, Mixed, NO_FACE, Normals, Part, Surface};
 pub use error::PictureError;
 pub use image::{Image, LARGEST_SIDE};
 pub use raster::{Look, PlacedLabel, Rendered, bytes_needed, render};
 pub use style::{Background, Ids, Lines, Shading, Style};
 pub use texture::Texture;
 
-/// A picture of a scene in pixels of `size`, and which images of materials are missing and why. `images` gives
-/// the bytes of a picture file for its path in a material.
+/// A picture of a scene, `size` pixels wide and high, that takes at most `budget` bytes of memory beside the
+/// scene; and which images of materials are missing and why. `images` gives the bytes of a picture file for its
+/// path in a material.
 ///
 /// # Errors
 ///
-/// Those of [`build()`], [`View::new`] and [`render`].
+/// [`PictureError::Budget`] before anything large is allocated, and those of [`build()`], [`View::new`] and [`render`].
 pub fn picture(
     scene: &scene::Scene,
     camera: &Camera,
     style: &Style,
     overlays: &Overlays,
     size: [u32; 2],
+    budget: u64,
     images: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<(Rendered, Vec<String>), PictureError> {
     let (drawing, missing) = build(scene, style, overlays, images)?;
+    let look = style.look();
+    let needed = bytes_needed(&drawing, size, &look);
+    if needed > budget {
+        return Err(PictureError::Budget { needed, budget });
+    }
     let view = View::new(camera, &|each| drawing.each_point(each), size)?;
-    Ok((render(&drawing, &view, size, &style.look())?, missing))
+    Ok((render(&drawing, &view, size, &look)?, missing))
 }

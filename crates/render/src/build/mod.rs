@@ -72,7 +72,7 @@ pub struct Coloring {
 
 /// The colors of objects that have none, one after another.
 pub const PALETTE: [Color; 6] = [
-    Color::rgb(0xa3, 0xbb, 0xdb),
+    Color::rgb(0xa9, 0xc1, 0xe2),
     Color::rgb(0xe8, 0xc3, 0x8a),
     Color::rgb(0xa9, 0xcf, 0xa5),
     Color::rgb(0xd8, 0xa7, 0xc6),

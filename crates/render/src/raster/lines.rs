@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::TILE;
 use super::project::GRID;
 use super::shade::Shader;
-use super::tile::{NOTHING, PLACES, SAMPLES, Tile};
+use super::tile::{NOTHING, PLACES, Tile};
 use crate::View;
 use crate::drawing::{Drawing, Line};
 
@@ -123,8 +123,8 @@ pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, s
                 continue;
             }
             let place = tile.place(x, y);
-            for k in 0..SAMPLES {
-                let [dx, dy] = PLACES[k].map(|d| f64::from(d) / f64::from(GRID));
+            for (k, place_of_sample) in PLACES.iter().enumerate() {
+                let [dx, dy] = place_of_sample.map(|d| f64::from(d) / f64::from(GRID));
                 let p = middle + DVec2::new(dx, dy);
                 let t = flat.along(p);
                 if p.distance_squared(flat.place(t)) > radius_squared {

@@ -93,7 +93,8 @@ impl Frame {
 /// The bytes of memory that [`render`] takes at most, beside the drawing: so many points, triangles and lines
 /// in a picture of this size.
 pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -> u64 {
-    let pixels = u64::from(width) * u64::from(height);
+    // Sizes that are too large are refused; here they must not overflow.
+    let pixels = u64::from(width.min(1 << 20)) * u64::from(height.min(1 << 20));
     let n_points: u64 = drawing.parts.iter().map(|p| p.points.len() as u64).sum();
     let (triangles, lines) = (drawing.n_triangles() as u64, drawing.lines.len() as u64);
     let maps = if look.occlusion > 0.0 && triangles > 0 {

@@ -77,7 +77,7 @@ impl Occlusion {
             .map(|i| {
                 let z = direction(i);
                 let x = z.any_orthonormal_vector();
-                let axes = [x, z.cross(x), z].map(|axis| single(axis));
+                let axes = [x, z.cross(x), z].map(single);
                 let mut depths = vec![[f32::INFINITY, f32::NEG_INFINITY]; side * side];
                 let mut places = Vec::new();
                 for part in &drawing.parts {

@@ -18,10 +18,10 @@ pub(super) const KEY: DVec3 = DVec3::new(-0.45, 0.65, 0.75);
 /// Where the weak light comes from.
 pub(super) const FILL: DVec3 = DVec3::new(0.8, -0.05, 0.45);
 /// Linear light of the key light on what faces it, of the weak one, of the sky and of the ground.
-pub(super) const KEY_LIGHT: [f32; 3] = [0.64, 0.625, 0.60];
+pub(super) const KEY_LIGHT: [f32; 3] = [0.84, 0.82, 0.78];
 pub(super) const FILL_LIGHT: [f32; 3] = [0.09, 0.10, 0.115];
-pub(super) const SKY: [f32; 3] = [0.43, 0.445, 0.47];
-pub(super) const GROUND: [f32; 3] = [0.19, 0.18, 0.17];
+pub(super) const SKY: [f32; 3] = [0.42, 0.435, 0.46];
+pub(super) const GROUND: [f32; 3] = [0.17, 0.16, 0.15];
 
 /// What shading needs.
 pub(super) struct Shader<'a> {
@@ -127,6 +127,11 @@ impl<'a> Shader<'a> {
         };
         let [a, b, c] = p.corners_at(triangle);
         let is_back = (b - a).cross(c - a).dot(self.view.axes()[2]) < 0.0;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "from 0 to 16"
+        )]
         let n = (surface.color[3].clamp(0.0, 1.0) * 16.0 + 0.5) as usize;
         let turn = 5 * (part + place) + if is_back { 8 } else { 0 };
         // Every third sample: those of the first few are spread over the pixel.
@@ -153,7 +158,7 @@ impl<'a> Shader<'a> {
         let light = if is_plain {
             color
         } else {
-            let normal = self.normal(part, triangle, &spot);
+            let normal = normal(part, triangle, &spot);
             let open = self.open(&spot, known);
             self.lit(color, normal, spot.to_eye, open, surface)
         };
@@ -179,28 +184,6 @@ impl<'a> Shader<'a> {
             normal: if is_back { -n } else { n },
             is_back,
             to_eye,
-        }
-    }
-
-    /// The normal that light falls on, of length 1.
-    fn normal(&self, part: &Part, triangle: usize, spot: &Spot) -> DVec3 {
-        let given = match &part.normals {
-            Normals::Triangle => DVec3::ZERO,
-            Normals::Given(channel) => {
-                DVec3::from(channel.at(part, triangle, spot.weights).map(f64::from))
-                    .normalize_or_zero()
-            }
-        };
-        if given == DVec3::ZERO {
-            return spot.normal;
-        }
-        let n = if spot.is_back { -given } else { given };
-        // A smooth normal may point away from the camera where the triangle does not.
-        let facing = n.dot(spot.to_eye);
-        if facing < 0.0 {
-            (n - spot.to_eye * facing).normalize_or(spot.normal)
-        } else {
-            n
         }
     }
 
@@ -296,6 +279,27 @@ impl<'a> Shader<'a> {
         let half = (self.key + eye).normalize_or_zero();
         let glint = libm::powf(narrow(n.dot(half).max(0.0)), exponent) * strength * direct;
         light.map(|c| c + glint)
+    }
+}
+
+/// The normal that light falls on, of length 1.
+fn normal(part: &Part, triangle: usize, spot: &Spot) -> DVec3 {
+    let given = match &part.normals {
+        Normals::Triangle => DVec3::ZERO,
+        Normals::Given(channel) => {
+            DVec3::from(channel.at(part, triangle, spot.weights).map(f64::from)).normalize_or_zero()
+        }
+    };
+    if given == DVec3::ZERO {
+        return spot.normal;
+    }
+    let n = if spot.is_back { -given } else { given };
+    // A smooth normal may point away from the camera where the triangle does not.
+    let facing = n.dot(spot.to_eye);
+    if facing < 0.0 {
+        (n - spot.to_eye * facing).normalize_or(spot.normal)
+    } else {
+        n
     }
 }
 

@@ -1,9 +1,12 @@
 //! A tile of the picture: which triangle each sample sees.
 //!
 //! A pixel has 16 samples, one in each of 16 rows and columns (n-rooks: Shirley, "Discrepancy as a Quality
-//! Measure for Sample Distributions", 1991), at the points of Hammersley's sequence.
+//! Measure for Sample Distributions", 1991). Of the ways to place them this one has been found by a search: it
+//! differs least from the areas that edges of all directions cut from the pixel.
 
 use std::ops::{Add, BitOr, Mul, Sub};
+
+use crate::color::narrow;
 
 use super::project::{Flat, GRID, GRID_BITS};
 use super::{Frame, TILE};
@@ -12,19 +15,18 @@ use super::{Frame, TILE};
 pub(super) const SAMPLES: usize = 16;
 /// Stands where no triangle is seen.
 pub(super) const NOTHING: u32 = u32::MAX;
+/// The rows of the samples, for each column.
+const ROWS: [i32; SAMPLES] = [3, 11, 7, 15, 1, 6, 10, 13, 2, 5, 9, 14, 0, 8, 4, 12];
 /// The place of each sample, from the middle of its pixel, in steps of the grid.
 pub(super) const PLACES: [[i32; 2]; SAMPLES] = {
     let mut places = [[0; 2]; SAMPLES];
     let step = GRID / 16;
-    let mut i = 0;
-    while i < SAMPLES {
-        // The bits of i, from the last to the first.
-        let turned = (i & 1) << 3 | (i & 2) << 1 | (i & 4) >> 1 | (i & 8) >> 3;
-        places[i] = [
-            i as i32 * step + step / 2 - GRID / 2,
-            turned as i32 * step + step / 2 - GRID / 2,
-        ];
-        i += 1;
+    let (mut column, mut k) = (0, 0);
+    while k < SAMPLES {
+        let aside = step / 2 - GRID / 2;
+        places[k] = [column * step + aside, ROWS[k] * step + aside];
+        column += 1;
+        k += 1;
     }
     places
 };
@@ -99,9 +101,13 @@ impl Tile {
         }
     }
 
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "no branches: 16 samples at once"
+    )]
     fn fill<T: Number>(&mut self, id: u32, setup: &Setup, mask: u16) {
         let [x0, y0, x1, y1] = setup.limits;
-        let edges = setup.edges.map(|edge| edge.of::<T>());
+        let edges = setup.edges.map(Edge::of::<T>);
         // What each edge changes from the middle of a pixel to its samples.
         let mut aside = edges.map(|[a, b, _]| {
             PLACES.map(|[x, y]| a * T::of(i64::from(x)) + b * T::of(i64::from(y)))
@@ -113,7 +119,7 @@ impl Tile {
         }
         let most = aside.map(|of_edge| of_edge.into_iter().max().unwrap_or(T::of(0)));
         let [dx, dy] = setup.slope;
-        let deeper = PLACES.map(|[x, y]| (dx * f64::from(x) + dy * f64::from(y)) as f32);
+        let deeper = PLACES.map(|[x, y]| narrow(dx * f64::from(x) + dy * f64::from(y)));
         let step = edges.map(|[a, _, _]| a * T::of(i64::from(GRID)));
         for y in y0..=y1 {
             let from = setup.from(x0, y);
@@ -130,7 +136,7 @@ impl Tile {
                     let inside: [T; SAMPLES] = std::array::from_fn(|k| {
                         (e[0] + aside[0][k]) | (e[1] + aside[1][k]) | (e[2] + aside[2][k])
                     });
-                    let d = depth as f32;
+                    let d = narrow(depth);
                     let (depths, seen) = (&mut self.depth[place], &mut self.seen[place]);
                     for k in 0..SAMPLES {
                         let d = (d + deeper[k]).max(setup.nearest).min(setup.farthest);

@@ -58,6 +58,62 @@ impl Default for Camera {
     }
 }
 
+impl Camera {
+    /// The camera after a turn to the right, around what it looks at, about the axis that points upwards. A camera
+    /// that fits is then [steady](Self::Fit::steady).
+    #[must_use]
+    pub fn turned(self, degrees: f64) -> Self {
+        match self {
+            Self::Fit {
+                from,
+                up,
+                projection,
+                margin,
+                ..
+            } => {
+                let [azimuth, elevation] = from.angles();
+                Self::Fit {
+                    from: Side::Angles {
+                        azimuth: azimuth + degrees,
+                        elevation,
+                    },
+                    up,
+                    projection,
+                    margin,
+                    steady: true,
+                }
+            }
+            Self::LookAt {
+                from,
+                to,
+                up,
+                projection,
+            } => {
+                let (sin, cos) = mesh::sin_cos_degrees(degrees);
+                let [right, upwards, front] = up.axes();
+                let d = DVec3::from(from) - DVec3::from(to);
+                let [x, y, z] = [right, upwards, front].map(|axis| d.dot(axis));
+                let d = right * (x * cos + z * sin) + upwards * y + front * (z * cos - x * sin);
+                Self::LookAt {
+                    from: (DVec3::from(to) + d).into(),
+                    to,
+                    up,
+                    projection,
+                }
+            }
+        }
+    }
+
+    /// Whether its numbers are in their ranges, whatever it is to see.
+    ///
+    /// # Errors
+    ///
+    /// As [`View::new`].
+    pub fn check(&self) -> Result<(), PictureError> {
+        View::new(self, &|_| {}, [1, 1]).map(drop)
+    }
+}
+
 fn margin() -> f64 {
     0.05
 }

@@ -96,20 +96,24 @@ impl ColorMap {
         color.map(|c| crate::color::byte(c / 255.0))
     }
 
+    /// The sRGB color of a whole number in [`Classes`](Self::Classes): they repeat after eight.
+    pub fn class(self, class: f64) -> [u8; 3] {
+        // A little to the middle of its step, so that rounding does not find the class before.
+        self.srgb(class.floor().rem_euclid(8.0) / 7.0 + 1e-9)
+    }
+
     /// Linear red, green and blue of a number where `range` becomes 0 to 1; gray if it is not a number. With
     /// [`Classes`](Self::Classes) the color of a whole number, whatever the range.
     pub fn linear(self, value: f64, [low, high]: [f64; 2]) -> [f32; 3] {
         if value.is_nan() {
             return [0.3; 3];
         }
-        let t = match self {
-            Self::Classes => value.floor().rem_euclid(8.0) / 7.0,
-            _ if high > low => (value - low) / (high - low),
-            _ => 0.5,
+        let color = match self {
+            Self::Classes => self.class(value),
+            _ if high > low => self.srgb((value - low) / (high - low)),
+            _ => self.srgb(0.5),
         };
-        // A little to the middle of its step, so that rounding does not find the class before.
-        let t = if self == Self::Classes { t + 1e-9 } else { t };
-        self.srgb(t).map(to_linear)
+        color.map(to_linear)
     }
 }
 

@@ -137,9 +137,24 @@ pub enum Ids {
     Faces,
 }
 
+impl Background {
+    /// Red, green, blue and alpha, in sRGB.
+    pub fn srgb(self) -> [u8; 4] {
+        match self {
+            Self::White => [255; 4],
+            Self::Transparent => [0; 4],
+            Self::Plain(color) => color.0,
+        }
+    }
+}
+
 impl Style {
     /// Whether all numbers are in their ranges.
-    pub(crate) fn check(&self) -> Result<(), PictureError> {
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Style`] with the first that is not.
+    pub fn check(&self) -> Result<(), PictureError> {
         let mut numbers = vec![
             ("sharp", self.sharp, 180.0),
             ("occlusion", self.occlusion, 1.0),
@@ -173,11 +188,7 @@ impl Style {
         Look {
             shading: self.shading,
             occlusion: narrow(self.occlusion),
-            background: match self.background {
-                Background::White => [1.0; 4],
-                Background::Transparent => [0.0; 4],
-                Background::Plain(color) => color.linear(),
-            },
+            background: Color(self.background.srgb()).linear(),
         }
     }
 }

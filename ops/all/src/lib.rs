@@ -62,5 +62,6 @@ pub fn registry() -> Registry {
         .with::<sqrt3::Sqrt3>()
         .with::<doo_sabin::DooSabin>()
         .with::<vertex_normals::VertexNormals>()
+        .with::<picture::Picture>()
         .with::<save::Save>()
 }

@@ -375,6 +375,16 @@ const SAMPLES: &[(&str, &[&str])] = &[
         &["()", "(weight: Angle)", "(weight: Uniform)"],
     ),
     (
+        "Picture",
+        &[
+            r#"(path: "a.png", size: (320, 240))"#,
+            r#"(path: "sharp.png", size: (320, 240), highlight: Sharp(above: 30))"#,
+            r#"(path: "b/a.png", size: (160, 120), views: [Fit(from: Front), Fit(from: Top, projection: Orthographic)], style: (shading: Flat, wireframe: ()))"#,
+            r#"(path: "valence.png", size: (320, 240), color_by: (of: Valence))"#,
+            r#"(path: "a.gif", size: (80, 60), turntable: (frames: 4))"#,
+        ],
+    ),
+    (
         "Save",
         &[
             r#"(path: "a.obj")"#,

@@ -1,0 +1,209 @@
+//! The operation from its text to the bytes of its file.
+
+use mesh::shapes;
+use op::{Context, Files, NoProgress, OpError, Operation, Plan, PlanContext, PlannedGeometry};
+use scene::{Object, Scene};
+
+use crate::Picture;
+
+fn picture(fields: &str) -> Picture {
+    let options =
+        ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
+    options
+        .from_str(&format!("(size: (32, 24), {fields})"))
+        .unwrap_or_else(|error| panic!("{fields}: {error}"))
+}
+
+fn scene() -> Scene {
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
+    scene
+        .insert(Object::mesh("torus", shapes::torus(12, 8, 3.0, 0.5)))
+        .unwrap();
+    scene
+}
+
+/// The bytes that a step writes.
+fn written(fields: &str, on: Option<&[String]>) -> Result<Vec<u8>, OpError> {
+    let folder = tempfile::tempdir().unwrap();
+    let files = Files {
+        output: folder.path().into(),
+        input: folder.path().into(),
+        provenance: Some("meshwright 1, recipe \"a\"".to_owned()),
+        ..Files::default()
+    };
+    let mut cx = Context::new(&NoProgress, &files);
+    cx.on = on;
+    cx.budget = 1 << 30;
+    let mut scene = scene();
+    let before = scene.clone();
+    let picture = picture(fields);
+    picture.apply(&mut scene, &mut cx)?;
+    assert_eq!(scene, before);
+    Ok(std::fs::read(folder.path().join(&picture.path)).unwrap())
+}
+
+/// Width, height and pixels of a PNG, without alpha.
+fn decoded(bytes: &[u8]) -> (u32, u32, Vec<[u8; 3]>) {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+        .read_info()
+        .unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!(info.color_type, png::ColorType::Rgb);
+    (info.width, info.height, pixels.as_chunks().0.to_vec())
+}
+
+#[test]
+fn a_picture_is_as_large_as_it_says_and_carries_the_stamp() {
+    let bytes = written("path: \"a/b.png\"", None).unwrap();
+    let (width, height, pixels) = decoded(&bytes);
+    assert_eq!((width, height), (32, 24));
+    assert!(pixels.iter().any(|p| *p != [255; 3]) && pixels[0] == [255; 3]);
+    let stamp = b"recipe \"a\"";
+    assert!(bytes.windows(stamp.len()).any(|w| w == stamp));
+}
+
+#[test]
+fn only_the_chosen_objects_are_drawn() {
+    let drawn = |on: &[String]| decoded(&written("path: \"a.png\"", Some(on)).unwrap()).2;
+    let [cube, torus] = ["cube", "torus"].map(|name| drawn(&[name.to_owned()]));
+    assert_ne!(cube, torus);
+    // The middle of the torus is a hole when it is seen from above.
+    let bytes = written(
+        "path: \"a.png\", camera: Fit(from: Front)",
+        Some(&["torus".to_owned()]),
+    );
+    assert_eq!(decoded(&bytes.unwrap()).2[12 * 32 + 16], [255; 3]);
+}
+
+#[test]
+fn views_stand_side_by_side() {
+    let views = "path: \"a.png\", views: [Fit(from: Front), Fit(from: Top), Fit(from: Left)]";
+    let (width, height, _) = decoded(&written(views, None).unwrap());
+    assert_eq!((width, height), (96, 24));
+    let (width, height, _) = decoded(&written(&format!("{views}, columns: 2"), None).unwrap());
+    assert_eq!((width, height), (64, 48));
+}
+
+#[test]
+fn what_is_marked_is_seen() {
+    let plain = written("path: \"a.png\"", None).unwrap();
+    for marked in [
+        "highlight: Edges(Sharp(above: 30))",
+        "highlight: Faces(All)",
+        "marks: [(of: Vertices(All), color: \"blue\", width: 3)]",
+        "color_by: (of: Valence)",
+        "color_by: (of: MeanCurvature, legend: false)",
+        "color_by: (of: SmallestAngle, map: Gray, range: (0, 90))",
+        "color_by: (of: DihedralAngle)",
+    ] {
+        let bytes = written(&format!("path: \"a.png\", {marked}"), None).unwrap();
+        assert_ne!(decoded(&bytes).2, decoded(&plain).2, "{marked}");
+    }
+}
+
+#[test]
+fn a_turntable_has_its_frames() {
+    let bytes = written("path: \"a.apng\", turntable: (frames: 5, seconds: 1)", None).unwrap();
+    let reader = png::Decoder::new(std::io::Cursor::new(bytes))
+        .read_info()
+        .unwrap();
+    assert_eq!(reader.info().animation_control().unwrap().num_frames, 5);
+    let bytes = written("path: \"a.gif\", turntable: (frames: 3)", None).unwrap();
+    assert_eq!(&bytes[..6], b"GIF89a");
+}
+
+#[test]
+fn the_color_of_a_distance_is_that_of_the_place() {
+    // The cube against itself: no vertex is away from it, whatever it looks like.
+    let folder = tempfile::tempdir().unwrap();
+    let files = Files {
+        output: folder.path().into(),
+        input: folder.path().into(),
+        ..Files::default()
+    };
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
+    let path = folder.path().join("cube.obj");
+    mesh_io::write(&path, &scene, &mesh_io::WriteOptions::default()).unwrap();
+    let picture = picture("path: \"a.png\", color_by: (of: DistanceTo(\"cube.obj\"))");
+    let numbers = picture.color_by.as_ref().unwrap();
+    let cx = Context::new(&NoProgress, &files);
+    let found = numbers.numbers(&scene, &cx).unwrap();
+    assert_eq!(found.colorings[0].values, [0.0; 8]);
+}
+
+#[test]
+fn wrong_parameters_are_problems_before_anything_runs() {
+    let files = Files {
+        output: "out".into(),
+        ..Files::default()
+    };
+    let cx = PlanContext {
+        files: &files,
+        on: None,
+        budget: 1 << 20,
+    };
+    let problems = |fields: &str| {
+        let mut plan = Plan::default();
+        let cube = op::MeshPlan::of(&shapes::cube());
+        plan.insert("a", PlannedGeometry::Mesh(cube));
+        let found = picture(fields).plan(&mut plan, &cx);
+        found.into_iter().map(|p| p.message).collect::<Vec<_>>()
+    };
+    assert_eq!(problems("path: \"a.png\""), [""; 0]);
+    for (fields, message) in [
+        (
+            "path: \"a.jpg\"",
+            "no format of pictures is known for \"a.jpg\"",
+        ),
+        (
+            "path: \"a.gif\"",
+            "\"a.gif\" is an animation, but nothing moves",
+        ),
+        (
+            "path: \"../a.png\"",
+            "\"../a.png\" leads out of the output folder",
+        ),
+        (
+            "path: \"a.png\", style: (sharp: 200)",
+            "expected `sharp` from 0 to 180, found 200",
+        ),
+        (
+            "path: \"a.png\", camera: LookAt(from: (0, 0, 0), to: (0, 0, 0))",
+            "expected a camera that looks from one point to another, found no direction",
+        ),
+        (
+            "path: \"a.png\", turntable: (frames: 1)",
+            "expected 2 to 720 images, found 1",
+        ),
+        (
+            "path: \"a.png\", color_by: (of: Attribute(name: \"heat\"))",
+            "no mesh has an attribute \"heat\" here",
+        ),
+        (
+            "path: \"a.png\", color_by: (of: Valence, range: (2, 1))",
+            "expected a range from less to more, found 2 to 1",
+        ),
+        (
+            "path: \"a.png\", turntable: (frames: 720)",
+            "the images take 2211840 bytes, over the budget",
+        ),
+    ] {
+        let found = problems(fields);
+        assert!(found.iter().any(|m| m == message), "{fields}: {found:?}");
+    }
+    let error = written("path: \"a.png\", highlight: Faces(Tagged(\"nose\"))", None);
+    assert!(matches!(error, Err(OpError::Refused { .. })), "{error:?}");
+}
+
+#[test]
+fn a_scene_without_anything_is_an_empty_picture() {
+    let files = Files::default();
+    let mut cx = Context::new(&NoProgress, &files);
+    let (images, notes) = picture("path: \"a.png\"")
+        .draw(&Scene::new(), &mut cx)
+        .unwrap();
+    assert!(images[0].pixels.iter().all(|p| *p == [255; 4]) && notes.is_empty());
+}

@@ -1,0 +1,202 @@
+//! Counts of elements, and what is there or not: manifolds, boundaries, attributes.
+
+use bezier::Curve;
+use mesh::{Connectivity, DVec3, Domain, FaceId, HalfEdgeId, Mesh, Rule, Values, VertexId, shapes};
+use scene::{Geometry, Object, Scene};
+
+use super::{check, check_on, cube, holds_and_fails, lines, scene};
+
+#[test]
+fn counts_have_an_exact_number_a_least_and_a_most() {
+    let cases = [
+        ("Objects", 1, "objects"),
+        ("Vertices", 8, "vertices"),
+        ("Edges", 12, "edges"),
+        ("Faces", 6, "faces"),
+        ("Components", 1, "components"),
+        ("BoundaryLoops", 0, "boundary loops"),
+        ("EulerCharacteristic", 2, "as Euler characteristic"),
+        ("Genus", 0, "as genus"),
+    ];
+    for (name, n, what) in cases {
+        let over = n + 1;
+        holds_and_fails(
+            &cube(),
+            &format!("{name}(eq: {n})"),
+            &format!("{name}(eq: {over})"),
+            &format!("expected {over} {what}, found {n}"),
+        );
+        holds_and_fails(
+            &cube(),
+            &format!("{name}(min: {n}, max: {n})"),
+            &format!("{name}(min: {over})"),
+            &format!("expected at least {over} {what}, found {n}"),
+        );
+    }
+    holds_and_fails(
+        &cube(),
+        "Faces(max: 6)",
+        "Faces(max: 5)",
+        "expected at most 5 faces, found 6",
+    );
+}
+
+#[test]
+fn counts_are_of_all_meshes_or_of_those_in_on() {
+    let two = scene([
+        ("cube", shapes::cube()),
+        ("torus", shapes::torus(4, 3, 2.0, 1.0)),
+    ]);
+    assert_eq!(check(&two, "Faces(eq: 18)"), Ok(()));
+    assert_eq!(check(&two, "Genus(eq: 1)"), Ok(()));
+    let torus = ["torus".to_owned()];
+    assert_eq!(check_on(&two, Some(&torus), "Faces(eq: 12)"), Ok(()));
+    let nobody = ["sphere".to_owned()];
+    assert_eq!(
+        check_on(&two, Some(&nobody), "Faces(eq: 12)"),
+        Err("no object is named \"sphere\"".to_owned())
+    );
+}
+
+#[test]
+fn an_open_sheet_has_a_boundary_loop() {
+    let sheet = scene([("sheet", shapes::grid(3, 2))]);
+    holds_and_fails(
+        &sheet,
+        "BoundaryLoops(eq: 1)",
+        "BoundaryLoops(eq: 0)",
+        "expected 0 boundary loops, found 1",
+    );
+}
+
+#[test]
+fn points_of_curves_and_polylines_count_as_vertices() {
+    let points = vec![glam::DVec2::ZERO, glam::DVec2::new(2.0, 1.0)];
+    let mut scene = lines();
+    let curve = Geometry::Curve(Curve::new(points).unwrap());
+    scene.insert(Object::new("curve", curve)).unwrap();
+    holds_and_fails(
+        &scene,
+        "Vertices(eq: 5)",
+        "Vertices(eq: 3)",
+        "expected 3 vertices, found 5",
+    );
+    assert_eq!(
+        check(&scene, "Bounds(min: (0, 0, 0), max: (3, 1, 0))"),
+        Ok(())
+    );
+}
+
+#[test]
+fn selected_elements_are_counted() {
+    holds_and_fails(
+        &cube(),
+        "Count(of: Vertices(Valence(3)), eq: 8)",
+        "Count(of: Edges(Sharp(above: 91)), min: 1)",
+        "expected at least 1 selected edges, found 0",
+    );
+    holds_and_fails(
+        &cube(),
+        "Count(of: Faces(Degree(4)), min: 6, max: 6)",
+        "Count(of: Edges(Between(0, 7)), eq: 1)",
+        "there is no edge between vertices 0 and 7",
+    );
+}
+
+#[test]
+fn a_manifold_has_no_defects() {
+    let mut broken = shapes::cube();
+    broken.positions_mut()[3].x = f64::NAN;
+    assert_eq!(check(&cube(), "Manifold"), Ok(()));
+    assert_eq!(
+        check(&scene([("broken", broken)]), "Manifold"),
+        Err("expected a manifold, but in broken the position of v3 is not finite".to_owned())
+    );
+    assert_eq!(
+        check(&Scene::new(), "Manifold"),
+        Err("expected a mesh, found none".to_owned())
+    );
+}
+
+/// Five triangles, two edges of which join v0 and v1, and two v1 and v2; around each vertex is one fan.
+fn with_double_edges() -> Mesh {
+    let origins = [
+        [0, 1],
+        [1, 2],
+        [2, 0],
+        [2, 1],
+        [1, 0],
+        [1, 3],
+        [3, 2],
+        [1, 4],
+        [4, 3],
+        [2, 4],
+    ];
+    let faces = [[0, 2, 4], [5, 6, 8], [3, 10, 12], [11, 14, 16], [15, 7, 18]];
+    let origin: Vec<VertexId> = origins.concat().into_iter().map(VertexId::new).collect();
+    let n = origin.len();
+    let mut next = vec![HalfEdgeId::NONE; n];
+    let mut face = vec![FaceId::NONE; n];
+    for (f, corners) in faces.into_iter().enumerate() {
+        for i in 0..3 {
+            next[corners[i]] = HalfEdgeId::new(corners[(i + 1) % 3]);
+            face[corners[i]] = FaceId::new(f);
+        }
+    }
+    let leaving = |v: VertexId| {
+        let boundary = (0..n).find(|&h| face[h] == FaceId::NONE && origin[h] == v);
+        HalfEdgeId::new(boundary.unwrap())
+    };
+    for h in (0..n).filter(|&h| face[h] == FaceId::NONE) {
+        next[h] = leaving(origin[h ^ 1]);
+    }
+    let connectivity = Connectivity {
+        vertex_half_edge: (0..5).map(|v| leaving(VertexId::new(v))).collect(),
+        face_half_edge: faces.map(|corners| HalfEdgeId::new(corners[0])).to_vec(),
+        next,
+        origin,
+        face,
+    };
+    let positions = (0..5).map(|i| DVec3::new(f64::from(i), f64::from(i * i), 0.0));
+    Mesh::from_arrays(connectivity, positions.collect())
+}
+
+#[test]
+fn two_edges_between_the_same_vertices_are_no_manifold() {
+    let mesh = with_double_edges();
+    assert_eq!(mesh.defects(), []);
+    assert_eq!(
+        check(&scene([("double", mesh)]), "Manifold"),
+        Err("expected a manifold, but in double several edges join v0 and v1".to_owned())
+    );
+}
+
+#[test]
+fn a_closed_mesh_has_no_boundary() {
+    assert_eq!(check(&cube(), "Closed"), Ok(()));
+    assert_eq!(
+        check(&scene([("sheet", shapes::square())]), "Closed"),
+        Err("expected no boundary, but sheet has one at the edge v0-v1".to_owned())
+    );
+    assert_eq!(
+        check(&lines(), "Closed"),
+        Err("expected a mesh, found none".to_owned())
+    );
+}
+
+#[test]
+fn an_attribute_is_on_every_mesh() {
+    let mut tagged = shapes::cube();
+    let column = mesh::Column {
+        name: "rim".to_owned(),
+        rule: Rule::Copy,
+        values: Values::Tag(vec![true; 12]),
+    };
+    tagged.insert_column(Domain::Edge, column);
+    holds_and_fails(
+        &scene([("cube", tagged)]),
+        "HasAttribute(domain: Edge, name: \"rim\")",
+        "HasAttribute(domain: Corner, name: \"uv\")",
+        "expected the corner attribute \"uv\", but cube has none",
+    );
+}

@@ -1,0 +1,179 @@
+//! Areas, volumes, bounds, angles, lengths and places.
+
+use mesh::{DVec3, shapes};
+use scene::Scene;
+
+use super::{check, cube, holds_and_fails, lines, of, scene};
+
+#[test]
+fn area_and_volume_are_compared_within_a_tolerance() {
+    holds_and_fails(
+        &cube(),
+        "Area(eq: 24)",
+        "Area(eq: 23.5)",
+        "expected an area of 23.5, found 24",
+    );
+    holds_and_fails(
+        &cube(),
+        "Area(eq: 23.5, tolerance: 0.5)",
+        "Area(min: 25)",
+        "expected an area of at least 25, found 24",
+    );
+    holds_and_fails(
+        &cube(),
+        "Volume(eq: 8)",
+        "Volume(eq: 8.25, tolerance: 0.125)",
+        &format!(
+            "expected a volume of 8.25, found {}",
+            shapes::cube().volume()
+        ),
+    );
+    holds_and_fails(
+        &cube(),
+        "Volume(min: 7.99, max: 8.01)",
+        "Volume(max: 7.5)",
+        &format!(
+            "expected a volume of at most 7.5, found {}",
+            shapes::cube().volume()
+        ),
+    );
+}
+
+#[test]
+fn bounds_are_those_of_all_points() {
+    holds_and_fails(
+        &cube(),
+        "Bounds(min: (-1, -1, -1), max: (1, 1, 1))",
+        "Bounds(min: (-1, -1, -1), max: (1, 1, 2))",
+        "expected bounds from [-1, -1, -1] to [1, 1, 2], found [-1, -1, -1] to [1, 1, 1]",
+    );
+    let nothing = Scene::new();
+    assert_eq!(
+        check(&nothing, "Bounds(min: (0, 0, 0), max: (0, 0, 0))"),
+        Err("expected points, found none".to_owned())
+    );
+}
+
+#[test]
+fn valences_lie_in_a_range() {
+    holds_and_fails(
+        &cube(),
+        "Valence(min: 3, max: 3)",
+        "Valence(min: 4)",
+        "expected at least 4 edges at v0, found 3",
+    );
+    holds_and_fails(
+        &cube(),
+        "Valence(of: Vertices([5]), max: 3)",
+        "Valence(of: Boundary, max: 3)",
+        "expected vertices to be selected, found none",
+    );
+}
+
+#[test]
+fn dihedral_angles_lie_in_a_range() {
+    // Steps up along x: flat, then up by a right angle.
+    let p = |x: f64, z: f64| [DVec3::new(x, 0.0, z), DVec3::new(x, 1.0, z)];
+    let positions: Vec<DVec3> = [p(0.0, 0.0), p(1.0, 0.0), p(2.0, 0.0), p(2.0, 1.0)].concat();
+    let stairs = scene([(
+        "stairs",
+        of(&positions, &[&[0, 2, 3, 1], &[2, 4, 5, 3], &[4, 6, 7, 5]]),
+    )]);
+    holds_and_fails(
+        &stairs,
+        "DihedralAngle(min: 0, max: 90.000001, reaches: 89.999999)",
+        "DihedralAngle(reaches: 91)",
+        "expected a largest dihedral angle of at least 91, found 90",
+    );
+    holds_and_fails(
+        &stairs,
+        "DihedralAngle(of: Between(2, 3), max: 0)",
+        "DihedralAngle(of: Between(2, 3), min: 1)",
+        "expected a dihedral angle at the edge v2-v3 of at least 1, found 0",
+    );
+    assert_eq!(
+        check(&stairs, "DihedralAngle(of: Boundary, max: 180)"),
+        Err("expected edges between two faces to be selected, found none".to_owned())
+    );
+}
+
+#[test]
+fn the_mean_area_of_faces_is_in_proportion_to_the_median() {
+    // Areas 1, 1 and 4.
+    let positions: Vec<DVec3> = [0.0, 1.0, 2.0, 6.0]
+        .map(|x| [DVec3::new(x, 0.0, 0.0), DVec3::new(x, 1.0, 0.0)])
+        .concat();
+    let strip = scene([(
+        "strip",
+        of(&positions, &[&[0, 2, 3, 1], &[2, 4, 5, 3], &[4, 6, 7, 5]]),
+    )]);
+    holds_and_fails(
+        &strip,
+        "MeanFaceArea(of: Faces([0, 2]), min: 2.5, max: 2.5)",
+        "MeanFaceArea(of: Faces([2]), max: 3)",
+        "expected a mean face area over the median of at most 3, found 4",
+    );
+    assert_eq!(
+        check(&strip, "MeanFaceArea(of: Degree(3), max: 3)"),
+        Err("expected faces to be selected, found none".to_owned())
+    );
+}
+
+#[test]
+fn lengths_of_edges_and_angles_of_corners_are_measured() {
+    let p = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    // Angles of 90, 60 and 30 degrees, sides of 1, 2 and the root of 3.
+    let triangle = scene([(
+        "a",
+        of(
+            &[p(0.0, 0.0), p(1.0, 0.0), p(0.0, 3_f64.sqrt())],
+            &[&[0, 1, 2]],
+        ),
+    )]);
+    holds_and_fails(
+        &triangle,
+        "EdgeLength(min: 1, max: 2.000001)",
+        "EdgeLength(of: Between(0, 1), max: 0.5)",
+        "expected a length of the edge v0-v1 of at most 0.5, found 1",
+    );
+    assert!(check(&triangle, "MinAngle(min: 29.9999, max: 30.0001)").is_ok());
+    let error = check(&triangle, "MinAngle(min: 31)").unwrap_err();
+    assert!(
+        error.starts_with("expected a smallest corner angle, that of f0, of at least 31, found 30"),
+        "{error}"
+    );
+    assert!(check(&triangle, "EdgeLength(of: Not(All), min: 0)").is_err());
+    assert!(check(&triangle, "MinAngle(of: Not(All), min: 0)").is_err());
+}
+
+#[test]
+fn one_vertex_is_at_a_place() {
+    holds_and_fails(
+        &cube(),
+        "Position(of: Vertices([7]), is: (1, 1, 1))",
+        "Position(of: Vertices([7]), is: (1, 1, 1.5), tolerance: 0.25)",
+        "expected v7 at [1, 1, 1.5], found it at [1, 1, 1]",
+    );
+    assert_eq!(
+        check(&cube(), "Position(of: Vertices([6, 7]), is: (1, 1, 1))"),
+        Err("expected one vertex to be selected, found 2".to_owned())
+    );
+}
+
+#[test]
+fn one_point_of_a_polyline_is_at_a_place() {
+    holds_and_fails(
+        &lines(),
+        "Point(index: 2, is: (3, 1, 0))",
+        "Point(line: 0, index: 2, is: (3, 2, 0))",
+        "expected point 2 of polyline 0 at [3, 2, 0], found it at [3, 1, 0]",
+    );
+    assert_eq!(
+        check(&lines(), "Point(index: 3, is: (0, 0, 0))"),
+        Err("there is no point 3 on a polyline 0".to_owned())
+    );
+    assert_eq!(
+        check(&cube(), "Point(index: 0, is: (0, 0, 0))"),
+        Err("this expectation is about one object of polylines, found 0".to_owned())
+    );
+}

@@ -19,7 +19,7 @@ use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Diagnostic, Forecast, Reading};
+use crate::{Diagnostic, Forecast, Outcome, Reading, Settings, Silent};
 
 /// Makes a sheet of squares in one row.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -212,6 +212,21 @@ fn checked(text: &str, budget: u64) -> Forecast {
     let reading = read(text);
     assert!(!reading.has_errors(), "{text}: {:#?}", reading.diagnostics);
     crate::check(&reading.recipe, &files(&reading, Path::new("out")), budget)
+}
+
+/// Runs a recipe that is read without mistakes, and that reads and writes no file.
+#[track_caller]
+fn run(reading: &Reading) -> Outcome {
+    assert!(!reading.has_errors(), "{:#?}", reading.diagnostics);
+    let settings = Settings {
+        files: &files(reading, Path::new("out")),
+        budget: u64::MAX,
+        read: &|path, _| Err(format!("there is no file {}", path.display())),
+        keep_outputs: false,
+        writes: false,
+        cache: None,
+    };
+    crate::run(&reading.recipe, settings, &Silent)
 }
 
 /// What each diagnostic points at, its message and its advice.

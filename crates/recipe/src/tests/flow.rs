@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::{Reading, checked, files, read, registry, shown, steps};
-use crate::{Outcome, Settings, Silent, Source, Values};
+use super::{Reading, checked, read, registry, run, shown, steps};
+use crate::{Source, Values};
 
 /// The labels of the steps.
 fn labels(reading: &Reading) -> Vec<&str> {
@@ -32,20 +32,6 @@ fn folder(texts: &[(&str, &str)]) -> tempfile::TempDir {
         std::fs::write(path, text).unwrap();
     }
     folder
-}
-
-fn run(reading: &Reading) -> Outcome {
-    assert!(!reading.has_errors(), "{:#?}", reading.diagnostics);
-    let files = files(reading, Path::new("out"));
-    let settings = Settings {
-        files: &files,
-        budget: u64::MAX,
-        read: &|_, _| Err("nothing is read".to_owned()),
-        keep_outputs: false,
-        writes: false,
-        cache: None,
-    };
-    crate::run(&reading.recipe, settings, &Silent)
 }
 
 #[test]

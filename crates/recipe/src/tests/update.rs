@@ -2,30 +2,13 @@
 
 use proptest::prelude::*;
 
-use super::{files, read, steps};
+use super::{read, run, steps};
 use crate::update::{Update, update};
-use crate::{Outcome, Settings, Silent};
-
-fn run(text: &str) -> (crate::Recipe, Outcome) {
-    let reading = read(text);
-    assert!(!reading.has_errors(), "{text}: {:#?}", reading.diagnostics);
-    let out = tempfile::tempdir().unwrap();
-    let files = files(&reading, out.path());
-    let settings = Settings {
-        files: &files,
-        budget: u64::MAX,
-        read: &|path, _| Err(format!("there is no file {}", path.display())),
-        keep_outputs: false,
-        writes: false,
-        cache: None,
-    };
-    let outcome = crate::run(&reading.recipe, settings, &Silent);
-    (reading.recipe, outcome)
-}
 
 fn updated(text: &str) -> Update {
-    let (recipe, outcome) = run(text);
-    update(&recipe, &outcome)
+    let reading = read(text);
+    let outcome = run(&reading);
+    update(&reading.recipe, &outcome)
 }
 
 /// A recipe of a sheet of two squares, lifted by 1, with these expectations.
@@ -85,7 +68,7 @@ fn places_keep_the_numbers_that_are_right() {
 
 #[test]
 fn the_digest_is_renewed() {
-    let (_, outcome) = run(&sheet(""));
+    let outcome = run(&read(&sheet("")));
     assert_eq!(
         renewed("Digest(\"0\")"),
         format!("Digest(\"{}\")", outcome.digest)
@@ -172,7 +155,7 @@ proptest! {
         let head = format!(
             "(recipe: 1, steps: [Sheet(columns: {columns}),\n (id: \"l\", run: Lift(by: {by:?}))], expect: ["
         );
-        let (_, outcome) = run(&format!("{head}])"));
+        let outcome = run(&read(&format!("{head}])")));
         let mesh = outcome.scene.unwrap().objects()[0].as_mesh().unwrap().clone();
         let [min, max] = mesh.bounds().unwrap();
         let vector = |p: mesh::DVec3, d: f64| format!("({:?}, {:?}, {:?})", p.x, p.y, p.z + d);

@@ -59,6 +59,7 @@ pub fn run(registry: Registry) -> ExitCode {
             output,
         } => commands::convert::run(&input, &read, &output),
         Command::Reproduce(args) => commands::reproduce::run(&args, &registry),
+        Command::Picture(args) => commands::picture::run(&args, &registry),
         Command::Select(args) => commands::select::run(&args, &registry),
         Command::Diff(args) => {
             // As `diff` has it: 1 says that there is a difference, and nothing else does.

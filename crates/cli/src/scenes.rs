@@ -117,4 +117,4 @@ fn run(path: &Path, values: &ValueArgs, stop: Stop, registry: &Registry) -> anyh
 }
 
 /// The memory that meshes may take.
-const BUDGET: u64 = 8 << 30;
+pub(crate) const BUDGET: u64 = 8 << 30;

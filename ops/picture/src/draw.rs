@@ -3,11 +3,12 @@
 use std::borrow::Cow;
 use std::path::{Component, Path};
 
+use glam::DVec3;
 use op::{Context, Files, OpError};
 use render::figure::label::{Label, draw_labels};
 use render::figure::legend::{Corner, draw_legend};
 use render::sheet::{Cell, SheetStyle, sheet};
-use render::{Camera, Drawing, Image, PictureError, View, build, bytes_needed, render};
+use render::{Drawing, Image, PictureError, View, build, bytes_needed, render};
 use scene::Scene;
 
 use crate::Picture;
@@ -21,7 +22,7 @@ const INK: [u8; 4] = [0x1f, 0x29, 0x37, 255];
 const LETTERS: f64 = 13.0;
 
 impl Picture {
-    /// The pixels of all images together.
+    /// The pixels of all images of a scene together.
     pub(crate) fn n_pixels(&self) -> u64 {
         let [width, height] = self.size.map(u64::from);
         let frames = self.turntable.map_or(1, |turn| u64::from(turn.frames));
@@ -29,54 +30,90 @@ impl Picture {
     }
 }
 
-/// Draws the images of a picture whose parameters are in order.
+/// A scene that is ready to be drawn.
+struct Ready<'s> {
+    drawing: Drawing<'s>,
+    numbers: Option<Numbers>,
+    caption: &'s str,
+}
+
+/// Draws scenes side by side, each with what is written below it, in the same scale. The parameters of the picture
+/// are in order.
 pub(crate) fn images(
     picture: &Picture,
-    scene: &Scene,
+    scenes: &[(&Scene, &str)],
     cx: &mut Context,
 ) -> Result<(Vec<Image>, Vec<String>), OpError> {
     let n_frames = picture.turntable.map_or(1, |turn| turn.frames);
-    let total = u64::from(n_frames) * picture.cameras().len() as u64;
+    let total = u64::from(n_frames) * (picture.cameras().len() * scenes.len()) as u64;
     cx.advance("draw", 0, total)?;
-    let scene = chosen(scene, cx.on);
-    let numbers = picture.color_by.as_ref();
-    let numbers = numbers.map(|by| by.numbers(&scene, cx)).transpose()?;
-    let overlays = overlays::of(picture, &scene, numbers.as_ref(), cx)?;
-    let folder = picture.images.as_deref();
-    let mut images = |path: &str| read_image(cx.files(), folder, path);
-    let (drawing, missing) = build(&scene, &picture.style, &overlays, &mut images).map_err(told)?;
+    let chosen: Vec<_> = scenes
+        .iter()
+        .map(|(scene, _)| chosen(scene, cx.on))
+        .collect();
+    let mut ready = Vec::new();
+    let mut notes = Vec::new();
+    for (scene, &(_, caption)) in chosen.iter().zip(scenes) {
+        let (drawing, numbers) = prepare(picture, scene, cx, &mut notes)?;
+        ready.push(Ready {
+            drawing,
+            numbers,
+            caption,
+        });
+    }
+    notes.dedup();
 
     let look = picture.style.look();
-    let all = 4 * picture.n_pixels();
-    let needed = all.saturating_add(bytes_needed(&drawing, picture.size, &look));
+    let drawn = |r: &Ready| bytes_needed(&r.drawing, picture.size, &look);
+    let all = 4 * picture.n_pixels() * scenes.len() as u64;
+    let needed = all.saturating_add(ready.iter().map(drawn).max().unwrap_or(0));
     if needed > cx.budget {
-        return Err(told(PictureError::Budget {
-            needed,
-            budget: cx.budget,
-        }));
+        let budget = cx.budget;
+        return Err(told(PictureError::Budget { needed, budget }));
     }
     let mut frames = Vec::new();
     let mut done = 0;
     for frame in 0..n_frames {
+        let turn = 360.0 * f64::from(frame) / f64::from(n_frames);
         let mut views = Vec::new();
         for camera in picture.cameras() {
             let camera = if n_frames > 1 {
-                camera.turned(360.0 * f64::from(frame) / f64::from(n_frames))
+                camera.turned(turn)
             } else {
                 *camera
             };
-            views.push(view(picture, &drawing, &camera, numbers.as_ref()).map_err(told)?);
-            done += 1;
-            cx.advance("draw", done, total)?;
+            let points = |each: &mut dyn FnMut(DVec3)| {
+                for r in &ready {
+                    r.drawing.each_point(each);
+                }
+            };
+            let view = View::new(&camera, &points, picture.size).map_err(told)?;
+            for r in &ready {
+                views.push((draw(picture, r, &view).map_err(told)?, r.caption));
+                done += 1;
+                cx.advance("draw", done, total)?;
+            }
         }
-        frames.push(side_by_side(picture, views, cx.budget).map_err(told)?);
+        frames.push(side_by_side(picture, views, scenes.len(), cx.budget).map_err(told)?);
     }
-    let mut notes: Vec<String> = missing
-        .into_iter()
-        .map(|why| format!("an image of a material is not shown: {why}"))
-        .collect();
-    notes.dedup();
     Ok((frames, notes))
+}
+
+fn prepare<'s>(
+    picture: &Picture,
+    scene: &'s Scene,
+    cx: &mut Context,
+    notes: &mut Vec<String>,
+) -> Result<(Drawing<'s>, Option<Numbers>), OpError> {
+    let numbers = picture.color_by.as_ref();
+    let numbers = numbers.map(|by| by.numbers(scene, cx)).transpose()?;
+    let overlays = overlays::of(picture, scene, numbers.as_ref(), cx)?;
+    let folder = picture.images.as_deref();
+    let mut images = |path: &str| read_image(cx.files(), folder, path);
+    let (drawing, missing) = build(scene, &picture.style, &overlays, &mut images).map_err(told)?;
+    let note = |why| format!("an image of a material is not shown: {why}");
+    notes.extend(missing.into_iter().map(note));
+    Ok((drawing, numbers))
 }
 
 /// The objects that the step was told to act on.
@@ -93,21 +130,16 @@ fn chosen<'s>(scene: &'s Scene, on: Option<&[String]>) -> Cow<'s, Scene> {
     Cow::Owned(chosen)
 }
 
-fn view(
-    picture: &Picture,
-    drawing: &Drawing,
-    camera: &Camera,
-    numbers: Option<&Numbers>,
-) -> Result<Image, PictureError> {
-    let view = View::new(camera, &|each| drawing.each_point(each), picture.size)?;
-    let rendered = render(drawing, &view, picture.size, &picture.style.look())?;
+fn draw(picture: &Picture, ready: &Ready, view: &View) -> Result<Image, PictureError> {
+    let drawing = &ready.drawing;
+    let rendered = render(drawing, view, picture.size, &picture.style.look())?;
     let mut image = rendered.image;
     let labels: Vec<Label> = (drawing.labels.iter().zip(&rendered.labels))
         .filter_map(|(label, placed)| Some((label, placed.filter(|p| !p.is_hidden)?)))
         .map(|(label, placed)| Label::new(placed.at, &*label.text, LETTERS, INK))
         .collect();
     draw_labels(&mut image, &labels)?;
-    if let Some(legend) = numbers.and_then(Numbers::legend) {
+    if let Some(legend) = ready.numbers.as_ref().and_then(Numbers::legend) {
         // As large as letters are in a picture of usual size.
         let scale = (f64::from(picture.size[1]) / 720.0).clamp(0.5, 8.0);
         draw_legend(&mut image, &legend, Corner::TopRight, scale)?;
@@ -118,18 +150,23 @@ fn view(
 /// Views in rows, on the background of the picture.
 fn side_by_side(
     picture: &Picture,
-    mut views: Vec<Image>,
+    mut views: Vec<(Image, &str)>,
+    n_scenes: usize,
     budget: u64,
 ) -> Result<Image, PictureError> {
-    if views.len() == 1 {
-        return Ok(views.remove(0));
+    if let [(_, "")] = views[..] {
+        return Ok(views.remove(0).0);
     }
-    let cells: Vec<Cell> = views
-        .iter()
-        .map(|image| Cell { image, caption: "" })
+    let cells: Vec<Cell> = (views.iter())
+        .map(|(image, caption)| Cell { image, caption })
         .collect();
+    let usual = if n_scenes > 1 {
+        n_scenes
+    } else {
+        views.len().min(4)
+    };
     let style = SheetStyle {
-        columns: picture.columns.map_or(views.len().min(4), |n| n as usize),
+        columns: picture.columns.map_or(usual, |n| n as usize),
         gap: 0,
         background: picture.style.background.srgb(),
         ..SheetStyle::default()

@@ -210,16 +210,37 @@ impl Picture {
         scene: &Scene,
         cx: &mut Context,
     ) -> Result<(Vec<Image>, Vec<String>), OpError> {
+        self.draw_beside(&[(scene, "")], cx)
+    }
+
+    /// The same for several scenes side by side, in one scale, each with a caption unless that is empty.
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn draw_beside(
+        &self,
+        scenes: &[(&Scene, &str)],
+        cx: &mut Context,
+    ) -> Result<(Vec<Image>, Vec<String>), OpError> {
         if let Some(problem) = self.problems().into_iter().next() {
             return Err(OpError::Parameter(problem.message));
         }
-        draw::images(self, scene, cx)
+        draw::images(self, scenes, cx)
     }
 
-    fn encode(&self, images: &[Image], stamp: Option<&str>) -> Result<Vec<u8>, PictureError> {
+    /// The images that were drawn as a file of the format that the path names. `stamp` says where it comes from.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Encode`] if there is no image, or the images are too large for the format.
+    pub fn encode(&self, images: &[Image], stamp: Option<&str>) -> Result<Vec<u8>, PictureError> {
         let texts: Vec<(&str, &str)> = stamp.iter().map(|stamp| ("Software", *stamp)).collect();
         let Some(turn) = self.turntable else {
-            return images[0].to_png(&texts);
+            return match images {
+                [image] => image.to_png(&texts),
+                _ => Err(PictureError::Encode("there is no image".to_owned())),
+            };
         };
         let delay = 1000.0 * turn.seconds / f64::from(turn.frames);
         #[expect(

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mesh::{Domain, EdgeId, FaceId, Mesh, Values, distance};
+use mesh::{Domain, EdgeId, FaceId, Mesh, Values, VertexId, distance};
 use op::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem};
 use render::figure::legend::{Legend, Scale};
 use render::{ColorMap, Coloring};
@@ -210,9 +210,17 @@ impl Quantity {
         };
         Some(match self {
             Self::Valence => {
+                let all = (0..mesh.domain_len(Domain::Vertex)).map(VertexId::new);
                 #[expect(clippy::cast_precision_loss, reason = "a vertex has few edges")]
-                let values = mesh.valences().into_iter().map(|n| n as f64);
-                (Domain::Vertex, values.collect())
+                let valence = |v| {
+                    let has = mesh.has_vertex(v);
+                    if has {
+                        mesh.valence(v) as f64
+                    } else {
+                        f64::NAN
+                    }
+                };
+                (Domain::Vertex, all.map(valence).collect())
             }
             Self::SmallestAngle => faces(&|f| {
                 let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));

@@ -164,7 +164,7 @@ fn wrong_parameters_are_problems_before_anything_runs() {
         ),
         (
             "path: \"../a.png\"",
-            "\"../a.png\" leads out of the output folder",
+            "the output path \"../a.png\" must stay inside the output folder: no \"..\", no absolute path",
         ),
         (
             "path: \"a.png\", style: (sharp: 200)",

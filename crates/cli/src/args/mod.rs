@@ -3,6 +3,7 @@
 mod cache;
 mod look;
 mod many;
+mod picture;
 mod read;
 mod run;
 
@@ -13,6 +14,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
 pub(crate) use many::{BatchArgs, Shard, SweepArgs, TestArgs};
+pub(crate) use picture::PictureArgs;
 pub(crate) use read::ReadArgs;
 pub(crate) use run::{
     CheckArgs, RecipeArgs, ReproduceArgs, RunArgs, ShrinkArgs, UpgradeArgs, ValueArgs,
@@ -71,6 +73,8 @@ pub(crate) enum Command {
     /// A file says which recipe wrote it, with which parameters and from which inputs. The recipe is looked
     /// for below the working directory.
     Reproduce(ReproduceArgs),
+    /// Draw files, or what recipes make, as an image
+    Picture(PictureArgs),
     /// Show the elements of a mesh that a selection matches
     Select(SelectArgs),
     /// Hold two files, or what two recipes make, against each other: exit code 0 if they are equal, 1 if not

@@ -9,6 +9,7 @@ mod diff_runs;
 pub(crate) mod info;
 pub(crate) mod new_op;
 pub(crate) mod ops;
+pub(crate) mod picture;
 pub(crate) mod reproduce;
 pub(crate) mod run;
 pub(crate) mod schema;

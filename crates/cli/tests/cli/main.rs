@@ -9,6 +9,7 @@ mod folder;
 mod interrupt;
 mod new_op;
 mod ops;
+mod picture;
 mod refusals;
 mod reproduce;
 mod run;

@@ -10,17 +10,17 @@ use crate::args::Shard;
 
 /// A file that the recipe is to run on.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Input {
+pub(crate) struct Input {
     /// Its path, as the pattern leads to it.
-    pub(super) path: String,
+    pub(crate) path: String,
     /// Its path from the folder in which the pattern begins.
-    pub(super) relative: PathBuf,
+    pub(crate) relative: PathBuf,
 }
 
 impl Input {
     /// Whether the file belongs to this part of every list that it is in: by its path alone, so that
     /// no other file moves when one is added.
-    pub(super) fn is_in(&self, shard: Shard) -> bool {
+    pub(crate) fn is_in(&self, shard: Shard) -> bool {
         let hash = blake3::hash(self.path.as_bytes());
         let mut first = [0; 8];
         first.copy_from_slice(&hash.as_bytes()[..8]);
@@ -29,7 +29,7 @@ impl Input {
 }
 
 /// The files that the patterns match, sorted by their paths, each once.
-pub(super) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
+pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
     let mut inputs = Vec::new();
     for pattern in patterns {
         let before = inputs.len();

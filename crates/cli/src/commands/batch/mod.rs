@@ -12,7 +12,7 @@
 //! and if even the journal cannot be written, no other file is begun.
 
 mod failed;
-mod inputs;
+pub(crate) mod inputs;
 mod journal;
 mod merge;
 mod plan;

@@ -1,0 +1,217 @@
+//! `meshwright picture`: draws files, or what recipes make.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use op::{Context, Files, Registry};
+use picture::Picture;
+use recipe::syntax::string_literal;
+use recipe::{Source, Values};
+use render::Image;
+use render::sheet::{Cell, SheetStyle, sheet};
+
+use crate::WrongUsage;
+use crate::args::PictureArgs;
+use crate::commands::batch::inputs;
+use crate::listener::{Terminal, catch_interrupts};
+use crate::output::{complain, print, write_whole};
+use crate::scenes::{BUDGET, Found, Stop, find};
+
+pub(crate) fn run(args: &PictureArgs, registry: &Registry) -> anyhow::Result<bool> {
+    let files: Vec<PathBuf> = inputs::list(&args.files)?
+        .into_iter()
+        .map(|input| PathBuf::from(input.path))
+        .collect();
+    if files.len() > 1 && !args.sheet {
+        let message = format!("these are {} files: --sheet puts them on one", files.len());
+        return Err(WrongUsage(message).into());
+    }
+    let picture = parameters(args, &out(args, &files[0]), registry)?;
+    catch_interrupts();
+    if args.sheet {
+        return on_sheet(args, &picture, &files, registry);
+    }
+    let images = draw(args, &picture, &files[0], registry)?;
+    let stamp = concat!("meshwright ", env!("CARGO_PKG_VERSION"));
+    let bytes = picture.encode(&images, Some(stamp))?;
+    write(&out(args, &files[0]), &bytes, &images[0])?;
+    Ok(true)
+}
+
+/// The file to write.
+fn out(args: &PictureArgs, first: &Path) -> PathBuf {
+    args.out.clone().unwrap_or_else(|| {
+        let ending = if args.turntable { "gif" } else { "png" };
+        let name = if args.sheet {
+            Path::new("sheet")
+        } else {
+            Path::new(first.file_stem().unwrap_or_default())
+        };
+        PathBuf::from(format!("{}.{ending}", name.display()))
+    })
+}
+
+/// Reads the options as a step of a recipe: with the same checks and the same advice.
+fn parameters(args: &PictureArgs, out: &Path, registry: &Registry) -> anyhow::Result<Picture> {
+    let text = format!("(recipe: 1, steps: [Picture({})])", fields(args, out));
+    let source = Source::new("options of picture", text.as_str());
+    let reading = recipe::read(&source, registry, Values::default());
+    let step = match &reading.recipe.steps[..] {
+        [step] if !reading.has_errors() => step.step.as_ref(),
+        _ => None,
+    };
+    let Some(step) = step else {
+        complain(&recipe::render(&[source], &reading.diagnostics, false));
+        return Err(WrongUsage("the options cannot be read".to_owned()).into());
+    };
+    Ok(ron::from_str(&step.canonical())?)
+}
+
+/// The options as fields of a step.
+fn fields(args: &PictureArgs, out: &Path) -> String {
+    let path = out.file_name().unwrap_or_default().to_string_lossy();
+    let mut fields = vec![format!("path: {}", string_literal(&path))];
+    let [width, height] = args
+        .size
+        .unwrap_or(if args.sheet { [320, 240] } else { [1280, 960] });
+    fields.push(format!("size: ({width}, {height})"));
+    let more = format!(
+        "{}{}",
+        if args.orthographic {
+            ", projection: Orthographic"
+        } else {
+            ""
+        },
+        if args.z_up { ", up: Z" } else { "" },
+    );
+    let camera = |from: &String| format!("Fit(from: {from}{more})");
+    match &args.from[..] {
+        [] if more.is_empty() => {}
+        [] => fields.push(format!("camera: Fit({})", &more[2..])),
+        [one] => fields.push(format!("camera: {}", camera(one))),
+        many => {
+            let cameras: Vec<String> = many.iter().map(camera).collect();
+            fields.push(format!("views: [{}]", cameras.join(", ")));
+        }
+    }
+    let mut style = Vec::new();
+    style.extend(args.shading.iter().map(|s| format!("shading: {s}")));
+    style.extend(args.wireframe.then(|| "wireframe: ()".to_owned()));
+    style.extend(
+        args.transparent
+            .then(|| "background: Transparent".to_owned()),
+    );
+    if !style.is_empty() {
+        fields.push(format!("style: ({})", style.join(", ")));
+    }
+    fields.extend(args.highlight.iter().map(|s| format!("highlight: {s}")));
+    fields.extend(args.color_by.iter().map(|s| format!("color_by: (of: {s})")));
+    fields.extend(args.turntable.then(|| "turntable: ()".to_owned()));
+    if !args.sheet {
+        fields.extend(args.columns.iter().map(|n| format!("columns: {n}")));
+    }
+    fields.extend(args.with.clone());
+    fields.join(", ")
+}
+
+/// Draws a file.
+fn draw(
+    args: &PictureArgs,
+    picture: &Picture,
+    path: &Path,
+    registry: &Registry,
+) -> anyhow::Result<Vec<Image>> {
+    let scene = |stop| -> anyhow::Result<Found> {
+        find(path, &args.read.options(), &args.values, stop, registry)
+    };
+    let stop = |after, before| Stop { after, before };
+    let (change, before) = (args.change.as_deref(), args.before.as_deref());
+    let founds = match change {
+        None => vec![(scene(stop(args.after.as_deref(), before))?, "")],
+        Some(_) => vec![
+            (scene(stop(None, change))?, "before"),
+            (scene(stop(change, None))?, "after"),
+        ],
+    };
+    // As a step would: what is read lies beside the file or the recipe.
+    let files = Files {
+        input: path.parent().map(Path::to_path_buf).unwrap_or_default(),
+        ..Files::default()
+    };
+    for name in &args.on {
+        let objects = founds.iter().flat_map(|(found, _)| found.scene.objects());
+        let known: Vec<&str> = objects.map(|o| o.name.as_str()).collect();
+        if !known.contains(&name.as_str()) {
+            let help = recipe::did_you_mean(name, known);
+            return Err(WrongUsage(format!("no object is named \"{name}\": {help}")).into());
+        }
+    }
+    let terminal = Terminal::new();
+    let mut cx = Context::new(&terminal, &files);
+    cx.budget = BUDGET;
+    cx.stream = &founds[0].0.stream;
+    cx.on = (!args.on.is_empty()).then_some(&args.on[..]);
+    let scenes: Vec<_> = founds
+        .iter()
+        .map(|(f, caption)| (&f.scene, *caption))
+        .collect();
+    let drawn = picture.draw_beside(&scenes, &mut cx);
+    terminal.clear();
+    let (images, notes) = drawn.with_context(|| format!("cannot draw {}", path.display()))?;
+    for note in notes {
+        complain(&format!("note: {}: {note}\n", path.display()));
+    }
+    Ok(images)
+}
+
+/// Draws many files on one sheet. One that cannot be drawn leaves its place empty.
+fn on_sheet(
+    args: &PictureArgs,
+    picture: &Picture,
+    files: &[PathBuf],
+    registry: &Registry,
+) -> anyhow::Result<bool> {
+    if picture.turntable.is_some() {
+        return Err(WrongUsage("the files on a sheet do not move".to_owned()).into());
+    }
+    let (mut drawn, mut all_are_there) = (Vec::new(), true);
+    for path in files {
+        let image = match draw(args, picture, path, registry) {
+            Ok(mut images) => images.remove(0),
+            Err(error) if error.is::<WrongUsage>() || is_cancelled(&error) => return Err(error),
+            Err(error) => {
+                complain(&format!("error: {error:#}\n"));
+                all_are_there = false;
+                Image::filled(picture.size[0], picture.size[1], [0; 4])?
+            }
+        };
+        drawn.push((image, path.display().to_string()));
+    }
+    let cells: Vec<Cell> = (drawn.iter())
+        .map(|(image, caption)| Cell { image, caption })
+        .collect();
+    let style = SheetStyle {
+        columns: args.columns.map_or(4, |n| n as usize),
+        background: picture.style.background.srgb(),
+        ..SheetStyle::default()
+    };
+    let image = sheet(&cells, &style, BUDGET)?;
+    let stamp = concat!("meshwright ", env!("CARGO_PKG_VERSION"));
+    let bytes = image.to_png(&[("Software", stamp)])?;
+    write(&out(args, &files[0]), &bytes, &image)?;
+    Ok(all_are_there)
+}
+
+fn is_cancelled(error: &anyhow::Error) -> bool {
+    matches!(error.downcast_ref(), Some(op::OpError::Cancelled))
+}
+
+fn write(path: &Path, bytes: &[u8], image: &Image) -> anyhow::Result<()> {
+    write_whole(path, bytes)?;
+    let (width, height) = (image.width, image.height);
+    print(&format!(
+        "wrote {}, {width} x {height} pixels\n",
+        path.display()
+    ))?;
+    Ok(())
+}

@@ -219,7 +219,7 @@ fn sharp() -> f64 {
 }
 
 fn occlusion() -> f64 {
-    0.7
+    0.8
 }
 
 #[expect(

@@ -46,8 +46,11 @@ impl<'s> Builder<'s, '_> {
             faces,
         } = cut(mesh, needs_corners);
         let n_faces = u32::try_from(mesh.domain_len(Domain::Face)).unwrap_or(u32::MAX);
-        let is_double = object.materials.iter().any(|m| m.double_sided);
-        let back = self.style.back.filter(|_| !is_double && coloring.is_none());
+        // A closed surface has no back to be seen, but for slivers at its outline.
+        let has_no_back = object.materials.iter().any(|m| m.double_sided)
+            || coloring.is_some()
+            || (mesh.is_closed() && mesh.volume() > 0.0);
+        let back = self.style.back.filter(|_| !has_no_back);
         let part = Part {
             points: points(mesh),
             triangles,

@@ -22,6 +22,8 @@ pub(super) struct FlatLine {
     depths: [f64; 2],
     /// Half the width in pixels.
     radius: f64,
+    /// From the first end to the second, divided by the square of the length; zero for a point.
+    scaled: DVec2,
 }
 
 /// Where lines are seen; `None` for those behind the camera.
@@ -42,10 +44,17 @@ pub(super) fn project(drawing: &Drawing, view: &View) -> Vec<Option<FlatLine>> {
             return None;
         }
         let seen = [cut(a, b), cut(b, a)].map(|v| view.project(v));
+        let ends = seen.map(|s| s.at);
+        let length_squared = ends[0].distance_squared(ends[1]);
         let flat = FlatLine {
-            ends: seen.map(|s| s.at),
+            ends,
             depths: seen.map(|s| s.depth),
             radius: 0.5 * f64::from(line.width),
+            scaled: if length_squared > 0.0 {
+                (ends[1] - ends[0]) / length_squared
+            } else {
+                DVec2::ZERO
+            },
         };
         (flat.ends[0].is_finite() && flat.ends[1].is_finite() && flat.radius > 0.0).then_some(flat)
     };
@@ -69,13 +78,7 @@ pub(super) fn limits(line: &FlatLine) -> [f64; 4] {
 impl FlatLine {
     /// How far along the line the place is that is nearest to `p`, from 0 to 1.
     fn along(&self, p: DVec2) -> f64 {
-        let [a, b] = self.ends;
-        let length_squared = a.distance_squared(b);
-        if length_squared > 0.0 {
-            ((p - a).dot(b - a) / length_squared).clamp(0.0, 1.0)
-        } else {
-            0.0
-        }
+        (p - self.ends[0]).dot(self.scaled).clamp(0.0, 1.0)
     }
 
     fn place(&self, t: f64) -> DVec2 {
@@ -110,12 +113,7 @@ pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, s
         pixel(bottom, tile.top, tile.bottom),
     );
     let radius_squared = flat.radius * flat.radius;
-    let mut sight = Sight {
-        flat,
-        line,
-        shader,
-        last: None,
-    };
+    let sight = Sight { flat, line, shader };
     for y in y0..=y1 {
         for x in x0..=x1 {
             let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
@@ -130,8 +128,10 @@ pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, s
                 if p.distance_squared(flat.place(t)) > radius_squared {
                     continue;
                 }
+                let seen = (tile.seen[place][k], tile.depth[place][k]);
+                let is_seen = sight.is_seen(seen, t, &mut tile.planes);
                 let over = &mut tile.over[place][k];
-                if sight.is_seen(tile.seen[place][k], t) {
+                if is_seen {
                     *over = 2 * number + 2;
                 } else if line.hidden > 0.0 && (*over == 0 || *over & 1 == 1) {
                     *over = 2 * number + 3;
@@ -141,41 +141,45 @@ pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, s
     }
 }
 
+/// The planes of triangles that were asked for lately: the triangle, its face, a point and a normal.
+pub(super) type Planes = Vec<Option<(u32, u32, DVec3, DVec3)>>;
+
 /// Whether a line is before a triangle.
 struct Sight<'a> {
     flat: &'a FlatLine,
     line: &'a Line,
     shader: &'a Shader<'a>,
-    /// The triangle that was asked for last: whether it is beside the line, a point of it and its normal.
-    last: Option<(u32, bool, DVec3, DVec3)>,
 }
 
 impl Sight<'_> {
-    /// Whether the line at `t` is before what is seen there.
-    fn is_seen(&mut self, seen: u32, t: f64) -> bool {
+    /// Whether the line at `t` is before what a sample sees: a triangle at a depth.
+    fn is_seen(&self, (seen, sample): (u32, f32), t: f64, planes: &mut Planes) -> bool {
         if seen == NOTHING {
-            return true;
-        }
-        let (is_beside, p, n) = match self.last {
-            Some((id, is_beside, p, n)) if id == seen => (is_beside, p, n),
-            _ => {
-                let is_beside = self.line.faces.contains(&self.shader.face(seen));
-                let (p, n) = self.shader.plane(seen);
-                self.last = Some((seen, is_beside, p, n));
-                (is_beside, p, n)
-            }
-        };
-        if is_beside {
             return true;
         }
         let [d0, d1] = self.flat.depths;
         let depth = d0 + (d1 - d0) * t;
         let view = self.shader.view();
-        let Some(surface) = view.plane_depth(p, n, self.flat.place(t)) else {
-            return true;
-        };
         // A curved surface comes forward beside its edges by less than this.
         let bias = view.pixel(depth) * (1.0 + self.flat.radius);
-        surface >= depth - view.depth_of(bias, depth)
+        let limit = depth - view.depth_of(bias, depth);
+        if f64::from(sample) >= limit {
+            return true;
+        }
+        let n = planes.len();
+        let entry = &mut planes[seen as usize % n];
+        let (face, p, n) = match *entry {
+            Some((id, face, p, n)) if id == seen => (face, p, n),
+            _ => {
+                let (face, p, n) = self.shader.plane(seen);
+                *entry = Some((seen, face, p, n));
+                (face, p, n)
+            }
+        };
+        if self.line.faces.contains(&face) {
+            return true;
+        }
+        let surface = view.plane_depth(p, n, self.flat.place(t));
+        surface.is_none_or(|surface| surface >= limit)
     }
 }

@@ -31,7 +31,7 @@ use crate::image::{Image, checked_size};
 use crate::style::Shading;
 use crate::{PictureError, View};
 use project::GRID;
-use shade::Shader;
+use shade::{Memory, Shader};
 use tile::{NOTHING, PLACES, SAMPLES, Tile};
 
 /// Pixels of a tile along each side.
@@ -177,6 +177,7 @@ fn resolve(tile: &Tile, shader: &Shader, look: &Look) -> Vec<[u8; 4]> {
     let mut pixels =
         Vec::with_capacity(((tile.right - tile.left) * (tile.bottom - tile.top)) as usize);
     let nothing = finished([0.0; 4], look.background);
+    let mut memory = Memory::default();
     for y in tile.top..tile.bottom {
         for x in tile.left..tile.right {
             let place = tile.place(x, y);
@@ -185,7 +186,9 @@ fn resolve(tile: &Tile, shader: &Shader, look: &Look) -> Vec<[u8; 4]> {
             pixels.push(if is_empty {
                 nothing
             } else {
-                finished(shaded([x, y], seen, over, shader), look.background)
+                memory.begin_pixel();
+                let light = shaded([x, y], seen, over, shader, &mut memory);
+                finished(light, look.background)
             });
         }
     }
@@ -198,11 +201,11 @@ fn shaded(
     seen: &[u32; SAMPLES],
     over: &[u32; SAMPLES],
     shader: &Shader,
+    memory: &mut Memory,
 ) -> [f32; 4] {
     let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
     let mut sum = [0.0; 4];
     let mut done = 0_u32;
-    let mut memory = None;
     for first in 0..SAMPLES {
         if done >> first & 1 == 1 {
             continue;
@@ -222,7 +225,7 @@ fn shaded(
         if seen[first] != NOTHING && line_alpha < 1.0 {
             let scale = 1.0 / (f64::from(n) * f64::from(GRID));
             let aside = DVec2::new(f64::from(place[0]), f64::from(place[1])) * scale;
-            let [r, g, b] = shader.shade(seen[first], middle + aside, &mut memory);
+            let [r, g, b] = shader.shade(seen[first], middle + aside, memory);
             color = [r, g, b, 1.0];
         }
         if let Some([r, g, b, a]) = line {

@@ -11,7 +11,7 @@ use crate::color::narrow;
 use crate::drawing::Drawing;
 
 /// Maps, each for two opposite directions.
-const MAPS: usize = 48;
+const MAPS: usize = 32;
 /// A depth map has at most so many texels along each side.
 const LARGEST: u32 = 512;
 /// And at least so many.
@@ -85,11 +85,11 @@ impl Occlusion {
                     let half = side as f32 / 2.0;
                     places.extend(part.points.iter().map(|&p| {
                         let p = single((p - center) / texel);
-                        [
-                            dot(axes[0], p) + half,
-                            dot(axes[1], p) + half,
-                            dot(axes[2], p),
-                        ]
+                        let step = |axis| step(dot(axis, p) + half);
+                        Place {
+                            at: [step(axes[0]), step(axes[1])],
+                            depth: dot(axes[2], p),
+                        }
                     }));
                     for triangle in &part.triangles {
                         fill(&mut depths, side, triangle.map(|v| places[v as usize]));
@@ -149,35 +149,51 @@ impl Occlusion {
     }
 }
 
+/// Steps of a texel in a depth map.
+const STEPS: i32 = 256;
+
+/// A point in a depth map.
+#[derive(Clone, Copy)]
+struct Place {
+    /// Steps from the corner.
+    at: [i32; 2],
+    depth: f32,
+}
+
+/// The step at a number of texels. Points are inside the map, unless their coordinates are so large that there
+/// is no sphere around them.
+fn step(texels: f32) -> i32 {
+    let most = LARGEST as f32;
+    #[expect(clippy::cast_possible_truncation, reason = "inside the map")]
+    let step = (texels.clamp(0.0, most) * STEPS as f32) as i32;
+    step
+}
+
 /// Draws a triangle into a depth map: the texels whose middles it covers.
-fn fill(depths: &mut [[f32; 2]], side: usize, [a, b, c]: [[f32; 3]; 3]) {
-    let limit = (side - 1) as f32;
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "inside the map; what is less than 0 becomes 0"
-    )]
+fn fill(depths: &mut [[f32; 2]], side: usize, [a, b, c]: [Place; 3]) {
     let range = |i: usize| {
-        let (min, max) = (a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i]));
-        // Middles are at halves.
-        let first = (min + 0.5).clamp(0.0, limit) as usize;
-        let end = (max + 0.5).clamp(0.0, limit) as usize;
-        first..end
+        let (min, max) = (
+            a.at[i].min(b.at[i]).min(c.at[i]),
+            a.at[i].max(b.at[i]).max(c.at[i]),
+        );
+        (min + STEPS / 2 - 1) / STEPS..(max + STEPS / 2) / STEPS
     };
     let (columns, rows) = (range(0), range(1));
     if columns.is_empty() || rows.is_empty() {
         return;
     }
-    let (ux, uy, vx, vy) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
+    let from_a = |p: Place| [0, 1].map(|i| (p.at[i] - a.at[i]) as f32);
+    let ([ux, uy], [vx, vy]) = (from_a(b), from_a(c));
     let area = ux * vy - uy * vx;
     if area == 0.0 {
         return;
     }
-    let (du, dv) = ((b[2] - a[2]) / area, (c[2] - a[2]) / area);
+    let (du, dv) = ((b.depth - a.depth) / area, (c.depth - a.depth) / area);
+    let last = side - 1;
     for row in rows {
-        let y = row as f32 + 0.5 - a[1];
+        let y = (row * STEPS + STEPS / 2 - a.at[1]) as f32;
         for column in columns.clone() {
-            let x = column as f32 + 0.5 - a[0];
+            let x = (column * STEPS + STEPS / 2 - a.at[0]) as f32;
             // Twice the areas beside b and c.
             let (s, t) = (x * vy - y * vx, ux * y - uy * x);
             let rest = area - s - t;
@@ -187,8 +203,9 @@ fn fill(depths: &mut [[f32; 2]], side: usize, [a, b, c]: [[f32; 3]; 3]) {
                 s <= 0.0 && t <= 0.0 && rest <= 0.0
             };
             if is_inside {
-                let depth = a[2] + s * du + t * dv;
-                let [least, most] = &mut depths[row * side + column];
+                let depth = a.depth + s * du + t * dv;
+                let place = |i: i32| usize::try_from(i).unwrap_or(0).min(last);
+                let [least, most] = &mut depths[place(row) * side + place(column)];
                 *least = least.min(depth);
                 *most = most.max(depth);
             }

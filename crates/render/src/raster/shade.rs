@@ -39,10 +39,64 @@ pub(super) struct Shader<'a> {
 
 /// A place whose openness is known.
 #[derive(Clone, Copy)]
-pub(super) struct Known {
+struct Known {
     at: DVec3,
     normal: DVec3,
     open: f32,
+}
+
+/// What is remembered from one place of the picture to the next.
+#[derive(Default)]
+pub(super) struct Memory {
+    /// The triangle that was shaded last.
+    triangle: Option<(u32, Facts)>,
+    /// Of the pixel that is being shaded.
+    known: Option<Known>,
+}
+
+impl Memory {
+    /// Forgets what only holds in one pixel.
+    pub(super) fn begin_pixel(&mut self) {
+        self.known = None;
+    }
+}
+
+/// What is the same all over a triangle.
+#[derive(Clone, Copy)]
+struct Facts {
+    /// Its part, and its number in it.
+    part: usize,
+    triangle: usize,
+    corners: [DVec3; 3],
+    /// Of length 1 or 0.
+    normal: DVec3,
+    /// What the barycentric coordinates of the second and the third corner are products with.
+    gradients: [DVec3; 2],
+}
+
+impl Facts {
+    fn new(part: usize, triangle: usize, corners: [DVec3; 3]) -> Self {
+        let [a, b, c] = corners;
+        let (u, v) = (b - a, c - a);
+        let normal = unit_cross(u, v);
+        let area = normal.dot(u.cross(v));
+        Self {
+            part,
+            triangle,
+            corners,
+            normal,
+            gradients: [v.cross(normal) / area, normal.cross(u) / area],
+        }
+    }
+
+    /// The barycentric coordinates of the place where a ray meets the plane of the triangle; `None` if it
+    /// runs along the plane.
+    fn barycentric(&self, origin: DVec3, direction: DVec3) -> Option<[f64; 3]> {
+        let a = self.corners[0] - origin;
+        let p = direction * (self.normal.dot(a) / self.normal.dot(direction)) - a;
+        let [s, t] = self.gradients.map(|g| g.dot(p));
+        (s.is_finite() && t.is_finite()).then_some([1.0 - s - t, s, t])
+    }
 }
 
 /// A place on a triangle.
@@ -99,18 +153,14 @@ impl<'a> Shader<'a> {
         (part, (id - self.firsts[part][0]) as usize)
     }
 
-    /// The face of a triangle, over all parts.
-    pub(super) fn face(&self, id: u32) -> u32 {
+    /// The face of a triangle over all parts, one of its points, and its normal of any length.
+    pub(super) fn plane(&self, id: u32) -> (u32, DVec3, DVec3) {
         let (part, triangle) = self.find(id);
-        let face = u32::try_from(self.drawing.parts[part].face(triangle)).unwrap_or(0);
-        self.firsts[part][1].saturating_add(face)
-    }
-
-    /// A point of a triangle and its normal, of any length.
-    pub(super) fn plane(&self, id: u32) -> (DVec3, DVec3) {
-        let (part, triangle) = self.find(id);
-        let [a, b, c] = self.drawing.parts[part].corners_at(triangle);
-        (a, unit_cross(b - a, c - a))
+        let p = &self.drawing.parts[part];
+        let [a, b, c] = p.corners_at(triangle);
+        let face = u32::try_from(p.face(triangle)).unwrap_or(0);
+        let face = self.firsts[part][1].saturating_add(face);
+        (face, a, (b - a).cross(c - a))
     }
 
     /// The samples that a triangle may cover: fewer if it is transparent, others for each surface, so that
@@ -146,20 +196,27 @@ impl<'a> Shader<'a> {
         [r, g, b, a * seen]
     }
 
-    /// Linear light of a triangle at a place of the picture. `known` is what it remembers from one place to
-    /// the next.
-    pub(super) fn shade(&self, id: u32, at: DVec2, known: &mut Option<Known>) -> [f32; 3] {
-        let (place, triangle) = self.find(id);
-        let part = &self.drawing.parts[place];
-        let corners = part.corners_at(triangle);
-        let spot = self.spot(corners, at);
-        let (color, surface) = self.color(part, triangle, &corners, &spot, at);
+    /// Linear light of a triangle at a place of the picture.
+    pub(super) fn shade(&self, id: u32, at: DVec2, memory: &mut Memory) -> [f32; 3] {
+        let facts = match memory.triangle {
+            Some((last, facts)) if last == id => facts,
+            _ => {
+                let (part, triangle) = self.find(id);
+                let corners = self.drawing.parts[part].corners_at(triangle);
+                let facts = Facts::new(part, triangle, corners);
+                memory.triangle = Some((id, facts));
+                facts
+            }
+        };
+        let part = &self.drawing.parts[facts.part];
+        let spot = self.spot(&facts, at);
+        let (color, surface) = self.color(part, &facts, &spot, at);
         let is_plain = surface.is_some_and(|s| s.unlit) || self.look.shading == Shading::Plain;
         let light = if is_plain {
             color
         } else {
-            let normal = normal(part, triangle, &spot);
-            let open = self.open(&spot, known);
+            let normal = normal(part, facts.triangle, &spot);
+            let open = self.open(&spot, &mut memory.known);
             self.lit(color, normal, spot.to_eye, open, surface)
         };
         let emissive = surface.map_or([0.0; 3], |s| s.emissive);
@@ -167,21 +224,21 @@ impl<'a> Shader<'a> {
     }
 
     /// Where the ray through a place of the picture meets a triangle, or the nearest place in it.
-    fn spot(&self, corners: [DVec3; 3], at: DVec2) -> Spot {
+    fn spot(&self, facts: &Facts, at: DVec2) -> Spot {
         let (origin, direction) = self.view.ray(at);
-        let [a, b, c] = corners;
-        let n = unit_cross(b - a, c - a);
-        let weights = barycentric(corners, n, origin, direction).map_or([1.0 / 3.0; 3], |w| {
+        let weights = facts.barycentric(origin, direction);
+        let weights = weights.map_or([1.0 / 3.0; 3], |w| {
             let w = w.map(|w| w.max(0.0));
             let sum = w[0] + w[1] + w[2];
             w.map(|w| w / sum)
         });
+        let [a, b, c] = facts.corners;
         let to_eye = -direction.normalize();
-        let is_back = n.dot(to_eye) < 0.0;
+        let is_back = facts.normal.dot(to_eye) < 0.0;
         Spot {
             at: a * weights[0] + b * weights[1] + c * weights[2],
             weights: weights.map(narrow),
-            normal: if is_back { -n } else { n },
+            normal: if is_back { -facts.normal } else { facts.normal },
             is_back,
             to_eye,
         }
@@ -213,11 +270,11 @@ impl<'a> Shader<'a> {
     fn color(
         &self,
         part: &'a Part,
-        triangle: usize,
-        corners: &[DVec3; 3],
+        facts: &Facts,
         spot: &Spot,
         at: DVec2,
     ) -> ([f32; 3], Option<&'a Surface>) {
+        let triangle = facts.triangle;
         let surface = part.materials.get(surface_place(part, triangle));
         let mut color = part.colors.at(part, triangle, spot.weights);
         if let Some(s) = surface {
@@ -228,10 +285,8 @@ impl<'a> Shader<'a> {
                 let here = place(spot.weights.map(f64::from));
                 let beside = [DVec2::X, DVec2::Y].map(|step| {
                     let (origin, direction) = self.view.ray(at + step);
-                    let [a, b, c] = *corners;
-                    let n = unit_cross(b - a, c - a);
-                    barycentric(*corners, n, origin, direction)
-                        .map_or(DVec2::ZERO, |w| place(w) - here)
+                    let weights = facts.barycentric(origin, direction);
+                    weights.map_or(DVec2::ZERO, |w| place(w) - here)
                 });
                 let texel = texture.at(here, beside);
                 color = std::array::from_fn(|i| color[i] * texel[i]);
@@ -264,7 +319,7 @@ impl<'a> Shader<'a> {
         let fill = narrow(n.dot(self.fill).max(0.0));
         let sky = mix(GROUND, SKY, narrow(0.5 + 0.5 * n.y));
         // Hollows are darker in the direct light too, but less: it casts no shadows.
-        let direct = 0.5 + 0.5 * open;
+        let direct = 0.4 + 0.6 * open;
         let light: [f32; 3] = std::array::from_fn(|i| {
             color[i] * (sky[i] * open + direct * (KEY_LIGHT[i] * key + FILL_LIGHT[i] * fill))
         });
@@ -334,20 +389,4 @@ fn unit_cross(u: DVec3, v: DVec3) -> DVec3 {
         if size > 0.0 { w / size } else { w }
     };
     scaled(u).cross(scaled(v)).normalize_or_zero()
-}
-
-/// The barycentric coordinates of the place where a ray meets the plane of a triangle; `None` if it runs
-/// along the plane. `n` is the unit normal.
-fn barycentric(
-    [a, b, c]: [DVec3; 3],
-    n: DVec3,
-    origin: DVec3,
-    direction: DVec3,
-) -> Option<[f64; 3]> {
-    let p = origin + direction * (n.dot(a - origin) / n.dot(direction)) - a;
-    let (u, v) = (b - a, c - a);
-    let area = n.dot(u.cross(v));
-    let s = n.dot(p.cross(v)) / area;
-    let t = n.dot(u.cross(p)) / area;
-    (s.is_finite() && t.is_finite()).then_some([1.0 - s - t, s, t])
 }

@@ -8,6 +8,7 @@ use std::ops::{Add, BitOr, Mul, Sub};
 
 use crate::color::narrow;
 
+use super::lines::Planes;
 use super::project::{Flat, GRID, GRID_BITS};
 use super::{Frame, TILE};
 
@@ -15,6 +16,8 @@ use super::{Frame, TILE};
 pub(super) const SAMPLES: usize = 16;
 /// Stands where no triangle is seen.
 pub(super) const NOTHING: u32 = u32::MAX;
+/// So many planes of triangles are remembered.
+const PLANES: usize = 512;
 /// The rows of the samples, for each column.
 const ROWS: [i32; SAMPLES] = [3, 11, 7, 15, 1, 6, 10, 13, 2, 5, 9, 14, 0, 8, 4, 12];
 /// The place of each sample, from the middle of its pixel, in steps of the grid.
@@ -45,6 +48,8 @@ pub(super) struct Tile {
     /// For each pixel the lines that lie over its samples: twice the number plus 2, and 1 if hidden; 0 for
     /// none.
     pub(super) over: Vec<[u32; SAMPLES]>,
+    /// The planes of some triangles.
+    pub(super) planes: Planes,
 }
 
 impl Tile {
@@ -58,6 +63,7 @@ impl Tile {
             depth: vec![[f32::INFINITY; SAMPLES]; n],
             seen: vec![[NOTHING; SAMPLES]; n],
             over: vec![[0; SAMPLES]; n],
+            planes: vec![None; PLANES],
         }
     }
 

@@ -91,3 +91,138 @@ pub fn picture(
     let view = View::new(camera, &|each| drawing.each_point(each), size)?;
     Ok((render(&drawing, &view, size, &look)?, missing))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{Domain, FaceId, shapes};
+    use scene::{Material, Object, Scene};
+
+    fn scene(object: Object) -> Scene {
+        let mut scene = Scene::new();
+        scene.insert(object).unwrap();
+        scene
+    }
+
+    fn drawn(
+        scene: &Scene,
+        style: &Style,
+        overlays: &Overlays,
+        size: [u32; 2],
+        budget: u64,
+    ) -> Result<(Rendered, Vec<String>), PictureError> {
+        picture(
+            scene,
+            &Camera::default(),
+            style,
+            overlays,
+            size,
+            budget,
+            &mut |_| None,
+        )
+    }
+
+    #[test]
+    fn a_picture_that_needs_too_much_memory_is_refused_before_it_is_drawn() {
+        let cube = scene(Object::mesh("a", shapes::cube()));
+        let drawn =
+            |size, budget| drawn(&cube, &Style::default(), &Overlays::default(), size, budget);
+        let side = LARGEST_SIDE;
+        // A gigabyte of pixels does not fit half of one.
+        let refused = drawn([side, side], 1 << 29);
+        assert!(matches!(refused, Err(PictureError::Budget { needed, .. }) if needed > 1 << 30));
+        assert!(drawn([100, 100], 1 << 29).is_ok());
+        for size in [[0, 1], [side + 1, 1], [u32::MAX, u32::MAX]] {
+            let refused = drawn(size, u64::MAX);
+            assert!(
+                matches!(refused, Err(PictureError::Size { .. })),
+                "{size:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn missing_images_are_named_and_the_rest_is_drawn() {
+        let mut material = Material::new("wood");
+        material.base_color_texture = Some(scene::Texture::file("wood.png"));
+        let cube = scene(Object {
+            materials: vec![material],
+            ..Object::mesh("a", shapes::cube())
+        });
+        let (style, none) = (Style::default(), Overlays::default());
+        let (picture, missing) = drawn(&cube, &style, &none, [32, 32], 1 << 30).unwrap();
+        assert_eq!(missing, ["wood.png: not found"]);
+        assert!(picture.image.pixels.iter().any(|p| *p != [255; 4]));
+    }
+
+    #[test]
+    fn a_mesh_with_removed_parts_is_drawn_like_a_compact_one() {
+        let mut holed = shapes::grid(5, 4);
+        for i in [0, 1, 13] {
+            holed.delete_face(FaceId::new(i)).unwrap();
+        }
+        holed.delete_isolated_vertices();
+        let mut compact = holed.clone();
+        compact.compact();
+        let style = Style {
+            wireframe: Some(Lines::default()),
+            points: Some(3.0),
+            ..Style::default()
+        };
+        let picture = |mesh| {
+            let scene = scene(Object::mesh("a", mesh));
+            let (picture, _) =
+                drawn(&scene, &style, &Overlays::default(), [80, 60], 1 << 30).unwrap();
+            picture.image
+        };
+        assert!(picture(holed) == picture(compact));
+    }
+
+    #[test]
+    fn styles_and_overlays_that_do_not_fit_are_refused() {
+        let cube = scene(Object::mesh("a", shapes::cube()));
+        let refused = |style: Style, overlays: Overlays| {
+            let drawn = drawn(&cube, &style, &overlays, [8, 8], 1 << 30);
+            matches!(drawn, Err(PictureError::Style(_)))
+        };
+        let coloring = Coloring {
+            object: "a".into(),
+            domain: Domain::Vertex,
+            values: vec![1.0; 7],
+            map: ColorMap::default(),
+            range: [0.0, 1.0],
+        };
+        let of = |occlusion| Style {
+            occlusion,
+            ..Style::default()
+        };
+        assert!(refused(of(1.5), Overlays::default()));
+        assert!(refused(of(f64::NAN), Overlays::default()));
+        let colorings = vec![coloring];
+        assert!(refused(
+            Style::default(),
+            Overlays {
+                colorings,
+                ..Overlays::default()
+            }
+        ));
+        let grid = scene(Object::mesh("a", shapes::grid(60, 60)));
+        let style = Style {
+            ids: Some(Ids::Faces),
+            ..Style::default()
+        };
+        let many = drawn(&grid, &style, &Overlays::default(), [8, 8], 1 << 30);
+        assert!(matches!(many, Err(PictureError::Style(_))));
+    }
+
+    #[test]
+    fn an_empty_scene_is_its_background() {
+        let empty = Scene::new();
+        let style = Style {
+            background: Background::Plain(Color::rgb(10, 20, 30)),
+            ..Style::default()
+        };
+        let (picture, _) = drawn(&empty, &style, &Overlays::default(), [5, 5], 1 << 30).unwrap();
+        assert!(picture.image.pixels.iter().all(|p| *p == [10, 20, 30, 255]));
+    }
+}

@@ -184,3 +184,82 @@ fn wrapped(x: f64, n: usize, wrap: Wrap) -> usize {
     let inside = inside as usize;
     inside.min(n - 1)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Image;
+
+    const RED: [u8; 4] = [255, 0, 0, 255];
+    const GREEN: [u8; 4] = [0, 255, 0, 255];
+    const BLUE: [u8; 4] = [0, 0, 255, 255];
+    const WHITE: [u8; 4] = [255; 4];
+
+    /// Red and green over blue and white.
+    fn texture(sampler: Sampler, transform: TextureTransform) -> Texture {
+        let image = Image {
+            width: 2,
+            height: 2,
+            pixels: vec![RED, GREEN, BLUE, WHITE],
+        };
+        Texture::decode(&image.to_png(&[]).unwrap(), sampler, transform).unwrap()
+    }
+
+    fn at(texture: &Texture, u: f64, v: f64) -> [u8; 3] {
+        texture.at(DVec2::new(u, v), [DVec2::ZERO; 2]).map(to_srgb)
+    }
+
+    #[test]
+    fn v_points_upwards() {
+        let plain = texture(Sampler::default(), TextureTransform::default());
+        assert_eq!(at(&plain, 0.25, 0.75), [255, 0, 0]);
+        assert_eq!(at(&plain, 0.75, 0.75), [0, 255, 0]);
+        assert_eq!(at(&plain, 0.25, 0.25), [0, 0, 255]);
+    }
+
+    #[test]
+    fn beyond_its_border_a_texture_goes_on_as_its_sampler_says() {
+        for (wrap, left, far) in [
+            (Wrap::Repeat, [0, 255, 0], [255, 0, 0]),
+            (Wrap::Mirror, [255, 0, 0], [0, 255, 0]),
+            (Wrap::Clamp, [255, 0, 0], [0, 255, 0]),
+        ] {
+            let sampler = Sampler {
+                wrap: [wrap; 2],
+                ..Sampler::default()
+            };
+            let wrapped = texture(sampler, TextureTransform::default());
+            assert_eq!(at(&wrapped, -0.25, 0.75), left, "{wrap:?}");
+            assert_eq!(at(&wrapped, 1.25, 0.75), far, "{wrap:?}");
+        }
+    }
+
+    #[test]
+    fn a_transform_scales_turns_and_moves() {
+        // As KHR_texture_transform has it: a quarter turn counter-clockwise about the upper left corner.
+        let transform = TextureTransform {
+            offset: [0.0, 1.0],
+            rotation: std::f64::consts::FRAC_PI_2,
+            scale: [1.0, 1.0],
+        };
+        let turned = texture(Sampler::default(), transform);
+        // (0.25, 0.25) from above becomes (0.25, -0.25 + 1).
+        assert_eq!(at(&turned, 0.25, 0.75), [0, 0, 255]);
+    }
+
+    #[test]
+    fn from_far_away_a_texture_is_the_mean_of_its_light() {
+        let plain = texture(Sampler::default(), TextureTransform::default());
+        let light = plain.at(DVec2::splat(0.3), [DVec2::splat(9.0); 2]);
+        let half = to_srgb(0.5);
+        assert_eq!(light.map(to_srgb), [half; 3]);
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused() {
+        for bytes in [&b""[..], b"\x89PNG\r\n\x1a\n", b"not a picture"] {
+            let decoded = Texture::decode(bytes, Sampler::default(), TextureTransform::default());
+            assert!(decoded.is_err());
+        }
+    }
+}

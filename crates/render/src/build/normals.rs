@@ -146,3 +146,72 @@ pub(super) fn narrowed(vectors: &[DVec3]) -> Vec<[f32; 3]> {
         .collect_into_vec(&mut narrowed);
     narrowed
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ::mesh::shapes;
+
+    fn unit(n: [f32; 3]) -> DVec3 {
+        DVec3::from(n.map(f64::from)).normalize_or_zero()
+    }
+
+    #[test]
+    fn the_corners_of_a_cube_have_the_normals_of_their_faces() {
+        let cube = shapes::cube();
+        let Normals::Given(Channel::Corner(normals)) = smooth(&cube, 1.0, 40.0) else {
+            panic!("edges of 90 degrees are sharp");
+        };
+        for h in cube.half_edges() {
+            let f = cube.face(h).unwrap();
+            assert!((unit(normals[h.index()]) - cube.face_normal(f)).length() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn a_cube_without_sharp_edges_has_normals_along_its_diagonals() {
+        let cube = shapes::cube();
+        let Normals::Given(Channel::Point(normals)) = smooth(&cube, 1.0, 120.0) else {
+            panic!("no edge is sharp");
+        };
+        let middle = 0.5 * cube.bounds().unwrap().into_iter().sum::<DVec3>();
+        for v in cube.vertices() {
+            let outwards = (cube.position(v) - middle).normalize();
+            assert!((unit(normals[v.index()]) - outwards).length() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_side_of_a_cylinder_is_smooth_up_to_its_rims() {
+        let cylinder = shapes::cylinder(24, true);
+        let Normals::Given(Channel::Corner(normals)) = smooth(&cylinder, 1.0, 40.0) else {
+            panic!("the rims are sharp");
+        };
+        for h in cylinder.half_edges() {
+            let f = cylinder.face(h).unwrap();
+            let n = unit(normals[h.index()]);
+            if cylinder.degree(f) == 4 {
+                let p = cylinder.position(cylinder.origin(h));
+                let outwards = DVec3::new(p.x, p.y, 0.0).normalize();
+                assert!((n - outwards).length() < 1e-6, "{n}, {outwards}");
+            } else {
+                assert!((n - cylinder.face_normal(f)).length() < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn smoothing_groups_say_which_edges_are_sharp() {
+        let mut cube = shapes::cube();
+        cube.set(SMOOTHING, vec![1; 6]);
+        assert!(matches!(
+            smooth(&cube, 1.0, 40.0),
+            Normals::Given(Channel::Point(_))
+        ));
+        cube.set(SMOOTHING, vec![0; 6]);
+        assert!(matches!(
+            smooth(&cube, 1.0, 40.0),
+            Normals::Given(Channel::Corner(_))
+        ));
+    }
+}

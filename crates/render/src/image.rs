@@ -1,5 +1,7 @@
 //! Images in memory, and their PNG files.
 
+use std::io::Write;
+
 use crate::PictureError;
 
 /// No side of an image is longer, in pixels.
@@ -56,17 +58,20 @@ impl Image {
                 .map_err(failed)?;
         }
         let mut writer = encoder.write_header().map_err(failed)?;
-        if is_opaque {
-            let rgb: Vec<u8> = self
-                .pixels
-                .iter()
-                .flat_map(|&[r, g, b, _]| [r, g, b])
-                .collect();
-            writer.write_image_data(&rgb).map_err(failed)?;
-        } else {
-            let rgba = self.pixels.as_flattened();
-            writer.write_image_data(rgba).map_err(failed)?;
+        // Row by row: a large image is not copied as a whole.
+        let mut stream = writer.stream_writer().map_err(failed)?;
+        let mut bytes_of_row = Vec::with_capacity(4 * self.width as usize);
+        for row in self.pixels.chunks(self.width.max(1) as usize) {
+            bytes_of_row.clear();
+            for pixel in row {
+                let n = if is_opaque { 3 } else { 4 };
+                bytes_of_row.extend_from_slice(&pixel[..n]);
+            }
+            stream
+                .write_all(&bytes_of_row)
+                .map_err(|e| failed(e.into()))?;
         }
+        stream.finish().map_err(failed)?;
         writer.finish().map_err(failed)?;
         Ok(bytes)
     }

@@ -11,15 +11,15 @@ use crate::color::narrow;
 use crate::drawing::Drawing;
 
 /// Maps, each for two opposite directions.
-const MAPS: usize = 32;
+const MAPS: usize = 48;
 /// A depth map has at most so many texels along each side.
-const LARGEST: u32 = 512;
+const LARGEST: u32 = 384;
 /// And at least so many.
 const SMALLEST: u32 = 64;
 
 /// Texels of a map along each side, for a picture of this size.
 fn side([width, height]: [u32; 2]) -> u32 {
-    (width.max(height) / 2).clamp(SMALLEST, LARGEST)
+    (width.max(height) / 3).clamp(SMALLEST, LARGEST)
 }
 
 /// The bytes of the maps for a picture of this size.
@@ -39,7 +39,7 @@ pub(super) struct Occlusion {
 struct Map {
     /// The directions of its columns, of its rows, and of depth.
     axes: [[f32; 3]; 3],
-    /// The least and the largest depth in each texel.
+    /// The largest depth in each texel, and the largest seen from the other side: minus the least.
     depths: Vec<[f32; 2]>,
 }
 
@@ -78,7 +78,7 @@ impl Occlusion {
                 let z = direction(i);
                 let x = z.any_orthonormal_vector();
                 let axes = [x, z.cross(x), z].map(single);
-                let mut depths = vec![[f32::INFINITY, f32::NEG_INFINITY]; side * side];
+                let mut depths = vec![[f32::NEG_INFINITY; 2]; side * side];
                 let mut places = Vec::new();
                 for part in &drawing.parts {
                     places.clear();
@@ -131,15 +131,10 @@ impl Occlusion {
             let (s, t) = (x - column as f32, y - row as f32);
             let at = row * self.side + column;
             // Softly, over some texels of depth, and between four texels.
-            let is_front = along > 0.0;
+            let (side, depth) = if along > 0.0 { (0, depth) } else { (1, -depth) };
             let seen = |place: usize| {
-                let [least, most] = map.depths[place];
-                let before = if is_front {
-                    most - depth
-                } else {
-                    depth - least
-                };
-                (1.0 - before / 4.0).clamp(0.0, 1.0)
+                let before = map.depths[place][side] - depth;
+                (1.0 - before / 6.0).clamp(0.0, 1.0)
             };
             let upper = seen(at) * (1.0 - s) + seen(at + 1) * s;
             let lower = seen(at + self.side) * (1.0 - s) + seen(at + self.side + 1) * s;
@@ -205,9 +200,9 @@ fn fill(depths: &mut [[f32; 2]], side: usize, [a, b, c]: [Place; 3]) {
             if is_inside {
                 let depth = a.depth + s * du + t * dv;
                 let place = |i: i32| usize::try_from(i).unwrap_or(0).min(last);
-                let [least, most] = &mut depths[place(row) * side + place(column)];
-                *least = least.min(depth);
-                *most = most.max(depth);
+                let [front, back] = &mut depths[place(row) * side + place(column)];
+                *front = front.max(depth);
+                *back = back.max(-depth);
             }
         }
     }

@@ -317,7 +317,10 @@ impl Svg {
 
     /// A group with an id: what `draw` draws.
     pub fn group(&mut self, id: &str, draw: impl FnOnce(&mut Self)) {
-        self.line(&format!("<g id=\"{}\">", escaped(id)));
+        self.line(&format!(
+            "<g id=\"{}\">",
+            escaped(id).replace('"', "&quot;")
+        ));
         self.depth += 1;
         draw(self);
         self.depth -= 1;
@@ -417,7 +420,7 @@ pub(crate) fn number(value: f64) -> String {
     format!("{}", rounded + 0.0)
 }
 
-/// The text as XML: what has a meaning there is written in another way, and a character that XML does not
+/// The text as XML between tags: what has a meaning there is written in another way, and a character that XML does not
 /// allow becomes U+FFFD. Line ends and tabs become blanks.
 pub(crate) fn escaped(text: &str) -> String {
     let mut xml = String::with_capacity(text.len());
@@ -426,7 +429,6 @@ pub(crate) fn escaped(text: &str) -> String {
             '&' => xml.push_str("&amp;"),
             '<' => xml.push_str("&lt;"),
             '>' => xml.push_str("&gt;"),
-            '"' => xml.push_str("&quot;"),
             '\t' | '\n' | '\r' => xml.push(' '),
             '\0'..='\x1f' | '\x7f'..='\u{9f}' | '\u{fffe}' | '\u{ffff}' => xml.push('\u{fffd}'),
             c => xml.push(c),

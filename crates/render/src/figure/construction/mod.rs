@@ -29,13 +29,16 @@ use super::svg::{Color, Font, Paint, Run, Svg};
 use crate::PictureError;
 
 /// The most control points of a curve that is drawn.
-pub const MAX_DRAWN: usize = 1024;
+pub const MAX_DRAWN: usize = 256;
 
 /// The most control points of a curve whose levels are drawn.
 pub const MAX_CONSTRUCTED: usize = 64;
 
 /// The most panels of a figure.
 pub const MAX_PANELS: usize = 256;
+
+/// The most points of all panels of a figure: n (n + 1) / 2 for the levels of a curve of n control points.
+pub const MAX_POINTS: usize = 1 << 16;
 
 /// The widest figure, in pixels.
 pub const MAX_WIDTH: f64 = 8192.0;
@@ -131,8 +134,9 @@ const NARROWEST: f64 = 32.0;
 /// # Errors
 ///
 /// [`PictureError::Style`] if there is no panel or there are more than [`MAX_PANELS`], if a curve has more than
-/// [`MAX_DRAWN`] control points or [`MAX_CONSTRUCTED`] where its levels are drawn, if a parameter is not from 0 to
-/// 1, or if the layout leaves no room or is wider than [`MAX_WIDTH`].
+/// [`MAX_DRAWN`] control points or [`MAX_CONSTRUCTED`] where its levels are drawn, if there are more than
+/// [`MAX_POINTS`] points in all, if a parameter is not from 0 to 1, or if the layout leaves no room or is wider than
+/// [`MAX_WIDTH`].
 pub fn construction(panels: &[Panel], layout: &Layout) -> Result<Svg, PictureError> {
     check(panels)?;
     let columns = layout.columns.clamp(1, panels.len());
@@ -233,6 +237,14 @@ fn check(panels: &[Panel]) -> Result<(), PictureError> {
         {
             return refused(format!("expected a parameter from 0 to 1, found {t:?}"));
         }
+    }
+    let points = |panel: &Panel| match (panel.curve.points().len(), panel.t) {
+        (n, Some(_)) => n * (n + 1) / 2,
+        (n, None) => n,
+    };
+    let n: usize = panels.iter().map(points).sum();
+    if n > MAX_POINTS {
+        return refused(format!("expected at most {MAX_POINTS} points, found {n}"));
     }
     Ok(())
 }

@@ -39,7 +39,9 @@ impl Placing {
                 let angle = f64::from(i) / f64::from(DIRECTIONS) * std::f64::consts::TAU;
                 let (sin, cos) = libm::sincos(angle);
                 let way = DVec2::new(cos, sin);
-                let middle = place + way * (radius + distance) + way * half;
+                // From the middle of the label to its edge.
+                let inside = (half / way.abs()).min_element();
+                let middle = place + way * (radius + distance + inside);
                 let cost =
                     self.cost(middle, half) + f64::from(further) * 8.0 - way.dot(outward) * 6.0;
                 if cost < best.0 {

@@ -154,6 +154,7 @@ fn degenerate_curves_are_drawn_inside_the_figure() {
 
 #[test]
 fn what_cannot_be_drawn_is_refused_with_a_reason() {
+    let most = curve(&[[0.0, 1.0]; MAX_CONSTRUCTED]);
     let (curve, many) = (cubic(), curve(&[[0.0, 1.0]; MAX_CONSTRUCTED + 1]));
     let default = Layout::default();
     let wide = |width, columns| Layout {
@@ -171,6 +172,11 @@ fn what_cannot_be_drawn_is_refused_with_a_reason() {
             vec![panel(&many, 0.5)],
             default,
             "at most 64 control points, found 65",
+        ),
+        (
+            vec![panel(&most, 0.5); 32],
+            default,
+            "at most 65536 points, found 66560",
         ),
         (
             vec![good.clone()],

@@ -1,0 +1,108 @@
+//! Small figures, legends and sheets, pixel by pixel: texts and lines are the same on every machine.
+//!
+//! With `MESHWRIGHT_UPDATE` set in the environment, the files in `tests/goldens` are written anew; look at
+//! them before they go in.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use bezier::{Curve, DVec2};
+use render::Image;
+use render::figure::construction::{Layout, Panel, construction};
+use render::figure::label::{Label, draw_labels};
+use render::figure::legend::{Corner, Legend, Scale, draw_legend};
+use render::figure::pixels;
+use render::sheet::{Cell, SheetStyle, sheet};
+
+const WHITE: [u8; 4] = [255; 4];
+const BLACK: [u8; 4] = [0, 0, 0, 255];
+
+/// Compares an image, which is opaque, with its file.
+#[track_caller]
+fn golden(name: &str, image: &Image) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/goldens")
+        .join(name)
+        .with_extension("png");
+    if std::env::var_os("MESHWRIGHT_UPDATE").is_some() {
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, image.to_png(&[]).unwrap()).unwrap();
+    }
+    let bytes = std::fs::read(&path).expect("there is a file: set MESHWRIGHT_UPDATE to write it");
+    let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
+    let mut expected = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut expected).unwrap();
+    assert_eq!((info.width, info.height), (image.width, image.height));
+    let found: Vec<u8> = image.pixels.iter().flat_map(|p| p[..3].to_vec()).collect();
+    let differ = found.iter().zip(&expected).filter(|(p, q)| p != q).count();
+    assert!(
+        found == expected,
+        "{name}: {differ} of {} bytes differ",
+        found.len()
+    );
+}
+
+fn curve(points: &[[f64; 2]]) -> Curve<DVec2> {
+    Curve::new(points.iter().map(|&p| p.into()).collect()).unwrap()
+}
+
+#[test]
+fn a_construction() {
+    let after = curve(&[[0.0, 0.0], [1.0, 3.0], [4.0, 4.0], [6.0, 0.0], [7.0, 3.0]]);
+    let before = after.with_point(2, DVec2::new(3.0, -2.0)).unwrap();
+    let panel = |t, before| Panel {
+        curve: &after,
+        before,
+        t,
+        title: Some("a < b"),
+    };
+    let layout = Layout {
+        width: 320.0,
+        columns: 2,
+        ..Layout::default()
+    };
+    let panels = [panel(Some(0.5), None), panel(None, Some(&before))];
+    let figure = construction(&panels, &layout).unwrap();
+    golden("construction", &pixels(&figure, 1.0, WHITE).unwrap());
+}
+
+#[test]
+fn legends_and_labels() {
+    let mut image = Image::filled(240, 240, [180, 190, 200, 255]).unwrap();
+    let bar = Legend {
+        title: "distance".into(),
+        scale: Scale::Continuous {
+            low: 0.0,
+            high: 0.25,
+            colors: (0..=255).map(|i| [i, 128, 255 - i, 255]).collect(),
+        },
+    };
+    draw_legend(&mut image, &bar, Corner::TopRight, 1.0).unwrap();
+    let entry = |name: &str, red| (name.to_owned(), [red, 80, 60, 255]);
+    let list = Legend {
+        title: String::new(),
+        scale: Scale::Discrete(vec![entry("Größe", 0), entry("нос", 250)]),
+    };
+    draw_legend(&mut image, &list, Corner::BottomLeft, 1.5).unwrap();
+    let label = |x, text: &str| Label::new(DVec2::new(x, 40.0), text, 13.0, BLACK);
+    draw_labels(&mut image, &[label(30.0, "17"), label(70.5, "f3")]).unwrap();
+    golden("legends", &image);
+}
+
+#[test]
+fn a_sheet() {
+    let image = |width, height| Image::filled(width, height, [60, 120, 180, 128]).unwrap();
+    let images = [image(60, 40), image(30, 50), image(60, 20)];
+    let captions = ["cow.obj", "a_long_name.obj", ""];
+    let cells: Vec<Cell> = images
+        .iter()
+        .zip(captions)
+        .map(|(image, caption)| Cell { image, caption })
+        .collect();
+    let style = SheetStyle {
+        columns: 2,
+        letters: 11,
+        ..SheetStyle::default()
+    };
+    golden("sheet", &sheet(&cells, &style, 1 << 20).unwrap());
+}

@@ -63,5 +63,6 @@ pub fn registry() -> Registry {
         .with::<doo_sabin::DooSabin>()
         .with::<vertex_normals::VertexNormals>()
         .with::<picture::Picture>()
+        .with::<curve_figure::CurveFigure>()
         .with::<save::Save>()
 }

@@ -385,6 +385,14 @@ const SAMPLES: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "CurveFigure",
+        &[
+            r#"(path: "figure.svg", t: [0.25, 0.5])"#,
+            r#"(path: "a/figure.png", width: 100, scale: 1)"#,
+            r#"(path: "figure.svg", t: [], labels: false, legend: false)"#,
+        ],
+    ),
+    (
         "Save",
         &[
             r#"(path: "a.obj")"#,

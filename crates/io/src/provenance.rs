@@ -18,7 +18,7 @@ const DOCUMENT: u64 = 1 << 30;
 /// The text that a file carries about where it comes from; `None` if it carries none, or is of a format
 /// without a place for it. MTL files and glTF's buffers are known by their endings too.
 ///
-/// STL has room for about 60 bytes only.
+/// STL has room for about 60 bytes only. The pictures that the program writes are known as well: PNG and SVG.
 ///
 /// # Errors
 ///
@@ -26,6 +26,16 @@ const DOCUMENT: u64 = 1 << 30;
 pub fn provenance(path: &Path) -> Result<Option<String>, ReadError> {
     let failed = |error: std::io::Error| ReadError::io(path, error);
     let mut file = File::open(path).map_err(failed)?;
+    let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+    if ending == "png" || ending == "svg" {
+        let bytes = head(&mut file, HEAD).map_err(failed)?;
+        let text = if ending == "png" {
+            of_png(&bytes)
+        } else {
+            of_svg(&bytes)
+        };
+        return Ok(text.filter(|text| text.starts_with("meshwright ")));
+    }
     match Format::from_path(path) {
         Some(Format::Gltf) => {
             let text = head(&mut file, DOCUMENT).map_err(failed)?;
@@ -95,6 +105,44 @@ fn of_document(json: &[u8]) -> Option<String> {
     Some(document.asset.extras.meshwright)
 }
 
+/// The international text of a PNG file with the keyword "Software", if it is not compressed.
+///
+/// A chunk is its length, four letters, the data, and a checksum. The data of `iTXt` are the keyword, whether and how
+/// the text is compressed, its language, the keyword in it, and the text, with zeros between (W3C, "Portable Network
+/// Graphics (PNG) Specification", 3rd edition, 2025, §11.3.3.4).
+fn of_png(bytes: &[u8]) -> Option<String> {
+    let mut rest = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?;
+    loop {
+        let (length, behind) = rest.split_first_chunk::<4>()?;
+        let (letters, behind) = behind.split_first_chunk::<4>()?;
+        let length = usize::try_from(u32::from_be_bytes(*length)).ok()?;
+        let (data, behind) = behind.split_at_checked(length)?;
+        if letters == b"IDAT" {
+            return None;
+        }
+        let text = data
+            .strip_prefix(b"Software\0\0\0")
+            .filter(|_| letters == b"iTXt");
+        if let Some(text) = text.and_then(|text| text.splitn(3, |&b| b == 0).nth(2)) {
+            return String::from_utf8(text.to_vec()).ok();
+        }
+        rest = behind.get(4..)?;
+    }
+}
+
+/// The metadata of an SVG file, if it is a plain text.
+fn of_svg(bytes: &[u8]) -> Option<String> {
+    // The head may end within a character.
+    let text = String::from_utf8_lossy(bytes);
+    let (_, behind) = text.split_once("<metadata>")?;
+    let (text, _) = behind.split_once("</metadata>")?;
+    let plain = text
+        .replace("&lt;", "<")
+        .replace("&gt;", ">")
+        .replace("&quot;", "\"");
+    Some(plain.replace("&amp;", "&"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -125,6 +173,66 @@ mod tests {
                 text.len()
             };
             assert_eq!(found[..room], text[..room], "{format}");
+        }
+    }
+
+    #[test]
+    fn pictures_give_back_what_they_were_given() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let stamp = r#"meshwright 1, recipe 01, {"a":"<&>ä"}"#;
+        let chunk = |letters: &str, data: &[u8]| {
+            let length = u32::try_from(data.len()).unwrap().to_be_bytes();
+            [&length, letters.as_bytes(), data, b"sum."].concat()
+        };
+        let text = |keyword: &str| {
+            let data = [keyword.as_bytes(), b"\0\0\0\0\0", stamp.as_bytes()].concat();
+            chunk("iTXt", &data)
+        };
+        let png = |chunks: &[Vec<u8>]| [b"\x89PNG\r\n\x1a\n".to_vec(), chunks.concat()].concat();
+        let header = chunk("IHDR", &[0; 13]);
+        let xml = stamp
+            .replace('&', "&amp;")
+            .replace('<', "&lt;")
+            .replace('>', "&gt;");
+        for (name, bytes, found) in [
+            ("a.PNG", png(&[header.clone(), text("Software")]), true),
+            (
+                "b.png",
+                png(&[header.clone(), text("Source"), text("Software")]),
+                true,
+            ),
+            ("c.png", png(&[header.clone(), text("Source")]), false),
+            (
+                "d.png",
+                png(&[header.clone(), chunk("IDAT", b"x"), text("Software")]),
+                false,
+            ),
+            (
+                "e.png",
+                png(&[header, text("Software")])[..70].to_vec(),
+                false,
+            ),
+            (
+                "f.png",
+                b"\x89PNG\r\n\x1a\n\xff\xff\xff\xffiTXt".to_vec(),
+                false,
+            ),
+            (
+                "a.svg",
+                format!("<svg><metadata>{xml}</metadata></svg>").into_bytes(),
+                true,
+            ),
+            ("b.svg", b"<svg><metadata>meshwright".to_vec(), false),
+            (
+                "c.svg",
+                b"<svg><metadata>inkscape</metadata></svg>".to_vec(),
+                false,
+            ),
+        ] {
+            std::fs::write(path(name), bytes).unwrap();
+            let expected = found.then(|| stamp.to_owned());
+            assert_eq!(provenance(&path(name)).unwrap(), expected, "{name}");
         }
     }
 

@@ -156,6 +156,24 @@ mod tests {
     }
 
     #[test]
+    fn textures_without_coordinates_are_named() {
+        let mut material = Material::new("wood");
+        material.base_color_texture = Some(scene::Texture::file("wood.png"));
+        let cube = scene(Object {
+            materials: vec![material],
+            ..Object::mesh("a", shapes::cube())
+        });
+        let wood = Image::filled(1, 1, [150, 90, 30, 255])
+            .unwrap()
+            .to_png(&[])
+            .unwrap();
+        let (style, none) = (Style::default(), Overlays::default());
+        let mut images = |_: &str| Some(wood.clone());
+        let (_, missing) = build(&cube, &style, &none, &mut images).unwrap();
+        assert_eq!(missing, ["a: no texture coordinates for its textures"]);
+    }
+
+    #[test]
     fn a_mesh_with_removed_parts_is_drawn_like_a_compact_one() {
         let mut holed = shapes::grid(5, 4);
         for i in [0, 1, 13] {
@@ -203,6 +221,20 @@ mod tests {
             Style::default(),
             Overlays {
                 colorings,
+                ..Overlays::default()
+            }
+        ));
+        let highlights = vec![Highlight {
+            object: "b".into(),
+            elements: Elements::Faces(Vec::new()),
+            color: Color::rgb(0, 0, 0),
+            size: 1.0,
+            hidden: 0.0,
+        }];
+        assert!(refused(
+            Style::default(),
+            Overlays {
+                highlights,
                 ..Overlays::default()
             }
         ));

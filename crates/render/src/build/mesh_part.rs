@@ -36,6 +36,10 @@ impl<'s> Builder<'s, '_> {
         let normals = self.normals(mesh);
         let (colors, materials, material_of_face) = self.colors(object, mesh, color, coloring);
         let uvs = uvs(mesh, &materials);
+        if uvs.is_empty() && materials.iter().any(|s| s.texture.is_some()) {
+            let why = format!("{}: no texture coordinates for its textures", object.name);
+            self.missing.push(why);
+        }
         let is_by_corner =
             |normals: &Normals| matches!(normals, Normals::Given(Channel::Corner(_)));
         let needs_corners =

@@ -29,6 +29,23 @@ pub struct Overlays {
     pub labels: Vec<Label>,
 }
 
+impl Overlays {
+    /// Whether all objects that are named are meshes of the scene.
+    fn check(&self, scene: &Scene) -> Result<(), PictureError> {
+        let highlights = self.highlights.iter().map(|h| &h.object);
+        for name in highlights.chain(self.colorings.iter().map(|c| &c.object)) {
+            let geometry = scene.object(name).map(|o| &o.geometry);
+            if !matches!(geometry, Some(Geometry::Mesh(_))) {
+                let found = geometry.map_or("nothing of this name", Geometry::kind);
+                return Err(PictureError::Style(format!(
+                    "expected a mesh \"{name}\" to show elements of, found {found}"
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
 /// Elements of an object in a color of their own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Highlight {
@@ -82,7 +99,8 @@ pub const PALETTE: [Color; 6] = [
 
 /// Makes a drawing of a scene. `images` gives the bytes of a picture file for its path in a material; where it
 /// gives none, or they are no PNG or JPEG, the surface is drawn without, and the path is in the list that is
-/// returned, with the reason.
+/// returned, with the reason. Of a material its base color with its texture, roughness, emission and alpha are
+/// drawn; the alpha of textures is not.
 ///
 /// # Errors
 ///
@@ -94,6 +112,7 @@ pub fn build<'s>(
     images: &mut dyn FnMut(&str) -> Option<Vec<u8>>,
 ) -> Result<(Drawing<'s>, Vec<String>), PictureError> {
     style.check()?;
+    overlays.check(scene)?;
     let mut builder = Builder {
         style,
         overlays,

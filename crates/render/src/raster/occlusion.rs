@@ -4,16 +4,18 @@
 //! and the farthest depth, and so serves two opposite directions. A place is then looked up in all maps. It
 //! does not depend on the camera, and there is no noise.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::color::narrow;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Part};
 
 /// Maps, each for two opposite directions.
 const MAPS: usize = 48;
 /// A depth map has at most so many texels along each side.
-const LARGEST: u32 = 384;
+const LARGEST: u32 = 256;
 /// And at least so many.
 const SMALLEST: u32 = 64;
 
@@ -72,6 +74,11 @@ impl Occlusion {
         let side = side(size) as usize;
         // One texel stays free at each border.
         let texel = 2.0 * radius / (side - 2) as f64;
+        let wide: Vec<_> = drawing
+            .parts
+            .iter()
+            .map(|part| wide(part, texel * SMALL))
+            .collect();
         let maps = (0..MAPS)
             .into_par_iter()
             .map(|i| {
@@ -80,7 +87,7 @@ impl Occlusion {
                 let axes = [x, z.cross(x), z].map(single);
                 let mut depths = vec![[f32::NEG_INFINITY; 2]; side * side];
                 let mut places = Vec::new();
-                for part in &drawing.parts {
+                for (part, wide) in drawing.parts.iter().zip(&wide) {
                     places.clear();
                     let half = side as f32 / 2.0;
                     places.extend(part.points.iter().map(|&p| {
@@ -91,7 +98,12 @@ impl Occlusion {
                             depth: dot(axes[2], p),
                         }
                     }));
-                    for triangle in &part.triangles {
+                    if wide.len() < part.triangles.len() {
+                        for &p in &places {
+                            dot_at(&mut depths, side, p);
+                        }
+                    }
+                    for triangle in wide.iter() {
                         fill(&mut depths, side, triangle.map(|v| places[v as usize]));
                     }
                 }
@@ -142,6 +154,41 @@ impl Occlusion {
         }
         if all > 0.0 { open / all } else { 1.0 }
     }
+}
+
+/// Texels. No place in a triangle with shorter edges is farther from its nearest corner than half a texel: its
+/// corners alone cover all texels whose middles it covers.
+const SMALL: f64 = 0.85;
+
+/// The triangles of a part with an edge of at least this length.
+fn wide<'a>(part: &'a Part, length: f64) -> Cow<'a, [[u32; 3]]> {
+    let is_wide = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|v| part.points[v as usize]);
+        [a - b, b - c, c - a]
+            .iter()
+            .any(|edge| edge.length_squared() >= length * length)
+    };
+    let wide: Vec<[u32; 3]> = part
+        .triangles
+        .par_iter()
+        .with_min_len(4096)
+        .copied()
+        .filter(is_wide)
+        .collect();
+    if wide.len() == part.triangles.len() {
+        Cow::Borrowed(&part.triangles)
+    } else {
+        Cow::Owned(wide)
+    }
+}
+
+/// Draws a point into a depth map.
+fn dot_at(depths: &mut [[f32; 2]], side: usize, p: Place) {
+    let [column, row] =
+        p.at.map(|x| usize::try_from(x / STEPS).unwrap_or(0).min(side - 1));
+    let [front, back] = &mut depths[row * side + column];
+    *front = front.max(p.depth);
+    *back = back.max(-p.depth);
 }
 
 /// Steps of a texel in a depth map.

@@ -22,6 +22,7 @@ mod many;
 mod output;
 mod replace;
 mod scenes;
+pub mod terminal_picture;
 
 use std::io::{self, Write};
 use std::process::ExitCode;

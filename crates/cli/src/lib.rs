@@ -22,7 +22,7 @@ mod many;
 mod output;
 mod replace;
 mod scenes;
-pub mod terminal_picture;
+mod terminal_picture;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -53,7 +53,12 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Batch(args) => commands::batch::run(&args, &registry),
         Command::Sweep(args) => commands::sweep::run(&args, &registry),
         Command::Ops { name, markdown } => commands::ops::run(name.as_deref(), markdown, &registry),
-        Command::Info { file, read, format } => commands::info::run(&file, &read, format),
+        Command::Info {
+            file,
+            picture,
+            read,
+            format,
+        } => commands::info::run(&file, picture, &read, format),
         Command::Convert {
             input,
             read,

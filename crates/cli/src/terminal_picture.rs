@@ -17,7 +17,7 @@ use render::{Image, PictureError};
 
 /// How a picture is written.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub enum Protocol {
+pub(crate) enum Protocol {
     /// Pixels, as the terminal kitty takes them.
     Kitty,
     /// Pixels, as the terminal iTerm2 takes them.
@@ -41,7 +41,7 @@ const WIDEST: u32 = 100;
 /// # Errors
 ///
 /// What writing fails with.
-pub fn show(image: &Image) -> io::Result<()> {
+pub(crate) fn show(image: &Image) -> io::Result<()> {
     let is_terminal = io::stdout().is_terminal();
     let protocol = Protocol::of(is_terminal, |name| std::env::var(name).ok());
     let (_, columns) = console::Term::stdout().size();
@@ -53,7 +53,7 @@ pub fn show(image: &Image) -> io::Result<()> {
 
 impl Protocol {
     /// What a terminal with this environment can show.
-    pub fn of(is_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Self {
+    pub(crate) fn of(is_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Self {
         let text = |name: &str| variable(name).unwrap_or_default();
         let is_set = |name: &str| !text(name).is_empty();
         let (term, program) = (text("TERM"), text("TERM_PROGRAM"));
@@ -88,7 +88,11 @@ impl Protocol {
 /// # Errors
 ///
 /// [`PictureError::Encode`] if the image has no pixels.
-pub fn written(image: &Image, protocol: Protocol, columns: u32) -> Result<Vec<u8>, PictureError> {
+pub(crate) fn written(
+    image: &Image,
+    protocol: Protocol,
+    columns: u32,
+) -> Result<Vec<u8>, PictureError> {
     match protocol {
         Protocol::Kitty => Ok(kitty(&image.to_png(&[])?)),
         Protocol::Iterm => {
@@ -166,7 +170,10 @@ fn reduced(image: &Image, columns: u32) -> Image {
         (u64::from(image.height) * u64::from(width)).div_ceil(u64::from(image.width.max(1)));
     let height = u32::try_from(height).unwrap_or(u32::MAX).min(4 * WIDEST);
     let part = |i: u32, n: u32, side: u32| {
-        let at = |i: u32| (u64::from(i) * u64::from(side) / u64::from(n)) as usize;
+        let at = |i: u32| {
+            let at = u64::from(i) * u64::from(side) / u64::from(n);
+            usize::try_from(at).unwrap_or(usize::MAX)
+        };
         at(i)..at(i + 1).max(at(i) + 1).min(side as usize)
     };
     let mean = |x: u32, y: u32| {
@@ -273,7 +280,7 @@ fn letters(image: &Image) -> Vec<u8> {
     let mut text = Vec::new();
     for row in pairs(image) {
         let line = row.into_iter().map(|[above, below]| {
-            let mean = (darkness(above) + darkness(below)) / 2;
+            let mean = darkness(above).midpoint(darkness(below));
             DARKER[(mean as usize * DARKER.len() / 255_001).min(DARKER.len() - 1)]
         });
         let line: Vec<u8> = line.collect();
@@ -363,7 +370,7 @@ mod tests {
         }
         let tall = Image::filled(1, 16_384, RED).unwrap();
         let text = written(&tall, Protocol::Letters, 80).unwrap();
-        assert_eq!(text.iter().filter(|&&b| b == b'\n').count(), 200);
+        assert_eq!(String::from_utf8(text).unwrap().lines().count(), 200);
     }
 
     #[test]

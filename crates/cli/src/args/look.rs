@@ -43,6 +43,9 @@ pub(crate) struct SelectArgs {
     /// Print only how many there are
     #[arg(long)]
     pub(crate) count: bool,
+    /// Write an image (.png) in which they are marked, too
+    #[arg(long, value_name = "FILE")]
+    pub(crate) picture: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) read: ReadArgs,
     #[arg(long, value_enum, default_value_t)]

@@ -54,6 +54,9 @@ pub(crate) enum Command {
     Info {
         /// A mesh, patch or curve file
         file: PathBuf,
+        /// Show a small picture too: in pixels where the terminal can, else in characters
+        #[arg(long)]
+        picture: bool,
         #[command(flatten)]
         read: ReadArgs,
         #[arg(long, value_enum, default_value_t)]

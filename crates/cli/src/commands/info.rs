@@ -4,12 +4,21 @@ use std::path::Path;
 
 use mesh::{Elements, Mesh, VertexId};
 use mesh_io::{Note, NoteKind};
-use scene::{Geometry, Object};
+use picture::Picture;
+use scene::{Geometry, Object, Scene};
 
 use crate::args::{Format, ReadArgs};
+use crate::commands::picture::draw_found;
 use crate::output::{grouped, print};
+use crate::scenes::Found;
+use crate::terminal_picture;
 
-pub(crate) fn run(path: &Path, read: &ReadArgs, format: Format) -> anyhow::Result<bool> {
+pub(crate) fn run(
+    path: &Path,
+    picture: bool,
+    read: &ReadArgs,
+    format: Format,
+) -> anyhow::Result<bool> {
     let loaded =
         mesh_io::read(path, &read.options()).map_err(|error| anyhow::anyhow!("{error}"))?;
     if format == Format::Json {
@@ -28,7 +37,24 @@ pub(crate) fn run(path: &Path, read: &ReadArgs, format: Format) -> anyhow::Resul
     for note in &loaded.notes {
         print(&format!("note: {note}\n"))?;
     }
+    if picture {
+        show(path, loaded.objects)?;
+    }
     Ok(true)
+}
+
+/// Shows a picture of the objects in the terminal.
+fn show(path: &Path, objects: Vec<Object>) -> anyhow::Result<()> {
+    let mut scene = Scene::new();
+    for object in objects {
+        scene.insert(object)?;
+    }
+    let stream = String::new();
+    let mut picture = Picture::new("info.png");
+    picture.size = [640, 480];
+    let images = draw_found(&picture, path, &[(Found { scene, stream }, "")], &[])?;
+    terminal_picture::show(&images[0])?;
+    Ok(())
 }
 
 /// A note as a sentence, and its parts; all elements, where the sentence names a few.

@@ -32,11 +32,17 @@ pub(crate) fn run(args: &PictureArgs, registry: &Registry) -> anyhow::Result<boo
         return on_sheet(args, &picture, &files, registry);
     }
     let images = draw(args, &picture, &files[0], registry)?;
-    let stamp = concat!("meshwright ", env!("CARGO_PKG_VERSION"));
-    let bytes = picture.encode(&images, Some(stamp))?;
-    write(&out(args, &files[0]), &bytes, &images[0])?;
+    write_images(&picture, &images, &out(args, &files[0]))?;
     Ok(true)
 }
+
+/// Writes the images of a picture to a file.
+pub(crate) fn write_images(picture: &Picture, images: &[Image], path: &Path) -> anyhow::Result<()> {
+    write(path, &picture.encode(images, Some(STAMP))?, &images[0])
+}
+
+/// What images say of where they come from.
+const STAMP: &str = concat!("meshwright ", env!("CARGO_PKG_VERSION"));
 
 /// The file to write.
 fn out(args: &PictureArgs, first: &Path) -> PathBuf {
@@ -133,11 +139,6 @@ fn draw(
             (scene(stop(change, None))?, "after"),
         ],
     };
-    // As a step would: what is read lies beside the file or the recipe.
-    let files = Files {
-        input: path.parent().map(Path::to_path_buf).unwrap_or_default(),
-        ..Files::default()
-    };
     for name in &args.on {
         let objects = founds.iter().flat_map(|(found, _)| found.scene.objects());
         let known: Vec<&str> = objects.map(|o| o.name.as_str()).collect();
@@ -146,14 +147,28 @@ fn draw(
             return Err(WrongUsage(format!("no object is named \"{name}\": {help}")).into());
         }
     }
+    draw_found(picture, path, &founds, &args.on)
+}
+
+/// Draws scenes that come from a file, each with a caption, or only the objects of these names.
+pub(crate) fn draw_found(
+    picture: &Picture,
+    path: &Path,
+    founds: &[(Found, &str)],
+    on: &[String],
+) -> anyhow::Result<Vec<Image>> {
+    // As a step would: what is read lies beside the file or the recipe.
+    let files = Files {
+        input: path.parent().map(Path::to_path_buf).unwrap_or_default(),
+        ..Files::default()
+    };
     let terminal = Terminal::new();
     let mut cx = Context::new(&terminal, &files);
     cx.budget = BUDGET;
-    cx.stream = &founds[0].0.stream;
-    cx.on = (!args.on.is_empty()).then_some(&args.on[..]);
-    let scenes: Vec<_> = founds
-        .iter()
-        .map(|(f, caption)| (&f.scene, *caption))
+    cx.stream = founds.first().map_or("", |(found, _)| &found.stream);
+    cx.on = (!on.is_empty()).then_some(on);
+    let scenes: Vec<_> = (founds.iter())
+        .map(|(found, caption)| (&found.scene, *caption))
         .collect();
     let drawn = picture.draw_beside(&scenes, &mut cx);
     terminal.clear();
@@ -196,8 +211,7 @@ fn on_sheet(
         ..SheetStyle::default()
     };
     let image = sheet(&cells, &style, BUDGET)?;
-    let stamp = concat!("meshwright ", env!("CARGO_PKG_VERSION"));
-    let bytes = image.to_png(&[("Software", stamp)])?;
+    let bytes = image.to_png(&[("Software", STAMP)])?;
     write(&out(args, &files[0]), &bytes, &image)?;
     Ok(all_are_there)
 }

@@ -2,12 +2,14 @@
 
 use mesh::{EdgeId, Mesh, VertexId};
 use op::{ElementKind, Elements, Registry, Selected};
+use picture::Picture;
 use recipe::{Source, read_selection, resolve};
 use scene::Object;
 use serde_json::{Value as Json, json};
 
 use crate::WrongUsage;
 use crate::args::{Format, Kind, SelectArgs};
+use crate::commands::picture::{draw_found, write_images};
 use crate::output::{complain, grouped, print};
 use crate::scenes::{Stop, find};
 
@@ -51,6 +53,13 @@ pub(crate) fn run(args: &SelectArgs, registry: &Registry) -> anyhow::Result<bool
                 print_elements(args, object, mesh, chosen)?;
             }
         }
+    }
+    drop(selected);
+    if let Some(path) = &args.picture {
+        let mut picture = Picture::new(path.display().to_string());
+        picture.highlight = Some(elements);
+        let images = draw_found(&picture, &args.file, &[(found, "")], &args.on)?;
+        write_images(&picture, &images, path)?;
     }
     Ok(true)
 }

@@ -112,3 +112,33 @@ fn wrong_options_are_shown_as_those_of_a_step() {
     }
     assert_eq!(folder.entries("."), ["cube.obj", "r.ron"]);
 }
+
+#[test]
+fn a_selection_and_a_file_can_be_shown_beside_their_facts() {
+    let folder = cube();
+    folder
+        .run_all(&[
+            "select",
+            "cube.obj",
+            "Sharp(above: 30)",
+            "--count",
+            "--picture",
+            "sharp.png",
+        ])
+        .with_code(0)
+        .prints(&["12\n", "wrote sharp.png, 1280 x 960 pixels\n"]);
+    assert_eq!(size(&folder, "sharp.png"), (1280, 960));
+    // A pipe gets plain characters: darker ones where the picture is darker.
+    let ended = folder.run("info cube.obj --picture").with_code(0);
+    let after: Vec<&str> = ended
+        .stdout
+        .lines()
+        .skip_while(|l| !l.trim().is_empty())
+        .collect();
+    assert!(
+        after.len() > 10 && ended.stdout.is_ascii(),
+        "{}",
+        ended.stdout
+    );
+    assert!(!ended.stdout.contains('\x1b'));
+}

@@ -98,7 +98,8 @@ pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -
     let n_points: u64 = drawing.parts.iter().map(|p| p.points.len() as u64).sum();
     let (triangles, lines) = (drawing.n_triangles() as u64, drawing.lines.len() as u64);
     let maps = if look.occlusion > 0.0 && triangles > 0 {
-        occlusion::bytes([width, height]) + 12 * n_points * rayon::current_num_threads() as u64
+        let places = 12 * n_points * rayon::current_num_threads() as u64;
+        occlusion::bytes([width, height]) + places + 12 * triangles
     } else {
         0
     };

@@ -377,11 +377,10 @@ const SAMPLES: &[(&str, &[&str])] = &[
     (
         "Picture",
         &[
-            r#"(path: "a.png", size: (320, 240))"#,
-            r#"(path: "sharp.png", size: (320, 240), highlight: Sharp(above: 30))"#,
-            r#"(path: "b/a.png", size: (160, 120), views: [Fit(from: Front), Fit(from: Top, projection: Orthographic)], style: (shading: Flat, wireframe: ()))"#,
-            r#"(path: "valence.png", size: (320, 240), color_by: (of: Valence))"#,
-            r#"(path: "a.gif", size: (80, 60), turntable: (frames: 4))"#,
+            r#"(path: "a.png", size: (64, 48), highlight: Edges(Sharp(above: 30)), style: (wireframe: ()))"#,
+            r#"(path: "b/a.png", size: (32, 24), views: [Fit(from: Front), Fit(from: Top, projection: Orthographic)], style: (shading: Flat, background: Transparent))"#,
+            r#"(path: "valence.png", size: (48, 36), color_by: (of: Valence))"#,
+            r#"(path: "a.gif", size: (24, 18), turntable: (frames: 3), style: (shading: Matcap, boundary: (), ids: Vertices))"#,
         ],
     ),
     (

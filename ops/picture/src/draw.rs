@@ -184,8 +184,13 @@ fn read_image(files: &Files, folder: Option<&str>, path: &str) -> Option<Vec<u8>
         Some(folder) => files.to_read(&format!("{folder}/{path}")),
         None => files.to_read(path),
     };
-    files.has_read(&full);
-    std::fs::read(full).ok()
+    if full.is_file() {
+        files.has_read(&full);
+        std::fs::read(full).ok()
+    } else {
+        files.has_looked_for(&full);
+        None
+    }
 }
 
 pub(crate) fn told(error: PictureError) -> OpError {

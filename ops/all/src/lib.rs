@@ -1,9 +1,11 @@
 //! The list of built-in operations: one line each.
 
+mod pictures;
 mod samples;
 
 use op::Registry;
 
+pub use pictures::pictures;
 pub use samples::samples;
 
 /// Every built-in operation, in the order of the reference.

@@ -142,6 +142,7 @@ pub(crate) fn reference(registry: &Registry) -> String {
         if let Some(sample) = sample(entry.name) {
             text += &format!("```ron\n{sample}\n```\n\n");
         }
+        text += &shown(entry.name);
         let fields = fields(&schema);
         if fields.is_empty() {
             text += "No parameters.\n";
@@ -170,6 +171,21 @@ pub(crate) fn reference(registry: &Registry) -> String {
     }
     text += "\n# Reasons for `refused:`\n\n";
     text + &variants_table(&recipe::refusals())
+}
+
+/// The pictures of an operation side by side, with the recipe that draws them.
+fn shown(operation: &str) -> String {
+    let paths = ops_all::pictures(operation);
+    let Some(last) = paths.last() else {
+        return String::new();
+    };
+    let recipe = last.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let image = |path: &String| {
+        let name = path.rsplit('/').next().unwrap_or_default();
+        format!("![{}]({path})", name.trim_end_matches(".png"))
+    };
+    let images: Vec<String> = paths.iter().map(image).collect();
+    format!("{} [drawn by]({recipe}.ron)\n\n", images.join(" "))
 }
 
 fn fields_table(fields: &[FieldDoc]) -> String {

@@ -4,6 +4,8 @@
 //! before a step and not after it is lost; what no step has made, on a mesh that has nothing else, is
 //! missing.
 
+use std::collections::HashSet;
+
 use mesh::Domain;
 use op::{Loss, MeshPlan, Plan, PlannedAttribute, PlannedGeometry};
 
@@ -43,6 +45,10 @@ pub(super) fn certain(plan: &Plan) -> Before {
         .collect()
 }
 
+fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
+    (attribute.domain, &attribute.name)
+}
+
 impl Attributes {
     /// Reports what a step loses for certain and may not lose.
     pub(super) fn losses(
@@ -60,10 +66,8 @@ impl Attributes {
             if mesh.attributes == *had {
                 continue;
             }
-            let is_lost = |a: &&PlannedAttribute| {
-                let has = |b: &PlannedAttribute| b.domain == a.domain && b.name == a.name;
-                !mesh.attributes.iter().any(has)
-            };
+            let kept: HashSet<(Domain, &str)> = mesh.attributes.iter().map(key).collect();
+            let is_lost = |a: &&PlannedAttribute| !kept.contains(&key(a));
             for lost in had.iter().filter(is_lost) {
                 let loss = Loss::attribute(object, lost.domain, &lost.name, "");
                 if !step.on_loss.allows(&lost.name) {

@@ -1,0 +1,163 @@
+//! Cameras held against what they must show.
+
+use super::*;
+
+/// The corners of a box.
+fn corners(each: &mut dyn FnMut(DVec3)) {
+    for i in 0..8 {
+        let side = |bit: u8, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
+        each(DVec3::new(
+            side(0, -1.0, 3.0),
+            side(1, 0.0, 1.0),
+            side(2, 7.0, 9.0),
+        ));
+    }
+}
+
+fn fit(from: Side, up: Up, projection: Projection, margin: f64, steady: bool) -> Camera {
+    Camera::Fit {
+        from,
+        up,
+        projection,
+        margin,
+        steady,
+    }
+}
+
+const PROJECTIONS: [Projection; 3] = [
+    Projection::Orthographic,
+    Projection::Perspective { angle: 25.0 },
+    Projection::Perspective { angle: 90.0 },
+];
+
+#[test]
+fn a_fitted_camera_sees_everything_up_to_its_margin() {
+    let size = [200, 100];
+    for projection in PROJECTIONS {
+        for from in [Side::Front, Side::Isometric, Side::Top, Side::ThreeQuarter] {
+            let camera = fit(from, Up::Z, projection, 0.1, false);
+            let view = View::new(&camera, &corners, size).unwrap();
+            let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+            corners(&mut |p| {
+                let seen = view.see(p).unwrap();
+                (min, max) = (min.min(seen.at), max.max(seen.at));
+            });
+            // In one direction both borders are touched, in the other none is crossed.
+            let free = DVec2::new(20.0, 10.0);
+            let (before, behind) = (min - free, DVec2::new(200.0, 100.0) - free - max);
+            assert!(before.min_element() > -1e-6 && behind.min_element() > -1e-6);
+            let touched = (before + behind).min_element();
+            assert!(touched < 1e-6, "{from:?} {projection:?}: {before} {behind}");
+        }
+    }
+}
+
+#[test]
+fn a_steady_camera_sees_the_sphere_around_everything_from_all_sides() {
+    let (center, radius) = sphere(&corners);
+    for projection in PROJECTIONS {
+        let mut scales = Vec::new();
+        for azimuth in [0.0, 33.0, 180.0] {
+            let from = Side::Angles {
+                azimuth,
+                elevation: 20.0,
+            };
+            let camera = fit(from, Up::Y, projection, 0.0, true);
+            let view = View::new(&camera, &corners, [100, 100]).unwrap();
+            let [x, _, _] = view.axes();
+            let middle = view.see(center).unwrap();
+            assert!((middle.at - 50.0).length() < 1e-6);
+            scales.push(view.see(center + x * radius).unwrap().at.x);
+        }
+        assert!(
+            scales
+                .iter()
+                .all(|s| (s - scales[0]).abs() < 1e-6 && *s < 100.001)
+        );
+    }
+}
+
+#[test]
+fn sides_look_where_their_names_say() {
+    for (up, side, right, above) in [
+        (Up::Y, Side::Front, DVec3::X, DVec3::Y),
+        (Up::Y, Side::Back, DVec3::NEG_X, DVec3::Y),
+        (Up::Y, Side::Right, DVec3::NEG_Z, DVec3::Y),
+        (Up::Y, Side::Left, DVec3::Z, DVec3::Y),
+        (Up::Y, Side::Top, DVec3::X, DVec3::NEG_Z),
+        (Up::Y, Side::Bottom, DVec3::X, DVec3::Z),
+        (Up::Z, Side::Front, DVec3::X, DVec3::Z),
+        (Up::Z, Side::Right, DVec3::Y, DVec3::Z),
+        (Up::Z, Side::Top, DVec3::X, DVec3::Y),
+    ] {
+        let [x, y, z] = side.axes(up);
+        assert_eq!((x, y), (right, above), "{side:?} with {up:?} upwards");
+        assert_eq!(z, x.cross(y));
+    }
+    let [_, _, towards] = Side::Isometric.axes(Up::Y);
+    assert!((towards - DVec3::ONE.normalize()).length() < 1e-12);
+}
+
+#[test]
+fn a_camera_straight_above_has_the_front_at_the_bottom() {
+    for (up, from, front) in [
+        (Up::Y, [0.0, 5.0, 0.0], DVec3::Z),
+        (Up::Z, [0.0, 0.0, 5.0], DVec3::NEG_Y),
+    ] {
+        let camera = Camera::LookAt {
+            from,
+            to: [0.0; 3],
+            up,
+            projection: Projection::default(),
+        };
+        let view = View::new(&camera, &|_| {}, [10, 10]).unwrap();
+        let seen = view.see(front).unwrap().at;
+        assert!(seen.y > 6.0 && (seen.x - 5.0).abs() < 1e-9, "{seen}");
+    }
+}
+
+#[test]
+fn the_ray_through_a_point_of_the_picture_meets_what_is_seen_there() {
+    for projection in PROJECTIONS {
+        let camera = fit(Side::ThreeQuarter, Up::Y, projection, 0.05, false);
+        let view = View::new(&camera, &corners, [64, 48]).unwrap();
+        let p = DVec3::new(0.3, 0.8, 8.1);
+        let seen = view.see(p).unwrap();
+        let (origin, direction) = view.ray(seen.at);
+        let aside = (p - origin).cross(direction).length();
+        assert!(aside < 1e-9, "{aside}");
+        let depth = view
+            .plane_depth(p, DVec3::new(0.1, 0.2, 0.9), seen.at)
+            .unwrap();
+        assert!((depth - seen.depth).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn cameras_that_see_nothing_are_refused() {
+    let look_at = |from, to| Camera::LookAt {
+        from,
+        to,
+        up: Up::Y,
+        projection: Projection::default(),
+    };
+    let angle = |angle| Projection::Perspective { angle };
+    let side = Side::Angles {
+        azimuth: f64::NAN,
+        elevation: 0.0,
+    };
+    for camera in [
+        look_at([1.0; 3], [1.0; 3]),
+        look_at([f64::INFINITY; 3], [1.0; 3]),
+        fit(Side::Front, Up::Y, angle(0.0), 0.0, false),
+        fit(Side::Front, Up::Y, angle(180.0), 0.0, false),
+        fit(Side::Front, Up::Y, Projection::Orthographic, 0.5, false),
+        fit(side, Up::Y, Projection::Orthographic, 0.0, false),
+    ] {
+        let refused = View::new(&camera, &corners, [10, 10]);
+        assert!(
+            matches!(refused, Err(PictureError::Camera(_))),
+            "{camera:?}"
+        );
+    }
+}

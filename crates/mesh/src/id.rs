@@ -4,10 +4,12 @@ use std::fmt;
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::Domain;
+use crate::{Domain, Element};
 
 /// What the four kinds of ids have in common.
-pub trait Id: Copy + Ord + fmt::Display + fmt::Debug + Pod + Send + Sync + 'static {
+pub trait Id:
+    Copy + Ord + fmt::Display + fmt::Debug + Pod + Send + Sync + Into<Element> + 'static
+{
     /// The value that stands in the arrays of a [`Connectivity`](crate::Connectivity) where there
     /// is no such element. Accessors return `Option` instead.
     const NONE: Self;

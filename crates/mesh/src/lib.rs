@@ -76,6 +76,7 @@ mod compact;
 mod curvature;
 pub mod distance;
 mod edit;
+mod element;
 mod id;
 mod journal;
 mod marks;
@@ -98,6 +99,7 @@ pub use attribute::{
 pub use build::{BuildError, BuildReport, Built, Elements, NonManifold, Repair, build};
 pub use compact::Renumbering;
 pub use edit::{Bisection, EditError, Seams};
+pub use element::Element;
 pub use glam::{DMat3, DVec2, DVec3, DVec4};
 pub use id::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
 pub use journal::Change;

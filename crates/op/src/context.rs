@@ -1,6 +1,6 @@
 //! What an operation runs in: progress, cancellation, the random stream, files, the budget.
 
-use crate::{Files, OpError};
+use crate::{Files, OpError, Place};
 
 /// Listens to progress and can ask for the run to stop.
 pub trait Progress: Sync {
@@ -30,6 +30,9 @@ pub struct Context<'a> {
     pub budget: u64,
     /// The names of the materials of the object at work, for selections.
     pub materials: Vec<String>,
+    /// After an error: where the elements are that it is about. [`MeshOperation`](crate::MeshOperation)s leave
+    /// them to their driver.
+    pub places: Vec<Place>,
 }
 
 impl<'a> Context<'a> {
@@ -42,6 +45,7 @@ impl<'a> Context<'a> {
             stream: "",
             budget: u64::MAX,
             materials: Vec::new(),
+            places: Vec::new(),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Local edits over a selection.
 
-use mesh::{EditError, Mesh};
+use mesh::{EdgeId, EditError, Element, FaceId, HalfEdgeId, Mesh, VertexId};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +28,30 @@ impl OnRefusal {
     }
 }
 
+/// What an edit is done to.
+pub trait Edited: Copy {
+    /// The elements that it is.
+    fn elements(self) -> Vec<Element>;
+}
+
+macro_rules! edited {
+    ($($id:ty),*) => {
+        $(impl Edited for $id {
+            fn elements(self) -> Vec<Element> {
+                vec![self.into()]
+            }
+        })*
+    };
+}
+
+edited!(VertexId, HalfEdgeId, EdgeId, FaceId);
+
+impl<E: Edited> Edited for [E; 2] {
+    fn elements(self) -> Vec<Element> {
+        self.into_iter().flat_map(E::elements).collect()
+    }
+}
+
 /// Edits the elements one after another, each judged at its moment.
 ///
 /// The report counts the edits that were done and, for [`OnRefusal::Skip`], those that were refused, by
@@ -37,7 +61,7 @@ impl OnRefusal {
 ///
 /// [`OpError::Cancelled`], and the first refusal for [`OnRefusal::Error`]. The mesh is then edited in
 /// part: operations return the error, and their driver takes the edits back.
-pub fn edit_each<I: Copy>(
+pub fn edit_each<I: Edited>(
     mesh: &mut Mesh,
     elements: &[I],
     on_refusal: OnRefusal,
@@ -54,34 +78,17 @@ pub fn edit_each<I: Copy>(
     for (done, &element) in (1..).zip(elements) {
         match edit(mesh, element) {
             Ok(()) => report.changed += 1,
-            Err(refusal) => match on_refusal {
-                OnRefusal::Error => return Err(described(refusal, mesh)),
-                OnRefusal::Skip => report.refuse(described(refusal, mesh))?,
-            },
+            Err(refusal) => {
+                let refused = OpError::refused_edit(refusal, mesh, &element.elements());
+                match on_refusal {
+                    OnRefusal::Error => return Err(refused),
+                    OnRefusal::Skip => report.refuse(refused)?,
+                }
+            }
         }
         if done % 4096 == 0 {
             cx.advance(what, done, total)?;
         }
     }
     Ok(report)
-}
-
-/// A refusal that names its edge as recipes do, by its vertices.
-fn described(refusal: EditError, mesh: &Mesh) -> OpError {
-    let (EditError::Boundary(e)
-    | EditError::NotBoundary(e)
-    | EditError::JoinsBoundaries(e)
-    | EditError::SameFace(e)
-    | EditError::Seam(e)
-    | EditError::Vanishes(e)
-    | EditError::Link(e, _)
-    | EditError::SameOpposite(e, _)) = refusal
-    else {
-        return refusal.into();
-    };
-    let [v, w] = mesh.edge_vertices(e).map(mesh::VertexId::index);
-    OpError::refused(
-        refusal.into(),
-        format!("{refusal}; it is Between({v}, {w})"),
-    )
 }

@@ -1,6 +1,6 @@
 //! Why an operation failed.
 
-use mesh::{BuildError, EditError};
+use mesh::{BuildError, EditError, Element, Mesh, VertexId};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -101,6 +101,8 @@ pub enum OpError {
         reason: Refusal,
         /// The reason with the elements.
         message: String,
+        /// The elements that it is about, of the mesh as it was then.
+        elements: Vec<Element>,
     },
     /// A parameter has a value that the scene does not allow.
     #[error("{0}")]
@@ -125,12 +127,57 @@ impl OpError {
         Self::Refused {
             reason,
             message: message.into(),
+            elements: Vec::new(),
+        }
+    }
+
+    /// The refusal of an edit of a mesh that was to be done to `edited`. Edges are told as recipes name them,
+    /// by their vertices.
+    pub fn refused_edit(refusal: EditError, mesh: &Mesh, edited: &[Element]) -> Self {
+        let between = |element: Element| {
+            let Element::Edge(e) = element else {
+                return None;
+            };
+            mesh.has_edge(e).then(|| {
+                let [v, w] = mesh.edge_vertices(e).map(VertexId::index);
+                format!("Between({v}, {w})")
+            })
+        };
+        let mut message = refusal.to_string();
+        let mut elements = refusal.elements();
+        for edge in elements.iter().filter_map(|&named| between(named)) {
+            message += &format!("; it is {edge}");
+        }
+        for &element in edited {
+            if !elements.contains(&element) {
+                let name = between(element).unwrap_or_else(|| element.to_string());
+                message += &format!("; at {name}");
+                elements.push(element);
+            }
+        }
+        Self::refused(refusal.into(), message).about(elements)
+    }
+
+    /// The same error about these elements, if it is a refusal.
+    #[must_use]
+    pub fn about<E: Into<Element>>(mut self, about: impl IntoIterator<Item = E>) -> Self {
+        if let Self::Refused { elements, .. } = &mut self {
+            *elements = about.into_iter().map(E::into).collect();
+        }
+        self
+    }
+
+    /// The elements that a refusal is about.
+    pub fn elements(&self) -> &[Element] {
+        match self {
+            Self::Refused { elements, .. } => elements,
+            _ => &[],
         }
     }
 }
 
 impl From<EditError> for OpError {
     fn from(error: EditError) -> Self {
-        Self::refused(error.into(), error.to_string())
+        Self::refused(error.into(), error.to_string()).about(error.elements())
     }
 }

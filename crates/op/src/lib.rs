@@ -49,6 +49,7 @@ mod error;
 mod files;
 mod operation;
 mod parameter;
+mod place;
 mod plan;
 mod registry;
 mod report;
@@ -60,11 +61,12 @@ mod turn;
 
 pub use bevel::Cuts;
 pub use context::{Context, NoProgress, Progress};
-pub use edit::{OnRefusal, edit_each};
+pub use edit::{Edited, OnRefusal, edit_each};
 pub use error::{OpError, Refusal};
 pub use files::{FileError, FileLog, FileUse, Files};
 pub use operation::{MeshOperation, Operation};
 pub use parameter::{Axis, Vector, check_fraction};
+pub use place::Place;
 pub use plan::{
     MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
 };

@@ -85,7 +85,10 @@ impl Report {
     ///
     /// Any error but [`OpError::Refused`].
     pub fn refuse(&mut self, error: OpError) -> Result<(), OpError> {
-        let OpError::Refused { reason, message } = error else {
+        let OpError::Refused {
+            reason, message, ..
+        } = error
+        else {
             return Err(error);
         };
         match self.refused.iter_mut().find(|r| r.reason == reason) {

@@ -209,7 +209,8 @@ fn check_faces(mesh: &Mesh, scheme: Scheme) -> Result<(), OpError> {
                 scheme.name(),
                 mesh.degree(f)
             ),
-        )),
+        )
+        .about([f])),
     }
 }
 

@@ -91,7 +91,7 @@ fn boundary_vertex(mesh: &Mesh, number: u32, cx: &Context) -> Result<VertexId, O
         Ok(v)
     } else {
         let message = format!("vertex {number} is not on the boundary");
-        Err(OpError::refused(Refusal::NotBoundary, message))
+        Err(OpError::refused(Refusal::NotBoundary, message).about([v]))
     }
 }
 

@@ -148,7 +148,10 @@ mod tests {
     #[test]
     fn a_refusal_names_the_edge_by_its_vertices() {
         let refused = try_applied(&parse("(edges: Between(0, 1))"), shapes::tetrahedron());
-        let Err(OpError::Refused { reason, message }) = refused else {
+        let Err(OpError::Refused {
+            reason, message, ..
+        }) = refused
+        else {
             panic!("{refused:?}");
         };
         assert_eq!(reason, Refusal::Vanishes);

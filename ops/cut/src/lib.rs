@@ -87,7 +87,8 @@ impl Cut {
                 continue;
             };
             let (v, w) = (v.min(w).index(), v.max(w).index());
-            let refused = OpError::refused(refusal.into(), format!("Between({v}, {w}) {message}"));
+            let message = format!("Between({v}, {w}) {message}");
+            let refused = OpError::refused(refusal.into(), message).about([e]);
             match self.on_refusal {
                 OnRefusal::Error => return Err(refused),
                 OnRefusal::Skip => report.refuse(refused)?,

@@ -32,7 +32,11 @@ pub(crate) fn flip_until(
         match polygon_beside(mesh, e) {
             _ if mesh.is_boundary_edge(e) => {}
             None => to_judge.push(e),
-            Some(f) => report.refuse(refusal(mesh, e, EditError::NotTriangle(f)))?,
+            Some(f) => report.refuse(OpError::refused_edit(
+                EditError::NotTriangle(f),
+                mesh,
+                &[e.into()],
+            ))?,
         }
     }
     let mut near = Near::new(mesh, &to_judge);
@@ -65,7 +69,7 @@ pub(crate) fn flip_until(
         to_judge = near.edges(mesh, refused.iter().map(|&(e, _)| e));
     }
     for (e, reason) in refused {
-        report.refuse(refusal(mesh, e, reason))?;
+        report.refuse(OpError::refused_edit(reason, mesh, &[e.into()]))?;
     }
     Ok(report.note(if at_goal {
         format!("passes: {done_passes}; no flip that may be made would improve the mesh")
@@ -78,12 +82,6 @@ pub(crate) fn flip_until(
 fn polygon_beside(mesh: &Mesh, e: EdgeId) -> Option<FaceId> {
     let beside = mesh.edge_faces(e).into_iter().flatten();
     beside.into_iter().find(|&f| !mesh.is_triangle(f))
-}
-
-/// A refusal that names its edge as recipes do, by its vertices.
-fn refusal(mesh: &Mesh, e: EdgeId, reason: EditError) -> OpError {
-    let [v, w] = mesh.edge_vertices(e).map(VertexId::index);
-    OpError::refused(reason.into(), format!("{reason}; it is Between({v}, {w})"))
 }
 
 /// Collects the edges near vertices whose edges changed.

@@ -56,14 +56,15 @@ impl MeshOperation for SplitFaces {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        let word = "cut faces";
+        let ends = |&(v, w): &(u32, u32)| [vertex(v), vertex(w)];
+        let cuts: Vec<_> = self.between.iter().map(ends).collect();
         edit_each(
             mesh,
-            &self.between,
+            &cuts,
             self.on_refusal,
-            word,
+            "cut faces",
             cx,
-            |mesh, (v, w)| mesh.connect_vertices(vertex(v), vertex(w)).map(drop),
+            |mesh, [v, w]| mesh.connect_vertices(v, w).map(drop),
         )
     }
 }

@@ -82,7 +82,7 @@ impl MeshOperation for Stitch {
         for h in crowded {
             let [v, w] = [mesh.origin(h), mesh.target(h)].map(mesh::VertexId::index);
             let message = format!("several boundary edges lie on Between({v}, {w})");
-            let refused = OpError::refused(Refusal::NonManifold, message);
+            let refused = OpError::refused(Refusal::NonManifold, message).about([h.edge()]);
             match self.on_refusal {
                 OnRefusal::Error => return Err(refused),
                 OnRefusal::Skip => report.refuse(refused)?,

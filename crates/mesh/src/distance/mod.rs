@@ -21,7 +21,7 @@ mod piece;
 mod surface;
 mod triangle;
 
-use crate::{DVec3, Domain, FaceId, Mesh, VertexId, blocks};
+use crate::{DVec3, Domain, Element, FaceId, Mesh, VertexId, blocks};
 use rayon::prelude::*;
 
 use piece::{Farthest, Piece, Sample, refine};
@@ -57,17 +57,8 @@ pub struct OneSided {
 pub struct Place {
     /// Where it is.
     pub position: DVec3,
-    /// The element that it lies on.
+    /// The vertex or face that it lies on.
     pub on: Element,
-}
-
-/// A vertex or a face.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Element {
-    /// A vertex.
-    Vertex(VertexId),
-    /// A face.
-    Face(FaceId),
 }
 
 /// The largest error that is asked for unless another one is given, in proportion to the diagonal of the
@@ -124,15 +115,6 @@ pub fn diagonal(a: &Mesh, b: &Mesh) -> f64 {
         (Some([min, max]), Some([low, high])) => max.max(high).distance(min.min(low)),
         (Some([min, max]), None) | (None, Some([min, max])) => max.distance(min),
         (None, None) => 0.0,
-    }
-}
-
-impl std::fmt::Display for Element {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Vertex(v) => v.fmt(f),
-            Self::Face(face) => face.fmt(f),
-        }
     }
 }
 

@@ -1,11 +1,11 @@
 //! Pieces of triangles, and how far from the other surface they can be.
 
-use crate::{DVec3, FaceId};
+use crate::{DVec3, Element, FaceId};
 use rayon::prelude::*;
 
+use super::Place;
 use super::surface::{Hit, Surface};
 use super::triangle::between_segments;
-use super::{Element, Place};
 
 /// A point of the surface that is measured, and the nearest one of the other surface.
 #[derive(Clone, Copy)]

@@ -155,7 +155,7 @@ impl Select for EdgeSelection {
                 let (a, b) = (named_vertex(mesh, *v)?, named_vertex(mesh, *w)?);
                 let Some(h) = mesh.find_half_edge(a, b) else {
                     let message = format!("there is no edge between vertices {v} and {w}");
-                    return Err(OpError::refused(Refusal::Missing, message));
+                    return Err(OpError::refused(Refusal::Missing, message).about([a, b]));
                 };
                 marks::<Self>(mesh, |e| e == h.edge())
             }

@@ -158,7 +158,8 @@ fn shared_mask<S: Select>(
             let found = mask.iter().filter(|&&m| m).count();
             if found != *count as usize {
                 let message = format!("expected {count} {} to be selected, found {found}", S::WORD);
-                return Err(OpError::refused(Refusal::Expectation, message));
+                let selected = S::elements(mesh).into_iter().filter(|id| mask[id.index()]);
+                return Err(OpError::refused(Refusal::Expectation, message).about(selected));
             }
             mask
         }

@@ -15,7 +15,9 @@ fn edges(selection: &EdgeSelection, mesh: &Mesh) -> Vec<EdgeId> {
 fn refusal(selection: &EdgeSelection, mesh: &Mesh) -> (Refusal, String) {
     let files = Files::default();
     match selection.resolve(mesh, &Context::new(&NoProgress, &files)) {
-        Err(OpError::Refused { reason, message }) => (reason, message),
+        Err(OpError::Refused {
+            reason, message, ..
+        }) => (reason, message),
         other => panic!("expected a refusal, got {other:?}"),
     }
 }

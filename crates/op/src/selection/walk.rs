@@ -104,7 +104,7 @@ pub(super) fn shortest_path(
                 from.index(),
                 to.index()
             );
-            return Err(OpError::refused(Refusal::Missing, message));
+            return Err(OpError::refused(Refusal::Missing, message).about([from, to]));
         };
         path.push(h.edge());
         at = mesh.origin(h);

@@ -1,0 +1,121 @@
+//! Places in a scene that errors are about.
+
+use mesh::{DVec3, Element, Mesh};
+
+/// An element as it was when an error named it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// The object that it is in.
+    pub object: String,
+    /// What it is called, as `e7`; empty for a place that has no name.
+    pub name: String,
+    /// Where it is, in scene units: one point, both ends of an edge, or the corners of a face in order.
+    pub points: Vec<DVec3>,
+}
+
+impl Place {
+    /// Of so many elements that an error is about it is kept where they are.
+    pub const MOST: usize = 10_000;
+
+    /// The name of a place where something should be and is not.
+    pub const EXPECTED: &'static str = "expected";
+
+    /// The place of an element of an object; `None` if the mesh does not have it.
+    pub fn of(object: &str, mesh: &Mesh, element: impl Into<Element>) -> Option<Self> {
+        let element = element.into();
+        let points = mesh.element_points(element);
+        (!points.is_empty()).then(|| Self {
+            object: object.to_owned(),
+            name: element.to_string(),
+            points,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use mesh::{EdgeId, EditError, shapes};
+    use scene::{Object, Scene};
+    use schemars::JsonSchema;
+    use serde::{Deserialize, Serialize};
+
+    use super::*;
+    use crate::{
+        Context, Files, MeshOperation, MeshPlan, NoProgress, OnRefusal, OpError, Operation,
+        PlanContext, Problem, Report, edit_each,
+    };
+
+    /// Splits the first edge, and then flips the edges of these numbers.
+    #[derive(Debug, Deserialize, JsonSchema, Serialize)]
+    struct SplitAndFlip {
+        edges: Vec<usize>,
+    }
+
+    impl MeshOperation for SplitAndFlip {
+        const NAME: &'static str = "SplitAndFlip";
+        const SUMMARY: &'static str = "Split and flip";
+
+        fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+            Vec::new()
+        }
+
+        fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+            mesh.split_edge(EdgeId::new(0), 0.25)?;
+            let edges: Vec<EdgeId> = self.edges.iter().map(|&e| EdgeId::new(e)).collect();
+            let flip = |mesh: &mut Mesh, e| mesh.flip_edge(e).map(drop);
+            edit_each(mesh, &edges, OnRefusal::Error, "flip", cx, flip)
+        }
+    }
+
+    /// The error of the operation on a tetrahedron, and the places that it leaves.
+    fn refused(edges: &[usize]) -> (OpError, Vec<Place>) {
+        let mut scene = Scene::new();
+        let mesh = shapes::tetrahedron();
+        scene.insert(Object::mesh("mesh", mesh)).unwrap();
+        let before = scene.clone();
+        let files = Files::default();
+        let mut cx = Context::new(&NoProgress, &files);
+        let operation = SplitAndFlip {
+            edges: edges.to_vec(),
+        };
+        let error = Operation::apply(&operation, &mut scene, &mut cx).unwrap_err();
+        assert_eq!(scene, before);
+        (error, cx.places)
+    }
+
+    #[test]
+    fn the_elements_of_a_refusal_are_where_they_were_when_it_came_up() {
+        let mut mesh = shapes::tetrahedron();
+        mesh.split_edge(EdgeId::new(0), 0.25).unwrap();
+        let refused_edge = mesh
+            .edges()
+            .find(|&e| matches!(mesh.clone().flip_edge(e), Err(EditError::DuplicateEdge(..))))
+            .expect("opposite vertices of a tetrahedron are joined");
+
+        let (error, places) = refused(&[refused_edge.index()]);
+
+        // The two vertices that are joined already, and the edge that was to be flipped.
+        let Some(EditError::DuplicateEdge(v, w)) = mesh.clone().flip_edge(refused_edge).err()
+        else {
+            panic!("{error}");
+        };
+        let expected = [v.into(), w.into(), Element::Edge(refused_edge)];
+        assert_eq!(error.elements(), expected);
+        let expected = expected.map(|e| Place::of("mesh", &mesh, e).unwrap());
+        assert_eq!(places, expected);
+        let [v, w] = mesh.edge_vertices(refused_edge).map(|v| v.index());
+        let message = error.to_string();
+        assert!(
+            message.ends_with(&format!("; at Between({v}, {w})")),
+            "{message}"
+        );
+    }
+
+    #[test]
+    fn an_element_that_is_not_there_has_no_place() {
+        let (error, places) = refused(&[999]);
+
+        assert_eq!(error.elements(), [EdgeId::new(999).into()]);
+        assert!(places.is_empty());
+    }
+}

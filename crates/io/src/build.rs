@@ -7,7 +7,7 @@ use mesh::{BuildError, Built, Elements};
 
 use crate::clean::Kept;
 use crate::error::ReadError;
-use crate::note::{NoteKind, Notes};
+use crate::note::{Given, NoteKind, Notes};
 use crate::{NonManifold, Orientation, Policies};
 
 /// Builds a mesh of polygons; see [`mesh::build()`]. `kept` says which polygons of the file they are.
@@ -40,13 +40,20 @@ pub(crate) fn build_mesh(
             source,
         }
     })?;
-    for repair in built.report.repairs() {
+    // Copies of vertices come behind the vertices that were given.
+    let given = Given {
+        positions: built.mesh.positions(),
+        offsets,
+        corners,
+    };
+    let dropped = built.report.dropped();
+    let changed = built.report.repairs().into_iter();
+    for (repair, kind) in (changed.map(|repair| (repair, NoteKind::Changed)))
+        .chain(dropped.map(|dropped| (dropped, NoteKind::LeftOut)))
+    {
+        let places = given.places(&repair.elements);
         let elements = numbered_by(repair.elements, in_file);
-        notes.elements(NoteKind::Changed, repair.what, elements);
-    }
-    if let Some(dropped) = built.report.dropped() {
-        let elements = numbered_by(dropped.elements, in_file);
-        notes.elements(NoteKind::LeftOut, dropped.what, elements);
+        notes.elements(kind, repair.what, elements, places);
     }
     Ok(built)
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use mesh::{Attributes, Domain, Elements, VertexId};
 use rayon::prelude::*;
 
-use crate::note::{NoteKind, Notes};
+use crate::note::{Given, NoteKind, Notes};
 use crate::{Policies, Polygons, Unwanted};
 
 /// A face is degenerate if its area is below this share of the square of its longest side: what rounding
@@ -26,7 +26,9 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
             is_dropped[f] = true;
         }
         let what = if faces.len() == 1 { one } else { several };
-        notes.elements(NoteKind::Changed, what, Elements::Faces(faces));
+        let faces = Elements::Faces(faces);
+        let places = given(polygons).places(&faces);
+        notes.elements(NoteKind::Changed, what, faces, places);
     };
     if policies.degenerate == Unwanted::Drop {
         let one = "face without area dropped";
@@ -43,7 +45,9 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
     }
     if !repeated.is_empty() {
         let what = "faces that repeat a corner: taken once";
-        notes.elements(NoteKind::Changed, what, Elements::Faces(repeated));
+        let faces = Elements::Faces(repeated);
+        let places = given(polygons).places(&faces);
+        notes.elements(NoteKind::Changed, what, faces, places);
     }
     let kept = keep(polygons, &is_dropped, &is_corner_kept);
     if policies.isolated == Unwanted::Drop {
@@ -53,6 +57,14 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
 }
 
 // ---- Repeated corners --------------------------------------------------------------------------
+
+fn given(polygons: &Polygons) -> Given<'_> {
+    Given {
+        positions: &polygons.positions,
+        offsets: &polygons.offsets,
+        corners: &polygons.corners,
+    }
+}
 
 /// The corners of polygon `f`.
 fn corners(polygons: &Polygons, f: usize) -> &[u32] {
@@ -219,6 +231,15 @@ fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
     if isolated.is_empty() {
         return;
     }
+    let vertices = isolated.iter().map(|&v| VertexId::new(v as usize));
+    let vertices = Elements::Vertices(vertices.collect());
+    let what = if isolated.len() == 1 {
+        "isolated vertex dropped"
+    } else {
+        "isolated vertices dropped"
+    };
+    let places = given(polygons).places(&vertices);
+    notes.elements(NoteKind::Changed, what, vertices, places);
     let mut new = vec![u32::MAX; is_used.len()];
     for (i, &v) in (0..).zip(&kept) {
         new[v as usize] = i;
@@ -229,17 +250,6 @@ fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
     let positions = &polygons.positions;
     polygons.positions = kept.iter().map(|&v| positions[v as usize]).collect();
     gather(&mut polygons.attributes, Domain::Vertex, &kept);
-    let vertices = isolated.iter().map(|&v| VertexId::new(v as usize));
-    let what = if isolated.len() == 1 {
-        "isolated vertex dropped"
-    } else {
-        "isolated vertices dropped"
-    };
-    notes.elements(
-        NoteKind::Changed,
-        what,
-        Elements::Vertices(vertices.collect()),
-    );
 }
 
 /// The columns of a domain with the values at `sources`.

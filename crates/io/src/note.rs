@@ -4,12 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use mesh::{Domain, Elements};
+use glam::DVec3;
+use mesh::{Domain, Elements, VertexId};
 
 use crate::FileSeen;
 
 /// Something that a reader did not take as it stands in the file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Note {
     /// Whether something is missing from the scene or only has another form.
     pub kind: NoteKind,
@@ -23,6 +24,49 @@ pub struct Note {
     pub what: String,
     /// The elements of the file that it concerns, where they are known.
     pub elements: Option<Elements>,
+    /// Where the first of these elements are, at most [`MOST_PLACES`](Self::MOST_PLACES) of them, in scene units: one
+    /// point of a vertex, both ends of an edge, the corners of a face in order.
+    pub places: Vec<Vec<DVec3>>,
+}
+
+impl Note {
+    /// Of so many elements it is kept where they are.
+    pub const MOST_PLACES: usize = 10_000;
+}
+
+/// Polygons as a file gives them, to say where elements of them are.
+#[derive(Clone, Copy)]
+pub(crate) struct Given<'a> {
+    /// Of the vertices.
+    pub(crate) positions: &'a [DVec3],
+    /// Where the corners of each polygon begin, and where the last one's end.
+    pub(crate) offsets: &'a [u32],
+    /// The vertices of the corners.
+    pub(crate) corners: &'a [u32],
+}
+
+impl Given<'_> {
+    /// As [`Note::places`].
+    pub(crate) fn places(&self, elements: &Elements) -> Vec<Vec<DVec3>> {
+        let at = |v: usize| self.positions.get(v).copied();
+        let vertex = |v: VertexId| at(v.index());
+        let face = |f: usize| {
+            let (first, end) = (*self.offsets.get(f)?, *self.offsets.get(f + 1)?);
+            let corners = self.corners.get(first as usize..end as usize)?.iter();
+            corners.map(|&v| at(v as usize)).collect()
+        };
+        let most = Note::MOST_PLACES;
+        let places: Vec<Option<Vec<DVec3>>> = match elements {
+            Elements::Vertices(list) => (list.iter().take(most))
+                .map(|&v| Some(vec![vertex(v)?]))
+                .collect(),
+            Elements::Edges(list) => (list.iter().take(most))
+                .map(|ends| ends.iter().map(|&v| vertex(v)).collect())
+                .collect(),
+            Elements::Faces(list) => list.iter().take(most).map(|&f| face(f)).collect(),
+        };
+        places.into_iter().flatten().collect()
+    }
 }
 
 /// What kind of news a [`Note`] is.
@@ -100,7 +144,7 @@ impl Notes {
         line: impl Into<Option<usize>>,
         what: impl Into<String>,
     ) {
-        self.add(NoteKind::LeftOut, count, line.into(), what.into(), None);
+        self.add(NoteKind::LeftOut, count, line.into(), what.into());
     }
 
     /// Adds a note unless `count` is 0.
@@ -110,23 +154,32 @@ impl Notes {
         line: impl Into<Option<usize>>,
         what: impl Into<String>,
     ) {
-        self.add(NoteKind::Changed, count, line.into(), what.into(), None);
+        self.add(NoteKind::Changed, count, line.into(), what.into());
     }
 
-    /// Adds a note about these elements unless there are none.
-    pub(crate) fn elements(&mut self, kind: NoteKind, what: impl Into<String>, elements: Elements) {
-        let count = elements.len();
-        self.add(kind, count, None, what.into(), Some(elements));
-    }
-
-    fn add(
+    /// Adds a note about these elements, which are at these places, unless there are none.
+    pub(crate) fn elements(
         &mut self,
         kind: NoteKind,
-        count: usize,
-        line: Option<usize>,
-        what: String,
-        elements: Option<Elements>,
+        what: impl Into<String>,
+        elements: Elements,
+        places: Vec<Vec<DVec3>>,
     ) {
+        if elements.len() > 0 {
+            let note = Note {
+                kind,
+                path: self.path.clone(),
+                line: None,
+                count: elements.len(),
+                what: what.into(),
+                elements: Some(elements),
+                places,
+            };
+            self.push(note);
+        }
+    }
+
+    fn add(&mut self, kind: NoteKind, count: usize, line: Option<usize>, what: String) {
         if count > 0 {
             let path = self.path.clone();
             self.push(Note {
@@ -135,7 +188,8 @@ impl Notes {
                 line,
                 count,
                 what,
-                elements,
+                elements: None,
+                places: Vec::new(),
             });
         }
     }
@@ -178,6 +232,7 @@ impl Notes {
                 count,
                 what: what.to_owned(),
                 elements: None,
+                places: Vec::new(),
             }
         }));
         list

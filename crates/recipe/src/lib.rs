@@ -42,7 +42,7 @@ pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};
 pub use params::{Move, Param};
 pub use read::{MAX_STEPS, Reading, VERSION, Values, read, read_by};
 pub use recipe::{OnLoss, Origin, Parameter, Placed, Recipe, RecipeStep, Scope};
-pub use run::{Listener, Outcome, Settings, Silent, StepDone, Unmet, run, stage_prefix};
+pub use run::{Failure, Listener, Outcome, Settings, Silent, StepDone, Unmet, run, stage_prefix};
 pub use schema::{Schemas, schema, step_kinds};
 pub use select::{read_selection, resolve};
 pub use shape::did_you_mean;

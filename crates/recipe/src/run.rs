@@ -12,7 +12,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use op::{Context, FileLog, Files, OpError, Progress, Refusal, Report};
+use op::{Context, FileLog, Files, OpError, Place, Progress, Refusal, Report};
 use scene::{Digest, Geometry, Scene};
 
 use crate::cache::{Before, Caching, Done, Session, Why};
@@ -32,6 +32,23 @@ pub trait Listener: Progress {
     fn wants_digests(&self) -> bool {
         false
     }
+    /// A step or an expectation has failed.
+    fn failed(&self, _: &Failure) {}
+    /// Whether to find the elements that break an expectation, which takes a while.
+    fn wants_places(&self) -> bool {
+        false
+    }
+}
+
+/// A step that failed, or an expectation that does not hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Failure<'a> {
+    /// What is told of it.
+    pub diagnostic: &'a Diagnostic,
+    /// The scene at that time; before a step that failed.
+    pub scene: &'a Scene,
+    /// The places in the scene that it is about, if any are known.
+    pub places: &'a [Place],
 }
 
 /// What a step left behind.
@@ -183,6 +200,12 @@ struct Runner<'a> {
     checked: usize,
 }
 
+/// Why a step failed, and the places that it is about.
+struct Fault {
+    message: String,
+    places: Vec<Place>,
+}
+
 /// Why a run goes no further: it was cancelled, or a failure was reported.
 struct Stopped;
 
@@ -208,7 +231,7 @@ impl Runner<'_> {
                 done.digest = Some(self.digest(listener)?);
             }
             if let Some(loss) = step.on_loss.forbidden(&done.report.losses) {
-                self.fail(step.scope, forbidden(step, loss));
+                self.fail(step.scope, forbidden(step, loss), &[], listener);
                 return Err(Stopped);
             }
             listener.step_done(i, &done);
@@ -349,28 +372,49 @@ impl Runner<'_> {
         step: &RecipeStep,
         listener: &dyn Listener,
     ) -> Result<(Report, Option<Refusal>), Stopped> {
-        self.step(step, listener).map_err(|message| {
-            match message {
+        self.step(step, listener).map_err(|fault| {
+            match fault {
                 None => self.cancelled = true,
-                Some(message) => self.fail(step.scope, Diagnostic::error(step.span, message)),
+                Some(Fault { message, places }) => {
+                    let failure = Diagnostic::error(step.span, message);
+                    self.fail(step.scope, failure, &places, listener);
+                }
             }
             Stopped
         })
     }
 
-    fn fail(&mut self, scope: usize, failure: Diagnostic) {
-        self.failures.push(self.recipe.located(failure, scope));
+    fn fail(
+        &mut self,
+        scope: usize,
+        failure: Diagnostic,
+        places: &[Place],
+        listener: &dyn Listener,
+    ) {
+        let diagnostic = self.recipe.located(failure, scope);
+        listener.failed(&Failure {
+            diagnostic: &diagnostic,
+            scene: &self.scene,
+            places,
+        });
+        self.failures.push(diagnostic);
     }
 
-    /// Does a step. Fails with a message, or without one if it was cancelled; the scene is then as it
-    /// was before.
+    /// Does a step. Fails with a message and the places that it is about, or without them if it was cancelled; the
+    /// scene is then as it was before.
     fn step(
         &mut self,
         step: &RecipeStep,
         listener: &dyn Listener,
-    ) -> Result<(Report, Option<Refusal>), Option<String>> {
+    ) -> Result<(Report, Option<Refusal>), Option<Fault>> {
+        let nowhere = |message| {
+            Some(Fault {
+                message,
+                places: Vec::new(),
+            })
+        };
         let Some(operation) = &step.step else {
-            return Err(Some("this step could not be read".to_owned()));
+            return Err(nowhere("this step could not be read".to_owned()));
         };
         // Held only where it is needed: whoever changes a mesh that is held copies it first.
         let is_needed = step.refused.is_some() || !operation.is_atomic();
@@ -386,27 +430,35 @@ impl Runner<'_> {
         let Ok(result) = catch_unwind(apply) else {
             self.scene = before.unwrap_or_default();
             let message = format!("{} has panicked, which is a mistake in it", step.name);
-            return Err(Some(message));
+            return Err(nowhere(message));
         };
+        let places = cx.places;
         if result.is_err() || step.refused.is_some() {
             self.scene = before.unwrap_or_else(|| std::mem::take(&mut self.scene));
         }
         match (result, step.refused) {
             (Err(OpError::Cancelled), _) => Err(None),
             (Ok(report), None) => Ok((report, None)),
-            (Ok(_), Some(expected)) => Err(Some(format!(
+            (Ok(_), Some(expected)) => Err(nowhere(format!(
                 "expected to be refused as {expected:?}, but it was done"
             ))),
-            (Err(OpError::Refused { reason, message }), Some(expected)) if reason == expected => {
-                Ok((
-                    Report::default().note(format!("refused as expected: {message}")),
-                    Some(reason),
-                ))
+            (
+                Err(OpError::Refused {
+                    reason, message, ..
+                }),
+                Some(expected),
+            ) if reason == expected => Ok((
+                Report::default().note(format!("refused as expected: {message}")),
+                Some(reason),
+            )),
+            (Err(error), None) => Err(Some(Fault {
+                message: error.to_string(),
+                places,
+            })),
+            (Err(error), Some(expected)) => {
+                let message = format!("expected to be refused as {expected:?}, but: {error}");
+                Err(Some(Fault { message, places }))
             }
-            (Err(error), None) => Err(Some(error.to_string())),
-            (Err(error), Some(expected)) => Err(Some(format!(
-                "expected to be refused as {expected:?}, but: {error}"
-            ))),
         }
     }
 
@@ -456,7 +508,12 @@ impl Runner<'_> {
                         Some(step) => failure.with_label(step.span, "after this step"),
                         None => failure,
                     };
-                    self.fail(placed.scope, failure);
+                    let places = if listener.wants_places() {
+                        placed.that.places(subject)
+                    } else {
+                        Vec::new()
+                    };
+                    self.fail(placed.scope, failure, &places, listener);
                 }
             }
         }

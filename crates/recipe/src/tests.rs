@@ -127,7 +127,7 @@ impl MeshOperation for Lift {
             if let Some(reason) = self.fails
                 && done >= chosen.len() / 2
             {
-                return Err(OpError::refused(reason, format!("{v} refuses")));
+                return Err(OpError::refused(reason, format!("{v} refuses")).about([v]));
             }
         }
         Ok(Report::changed(chosen.len()))

@@ -4,6 +4,7 @@ use mesh::{Domain, Mesh};
 use op::{Elements, Files};
 use scene::Object;
 
+use super::places::double_edges;
 use super::subject::{Failure, Found, Subject, ends, fails_unless, near, selected, within};
 use super::{Expectation, same, symmetry};
 use mesh::distance::{Distance, TOLERANCE, diagonal};
@@ -255,17 +256,8 @@ fn manifold(name: &str, mesh: &Mesh) -> Result<(), Failure> {
         let message = format!("expected a manifold, but in {name} {defect}");
         return Err(Failure::Unmet(message));
     }
-    let mut pairs: Vec<_> = mesh
-        .edges()
-        .map(|e| {
-            let [v, w] = mesh.edge_vertices(e);
-            [v.min(w), v.max(w)]
-        })
-        .collect();
-    pairs.sort_unstable();
-    let double = pairs.windows(2).find(|w| w[0] == w[1]);
-    double.map_or(Ok(()), |w| {
-        let [v, w] = w[0];
+    double_edges(mesh).first().map_or(Ok(()), |&e| {
+        let [v, w] = mesh.edge_vertices(e);
         Err(Failure::Unmet(format!(
             "expected a manifold, but in {name} several edges join {v} and {w}"
         )))

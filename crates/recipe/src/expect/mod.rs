@@ -2,6 +2,7 @@
 
 mod check;
 mod metric;
+mod places;
 mod same;
 mod subject;
 mod symmetry;

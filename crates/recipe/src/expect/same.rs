@@ -15,8 +15,13 @@ impl<'m> Points<'m> {
         Self { mesh, by_x }
     }
 
-    /// The vertex nearest to `p` within the tolerance that is not taken.
-    fn nearest(&self, p: DVec3, tolerance: f64, taken: &[bool]) -> Option<VertexId> {
+    /// The vertex nearest to `p` within the tolerance of those that are `free`.
+    fn nearest(
+        &self,
+        p: DVec3,
+        tolerance: f64,
+        free: impl Fn(VertexId) -> bool,
+    ) -> Option<VertexId> {
         let start = self
             .by_x
             .partition_point(|&v| self.mesh.position(v).x < p.x - tolerance);
@@ -24,9 +29,14 @@ impl<'m> Points<'m> {
             .iter()
             .take_while(|&&v| self.mesh.position(v).x <= p.x + tolerance)
             .map(|&v| (self.mesh.position(v).distance(p), v))
-            .filter(|&(distance, v)| distance <= tolerance && !taken[v.index()])
+            .filter(|&(distance, v)| distance <= tolerance && free(v))
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
             .map(|(_, v)| v)
+    }
+
+    /// Whether a vertex lies within the tolerance of `p`.
+    pub(super) fn any_near(&self, p: DVec3, tolerance: f64) -> bool {
+        self.nearest(p, tolerance, |_| true).is_some()
     }
 
     /// For each vertex of `other`, by index, the vertex that its image lies on; `None` if they do not
@@ -43,7 +53,7 @@ impl<'m> Points<'m> {
         let mut taken = vec![false; self.mesh.positions().len()];
         let mut map = vec![VertexId::NONE; other.positions().len()];
         for v in other.vertices() {
-            let found = self.nearest(image(v), tolerance, &taken)?;
+            let found = self.nearest(image(v), tolerance, |v| !taken[v.index()])?;
             taken[found.index()] = true;
             map[v.index()] = found;
         }

@@ -330,13 +330,8 @@ impl<'a> Subject<'a> {
         found_at(found, is, tolerance, || v.to_string())
     }
 
-    pub(super) fn point(
-        &self,
-        line: u32,
-        index: u32,
-        is: DVec3,
-        tolerance: f64,
-    ) -> Result<(), Failure> {
+    /// The polylines of the one object that has any.
+    pub(super) fn polylines(&self) -> Result<&'a [Vec<DVec3>], String> {
         let objects = self.objects()?;
         let lines: Vec<&Vec<Vec<DVec3>>> = objects
             .iter()
@@ -350,9 +345,21 @@ impl<'a> Subject<'a> {
             .collect();
         let [lines] = lines[..] else {
             let n = lines.len();
-            let message = format!("this expectation is about one object of polylines, found {n}");
-            return Err(message.into());
+            return Err(format!(
+                "this expectation is about one object of polylines, found {n}"
+            ));
         };
+        Ok(lines)
+    }
+
+    pub(super) fn point(
+        &self,
+        line: u32,
+        index: u32,
+        is: DVec3,
+        tolerance: f64,
+    ) -> Result<(), Failure> {
+        let lines = self.polylines()?;
         let Some(&found) = lines.get(line as usize).and_then(|l| l.get(index as usize)) else {
             let message = format!("there is no point {index} on a polyline {line}");
             return Err(Failure::Unmet(message));

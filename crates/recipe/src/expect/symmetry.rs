@@ -74,3 +74,15 @@ pub(super) fn count(mesh: &Mesh, motions: &[Motion], tolerance: f64, connectivit
     };
     motions.iter().filter(|motion| keeps(motion)).count() as u64
 }
+
+/// Whether one of the motions brings a vertex to where no vertex is.
+pub(super) fn is_alone(
+    mesh: &Mesh,
+    points: &Points,
+    motions: &[Motion],
+    v: VertexId,
+    tolerance: f64,
+) -> bool {
+    let mut images = motions.iter().map(|motion| motion.apply(mesh.position(v)));
+    images.any(|p| !points.any_near(p, tolerance))
+}

@@ -3,6 +3,7 @@
 mod counts;
 mod logic;
 mod measures;
+mod places;
 mod same;
 
 use std::path::Path;

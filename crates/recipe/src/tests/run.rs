@@ -2,14 +2,16 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use op::{Files, Progress};
-use scene::Scene;
+use mesh::DVec3;
+use op::{Files, Place, Progress};
+use scene::{Digest, Scene};
 use tempfile::TempDir;
 
 use super::{files, read, read_with, shown, steps};
-use crate::{Listener, Outcome, Reading, Settings, Silent, StepDone, run};
+use crate::{Failure, Listener, Outcome, Reading, Settings, Silent, StepDone, run};
 
 /// Runs a recipe that is read without mistakes.
 #[track_caller]
@@ -358,4 +360,82 @@ fn a_step_that_panics_fails_the_run_and_nothing_is_written() {
     );
     assert_eq!(outcome.steps.len(), 2);
     assert_eq!(entries(folder.path()), [""; 0]);
+}
+
+/// Remembers the message, the places, and the scene's digest of each failure.
+#[derive(Default)]
+struct Failures(Mutex<Vec<(String, Vec<Place>, Digest)>>);
+
+impl Progress for Failures {
+    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+        true
+    }
+}
+
+impl Listener for Failures {
+    fn step_begins(&self, _: usize, _: &str) {}
+    fn step_done(&self, _: usize, _: &StepDone) {}
+
+    fn failed(&self, failure: &Failure) {
+        let message = failure.diagnostic.message.clone();
+        let heard = (message, failure.places.to_vec(), failure.scene.digest());
+        self.0.lock().unwrap().push(heard);
+    }
+
+    fn wants_places(&self) -> bool {
+        true
+    }
+}
+
+fn failures(text: &str) -> (Outcome, Vec<(String, Vec<Place>, Digest)>) {
+    let reading = read(text);
+    assert_eq!(reading.diagnostics, [], "{text}");
+    let folder = folder();
+    let listener = Failures::default();
+    let outcome = run_reading(&reading, folder.path(), true, &listener);
+    (outcome, listener.0.into_inner().unwrap())
+}
+
+#[test]
+fn a_step_that_fails_tells_where_its_elements_were() {
+    let text = steps("Sheet(columns: 2), Lift(by: 3, vertices: Vertices([4]), fails: Boundary)");
+    let (outcome, heard) = failures(&text);
+
+    let [(message, places, digest)] = &heard[..] else {
+        panic!("{heard:?}");
+    };
+    assert_eq!(message, "v4 refuses");
+    assert_eq!(*message, outcome.failures[0].message);
+    // The scene is that before the step; the vertex was lifted when it refused.
+    let scene = outcome.scene.unwrap();
+    assert_eq!(*digest, scene.digest());
+    let mesh = scene.objects()[0].as_mesh().unwrap();
+    let [place] = &places[..] else {
+        panic!("{places:?}");
+    };
+    let lifted = mesh.position(mesh::VertexId::new(4)) + DVec3::new(0.0, 0.0, 3.0);
+    assert_eq!(place.object, scene.objects()[0].name);
+    assert_eq!((&*place.name, &place.points[..]), ("v4", &[lifted][..]));
+}
+
+#[test]
+fn expectations_that_do_not_hold_tell_which_elements_break_them_and_the_scene_of_their_step() {
+    let (outcome, heard) = failures(
+        r#"(recipe: 1, steps: [(id: "sheet", run: Sheet(columns: 2)), Lift(by: 1)], expect: [
+            (after: "sheet", that: Closed), (after: "sheet", that: Faces(eq: 99)),
+        ])"#,
+    );
+
+    let [(_, open, first), (_, none, second)] = &heard[..] else {
+        panic!("{heard:?}");
+    };
+    let scene = outcome.scene.unwrap();
+    let mesh = scene.objects()[0].as_mesh().unwrap();
+    let boundary = mesh.edges().filter(|&e| mesh.is_boundary_edge(e));
+    let names: Vec<String> = boundary.map(|e| e.to_string()).collect();
+    assert!(open.iter().map(|place| &place.name).eq(&names) && names.len() > 3);
+    assert!(open.iter().all(|place| place.points.len() == 2));
+    assert!(none.is_empty());
+    // The step after it has changed the scene.
+    assert!(first == second && *first != scene.digest());
 }

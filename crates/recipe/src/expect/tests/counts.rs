@@ -119,7 +119,7 @@ fn a_manifold_has_no_defects() {
 }
 
 /// Five triangles, two edges of which join v0 and v1, and two v1 and v2; around each vertex is one fan.
-fn with_double_edges() -> Mesh {
+pub(super) fn with_double_edges() -> Mesh {
     let origins = [
         [0, 1],
         [1, 2],

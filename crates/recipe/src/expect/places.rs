@@ -1,0 +1,194 @@
+//! Where an expectation does not hold: the elements that break it, for pictures.
+
+use mesh::distance::Distance;
+use mesh::{DVec3, EdgeId, Element, FaceId, Mesh, VertexId};
+use op::{Elements, Place, Select};
+use scene::Object;
+
+use super::same::Points;
+use super::subject::{Subject, selected};
+use super::{Expectation, symmetry};
+
+impl Expectation {
+    /// The places in the scene that break the expectation, at most [`Place::MOST`]. None if it is not about
+    /// elements, and for the contrary of another one.
+    pub fn places(&self, subject: Subject) -> Vec<Place> {
+        let mut places = Vec::new();
+        for (object, mesh) in subject.meshes().unwrap_or_default() {
+            let found = Meant {
+                subject,
+                object,
+                mesh,
+            };
+            places.extend(found.places(self));
+            places.truncate(Place::MOST);
+        }
+        if let Self::Point {
+            line, index, is, ..
+        } = self
+        {
+            let lines = subject.polylines().unwrap_or_default();
+            let found = lines
+                .get(*line as usize)
+                .and_then(|l| l.get(*index as usize));
+            places.extend(found.copied().map(point));
+            places.push(expected((*is).into()));
+        }
+        places
+    }
+}
+
+/// A mesh that an expectation is about.
+struct Meant<'a> {
+    subject: Subject<'a>,
+    object: &'a Object,
+    mesh: &'a Mesh,
+}
+
+impl Meant<'_> {
+    fn places(&self, expectation: &Expectation) -> Vec<Place> {
+        let mesh = self.mesh;
+        match expectation {
+            Expectation::Closed | Expectation::BoundaryLoops { .. } => {
+                self.named(mesh.edges().filter(|&e| mesh.is_boundary_edge(e)))
+            }
+            Expectation::Manifold => self.named(double_edges(mesh)),
+            Expectation::Count { of, .. } => match of {
+                Elements::Vertices(of) => self.named(self.selected(of)),
+                Elements::Edges(of) => self.named(self.selected(of)),
+                Elements::Faces(of) => self.named(self.selected(of)),
+            },
+            Expectation::Valence { of, min, max } => {
+                let is_off = |v: &VertexId| !within(mesh.valence(*v) as u64, *min, *max);
+                self.named(self.selected(of).into_iter().filter(is_off))
+            }
+            Expectation::DihedralAngle { of, min, max, .. } => {
+                let is_off = |e: &EdgeId| {
+                    let angle = mesh.dihedral_angle(*e).map(f64::to_degrees);
+                    angle.is_some_and(|angle| !within(angle, *min, *max))
+                };
+                self.named(self.selected(of).into_iter().filter(is_off))
+            }
+            Expectation::EdgeLength { of, min, max } => {
+                let is_off = |e: &EdgeId| !within(mesh.length(e.half_edge()), *min, *max);
+                self.named(self.selected(of).into_iter().filter(is_off))
+            }
+            Expectation::MinAngle { of, min, .. } => {
+                let is_off = |f: &FaceId| {
+                    let mut angles = mesh.face_half_edges(*f).map(|h| mesh.corner_angle(h));
+                    angles.any(|angle| !within(angle.to_degrees(), *min, None))
+                };
+                self.named(self.selected(of).into_iter().filter(is_off))
+            }
+            Expectation::MeanFaceArea { of, .. } => self.named(self.selected(of)),
+            Expectation::Position { of, is, .. } => {
+                let mut places = self.named(self.selected(of));
+                places.push(expected((*is).into()));
+                places
+            }
+            Expectation::Same {
+                r#as, tolerance, ..
+            } => match self.subject.other(r#as) {
+                Ok(other) => self.unlike(&other, *tolerance),
+                Err(_) => Vec::new(),
+            },
+            Expectation::DistanceTo { other, .. } => {
+                let other = self.subject.other(other).ok();
+                let found = other.and_then(|other| Distance::between(mesh, &other, None));
+                found.map_or_else(Vec::new, |found| self.farthest(&found))
+            }
+            Expectation::SymmetricUnder {
+                group, tolerance, ..
+            } => {
+                let points = Points::new(mesh);
+                let motions = group.motions();
+                let is_off =
+                    |v: &VertexId| symmetry::is_alone(mesh, &points, &motions, *v, *tolerance);
+                self.named(mesh.vertices().filter(is_off))
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn selected<S: Select>(&self, of: &S) -> Vec<S::Id> {
+        let found = selected(of, self.object, self.mesh, self.subject.files);
+        found.unwrap_or_default()
+    }
+
+    fn named<E: Into<Element>>(&self, elements: impl IntoIterator<Item = E>) -> Vec<Place> {
+        let places = elements.into_iter();
+        places
+            .filter_map(|element| Place::of(&self.object.name, self.mesh, element))
+            .take(Place::MOST)
+            .collect()
+    }
+
+    /// The vertices of either mesh that lie on none of the other.
+    fn unlike(&self, other: &Mesh, tolerance: f64) -> Vec<Place> {
+        let (these, others) = (Points::new(self.mesh), Points::new(other));
+        let mut places = self.named(self.mesh.vertices().filter(|&v| {
+            let p = self.mesh.position(v);
+            !others.any_near(p, tolerance)
+        }));
+        let missing = other.vertices().map(|v| other.position(v));
+        places.extend(
+            missing
+                .filter(|&p| !these.any_near(p, tolerance))
+                .map(expected),
+        );
+        places
+    }
+
+    /// Where two surfaces are farthest apart: the place of this one, and the way to or from the other.
+    fn farthest(&self, found: &Distance) -> Vec<Place> {
+        let worst = found.worst();
+        let on = if found.is_worst_forth() {
+            worst.from.on
+        } else {
+            worst.to.on
+        };
+        let mut places = self.named([on]);
+        places.push(Place {
+            object: self.object.name.clone(),
+            name: String::new(),
+            points: vec![worst.from.position, worst.to.position],
+        });
+        places
+    }
+}
+
+fn within<T: PartialOrd + Copy>(found: T, min: Option<T>, max: Option<T>) -> bool {
+    min.is_none_or(|min| found >= min) && max.is_none_or(|max| found <= max)
+}
+
+/// Where something is that has no name.
+fn point(at: DVec3) -> Place {
+    Place {
+        object: String::new(),
+        name: String::new(),
+        points: vec![at],
+    }
+}
+
+/// Where something should be.
+fn expected(at: DVec3) -> Place {
+    Place {
+        name: Place::EXPECTED.to_owned(),
+        ..point(at)
+    }
+}
+
+/// All edges that join the same vertices as another one.
+pub(super) fn double_edges(mesh: &Mesh) -> Vec<EdgeId> {
+    let ends = |e: EdgeId| {
+        let [v, w] = mesh.edge_vertices(e);
+        [v.min(w), v.max(w)]
+    };
+    let mut edges: Vec<([VertexId; 2], EdgeId)> = mesh.edges().map(|e| (ends(e), e)).collect();
+    edges.sort_unstable();
+    let groups = edges.chunk_by(|(ends, _), (others, _)| ends == others);
+    groups
+        .filter(|group| group.len() > 1)
+        .flat_map(|group| group.iter().map(|(_, e)| *e))
+        .collect()
+}

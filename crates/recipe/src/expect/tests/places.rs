@@ -1,0 +1,161 @@
+//! Which elements break an expectation.
+
+use mesh::{DVec3, EdgeId, shapes};
+use op::{Files, Place};
+use scene::Scene;
+
+use super::counts::with_double_edges;
+use super::{cube, expectation, lines, of, scene};
+use crate::expect::Subject;
+
+fn places(scene: &Scene, text: &str) -> Vec<Place> {
+    let files = Files::default();
+    let octahedron = scene::Object::mesh("octahedron", shapes::octahedron());
+    let read = |_: &std::path::Path, _: &Files| Ok(vec![octahedron.clone()]);
+    expectation(text).places(Subject {
+        scene,
+        on: None,
+        files: &files,
+        read: &read,
+    })
+}
+
+/// The names of the places.
+fn names(scene: &Scene, text: &str) -> Vec<String> {
+    places(scene, text).into_iter().map(|p| p.name).collect()
+}
+
+/// A square, beside it a triangle whose sides are 1, 2 and √5 long.
+fn two() -> Scene {
+    let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let positions = [
+        at(0.0, 0.0),
+        at(1.0, 0.0),
+        at(1.0, 1.0),
+        at(0.0, 1.0),
+        at(5.0, 0.0),
+        at(7.0, 0.0),
+        at(7.0, 1.0),
+    ];
+    scene([("two", of(&positions, &[&[0, 1, 2, 3], &[4, 5, 6]]))])
+}
+
+#[test]
+fn elements_of_a_selection_that_are_off_are_named_and_others_are_not() {
+    let two = two();
+
+    assert_eq!(names(&two, "MinAngle(min: 30)"), ["f1"]);
+    assert_eq!(names(&two, "MinAngle(min: 20)"), [""; 0]);
+    let long = places(&two, "EdgeLength(max: 2.1)");
+    assert_eq!(long.len(), 1);
+    assert_eq!(
+        long[0].points[0].distance(long[0].points[1]),
+        5.0_f64.sqrt()
+    );
+    assert_eq!(places(&two, "EdgeLength(min: 1.5, max: 2.1)").len(), 6);
+    assert_eq!(names(&cube(), "Valence(min: 4)").len(), 8);
+    assert_eq!(names(&cube(), "Valence(of: Vertices([3]), max: 2)"), ["v3"]);
+    assert_eq!(names(&cube(), "DihedralAngle(max: 80)").len(), 12);
+    assert_eq!(
+        names(&cube(), "Count(of: Faces(Faces([2, 4])), eq: 1)"),
+        ["f2", "f4"]
+    );
+}
+
+#[test]
+fn boundaries_break_what_is_to_be_closed() {
+    assert_eq!(places(&two(), "Closed").len(), 7);
+    assert!(places(&cube(), "Closed").is_empty());
+    assert_eq!(places(&two(), "BoundaryLoops(eq: 1)").len(), 7);
+}
+
+#[test]
+fn double_edges_break_a_manifold() {
+    let mesh = with_double_edges();
+    let between = |e| {
+        let [v, w] = mesh.edge_vertices(e).map(|v| v.index());
+        (v.min(w), v.max(w))
+    };
+    let is_double = |&e: &EdgeId| {
+        mesh.edges()
+            .any(|other| other != e && between(other) == between(e))
+    };
+    let mut expected: Vec<String> =
+        (mesh.edges().filter(is_double).map(|e| e.to_string())).collect();
+    assert!(expected.len() > 1 && expected.len() < mesh.n_edges());
+
+    let mut found = names(&scene([("double", mesh.clone())]), "Manifold");
+
+    expected.sort();
+    found.sort();
+    assert_eq!(found, expected);
+    assert!(places(&cube(), "Manifold").is_empty());
+}
+
+#[test]
+fn what_should_be_elsewhere_has_two_places() {
+    let found = places(&cube(), "Position(of: Vertices([0]), is: (5, 5, 5))");
+    assert_eq!(found[0].name, "v0");
+    assert_eq!(
+        (&*found[1].name, found[1].points[0]),
+        (Place::EXPECTED, DVec3::splat(5.0))
+    );
+
+    let found = places(&lines(), "Point(index: 2, is: (0, 0, 9))");
+    assert_eq!(found[0].points, [DVec3::new(3.0, 1.0, 0.0)]);
+    assert_eq!(found[1].points, [DVec3::new(0.0, 0.0, 9.0)]);
+}
+
+#[test]
+fn vertices_without_a_partner_are_named_on_both_sides() {
+    let scene = scene([("cube", shapes::cube())]);
+
+    let found = places(&scene, "Same(as: File(\"octahedron.obj\"))");
+
+    let expected = found.iter().filter(|p| p.name == Place::EXPECTED);
+    assert_eq!((found.len(), expected.count()), (14, 6));
+}
+
+#[test]
+fn the_farthest_points_of_two_surfaces_are_joined() {
+    let scene = scene([("cube", shapes::cube())]);
+
+    let found = places(
+        &scene,
+        "DistanceTo(other: File(\"octahedron.obj\"), below: 0.1)",
+    );
+
+    let [on, way] = &found[..] else {
+        panic!("{found:?}");
+    };
+    assert!(!on.name.is_empty() && way.name.is_empty());
+    assert!(way.points[0].distance(way.points[1]) > 0.1);
+}
+
+#[test]
+fn vertices_that_a_motion_brings_to_where_none_is_break_a_symmetry() {
+    assert!(places(&cube(), "SymmetricUnder(group: CubeMotions)").is_empty());
+    let mut mesh = shapes::cube();
+    mesh.positions_mut()[5] *= 1.5;
+    let scene = scene([("cube", mesh)]);
+
+    let found = names(&scene, "SymmetricUnder(group: CubeRotations)");
+
+    // The rotations bring each corner to the place of each other one.
+    assert_eq!(found.len(), 8);
+}
+
+#[test]
+fn what_is_not_about_elements_has_no_places() {
+    for text in [
+        "Genus(eq: 3)",
+        "Not(Closed)",
+        "Digest(\"0\")",
+        "Area(eq: 1)",
+    ] {
+        assert!(places(&cube(), text).is_empty(), "{text}");
+    }
+    // A selection that is refused has no elements.
+    let text = "Count(of: Edges(Between(0, 99)), eq: 1)";
+    assert!(places(&cube(), text).is_empty());
+}

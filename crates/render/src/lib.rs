@@ -55,7 +55,7 @@ pub mod sheet;
 mod style;
 mod texture;
 
-pub use build::{Coloring, Elements, Highlight, Overlays, PALETTE, build};
+pub use build::{Coloring, Elements, Highlight, Overlays, PALETTE, Stroke, build, extent};
 pub use camera::{Camera, Projection, Seen, Side, Up, View};
 pub use color::{Color, NAMES, NoColor, to_linear, to_srgb};
 pub use colormap::ColorMap;

@@ -8,7 +8,7 @@ use op::{Context, Files, OpError};
 use render::figure::label::{Label, draw_labels};
 use render::figure::legend::{Corner, draw_legend};
 use render::sheet::{Cell, SheetStyle, sheet};
-use render::{Drawing, Image, PictureError, View, build, bytes_needed, render};
+use render::{Drawing, Image, Overlays, PictureError, View, build, bytes_needed, render};
 use scene::Scene;
 
 use crate::Picture;
@@ -38,10 +38,11 @@ struct Ready<'s> {
 }
 
 /// Draws scenes side by side, each with what is written below it, in the same scale. The parameters of the picture
-/// are in order.
+/// are in order. `further` is shown beside what the picture shows.
 pub(crate) fn images(
     picture: &Picture,
     scenes: &[(&Scene, &str)],
+    further: &Overlays,
     cx: &mut Context,
 ) -> Result<(Vec<Image>, Vec<String>), OpError> {
     let n_frames = picture.turntable.map_or(1, |turn| turn.frames);
@@ -54,7 +55,7 @@ pub(crate) fn images(
     let mut ready = Vec::new();
     let mut notes = Vec::new();
     for (scene, &(_, caption)) in chosen.iter().zip(scenes) {
-        let (drawing, numbers) = prepare(picture, scene, cx, &mut notes)?;
+        let (drawing, numbers) = prepare(picture, scene, further, cx, &mut notes)?;
         ready.push(Ready {
             drawing,
             numbers,
@@ -102,12 +103,16 @@ pub(crate) fn images(
 fn prepare<'s>(
     picture: &Picture,
     scene: &'s Scene,
+    further: &Overlays,
     cx: &mut Context,
     notes: &mut Vec<String>,
 ) -> Result<(Drawing<'s>, Option<Numbers>), OpError> {
     let numbers = picture.color_by.as_ref();
     let numbers = numbers.map(|by| by.numbers(scene, cx)).transpose()?;
-    let overlays = overlays::of(picture, scene, numbers.as_ref(), cx)?;
+    let mut overlays = overlays::of(picture, scene, numbers.as_ref(), cx)?;
+    overlays.highlights.extend_from_slice(&further.highlights);
+    overlays.strokes.extend_from_slice(&further.strokes);
+    overlays.labels.extend_from_slice(&further.labels);
     let folder = picture.images.as_deref();
     let mut images = |path: &str| read_image(cx.files(), folder, path);
     let (drawing, missing) = build(scene, &picture.style, &overlays, &mut images).map_err(told)?;

@@ -8,6 +8,8 @@
 mod draw;
 mod numbers;
 mod overlays;
+mod places;
+mod sight;
 #[cfg(test)]
 mod tests;
 
@@ -16,12 +18,13 @@ use std::path::Path;
 
 use op::{Context, Elements, OpError, Operation, Plan, PlanContext, Problem, Report};
 use render::animation::{Timing, to_apng, to_gif};
-use render::{Camera, Color, Image, LARGEST_SIDE, PictureError, Style};
+use render::{Camera, Color, Image, LARGEST_SIDE, Overlays, PictureError, Style};
 use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use numbers::{ColorBy, Quantity};
+pub use places::draw_places;
 
 /// Draws the scene into an image file below the output folder.
 ///
@@ -226,7 +229,7 @@ impl Picture {
         if let Some(problem) = self.problems().into_iter().next() {
             return Err(OpError::Parameter(problem.message));
         }
-        draw::images(self, scenes, cx)
+        draw::images(self, scenes, &Overlays::default(), cx)
     }
 
     /// The images that were drawn as a file of the format that the path names. `stamp` says where it comes from.

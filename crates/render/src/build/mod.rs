@@ -25,8 +25,23 @@ pub struct Overlays {
     pub highlights: Vec<Highlight>,
     /// Numbers as colors, at most one for each object.
     pub colorings: Vec<Coloring>,
+    /// Lines and dots that belong to no element. They lie on top of everything.
+    pub strokes: Vec<Stroke>,
     /// Texts at places.
     pub labels: Vec<Label>,
+}
+
+/// A line through points, or a dot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    /// The points, in scene units. One makes a dot. They must be finite.
+    pub points: Vec<DVec3>,
+    /// Its color.
+    pub color: Color,
+    /// Its width, or the diameter of the dot, in pixels.
+    pub width: f64,
+    /// How much of it is seen where a surface is before it, from 0 to 1.
+    pub hidden: f64,
 }
 
 impl Overlays {
@@ -120,7 +135,7 @@ pub fn build<'s>(
         missing: Vec::new(),
         drawing: Drawing::default(),
         n_faces: 0,
-        radius: radius(scene),
+        radius: extent(scene).map_or(1.0, |(_, radius)| radius),
     };
     for (i, object) in scene.objects().iter().enumerate() {
         let color = style.color.unwrap_or(PALETTE[i % PALETTE.len()]);
@@ -130,6 +145,9 @@ pub fn build<'s>(
             Geometry::Curve(curve) => builder.curve(curve, color),
             Geometry::Polylines(lines) => builder.polylines(lines, color),
         }
+    }
+    for stroke in &overlays.strokes {
+        builder.stroke(stroke);
     }
     builder
         .drawing
@@ -192,8 +210,9 @@ impl Builder<'_, '_> {
     }
 }
 
-/// The radius of a sphere around all meshes and patches; 1 if there is nothing.
-fn radius(scene: &Scene) -> f64 {
+/// The middle and the radius of a sphere around everything in a scene, in scene units; the radius is not 0, also of
+/// one point. `None` if there is nothing.
+pub fn extent(scene: &Scene) -> Option<(DVec3, f64)> {
     let mut corners: Vec<DVec3> = Vec::new();
     for object in scene.objects() {
         match &object.geometry {
@@ -206,7 +225,7 @@ fn radius(scene: &Scene) -> f64 {
         }
     }
     let each = |f: &mut dyn FnMut(DVec3)| corners.iter().for_each(|&p| f(p));
-    crate::camera::sphere(&each).1
+    (!corners.is_empty()).then(|| crate::camera::sphere(&each))
 }
 
 /// The overlay of an object that is a mesh.

@@ -3,9 +3,9 @@
 use bezier::{Curve, Faces, Patch};
 use glam::{DVec2, DVec3};
 
-use super::Builder;
 use super::mesh_part::rgb;
 use super::normals::narrowed;
+use super::{Builder, Stroke};
 use crate::PictureError;
 use crate::color::Color;
 use crate::drawing::{Channel, NO_FACE, Normals, Part, Surface};
@@ -74,12 +74,22 @@ impl Builder<'_, '_> {
         } else {
             [r * r * 0.5, g * g * 0.5, b * b * 0.6, a]
         };
-        let width = self.style.curve_width;
+        self.through(points, self.style.curve_width, color, 0.0);
+    }
+
+    /// Adds a line or a dot of an overlay.
+    pub(super) fn stroke(&mut self, stroke: &Stroke) {
+        let color = stroke.color.linear();
+        self.through(&stroke.points, stroke.width, color, stroke.hidden);
+    }
+
+    /// A line through points; a dot if there is one.
+    fn through(&mut self, points: &[DVec3], width: f64, color: [f32; 4], hidden: f64) {
         for ends in points.windows(2) {
-            self.line([ends[0], ends[1]], width, color, [NO_FACE; 2], 0.0);
+            self.line([ends[0], ends[1]], width, color, [NO_FACE; 2], hidden);
         }
         if let [point] = points {
-            self.dot(*point, width, color, 0.0);
+            self.dot(*point, width, color, hidden);
         }
     }
 
@@ -89,14 +99,8 @@ impl Builder<'_, '_> {
             return;
         };
         let color = lines.color.linear();
-        for ends in points.windows(2) {
-            self.line(
-                [ends[0], ends[1]],
-                lines.width,
-                color,
-                [NO_FACE; 2],
-                lines.hidden,
-            );
+        if points.len() > 1 {
+            self.through(points, lines.width, color, lines.hidden);
         }
         for &point in points {
             self.dot(point, 3.0 * lines.width + 1.5, color, lines.hidden);

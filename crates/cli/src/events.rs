@@ -10,6 +10,7 @@
 //!                  "losses":[{"object":"cow", "name":"uv", "message":".."}], "notes":[".."],
 //!                  "digest":"..", "milliseconds":1.5, "cached":false, "ran_because":"parameters changed: levels 1 -> 2"}
 //! {"event":"problem", "severity":"error", "file":"a.ron", "line":7, "column":9, "message":"..", "help":".."}
+//! {"event":"picture", "path":"a-error-1.png"}                             of a problem, with --picture-errors
 //! {"event":"wrote", "path":"out/a.obj"}
 //! {"event":"end", "succeeded":true, "cancelled":false, "steps":7, "expectations":4, "digest":"..",
 //!                 "milliseconds":20.5}
@@ -29,6 +30,7 @@ use serde_json::{Value as Json, json};
 
 use crate::loading::Loaded;
 use crate::output::{origin, problems_json};
+use crate::picture_errors::Pictures;
 
 /// The version of the events.
 const FORMAT: u32 = 1;
@@ -86,8 +88,11 @@ impl<'a> Events<'a> {
     /// # Errors
     ///
     /// The first line that could not be written.
-    pub(crate) fn end(self, outcome: &Outcome) -> io::Result<()> {
+    pub(crate) fn end(self, outcome: &Outcome, pictures: Option<&Pictures>) -> io::Result<()> {
         self.problems(&outcome.failures);
+        for path in pictures.map(Pictures::paths).unwrap_or_default() {
+            self.tell(&json!({ "event": "picture", "path": path.display().to_string() }));
+        }
         for path in &outcome.written {
             self.tell(&json!({ "event": "wrote", "path": path.display().to_string() }));
         }

@@ -20,6 +20,7 @@ mod listener;
 mod loading;
 mod many;
 mod output;
+mod picture_errors;
 mod replace;
 mod scenes;
 mod terminal_picture;
@@ -56,9 +57,10 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Info {
             file,
             picture,
+            picture_errors,
             read,
             format,
-        } => commands::info::run(&file, picture, &read, format),
+        } => commands::info::run(&file, picture, &picture_errors, &read, format),
         Command::Convert {
             input,
             read,

@@ -4,6 +4,7 @@ use recipe::{Caching, Diagnostic, JobEnd, JobLimits, Jobs, Outcome, Settings, Se
 
 use crate::listener::{Quiet, is_interrupted};
 use crate::loading::Loaded;
+use crate::picture_errors::{Pictures, Picturing};
 
 /// How many runs are checked before the first of them begins: what is known of each stays in memory.
 pub(crate) const CHECKED_AHEAD: usize = 1000;
@@ -33,12 +34,27 @@ pub(crate) fn run_quietly(
     keep_outputs: bool,
     cache: Option<Caching>,
 ) -> Outcome {
+    run_drawing(loaded, budget, keep_outputs, cache, None)
+}
+
+/// The same, and draws what fails.
+pub(crate) fn run_drawing(
+    loaded: &Loaded,
+    budget: u64,
+    keep_outputs: bool,
+    cache: Option<Caching>,
+    pictures: Option<&Pictures>,
+) -> Outcome {
     let settings = Settings {
         keep_outputs,
         cache,
         ..loaded.settings(budget)
     };
-    recipe::run(&loaded.recipe, settings, &Quiet)
+    let listener = Picturing {
+        listener: &Quiet,
+        pictures,
+    };
+    recipe::run(&loaded.recipe, settings, &listener)
 }
 
 /// What is said of a run that panicked.

@@ -8,6 +8,7 @@ use clap::Args as ClapArgs;
 use serde::{Deserialize, Serialize};
 
 use super::{CacheArgs, Format, ValueArgs, size};
+use crate::picture_errors::PictureErrorsArgs;
 
 /// What commands that run many recipes at once share.
 #[derive(Debug, ClapArgs)]
@@ -61,6 +62,8 @@ pub(crate) struct TestArgs {
     /// Write the values that were found into the recipes, in place of recorded ones (eq, is, Bounds, Digest)
     #[arg(long)]
     pub(crate) update: bool,
+    #[command(flatten)]
+    pub(crate) picture_errors: PictureErrorsArgs,
     #[command(flatten)]
     pub(crate) cache: CacheArgs,
 }

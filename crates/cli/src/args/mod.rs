@@ -11,6 +11,8 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
+use crate::picture_errors::PictureErrorsArgs;
+
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
 pub(crate) use many::{BatchArgs, Shard, SweepArgs, TestArgs};
@@ -57,6 +59,8 @@ pub(crate) enum Command {
         /// Show a small picture too: in pixels where the terminal can, else in characters
         #[arg(long)]
         picture: bool,
+        #[command(flatten)]
+        picture_errors: PictureErrorsArgs,
         #[command(flatten)]
         read: ReadArgs,
         #[arg(long, value_enum, default_value_t)]

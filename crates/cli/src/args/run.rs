@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args as ClapArgs;
 
 use super::{CacheArgs, Format, assignment, size};
+use crate::picture_errors::PictureErrorsArgs;
 
 /// The values of a recipe's parameters.
 #[derive(Debug, Default, ClapArgs)]
@@ -56,6 +57,8 @@ pub(crate) struct RunArgs {
     /// Print where the value of each parameter comes from, and for each step why it ran
     #[arg(long)]
     pub(crate) explain: bool,
+    #[command(flatten)]
+    pub(crate) picture_errors: PictureErrorsArgs,
     #[command(flatten)]
     pub(crate) cache: CacheArgs,
 }

@@ -4,27 +4,43 @@ use std::path::Path;
 
 use mesh::{Elements, Mesh, VertexId};
 use mesh_io::{Note, NoteKind};
+use op::Place;
 use picture::Picture;
 use scene::{Geometry, Object, Scene};
 
 use crate::args::{Format, ReadArgs};
 use crate::commands::picture::draw_found;
 use crate::output::{grouped, print};
+use crate::picture_errors::{PictureErrorsArgs, Pictures};
 use crate::scenes::Found;
 use crate::terminal_picture;
 
 pub(crate) fn run(
     path: &Path,
     picture: bool,
+    picture_errors: &PictureErrorsArgs,
     read: &ReadArgs,
     format: Format,
 ) -> anyhow::Result<bool> {
     let loaded =
         mesh_io::read(path, &read.options()).map_err(|error| anyhow::anyhow!("{error}"))?;
+    let scene = scene(&loaded.objects)?;
+    let pictures = picture_errors.of(path);
+    if let Some(pictures) = &pictures {
+        for note in &loaded.notes {
+            let places = places(note);
+            if !places.is_empty() {
+                pictures.draw(&scene, &places, &note.to_string());
+            }
+        }
+    }
     if format == Format::Json {
         let objects: Vec<_> = loaded.objects.iter().map(object_json).collect();
         let notes: Vec<_> = loaded.notes.iter().map(note_json).collect();
-        let info = serde_json::json!({ "file": path.display().to_string(), "objects": objects, "notes": notes });
+        let pictures = pictures.as_ref().map(Pictures::paths).unwrap_or_default();
+        let info = serde_json::json!({
+            "file": path.display().to_string(), "objects": objects, "notes": notes, "pictures": pictures,
+        });
         print(&format!("{info:#}\n"))?;
         return Ok(true);
     }
@@ -37,18 +53,44 @@ pub(crate) fn run(
     for note in &loaded.notes {
         print(&format!("note: {note}\n"))?;
     }
+    if let Some(pictures) = &pictures {
+        pictures.tell();
+    }
     if picture {
-        show(path, loaded.objects)?;
+        show(path, scene)?;
     }
     Ok(true)
 }
 
-/// Shows a picture of the objects in the terminal.
-fn show(path: &Path, objects: Vec<Object>) -> anyhow::Result<()> {
+/// The objects of a file as a scene.
+fn scene(objects: &[Object]) -> anyhow::Result<Scene> {
     let mut scene = Scene::new();
     for object in objects {
-        scene.insert(object)?;
+        scene.insert(object.clone())?;
     }
+    Ok(scene)
+}
+
+/// The elements that a note is about, as a picture shows them.
+fn places(note: &Note) -> Vec<Place> {
+    let names: Vec<String> = match &note.elements {
+        Some(Elements::Vertices(list)) => list.iter().map(ToString::to_string).collect(),
+        Some(Elements::Edges(list)) => list.iter().map(|[v, w]| format!("{v}-{w}")).collect(),
+        Some(Elements::Faces(list)) => list.iter().map(|f| format!("face {f}")).collect(),
+        None => Vec::new(),
+    };
+    let places = names.into_iter().zip(&note.places);
+    places
+        .map(|(name, points)| Place {
+            object: String::new(),
+            name,
+            points: points.clone(),
+        })
+        .collect()
+}
+
+/// Shows a picture of a scene in the terminal.
+fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
     let stream = String::new();
     let mut picture = Picture::new("info.png");
     picture.size = [640, 480];

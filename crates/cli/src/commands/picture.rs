@@ -42,7 +42,7 @@ pub(crate) fn write_images(picture: &Picture, images: &[Image], path: &Path) -> 
 }
 
 /// What images say of where they come from.
-const STAMP: &str = concat!("meshwright ", env!("CARGO_PKG_VERSION"));
+pub(crate) const STAMP: &str = concat!("meshwright ", env!("CARGO_PKG_VERSION"));
 
 /// The file to write.
 fn out(args: &PictureArgs, first: &Path) -> PathBuf {

@@ -13,17 +13,20 @@ use crate::loading::{Loaded, load};
 use crate::output::{
     complain, explain, explain_steps, print, problems_json, show, step_notes, step_table,
 };
+use crate::picture_errors::{Pictures, Picturing};
 
 pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
     start_threads(args.threads)?;
     let mut loaded = load_to_run(args, registry)?;
     let cache = cache::open(&args.cache)?;
     catch_interrupts();
-    let Some(outcome) = execute(args, &loaded, cache.as_ref(), &|| true)? else {
+    let pictures = args.picture_errors.of(&args.recipe.recipe);
+    let drawn = pictures.as_ref();
+    let Some(outcome) = execute(args, &loaded, cache.as_ref(), drawn, &|| true)? else {
         return Ok(false);
     };
     if args.recipe.format == Format::Human {
-        tell(args, &loaded, &outcome)?;
+        tell(args, &loaded, &outcome, drawn)?;
     }
     let number = outcome.steps.len();
     if let Some(folder) = &args.capsule
@@ -66,12 +69,13 @@ pub(crate) fn load_to_run(args: &RunArgs, registry: &Registry) -> anyhow::Result
     Ok(loaded)
 }
 
-/// Runs a recipe, if it can run, as long as `go_on` holds. Shows what is wrong with one that cannot, and
-/// events if the command asks for them.
+/// Runs a recipe, if it can run, as long as `go_on` holds, and draws what fails. Shows what is wrong with one that
+/// cannot run, and events if the command asks for them.
 pub(crate) fn execute(
     args: &RunArgs,
     loaded: &Loaded,
     cache: Option<&Cache>,
+    pictures: Option<&Pictures>,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> anyhow::Result<Option<Outcome>> {
     let json = args.recipe.format == Format::Json;
@@ -103,11 +107,19 @@ pub(crate) fn execute(
     if json {
         let events = Events::start(loaded, &stopping);
         events.problems(&loaded.diagnostics);
-        outcome = recipe::run(&loaded.recipe, settings, &events);
+        let listener = Picturing {
+            listener: &events,
+            pictures,
+        };
+        outcome = recipe::run(&loaded.recipe, settings, &listener);
         terminal.clear();
-        events.end(&outcome)?;
+        events.end(&outcome, pictures)?;
     } else {
-        outcome = recipe::run(&loaded.recipe, settings, &stopping);
+        let listener = Picturing {
+            listener: &stopping,
+            pictures,
+        };
+        outcome = recipe::run(&loaded.recipe, settings, &listener);
         terminal.clear();
     }
     warn_of_cache(&outcome);
@@ -115,7 +127,12 @@ pub(crate) fn execute(
 }
 
 /// Prints what a run has done.
-pub(crate) fn tell(args: &RunArgs, loaded: &Loaded, outcome: &Outcome) -> anyhow::Result<()> {
+pub(crate) fn tell(
+    args: &RunArgs,
+    loaded: &Loaded,
+    outcome: &Outcome,
+    pictures: Option<&Pictures>,
+) -> anyhow::Result<()> {
     if !outcome.steps.is_empty() {
         print(&step_table(&outcome.steps))?;
     }
@@ -124,6 +141,9 @@ pub(crate) fn tell(args: &RunArgs, loaded: &Loaded, outcome: &Outcome) -> anyhow
     }
     print(&step_notes(&outcome.steps))?;
     show(loaded, &outcome.failures);
+    if let Some(pictures) = pictures {
+        pictures.tell();
+    }
     for path in &outcome.written {
         print(&format!("wrote {}\n", path.display()))?;
     }

@@ -44,7 +44,12 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
                     let _ = changes.follow(&folder);
                 }
                 let go_on = || !changes.is_waiting();
-                let outcome = execute(args, &loaded, cache.as_ref(), &go_on)?;
+                let pictures = args.picture_errors.of(&args.recipe.recipe);
+                let drawn = pictures.as_ref();
+                let outcome = execute(args, &loaded, cache.as_ref(), drawn, &go_on)?;
+                if let Some(pictures) = drawn {
+                    changes.ignore(&pictures.paths());
+                }
                 if let Some(outcome) = &outcome {
                     changes.ignore(&outcome.written);
                 }
@@ -62,7 +67,7 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
                     && !is_overtaken
                     && !(is_old && is_same)
                 {
-                    tell(args, &loaded, &outcome)?;
+                    tell(args, &loaded, &outcome, drawn)?;
                 }
                 texts = (!is_overtaken).then_some(now);
             }

@@ -142,3 +142,84 @@ fn a_selection_and_a_file_can_be_shown_beside_their_facts() {
     );
     assert!(!ended.stdout.contains('\x1b'));
 }
+
+/// Where three faces meet at one edge.
+const FAN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n";
+
+#[test]
+fn failures_of_a_run_are_drawn_if_that_is_asked_for() {
+    let folder = Folder::new().with(
+        "r.ron",
+        r#"(recipe: 1, steps: [
+            Grid(name: "grid", columns: 3, rows: 3),
+            (id: "flip", run: FlipEdges(edges: Boundary)),
+        ], expect: [(after: "flip", that: Closed)])"#,
+    );
+    folder.run("run r.ron").with_code(1);
+    assert_eq!(folder.entries("."), ["r.ron"]);
+
+    folder
+        .run("run r.ron --picture-errors")
+        .with_code(1)
+        .complains(&["see r-error-1.png\n"]);
+    folder
+        .run("test r.ron --picture-errors=some/where")
+        .with_code(1)
+        .complains(&["see some/where/r-error-1.png\n"]);
+    let [first, second] = ["r-error-1.png", "some/where/r-error-1.png"]
+        .map(|name| std::fs::read(folder.path(name)).unwrap());
+    assert!(first == second);
+    let (width, height) = size(&folder, "r-error-1.png");
+    assert!(width > 1400 && height > 500, "{width} {height}");
+    let events = folder.run("run r.ron --format json --picture-errors");
+    events.prints(&[r#"{"event":"picture","path":"r-error-1.png"}"#]);
+}
+
+#[test]
+fn expectations_that_do_not_hold_are_drawn_each() {
+    let folder = Folder::new().with(
+        "r.ron",
+        r#"(recipe: 1, steps: [Grid(name: "grid", columns: 3, rows: 3)], expect: [
+            Closed, Manifold, Faces(eq: 1), EdgeLength(max: 0.001),
+        ])"#,
+    );
+
+    folder
+        .run("test r.ron --format json --picture-errors=e")
+        .with_code(1)
+        .prints(&["e/r-error-1.png", "e/r-error-2.png", "e/r-error-3.png"]);
+
+    // No element is wrong in a count: one view, where the others have two.
+    let widths = [1, 2, 3].map(|i| size(&folder, &format!("e/r-error-{i}.png")).0);
+    assert!(
+        widths[1] < widths[0] && widths[0] == widths[2],
+        "{widths:?}"
+    );
+    assert!(!folder.path("e/r-error-4.png").exists());
+}
+
+#[test]
+fn what_a_file_has_that_is_no_manifold_is_drawn() {
+    let folder = Folder::new().with("fan.obj", FAN).with("cube.obj", CUBE);
+
+    folder
+        .run("info fan.obj --picture-errors=e")
+        .with_code(0)
+        .prints(&["1 non-manifold edge split (v0-v1)"])
+        .complains(&["see e/fan-error-1.png\n", "see e/fan-error-2.png\n"]);
+    folder.run("info cube.obj --picture-errors=e").with_code(0);
+
+    assert!(folder.path("e/fan-error-1.png").exists());
+    assert!(!folder.path("e/cube-error-1.png").exists());
+}
+
+#[test]
+fn a_picture_of_a_failure_that_cannot_be_written_is_told_and_the_failure_too() {
+    let folder = Folder::new().with("fan.obj", FAN).with("e", "a file");
+
+    folder
+        .run("info fan.obj --picture-errors=e")
+        .with_code(0)
+        .prints(&["non-manifold edge"])
+        .complains(&["warning: a failure was not drawn: cannot write e/fan-error-1.png"]);
+}

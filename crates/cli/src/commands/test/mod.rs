@@ -17,7 +17,8 @@
 //!     "digest": "..",             of the scene at the end; null if it was not run
 //!     "milliseconds": 12.5,
 //!     "changes": ["scenes/a.ron:7: Faces(eq: 4) -> 6"],          what --update has written
-//!     "failures": [{"severity": "error", "line": 4, "column": 9, "message": "..", "help": null}]
+//!     "failures": [{"severity": "error", "line": 4, "column": 9, "message": "..", "help": null}],
+//!     "pictures": ["a-error-1.png"]                               of failures, with --picture-errors
 //!   }]
 //! }
 //! ```
@@ -38,8 +39,9 @@ use crate::args::{Format, TestArgs};
 use crate::cache;
 use crate::listener::{catch_interrupts, is_interrupted};
 use crate::loading::{Found, Loaded, load_text, recipes};
-use crate::many::{all, panicked, run_quietly};
+use crate::many::{all, panicked, run_drawing};
 use crate::output::{complain, print, problems_json, show, write_whole};
+use crate::picture_errors::Pictures;
 
 pub(crate) fn run(args: &TestArgs, registry: &Registry) -> anyhow::Result<bool> {
     let recipes = recipes(&args.paths)?;
@@ -225,7 +227,9 @@ impl<'a> Test<'a> {
         }
         let keeps = args.out.is_some();
         let caching = cache.map(|cache| cache::using(cache, &self.found.path));
-        let mut outcome = run_quietly(loaded, args.many.budget, keeps, caching);
+        let pictures = args.picture_errors.named(&self.found.own_folder);
+        let budget = args.many.budget;
+        let mut outcome = run_drawing(loaded, budget, keeps, caching, pictures.as_ref());
         let mut changes = Vec::new();
         if args.update {
             match renew(&self.found.path, loaded, &mut outcome) {
@@ -248,6 +252,7 @@ impl<'a> Test<'a> {
             changes,
             diagnostics: outcome.failures,
             message: None,
+            pictures,
         }
     }
 
@@ -279,6 +284,9 @@ impl<'a> Test<'a> {
         if let Ok(loaded) = &self.loaded {
             show(loaded, &result.diagnostics);
         }
+        if let Some(pictures) = &result.pictures {
+            pictures.tell();
+        }
         Ok(())
     }
 
@@ -298,6 +306,7 @@ impl<'a> Test<'a> {
             "milliseconds": result.time.as_secs_f64() * 1e3,
             "changes": result.changes,
             "failures": failures,
+            "pictures": result.pictures.as_ref().map(Pictures::paths).unwrap_or_default(),
         })
     }
 }
@@ -343,6 +352,8 @@ struct TestResult {
     diagnostics: Vec<Diagnostic>,
     /// What is wrong beside that.
     message: Option<String>,
+    /// The pictures of what is wrong, if they are wanted.
+    pictures: Option<Pictures>,
 }
 
 impl TestResult {
@@ -367,6 +378,7 @@ impl TestResult {
             changes: Vec::new(),
             diagnostics,
             message,
+            pictures: None,
         }
     }
 }

@@ -169,8 +169,8 @@ pub(crate) fn narrow(value: f64) -> f32 {
     value as f32
 }
 
-/// The color at `t` on the way from `a` (0) to `b` (1).
-pub(crate) fn mix(a: [f32; 3], b: [f32; 3], t: f32) -> [f32; 3] {
+/// The color, or what else is mixed, at `t` on the way from `a` (0) to `b` (1).
+pub(crate) fn mix<const N: usize>(a: [f32; N], b: [f32; N], t: f32) -> [f32; N] {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t)
 }
 

@@ -65,7 +65,7 @@ pub struct Part<'a> {
 pub struct Surface {
     /// Linear red, green, blue and alpha, from 0 to 1. So many of the samples are covered as alpha says.
     pub color: [f32; 4],
-    /// Multiplies the color.
+    /// Multiplies the color, alpha as well.
     pub texture: Option<Arc<Texture>>,
     /// Which texture coordinates of the part.
     pub uv_set: usize,

@@ -64,7 +64,7 @@ pub use error::PictureError;
 pub use image::{Image, LARGEST_SIDE};
 pub use raster::{Look, PlacedLabel, Rendered, bytes_needed, render};
 pub use style::{Background, Ids, Lines, Shading, Style};
-pub use texture::Texture;
+pub use texture::{Alpha, Texture};
 
 /// A picture of a scene, `size` pixels wide and high, that takes at most `budget` bytes of memory beside the
 /// scene; and which images of materials are missing and why. `images` gives the bytes of a picture file for its

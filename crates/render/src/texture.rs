@@ -1,4 +1,6 @@
 //! Textures: pictures on surfaces, with smaller copies for what is far away.
+//!
+//! What is not opaque has less weight where colors are mixed: the color of what is not seen does not bleed into what is.
 
 use glam::DVec2;
 use image::{ImageReader, Limits};
@@ -17,6 +19,44 @@ pub struct Texture {
     levels: Vec<Level>,
     sampler: Sampler,
     transform: TextureTransform,
+    alpha: Alpha,
+}
+
+/// What the alpha of a texture means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Alpha {
+    /// Nothing: the surface is opaque.
+    Ignored,
+    /// The surface is there where alpha is at least this, and not elsewhere.
+    Cut(f32),
+    /// The surface covers so much of what is behind it.
+    Blended,
+}
+
+/// Alphas of bytes that are equal as written must not differ by how they were computed.
+const SLACK: f32 = 1e-6;
+
+/// The least weight of a color: where nothing is opaque, there is a color nevertheless.
+const LEAST_WEIGHT: f32 = 1.0 / 1024.0;
+
+impl Alpha {
+    /// How much of the surface a pixel of the picture itself covers.
+    fn of(self, alpha: u8) -> f32 {
+        let alpha = f32::from(alpha) / 255.0;
+        match self {
+            Self::Ignored => 1.0,
+            Self::Cut(least) => f32::from(u8::from(alpha >= least - SLACK)),
+            Self::Blended => alpha,
+        }
+    }
+
+    /// How much of the surface a pixel of a copy covers: coverage is what copies have in place of alpha.
+    fn of_copy(self, alpha: u8) -> f32 {
+        match self {
+            Self::Ignored => 1.0,
+            Self::Cut(_) | Self::Blended => f32::from(alpha) / 255.0,
+        }
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -26,8 +66,16 @@ struct Level {
     pixels: Vec<[u8; 4]>,
 }
 
+/// What is looked at for a pixel of the picture: a place in two levels, and how far it is from the first to the second.
+struct Footprint {
+    place: DVec2,
+    levels: [usize; 2],
+    t: f32,
+    is_nearest: bool,
+}
+
 impl Texture {
-    /// A texture from the bytes of a PNG or JPEG file.
+    /// A texture from the bytes of a PNG or JPEG file. One without alpha is opaque, whatever alpha would mean.
     ///
     /// # Errors
     ///
@@ -36,6 +84,7 @@ impl Texture {
         bytes: &[u8],
         sampler: Sampler,
         transform: TextureTransform,
+        alpha: Alpha,
     ) -> Result<Self, String> {
         let mut reader = ImageReader::new(std::io::Cursor::new(bytes))
             .with_guessed_format()
@@ -54,23 +103,96 @@ impl Texture {
         if first.pixels.is_empty() {
             return Err("expected pixels, found none".to_owned());
         }
+        let is_opaque = first.pixels.iter().all(|p| p[3] == u8::MAX);
+        let alpha = if is_opaque { Alpha::Ignored } else { alpha };
         let mut levels = vec![first];
-        while let Some(half) = levels.last().and_then(Level::half) {
+        while let Some(last) = levels.last() {
+            let is_first = levels.len() == 1;
+            let weight = |a| {
+                if is_first {
+                    alpha.of(a)
+                } else {
+                    alpha.of_copy(a)
+                }
+            };
+            let Some(half) = last.half(&weight) else {
+                break;
+            };
             levels.push(half);
         }
         Ok(Self {
             levels,
             sampler,
             transform,
+            alpha,
         })
+    }
+
+    /// Whether it is opaque all over.
+    pub(crate) fn is_opaque(&self) -> bool {
+        self.alpha == Alpha::Ignored
     }
 
     /// Linear red, green and blue at texture coordinates with v upwards. `beside` says how far away the
     /// next pixels of the picture are.
-    ///
-    /// Between the two copies whose pixels are as large as those of the picture: Williams, "Pyramidal
-    /// Parametrics", 1983.
     pub(crate) fn at(&self, uv: DVec2, beside: [DVec2; 2]) -> [f32; 3] {
+        let footprint = self.footprint(uv, beside);
+        if self.is_opaque() {
+            return self.mixed(&footprint, |_, [r, g, b, _]| [r, g, b].map(to_linear));
+        }
+        let [r, g, b, weight] = self.mixed(&footprint, |level, [r, g, b, a]| {
+            let weight = self.weight(level, a).max(LEAST_WEIGHT);
+            let [r, g, b] = [r, g, b].map(|c| to_linear(c) * weight);
+            [r, g, b, weight]
+        });
+        [r, g, b].map(|c| c / weight)
+    }
+
+    /// How much of the surface is there, from 0 to 1, at texture coordinates with v upwards. `beside` says how far
+    /// away the next places are that are asked for.
+    ///
+    /// Where a texture cuts, places are compared before they are averaged: what is small stays as dense as it is
+    /// from far away.
+    pub(crate) fn coverage(&self, uv: DVec2, beside: [DVec2; 2]) -> f32 {
+        let footprint = self.footprint(uv, beside);
+        let Alpha::Cut(least) = self.alpha else {
+            let [coverage] = self.mixed(&footprint, |level, p| [self.weight(level, p[3])]);
+            return coverage;
+        };
+        let of = |level: usize| {
+            let at = |texel: &dyn Fn(u8) -> f32| {
+                let [value] =
+                    self.levels[level].at(&footprint, self.sampler.wrap, |p| [texel(p[3])]);
+                value
+            };
+            if level == 0 {
+                let alpha = at(&|a| f32::from(a) / 255.0);
+                f32::from(u8::from(alpha >= least - SLACK))
+            } else {
+                at(&|a| self.alpha.of_copy(a))
+            }
+        };
+        let [fine, coarse] = footprint.levels;
+        if footprint.t > 0.0 {
+            let [coverage] = crate::color::mix([of(fine)], [of(coarse)], footprint.t);
+            coverage
+        } else {
+            of(fine)
+        }
+    }
+
+    /// The weight of a pixel of a level.
+    fn weight(&self, level: usize, alpha: u8) -> f32 {
+        if level == 0 {
+            self.alpha.of(alpha)
+        } else {
+            self.alpha.of_copy(alpha)
+        }
+    }
+
+    /// Which pixels of which copies are looked at: between the two copies whose pixels are as large as those of the
+    /// picture. Williams, "Pyramidal Parametrics", 1983.
+    fn footprint(&self, uv: DVec2, beside: [DVec2; 2]) -> Footprint {
         let (sin, cos) = libm::sincos(self.transform.rotation);
         let [sx, sy] = self.transform.scale;
         // Of the transform without its offset: linear, with v downwards.
@@ -85,8 +207,12 @@ impl Texture {
         let last = self.levels.len() - 1;
         // A picture of large pixels is meant to be seen as such if its file says so.
         if wide <= 1.0 {
-            let is_nearest = self.sampler.magnify == Some(Filter::Nearest);
-            return self.levels[0].at(place, self.sampler.wrap, is_nearest);
+            return Footprint {
+                place,
+                levels: [0; 2],
+                t: 0.0,
+                is_nearest: self.sampler.magnify == Some(Filter::Nearest),
+            };
         }
         let level = libm::log2(wide).clamp(0.0, last as f64);
         #[expect(
@@ -95,16 +221,33 @@ impl Texture {
             reason = "from 0 to the last level"
         )]
         let below = (level as usize).min(last);
-        let t = crate::color::narrow(level - below as f64);
-        let [fine, coarse] = [below, (below + 1).min(last)]
-            .map(|l| self.levels[l].at(place, self.sampler.wrap, false));
-        crate::color::mix(fine, coarse, t)
+        Footprint {
+            place,
+            levels: [below, (below + 1).min(last)],
+            t: crate::color::narrow(level - below as f64),
+            is_nearest: false,
+        }
+    }
+
+    /// The mean over a footprint of what `texel` makes of the pixels of a level.
+    fn mixed<const N: usize>(
+        &self,
+        footprint: &Footprint,
+        texel: impl Fn(usize, [u8; 4]) -> [f32; N],
+    ) -> [f32; N] {
+        let of =
+            |level: usize| self.levels[level].at(footprint, self.sampler.wrap, |p| texel(level, p));
+        let [fine, coarse] = footprint.levels;
+        if fine == coarse {
+            return of(fine);
+        }
+        crate::color::mix(of(fine), of(coarse), footprint.t)
     }
 }
 
 impl Level {
-    /// The mean of each four pixels; `None` of a single pixel.
-    fn half(&self) -> Option<Self> {
+    /// The mean of each four pixels, whose alphas have these weights; `None` of a single pixel.
+    fn half(&self, weight: &dyn Fn(u8) -> f32) -> Option<Self> {
         if self.width * self.height == 1 {
             return None;
         }
@@ -118,14 +261,16 @@ impl Level {
                 );
                 let four = [(2 * x, 2 * y), (x1, 2 * y), (2 * x, y1), (x1, y1)]
                     .map(|(x, y)| self.pixels[y * self.width + x]);
-                let mean = |i: usize| four.iter().map(|p| to_linear(p[i])).sum::<f32>() / 4.0;
-                let alpha = four.iter().map(|p| f32::from(p[3])).sum::<f32>() / 4.0;
-                pixels.push([
-                    to_srgb(mean(0)),
-                    to_srgb(mean(1)),
-                    to_srgb(mean(2)),
-                    byte(alpha / 255.0),
-                ]);
+                let weights = four.map(|p| weight(p[3]));
+                let all = weights.iter().sum::<f32>();
+                let mean = |i: usize| {
+                    let of = |(p, w): (&[u8; 4], &f32)| {
+                        to_linear(p[i]) * if all > 0.0 { *w } else { 1.0 }
+                    };
+                    let sum = four.iter().zip(&weights).map(of).sum::<f32>();
+                    to_srgb(sum / if all > 0.0 { all } else { 4.0 })
+                };
+                pixels.push([mean(0), mean(1), mean(2), byte(all / 4.0)]);
             }
         }
         Some(Self {
@@ -135,13 +280,19 @@ impl Level {
         })
     }
 
-    /// Linear light at a place from 0 to 1, and beyond as `wrap` says.
-    fn at(&self, place: DVec2, wrap: [Wrap; 2], is_nearest: bool) -> [f32; 3] {
+    /// What `texel` makes of the pixels at a place from 0 to 1, and beyond as `wrap` says.
+    fn at<const N: usize>(
+        &self,
+        footprint: &Footprint,
+        wrap: [Wrap; 2],
+        texel: impl Fn([u8; 4]) -> [f32; N],
+    ) -> [f32; N] {
         let (w, h) = (self.width, self.height);
-        let x = place.x * w as f64;
-        let y = place.y * h as f64;
-        if is_nearest {
-            return self.light(
+        let value = |x: usize, y: usize| texel(self.pixels[y * w + x]);
+        let x = footprint.place.x * w as f64;
+        let y = footprint.place.y * h as f64;
+        if footprint.is_nearest {
+            return value(
                 wrapped(x.floor(), w, wrap[0]),
                 wrapped(y.floor(), h, wrap[1]),
             );
@@ -154,14 +305,9 @@ impl Level {
         );
         let [x0, x1] = [left, left + 1.0].map(|x| wrapped(x, w, wrap[0]));
         let [y0, y1] = [top, top + 1.0].map(|y| wrapped(y, h, wrap[1]));
-        let upper = crate::color::mix(self.light(x0, y0), self.light(x1, y0), s);
-        let lower = crate::color::mix(self.light(x0, y1), self.light(x1, y1), s);
+        let upper = crate::color::mix(value(x0, y0), value(x1, y0), s);
+        let lower = crate::color::mix(value(x0, y1), value(x1, y1), s);
         crate::color::mix(upper, lower, t)
-    }
-
-    fn light(&self, x: usize, y: usize) -> [f32; 3] {
-        let [r, g, b, _] = self.pixels[y * self.width + x];
-        [r, g, b].map(to_linear)
     }
 }
 
@@ -202,7 +348,13 @@ mod tests {
             height: 2,
             pixels: vec![RED, GREEN, BLUE, WHITE],
         };
-        Texture::decode(&image.to_png(&[]).unwrap(), sampler, transform).unwrap()
+        Texture::decode(
+            &image.to_png(&[]).unwrap(),
+            sampler,
+            transform,
+            Alpha::Ignored,
+        )
+        .unwrap()
     }
 
     fn at(texture: &Texture, u: f64, v: f64) -> [u8; 3] {
@@ -258,7 +410,8 @@ mod tests {
     #[test]
     fn what_is_no_picture_is_refused() {
         for bytes in [&b""[..], b"\x89PNG\r\n\x1a\n", b"not a picture"] {
-            let decoded = Texture::decode(bytes, Sampler::default(), TextureTransform::default());
+            let (sampler, transform) = (Sampler::default(), TextureTransform::default());
+            let decoded = Texture::decode(bytes, sampler, transform, Alpha::Ignored);
             assert!(decoded.is_err());
         }
     }

@@ -4,8 +4,7 @@ mod edges;
 mod mesh_part;
 mod normals;
 mod others;
-
-use std::sync::Arc;
+mod surface;
 
 use ::mesh::{EdgeId, FaceId, Mesh, VertexId};
 use glam::DVec3;
@@ -14,9 +13,8 @@ use scene::{Geometry, Object, Scene};
 use crate::PictureError;
 use crate::color::Color;
 use crate::colormap::ColorMap;
-use crate::drawing::{Drawing, Label, Surface};
+use crate::drawing::{Drawing, Label};
 use crate::style::Style;
-use crate::texture::Texture;
 
 /// What is shown beside the surfaces themselves.
 #[derive(Clone, Debug, Default)]
@@ -166,48 +164,6 @@ struct Builder<'s, 'a> {
     n_faces: u32,
     /// Of the sphere around the meshes of the scene.
     radius: f64,
-}
-
-impl Builder<'_, '_> {
-    /// How a material looks, and which texture coordinates it needs.
-    fn surface(&mut self, material: &scene::Material) -> Surface {
-        let [r, g, b, alpha] = material.base_color.map(crate::color::narrow);
-        let alpha = if material.alpha == scene::AlphaMode::Blend {
-            alpha
-        } else {
-            1.0
-        };
-        let strength = material.emissive_strength;
-        let mut surface = Surface {
-            color: [r, g, b, alpha],
-            texture: None,
-            uv_set: 0,
-            unlit: material.unlit,
-            roughness: crate::color::narrow(material.roughness),
-            emissive: material
-                .emissive
-                .map(|e| crate::color::narrow(e * strength)),
-        };
-        if let (Some(texture), None) = (&material.base_color_texture, self.style.color) {
-            match self.decoded(texture) {
-                Ok(decoded) => surface.texture = Some(Arc::new(decoded)),
-                Err(why) => self.missing.push(why),
-            }
-        }
-        surface
-    }
-
-    fn decoded(&mut self, texture: &scene::Texture) -> Result<Texture, String> {
-        let (name, bytes) = match &texture.image {
-            scene::Image::File(path) => {
-                let bytes = (self.images)(path).ok_or_else(|| format!("{path}: not found"))?;
-                (path.as_str(), bytes)
-            }
-            scene::Image::Embedded { mime, bytes } => (mime.as_str(), bytes.to_vec()),
-        };
-        Texture::decode(&bytes, texture.sampler, texture.transform)
-            .map_err(|why| format!("{name}: {why}"))
-    }
 }
 
 /// The middle and the radius of a sphere around everything in a scene, in scene units; the radius is not 0, also of

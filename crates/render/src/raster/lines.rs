@@ -159,7 +159,7 @@ impl Sight<'_> {
         }
         let [d0, d1] = self.flat.depths;
         let depth = d0 + (d1 - d0) * t;
-        let view = self.shader.view();
+        let view = self.shader.view;
         // A curved surface comes forward beside its edges by less than this.
         let bias = view.pixel(depth) * (1.0 + self.flat.radius);
         let limit = depth - view.depth_of(bias, depth);

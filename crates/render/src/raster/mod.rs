@@ -8,12 +8,14 @@
 //!   project    points to a grid of 1/256 pixel; triangles that reach too far are cut
 //!   bins       which triangles and lines touch which tile
 //!   tile       which triangle each of 16 samples a pixel sees
+//!   holes      which samples a triangle covers that is not opaque
 //!   lines      which line lies over it
 //!   shade      the color of a triangle at a place
 //!   occlusion  how much of the surroundings a place sees
 //! ```
 
 mod bins;
+mod holes;
 mod lines;
 mod occlusion;
 mod project;
@@ -30,7 +32,8 @@ use crate::drawing::Drawing;
 use crate::image::{Image, checked_size};
 use crate::style::Shading;
 use crate::{PictureError, View};
-use project::GRID;
+use holes::Cover;
+use project::{Flat, GRID};
 use shade::{Memory, Shader};
 use tile::{NOTHING, PLACES, SAMPLES, Tile};
 
@@ -141,7 +144,7 @@ pub fn render(
                     tile.begin(&frame, column, row);
                     let number = (row * frame.columns + column) as usize;
                     triangles.of(drawing, number, |id, flat| {
-                        tile.draw(id, flat, shader.mask(id));
+                        draw(tile, id, flat, &shader);
                     });
                     for line in line_bins.of(number) {
                         if let Some(flat) = &flat_lines[line as usize] {
@@ -171,6 +174,20 @@ pub fn render(
         },
         labels,
     })
+}
+
+/// Draws a triangle into a tile, where it is not transparent.
+fn draw(tile: &mut Tile, id: u32, flat: &Flat, shader: &Shader) {
+    if !shader.has_holes {
+        tile.draw(id, flat, u16::MAX);
+        return;
+    }
+    match shader.cover(id) {
+        Cover::Same(mask) => tile.draw(id, flat, mask),
+        Cover::Textured(mut texture) => {
+            tile.draw_holed(id, flat, |pixel, sample| texture.covers(pixel, sample));
+        }
+    }
 }
 
 /// The pixels of a tile.

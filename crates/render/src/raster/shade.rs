@@ -25,14 +25,14 @@ pub(super) const GROUND: [f32; 3] = [0.17, 0.16, 0.15];
 
 /// What shading needs.
 pub(super) struct Shader<'a> {
-    drawing: &'a Drawing<'a>,
-    view: &'a View,
+    pub(super) drawing: &'a Drawing<'a>,
+    pub(super) view: &'a View,
     look: &'a Look,
     occlusion: Option<Occlusion>,
     /// The first triangle and the first face of each part.
     firsts: Vec<[u32; 2]>,
     /// Whether some surface is not opaque.
-    has_holes: bool,
+    pub(super) has_holes: bool,
     key: DVec3,
     fill: DVec3,
 }
@@ -63,7 +63,7 @@ impl Memory {
 
 /// What is the same all over a triangle.
 #[derive(Clone, Copy)]
-struct Facts {
+pub(super) struct Facts {
     /// Its part, and its number in it.
     part: usize,
     triangle: usize,
@@ -75,7 +75,7 @@ struct Facts {
 }
 
 impl Facts {
-    fn new(part: usize, triangle: usize, corners: [DVec3; 3]) -> Self {
+    pub(super) fn new(part: usize, triangle: usize, corners: [DVec3; 3]) -> Self {
         let [a, b, c] = corners;
         let (u, v) = (b - a, c - a);
         let normal = unit_cross(u, v);
@@ -91,7 +91,7 @@ impl Facts {
 
     /// The barycentric coordinates of the place where a ray meets the plane of the triangle; `None` if it
     /// runs along the plane.
-    fn barycentric(&self, origin: DVec3, direction: DVec3) -> Option<[f64; 3]> {
+    pub(super) fn barycentric(&self, origin: DVec3, direction: DVec3) -> Option<[f64; 3]> {
         let a = self.corners[0] - origin;
         let p = direction * (self.normal.dot(a) / self.normal.dot(direction)) - a;
         let [s, t] = self.gradients.map(|g| g.dot(p));
@@ -137,18 +137,16 @@ impl<'a> Shader<'a> {
             look,
             occlusion,
             firsts,
-            has_holes: surfaces.into_iter().any(|s| s.color[3] < 1.0),
+            has_holes: surfaces
+                .into_iter()
+                .any(|s| s.color[3] < 1.0 || s.texture.as_ref().is_some_and(|t| !t.is_opaque())),
             key: KEY.normalize(),
             fill: FILL.normalize(),
         }
     }
 
-    pub(super) fn view(&self) -> &View {
-        self.view
-    }
-
     /// The part of a triangle, and its number in it.
-    fn find(&self, id: u32) -> (usize, usize) {
+    pub(super) fn find(&self, id: u32) -> (usize, usize) {
         let part = self.firsts.partition_point(|first| first[0] <= id) - 1;
         (part, (id - self.firsts[part][0]) as usize)
     }
@@ -161,31 +159,6 @@ impl<'a> Shader<'a> {
         let face = u32::try_from(p.face(triangle)).unwrap_or(0);
         let face = self.firsts[part][1].saturating_add(face);
         (face, a, (b - a).cross(c - a))
-    }
-
-    /// The samples that a triangle may cover: fewer if it is transparent, others for each surface, so that
-    /// one is seen through another.
-    pub(super) fn mask(&self, id: u32) -> u16 {
-        if !self.has_holes {
-            return u16::MAX;
-        }
-        let (part, triangle) = self.find(id);
-        let p = &self.drawing.parts[part];
-        let place = surface_place(p, triangle);
-        let Some(surface) = p.materials.get(place) else {
-            return u16::MAX;
-        };
-        let [a, b, c] = p.corners_at(triangle);
-        let is_back = (b - a).cross(c - a).dot(self.view.axes()[2]) < 0.0;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "from 0 to 16"
-        )]
-        let n = (surface.color[3].clamp(0.0, 1.0) * 16.0 + 0.5) as usize;
-        let turn = 5 * (part + place) + if is_back { 8 } else { 0 };
-        // Every third sample: those of the first few are spread over the pixel.
-        (0..n).fold(0, |mask, i| mask | 1 << ((i * 7 + turn) % 16))
     }
 
     /// The color of a line as the tile has noted it.
@@ -376,7 +349,7 @@ fn matcap(color: [f32; 3], n: DVec3, open: f32) -> [f32; 3] {
 }
 
 /// The place of a triangle's surface in the list of its part.
-fn surface_place(part: &Part, triangle: usize) -> usize {
+pub(super) fn surface_place(part: &Part, triangle: usize) -> usize {
     let place = part.material_of_face.get(part.face(triangle));
     place.map_or(0, |&m| m as usize)
 }

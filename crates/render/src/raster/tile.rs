@@ -107,6 +107,30 @@ impl Tile {
         }
     }
 
+    /// Draws a triangle as [`Self::draw`] does, where `covers` says that it is: asked of pixels and their samples.
+    pub(super) fn draw_holed(
+        &mut self,
+        id: u32,
+        flat: &Flat,
+        mut covers: impl FnMut([u32; 2], usize) -> bool,
+    ) {
+        let Some(mut setup) = Setup::new(flat, self) else {
+            return;
+        };
+        let [x0, y0, x1, y1] = setup.limits;
+        for y in y0..=y1 {
+            for x in x0..=x1 {
+                let mask = (0..SAMPLES)
+                    .filter(|&k| setup.is_inside(x, y, k) && covers([x, y], k))
+                    .fold(0, |mask, k| mask | 1 << k);
+                if mask != 0 {
+                    setup.limits = [x, y, x, y];
+                    self.fill::<i64>(id, &setup, mask);
+                }
+            }
+        }
+    }
+
     #[expect(
         clippy::needless_bitwise_bool,
         reason = "no branches: 16 samples at once"
@@ -266,6 +290,13 @@ impl Setup {
             nearest: o.depth.min(p.depth).min(q.depth),
             farthest: o.depth.max(p.depth).max(q.depth),
         })
+    }
+
+    /// Whether a sample of a pixel is in the triangle.
+    fn is_inside(&self, x: u32, y: u32, sample: usize) -> bool {
+        let (from, aside) = (self.from(x, y), PLACES[sample].map(i64::from));
+        let [x, y] = [from[0] + aside[0], from[1] + aside[1]];
+        self.edges.iter().all(|e| e.a * x + e.b * y + e.c >= 0)
     }
 
     /// The middle of a pixel, from the first corner.

@@ -111,7 +111,7 @@ pub struct Style {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub normals: Option<f64>,
-    /// Dots on all vertices: their diameter in pixels.
+    /// Dots on all vertices of meshes and all points of polylines: their diameter in pixels.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub points: Option<f64>,

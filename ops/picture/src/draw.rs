@@ -113,6 +113,7 @@ fn prepare<'s>(
     overlays.highlights.extend_from_slice(&further.highlights);
     overlays.strokes.extend_from_slice(&further.strokes);
     overlays.labels.extend_from_slice(&further.labels);
+    notes.extend(overlays::unmarked(picture, scene));
     let folder = picture.images.as_deref();
     let mut images = |path: &str| read_image(cx.files(), folder, path);
     let (drawing, missing) = build(scene, &picture.style, &overlays, &mut images).map_err(told)?;

@@ -42,6 +42,17 @@ pub(crate) fn of(
     Ok(overlays)
 }
 
+/// What is said where nothing can be marked.
+pub(crate) fn unmarked(picture: &Picture, scene: &Scene) -> Option<String> {
+    let has_marks = picture.highlight.is_some() || !picture.marks.is_empty();
+    let has_mesh = scene.objects().iter().any(|o| o.as_mesh().is_some());
+    (has_marks && !has_mesh && !scene.objects().is_empty()).then(|| {
+        "nothing is marked: elements of meshes can be, and there is no mesh here; `style: (points: 8)` \
+         shows the points of polylines, and `style: (control_nets: ())` control points"
+            .to_owned()
+    })
+}
+
 fn highlight(
     object: &str,
     selected: Selected,

@@ -207,3 +207,24 @@ fn a_scene_without_anything_is_an_empty_picture() {
         .unwrap();
     assert!(images[0].pixels.iter().all(|p| *p == [255; 4]) && notes.is_empty());
 }
+
+#[test]
+fn a_mark_on_what_is_no_mesh_is_told_to_mark_nothing() {
+    let line = scene::Geometry::Polylines(vec![vec![glam::DVec3::ZERO, glam::DVec3::ONE]]);
+    let mut scene = Scene::new();
+    scene.insert(Object::new("line", line)).unwrap();
+    let files = Files::default();
+    let mut cx = Context::new(&NoProgress, &files);
+    let mut notes = |fields: &str, scene: &Scene| {
+        let (_, notes) = picture(fields).draw(scene, &mut cx).unwrap();
+        notes
+    };
+    for marked in ["highlight: Vertices(All)", "marks: [(of: Edges(All))]"] {
+        let found = notes(&format!("path: \"a.png\", {marked}"), &scene);
+        assert!(found[0].starts_with("nothing is marked"), "{found:?}");
+    }
+    assert_eq!(notes("path: \"a.png\"", &scene), [""; 0]);
+    scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
+    let marked = "path: \"a.png\", highlight: Vertices(All)";
+    assert_eq!(notes(marked, &scene), [""; 0]);
+}

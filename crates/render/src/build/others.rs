@@ -9,11 +9,14 @@ use super::{Builder, Stroke};
 use crate::PictureError;
 use crate::color::Color;
 use crate::drawing::{Channel, NO_FACE, Normals, Part, Surface};
+use crate::figure::construction;
 
 /// Cells of a patch along each side.
 const CELLS: u32 = 24;
 /// Pieces of a curve.
 const PIECES: u32 = 200;
+/// The diameter of a polyline of one point, in widths of lines.
+const LONE_POINT: f64 = 3.0;
 
 impl Builder<'_, '_> {
     /// Adds Bezier patches, and their control nets if the style wants them.
@@ -54,42 +57,67 @@ impl Builder<'_, '_> {
     /// Adds a curve, and its control polygon if the style wants it.
     pub(super) fn curve(&mut self, curve: &Curve<DVec2>, color: Color) {
         let points: Vec<DVec3> = curve.sample(PIECES).map(|p| p.extend(0.0)).collect();
+        let color = self.line_color(color);
         self.chain(&points, color);
         let control: Vec<DVec3> = curve.points().iter().map(|p| p.extend(0.0)).collect();
         self.control_polygon(&control);
     }
 
-    /// Adds polylines.
+    /// Adds polylines, with dots on their points if the style wants them. The levels of de Casteljau's construction
+    /// have the colors that they have in figures of it.
     pub(super) fn polylines(&mut self, lines: &[Vec<DVec3>], color: Color) {
-        for line in lines {
+        let usual = self.line_color(color);
+        let are_levels = self.style.color.is_none() && are_levels(lines);
+        for (r, line) in lines.iter().enumerate() {
+            let color = if are_levels {
+                Color(construction::color_of_level(r, lines.len())).linear()
+            } else {
+                usual
+            };
             self.chain(line, color);
+            if let Some(diameter) = self.style.points {
+                for &point in line {
+                    self.dot(point, diameter, color, 0.0);
+                }
+            }
         }
     }
 
-    /// Lines between consecutive points. They are darker than a surface would be, to be seen on white.
-    fn chain(&mut self, points: &[DVec3], color: Color) {
+    /// The color of lines: darker than a surface would be, to be seen on white.
+    fn line_color(&self, color: Color) -> [f32; 4] {
         let [r, g, b, a] = color.linear();
-        let color = if self.style.color.is_some() {
+        if self.style.color.is_some() {
             [r, g, b, a]
         } else {
             [r * r * 0.5, g * g * 0.5, b * b * 0.6, a]
-        };
-        self.through(points, self.style.curve_width, color, 0.0);
+        }
+    }
+
+    /// Lines between consecutive points, or a dot for a single one.
+    fn chain(&mut self, points: &[DVec3], color: [f32; 4]) {
+        let width = self.style.curve_width;
+        self.through(points, [width, LONE_POINT * width], color, 0.0);
     }
 
     /// Adds a line or a dot of an overlay.
     pub(super) fn stroke(&mut self, stroke: &Stroke) {
         let color = stroke.color.linear();
-        self.through(&stroke.points, stroke.width, color, stroke.hidden);
+        self.through(&stroke.points, [stroke.width; 2], color, stroke.hidden);
     }
 
-    /// A line through points; a dot if there is one.
-    fn through(&mut self, points: &[DVec3], width: f64, color: [f32; 4], hidden: f64) {
+    /// A line of this width through points; a dot of this diameter if there is one.
+    fn through(
+        &mut self,
+        points: &[DVec3],
+        [width, diameter]: [f64; 2],
+        color: [f32; 4],
+        hidden: f64,
+    ) {
         for ends in points.windows(2) {
             self.line([ends[0], ends[1]], width, color, [NO_FACE; 2], hidden);
         }
         if let [point] = points {
-            self.dot(*point, width, color, hidden);
+            self.dot(*point, diameter, color, hidden);
         }
     }
 
@@ -100,10 +128,84 @@ impl Builder<'_, '_> {
         };
         let color = lines.color.linear();
         if points.len() > 1 {
-            self.through(points, lines.width, color, lines.hidden);
+            self.through(points, [lines.width; 2], color, lines.hidden);
         }
         for &point in points {
             self.dot(point, 3.0 * lines.width + 1.5, color, lines.hidden);
         }
+    }
+}
+
+/// Whether polylines are the levels of de Casteljau's construction: each has one point less than the one before, down
+/// to one.
+fn are_levels(lines: &[Vec<DVec3>]) -> bool {
+    let loses_one = |pair: &[Vec<DVec3>]| pair[0].len() == pair[1].len() + 1;
+    lines.len() > 1 && lines.windows(2).all(loses_one) && lines[lines.len() - 1].len() == 1
+}
+
+#[cfg(test)]
+mod tests {
+    use bezier::Curve;
+    use glam::{DVec2, DVec3};
+    use scene::{Geometry, Object, Scene};
+
+    use crate::{Color, Drawing, Overlays, Style, build};
+
+    fn polylines(lines: Vec<Vec<DVec3>>) -> Scene {
+        let mut scene = Scene::new();
+        let object = Object::new("lines", Geometry::Polylines(lines));
+        scene.insert(object).unwrap();
+        scene
+    }
+
+    fn built<'s>(scene: &'s Scene, style: &Style) -> Drawing<'s> {
+        let (drawing, _) = build(scene, style, &Overlays::default(), &mut |_| None).unwrap();
+        drawing
+    }
+
+    #[test]
+    fn points_of_polylines_have_dots_if_the_style_has_points() {
+        let line = vec![DVec3::ZERO, DVec3::X, DVec3::ONE];
+        let scene = polylines(vec![line.clone(), vec![DVec3::Z, DVec3::Y]]);
+        let lines = |points| {
+            let style = Style {
+                points,
+                ..Style::default()
+            };
+            built(&scene, &style).lines
+        };
+        assert_eq!(lines(None).len(), 3);
+        let dots: Vec<_> = (lines(Some(7.0)).iter())
+            .filter(|l| l.ends[0] == l.ends[1] && l.width == 7.0)
+            .map(|l| l.ends[0])
+            .collect();
+        assert_eq!(dots, [&line[..], &[DVec3::Z, DVec3::Y]].concat());
+    }
+
+    #[test]
+    fn levels_of_a_construction_are_told_apart() {
+        let points = [[0.0, 0.0], [1.0, 3.0], [3.0, 3.0], [4.0, 0.0]];
+        let curve = Curve::new(points.map(DVec2::from).to_vec()).unwrap();
+        let levels = curve.levels(0.5).into_iter();
+        let scene = polylines(
+            levels
+                .map(|level| level.iter().map(|p| p.extend(0.0)).collect())
+                .collect(),
+        );
+        let colors = |style: &Style| {
+            let mut colors: Vec<_> = built(&scene, style).lines.iter().map(|l| l.color).collect();
+            colors.dedup();
+            colors
+        };
+        let found = colors(&Style::default());
+        assert_eq!(found.len(), 4);
+        assert!((1..4).all(|i| !found[..i].contains(&found[i])));
+        // A color for everything is for them too.
+        let blue = Color::rgb(0, 0, 200);
+        let style = Style {
+            color: Some(blue),
+            ..Style::default()
+        };
+        assert_eq!(colors(&style), [blue.linear()]);
     }
 }

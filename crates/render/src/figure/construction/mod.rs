@@ -102,6 +102,15 @@ fn level_color(r: usize) -> Color {
     LEVELS[(r - 1) % LEVELS.len()]
 }
 
+/// The color of level `r` of `n` levels, from the control polygon, which is 0, to the point.
+pub(crate) fn color_of_level(r: usize, n: usize) -> Color {
+    match r {
+        0 => POLYGON,
+        r if r + 1 == n => POINT,
+        r => level_color(r),
+    }
+}
+
 /// c(t), the name of the point.
 fn point_name() -> Vec<Run> {
     vec![

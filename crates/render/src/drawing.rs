@@ -101,7 +101,7 @@ pub struct Line {
     pub color: [f32; 4],
     /// The faces beside it, counted over all parts, on which it is always seen; [`NO_FACE`] for none.
     pub faces: [u32; 2],
-    /// How much of it is seen where something is before it, from 0 to 1.
+    /// How much of it is seen where something is before it, from 0 to 1. A point is a ring there.
     pub hidden: f32,
 }
 

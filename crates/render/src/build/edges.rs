@@ -10,8 +10,11 @@ use crate::color::narrow;
 use crate::drawing::{Label, Line, NO_FACE};
 use crate::style::Ids;
 
-/// The diameter of vertices without edges, in pixels.
+/// The diameter of vertices without edges, in pixels: of a mesh that has no others, and beside a surface.
 const LONELY: f64 = 3.0;
+const LONELY_BESIDE: f64 = 1.8;
+/// The width of the border of marked vertices on both sides together, as a part of their diameter.
+const BORDER: f64 = 0.25;
 /// No more labels than this: they would cover each other.
 const MOST_IDS: usize = 2000;
 /// The sharpness that never fades.
@@ -66,8 +69,13 @@ impl Builder<'_, '_> {
                     }
                 }
                 Elements::Vertices(vertices) => {
+                    // The light border tells them apart from lines and from each other.
+                    let white = [1.0, 1.0, 1.0, 0.9];
+                    let border = highlight.size * (1.0 + BORDER);
                     for &v in vertices.iter().filter(|&&v| mesh.has_vertex(v)) {
-                        self.dot(mesh.position(v), highlight.size, color, highlight.hidden);
+                        let at = mesh.position(v);
+                        self.dot(at, border, white, 0.0);
+                        self.dot(at, highlight.size, color, highlight.hidden);
                     }
                 }
             }
@@ -110,11 +118,15 @@ impl Builder<'_, '_> {
     /// Vertices without edges, normals, and dots on all vertices.
     fn vertices(&mut self, mesh: &Mesh) {
         let dark = crate::Color::rgb(28, 34, 48).linear();
-        for v in mesh
-            .vertices()
-            .filter(|&v| mesh.vertex_half_edge(v).is_none())
-        {
-            self.dot(mesh.position(v), LONELY, dark, 0.0);
+        let is_lonely = |v: &VertexId| mesh.vertex_half_edge(*v).is_none();
+        // Beside a surface they are mostly remains, and say little.
+        let (diameter, color) = if mesh.n_edges() == 0 {
+            (LONELY, dark)
+        } else {
+            (LONELY_BESIDE, [dark[0], dark[1], dark[2], 0.4])
+        };
+        for v in mesh.vertices().filter(is_lonely) {
+            self.dot(mesh.position(v), diameter, color, 0.0);
         }
         if let Some(length) = self.style.normals {
             let given = mesh.get(VERTEX_NORMAL);

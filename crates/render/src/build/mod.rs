@@ -70,7 +70,8 @@ pub struct Highlight {
     pub color: Color,
     /// The diameter of vertices and the width of edges, in pixels.
     pub size: f64,
-    /// How much of vertices and edges is seen where a surface is before them, from 0 to 1.
+    /// How much of edges is seen where a surface is before them, and of the rings that vertices are there, from 0
+    /// to 1.
     pub hidden: f64,
 }
 

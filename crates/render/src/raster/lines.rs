@@ -3,6 +3,8 @@
 //! A sample of a line is compared with the surface at the nearest place on its axis: the plane of the
 //! triangle that the sample sees is continued to there. So a thick line on a slanted surface is seen from
 //! border to border, though half of it lies behind that surface.
+//!
+//! What is hidden of a point is a ring: a faint disc would look like a stain on what is before it.
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -13,6 +15,10 @@ use super::shade::Shader;
 use super::tile::{NOTHING, PLACES, Tile};
 use crate::View;
 use crate::drawing::{Drawing, Line};
+
+/// The width of the ring that a hidden point is: a part of its radius, but so many pixels at least.
+const RING: f64 = 0.35;
+const LEAST_RING: f64 = 1.2;
 
 /// A line in the picture.
 pub(super) struct FlatLine {
@@ -113,6 +119,12 @@ pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, s
         pixel(bottom, tile.top, tile.bottom),
     );
     let radius_squared = flat.radius * flat.radius;
+    let is_point = flat.scaled == DVec2::ZERO;
+    let hole = if is_point {
+        (flat.radius - LEAST_RING.max(RING * flat.radius)).max(0.0)
+    } else {
+        0.0
+    };
     let sight = Sight { flat, line, shader };
     for y in y0..=y1 {
         for x in x0..=x1 {
@@ -125,7 +137,8 @@ pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, s
                 let [dx, dy] = place_of_sample.map(|d| f64::from(d) / f64::from(GRID));
                 let p = middle + DVec2::new(dx, dy);
                 let t = flat.along(p);
-                if p.distance_squared(flat.place(t)) > radius_squared {
+                let distance_squared = p.distance_squared(flat.place(t));
+                if distance_squared > radius_squared {
                     continue;
                 }
                 let seen = (tile.seen[place][k], tile.depth[place][k]);
@@ -133,7 +146,10 @@ pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, s
                 let over = &mut tile.over[place][k];
                 if is_seen {
                     *over = 2 * number + 2;
-                } else if line.hidden > 0.0 && (*over == 0 || *over & 1 == 1) {
+                } else if line.hidden > 0.0
+                    && distance_squared >= hole * hole
+                    && (*over == 0 || *over & 1 == 1)
+                {
                     *over = 2 * number + 3;
                 }
             }

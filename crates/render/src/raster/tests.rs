@@ -366,6 +366,34 @@ fn a_line_is_hidden_behind_a_surface_and_seen_on_it() {
 }
 
 #[test]
+fn a_point_is_a_disc_and_a_ring_where_it_is_hidden() {
+    let size = [41, 41];
+    let corners = [[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]];
+    let points = corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
+    let lights = |z: f64| {
+        let mut drawing = drawing(vec![part(
+            points.clone(),
+            vec![[0, 1, 2], [0, 2, 3]],
+            WHITE,
+        )]);
+        drawing.lines.push(Line {
+            ends: [DVec3::Z * z; 2],
+            width: 20.0,
+            color: [0.0, 0.0, 0.0, 1.0],
+            faces: [NO_FACE; 2],
+            hidden: 0.5,
+        });
+        let picture = rendered(&drawing, &before(4.0, size), size, &plain());
+        // From the middle to the right.
+        [0, 4, 8, 14].map(|x| to_linear(picture.image.pixels[20 * 41 + 20 + x][0]))
+    };
+    assert_eq!(lights(0.5), [0.0, 0.0, 0.0, 1.0]);
+    let [middle, inside, ring, outside] = lights(-1.0);
+    assert_eq!([middle, inside, outside], [1.0; 3]);
+    assert!((ring - 0.5).abs() < 0.01, "{ring}");
+}
+
+#[test]
 fn labels_know_what_is_before_them() {
     let size = [32, 32];
     let triangle = [[-9.0, -9.0], [9.0, -9.0], [0.0, 18.0]];

@@ -388,7 +388,7 @@ fn a_point_is_a_disc_and_a_ring_where_it_is_hidden() {
         [0, 4, 8, 14].map(|x| to_linear(picture.image.pixels[20 * 41 + 20 + x][0]))
     };
     assert_eq!(lights(0.5), [0.0, 0.0, 0.0, 1.0]);
-    let [middle, inside, ring, outside] = lights(-1.0);
+    let [middle, inside, ring, outside] = lights(-3.0);
     assert_eq!([middle, inside, outside], [1.0; 3]);
     assert!((ring - 0.5).abs() < 0.01, "{ring}");
 }

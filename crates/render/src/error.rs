@@ -31,6 +31,9 @@ pub enum PictureError {
     /// The style asks for what the scene does not have.
     #[error("{0}")]
     Style(String),
+    /// It was asked not to go on.
+    #[error("cancelled")]
+    Cancelled,
     /// An image cannot be encoded.
     #[error("the image cannot be encoded: {0}")]
     Encode(String),

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use crate::PictureError;
+use crate::progress::{GoOn, Work};
 
 /// No side of an image is longer, in pixels.
 pub const LARGEST_SIDE: u32 = 16_384;
@@ -41,6 +42,20 @@ impl Image {
     ///
     /// [`PictureError::Encode`] if there is nothing to encode, or a keyword is none.
     pub fn to_png(&self, texts: &[(&str, &str)]) -> Result<Vec<u8>, PictureError> {
+        self.to_png_while(texts, &|_| true)
+    }
+
+    /// As [`Self::to_png`]. `go_on` is told how far it is, and stops it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::to_png`]; [`PictureError::Cancelled`] if `go_on` says so.
+    pub fn to_png_while(
+        &self,
+        texts: &[(&str, &str)],
+        go_on: GoOn,
+    ) -> Result<Vec<u8>, PictureError> {
+        let work = Work::new(go_on, u64::from(self.height));
         let failed = |error: png::EncodingError| PictureError::Encode(error.to_string());
         let is_opaque = self.pixels.iter().all(|p| p[3] == u8::MAX);
         let mut bytes = Vec::new();
@@ -67,6 +82,7 @@ impl Image {
                 let n = if is_opaque { 3 } else { 4 };
                 bytes_of_row.extend_from_slice(&pixel[..n]);
             }
+            work.add(1)?;
             stream
                 .write_all(&bytes_of_row)
                 .map_err(|e| failed(e.into()))?;

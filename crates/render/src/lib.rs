@@ -50,6 +50,7 @@ mod error;
 pub mod figure;
 mod image;
 pub mod palette;
+mod progress;
 mod raster;
 pub mod sheet;
 mod style;
@@ -62,6 +63,7 @@ pub use colormap::ColorMap;
 pub use drawing::{Channel, Drawing, Label, Line, Mixed, NO_FACE, Normals, Part, Surface};
 pub use error::PictureError;
 pub use image::{Image, LARGEST_SIDE};
+pub use progress::GoOn;
 pub use raster::{Look, PlacedLabel, Rendered, bytes_needed, render};
 pub use style::{Background, Ids, Lines, Shading, Style};
 pub use texture::{Alpha, Texture};
@@ -89,7 +91,8 @@ pub fn picture(
         return Err(PictureError::Budget { needed, budget });
     }
     let view = View::new(camera, &|each| drawing.each_point(each), size)?;
-    Ok((render(&drawing, &view, size, &look)?, missing))
+    let rendered = render(&drawing, &view, size, &look, &|_| true)?;
+    Ok((rendered, missing))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use op::{Context, Files, OpError};
 use render::figure::label::{Label, draw_labels};
 use render::figure::legend::{Corner, draw_legend};
 use render::sheet::{Cell, SheetStyle, sheet};
-use render::{Drawing, Image, Overlays, PictureError, View, build, bytes_needed, render};
+use render::{Drawing, GoOn, Image, Overlays, PictureError, View, build, bytes_needed, render};
 use scene::Scene;
 
 use crate::Picture;
@@ -20,6 +20,20 @@ const INK: [u8; 4] = [0x1f, 0x29, 0x37, 255];
 
 /// The height of the numbers beside elements, in pixels.
 const LETTERS: f64 = 13.0;
+
+/// Steps in which the progress of an image is told.
+pub(crate) const PARTS: u64 = 1000;
+
+/// The steps that are done where this part of an image is, from 0 to 1.
+pub(crate) fn parts(part: f64) -> u64 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "from 0 to 1000"
+    )]
+    let parts = (part.clamp(0.0, 1.0) * 1000.0) as u64;
+    parts
+}
 
 impl Picture {
     /// The pixels of all images of a scene together.
@@ -47,7 +61,7 @@ pub(crate) fn images(
 ) -> Result<(Vec<Image>, Vec<String>), OpError> {
     let n_frames = picture.turntable.map_or(1, |turn| turn.frames);
     let total = u64::from(n_frames) * (picture.cameras().len() * scenes.len()) as u64;
-    cx.advance("draw", 0, total)?;
+    cx.advance("draw", 0, PARTS * total)?;
     let chosen: Vec<_> = scenes
         .iter()
         .map(|(scene, _)| chosen(scene, cx.on))
@@ -90,9 +104,14 @@ pub(crate) fn images(
             };
             let view = View::new(&camera, &points, picture.size).map_err(told)?;
             for r in &ready {
-                views.push((draw(picture, r, &view).map_err(told)?, r.caption));
+                let go_on = |part: f64| {
+                    let parts = PARTS * done + parts(part);
+                    cx.advance("draw", parts, PARTS * total).is_ok()
+                };
+                let image = draw(picture, r, &view, &go_on).map_err(told)?;
+                views.push((image, r.caption));
                 done += 1;
-                cx.advance("draw", done, total)?;
+                cx.advance("draw", PARTS * done, PARTS * total)?;
             }
         }
         frames.push(side_by_side(picture, views, scenes.len(), cx.budget).map_err(told)?);
@@ -136,9 +155,9 @@ fn chosen<'s>(scene: &'s Scene, on: Option<&[String]>) -> Cow<'s, Scene> {
     Cow::Owned(chosen)
 }
 
-fn draw(picture: &Picture, ready: &Ready, view: &View) -> Result<Image, PictureError> {
+fn draw(picture: &Picture, ready: &Ready, view: &View, go_on: GoOn) -> Result<Image, PictureError> {
     let drawing = &ready.drawing;
-    let rendered = render(drawing, view, picture.size, &picture.style.look())?;
+    let rendered = render(drawing, view, picture.size, &picture.style.look(), go_on)?;
     let mut image = rendered.image;
     let labels: Vec<Label> = (drawing.labels.iter().zip(&rendered.labels))
         .filter_map(|(label, placed)| Some((label, placed.filter(|p| !p.is_hidden)?)))
@@ -201,6 +220,7 @@ fn read_image(files: &Files, folder: Option<&str>, path: &str) -> Option<Vec<u8>
 
 pub(crate) fn told(error: PictureError) -> OpError {
     match error {
+        PictureError::Cancelled => OpError::Cancelled,
         PictureError::Budget { .. } => OpError::Budget(error.to_string()),
         error => OpError::Parameter(error.to_string()),
     }

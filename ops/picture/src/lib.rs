@@ -18,7 +18,7 @@ use std::path::Path;
 
 use op::{Context, Elements, OpError, Operation, Plan, PlanContext, Problem, Report};
 use render::animation::{Timing, to_apng, to_gif};
-use render::{Camera, Color, Image, LARGEST_SIDE, Overlays, PictureError, Style};
+use render::{Camera, Color, GoOn, Image, LARGEST_SIDE, Overlays, PictureError, Style};
 use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -245,10 +245,24 @@ impl Picture {
     ///
     /// [`PictureError::Encode`] if there is no image, or the images are too large for the format.
     pub fn encode(&self, images: &[Image], stamp: Option<&str>) -> Result<Vec<u8>, PictureError> {
+        self.encode_while(images, stamp, &|_| true)
+    }
+
+    /// As [`Self::encode`]. `go_on` is told how far it is, from 0 to 1, and stops it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::encode`]; [`PictureError::Cancelled`] if `go_on` says so.
+    pub fn encode_while(
+        &self,
+        images: &[Image],
+        stamp: Option<&str>,
+        go_on: GoOn,
+    ) -> Result<Vec<u8>, PictureError> {
         let texts: Vec<(&str, &str)> = stamp.iter().map(|stamp| ("Software", *stamp)).collect();
         let Some(turn) = self.turntable else {
             return match images {
-                [image] => image.to_png(&texts),
+                [image] => image.to_png_while(&texts, go_on),
                 _ => Err(PictureError::Encode("there is no image".to_owned())),
             };
         };
@@ -261,8 +275,8 @@ impl Picture {
         let delay = delay.round().clamp(1.0, f64::from(u16::MAX)) as u16;
         let timing = Timing { delay, turns: 0 };
         match Format::of(Path::new(&self.path)) {
-            Some(Format::Gif) => to_gif(images, timing, stamp),
-            _ => to_apng(images, timing, &texts),
+            Some(Format::Gif) => to_gif(images, timing, stamp, go_on),
+            _ => to_apng(images, timing, &texts, go_on),
         }
     }
 }
@@ -301,9 +315,13 @@ impl Operation for Picture {
         let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
         let (images, notes) = self.draw(scene, cx)?;
         let stamp = cx.files().provenance.clone();
+        let go_on = |part| {
+            let parts = draw::parts(part);
+            cx.advance("encode", parts, draw::PARTS).is_ok()
+        };
         let bytes = self
-            .encode(&images, stamp.as_deref())
-            .map_err(|error| OpError::Parameter(error.to_string()))?;
+            .encode_while(&images, stamp.as_deref(), &go_on)
+            .map_err(draw::told)?;
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(|e| {
                 failed(&format!("cannot make the folder {}: {e}", folder.display()))

@@ -228,3 +228,31 @@ fn a_mark_on_what_is_no_mesh_is_told_to_mark_nothing() {
     let marked = "path: \"a.png\", highlight: Vertices(All)";
     assert_eq!(notes(marked, &scene), [""; 0]);
 }
+
+/// Stops when a loop of this name is halfway.
+struct Halfway(&'static str);
+
+impl op::Progress for Halfway {
+    fn advance(&self, what: &str, done: u64, total: u64) -> bool {
+        what != self.0 || 2 * done < total
+    }
+}
+
+#[test]
+fn a_picture_that_is_cancelled_halfway_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = Files {
+        output: folder.path().into(),
+        ..Files::default()
+    };
+    for what in ["draw", "encode"] {
+        for fields in ["path: \"a.png\"", "path: \"a.gif\", turntable: (frames: 3)"] {
+            let halfway = Halfway(what);
+            let mut cx = Context::new(&halfway, &files);
+            let stopped = picture(fields).apply(&mut scene(), &mut cx);
+            assert!(matches!(stopped, Err(OpError::Cancelled)), "{what}");
+            let written = std::fs::read_dir(folder.path()).unwrap().count();
+            assert_eq!(written, 0, "{what}");
+        }
+    }
+}

@@ -6,9 +6,10 @@
 use rayon::prelude::*;
 
 use super::project::{Corner, Flat, GRID, GRID_BITS, clipped};
-use super::{Frame, TILE};
-use crate::View;
+use super::{Frame, SORTED, TILE};
 use crate::drawing::Drawing;
+use crate::progress::Work;
+use crate::{PictureError, View};
 
 /// At most so many chunks, because each has a number for every tile.
 const MOST_CHUNKS: usize = 32;
@@ -93,7 +94,12 @@ struct Chunk {
 
 impl Triangles {
     /// Sorts all triangles of a drawing.
-    pub(super) fn new(drawing: &Drawing, view: &View, frame: &Frame) -> Self {
+    pub(super) fn new(
+        drawing: &Drawing,
+        view: &View,
+        frame: &Frame,
+        work: &Work,
+    ) -> Result<Self, PictureError> {
         let points: Vec<_> = drawing
             .parts
             .iter()
@@ -130,16 +136,17 @@ impl Triangles {
                     }
                 }
                 let sorted = Sorted::new(frame.columns, frame.n_tiles(), rects.into_iter());
-                Chunk {
+                work.add(SORTED * range.len() as u64)?;
+                Ok(Chunk {
                     part,
                     first: range.start,
                     first_of_all,
                     sorted,
                     cut,
-                }
+                })
             })
-            .collect();
-        Self { points, chunks }
+            .collect::<Result<_, PictureError>>()?;
+        Ok(Self { points, chunks })
     }
 
     /// Calls `each` with the triangles that touch a tile: the number over all parts, and the place.

@@ -9,6 +9,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::PictureError;
 use crate::color::narrow;
 use crate::drawing::{Drawing, Part};
 
@@ -64,7 +65,12 @@ fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
 }
 
 impl Occlusion {
-    pub(super) fn new(drawing: &Drawing, size: [u32; 2]) -> Self {
+    /// `map_done` is told how many maps there are whenever one of them is done.
+    pub(super) fn new(
+        drawing: &Drawing,
+        size: [u32; 2],
+        map_done: impl Fn(u64) -> Result<(), PictureError> + Sync,
+    ) -> Result<Self, PictureError> {
         let all_points = |each: &mut dyn FnMut(DVec3)| {
             for part in &drawing.parts {
                 part.points.iter().for_each(|&p| each(p));
@@ -107,15 +113,16 @@ impl Occlusion {
                         fill(&mut depths, side, triangle.map(|v| places[v as usize]));
                     }
                 }
-                Map { axes, depths }
+                map_done(MAPS as u64)?;
+                Ok(Map { axes, depths })
             })
-            .collect();
-        Self {
+            .collect::<Result<_, PictureError>>()?;
+        Ok(Self {
             center,
             texel,
             side,
             maps,
-        }
+        })
     }
 
     /// How much of its surroundings a place with a unit normal sees, weighted by the cosine: 0 for none, 1

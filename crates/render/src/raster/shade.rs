@@ -8,10 +8,10 @@ use glam::{DVec2, DVec3};
 
 use super::Look;
 use super::occlusion::Occlusion;
-use crate::View;
 use crate::color::{mix, narrow};
 use crate::drawing::{Drawing, Normals, Part, Surface};
 use crate::style::Shading;
+use crate::{PictureError, View};
 
 /// Where the key light comes from: right, upwards, towards the camera. Not of length 1.
 pub(super) const KEY: DVec3 = DVec3::new(-0.45, 0.65, 0.75);
@@ -111,12 +111,14 @@ struct Spot {
 }
 
 impl<'a> Shader<'a> {
+    /// `map_done` is told how many depth maps there are whenever one of them is done.
     pub(super) fn new(
         drawing: &'a Drawing<'a>,
         view: &'a View,
         size: [u32; 2],
         look: &'a Look,
-    ) -> Self {
+        map_done: impl Fn(u64) -> Result<(), PictureError> + Sync,
+    ) -> Result<Self, PictureError> {
         let mut next = [0_u32; 2];
         let mut firsts = Vec::new();
         for part in &drawing.parts {
@@ -127,11 +129,11 @@ impl<'a> Shader<'a> {
                 next[1].saturating_add(part.n_faces),
             ];
         }
-        let is_lit = look.shading != Shading::Plain;
-        let occlusion = (look.occlusion > 0.0 && is_lit && drawing.n_triangles() > 0)
-            .then(|| Occlusion::new(drawing, size));
+        let occlusion = (look.has_occlusion() && drawing.n_triangles() > 0)
+            .then(|| Occlusion::new(drawing, size, map_done))
+            .transpose()?;
         let surfaces = drawing.parts.iter().flat_map(|p| &p.materials);
-        Self {
+        Ok(Self {
             drawing,
             view,
             look,
@@ -142,7 +144,7 @@ impl<'a> Shader<'a> {
                 .any(|s| s.color[3] < 1.0 || s.texture.as_ref().is_some_and(|t| !t.is_opaque())),
             key: KEY.normalize(),
             fill: FILL.normalize(),
-        }
+        })
     }
 
     /// The part of a triangle, and its number in it.

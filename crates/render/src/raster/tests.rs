@@ -8,7 +8,7 @@ use super::tile::{NOTHING, SAMPLES, Tile};
 use super::{Look, Rendered, TILE, render};
 use crate::drawing::{Channel, Drawing, Label, Line, NO_FACE, Normals, Part, Surface};
 use crate::style::Shading;
-use crate::{Camera, Projection, Side, Up, View, to_linear};
+use crate::{Camera, PictureError, Projection, Side, Up, View, to_linear};
 
 const WHITE: [f32; 3] = [1.0; 3];
 
@@ -59,7 +59,7 @@ fn before(height: f64, size: [u32; 2]) -> View {
 }
 
 fn rendered(drawing: &Drawing, view: &View, size: [u32; 2], look: &Look) -> Rendered {
-    render(drawing, view, size, look).unwrap()
+    render(drawing, view, size, look, &|_| true).unwrap()
 }
 
 /// How many pixels are covered, in parts too.
@@ -231,6 +231,39 @@ fn any_number_of_threads_gives_the_same_bytes() {
     let one = with(1);
     assert_eq!(one, with(2));
     assert_eq!(one, with(8));
+}
+
+#[test]
+fn drawing_says_how_far_it_is_and_stops_where_it_is_told_to() {
+    let drawing = drawing(vec![sphere(1.0)]);
+    let look = Look {
+        shading: Shading::Smooth,
+        occlusion: 0.8,
+        background: [1.0; 4],
+    };
+    let size = [200, 90];
+    let view = View::new(&Camera::default(), &|each| drawing.each_point(each), size).unwrap();
+    let told = std::sync::Mutex::new(Vec::new());
+    let until = |end: f64| {
+        told.lock().unwrap().clear();
+        let go_on = |part| {
+            told.lock().unwrap().push(part);
+            part < end
+        };
+        render(&drawing, &view, size, &look, &go_on)
+    };
+    let whole = until(2.0).unwrap();
+    assert_eq!(whole, rendered(&drawing, &view, size, &look));
+    let parts = told.lock().unwrap().clone();
+    assert!(parts.is_sorted() && parts.len() > 50, "{parts:?}");
+    assert!(parts[0] == 0.0 && parts[parts.len() - 1] > 0.99);
+    // While nothing, triangles, maps and tiles are done; nobody is asked again.
+    for end in [0.0, 0.05, 0.3, 0.9] {
+        let stopped = until(end);
+        assert!(matches!(stopped, Err(PictureError::Cancelled)), "{end}");
+        let told = told.lock().unwrap();
+        assert_eq!(told.iter().filter(|&&part| part >= end).count(), 1, "{end}");
+    }
 }
 
 #[test]
@@ -453,7 +486,7 @@ fn the_bottom_of_a_cup_sees_as_much_as_its_opening() {
             triangles.extend([[a, b, c], [a, c, d], [0, a, b]]);
         }
         let cup = drawing(vec![part(points, triangles, WHITE)]);
-        let occlusion = super::occlusion::Occlusion::new(&cup, [1024, 1024]);
+        let occlusion = super::occlusion::Occlusion::new(&cup, [1024, 1024], |_| Ok(())).unwrap();
         let expected = 1.0 / (1.0 + height * height);
         let found = f64::from(occlusion.open(DVec3::ZERO, DVec3::Z));
         assert!(

@@ -1,22 +1,29 @@
 //! Which triangles and lines touch which tile of the picture.
 //!
-//! Triangles are taken in chunks, each sorted into tiles by one task with a counting sort. A tile reads its
-//! lists chunk after chunk.
+//! Triangles and lines are taken in chunks, each sorted into tiles by one task with a counting sort. A tile reads its
+//! lists chunk after chunk. The lists are bounded: where most things touch many tiles, those are not listed in each of
+//! them.
+
+use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::lines::{FlatLine, limits};
 use super::project::{Corner, Flat, GRID, GRID_BITS, clipped};
-use super::{Frame, SORTED, TILE};
+use super::{Frame, LINED, SORTED, TILE};
 use crate::drawing::Drawing;
 use crate::progress::Work;
 use crate::{PictureError, View};
 
-/// At most so many chunks, because each has a number for every tile.
+/// At most so many chunks, and one more for each part, because each has a number for every tile.
 const MOST_CHUNKS: usize = 32;
-/// At least so many triangles in a chunk.
+/// At least so many things in a chunk, unless a part has less.
 const LEAST_CHUNK: usize = 1 << 15;
 /// What touches more tiles than this is not listed in each of them, but looked at in all.
-const MANY_TILES: u32 = 64;
+const MANY_TILES: usize = 64;
+/// A list has so many entries for each thing at most, and some more.
+const MOST_ENTRIES: usize = 8;
+const MORE_ENTRIES: usize = 4096;
 /// Marks an entry of a list that means a cut triangle.
 const CUT: u32 = 1 << 31;
 
@@ -32,33 +39,81 @@ pub(super) struct Sorted {
 /// A rectangle of tiles: left, top, and behind right and bottom.
 pub(super) type TileRect = [u32; 4];
 
+/// How many tiles a rectangle has.
+fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
+    (right - left) as usize * (bottom - top) as usize
+}
+
+/// So many tiles may be touched by what is listed in all of them, for lists that are not too long.
+fn most_tiles(things: &[(u32, TileRect)]) -> usize {
+    let mut entries = [0; MANY_TILES + 1];
+    for &(_, rect) in things {
+        let n = n_tiles(rect);
+        if n <= MANY_TILES {
+            entries[n] += n;
+        }
+    }
+    let room = MOST_ENTRIES * things.len() + MORE_ENTRIES;
+    let mut sum = 0;
+    let fits = |n: &usize| {
+        sum += entries[*n];
+        sum <= room
+    };
+    (0..=MANY_TILES).take_while(fits).last().unwrap_or(0)
+}
+
+/// The chunks of `n` things of `all`.
+fn chunks(n: usize, all: usize) -> impl Iterator<Item = Range<usize>> {
+    let size = all.div_ceil(MOST_CHUNKS).max(LEAST_CHUNK);
+    (0..n)
+        .step_by(size)
+        .map(move |first| first..(first + size).min(n))
+}
+
+/// The bytes that lists take at most, and what they take while they are made: for groups of so many things, which are
+/// not in one chunk.
+pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) -> u64 {
+    let all: usize = groups.clone().sum();
+    let n_chunks: usize = groups.map(|n| chunks(n, all).count()).sum();
+    let lists = 4 * ((MOST_ENTRIES + 1) * all + (MORE_ENTRIES + frame.n_tiles() + 1) * n_chunks);
+    let in_work = n_chunks.min(rayon::current_num_threads());
+    let longest = chunks(all, all).map(|chunk| chunk.len()).max().unwrap_or(0);
+    let while_made = size_of::<(u32, TileRect)>() * longest + 4 * (frame.n_tiles() + 1);
+    (lists + in_work * while_made) as u64
+}
+
 impl Sorted {
-    /// Sorts things by their tiles, which `tiles` gives to its argument.
-    fn new(n_columns: u32, n_tiles: usize, things: impl Iterator<Item = (u32, TileRect)>) -> Self {
-        let mut pairs: Vec<(u32, u32)> = Vec::new();
-        let mut large = Vec::new();
-        for (item, [left, top, right, bottom]) in things {
-            if (right - left) * (bottom - top) > MANY_TILES {
+    /// Sorts things by their tiles.
+    fn new(frame: &Frame, things: &[(u32, TileRect)]) -> Self {
+        let most = most_tiles(things);
+        let n_large = things.iter().filter(|t| n_tiles(t.1) > most).count();
+        let mut large = Vec::with_capacity(n_large);
+        let tiles = |[left, top, right, bottom]: TileRect| {
+            (top..bottom)
+                .flat_map(move |row| (left..right).map(move |c| row * frame.columns + c))
+                .map(|tile| tile as usize)
+        };
+        let mut starts = vec![0_u32; frame.n_tiles() + 1];
+        for &(item, rect) in things {
+            if n_tiles(rect) > most {
                 large.push(item);
                 continue;
             }
-            for row in top..bottom {
-                pairs.extend((left..right).map(|column| (row * n_columns + column, item)));
+            for tile in tiles(rect) {
+                starts[tile + 1] += 1;
             }
         }
-        let mut starts = vec![0_u32; n_tiles + 1];
-        for &(tile, _) in &pairs {
-            starts[tile as usize + 1] += 1;
-        }
-        for i in 0..n_tiles {
+        for i in 0..frame.n_tiles() {
             starts[i + 1] += starts[i];
         }
         let mut next = starts.clone();
-        let mut items = vec![0; pairs.len()];
-        for (tile, item) in pairs {
-            let place = &mut next[tile as usize];
-            items[*place as usize] = item;
-            *place += 1;
+        let mut items = vec![0; starts[frame.n_tiles()] as usize];
+        for &(item, rect) in things.iter().filter(|t| n_tiles(t.1) <= most) {
+            for tile in tiles(rect) {
+                let place = &mut next[tile];
+                items[*place as usize] = item;
+                *place += 1;
+            }
         }
         Self {
             starts,
@@ -105,14 +160,13 @@ impl Triangles {
             .iter()
             .map(|part| super::project::project(view, &part.points))
             .collect();
-        let size = drawing.n_triangles().div_ceil(MOST_CHUNKS).max(LEAST_CHUNK);
         let mut ranges = Vec::new();
-        let mut first_of_all = 0;
+        let mut first_of_all = 0_u32;
         for (part, p) in drawing.parts.iter().enumerate() {
-            for first in (0..p.triangles.len()).step_by(size) {
-                let end = (first + size).min(p.triangles.len());
-                ranges.push((part, first..end, first_of_all));
-                first_of_all += u32::try_from(end - first).unwrap_or(u32::MAX);
+            for range in chunks(p.triangles.len(), drawing.n_triangles()) {
+                let n = u32::try_from(range.len()).unwrap_or(u32::MAX);
+                ranges.push((part, range, first_of_all));
+                first_of_all = first_of_all.saturating_add(n);
             }
         }
         let chunks = ranges
@@ -120,7 +174,7 @@ impl Triangles {
             .map(|(part, range, first_of_all)| {
                 let p = &drawing.parts[part];
                 let mut cut = Vec::new();
-                let mut rects = Vec::new();
+                let mut rects = Vec::with_capacity(range.len());
                 for (i, triangle) in (0..).zip(&p.triangles[range.clone()]) {
                     let flat = triangle.map(|v| points[part][v as usize]);
                     if flat.iter().any(|c| c.is_outside()) {
@@ -135,7 +189,7 @@ impl Triangles {
                         rects.push((i, rect));
                     }
                 }
-                let sorted = Sorted::new(frame.columns, frame.n_tiles(), rects.into_iter());
+                let sorted = Sorted::new(frame, &rects);
                 work.add(SORTED * range.len() as u64)?;
                 Ok(Chunk {
                     part,
@@ -190,41 +244,90 @@ fn touched(flat: &Flat, frame: &Frame) -> Option<TileRect> {
 
 /// Lines by tiles.
 pub(super) struct Lines {
-    sorted: Sorted,
+    chunks: Vec<(u32, Sorted)>,
 }
 
 impl Lines {
-    /// Sorts lines by their boxes, in pixels: left, top, right and bottom.
-    pub(super) fn new(boxes: impl Iterator<Item = Option<[f64; 4]>>, frame: &Frame) -> Self {
-        let rects = (0..).zip(boxes).filter_map(|(i, limits)| {
-            let [left, top, right, bottom] = limits?;
-            let (w, h) = (f64::from(frame.width), f64::from(frame.height));
-            if right < 0.0 || bottom < 0.0 || left >= w || top >= h {
-                return None;
-            }
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "inside the picture"
-            )]
-            let tile = |x: f64, end: f64| x.clamp(0.0, end - 1.0) as u32 / TILE;
-            let rect = [
-                tile(left, w),
-                tile(top, h),
-                tile(right, w) + 1,
-                tile(bottom, h) + 1,
-            ];
-            Some((i, rect))
-        });
-        Self {
-            sorted: Sorted::new(frame.columns, frame.n_tiles(), rects),
-        }
+    /// Sorts lines by their boxes.
+    pub(super) fn new(
+        lines: &[Option<FlatLine>],
+        frame: &Frame,
+        work: &Work,
+    ) -> Result<Self, PictureError> {
+        let ranges: Vec<_> = chunks(lines.len(), lines.len()).collect();
+        let chunks = ranges
+            .into_par_iter()
+            .map(|range| {
+                let mut rects = Vec::with_capacity(range.len());
+                for (i, line) in (0..).zip(&lines[range.clone()]) {
+                    let rect = line.as_ref().and_then(|line| around(limits(line), frame));
+                    rects.extend(rect.map(|rect| (i, rect)));
+                }
+                work.add(LINED * range.len() as u64)?;
+                let first = u32::try_from(range.start).unwrap_or(u32::MAX);
+                Ok((first, Sorted::new(frame, &rects)))
+            })
+            .collect::<Result<_, PictureError>>()?;
+        Ok(Self { chunks })
     }
 
-    /// The lines that may touch a tile, in their order.
-    pub(super) fn of(&self, tile: usize) -> Vec<u32> {
-        let mut lines: Vec<u32> = self.sorted.of(tile).collect();
-        lines.sort_unstable();
-        lines
+    /// Puts the lines that may touch a tile into `lines`, in their order.
+    pub(super) fn of(&self, tile: usize, lines: &mut Vec<u32>) {
+        lines.clear();
+        for (first, sorted) in &self.chunks {
+            let begin = lines.len();
+            lines.extend(sorted.of(tile).map(|line| first + line));
+            lines[begin..].sort_unstable();
+        }
+    }
+}
+
+/// The tiles that a box touches, in pixels: left, top, right and bottom.
+fn around([left, top, right, bottom]: [f64; 4], frame: &Frame) -> Option<TileRect> {
+    let (w, h) = (f64::from(frame.width), f64::from(frame.height));
+    if right < 0.0 || bottom < 0.0 || left >= w || top >= h {
+        return None;
+    }
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "inside the picture"
+    )]
+    let tile = |x: f64, end: f64| x.clamp(0.0, end - 1.0) as u32 / TILE;
+    Some([
+        tile(left, w),
+        tile(top, h),
+        tile(right, w) + 1,
+        tile(bottom, h) + 1,
+    ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_are_bounded_and_have_everything() {
+        let frame = Frame::new([640, 640]);
+        for side in [1, 3, 8, 9, 20] {
+            // Squares of tiles, all over the picture.
+            let things: Vec<(u32, TileRect)> = (0..5000)
+                .map(|i| {
+                    let (left, top) = (i % (21 - side), i / 20 % (21 - side));
+                    (i, [left, top, left + side, top + side])
+                })
+                .collect();
+            let sorted = Sorted::new(&frame, &things);
+            assert!(sorted.items.len() <= MOST_ENTRIES * things.len() + MORE_ENTRIES);
+            for tile in 0..frame.n_tiles() {
+                let [x, y] = [tile % 20, tile / 20].map(|i| u32::try_from(i).unwrap());
+                let found: Vec<u32> = sorted.of(tile).collect();
+                for &(item, [left, top, right, bottom]) in &things {
+                    if (left..right).contains(&x) && (top..bottom).contains(&y) {
+                        assert!(found.contains(&item), "{side}, {tile}");
+                    }
+                }
+            }
+        }
     }
 }

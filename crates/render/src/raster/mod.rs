@@ -34,7 +34,7 @@ use crate::progress::{GoOn, Work};
 use crate::style::Shading;
 use crate::{PictureError, View};
 use holes::Cover;
-use project::{Flat, GRID};
+use project::{Corner, Flat, GRID};
 use shade::{Memory, Shader};
 use tile::{NOTHING, PLACES, SAMPLES, Tile};
 
@@ -102,26 +102,34 @@ impl Frame {
 }
 
 /// The bytes of memory that [`render`] takes at most, beside the drawing: so many points, triangles and lines
-/// in a picture of this size.
+/// in a picture of this size. Triangles that the camera is among may take more.
 pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -> u64 {
     // Sizes that are too large are refused; here they must not overflow.
-    let pixels = u64::from(width.min(1 << 20)) * u64::from(height.min(1 << 20));
+    let [width, height] = [width, height].map(|side| side.min(1 << 20));
+    let frame = Frame::new([width, height]);
+    let pixels = u64::from(width) * u64::from(height);
+    let threads = rayon::current_num_threads() as u64;
     let n_points: u64 = drawing.parts.iter().map(|p| p.points.len() as u64).sum();
     let (triangles, lines) = (drawing.n_triangles() as u64, drawing.lines.len() as u64);
     let maps = if look.has_occlusion() && triangles > 0 {
-        let places = 12 * n_points * rayon::current_num_threads() as u64;
-        occlusion::bytes([width, height]) + places + 12 * triangles
+        occlusion::bytes([width, height]) + 12 * n_points * threads + 12 * triangles
     } else {
         0
     };
-    // A pixel of the image; a point on the grid; a triangle in the lists of a few tiles, twice while they
-    // are sorted; a number for each tile and chunk.
-    4 * pixels + 12 * n_points + 32 * triangles + 96 * lines + pixels / 8 + maps + (8 << 20)
+    let points = size_of::<Corner>() as u64 * n_points;
+    let groups = drawing.parts.iter().map(|p| p.triangles.len());
+    let of_triangles = bins::bytes(groups, &frame);
+    let a_line = size_of::<Option<lines::FlatLine>>() as u64 + 8 * threads;
+    let of_lines = a_line * lines + bins::bytes(std::iter::once(drawing.lines.len()), &frame);
+    // A thread that waits for others begins further rows of tiles.
+    let rows = 4 * threads * (4 * u64::from(TILE * width) + (1 << 18));
+    4 * pixels + points + of_triangles + of_lines + maps + rows + (1 << 20)
 }
 
-/// What things cost, in about nanoseconds: a triangle until it is in its tile, a triangle in a tile, a pixel, and a
-/// point in all depth maps.
+/// What things cost, in about nanoseconds: a triangle and a line until they are in their tiles, both there, a pixel, and
+/// a triangle in all depth maps.
 const SORTED: u64 = 60;
+const LINED: u64 = 200;
 const DRAWN: u64 = 60;
 const SHADED: u64 = 150;
 const MAPPED: u64 = 400;
@@ -146,15 +154,14 @@ pub fn render(
     } else {
         0
     };
-    let of_tiles = DRAWN * n_triangles + SHADED * n_pixels as u64;
-    let work = Work::new(go_on, SORTED * n_triangles + of_maps + of_tiles);
+    let n_lines = drawing.lines.len() as u64;
+    let of_tiles = DRAWN * (n_triangles + n_lines) + SHADED * n_pixels as u64;
+    let before = SORTED * n_triangles + LINED * n_lines;
+    let work = Work::new(go_on, before + of_maps + of_tiles);
     work.add(0)?;
     let triangles = bins::Triangles::new(drawing, view, &frame, &work)?;
     let flat_lines = lines::project(drawing, view);
-    let line_bins = bins::Lines::new(
-        flat_lines.iter().map(|l| l.as_ref().map(lines::limits)),
-        &frame,
-    );
+    let line_bins = bins::Lines::new(&flat_lines, &frame, &work)?;
     let shader = Shader::new(drawing, view, size, look, |n_maps| {
         work.add(of_maps / n_maps)
     })?;
@@ -168,20 +175,30 @@ pub fn render(
         .try_for_each(|(band, row)| {
             let tiles: Vec<Vec<[u8; 4]>> = (0..frame.columns)
                 .into_par_iter()
-                .map_init(Tile::new, |tile, column| {
-                    tile.begin(&frame, column, row);
-                    let number = (row * frame.columns + column) as usize;
-                    triangles.of(drawing, number, |id, flat| {
-                        draw(tile, id, flat, &shader);
-                    });
-                    for line in line_bins.of(number) {
-                        if let Some(flat) = &flat_lines[line as usize] {
-                            lines::draw(tile, line, flat, &drawing.lines[line as usize], &shader);
+                .map_init(
+                    || (Tile::new(), Vec::new()),
+                    |(tile, on_tile), column| {
+                        tile.begin(&frame, column, row);
+                        let number = (row * frame.columns + column) as usize;
+                        triangles.of(drawing, number, |id, flat| {
+                            draw(tile, id, flat, &shader);
+                        });
+                        line_bins.of(number, on_tile);
+                        for &line in &*on_tile {
+                            if let Some(flat) = &flat_lines[line as usize] {
+                                lines::draw(
+                                    tile,
+                                    line,
+                                    flat,
+                                    &drawing.lines[line as usize],
+                                    &shader,
+                                );
+                            }
                         }
-                    }
-                    work.add(of_tile)?;
-                    Ok(resolve(tile, &shader, look))
-                })
+                        work.add(of_tile)?;
+                        Ok(resolve(tile, &shader, look))
+                    },
+                )
                 .collect::<Result<_, PictureError>>()?;
             for (tile, left) in tiles.iter().zip((0..width).step_by(TILE as usize)) {
                 let n = (width - left).min(TILE as usize);

@@ -1,0 +1,112 @@
+//! How much memory pictures take: never more than they say before.
+//!
+//! One test, because what others allocate at the same time would be counted too.
+
+use mesh::{DVec3, shapes};
+use peak_alloc::PeakAlloc;
+use render::{
+    Camera, Drawing, Line, NO_FACE, Overlays, PictureError, Shading, Style, View, build,
+    bytes_needed, picture, render,
+};
+use scene::{Object, Scene};
+
+#[global_allocator]
+static MEMORY: PeakAlloc = PeakAlloc;
+
+/// The bytes that are allocated at once while `run` runs, beside those from before.
+fn peak<T>(run: impl FnOnce() -> T) -> (T, u64) {
+    MEMORY.reset_peak_usage();
+    let before = MEMORY.current_usage();
+    let result = run();
+    (result, (MEMORY.peak_usage() - before) as u64)
+}
+
+#[test]
+fn pictures_take_no_more_memory_than_they_say() {
+    let mut dense = Scene::new();
+    let ball = shapes::fans(&shapes::uv_sphere(400, 200));
+    dense.insert(Object::mesh("ball", ball)).unwrap();
+    let mut many = Scene::new();
+    for i in 0..300 {
+        let mut cube = shapes::cube();
+        for p in cube.positions_mut() {
+            p.x += 2.0 * f64::from(i % 20);
+            p.y += 2.0 * f64::from(i / 20);
+        }
+        many.insert(Object::mesh(format!("cube {i}"), cube))
+            .unwrap();
+    }
+    let mut one = Scene::new();
+    one.insert(Object::mesh("cube", shapes::cube())).unwrap();
+    let smooth = Style::default();
+    let plain = Style {
+        shading: Shading::Plain,
+        wireframe: Some(render::Lines::default()),
+        ..Style::default()
+    };
+    for threads in [1, 8] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| {
+            for (name, scene, style, size) in [
+                ("dense", &dense, &smooth, [640, 480]),
+                ("dense and small", &dense, &plain, [64, 48]),
+                ("many", &many, &plain, [1000, 1000]),
+                ("one", &one, &smooth, [300, 300]),
+                ("large", &one, &plain, [2000, 2000]),
+                ("strip", &one, &plain, [16_384, 64]),
+                ("column", &one, &plain, [64, 16_384]),
+                ("pixel", &one, &smooth, [1, 1]),
+            ] {
+                let (drawing, _) =
+                    build(scene, style, &Overlays::default(), &mut |_| None).unwrap();
+                check(&format!("{name}, {threads} threads"), &drawing, style, size);
+            }
+            check("nothing", &Drawing::default(), &plain, [500, 500]);
+            check("lines", &long_lines(), &plain, [512, 512]);
+        });
+    }
+    too_large_pictures_are_refused_before_anything_is_allocated(&one);
+}
+
+/// Draws a drawing, and compares what it takes with what it says.
+fn check(name: &str, drawing: &Drawing, style: &Style, size: [u32; 2]) {
+    let look = style.look();
+    let needed = bytes_needed(drawing, size, &look);
+    let view = View::new(&Camera::default(), &|each| drawing.each_point(each), size).unwrap();
+    let (drawn, taken) = peak(|| render(drawing, &view, size, &look, &|_| true));
+    assert_eq!(
+        drawn.unwrap().image.pixels.len(),
+        (size[0] * size[1]) as usize
+    );
+    assert!(taken <= needed, "{name}: takes {taken}, says {needed}");
+}
+
+/// Lines from everywhere to a place far away: each is in the lists of many tiles.
+fn long_lines() -> Drawing<'static> {
+    let line = |i: i32| {
+        let from = DVec3::new(f64::from(i % 200), f64::from(i / 200), 0.0);
+        Line {
+            ends: [from, from + DVec3::new(90.0, 90.0, 0.0)],
+            width: 0.1,
+            color: [0.0, 0.0, 0.0, 1.0],
+            faces: [NO_FACE; 2],
+            hidden: 0.0,
+        }
+    };
+    Drawing {
+        lines: (0..8_000).map(line).collect(),
+        ..Drawing::default()
+    }
+}
+
+fn too_large_pictures_are_refused_before_anything_is_allocated(scene: &Scene) {
+    let (camera, style, none) = (Camera::default(), Style::default(), Overlays::default());
+    let size = [16_384; 2];
+    let budget = 1 << 30;
+    let draw = || picture(scene, &camera, &style, &none, size, budget, &mut |_| None);
+    let (refused, taken) = peak(draw);
+    let Err(PictureError::Budget { needed, .. }) = refused else {
+        panic!("{refused:?}");
+    };
+    assert!(needed > budget && taken < 1 << 20, "{needed}, {taken}");
+}

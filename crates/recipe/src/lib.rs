@@ -48,7 +48,7 @@ pub use select::{read_selection, resolve};
 pub use shape::did_you_mean;
 pub use source::Source;
 pub use stamp::Stamp;
-pub use sweep::{Grid, MAX_CELLS, SWEEP_VERSION, Setting, Sweep, SweepReading, read_sweep};
+pub use sweep::{Axis, Grid, MAX_CELLS, SWEEP_VERSION, Setting, Sweep, SweepReading, read_sweep};
 
 #[cfg(test)]
 mod tests;

@@ -108,6 +108,30 @@ impl Camera {
         }
     }
 
+    /// The few of many points that decide what it shows in a picture of this size: a [`View`] of the points of many
+    /// scenes is that of these of each. None if it shows the same whatever there is.
+    ///
+    /// # Errors
+    ///
+    /// As [`View::new`].
+    pub fn decisive(
+        &self,
+        points: &impl Fn(&mut dyn FnMut(DVec3)),
+        [width, height]: [u32; 2],
+    ) -> Result<Vec<DVec3>, PictureError> {
+        let size = DVec2::new(f64::from(width), f64::from(height));
+        match *self {
+            Self::Fit {
+                from,
+                up,
+                projection,
+                margin,
+                steady,
+            } => Ok(Fit::new(from, up, projection, margin, steady, size)?.decisive(points)),
+            Self::LookAt { .. } => self.check().map(|()| Vec::new()),
+        }
+    }
+
     /// Whether its numbers are in their ranges, whatever it is to see.
     ///
     /// # Errors
@@ -273,26 +297,7 @@ impl View {
                 projection,
                 margin,
                 steady,
-            } => {
-                let [azimuth, elevation] = from.angles();
-                if !(azimuth.is_finite() && elevation.is_finite()) {
-                    let found =
-                        format!("expected angles in degrees, found {azimuth} and {elevation}");
-                    return Err(PictureError::Camera(found));
-                }
-                if !(0.0..=0.45).contains(&margin) {
-                    let found = format!("expected a margin from 0 to 0.45, found {margin}");
-                    return Err(PictureError::Camera(found));
-                }
-                let fit = Fit {
-                    axes: from.axes(up),
-                    tangent: projection.tangent()?,
-                    margin,
-                    steady,
-                    size,
-                };
-                Ok(fit.view(points))
-            }
+            } => Ok(Fit::new(from, up, projection, margin, steady, size)?.view(points)),
             Camera::LookAt {
                 from,
                 to,

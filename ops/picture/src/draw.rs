@@ -1,4 +1,4 @@
-//! From a scene to images.
+//! From scenes to images.
 
 use std::borrow::Cow;
 use std::path::{Component, Path};
@@ -51,12 +51,73 @@ struct Ready<'s> {
     caption: &'s str,
 }
 
+/// What a scene takes of a picture: pictures of several scenes [within](Picture::draw_within) what all of them take
+/// [together](Self::join) show the same place in the same scale, and the same numbers in the same colors.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Extent {
+    /// Points that decide where cameras are that fit.
+    points: Vec<DVec3>,
+    /// The numbers of the first and the last color, if numbers are shown.
+    range: Option<[f64; 2]>,
+}
+
+impl Extent {
+    /// Takes what another scene takes in, too.
+    pub fn join(&mut self, other: Self) {
+        self.points.extend(other.points);
+        self.range = match (self.range, other.range) {
+            (Some([a, b]), Some([c, d])) => {
+                Some([if c < a { c } else { a }, if d > b { d } else { b }])
+            }
+            (one, another) => one.or(another),
+        };
+    }
+
+    pub(crate) fn range(&self) -> Option<[f64; 2]> {
+        self.range
+    }
+}
+
+/// What a scene takes of a picture whose parameters are in order.
+pub(crate) fn extent(
+    picture: &Picture,
+    scene: &Scene,
+    cx: &mut Context,
+) -> Result<Extent, OpError> {
+    let scene = chosen(scene, cx.on);
+    // Images of materials change nothing of where things are.
+    let (drawing, numbers) = prepare(
+        picture,
+        &scene,
+        &Overlays::default(),
+        &mut |_, _| None,
+        cx,
+        &mut Vec::new(),
+    )?;
+    let mut points = Vec::new();
+    for camera in picture.cameras() {
+        let each = |each: &mut dyn FnMut(DVec3)| drawing.each_point(each);
+        points.extend(camera.decisive(&each, picture.size).map_err(told)?);
+    }
+    let range = numbers.map(|n| n.range);
+    Ok(Extent { points, range })
+}
+
+/// What decides of a picture beside its parameters.
+#[derive(Default)]
+pub(crate) struct Further<'a> {
+    /// What cameras that fit see; unless told otherwise the scenes that are drawn.
+    pub(crate) within: Option<&'a Extent>,
+    /// What is shown beside what the picture shows.
+    pub(crate) overlays: Overlays,
+}
+
 /// Draws scenes side by side, each with what is written below it, in the same scale. The parameters of the picture
-/// are in order. `further` is shown beside what the picture shows.
+/// are in order.
 pub(crate) fn images(
     picture: &Picture,
     scenes: &[(&Scene, &str)],
-    further: &Overlays,
+    further: &Further,
     cx: &mut Context,
 ) -> Result<(Vec<Image>, Vec<String>), OpError> {
     let n_frames = picture.turntable.map_or(1, |turn| turn.frames);
@@ -69,7 +130,10 @@ pub(crate) fn images(
     let mut ready = Vec::new();
     let mut notes = Vec::new();
     for (scene, &(_, caption)) in chosen.iter().zip(scenes) {
-        let (drawing, numbers) = prepare(picture, scene, further, cx, &mut notes)?;
+        let folder = picture.images.as_deref();
+        let mut images = |files: &Files, path: &str| read_image(files, folder, path);
+        let overlays = &further.overlays;
+        let (drawing, numbers) = prepare(picture, scene, overlays, &mut images, cx, &mut notes)?;
         ready.push(Ready {
             drawing,
             numbers,
@@ -97,10 +161,9 @@ pub(crate) fn images(
             } else {
                 *camera
             };
-            let points = |each: &mut dyn FnMut(DVec3)| {
-                for r in &ready {
-                    r.drawing.each_point(each);
-                }
+            let points = |each: &mut dyn FnMut(DVec3)| match further.within {
+                Some(extent) => extent.points.iter().for_each(|&p| each(p)),
+                None => ready.iter().for_each(|r| r.drawing.each_point(each)),
             };
             let view = View::new(&camera, &points, picture.size).map_err(told)?;
             for r in &ready {
@@ -123,6 +186,7 @@ fn prepare<'s>(
     picture: &Picture,
     scene: &'s Scene,
     further: &Overlays,
+    images: &mut dyn FnMut(&Files, &str) -> Option<Vec<u8>>,
     cx: &mut Context,
     notes: &mut Vec<String>,
 ) -> Result<(Drawing<'s>, Option<Numbers>), OpError> {
@@ -133,8 +197,7 @@ fn prepare<'s>(
     overlays.strokes.extend_from_slice(&further.strokes);
     overlays.labels.extend_from_slice(&further.labels);
     notes.extend(overlays::unmarked(picture, scene));
-    let folder = picture.images.as_deref();
-    let mut images = |path: &str| read_image(cx.files(), folder, path);
+    let mut images = |path: &str| images(cx.files(), path);
     let (drawing, missing) = build(scene, &picture.style, &overlays, &mut images).map_err(told)?;
     let note = |why| format!("an image of a material is not shown: {why}");
     notes.extend(missing.into_iter().map(note));

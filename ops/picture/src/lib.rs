@@ -18,11 +18,14 @@ use std::path::Path;
 
 use op::{Context, Elements, OpError, Operation, Plan, PlanContext, Problem, Report};
 use render::animation::{Timing, to_apng, to_gif};
-use render::{Camera, Color, GoOn, Image, LARGEST_SIDE, Overlays, PictureError, Style};
+use render::{Camera, Color, GoOn, Image, LARGEST_SIDE, PictureError, Style};
 use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use draw::Further;
+
+pub use draw::Extent;
 pub use numbers::{ColorBy, Quantity};
 pub use places::draw_places;
 
@@ -233,10 +236,48 @@ impl Picture {
         scenes: &[(&Scene, &str)],
         cx: &mut Context,
     ) -> Result<(Vec<Image>, Vec<String>), OpError> {
-        if let Some(problem) = self.problems().into_iter().next() {
-            return Err(OpError::Parameter(problem.message));
+        self.in_order()?;
+        draw::images(self, scenes, &Further::default(), cx)
+    }
+
+    /// What a scene takes of the picture, to draw it beside others that are not in memory with it: see [`Extent`].
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn extent(&self, scene: &Scene, cx: &mut Context) -> Result<Extent, OpError> {
+        self.in_order()?;
+        draw::extent(self, scene, cx)
+    }
+
+    /// Draws a scene so that all of `extent` is seen by cameras that fit, and its numbers in the colors for all.
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn draw_within(
+        &self,
+        scene: &Scene,
+        extent: &Extent,
+        cx: &mut Context,
+    ) -> Result<(Vec<Image>, Vec<String>), OpError> {
+        self.in_order()?;
+        let mut picture = self.clone();
+        if let Some(color_by) = &mut picture.color_by {
+            color_by.range = color_by.range.or(extent.range());
         }
-        draw::images(self, scenes, &Overlays::default(), cx)
+        let further = Further {
+            within: Some(extent),
+            ..Further::default()
+        };
+        draw::images(&picture, &[(scene, "")], &further, cx)
+    }
+
+    fn in_order(&self) -> Result<(), OpError> {
+        match self.problems().into_iter().next() {
+            Some(problem) => Err(OpError::Parameter(problem.message)),
+            None => Ok(()),
+        }
     }
 
     /// The images that were drawn as a file of the format that the path names. `stamp` says where it comes from.

@@ -67,7 +67,7 @@ pub(crate) struct Numbers {
     pub(crate) colorings: Vec<Coloring>,
     title: String,
     map: ColorMap,
-    range: [f64; 2],
+    pub(crate) range: [f64; 2],
     legend: bool,
 }
 

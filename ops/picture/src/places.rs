@@ -83,7 +83,7 @@ pub fn draw_places(
     // What is too small to be found gets a dot.
     let dots = (places.len() <= MOST_DOTS).then_some(0.05 * radius);
     let overlays = marks(places, &around, [4.0, 14.0], dots);
-    let left = one(&whole, scene, &overlays, cx)?;
+    let left = one(&whole, scene, overlays, cx)?;
     let mut images = vec![(left, caption.to_owned())];
     if let Some((middle, distance)) = focus {
         let mut near = picture(true);
@@ -95,7 +95,7 @@ pub fn draw_places(
         };
         let mut overlays = marks(places, &around, [6.0, 16.0], None);
         overlays.labels = labels(places, beside(direction, distance));
-        let right = one(&near, scene, &overlays, cx)?;
+        let right = one(&near, scene, overlays, cx)?;
         images.push((right, names(places)));
     }
     let cells: Vec<Cell> = (images.iter())
@@ -128,10 +128,14 @@ fn picture(has_edges: bool) -> Picture {
 fn one(
     picture: &Picture,
     scene: &Scene,
-    overlays: &Overlays,
+    overlays: Overlays,
     cx: &mut Context,
 ) -> Result<Image, OpError> {
-    let (mut images, _) = draw::images(picture, &[(scene, "")], overlays, cx)?;
+    let further = draw::Further {
+        overlays,
+        ..draw::Further::default()
+    };
+    let (mut images, _) = draw::images(picture, &[(scene, "")], &further, cx)?;
     Ok(images.remove(0))
 }
 

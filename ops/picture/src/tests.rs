@@ -256,3 +256,61 @@ fn a_picture_that_is_cancelled_halfway_writes_nothing() {
         }
     }
 }
+
+#[test]
+fn scenes_within_an_extent_are_drawn_as_side_by_side() {
+    let files = Files::default();
+    let cx = || Context::new(&NoProgress, &files);
+    let [cube, torus] = ["cube", "torus"].map(|name| {
+        let mut one = Scene::new();
+        let objects = scene();
+        let found = objects.objects().iter().find(|o| o.name == name);
+        one.insert(found.unwrap().clone()).unwrap();
+        one
+    });
+    for fields in [
+        "path: \"a.png\"",
+        "path: \"a.png\", color_by: (of: SmallestAngle)",
+        "path: \"a.png\", color_by: (of: Area), views: [Fit(from: Top), Fit(from: Front, projection: Orthographic)]",
+        "path: \"a.png\", camera: LookAt(from: (9, 9, 9), to: (0, 0, 0))",
+    ] {
+        let picture = picture(fields);
+        let mut extent = picture.extent(&cube, &mut cx()).unwrap();
+        extent.join(picture.extent(&torus, &mut cx()).unwrap());
+        let one = picture.draw_within(&cube, &extent, &mut cx()).unwrap().0;
+        // Seen from as far away as the torus, which is larger: not as alone, unless the camera does not fit.
+        let alone = picture.draw(&cube, &mut cx()).unwrap().0;
+        assert_eq!(one != alone, !fields.contains("LookAt"), "{fields}");
+        if picture.views.is_empty() && picture.color_by.is_none() {
+            let beside = [(&cube, "a"), (&torus, "b")];
+            let both = &picture.draw_beside(&beside, &mut cx()).unwrap().0[0];
+            let left: Vec<[u8; 4]> = (0..24)
+                .flat_map(|y| both.pixels[y * 64..y * 64 + 32].to_vec())
+                .collect();
+            // The few points of the extent give the last digits of the view, not its pixels.
+            let differ = left.iter().zip(&one[0].pixels);
+            let most = differ.flat_map(|(a, b)| (0..3).map(|i| a[i].abs_diff(b[i])));
+            assert!(most.max() <= Some(2), "{fields}");
+        }
+    }
+}
+
+#[test]
+fn an_extent_has_the_numbers_of_all() {
+    let files = Files::default();
+    let mut cx = Context::new(&NoProgress, &files);
+    let picture = picture("path: \"a.png\", color_by: (of: Area)");
+    let extent = |size: f64, cx: &mut Context| {
+        let mut scene = Scene::new();
+        let mut cube = shapes::cube();
+        cube.positions_mut().iter_mut().for_each(|p| *p *= size);
+        scene.insert(Object::mesh("cube", cube)).unwrap();
+        picture.extent(&scene, cx).unwrap()
+    };
+    let mut both = extent(1.0, &mut cx);
+    let area = both.range().unwrap()[0];
+    both.join(extent(2.0, &mut cx));
+    assert_eq!(both.range(), Some([area, 4.0 * area]));
+    both.join(crate::Extent::default());
+    assert_eq!(both.range(), Some([area, 4.0 * area]));
+}

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use clap::Args as ClapArgs;
 use serde::{Deserialize, Serialize};
 
-use super::{CacheArgs, Format, ValueArgs, size};
+use super::{CacheArgs, DrawArgs, Format, ValueArgs, size};
 use crate::picture_errors::PictureErrorsArgs;
 
 /// What commands that run many recipes at once share.
@@ -157,8 +157,15 @@ impl fmt::Display for Shard {
 
 Every value of the first parameter meets every value of the second, and so on; the last one changes
 first. Lists under `zip` in place of `over` go together, value by value. A cell that fails is a row
-with its error."
+with its error.
+
+  meshwright sweep levels.sweep.ron --sheet levels.png --wireframe --from Front
+
+draws the scene at the end of each cell. Where two parameters change, the values of the first stand beside
+rows and those of the second above columns; else each cell has its values below it. All cells are seen by
+one camera in one scale, and numbers in the same colors. A cell that fails is an empty place with its error."
 )]
+#[command(mut_group("DrawArgs", |group| group.requires("sheet")))]
 pub(crate) struct SweepArgs {
     /// The sweep
     pub(crate) sweep: PathBuf,
@@ -174,7 +181,23 @@ pub(crate) struct SweepArgs {
     pub(crate) cache: CacheArgs,
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
+    /// Draw the scenes of all cells into one image (.png), with what is kept of each if that fits
+    #[arg(long, value_name = "FILE", help_heading = SHEET)]
+    pub(crate) sheet: Option<PathBuf>,
+    /// How many cells stand in a row, each with its values below it
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "sheet",
+        help_heading = SHEET,
+        value_parser = clap::value_parser!(u32).range(1..=64),
+    )]
+    pub(crate) columns: Option<u32>,
+    #[command(flatten, next_help_heading = SHEET)]
+    pub(crate) draw: DrawArgs,
 }
+
+const SHEET: &str = "The sheet, as `meshwright picture` draws";
 
 #[cfg(test)]
 mod tests {

@@ -16,7 +16,7 @@ use crate::picture_errors::PictureErrorsArgs;
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
 pub(crate) use many::{BatchArgs, Shard, SweepArgs, TestArgs};
-pub(crate) use picture::PictureArgs;
+pub(crate) use picture::{DrawArgs, PictureArgs};
 pub(crate) use read::ReadArgs;
 pub(crate) use run::{
     CheckArgs, RecipeArgs, ReproduceArgs, RunArgs, ShrinkArgs, UpgradeArgs, ValueArgs,

@@ -1,4 +1,4 @@
-//! The command that draws pictures.
+//! How pictures look, and the command that draws them.
 
 use std::path::PathBuf;
 
@@ -6,27 +6,14 @@ use clap::Args as ClapArgs;
 
 use super::{ReadArgs, ValueArgs};
 
+/// How a scene is drawn.
 #[derive(Debug, ClapArgs)]
 #[expect(
     clippy::struct_excessive_bools,
     reason = "each is a switch of the command line"
 )]
-#[command(after_help = "Examples:
-  meshwright picture cow.obj --wireframe --out cow.png
-  meshwright picture part.glb --from Front --from Top --highlight 'Sharp(above: 30)'
-  meshwright picture scenes/cube.ron --change split --color-by Valence
-  meshwright picture 'models/**/*.obj' --sheet --columns 6
-
-The parameters are those of the operation Picture: `meshwright ops Picture` shows them all. Those that
-have no option here are given as recipes write them, as in --with 'style: (occlusion: 0, ids: Vertices)'.")]
-pub(crate) struct PictureArgs {
-    /// Files of meshes, patches or curves, or recipes (*.ron); patterns such as 'models/*.obj' too
-    #[arg(required = true, value_name = "FILES")]
-    pub(crate) files: Vec<String>,
-    /// The image: .png, or for a turntable .gif or .apng; by default in the working directory, named as the file
-    #[arg(long, short, value_name = "FILE")]
-    pub(crate) out: Option<PathBuf>,
-    /// Its size in pixels, of each view and each file; by default 1280x960, on a sheet 320x240
+pub(crate) struct DrawArgs {
+    /// Its size in pixels, of each view of each file or cell; by default 1280x960, on a sheet 320x240
     #[arg(long, value_name = "WxH", value_parser = pixels)]
     pub(crate) size: Option<[u32; 2]>,
     /// The side from which it is seen, such as Front or Isometric; several stand side by side
@@ -53,15 +40,35 @@ pub(crate) struct PictureArgs {
     /// Show numbers as colors, such as Valence or Area: all are shown by `meshwright ops Picture`
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) color_by: Option<String>,
-    /// Turn the camera once around the scene
-    #[arg(long)]
-    pub(crate) turntable: bool,
     /// More parameters of the operation Picture, as recipes write them
     #[arg(long, value_name = "FIELDS")]
     pub(crate) with: Option<String>,
     /// Only the objects of this name; may be given more than once
     #[arg(long, value_name = "OBJECT")]
     pub(crate) on: Vec<String>,
+}
+
+#[derive(Debug, ClapArgs)]
+#[command(after_help = "Examples:
+  meshwright picture cow.obj --wireframe --out cow.png
+  meshwright picture part.glb --from Front --from Top --highlight 'Sharp(above: 30)'
+  meshwright picture scenes/cube.ron --change split --color-by Valence
+  meshwright picture 'models/**/*.obj' --sheet --columns 6
+
+The parameters are those of the operation Picture: `meshwright ops Picture` shows them all. Those that
+have no option here are given as recipes write them, as in --with 'style: (occlusion: 0, ids: Vertices)'.")]
+pub(crate) struct PictureArgs {
+    /// Files of meshes, patches or curves, or recipes (*.ron); patterns such as 'models/*.obj' too
+    #[arg(required = true, value_name = "FILES")]
+    pub(crate) files: Vec<String>,
+    /// The image: .png, or for a turntable .gif or .apng; by default in the working directory, named as the file
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) draw: DrawArgs,
+    /// Turn the camera once around the scene
+    #[arg(long)]
+    pub(crate) turntable: bool,
     /// Put many files on one sheet, each with its name
     #[arg(long)]
     pub(crate) sheet: bool,

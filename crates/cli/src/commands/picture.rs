@@ -9,9 +9,10 @@ use recipe::syntax::string_literal;
 use recipe::{Source, Values};
 use render::Image;
 use render::sheet::{Cell, SheetStyle, sheet};
+use scene::Scene;
 
 use crate::WrongUsage;
-use crate::args::PictureArgs;
+use crate::args::{DrawArgs, PictureArgs};
 use crate::commands::batch::inputs;
 use crate::listener::{Terminal, catch_interrupts};
 use crate::output::{complain, print, write_whole};
@@ -26,7 +27,13 @@ pub(crate) fn run(args: &PictureArgs, registry: &Registry) -> anyhow::Result<boo
         let message = format!("these are {} files: --sheet puts them on one", files.len());
         return Err(WrongUsage(message).into());
     }
-    let picture = parameters(args, &out(args, &files[0]), registry)?;
+    let usual = if args.sheet { SHEET_CELL } else { [1280, 960] };
+    let mut more: Vec<String> = Vec::new();
+    more.extend(args.turntable.then(|| "turntable: ()".to_owned()));
+    if !args.sheet {
+        more.extend(args.columns.map(|n| format!("columns: {n}")));
+    }
+    let picture = parameters(&args.draw, &out(args, &files[0]), usual, more, registry)?;
     catch_interrupts();
     if args.sheet {
         return on_sheet(args, &picture, &files, registry);
@@ -57,9 +64,20 @@ fn out(args: &PictureArgs, first: &Path) -> PathBuf {
     })
 }
 
-/// Reads the options as a step of a recipe: with the same checks and the same advice.
-fn parameters(args: &PictureArgs, out: &Path, registry: &Registry) -> anyhow::Result<Picture> {
-    let text = format!("(recipe: 1, steps: [Picture({})])", fields(args, out));
+/// Pixels of the images on a sheet, unless told otherwise.
+pub(crate) const SHEET_CELL: [u32; 2] = [320, 240];
+
+/// Reads the options as a step of a recipe: with the same checks and the same advice. `usual` is the size unless
+/// they say another; `more` are further parameters.
+pub(crate) fn parameters(
+    args: &DrawArgs,
+    out: &Path,
+    usual: [u32; 2],
+    more: Vec<String>,
+    registry: &Registry,
+) -> anyhow::Result<Picture> {
+    let fields = fields(args, out, usual, more);
+    let text = format!("(recipe: 1, steps: [Picture({fields})])");
     let source = Source::new("options of picture", text.as_str());
     let reading = recipe::read(&source, registry, Values::default());
     let step = match &reading.recipe.steps[..] {
@@ -74,12 +92,10 @@ fn parameters(args: &PictureArgs, out: &Path, registry: &Registry) -> anyhow::Re
 }
 
 /// The options as fields of a step.
-fn fields(args: &PictureArgs, out: &Path) -> String {
+fn fields(args: &DrawArgs, out: &Path, usual: [u32; 2], further: Vec<String>) -> String {
     let path = out.file_name().unwrap_or_default().to_string_lossy();
     let mut fields = vec![format!("path: {}", string_literal(&path))];
-    let [width, height] = args
-        .size
-        .unwrap_or(if args.sheet { [320, 240] } else { [1280, 960] });
+    let [width, height] = args.size.unwrap_or(usual);
     fields.push(format!("size: ({width}, {height})"));
     let more = format!(
         "{}{}",
@@ -112,10 +128,7 @@ fn fields(args: &PictureArgs, out: &Path) -> String {
     }
     fields.extend(args.highlight.iter().map(|s| format!("highlight: {s}")));
     fields.extend(args.color_by.iter().map(|s| format!("color_by: (of: {s})")));
-    fields.extend(args.turntable.then(|| "turntable: ()".to_owned()));
-    if !args.sheet {
-        fields.extend(args.columns.iter().map(|n| format!("columns: {n}")));
-    }
+    fields.extend(further);
     fields.extend(args.with.clone());
     fields.join(", ")
 }
@@ -139,15 +152,22 @@ fn draw(
             (scene(stop(change, None))?, "after"),
         ],
     };
-    for name in &args.on {
-        let objects = founds.iter().flat_map(|(found, _)| found.scene.objects());
+    let scenes: Vec<&Scene> = founds.iter().map(|(found, _)| &found.scene).collect();
+    check_names(&args.draw.on, &scenes)?;
+    draw_found(picture, path, &founds, &args.draw.on)
+}
+
+/// Every name is that of an object in one of the scenes.
+pub(crate) fn check_names(on: &[String], scenes: &[&Scene]) -> anyhow::Result<()> {
+    for name in on {
+        let objects = scenes.iter().flat_map(|scene| scene.objects());
         let known: Vec<&str> = objects.map(|o| o.name.as_str()).collect();
         if !known.contains(&name.as_str()) {
             let help = recipe::did_you_mean(name, known);
             return Err(WrongUsage(format!("no object is named \"{name}\": {help}")).into());
         }
     }
-    draw_found(picture, path, &founds, &args.on)
+    Ok(())
 }
 
 /// Draws scenes that come from a file, each with a caption, or only the objects of these names.
@@ -211,13 +231,22 @@ fn on_sheet(
         ..SheetStyle::default()
     };
     let image = sheet(&cells, &style, BUDGET)?;
-    let bytes = image.to_png(&[("Software", STAMP)])?;
-    write(&out(args, &files[0]), &bytes, &image)?;
+    write_png(&image, &out(args, &files[0]), true)?;
     Ok(all_are_there)
 }
 
 fn is_cancelled(error: &anyhow::Error) -> bool {
     matches!(error.downcast_ref(), Some(op::OpError::Cancelled))
+}
+
+/// Writes one image, and says so if that is wanted.
+pub(crate) fn write_png(image: &Image, path: &Path, say: bool) -> anyhow::Result<()> {
+    let bytes = image.to_png(&[("Software", STAMP)])?;
+    if say {
+        write(path, &bytes, image)
+    } else {
+        write_whole(path, &bytes)
+    }
 }
 
 fn write(path: &Path, bytes: &[u8], image: &Image) -> anyhow::Result<()> {

@@ -20,6 +20,7 @@
 
 mod values;
 
+use std::ops::Range;
 use std::path::Path;
 
 use serde_json::json;
@@ -66,10 +67,21 @@ struct Entry {
 pub struct Grid {
     /// The parameters that change, in the order of the text.
     pub parameters: Vec<String>,
+    /// Those of them that change together, the last ones first: one of `over` alone, all of `zip`.
+    pub axes: Vec<Axis>,
     /// The values of these for each cell.
     pub cells: Vec<Vec<Setting>>,
     /// The parameters that are the same in every cell.
     pub set: Vec<(String, Setting)>,
+}
+
+/// Parameters that change together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Axis {
+    /// Which of the [parameters](Grid::parameters).
+    pub parameters: Range<usize>,
+    /// How many values each of them takes.
+    pub len: usize,
 }
 
 /// A value of a parameter.
@@ -284,7 +296,17 @@ impl Sweep {
         let only = |(name, _, list): (String, Span, Vec<Setting>)| {
             list.into_iter().next().map(|one| (name, one))
         };
+        let mut first = 0;
+        let axis = |rows: &Vec<Vec<Setting>>| {
+            let n = rows.first().map_or(0, Vec::len);
+            first += n;
+            Axis {
+                parameters: first - n..first,
+                len: rows.len(),
+            }
+        };
         Ok(Grid {
+            axes: axes.iter().map(axis).collect(),
             parameters: names.collect(),
             cells: product(&axes),
             set: set.into_iter().filter_map(only).collect(),

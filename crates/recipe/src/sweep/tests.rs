@@ -248,3 +248,26 @@ fn any_text_is_read_or_refused_and_never_panics() {
         }
     });
 }
+
+#[test]
+fn a_grid_knows_which_parameters_change_together() {
+    let axes = |fields: &str| -> Vec<(Vec<String>, usize)> {
+        let grid = grid(fields);
+        let named = |axis: &Axis| (grid.parameters[axis.parameters.clone()].to_vec(), axis.len);
+        let axes: Vec<_> = grid.axes.iter().map(named).collect();
+        let product: usize = grid.axes.iter().map(|axis| axis.len).product();
+        assert_eq!(product, grid.cells.len());
+        axes
+    };
+    assert_eq!(axes(""), []);
+    assert_eq!(
+        axes(
+            "over: {\"n\": [1, 2], \"flag\": [true]}, zip: {\"x\": [1, 2, 3], \"text\": [\"a\", \"b\", \"c\"]}"
+        ),
+        [
+            (vec!["n".to_owned()], 2),
+            (vec!["flag".to_owned()], 1),
+            (vec!["x".to_owned(), "text".to_owned()], 3),
+        ]
+    );
+}

@@ -2,18 +2,99 @@
 
 use glam::{DVec2, DVec3};
 
-use super::View;
+use super::{Projection, Side, Up, View};
+use crate::PictureError;
 
 /// Finds the camera that sees everything.
 pub(super) struct Fit {
-    pub(super) axes: [DVec3; 3],
-    pub(super) tangent: Option<f64>,
-    pub(super) margin: f64,
-    pub(super) steady: bool,
-    pub(super) size: DVec2,
+    axes: [DVec3; 3],
+    tangent: Option<f64>,
+    steady: bool,
+    size: DVec2,
+    /// Half of what is seen, without the margin, in units: at distance 1 with perspective, else in units of half
+    /// the height of the picture.
+    half: DVec2,
 }
 
 impl Fit {
+    /// The camera of these parameters, for a picture of this size in pixels.
+    pub(super) fn new(
+        from: Side,
+        up: Up,
+        projection: Projection,
+        margin: f64,
+        steady: bool,
+        size: DVec2,
+    ) -> Result<Self, PictureError> {
+        let [azimuth, elevation] = from.angles();
+        if !(azimuth.is_finite() && elevation.is_finite()) {
+            let found = format!("expected angles in degrees, found {azimuth} and {elevation}");
+            return Err(PictureError::Camera(found));
+        }
+        if !(0.0..=0.45).contains(&margin) {
+            let found = format!("expected a margin from 0 to 0.45, found {margin}");
+            return Err(PictureError::Camera(found));
+        }
+        let tangent = projection.tangent()?;
+        let free = 1.0 - 2.0 * margin;
+        Ok(Self {
+            axes: from.axes(up),
+            tangent,
+            steady,
+            size,
+            half: free * size / size.y * tangent.unwrap_or(1.0),
+        })
+    }
+
+    /// With perspective, how fast the right and the upper border of what is seen come nearer to its middle with
+    /// the distance: the largest of ±x and ±y is that of planes beside everything. A point is inside the right
+    /// border if x - cx <= tx (cz - z), which is x + tx z <= cx + tx cz, and so on.
+    fn slant(&self) -> DVec2 {
+        if self.tangent.is_some() {
+            self.half
+        } else {
+            DVec2::ZERO
+        }
+    }
+
+    /// The few points that decide where the camera is: the outermost ones to each side that counts.
+    pub(super) fn decisive(&self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> Vec<DVec3> {
+        let ([x, y, z], slant) = (self.axes, self.slant());
+        let sides = [
+            x + slant.x * z,
+            slant.x * z - x,
+            y + slant.y * z,
+            slant.y * z - y,
+            z,
+        ];
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let sides: Vec<DVec3> = (sides.into_iter())
+            .chain(axes.into_iter().flat_map(|axis| [axis, -axis]))
+            .collect();
+        // Seen from the first point, so that places far from the origin lose no digits.
+        let mut first = None;
+        let mut outermost: Vec<(f64, DVec3)> = Vec::new();
+        points(&mut |p| {
+            let start = *first.get_or_insert(p);
+            outermost.resize(sides.len(), (0.0, start));
+            for (side, most) in sides.iter().zip(&mut outermost) {
+                let far = (p - start).dot(*side);
+                if far > most.0 {
+                    *most = (far, p);
+                }
+            }
+        });
+        let mut decisive: Vec<DVec3> = outermost.into_iter().map(|(_, p)| p).collect();
+        // From all sides: whatever is in the box is in the sphere around it.
+        if self.steady && !decisive.is_empty() {
+            let [min, max] = decisive[1..]
+                .iter()
+                .fold([decisive[0]; 2], |[min, max], p| [min.min(*p), max.max(*p)]);
+            decisive.extend([min, max]);
+        }
+        decisive
+    }
+
     pub(super) fn view(&self, points: &impl Fn(&mut dyn FnMut(DVec3))) -> View {
         let (center, radius) = sphere(points);
         // Everything below is seen from the center, so that places far from the origin lose no digits.
@@ -25,17 +106,8 @@ impl Fit {
                 (p - center).dot(z),
             )
         };
-        let free = 1.0 - 2.0 * self.margin;
         let least = 1e-6 * radius;
-        // Half the picture in units: at distance 1 with perspective, else in units of half its height.
-        let half = free * self.size / self.size.y * self.tangent.unwrap_or(1.0);
-        // The largest of ±x and ±y, with perspective of planes beside everything: a point is inside the
-        // right border if x - cx <= tx (cz - z), which is x + tx z <= cx + tx cz, and so on.
-        let slant = if self.tangent.is_some() {
-            half
-        } else {
-            DVec2::ZERO
-        };
+        let (half, slant) = (self.half, self.slant());
         let (mut most, mut front) = ([f64::NEG_INFINITY; 4], f64::NEG_INFINITY);
         if self.steady {
             let grown = |t: f64| radius * (1.0 + t * t).sqrt();

@@ -161,3 +161,50 @@ fn cameras_that_see_nothing_are_refused() {
         );
     }
 }
+
+#[test]
+fn the_decisive_points_of_each_part_show_what_all_points_show() {
+    // Two clouds of points, far from each other and from the origin.
+    let cloud = |seed: u32, middle: DVec3| -> Vec<DVec3> {
+        let mut state = seed;
+        let mut number = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1 << 24) - 0.5
+        };
+        let point = |_| middle + DVec3::new(number(), number(), number());
+        (0..500).map(point).collect()
+    };
+    let parts = [
+        cloud(1, DVec3::splat(20.0)),
+        cloud(2, DVec3::new(22.0, 20.5, 19.0)),
+    ];
+    let all = parts.concat();
+    let each = |list: &[DVec3], each: &mut dyn FnMut(DVec3)| list.iter().for_each(|&p| each(p));
+    let size = [200, 100];
+    for projection in PROJECTIONS {
+        for (from, up) in [(Side::Front, Up::Y), (Side::ThreeQuarter, Up::Z)] {
+            let camera = fit(from, up, projection, 0.1, false);
+            let few: Vec<DVec3> = parts
+                .iter()
+                .flat_map(|part| camera.decisive(&|f| each(part, f), size).unwrap())
+                .collect();
+            assert!(few.len() <= 22);
+            let view = View::new(&camera, &|f| each(&all, f), size).unwrap();
+            let same = View::new(&camera, &|f| each(&few, f), size).unwrap();
+            for p in &all {
+                let (a, b) = (view.see(*p).unwrap(), same.see(*p).unwrap());
+                assert!(a.at.distance(b.at) < 1e-9, "{from:?} {projection:?}");
+            }
+            // A steady camera sees all, perhaps smaller.
+            let steady = fit(from, up, projection, 0.0, true);
+            let few = steady.decisive(&|f| each(&all, f), size).unwrap();
+            let view = View::new(&steady, &|f| each(&few, f), size).unwrap();
+            for p in &all {
+                let at = view.see(*p).unwrap().at;
+                assert!(at.min_element() >= 0.0 && at.x <= 200.0 && at.y <= 100.0);
+            }
+        }
+    }
+    let none = fit(Side::Front, Up::Y, Projection::default(), 0.1, true).decisive(&|_| {}, size);
+    assert_eq!(none.unwrap(), []);
+}

@@ -87,6 +87,26 @@ pub fn shortened(text: &str, font: Font, size: f64, width: f64) -> String {
     kept(low)
 }
 
+/// Parts of a text in as few lines of at most `width` pixels as their order allows, with `between` between those
+/// of a line. A part that is too wide is [shortened].
+pub fn filled(parts: &[&str], between: &str, font: Font, size: f64, width: f64) -> Vec<String> {
+    let fits = |text: &str| text_width(&Text::new(font, text, size, [0, 0, 0, 255])) <= width;
+    let mut lines: Vec<String> = Vec::new();
+    for part in parts.iter().take(LONGEST) {
+        if let Some(last) = lines.last_mut()
+            && last.chars().count() + part.chars().count() <= LONGEST
+        {
+            let longer = format!("{last}{between}{part}");
+            if fits(&longer) {
+                *last = longer;
+                continue;
+            }
+        }
+        lines.push(shortened(part, font, size, width));
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -146,5 +166,25 @@ mod tests {
         }
         let endless = "x".repeat(100_000);
         assert!(shortened(&endless, Font::Plain, 12.0, 200.0).len() < 60);
+    }
+
+    #[test]
+    fn lines_are_filled_with_whole_parts() {
+        let parts = [
+            "Vertices 482",
+            "Faces 960",
+            "Area 12.5",
+            "x".repeat(300).leak() as &str,
+        ];
+        let width = text_width(&Text::new(
+            Font::Plain,
+            "Vertices 482, Faces 960",
+            12.0,
+            BLACK,
+        ));
+        let lines = filled(&parts, ", ", Font::Plain, 12.0, width + 0.1);
+        assert_eq!(lines[..2], ["Vertices 482, Faces 960", "Area 12.5"]);
+        assert!(lines[2].contains('…') && lines.len() == 3, "{lines:?}");
+        assert_eq!(filled(&[], " ", Font::Plain, 12.0, 10.0), [""; 0]);
     }
 }

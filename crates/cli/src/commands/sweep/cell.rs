@@ -3,8 +3,10 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use recipe::{Cache, Caching, Grid, JobEnd, Measured, Metric, Schemas, Source, Span};
+use recipe::{Cache, Caching, Grid, JobEnd, Measured, Metric, Outcome, Schemas, Source, Span};
+use scene::Scene;
 
+use super::sheet::{Seen, Sheet};
 use crate::args::SweepArgs;
 use crate::loading::{Loaded, load_text, read_objects};
 use crate::many::{all, first_error, panicked, run_quietly};
@@ -21,6 +23,8 @@ pub(super) struct Cells<'a> {
     pub(super) keep: &'a [(Metric, Span)],
     /// Whether the recipe's expectations must hold.
     pub(super) expects: bool,
+    /// Where their scenes are drawn, if they are.
+    pub(super) sheet: Option<&'a Sheet<'a>>,
 }
 
 /// A cell that is checked, or why it cannot run.
@@ -41,6 +45,8 @@ pub(super) struct CellResult {
     /// The files that were written, if outputs are kept.
     pub(super) outputs: Vec<PathBuf>,
     pub(super) error: Option<String>,
+    /// What the sheet knows of it, if there is one and it succeeded.
+    pub(super) seen: Option<Seen>,
     /// Whether Ctrl-C came before it was done.
     pub(super) is_not_run: bool,
 }
@@ -112,7 +118,30 @@ impl Cells<'_> {
         if loaded.has_errors() {
             return CellResult::failed(first_error(&loaded.diagnostics));
         }
-        let keeps = self.args.keep_outputs.is_some();
+        let mut outcome = match self.outcome(loaded, self.args.keep_outputs.is_some()) {
+            Ok(outcome) => outcome,
+            Err(Some(error)) => return CellResult::failed(error),
+            Err(None) => return CellResult::not_run(),
+        };
+        let measure = |(metric, _): &(Metric, Span)| {
+            let measured = metric.measure(&outcome, &loaded.files, &read_objects);
+            measured.map_err(|problem| format!("{metric:?}: {problem}"))
+        };
+        let measures = match self.keep.iter().map(measure).collect() {
+            Ok(measures) => measures,
+            Err(error) => return CellResult::failed(error),
+        };
+        let sheet = self.sheet.zip(outcome.scene.take());
+        CellResult {
+            measures: Some(measures),
+            outputs: outcome.written,
+            seen: sheet.map(|(sheet, scene)| sheet.see(scene, loaded.forecast.peak_bytes())),
+            ..CellResult::default()
+        }
+    }
+
+    /// How the run of a cell that is checked ended, if it succeeded; else its error, or none if Ctrl-C ended it.
+    fn outcome(&self, loaded: &Loaded, keeps: bool) -> Result<Outcome, Option<String>> {
         let caching = self.cache.map(|cache| Caching {
             cache,
             recipe: None,
@@ -120,22 +149,21 @@ impl Cells<'_> {
         });
         let outcome = run_quietly(loaded, self.args.many.budget, keeps, caching);
         if outcome.cancelled {
-            return CellResult::not_run();
+            return Err(None);
         }
         if !outcome.succeeded() {
-            return CellResult::failed(first_error(&outcome.failures));
+            return Err(Some(first_error(&outcome.failures)));
         }
-        let measure = |(metric, _): &(Metric, Span)| {
-            let measured = metric.measure(&outcome, &loaded.files, &read_objects);
-            measured.map_err(|problem| format!("{metric:?}: {problem}"))
-        };
-        match self.keep.iter().map(measure).collect() {
-            Ok(measures) => CellResult {
-                measures: Some(measures),
-                outputs: outcome.written,
-                ..CellResult::default()
-            },
-            Err(error) => CellResult::failed(error),
-        }
+        Ok(outcome)
+    }
+
+    /// The scene of a cell that has run before, made again.
+    pub(super) fn scene(&self, i: usize) -> Result<Scene, String> {
+        let loaded = self.load(i).map_err(|error| format!("{error:#}"))?;
+        let outcome = self.outcome(&loaded, false);
+        let outcome = outcome.map_err(|e| e.unwrap_or_else(|| "interrupted".to_owned()))?;
+        outcome
+            .scene
+            .ok_or_else(|| "the scene stayed in the cache".to_owned())
     }
 }

@@ -23,6 +23,7 @@
 //! ```
 
 mod cell;
+mod sheet;
 
 use std::path::Path;
 
@@ -36,12 +37,14 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::args::{Format, SweepArgs};
 use crate::cache;
+use crate::commands::picture::write_png;
 use crate::commands::run::refuse;
 use crate::listener::{catch_interrupts, is_interrupted};
 use crate::loading::{Loaded, load_text};
 use crate::many::CHECKED_AHEAD;
 use crate::output::{complain, print, show_texts, shown, table, write_whole};
 use cell::{CellResult, Cells};
+use sheet::{Sheet, kept_bytes};
 
 pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool> {
     if let Some(path) = &args.out {
@@ -64,6 +67,7 @@ pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool>
     } else {
         cache::open(&args.cache)?
     };
+    let sheet = Sheet::new(args, &plan, registry)?;
     let cells = Cells {
         args,
         cache: cache.as_ref(),
@@ -72,7 +76,12 @@ pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool>
         grid: &plan.grid,
         keep: &plan.sweep.keep,
         expects: plan.sweep.expects,
+        sheet: sheet.as_ref(),
     };
+    let mut limits = args.many.limits();
+    if sheet.is_some() {
+        limits.budget -= kept_bytes(limits.budget);
+    }
     let count = plan.grid.cells.len();
     let mut results = Vec::with_capacity(count);
     for first in (0..count).step_by(CHECKED_AHEAD) {
@@ -84,7 +93,7 @@ pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool>
             work: |i: usize| cells.run(&tasks[i]),
         };
         let mut order = InOrder::default();
-        jobs.run(args.many.limits(), |ended| {
+        jobs.run(limits, |ended| {
             for (i, end) in ended {
                 order.put(i, end);
             }
@@ -93,7 +102,41 @@ pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool>
             }
         })?;
     }
-    finish(args, &plan, &results)
+    // What is measured is not lost if it cannot be drawn.
+    let sheet_is_written = match &sheet {
+        None => true,
+        Some(sheet) => write_sheet(sheet, &plan, &cells, &results).unwrap_or_else(|error| {
+            complain(&format!("error: {error:#}\n"));
+            false
+        }),
+    };
+    Ok(finish(args, &plan, &results)? && sheet_is_written)
+}
+
+/// Draws and writes the sheet. Whether it shows every cell that succeeded.
+fn write_sheet(
+    sheet: &Sheet,
+    plan: &Plan,
+    cells: &Cells,
+    results: &[CellResult],
+) -> anyhow::Result<bool> {
+    let drawn = sheet.draw(plan, cells, results)?;
+    for note in &drawn.notes {
+        complain(&format!("note: {note}\n"));
+    }
+    for (i, error) in &drawn.errors {
+        complain(&format!(
+            "error: cell {} cannot be drawn: {}\n",
+            i + 1,
+            shown(error)
+        ));
+    }
+    write_png(
+        &drawn.image,
+        sheet.path(),
+        cells.args.format == Format::Human,
+    )?;
+    Ok(drawn.errors.is_empty())
 }
 
 /// A sweep that can run.
@@ -258,16 +301,20 @@ fn plain(setting: &Setting) -> String {
     }
 }
 
+/// A text for people: a number without digits that nobody reads.
+fn short(text: &str) -> String {
+    match text.parse::<f64>() {
+        Ok(number) if text.contains('.') && text.len() > 10 => format!("{number:.6}"),
+        _ => shown(text).into_owned(),
+    }
+}
+
 /// The table as it is shown: errors stand below it, and numbers are short.
 fn on_a_terminal(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
-    let cell = |text: String| match text.parse::<f64>() {
-        Ok(number) if text.contains('.') && text.len() > 10 => format!("{number:.6}"),
-        _ => shown(&text).into_owned(),
-    };
     rows.into_iter()
         .map(|mut row| {
             let error = row.pop().unwrap_or_default();
-            let mut row: Vec<String> = row.into_iter().map(cell).collect();
+            let mut row: Vec<String> = row.iter().map(|text| short(text)).collect();
             if error != "error" && !error.is_empty() {
                 row.push(if error == "not run" {
                     error

@@ -1,0 +1,210 @@
+//! `sweep --sheet`: the scenes at the ends of the cells of a sweep in one image.
+
+use crate::folder::{Ended, Folder};
+use crate::pixels::{Pixels, pixels};
+
+const RECIPE: &str = r#"(
+    recipe: 1,
+    params: {
+        "around": Int(default: 8, min: 3, max: 64),
+        "major": Float(default: 1, min: 0.1, max: 9),
+        "minor": Float(default: 0.5, min: 0.1, max: 2),
+    },
+    steps: [Torus(name: "torus", around: arg("around"), across: 6, major: arg("major"), minor: arg("minor"))],
+)"#;
+
+fn folder(fields: &str) -> Folder {
+    let sweep = format!("(sweep: 1, recipe: \"recipe.ron\", {fields})");
+    Folder::with_recipe(RECIPE).with("a.sweep.ron", sweep)
+}
+
+/// Makes a sheet with cells of 90 x 40 pixels.
+fn sheet(folder: &Folder, more: &str) -> Ended {
+    folder.run(&format!(
+        "sweep a.sweep.ron --sheet s.png --size 90x40 {more}"
+    ))
+}
+
+/// The pixels of a cell of 90 x 40 whose rows are `row` pixels high; those of the sheet begin at `start`.
+fn cell(sheet: &Pixels, start: [u32; 2], row: u32, [i, j]: [u32; 2]) -> Pixels {
+    let (left, top) = (start[0] + 12 + i * 102, start[1] + 12 + j * (row + 12));
+    sheet.part([left, top], [90, 40])
+}
+
+/// Pixels that are not white.
+fn drawn(pixels: &Pixels) -> usize {
+    pixels.count(|p| p != [255; 3])
+}
+
+#[test]
+fn one_parameter_is_a_row_with_values_below() {
+    let folder = folder("over: {\"around\": [3, 8, 16]}, keep: [Faces]");
+    let ended = sheet(&folder, "").with_code(0);
+    assert!(
+        ended.stdout.contains("wrote s.png, 318 x 113 pixels\n"),
+        "{ended:#?}"
+    );
+    let made = pixels(&folder, "s.png");
+    // A line for the value and one for the measure.
+    assert_eq!(made.size, [12 + 3 * 102, 12 + 40 + 49 + 12]);
+    for i in 0..3 {
+        assert!(drawn(&cell(&made, [0, 0], 89, [i, 0])) > 200);
+        let captions = made.part([12 + i * 102, 52], [90, 49]);
+        assert!(drawn(&captions) > 50);
+    }
+    // Long rows are broken, and columns can be chosen.
+    let seven = self::folder("over: {\"around\": [3, 4, 5, 6, 7, 8, 9]}, keep: [Faces]");
+    sheet(&seven, "").with_code(0);
+    assert_eq!(pixels(&seven, "s.png").size[0], 12 + 4 * 102);
+    sheet(&seven, "--columns 3").with_code(0);
+    assert_eq!(pixels(&seven, "s.png").size[0], 12 + 3 * 102);
+}
+
+#[test]
+fn two_parameters_are_rows_and_columns_with_heads() {
+    let folder = folder(
+        "over: {\"minor\": [0.2, 0.4], \"around\": [4, 32, 8]}, set: {\"major\": 1}, keep: [Faces]",
+    );
+    sheet(&folder, "").with_code(0);
+    let made = pixels(&folder, "s.png");
+    // Above stand the values that change first, beside those of the other, below what is kept.
+    let [width, height] = made.size;
+    let beside = width - (12 + 3 * 102);
+    assert!((40..=102).contains(&beside), "{beside}");
+    assert_eq!(height, 28 + 12 + 2 * (40 + 28 + 12));
+    let start = [beside, 28];
+    for i in 0..3 {
+        assert!(drawn(&made.part([beside + 12 + i * 102, 0], [90, 40])) > 50);
+    }
+    for j in 0..2 {
+        assert!(drawn(&made.part([0, 40 + j * 80], [beside, 40])) > 50);
+        for i in 0..3 {
+            assert!(drawn(&cell(&made, start, 68, [i, j])) > 100, "{i} {j}");
+        }
+    }
+    // The captions of a column are those of its number of faces.
+    let caption = |i: u32, j: u32| made.part([beside + 12 + i * 102, 40 + 40 + j * 80], [90, 28]);
+    assert_eq!(caption(0, 0), caption(0, 1));
+    assert_ne!(caption(0, 0), caption(1, 0));
+}
+
+#[test]
+fn values_that_go_together_are_one_head() {
+    let folder = folder(
+        "over: {\"around\": [4, 8]}, zip: {\"minor\": [0.2, 0.3, 0.4], \"major\": [1, 2, 3]}, keep: [Faces]",
+    );
+    sheet(&folder, "").with_code(0);
+    let [_, height] = pixels(&folder, "s.png").size;
+    assert_eq!(height, 28 + 12 + 2 * (40 + 28 + 12));
+}
+
+#[test]
+fn all_cells_are_seen_in_one_scale() {
+    let folder = folder("over: {\"major\": [1, 4]}, set: {\"minor\": 0.5}, keep: [Seconds]");
+    sheet(&folder, "--from Top --orthographic --shading Plain").with_code(0);
+    let made = pixels(&folder, "s.png");
+    // Seconds are nobody's caption.
+    assert_eq!(made.size, [12 + 2 * 102, 12 + 40 + 28 + 12]);
+    let widths = [0, 1].map(|i| {
+        let cell = cell(&made, [0, 0], 68, [i, 0]);
+        let columns: Vec<u32> = (0..90)
+            .filter(|&x| drawn(&cell.part([x, 0], [1, 40])) > 0)
+            .collect();
+        columns[columns.len() - 1] - columns[0] + 1
+    });
+    // Radii 1.5 and 4.5, but for pixels that are covered in part.
+    assert!((3 * widths[0]).abs_diff(widths[1]) <= 5, "{widths:?}");
+}
+
+#[test]
+fn a_cell_that_fails_is_an_empty_place_with_its_error() {
+    let folder = folder("over: {\"around\": [8, 16]}, expect: true, keep: [Faces]").with(
+        "recipe.ron",
+        RECIPE.replace("    steps", "    expect: [Faces(eq: 48)],\n    steps"),
+    );
+    sheet(&folder, "")
+        .with_code(1)
+        .complains(&["error: cell 2: expected 48 faces, found 96\n"]);
+    let made = pixels(&folder, "s.png");
+    let is_red = |[r, g, b]: [u8; 3]| r > g.saturating_add(40) && r > b.saturating_add(40);
+    let (good, failed) = (
+        cell(&made, [0, 0], 89, [0, 0]),
+        cell(&made, [0, 0], 89, [1, 0]),
+    );
+    assert_eq!(good.count(is_red), 0);
+    assert!(failed.count(is_red) > 50);
+    // Nothing else is there: what is not white is ink of one color.
+    assert_eq!(failed.count(|[r, g, _]| r < 180 && g < 180), 0);
+}
+
+#[test]
+fn what_cannot_be_drawn_keeps_its_row_and_is_said() {
+    let folder = folder("over: {\"around\": [8, 16]}, keep: [Faces]");
+    sheet(&folder, "--on torsu")
+        .with_code(1)
+        .prints(&["48", "96"])
+        .complains(&[
+            "error: cell 1 cannot be drawn: no object is named \"torsu\"",
+            "error: cell 2 cannot be drawn",
+        ]);
+    assert!(folder.path("s.png").exists());
+}
+
+#[test]
+fn the_bytes_do_not_depend_on_threads_budget_and_cache() {
+    let folder = folder(
+        "over: {\"around\": Range(from: 4, to: 32, steps: 8), \"minor\": [0.2, 0.4]}, keep: [Area]",
+    )
+    .with("recipe.ron", RECIPE.replace("across: 6", "across: 99"));
+    let made = |more: &str| {
+        sheet(
+            &folder,
+            &format!("--color-by MeanCurvature --wireframe {more}"),
+        )
+        .with_code(0);
+        folder.read("s.png")
+    };
+    let one = made("--threads 1 --no-cache");
+    // With little memory scenes are not kept, but made again.
+    for more in [
+        "--threads 8",
+        "--threads 8",
+        "--threads 3 --budget 16MiB",
+        "--no-cache --budget 16MiB",
+    ] {
+        assert!(made(more) == one, "{more}");
+    }
+}
+
+#[test]
+fn the_sheet_is_said_to_be_wrong_before_anything_runs() {
+    let folder = folder("over: {\"around\": [8, 16]}, keep: [Faces]");
+    for (arguments, complaint) in [
+        (
+            &["--sheet", "s.jpg"][..],
+            "s.jpg: expected an image that ends in .png",
+        ),
+        (
+            &["--sheet", "s.png", "--shading", "Flta"],
+            "did you mean `Flat`?",
+        ),
+        (
+            &["--sheet", "s.png", "--with", "turntable: ()"],
+            "the cells on a sheet do not move",
+        ),
+        (&["--wireframe"], "--sheet <FILE>"),
+        (&["--columns", "3"], "--sheet <FILE>"),
+    ] {
+        let ended = folder
+            .run_all(&[&["sweep", "a.sweep.ron"], arguments].concat())
+            .with_code(2);
+        assert_eq!(ended.stdout, "", "{arguments:?}");
+        ended.complains(&[complaint]);
+    }
+    let ended = folder
+        .run("sweep a.sweep.ron --sheet s.png --size 16000x16000")
+        .with_code(1);
+    assert_eq!(ended.stdout, "");
+    ended.complains(&["expected an image of 1 to 16384 pixels a side"]);
+    assert_eq!(folder.entries("."), ["a.sweep.ron", "recipe.ron"]);
+}

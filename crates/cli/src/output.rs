@@ -216,7 +216,18 @@ pub(crate) fn quoted(text: &str) -> Cow<'_, str> {
 
 /// Writes a file whole or not at all: beside its place first, then renamed. Folders around it are made.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let write = || -> io::Result<()> {
+    begin(path, bytes)?.finish()
+}
+
+/// A file that stands whole beside its place.
+pub(crate) struct Begun<'p> {
+    path: &'p Path,
+    file: tempfile::NamedTempFile,
+}
+
+/// Writes a file beside its place. Folders around it are made.
+pub(crate) fn begin<'p>(path: &'p Path, bytes: &[u8]) -> anyhow::Result<Begun<'p>> {
+    let write = || -> io::Result<Begun> {
         let folder = match path.parent() {
             Some(folder) if folder != Path::new("") => folder,
             _ => Path::new("."),
@@ -233,8 +244,17 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
         file.write_all(bytes)?;
         // A full disk may only be told here.
         file.as_file().sync_all()?;
-        file.persist(path).map_err(|failed| failed.error)?;
-        Ok(())
+        Ok(Begun { path, file })
     };
     write().with_context(|| format!("cannot write {}", path.display()))
+}
+
+impl Begun<'_> {
+    /// Puts it in its place.
+    pub(crate) fn finish(self) -> anyhow::Result<()> {
+        let Self { path, file } = self;
+        let persisted = file.persist(path).map_err(|failed| failed.error);
+        persisted.with_context(|| format!("cannot write {}", path.display()))?;
+        Ok(())
+    }
 }

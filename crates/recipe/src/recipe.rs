@@ -202,6 +202,13 @@ impl Recipe {
         self.scopes.iter().enumerate().map(of).collect()
     }
 
+    /// Whether files that it writes are held against others.
+    pub(crate) fn holds_outputs(&self) -> bool {
+        self.expectations
+            .iter()
+            .any(|placed| placed.that.output().is_some())
+    }
+
     /// The text of a scope, by its place in [`Recipe::sources`].
     pub fn source_of(&self, scope: usize) -> usize {
         self.scopes.get(scope).map_or(0, |scope| scope.source)

@@ -256,7 +256,9 @@ impl Runner<'_> {
         let begin = Instant::now();
         let files = &self.files[step.scope];
         let why = if let Some(session) = &mut self.session {
-            let stage = self.stage.as_deref().filter(|_| self.settings.keep_outputs);
+            // Outputs that are held against others must be there, even if nobody keeps them.
+            let is_wanted = |_: &&Path| self.settings.keep_outputs || self.recipe.holds_outputs();
+            let stage = self.stage.as_deref().filter(is_wanted);
             match session.find(step, self.settings.budget, files, stage) {
                 Ok(found) => {
                     if !listener.advance(step.label(), 1, 1) {
@@ -481,7 +483,10 @@ impl Runner<'_> {
                 self.checked += 1;
                 continue;
             }
-            self.bring(self.n_done, listener)?;
+            let is_about_files = placed.that.output().is_some();
+            if !is_about_files {
+                self.bring(self.n_done, listener)?;
+            }
             self.log.take();
             let subject = Subject {
                 scene: &self.scene,
@@ -492,7 +497,8 @@ impl Runner<'_> {
             self.checked += 1;
             match placed.that.hold(subject) {
                 Ok(()) => {
-                    if let Some(session) = &mut self.session {
+                    let session = self.session.as_mut().filter(|_| !is_about_files);
+                    if let Some(session) = session {
                         session.held(placed, &self.log.take());
                     }
                 }

@@ -1,11 +1,12 @@
 //! Renewing what a recipe records: expectations whose recorded value is not the one that was found get the
 //! found one, in the text of the recipe, and everything else in the text stays as it is.
 //!
-//! Recorded are `eq`, `is`, the corners of `Bounds`, and `Digest`. What bounds a result from one side, such
+//! Recorded are `eq`, `is`, the corners of `Bounds`, `Digest`, and the file beside the recipe of `Output`. What bounds a result from one side, such
 //! as `min` and `below`, and what holds or not, such as `Manifold`, is what somebody wants of it: it is never
 //! changed. A value that a parameter brings is changed by whoever changes the parameter.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use crate::diagnostic::{Diagnostic, LineIndex, Span};
 use crate::expect::Found;
@@ -20,6 +21,8 @@ pub struct Update {
     pub text: String,
     /// What was changed, in the order of the text.
     pub changes: Vec<Change>,
+    /// Files beside the recipe with what they should hold.
+    pub files: BTreeMap<PathBuf, Vec<u8>>,
     /// What went wrong and is not mended by that, each with a word on why, in the order of the run.
     pub left: Vec<Diagnostic>,
 }
@@ -44,6 +47,7 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     let lines = LineIndex::new(source);
     let (mut edits, mut changes, mut mended) = (Vec::new(), Vec::new(), Vec::new());
     let mut left = outcome.failures.clone();
+    let mut files = BTreeMap::new();
     for turns in in_the_text(recipe, outcome) {
         match renewal(&tree, recipe, &turns) {
             Ok((value, fix)) => {
@@ -54,6 +58,7 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
                     found: fix.shown,
                 });
                 edits.extend(fix.edits);
+                files.extend(fix.file);
                 mended.extend(turns.iter().flatten().map(|unmet| unmet.failure));
             }
             Err(why) => {
@@ -78,6 +83,7 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     Update {
         text,
         changes,
+        files,
         left,
     }
 }
@@ -128,7 +134,7 @@ fn renewal<'t>(
 }
 
 const NOT_RECORDED: &str =
-    "this is no recorded value (`eq`, `is`, `Bounds`, `Digest`), so it is not updated";
+    "this is no recorded value (`eq`, `is`, `Bounds`, `Digest`, `Output`), so it is not updated";
 
 /// The expectation that stands at `span`.
 fn expectation_at(tree: &Value, span: Span) -> Option<&Value> {
@@ -145,6 +151,8 @@ fn expectation_at(tree: &Value, span: Span) -> Option<&Value> {
 /// The changes of the text for one expectation.
 struct Fix {
     edits: Vec<(Span, String)>,
+    /// The file beside the recipe that is to be written.
+    file: Option<(PathBuf, Vec<u8>)>,
     /// The new value in a few words.
     shown: String,
 }
@@ -175,6 +183,11 @@ fn fix(expectation: &Value, found: Option<&Found>) -> Result<Fix, String> {
             not_from_parameter(value)?;
             Ok(Fix::one(value, string_literal(digest)))
         }
+        Found::File { golden, bytes, .. } => Ok(Fix {
+            edits: Vec::new(),
+            file: Some((golden.clone(), bytes.clone())),
+            shown: format!("{} is written", golden.display()),
+        }),
         Found::Position { at, tolerance } => {
             // With every coordinate off by no more than this, the place is near enough.
             let edits = vector(recorded("is")?, at.to_array(), 0.5 * tolerance)?;
@@ -198,6 +211,7 @@ impl Fix {
     fn one(value: &Value, text: String) -> Self {
         Self {
             edits: vec![(value.span, text.clone())],
+            file: None,
             shown: text,
         }
     }
@@ -206,7 +220,11 @@ impl Fix {
         if edits.is_empty() {
             return Err(NOT_RECORDED.to_owned());
         }
-        Ok(Self { edits, shown })
+        Ok(Self {
+            edits,
+            file: None,
+            shown,
+        })
     }
 }
 

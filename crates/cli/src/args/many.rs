@@ -59,7 +59,8 @@ pub(crate) struct TestArgs {
     pub(crate) many: ManyArgs,
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-    /// Write the values that were found into the recipes, in place of recorded ones (eq, is, Bounds, Digest)
+    /// Write the values that were found into the recipes, in place of recorded ones (eq, is, Bounds, Digest), and
+    /// the files that outputs are held against (Output)
     #[arg(long)]
     pub(crate) update: bool,
     #[command(flatten)]

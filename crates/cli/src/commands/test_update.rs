@@ -1,4 +1,4 @@
-//! `meshwright test --update`: recorded values are written anew.
+//! `meshwright test --update`: recorded values are written anew, and so are files that outputs are held against.
 
 use std::path::Path;
 
@@ -7,6 +7,7 @@ use recipe::Outcome;
 use recipe::update::update;
 
 use crate::loading::Loaded;
+use crate::output::{Begun, begin};
 use crate::replace::replace_file;
 
 /// Renews the values that the recipe records and the run found to be others, and returns a line for each
@@ -17,7 +18,14 @@ pub(crate) fn renew(
     outcome: &mut Outcome,
 ) -> anyhow::Result<Vec<String>> {
     let update = update(&loaded.recipe, outcome);
-    if !update.changes.is_empty() {
+    // All files first: if one cannot be written, the recipe says nothing new.
+    let files = update.files.iter().map(|(path, bytes)| begin(path, bytes));
+    let files: Vec<Begun> = files.collect::<Result<_, _>>()?;
+    for file in files {
+        file.finish()?;
+    }
+    let is_other = update.text != loaded.recipe.sources.first().map_or("", |s| &s.text);
+    if is_other {
         replace_file(path, &update.text)
             .with_context(|| format!("cannot write {}", path.display()))?;
     }

@@ -9,6 +9,7 @@ mod folder;
 mod interrupt;
 mod new_op;
 mod ops;
+mod outputs;
 mod picture;
 mod pixels;
 mod refusals;

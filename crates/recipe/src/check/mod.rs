@@ -2,13 +2,14 @@
 
 mod attributes;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use op::{Files, MeshPlan, Plan, PlanContext, PlannedGeometry, Problem, Range};
 
 use crate::diagnostic::{Diagnostic, Severity, Span};
-use crate::expect::Other;
+use crate::expect::{Other, golden};
 use crate::recipe::{Placed, Recipe, RecipeStep};
+use crate::shape::did_you_mean;
 use crate::syntax::{PathItem, field_span};
 
 use attributes::Attributes;
@@ -38,9 +39,9 @@ pub struct Forecast {
     /// What is known after each step.
     pub steps: Vec<StepForecast>,
     /// The files that the recipe writes.
-    pub outputs: Vec<std::path::PathBuf>,
+    pub outputs: Vec<PathBuf>,
     /// The files that the recipe reads.
-    pub inputs: Vec<std::path::PathBuf>,
+    pub inputs: Vec<PathBuf>,
 }
 
 impl Forecast {
@@ -215,9 +216,46 @@ fn expected(
         }
         None => {}
     }
+    if let Some((path, golden)) = placed.that.output() {
+        found.extend(output(
+            path,
+            golden,
+            plan,
+            &files[placed.scope],
+            placed.span,
+        ));
+    }
     let problems = plan.check_names(names, "on");
     found.extend(problems.iter().map(|p| diagnostic(p, placed.span)));
     attributes.expected(placed, plan, &mut found);
+    found
+}
+
+/// What is wrong with a file that is to be written and held against one beside the recipe.
+fn output(path: &str, beside: &str, plan: &Plan, files: &Files, span: Span) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    match files.to_write(path) {
+        Err(error) => found.push(Diagnostic::error(span, error.to_string())),
+        Ok(full) if !plan.incomplete && !plan.outputs.contains(&full) => {
+            let below = |path: &PathBuf| path.strip_prefix(&files.output).ok().map(Path::to_owned);
+            let written: Vec<PathBuf> = plan.outputs.iter().filter_map(below).collect();
+            let names = written.iter().filter_map(|path| path.to_str());
+            let message = format!("no step writes \"{path}\" before this is held");
+            let help = did_you_mean(path, names);
+            found.push(Diagnostic::error(span, message).with_help(help));
+        }
+        Ok(_) => {}
+    }
+    match golden(files, beside) {
+        Err(message) => found.push(Diagnostic::error(span, message)),
+        Ok(full) if !full.exists() => {
+            // Not an error: then nothing could run that makes it.
+            let message = format!("there is no file {}", full.display());
+            let help = "run `meshwright test --update` to make it";
+            found.push(Diagnostic::warning(span, message).with_help(help));
+        }
+        Ok(_) => {}
+    }
     found
 }
 

@@ -6,7 +6,7 @@ use scene::Object;
 
 use super::places::double_edges;
 use super::subject::{Failure, Found, Subject, ends, fails_unless, near, selected, within};
-use super::{Expectation, same, symmetry};
+use super::{Expectation, output, same, symmetry};
 use mesh::distance::{Distance, TOLERANCE, diagonal};
 
 /// An expectation that does not hold.
@@ -53,6 +53,12 @@ impl Expectation {
                 Ok(()) => Err(Failure::Unmet(format!(
                     "expected {inner} not to hold, but it does"
                 ))),
+                Err(Failure::Recorded(
+                    message,
+                    Found::File {
+                        is_unknown: true, ..
+                    },
+                )) => Err(Failure::Unknown(message)),
                 Err(Failure::Unmet(_) | Failure::Recorded(..)) => Ok(()),
                 Err(unknown) => Err(unknown),
             },
@@ -64,6 +70,11 @@ impl Expectation {
                 let message = format!("expected the digest {expected}, found {found}");
                 Err(Failure::Recorded(message, Found::Digest(found)))
             }
+            Self::Output {
+                path,
+                r#as,
+                tolerance,
+            } => output::check(subject, path, r#as, *tolerance),
             Self::Objects { eq, min, max } => {
                 within("objects", subject.objects()?.len() as u64, *eq, *min, *max)
             }

@@ -2,6 +2,8 @@
 
 mod check;
 mod metric;
+mod output;
+mod pixels;
 mod places;
 mod same;
 mod subject;
@@ -16,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 pub use check::Broken;
 pub use metric::{Measured, Metric};
+pub(crate) use output::golden;
 pub(crate) use same::same_faces;
 pub use subject::{Found, ReadObjects, Subject};
 pub use symmetry::Group;
@@ -274,6 +277,18 @@ pub enum Expectation {
         /// Of this name.
         name: String,
     },
+    /// A file that a step writes is the same as one beside the recipe, which `meshwright test --update` makes and
+    /// renews. Of pictures (.png, .apng) the pixels count, of meshes what is read; of other files the bytes. What a
+    /// file says of where it comes from does not count.
+    Output {
+        /// The file that is written, seen from the output folder as in the step.
+        path: String,
+        /// The file that it is held against, seen from the recipe's folder and in it.
+        r#as: String,
+        /// By how many steps of 255 the colors of a picture may differ.
+        #[serde(default)]
+        tolerance: u8,
+    },
     /// The digest of the scene, as `run` prints it.
     Digest(String),
     /// The contrary holds. What cannot be told, as about a file that cannot be read, does not.
@@ -347,10 +362,26 @@ impl Expectation {
             Self::MeanFaceArea { min, max, .. }
             | Self::EdgeLength { min, max, .. }
             | Self::MinAngle { min, max, .. } => min.is_none() && max.is_none(),
+            Self::Output {
+                path, tolerance, ..
+            } if *tolerance > 0 && !output::is_picture(path) => {
+                return Some(
+                    "a tolerance is for pictures whose pixels are compared: .png and .apng",
+                );
+            }
             Self::Not(inner) => return inner.problem(),
             _ => false,
         };
         needs_bound.then_some("it has no bound, so it can never fail")
+    }
+
+    /// The file that a step writes and the one beside the recipe, if it is about these.
+    pub fn output(&self) -> Option<(&str, &str)> {
+        match self {
+            Self::Output { path, r#as, .. } => Some((path, r#as)),
+            Self::Not(inner) => inner.output(),
+            _ => None,
+        }
     }
 
     /// The objects and files that it compares with.

@@ -1,7 +1,7 @@
 //! What expectations are held against, and the measures that several of them take.
 
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use mesh::{DVec3, EdgeId, FaceId, Mesh};
@@ -50,6 +50,15 @@ pub enum Found {
     Number(f64),
     /// The digest of the scene.
     Digest(String),
+    /// A file, in place of the one beside the recipe.
+    File {
+        /// The file beside the recipe.
+        golden: PathBuf,
+        /// What it should hold.
+        bytes: Vec<u8>,
+        /// Whether there is none so far that could be compared.
+        is_unknown: bool,
+    },
     /// A place, in place of `is`.
     Position {
         /// The place.

@@ -54,7 +54,10 @@ impl Reader<'_, '_> {
     fn placed(&mut self, value: &Value, on: Option<Vec<String>>) -> Option<Placed> {
         let that: Expectation = self.typed(value, schema::expectation())?;
         if let Some(problem) = that.problem() {
-            let help = "give it a bound, such as `eq`, `min` or `max`";
+            let help = match that.output() {
+                Some(_) => "leave `tolerance` out",
+                None => "give it a bound, such as `eq`, `min` or `max`",
+            };
             self.error(value.span, problem, help);
             return None;
         }

@@ -1,0 +1,258 @@
+//! `Output`: files that steps write, held against files beside the recipe.
+
+use std::fs::File;
+use std::io::BufReader;
+
+use crate::folder::{Folder, names};
+
+const RECIPE: &str = r#"(
+    recipe: 1,
+    steps: [
+        Grid(name: "sheet", columns: 3, rows: 1),
+        Picture(path: "a/sheet.png", size: (40, 30)),
+        Save(path: "sheet.obj"),
+    ],
+    expect: [
+        Output(path: "a/sheet.png", as: "goldens/sheet.png"),
+        Output(path: "sheet.obj", as: "goldens/sheet.obj"),
+    ],
+)"#;
+
+/// A folder with the recipe and what it is held against.
+fn recorded() -> Folder {
+    let folder = Folder::with_recipe(RECIPE);
+    folder.run("test recipe.ron --update").with_code(0);
+    folder
+}
+
+/// Changes a pixel of a picture of opaque colors by this much.
+fn change_a_pixel(folder: &Folder, name: &str, place: usize, by: u8) {
+    let file = BufReader::new(File::open(folder.path(name)).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    pixels[3 * place] ^= by;
+    let file = File::create(folder.path(name)).unwrap();
+    let mut encoder = png::Encoder::new(file, info.width, info.height);
+    encoder.set_color(info.color_type);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(&pixels).unwrap();
+    writer.finish().unwrap();
+}
+
+#[test]
+fn what_is_missing_is_said_and_made_by_update() {
+    let folder = Folder::with_recipe(RECIPE);
+    folder.run("check recipe.ron").with_code(0).complains(&[
+        "warning: there is no file goldens/sheet.png",
+        "run `meshwright test --update` to make it",
+    ]);
+    for command in ["run recipe.ron", "test recipe.ron"] {
+        folder.run(command).with_code(1).complains(&[
+            "expected \"a/sheet.png\" to be as goldens/sheet.png, which is not there",
+            "recipe.ron:9:9",
+        ]);
+    }
+    assert!(!folder.path("out/sheet.obj").exists() && !folder.path("goldens").exists());
+    folder.run("test recipe.ron --update").with_code(0).prints(&[
+        "recipe.ron:9: Output(path: \"a/sheet.png\", as: \"goldens/sheet.png\") -> goldens/sheet.png is written\n",
+        "ok     recipe.ron",
+    ]);
+    assert_eq!(folder.entries("goldens"), ["sheet.obj", "sheet.png"]);
+    assert_eq!(folder.read("recipe.ron"), RECIPE.as_bytes());
+
+    // Now it holds, with what is in the cache and without, and nothing is written anew.
+    for command in [
+        "test recipe.ron",
+        "test recipe.ron --no-cache",
+        "run recipe.ron",
+        "check recipe.ron",
+    ] {
+        folder.run(command).with_code(0);
+    }
+    let again = folder.run("test recipe.ron --update").with_code(0);
+    assert!(!again.stdout.contains("->"), "{again:#?}");
+    let (out, golden) = ("out/a/sheet.png", "goldens/sheet.png");
+    assert_eq!(folder.read(out), folder.read(golden));
+}
+
+#[test]
+fn one_pixel_is_a_difference_and_may_be_tolerated() {
+    let folder = recorded();
+    change_a_pixel(&folder, "goldens/sheet.png", 41, 4);
+    let message = "expected \"a/sheet.png\" to be as goldens/sheet.png: 1 of 1200 pixels differs, by 4 of 255, at (1, 1)";
+    // Also if the step that writes it does not run.
+    for command in [
+        "test recipe.ron",
+        "test recipe.ron --no-cache",
+        "run recipe.ron",
+    ] {
+        folder.run(command).with_code(1).complains(&[message]);
+    }
+    for (tolerance, code) in [(3, 1), (4, 0)] {
+        let tolerance = format!("sheet.png\", tolerance: {tolerance}),");
+        let tolerant = RECIPE.replace("sheet.png\"),", &tolerance);
+        assert_ne!(tolerant, RECIPE);
+        let files = ["goldens/sheet.png", "goldens/sheet.obj"];
+        let [png, obj] = files.map(|name| folder.read(name));
+        let folder = Folder::with_recipe(&tolerant)
+            .with(files[0], png)
+            .with(files[1], obj);
+        folder.run("test recipe.ron").with_code(code);
+    }
+    folder
+        .run("test recipe.ron --update")
+        .with_code(0)
+        .prints(&["goldens/sheet.png is written"]);
+    folder.run("test recipe.ron").with_code(0);
+}
+
+#[test]
+fn where_files_come_from_is_no_difference_and_what_they_show_is() {
+    let recipe = r#"(
+    recipe: 1,
+    params: { "size": Float(default: 1) },
+    steps: [
+        Load(path: "a.bzc"),
+        CurveFigure(path: "a.svg", t: [0.5]),
+        Grid(name: "sheet", columns: 2, rows: 1, size: arg("size")),
+        Save(path: "b.mws"),
+        Picture(path: "c.gif", size: (16, 12), turntable: (frames: 2)),
+    ],
+    expect: [
+        Output(path: "a.svg", as: "a.svg"),
+        Output(path: "b.mws", as: "b.mws"),
+        Output(path: "c.gif", as: "c.gif"),
+    ],
+)"#;
+    let folder = Folder::with_recipe(recipe).with("a.bzc", "3\n0 0\n1 2\n2 0\n");
+    folder.run("test recipe.ron --update").with_code(0);
+    // Another run that makes the same: what was set is in the files.
+    folder.run("run recipe.ron --set size=1").with_code(0);
+    for name in ["a.svg", "b.mws", "c.gif"] {
+        let out = folder.read(&format!("out/{name}"));
+        assert!(out != folder.read(name), "{name}");
+    }
+    folder
+        .run("run recipe.ron --set size=2")
+        .with_code(1)
+        .complains(&["expected \"b.mws\" to be as b.mws: expected objects of the digest"]);
+    let folder = folder.with("a.bzc", "3\n0 0\n1 3\n2 0\n");
+    folder.run("test recipe.ron").with_code(1).complains(&[
+        "expected \"a.svg\" to be as a.svg: byte ",
+        "is the first that differs",
+    ]);
+}
+
+#[test]
+fn a_mesh_that_needs_files_beside_it_is_not_recorded() {
+    let folder = Folder::with_recipe(
+        r#"(recipe: 1, steps: [Load(path: "m.obj"), Save(path: "a.obj")],
+            expect: [Output(path: "a.obj", as: "golden.obj")])"#,
+    )
+    .with(
+        "m.obj",
+        "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n",
+    )
+    .with("m.mtl", "newmtl red\nKd 1 0 0\n");
+    folder
+        .run("test recipe.ron --update")
+        .with_code(1)
+        .complains(&[
+            "it cannot be recorded without the files beside it: write a .glb, .ply or .mws",
+        ]);
+    assert!(!folder.path("golden.obj").exists());
+}
+
+#[test]
+fn paths_that_lead_out_and_files_that_no_step_writes_are_refused() {
+    let picture = "path: \"a/sheet.png\", as: \"goldens/sheet.png\"";
+    for (output, complaint) in [
+        (
+            "path: \"../sheet.png\", as: \"g.png\"",
+            "must stay inside the output folder",
+        ),
+        (
+            "path: \"a/sheet.png\", as: \"../g.png\"",
+            "the path \"../g.png\" must stay inside the recipe's folder",
+        ),
+        (
+            "path: \"a/sheet.png\", as: \"/g.png\"",
+            "must stay inside the recipe's folder",
+        ),
+        ("path: \"a/sheet.png\", as: \"a/\"", "names no file"),
+        ("path: \"a/sheet.png\", as: \"\"", "names no file"),
+        (
+            "path: \"a/shet.png\", as: \"g.png\"",
+            "did you mean `a/sheet.png`?",
+        ),
+        (
+            "path: \"sheet.obj\", as: \"g.obj\", tolerance: 3",
+            "a tolerance is for pictures",
+        ),
+        (
+            "path: \"a/sheet.png\", as: \"g.png\", tolerance: 256",
+            "expected at most 255",
+        ),
+    ] {
+        let recipe = RECIPE.replace(picture, output);
+        assert_ne!(recipe, RECIPE);
+        let folder = Folder::with_recipe(&recipe);
+        for command in ["check recipe.ron", "test recipe.ron --update"] {
+            let ended = folder.run(command).with_code(1);
+            assert!(ended.stderr.contains(complaint), "{output}: {ended:#?}");
+        }
+        assert_eq!(folder.entries("."), ["recipe.ron"]);
+    }
+    // Before the step that writes it.
+    let grid = "Grid(name: \"sheet\", columns: 3, rows: 1)";
+    let early = RECIPE
+        .replace(grid, &format!("(id: \"grid\", run: {grid})"))
+        .replace(
+            &format!("Output({picture})"),
+            &format!("(after: \"grid\", that: Output({picture}))"),
+        );
+    Folder::with_recipe(&early)
+        .run("check recipe.ron")
+        .with_code(1)
+        .complains(&["no step writes \"a/sheet.png\" before this is held"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_does_not_lead_out_of_the_folder_of_the_recipe() {
+    let folder = Folder::with_recipe(RECIPE);
+    let other = tempfile::tempdir().unwrap();
+    std::os::unix::fs::symlink(other.path(), folder.path("goldens")).unwrap();
+    folder
+        .run("test recipe.ron --update")
+        .with_code(1)
+        .complains(&["leads out of the recipe's folder through a link"]);
+    assert_eq!(names(other.path()), [""; 0]);
+}
+
+#[test]
+fn the_contrary_can_be_expected_of_what_is_there() {
+    let picture = "Output(path: \"a/sheet.png\", as: \"goldens/sheet.png\")";
+    let recipe = RECIPE.replace(picture, &format!("Not({picture})"));
+    let folder = recorded();
+    let same = folder.read("goldens/sheet.png");
+    let folder = folder.with("recipe.ron", recipe);
+    folder
+        .run("test recipe.ron")
+        .with_code(1)
+        .complains(&["not to hold, but it does"]);
+    change_a_pixel(&folder, "goldens/sheet.png", 0, 1);
+    folder.run("test recipe.ron").with_code(0);
+    // What cannot be told does not hold.
+    std::fs::remove_file(folder.path("goldens/sheet.png")).unwrap();
+    folder
+        .run("test recipe.ron --update")
+        .with_code(1)
+        .complains(&["which is not there"]);
+    let folder = folder.with("goldens/sheet.png", &same[..same.len() / 2]);
+    folder
+        .run("test recipe.ron")
+        .with_code(1)
+        .complains(&["cannot be read as a picture"]);
+}

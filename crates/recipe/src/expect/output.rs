@@ -1,0 +1,261 @@
+//! The expectation about files that steps write: held against files beside the recipe.
+//!
+//! Pictures are the same if their pixels are, meshes if they are read as the same objects, and everything else if
+//! the bytes are. Where a file comes from, which it may say of itself, counts for nothing.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use op::Files;
+use scene::{Digest, Scene};
+
+use super::pixels;
+use super::subject::{Failure, Found, ReadObjects, Subject};
+
+/// The bytes of a larger file are not kept to renew what it is held against.
+const LARGEST: u64 = 64 << 20;
+
+/// What is other in a file.
+#[derive(Debug)]
+pub(super) enum Difference {
+    /// It holds something else.
+    Told(String),
+    /// One of the files cannot be read.
+    Unknown(String),
+}
+
+impl Difference {
+    pub(super) fn into_message(self) -> String {
+        match self {
+            Self::Told(message) | Self::Unknown(message) => message,
+        }
+    }
+}
+
+impl From<String> for Difference {
+    fn from(message: String) -> Self {
+        Self::Unknown(message)
+    }
+}
+
+/// Whether the ending is that of a picture whose pixels are compared.
+pub(super) fn is_picture(path: &str) -> bool {
+    let ending = Path::new(path).extension().unwrap_or_default();
+    ["png", "apng"]
+        .iter()
+        .any(|e| ending.eq_ignore_ascii_case(e))
+}
+
+/// The file beside the recipe that `path` names, which `test --update` may write.
+///
+/// # Errors
+///
+/// If the path leaves the recipe's folder, by itself or through a link, or names no file.
+pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, String> {
+    let relative = Path::new(path);
+    let is_plain = relative
+        .components()
+        .all(|c| matches!(c, Component::Normal(_)));
+    if !is_plain || path.contains(['\\', ':', '\0']) {
+        return Err(format!(
+            "the path \"{path}\" must stay inside the recipe's folder: no \"..\", no absolute path"
+        ));
+    }
+    if relative.file_name().is_none() || path.ends_with('/') {
+        return Err(format!("the path \"{path}\" names no file"));
+    }
+    let input = if files.input.as_os_str().is_empty() {
+        PathBuf::from(".")
+    } else {
+        files.input.clone()
+    };
+    let beside = Files {
+        output: input,
+        ..Files::default()
+    };
+    beside
+        .check_links(relative)
+        .map_err(|_| format!("\"{path}\" leads out of the recipe's folder through a link"))?;
+    Ok(files.to_read(path))
+}
+
+/// Holds a file that a step has written against the one beside the recipe.
+pub(super) fn check(
+    subject: Subject,
+    path: &str,
+    beside: &str,
+    tolerance: u8,
+) -> Result<(), Failure> {
+    let files = subject.files;
+    let written = files.to_write(path).map_err(|error| error.to_string())?;
+    let golden = golden(files, beside)?;
+    if !written.is_file() {
+        return Err(format!("no step has written \"{path}\" so far").into());
+    }
+    if !golden.exists() {
+        let message = format!(
+            "expected \"{path}\" to be as {}, which is not there: `meshwright test --update` makes it",
+            golden.display()
+        );
+        return Err(recorded(message, &written, &golden, true, subject));
+    }
+    let compared = if is_picture(path) {
+        pixels::compare(&written, &golden, tolerance)
+    } else {
+        compare(&written, &golden, subject.read, files)
+    };
+    let Err(difference) = compared else {
+        return Ok(());
+    };
+    let is_unknown = matches!(difference, Difference::Unknown(_));
+    let message = format!(
+        "expected \"{path}\" to be as {}: {}",
+        golden.display(),
+        difference.into_message()
+    );
+    Err(recorded(message, &written, &golden, is_unknown, subject))
+}
+
+/// What is found in place of the golden file, if that can be said in one file.
+fn recorded(
+    message: String,
+    written: &Path,
+    golden: &Path,
+    is_unknown: bool,
+    subject: Subject,
+) -> Failure {
+    let is_small = fs::metadata(written).is_ok_and(|file| file.len() <= LARGEST);
+    if !is_small {
+        return Failure::Unmet(format!("{message}; it is too large to be recorded"));
+    }
+    match fs::read(written) {
+        Ok(bytes) if !stands_alone(written, golden, &bytes, subject) => Failure::Unmet(format!(
+            "{message}; it cannot be recorded without the files beside it: write a .glb, .ply or .mws"
+        )),
+        Ok(bytes) => {
+            let golden = golden.to_path_buf();
+            Failure::Recorded(
+                message,
+                Found::File {
+                    golden,
+                    bytes,
+                    is_unknown,
+                },
+            )
+        }
+        Err(error) => Failure::Unmet(format!("{message}; it cannot be read: {error}")),
+    }
+}
+
+/// Whether a file says the same without those beside it, such as the materials of an OBJ file, under the name of
+/// the file beside the recipe.
+fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
+    let Ok(then) = digest(written, subject.read, subject.files) else {
+        return true;
+    };
+    let alone = || {
+        let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+        let path = folder.path().join(golden.file_name().unwrap_or_default());
+        fs::write(&path, bytes).map_err(|error| error.to_string())?;
+        digest(&path, subject.read, subject.files)
+    };
+    alone() == Ok(then)
+}
+
+/// What is other in files that are no pictures.
+fn compare(
+    written: &Path,
+    golden: &Path,
+    read: ReadObjects,
+    files: &Files,
+) -> Result<(), Difference> {
+    // What is no file of objects is a file of bytes.
+    if let Ok(now) = digest(written, read, files) {
+        let then = digest(golden, read, files)?;
+        let message = format!("expected objects of the digest {then}, found {now}");
+        return if now == then {
+            Ok(())
+        } else {
+            Err(Difference::Told(message))
+        };
+    }
+    let bytes = |path: &Path| {
+        let bytes = fs::read(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
+        Ok::<_, String>(without_stamp(bytes))
+    };
+    let (now, then) = (bytes(written)?, bytes(golden)?);
+    if now == then {
+        return Ok(());
+    }
+    let at = now.iter().zip(&then).position(|(a, b)| a != b);
+    Err(Difference::Told(match at {
+        Some(at) => {
+            let line = then[..at].split(|b| *b == b'\n').count();
+            format!("byte {at}, in line {line}, is the first that differs")
+        }
+        None => format!("expected {} bytes, found {}", then.len(), now.len()),
+    }))
+}
+
+/// The digest of the objects in a file.
+fn digest(path: &Path, read: ReadObjects, files: &Files) -> Result<Digest, String> {
+    let mut scene = Scene::new();
+    for object in read(path, files)? {
+        scene.insert(object).map_err(|error| error.to_string())?;
+    }
+    Ok(scene.digest())
+}
+
+/// What a file holds beside the line that says where it comes from: the metadata of an SVG, the comment of a GIF.
+fn without_stamp(mut bytes: Vec<u8>) -> Vec<u8> {
+    let find = |bytes: &[u8], text: &[u8]| bytes.windows(text.len()).position(|w| w == text);
+    let (open, close): (&[u8], &[u8]) = (b"<metadata>meshwright ", b"</metadata>");
+    if let Some(start) = find(&bytes, open)
+        && let Some(length) = find(&bytes[start..], close)
+    {
+        bytes.drain(start..start + length + close.len());
+    }
+    let is_gif = bytes.starts_with(b"GIF8");
+    let is_comment = |w: &[u8]| w.starts_with(b"\x21\xfe") && w.ends_with(b"meshwright ");
+    if is_gif && let Some(start) = bytes.windows(14).position(is_comment) {
+        // Parts that say how long they are, up to one of no length.
+        let mut end = start + 2;
+        while let Some(&length) = bytes.get(end) {
+            end += 1 + usize::from(length);
+            if length == 0 {
+                break;
+            }
+        }
+        bytes.drain(start..end.min(bytes.len()));
+    }
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn where_a_file_comes_from_is_no_part_of_it() {
+        let svg =
+            |stamp: &str| format!("<svg>\n  {stamp}\n  <path d=\"M 0 0\"/>\n</svg>").into_bytes();
+        let one = without_stamp(svg("<metadata>meshwright 1, recipe 0a</metadata>"));
+        assert_eq!(one, without_stamp(svg("<metadata>meshwright 2</metadata>")));
+        assert_eq!(one, svg(""));
+        // Only what is ours, and only if it ends.
+        for other in ["<metadata>by hand</metadata>", "<metadata>meshwright 1"] {
+            assert_eq!(without_stamp(svg(other)), svg(other));
+        }
+        let gif = |comment: &[u8]| [b"GIF89a..", comment, b"image"].concat();
+        let long = [&b"\x21\xfe\x0cmeshwright 1\x03abc\x00"[..]].concat();
+        assert_eq!(without_stamp(gif(&long)), gif(b""));
+        assert_eq!(
+            without_stamp(gif(b"\x21\xfe\x02by\x00")),
+            gif(b"\x21\xfe\x02by\x00")
+        );
+        // It may be cut off anywhere.
+        for end in 0..gif(&long).len() {
+            without_stamp(gif(&long)[..end].to_vec());
+        }
+    }
+}

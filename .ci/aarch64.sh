@@ -5,6 +5,9 @@
 # a machine of another system cannot build for it.
 #
 #   .ci/aarch64.sh [FOLDER]     FOLDER (target/ci/aarch64) keeps what was fetched and built
+#
+# Files that the scenes wrote here are held against those in target/ci/scenes, if these are there, and some pictures of
+# the reference against those of the repository.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 work=$(mkdir -p "${1:-target/ci/aarch64}" && cd "${1:-target/ci/aarch64}" && pwd)
@@ -63,9 +66,22 @@ RUSTC=$work/rustc RUSTFLAGS="" CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/target
     CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
     cargo build --release --locked --target "$target" -p meshwright-cli
 
-qemu-aarch64 -L /usr/aarch64-linux-gnu "$work/target/$target/release/meshwright" test scenes | tee "$work/scenes.txt"
+meshwright() { qemu-aarch64 -L /usr/aarch64-linux-gnu "$work/target/$target/release/meshwright" "$@"; }
+rm -rf "$work/scenes" "$work/pictures"
+meshwright test scenes --out "$work/scenes" | tee "$work/scenes.txt"
 while read -r name digest; do
     grep -q "scenes/$name.ron .*digest $digest" "$work/scenes.txt" ||
         { echo "$name: 64-bit ARM gives another digest than tests/digests.txt"; exit 1; }
 done < tests/digests.txt
 echo "$(wc -l < tests/digests.txt) digests are the same on 64-bit ARM"
+
+if [ -d target/ci/scenes ]; then
+    diff -r target/ci/scenes "$work/scenes" || { echo "64-bit ARM writes other files"; exit 1; }
+    echo "$(find "$work/scenes" -type f | wc -l) files are the same on 64-bit ARM"
+fi
+
+meshwright test ops/all/pictures --filter _edges --out "$work/pictures"
+find "$work/pictures" -name '*.png' -printf '%P\n' | while read -r picture; do
+    cmp "ops/all/pictures/$picture" "$work/pictures/$picture" || { echo "64-bit ARM draws another picture"; exit 1; }
+done
+echo "$(find "$work/pictures" -name '*.png' | wc -l) pictures are the same on 64-bit ARM"

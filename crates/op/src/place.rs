@@ -34,7 +34,7 @@ impl Place {
 
 #[cfg(test)]
 mod tests {
-    use mesh::{EdgeId, EditError, shapes};
+    use mesh::{EdgeId, EditError, VertexId, shapes};
     use scene::{Object, Scene};
     use schemars::JsonSchema;
     use serde::{Deserialize, Serialize};
@@ -103,7 +103,7 @@ mod tests {
         assert_eq!(error.elements(), expected);
         let expected = expected.map(|e| Place::of("mesh", &mesh, e).unwrap());
         assert_eq!(places, expected);
-        let [v, w] = mesh.edge_vertices(refused_edge).map(|v| v.index());
+        let [v, w] = mesh.edge_vertices(refused_edge).map(VertexId::index);
         let message = error.to_string();
         assert!(
             message.ends_with(&format!("; at Between({v}, {w})")),

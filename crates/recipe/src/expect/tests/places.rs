@@ -1,6 +1,6 @@
 //! Which elements break an expectation.
 
-use mesh::{DVec3, EdgeId, shapes};
+use mesh::{DVec3, EdgeId, VertexId, shapes};
 use op::{Files, Place};
 use scene::Scene;
 
@@ -73,7 +73,7 @@ fn boundaries_break_what_is_to_be_closed() {
 fn double_edges_break_a_manifold() {
     let mesh = with_double_edges();
     let between = |e| {
-        let [v, w] = mesh.edge_vertices(e).map(|v| v.index());
+        let [v, w] = mesh.edge_vertices(e).map(VertexId::index);
         (v.min(w), v.max(w))
     };
     let is_double = |&e: &EdgeId| {

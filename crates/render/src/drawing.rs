@@ -103,6 +103,9 @@ pub struct Line {
     pub faces: [u32; 2],
     /// How much of it is seen where something is before it, from 0 to 1. A point is a ring there.
     pub hidden: f32,
+    /// How far apart lines like it are, in scene units; infinite if it is not one of many. It is thinner where many of
+    /// them would cover the surface.
+    pub room: f64,
 }
 
 /// Stands where there is no face.

@@ -98,7 +98,7 @@ pub struct Style {
     /// The color of the backs of faces, which show where a mesh is open or turned inside out.
     #[serde(default = "back")]
     pub back: Option<Color>,
-    /// The edges of meshes.
+    /// The edges of meshes: thinner where they are only some pixels apart, so that the surface is seen.
     #[serde(default)]
     pub wireframe: Option<Lines>,
     /// Edges with a face on one side only.

@@ -33,6 +33,9 @@ impl Builder<'_, '_> {
             let color = lines.color.linear();
             for e in mesh.edges() {
                 self.edge(mesh, e, lines.width, color, lines.hidden);
+                if let Some(line) = self.drawing.lines.last_mut() {
+                    line.room = room(mesh, e);
+                }
             }
         }
         if let Some(c) = coloring.filter(|c| c.domain == Domain::Edge) {
@@ -107,6 +110,7 @@ impl Builder<'_, '_> {
             color,
             faces,
             hidden: narrow(hidden),
+            room: f64::INFINITY,
         });
     }
 
@@ -177,5 +181,22 @@ impl Builder<'_, '_> {
         }
         self.drawing.labels.extend(labels);
         Ok(())
+    }
+}
+
+/// The mean length of the sides of the faces beside an edge: how far apart edges are there.
+fn room(mesh: &Mesh, e: EdgeId) -> f64 {
+    let (mut sum, mut n) = (0.0, 0);
+    for f in mesh.edge_faces(e).into_iter().flatten() {
+        for h in mesh.face_half_edges(f) {
+            let [p, q] = [mesh.origin(h), mesh.target(h)].map(|v| mesh.position(v));
+            sum += p.distance(q);
+            n += 1;
+        }
+    }
+    if n > 0 {
+        sum / f64::from(n)
+    } else {
+        f64::INFINITY
     }
 }

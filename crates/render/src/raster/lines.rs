@@ -20,6 +20,10 @@ use crate::drawing::{Drawing, Line};
 const RING: f64 = 0.35;
 const LEAST_RING: f64 = 1.2;
 
+/// The width of lines as a part of how far they are apart, at most. The sides of regular triangles of side 1 cover 2 √3
+/// times their width: half of everything.
+const FINE: f64 = 0.15;
+
 /// A line in the picture.
 pub(super) struct FlatLine {
     /// The ends in pixels.
@@ -52,10 +56,13 @@ pub(super) fn project(drawing: &Drawing, view: &View) -> Vec<Option<FlatLine>> {
         let seen = [cut(a, b), cut(b, a)].map(|v| view.project(v));
         let ends = seen.map(|s| s.at);
         let length_squared = ends[0].distance_squared(ends[1]);
+        let width = f64::from(line.width);
+        let pixel = view.pixel(0.5 * seen[0].depth + 0.5 * seen[1].depth);
+        let width = width.min(FINE * line.room / pixel);
         let flat = FlatLine {
             ends,
             depths: seen.map(|s| s.depth),
-            radius: 0.5 * f64::from(line.width),
+            radius: 0.5 * width,
             scaled: if length_squared > 0.0 {
                 (ends[1] - ends[0]) / length_squared
             } else {

@@ -214,6 +214,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
             color: [0.0, 0.0, 0.0, 0.7],
             faces: [NO_FACE; 2],
             hidden: 0.2,
+            room: 0.05,
         })
         .collect();
     let look = Look {
@@ -357,6 +358,7 @@ fn a_line_has_its_width_everywhere() {
             color: [0.0, 0.0, 0.0, 1.0],
             faces: [NO_FACE; 2],
             hidden: 0.0,
+            room: f64::INFINITY,
         };
         let mut lines = Drawing::default();
         lines.lines.push(line);
@@ -365,6 +367,44 @@ fn a_line_has_its_width_everywhere() {
         let expected = 120.0 * 3.0 + std::f64::consts::PI * 1.5 * 1.5;
         let found = covered(&picture);
         assert!((found / expected - 1.0).abs() < 0.01, "{degrees}: {found}");
+    }
+}
+
+#[test]
+fn lines_cover_no_more_than_half_of_a_dense_mesh() {
+    let size = [128, 128];
+    for (side, n) in [(1.0, 220), (3.0, 75), (6.0, 38), (20.0, 13)] {
+        // The sides of regular triangles, over the whole picture.
+        let place = |i: i32, j: i32| {
+            let aside = f64::from(i) + 0.5 * f64::from(j);
+            DVec3::new(aside, f64::from(j) * 0.75_f64.sqrt(), 0.0) * side
+        };
+        let mut lines = Drawing::default();
+        for (i, j) in (-n..n).flat_map(|i| (-n..n).map(move |j| (i, j))) {
+            let p = place(i, j);
+            if p.abs().max_element() > 70.0 + side {
+                continue;
+            }
+            for q in [place(i + 1, j), place(i, j + 1), place(i - 1, j + 1)] {
+                lines.lines.push(Line {
+                    ends: [p, q],
+                    width: 1.0,
+                    color: [0.0, 0.0, 0.0, 1.0],
+                    faces: [NO_FACE; 2],
+                    hidden: 0.0,
+                    room: side,
+                });
+            }
+        }
+        let picture = rendered(&lines, &before(128.0, size), size, &plain());
+        let found = covered(&picture) / 128.0 / 128.0;
+        let width = 1.0_f64.min(0.15 * side);
+        // Without what lies in two lines.
+        let most = 2.0 * 3.0_f64.sqrt() * width / side;
+        assert!(
+            (0.7 * most..1.02 * most).contains(&found),
+            "{side}: {found}, {most}"
+        );
     }
 }
 
@@ -384,6 +424,7 @@ fn a_line_is_hidden_behind_a_surface_and_seen_on_it() {
             color: [0.0, 0.0, 0.0, 1.0],
             faces: [NO_FACE; 2],
             hidden,
+            room: f64::INFINITY,
         });
         let picture = rendered(&drawing, &before(4.0, size), size, &plain());
         let light = |p: &[u8; 4]| 1.0 - f64::from(to_linear(p[0]));
@@ -415,6 +456,7 @@ fn a_point_is_a_disc_and_a_ring_where_it_is_hidden() {
             color: [0.0, 0.0, 0.0, 1.0],
             faces: [NO_FACE; 2],
             hidden: 0.5,
+            room: f64::INFINITY,
         });
         let picture = rendered(&drawing, &before(4.0, size), size, &plain());
         // From the middle to the right.
@@ -521,6 +563,7 @@ fn degenerate_drawings_have_pictures() {
         color: [0.0, 0.0, 0.0, 1.0],
         faces: [NO_FACE; 2],
         hidden: 1.0,
+        room: f64::INFINITY,
     };
     let dot = Drawing {
         lines: vec![line],

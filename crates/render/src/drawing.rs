@@ -90,6 +90,13 @@ impl Default for Surface {
     }
 }
 
+impl Surface {
+    /// Whether it hides less than half of what is behind it, or has holes.
+    pub(crate) fn is_see_through(&self) -> bool {
+        self.color[3] < 0.5 || self.texture.as_ref().is_some_and(|t| !t.is_opaque())
+    }
+}
+
 /// A line with round ends, or a round point if both ends are one.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {

@@ -112,7 +112,7 @@ pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -
     let n_points: u64 = drawing.parts.iter().map(|p| p.points.len() as u64).sum();
     let (triangles, lines) = (drawing.n_triangles() as u64, drawing.lines.len() as u64);
     let maps = if look.has_occlusion() && triangles > 0 {
-        occlusion::bytes([width, height]) + 12 * n_points * threads + 12 * triangles
+        occlusion::bytes([width, height]) + 12 * n_points * threads + 24 * triangles
     } else {
         0
     };

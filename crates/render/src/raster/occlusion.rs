@@ -2,16 +2,17 @@
 //!
 //! Depth maps are drawn from directions that are spread evenly over the sphere; each map keeps the nearest
 //! and the farthest depth, and so serves two opposite directions. A place is then looked up in all maps. It
-//! does not depend on the camera, and there is no noise.
+//! does not depend on the camera, and there is no noise. What is see-through hides nothing.
 
 use std::borrow::Cow;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::shade::surface_place;
 use crate::PictureError;
 use crate::color::narrow;
-use crate::drawing::{Drawing, Part};
+use crate::drawing::{Drawing, Part, Surface};
 
 /// Maps, each for two opposite directions.
 const MAPS: usize = 48;
@@ -83,7 +84,13 @@ impl Occlusion {
         let wide: Vec<_> = drawing
             .parts
             .iter()
-            .map(|part| wide(part, texel * SMALL))
+            .map(|part| {
+                if has_see_through(part) {
+                    Cow::Owned(opaque(part))
+                } else {
+                    wide(part, texel * SMALL)
+                }
+            })
             .collect();
         let maps = (0..MAPS)
             .into_par_iter()
@@ -94,6 +101,7 @@ impl Occlusion {
                 let mut depths = vec![[f32::NEG_INFINITY; 2]; side * side];
                 let mut places = Vec::new();
                 for (part, wide) in drawing.parts.iter().zip(&wide) {
+                    let has_small = wide.len() < part.triangles.len() && !has_see_through(part);
                     places.clear();
                     let half = side as f32 / 2.0;
                     places.extend(part.points.iter().map(|&p| {
@@ -104,7 +112,7 @@ impl Occlusion {
                             depth: dot(axes[2], p),
                         }
                     }));
-                    if wide.len() < part.triangles.len() {
+                    if has_small {
                         for &p in &places {
                             dot_at(&mut depths, side, p);
                         }
@@ -166,6 +174,24 @@ impl Occlusion {
 /// Texels. No place in a triangle with shorter edges is farther from its nearest corner than half a texel: its
 /// corners alone cover all texels whose middles it covers.
 const SMALL: f64 = 0.85;
+
+/// Whether some surfaces of a part hide little of what is behind them.
+fn has_see_through(part: &Part) -> bool {
+    part.materials.iter().any(Surface::is_see_through)
+}
+
+/// The triangles of a part that hide what is behind them.
+fn opaque(part: &Part) -> Vec<[u32; 3]> {
+    let is_opaque = |i: usize| {
+        let surface = part.materials.get(surface_place(part, i));
+        !surface.is_some_and(Surface::is_see_through)
+    };
+    let triangles = part.triangles.iter().enumerate();
+    triangles
+        .filter(|&(i, _)| is_opaque(i))
+        .map(|(_, t)| *t)
+        .collect()
+}
 
 /// The triangles of a part with an edge of at least this length.
 fn wide<'a>(part: &'a Part, length: f64) -> Cow<'a, [[u32; 3]]> {

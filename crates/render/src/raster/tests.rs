@@ -541,6 +541,29 @@ fn the_bottom_of_a_cup_sees_as_much_as_its_opening() {
 }
 
 #[test]
+fn glass_does_not_darken_what_is_below_it() {
+    let plane = |z: f64, alpha: f32| {
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let points = corners.map(|[x, y]| DVec3::new(x, y, z)).to_vec();
+        let mut plane = part(points, vec![[0, 1, 2], [0, 2, 3]], WHITE);
+        plane.materials[0].color[3] = alpha;
+        plane
+    };
+    let open = |alpha: f32| {
+        let drawing = drawing(vec![plane(0.0, 1.0), plane(0.3, alpha)]);
+        let size = [300, 300];
+        let occlusion = super::occlusion::Occlusion::new(&drawing, size, |_| Ok(())).unwrap();
+        occlusion.open(DVec3::ZERO, DVec3::Z)
+    };
+    assert!(
+        open(0.2) > 0.99 && open(1.0) < 0.3,
+        "{}, {}",
+        open(0.2),
+        open(1.0)
+    );
+}
+
+#[test]
 fn transparent_surfaces_cover_as_much_as_their_alpha() {
     let size = [16, 16];
     let triangle = [[-9.0, -9.0], [9.0, -9.0], [0.0, 18.0]];

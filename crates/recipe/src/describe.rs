@@ -33,8 +33,10 @@ pub fn fields(schema: &Json) -> Vec<FieldDoc> {
             FieldDoc {
                 name: name.clone(),
                 kind: kind(schema, property),
-                default: (!required.contains(&name.as_str()))
-                    .then(|| property.get("default").map_or("none".to_owned(), to_ron)),
+                default: (!required.contains(&name.as_str())).then(|| {
+                    let default = property.get("default");
+                    default.map_or("none".to_owned(), |value| default_of(target, value))
+                }),
                 doc: property["description"]
                     .as_str()
                     .unwrap_or_default()
@@ -134,7 +136,10 @@ fn kind(root: &Json, schema: &Json) -> String {
         _ => "value",
     };
     match type_name {
-        "array" => format!("[{}, ..]", kind(root, &schema["items"])),
+        "array" => match fixed_len(schema) {
+            Some(n) => format!("({})", vec![kind(root, &schema["items"]); n].join(", ")),
+            None => format!("[{}, ..]", kind(root, &schema["items"])),
+        },
         "integer" => format!("whole number{}", range(schema)),
         "number" => format!("number{}", range(schema)),
         "string" => "text".to_owned(),
@@ -211,7 +216,26 @@ fn variants(root: &Json, schema: &Json) -> Vec<(String, String)> {
         .collect()
 }
 
-/// A default as RON: objects with one capitalised member are variants.
+/// How many parts an array has that always has as many: RON writes it as a tuple. Lists have brackets.
+fn fixed_len(schema: &Json) -> Option<usize> {
+    let limit = |name: &str| schema[name].as_u64();
+    let n = limit("minItems").filter(|n| limit("maxItems") == Some(*n))?;
+    usize::try_from(n).ok().filter(|n| (1..=16).contains(n))
+}
+
+/// A default as RON, for a value of this schema.
+fn default_of(schema: &Json, value: &Json) -> String {
+    let is_list = schema["items"].is_object() && fixed_len(schema).is_none();
+    match value {
+        Json::Array(items) if is_list => {
+            let items: Vec<String> = items.iter().map(to_ron).collect();
+            format!("[{}]", items.join(", "))
+        }
+        other => to_ron(other),
+    }
+}
+
+/// A value as RON: objects with one capitalised member are variants, and few numbers are a tuple.
 fn to_ron(value: &Json) -> String {
     match value {
         Json::Null => "none".to_owned(),
@@ -285,6 +309,16 @@ mod tests {
         /// What then.
         #[serde(default)]
         on_refusal: OnRefusal,
+        /// Some numbers.
+        #[serde(default = "half")]
+        some: Vec<f64>,
+        /// Two numbers.
+        #[serde(default)]
+        two: [u8; 2],
+    }
+
+    fn half() -> Vec<f64> {
+        vec![0.5]
     }
 
     #[test]
@@ -301,6 +335,8 @@ mod tests {
                 "times: whole number from 1 to 9 = Some(\"0\"), How often.",
                 "at: (number, number, number) = Some(\"(0.0, 0.0, 0.0)\"), Where.",
                 "on_refusal: OnRefusal = Some(\"Error\"), What then.",
+                "some: [number, ..] = Some(\"[0.5]\"), Some numbers.",
+                "two: (whole number to 255, whole number to 255) = Some(\"(0, 0)\"), Two numbers.",
             ]
         );
         assert!(

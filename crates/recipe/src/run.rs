@@ -60,7 +60,7 @@ pub struct StepDone {
     pub report: Report,
     /// The reason for which it was refused, as the recipe says it must be.
     pub refused: Option<Refusal>,
-    /// The vertices of all meshes together, after it.
+    /// The vertices of all meshes together, after it; points of polylines count too.
     pub vertices: usize,
     /// The edges.
     pub edges: usize,
@@ -562,14 +562,18 @@ fn written_since(stage: &Path, before: &stage::Listing) -> Vec<PathBuf> {
     written(before, &listing(stage))
 }
 
-/// Vertices, edges and faces of all meshes together.
+/// Vertices, edges and faces of all meshes together; points of polylines are vertices.
 fn counts(scene: &Scene) -> [usize; 3] {
     let mut counts = [0; 3];
     for object in scene.objects() {
-        if let Geometry::Mesh(mesh) = &object.geometry {
-            counts[0] += mesh.n_vertices();
-            counts[1] += mesh.n_edges();
-            counts[2] += mesh.n_faces();
+        match &object.geometry {
+            Geometry::Mesh(mesh) => {
+                counts[0] += mesh.n_vertices();
+                counts[1] += mesh.n_edges();
+                counts[2] += mesh.n_faces();
+            }
+            Geometry::Polylines(lines) => counts[0] += lines.iter().map(Vec::len).sum::<usize>(),
+            Geometry::Patches(_) | Geometry::Curve(_) => {}
         }
     }
     counts

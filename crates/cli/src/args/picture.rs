@@ -37,9 +37,14 @@ pub(crate) struct DrawArgs {
     /// Mark elements, such as 'Sharp(above: 30)' or 'Faces(Boundary)'
     #[arg(long, value_name = "SELECTION")]
     pub(crate) highlight: Option<String>,
-    /// Show numbers as colors, such as Valence or Area: all are shown by `meshwright ops Picture`
+    /// Show numbers as colors, such as Valence or Area: all are shown by `meshwright ops Picture`. A file in it,
+    /// as in 'DistanceTo("other.obj")', is seen from the working directory
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) color_by: Option<String>,
+    /// Where images of materials are looked for, seen from the working directory; by default beside the file or
+    /// recipe
+    #[arg(long, value_name = "DIR")]
+    pub(crate) images: Option<String>,
     /// More parameters of the operation Picture, as recipes write them
     #[arg(long, value_name = "FIELDS")]
     pub(crate) with: Option<String>,
@@ -56,7 +61,8 @@ pub(crate) struct DrawArgs {
   meshwright picture 'models/**/*.obj' --sheet --columns 6
 
 The parameters are those of the operation Picture: `meshwright ops Picture` shows them all. Those that
-have no option here are given as recipes write them, as in --with 'style: (occlusion: 0, ids: Vertices)'.")]
+have no option here are given as recipes write them, as in --with 'style: (occlusion: 0, ids: Vertices)'; paths
+in them are seen from the working directory.")]
 pub(crate) struct PictureArgs {
     /// Files of meshes, patches or curves, or recipes (*.ron); patterns such as 'models/*.obj' too
     #[arg(required = true, value_name = "FILES")]

@@ -6,7 +6,7 @@ use recipe::mebibytes;
 use super::run::refuse;
 use crate::args::{CheckArgs, Format};
 use crate::loading::load;
-use crate::output::{explain, grouped, print, problems_json, show, table};
+use crate::output::{counted, explain, grouped, print, problems_json, show, table};
 
 pub(crate) fn run(args: &CheckArgs, registry: &Registry) -> anyhow::Result<bool> {
     let loaded = load(&args.recipe, registry)?;
@@ -51,9 +51,10 @@ pub(crate) fn run(args: &CheckArgs, registry: &Registry) -> anyhow::Result<bool>
     print(&table(&rows))?;
     let n = loaded.recipe.expectations.len();
     print(&format!(
-        "{} is fine: {} steps, {n} expectations\n",
+        "{} is fine: {}, {}\n",
         loaded.path,
-        steps.len()
+        counted(steps.len(), "step"),
+        counted(n, "expectation")
     ))?;
     Ok(true)
 }

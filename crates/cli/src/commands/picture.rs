@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use op::{Context, Files, Registry};
-use picture::Picture;
+use picture::{Picture, Quantity};
 use recipe::syntax::string_literal;
 use recipe::{Source, Values};
 use render::Image;
@@ -88,7 +88,22 @@ pub(crate) fn parameters(
         complain(&recipe::render(&[source], &reading.diagnostics, false));
         return Err(WrongUsage("the options cannot be read".to_owned()).into());
     };
-    Ok(ron::from_str(&step.canonical())?)
+    let mut picture: Picture = ron::from_str(&step.canonical())?;
+    let quantity = picture.color_by.as_mut().map(|by| &mut by.of);
+    if let Some(Quantity::DistanceTo(path)) = quantity {
+        *path = from_here(path)?;
+    }
+    if let Some(folder) = &mut picture.images {
+        *folder = from_here(folder)?;
+    }
+    Ok(picture)
+}
+
+/// A path of the command line, which is seen from the working directory, for a step that is seen from elsewhere.
+fn from_here(path: &str) -> anyhow::Result<String> {
+    let full = std::path::absolute(path).with_context(|| format!("cannot find {path}"))?;
+    let full = full.into_os_string().into_string();
+    full.map_err(|path| WrongUsage(format!("{} is not Unicode", path.display())).into())
 }
 
 /// The options as fields of a step.
@@ -128,6 +143,8 @@ fn fields(args: &DrawArgs, out: &Path, usual: [u32; 2], further: Vec<String>) ->
     }
     fields.extend(args.highlight.iter().map(|s| format!("highlight: {s}")));
     fields.extend(args.color_by.iter().map(|s| format!("color_by: (of: {s})")));
+    let images = args.images.iter();
+    fields.extend(images.map(|folder| format!("images: {}", string_literal(folder))));
     fields.extend(further);
     fields.extend(args.with.clone());
     fields.join(", ")

@@ -11,7 +11,7 @@ use crate::events::Events;
 use crate::listener::{Stopping, Terminal, catch_interrupts};
 use crate::loading::{Loaded, load};
 use crate::output::{
-    complain, explain, explain_steps, print, problems_json, show, step_notes, step_table,
+    complain, counted, explain, explain_steps, print, problems_json, show, step_notes, step_table,
 };
 use crate::picture_errors::{Pictures, Picturing};
 
@@ -150,7 +150,8 @@ pub(crate) fn tell(
     if outcome.succeeded() {
         let n = outcome.checked;
         if n > 0 {
-            print(&format!("{n} expectations hold\n"))?;
+            let hold = if n == 1 { "holds" } else { "hold" };
+            print(&format!("{} {hold}\n", counted(n, "expectation")))?;
         }
         print(&format!("digest {}\n", outcome.digest))?;
     } else if outcome.cancelled {

@@ -223,3 +223,62 @@ fn a_picture_of_a_failure_that_cannot_be_written_is_told_and_the_failure_too() {
         .prints(&["non-manifold edge"])
         .complains(&["warning: a failure was not drawn: cannot write e/fan-error-1.png"]);
 }
+
+#[test]
+fn paths_on_the_command_line_are_seen_from_the_working_directory() {
+    const TRIANGLE: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n\
+        usemtl wood\nf 1/1 2/2 3/3\n";
+    let mut png = Vec::new();
+    let mut encoder = png::Encoder::new(&mut png, 1, 1);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(&[200, 0, 0]).unwrap();
+    writer.finish().unwrap();
+    let folder = cube()
+        .with("models/a.obj", TRIANGLE)
+        .with("models/m.mtl", "newmtl wood\nmap_Kd wood.png\n")
+        .with("elsewhere/wood.png", &png);
+    let picture = |more: &[&str]| {
+        let arguments = ["picture", "models/a.obj", "--size", "40x30"];
+        folder.run_all(&[&arguments, more].concat()).with_code(0)
+    };
+    // Beside the file there is no image; where --images says, there is.
+    let missing = picture(&[]);
+    assert!(
+        missing.stderr.contains("wood.png: not found"),
+        "{missing:#?}"
+    );
+    for more in [
+        &["--images", "elsewhere"][..],
+        &["--with", "images: \"elsewhere\""],
+    ] {
+        let found = picture(more);
+        assert_eq!(found.stderr, "", "{more:?}");
+    }
+    // The other file lies in the working directory, and images still beside the first one.
+    let folder = folder.with("models/wood.png", &png);
+    for of in [
+        "DistanceTo(\"cube.obj\")",
+        "DistanceTo(\"models/../cube.obj\")",
+    ] {
+        let ended = folder
+            .run_all(&[
+                "picture",
+                "models/a.obj",
+                "--size",
+                "40x30",
+                "--color-by",
+                of,
+            ])
+            .with_code(0);
+        assert_eq!(ended.stderr, "");
+    }
+    folder
+        .run_all(&[
+            "picture",
+            "models/a.obj",
+            "--color-by",
+            "DistanceTo(\"a.obj\")",
+        ])
+        .with_code(1);
+}

@@ -44,6 +44,23 @@ fn a_run_says_what_it_did() {
 }
 
 #[test]
+fn points_of_polylines_are_counted_and_one_is_no_several() {
+    let folder = Folder::with_recipe(
+        r#"(recipe: 1, steps: [Load(path: "a.bzc"), SampleCurve(segments: 9)], expect: [Vertices(eq: 10)])"#,
+    )
+    .with("a.bzc", "3\n0 0\n1 2\n2 0\n");
+    let run = folder.run("run recipe.ron").with_code(0);
+    let row = run.stdout.lines().find(|l| l.contains("SampleCurve"));
+    let words: Vec<&str> = row.unwrap().split_whitespace().collect();
+    assert_eq!(words[..5], ["2", "SampleCurve", "10", "0", "0"]);
+    run.prints(&["1 expectation holds\n"]);
+    folder
+        .run("check recipe.ron")
+        .with_code(0)
+        .prints(&["2 steps, 1 expectation\n"]);
+}
+
+#[test]
 fn a_parameter_can_be_set() {
     let folder = Folder::with_recipe(TORUS);
     folder

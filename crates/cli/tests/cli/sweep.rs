@@ -66,7 +66,7 @@ fn the_table_has_a_row_for_each_cell_and_the_last_parameter_changes_first() {
         "cell  levels  around  Vertices",
         "\n1          0       8        48",
         "\n6          1       4        96",
-        "6 cells; the 1 expectations of the recipe were not held, write `expect: true` to hold them\n",
+        "6 cells; the 1 expectation of the recipe was not held, write `expect: true` to hold it\n",
     ]);
     // No outputs unless they are asked for.
     assert_eq!(folder.entries("."), ["a.sweep.ron", "recipe.ron"]);

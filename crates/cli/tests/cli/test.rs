@@ -17,8 +17,8 @@ fn each_recipe_is_a_line_and_one_that_fails_fails_all() {
         .run("test scenes")
         .with_code(1)
         .prints(&[
-            "FAILED scenes/a_bad.ron (1 expectations, ",
-            "ok     scenes/b_good.ron (1 expectations, ",
+            "FAILED scenes/a_bad.ron (1 expectation, ",
+            "ok     scenes/b_good.ron (1 expectation, ",
             "1 passed, 1 failed\n",
         ])
         .complains(&["error: expected 7 faces, found 6\n", "scenes/a_bad.ron:1:"]);
@@ -196,7 +196,7 @@ fn a_recipe_without_expectations_is_listed_and_is_no_pass() {
             "(recipe: 1, steps: [Grid(name: \"a\", columns: 1, rows: 1), (run: FlipEdges(edges: Boundary), refused: Boundary)])",
         );
     folder.run("test").with_code(0).prints(&[
-        "ok     scenes/a.ron (1 expectations, ",
+        "ok     scenes/a.ron (1 expectation, ",
         "-      scenes/part.ron (no expectations, not run)\n",
         "ok     scenes/refused.ron (0 expectations, ",
         "2 passed, 0 failed, 1 without expectations\n",

@@ -1,5 +1,6 @@
 //! What expectations are held against, and the measures that several of them take.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -438,6 +439,7 @@ pub(super) fn within<T: PartialOrd + fmt::Display + Copy + Into<i128>>(
     ];
     match bounds.into_iter().find(|(_, _, holds)| !holds) {
         Some((word, Some(n), _)) => {
+            let what = counted(what, n.into());
             let message = format!("expected {word}{n} {what}, found {found}");
             // A recorded value in place of the found one would not mend what is broken besides.
             Err(if word.is_empty() && bounds[1].2 && bounds[2].2 {
@@ -447,6 +449,20 @@ pub(super) fn within<T: PartialOrd + fmt::Display + Copy + Into<i128>>(
             })
         }
         _ => Ok(()),
+    }
+}
+
+/// The word for so many: `what` for several.
+fn counted(what: &str, n: i128) -> Cow<'_, str> {
+    let is_noun = !what.starts_with("as ");
+    if n != 1 || !is_noun {
+        Cow::Borrowed(what)
+    } else if let Some(stem) = what.strip_suffix("vertices") {
+        Cow::Owned(format!("{stem}vertex"))
+    } else if let Some(stem) = what.strip_suffix("ies") {
+        Cow::Owned(format!("{stem}y"))
+    } else {
+        Cow::Borrowed(what.strip_suffix('s').unwrap_or(what))
     }
 }
 

@@ -42,7 +42,7 @@ use crate::commands::run::refuse;
 use crate::listener::{catch_interrupts, is_interrupted};
 use crate::loading::{Loaded, load_text};
 use crate::many::CHECKED_AHEAD;
-use crate::output::{complain, print, show_texts, shown, table, write_whole};
+use crate::output::{complain, counted, print, show_texts, shown, table, write_whole};
 use cell::{CellResult, Cells};
 use sheet::{Sheet, kept_bytes};
 
@@ -251,7 +251,7 @@ fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Resu
             complain(&format!("error: cell {}: {}\n", i + 1, shown(error)));
         }
     }
-    let mut summary = format!("{} cells", results.len());
+    let mut summary = counted(results.len(), "cell");
     if failed > 0 {
         summary += &format!(", {failed} failed");
     }
@@ -260,8 +260,14 @@ fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Resu
     }
     let unheld = plan.loaded.recipe.expectations.len();
     if unheld > 0 && !plan.sweep.expects {
+        let (was, them) = if unheld == 1 {
+            ("was", "it")
+        } else {
+            ("were", "them")
+        };
         summary += &format!(
-            "; the {unheld} expectations of the recipe were not held, write `expect: true` to hold them"
+            "; the {} of the recipe {was} not held, write `expect: true` to hold {them}",
+            counted(unheld, "expectation")
         );
     }
     print(&format!("{summary}\n"))?;

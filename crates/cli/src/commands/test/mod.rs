@@ -40,7 +40,7 @@ use crate::cache;
 use crate::listener::{catch_interrupts, is_interrupted};
 use crate::loading::{Found, Loaded, load_text, recipes};
 use crate::many::{all, panicked, run_drawing};
-use crate::output::{complain, print, problems_json, show, write_whole};
+use crate::output::{complain, counted, print, problems_json, show, write_whole};
 use crate::picture_errors::Pictures;
 
 pub(crate) fn run(args: &TestArgs, registry: &Registry) -> anyhow::Result<bool> {
@@ -271,7 +271,8 @@ impl<'a> Test<'a> {
             (_, None) => String::new(),
             (_, Some(digest)) => {
                 let (n, time) = (result.expectations, result.time.as_secs_f64() * 1e3);
-                format!(" ({n} expectations, {time:.0} ms, digest {digest})")
+                let held = counted(n, "expectation");
+                format!(" ({held}, {time:.0} ms, digest {digest})")
             }
         };
         for line in &result.changes {

@@ -14,7 +14,7 @@ fn counts_have_an_exact_number_a_least_and_a_most() {
         ("Edges", 12, "edges"),
         ("Faces", 6, "faces"),
         ("Components", 1, "components"),
-        ("BoundaryLoops", 0, "boundary loops"),
+        ("BoundaryLoops", 0, "boundary loop"),
         ("EulerCharacteristic", 2, "as Euler characteristic"),
         ("Genus", 0, "as genus"),
     ];
@@ -93,7 +93,7 @@ fn selected_elements_are_counted() {
         &cube(),
         "Count(of: Vertices(Valence(3)), eq: 8)",
         "Count(of: Edges(Sharp(above: 91)), min: 1)",
-        "expected at least 1 selected edges, found 0",
+        "expected at least 1 selected edge, found 0",
     );
     holds_and_fails(
         &cube(),
@@ -199,4 +199,28 @@ fn an_attribute_is_on_every_mesh() {
         "HasAttribute(domain: Corner, name: \"uv\")",
         "expected the corner attribute \"uv\", but cube has none",
     );
+}
+
+#[test]
+fn one_of_something_is_no_several() {
+    for (text, message) in [
+        ("Vertices(eq: 1)", "expected 1 vertex, found 8"),
+        ("Faces(max: 1)", "expected at most 1 face, found 6"),
+        ("Edges(eq: 2)", "expected 2 edges, found 12"),
+        (
+            "BoundaryLoops(min: 1)",
+            "expected at least 1 boundary loop, found 0",
+        ),
+        ("Genus(eq: 1)", "expected 1 as genus, found 0"),
+        (
+            "Count(of: Vertices(All), eq: 1)",
+            "expected 1 selected vertex, found 8",
+        ),
+        (
+            "SymmetricUnder(group: AxisMirrors, eq: 1)",
+            "expected 1 symmetry, found 8",
+        ),
+    ] {
+        assert_eq!(check(&cube(), text), Err(message.to_owned()), "{text}");
+    }
 }

@@ -6,7 +6,9 @@ use std::sync::Mutex;
 use clap::Args as ClapArgs;
 use op::{Context, Files, NoProgress, Place, Progress};
 use picture::draw_places;
-use recipe::{Failure, Listener, StepDone};
+use recipe::{Failure, Found, Listener, StepDone};
+use render::sheet::{Cell, SheetStyle, sheet};
+use render::{Image, difference};
 use scene::Scene;
 
 use crate::commands::picture::STAMP;
@@ -66,12 +68,18 @@ struct Drawn {
 impl Pictures {
     /// Draws places of a scene. Why one could not be drawn is told with the others.
     pub(crate) fn draw(&self, scene: &Scene, places: &[Place], caption: &str) {
+        self.write(drawn_scene(scene, places, caption));
+    }
+
+    /// Writes an image, if there is anything to see.
+    fn write(&self, image: anyhow::Result<Option<Image>>) {
         let mut drawn = self.drawn();
         let number = drawn.paths.len() + drawn.problems.len() + 1;
         let path = PathBuf::from(format!("{}-error-{number}.png", self.base));
-        match write(scene, places, caption, &path) {
-            Ok(true) => drawn.paths.push(path),
-            Ok(false) => {}
+        let write = |image: Image| write_whole(&path, &image.to_png(&[("Software", STAMP)])?);
+        match image.and_then(|image| image.map(write).transpose()) {
+            Ok(Some(())) => drawn.paths.push(path),
+            Ok(None) => {}
             Err(error) => drawn.problems.push(format!("{error:#}")),
         }
     }
@@ -98,16 +106,39 @@ impl Pictures {
     }
 }
 
-/// Writes the picture; whether there was anything to see.
-fn write(scene: &Scene, places: &[Place], caption: &str, path: &Path) -> anyhow::Result<bool> {
+/// A picture of places of a scene, if there is anything to see.
+fn drawn_scene(scene: &Scene, places: &[Place], caption: &str) -> anyhow::Result<Option<Image>> {
     let files = Files::default();
     let mut cx = Context::new(&NoProgress, &files);
     cx.budget = BUDGET;
-    let Some(image) = draw_places(scene, places, caption, &mut cx)? else {
-        return Ok(false);
+    Ok(draw_places(scene, places, caption, &mut cx)?)
+}
+
+/// The picture that was expected, the one that was found, and where they differ; `None` if these are no pictures.
+fn drawn_difference(found: &Found) -> anyhow::Result<Option<Image>> {
+    let Found::File { golden, bytes, .. } = found else {
+        return Ok(None);
     };
-    write_whole(path, &image.to_png(&[("Software", STAMP)])?)?;
-    Ok(true)
+    let expected = std::fs::read(golden).ok();
+    let expected = expected.and_then(|bytes| Image::from_png(&bytes).ok());
+    let (Some(expected), Ok(found)) = (expected, Image::from_png(bytes)) else {
+        return Ok(None);
+    };
+    let difference = difference(&expected, &found);
+    let images = [
+        (Some(&expected), "expected"),
+        (Some(&found), "found"),
+        (difference.as_ref(), "difference"),
+    ];
+    let cells: Vec<Cell> = (images.into_iter())
+        .filter_map(|(image, caption)| {
+            Some(Cell {
+                image: image?,
+                caption,
+            })
+        })
+        .collect();
+    Ok(Some(sheet(&cells, &SheetStyle::default(), BUDGET)?))
 }
 
 /// A listener that draws the failures of a run too.
@@ -138,7 +169,11 @@ impl Listener for Picturing<'_> {
 
     fn failed(&self, failure: &Failure) {
         if let Some(pictures) = self.pictures {
-            pictures.draw(failure.scene, failure.places, &failure.diagnostic.message);
+            match failure.found.map(drawn_difference) {
+                Some(Ok(Some(image))) => pictures.write(Ok(Some(image))),
+                Some(Err(error)) => pictures.write(Err(error)),
+                _ => pictures.draw(failure.scene, failure.places, &failure.diagnostic.message),
+            }
         }
     }
 

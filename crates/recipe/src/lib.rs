@@ -37,7 +37,7 @@ pub use cache::{Cache, CacheSize, Caching, Why};
 pub use check::{Forecast, StepForecast, check, mebibytes};
 pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
 pub use diagnostic::{Diagnostic, LineIndex, Severity, Span, render};
-pub use expect::{Expectation, Measured, Metric, Other, ReadObjects};
+pub use expect::{Expectation, Found, Measured, Metric, Other, ReadObjects};
 pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};
 pub use params::{Move, Param};
 pub use read::{MAX_STEPS, Reading, VERSION, Values, read, read_by};

@@ -34,7 +34,7 @@ pub trait Listener: Progress {
     }
     /// A step or an expectation has failed.
     fn failed(&self, _: &Failure) {}
-    /// Whether to find the elements that break an expectation, which takes a while.
+    /// Whether to find the scene and the elements that break an expectation, which takes a while.
     fn wants_places(&self) -> bool {
         false
     }
@@ -49,6 +49,8 @@ pub struct Failure<'a> {
     pub scene: &'a Scene,
     /// The places in the scene that it is about, if any are known.
     pub places: &'a [Place],
+    /// What was found in place of a value that an expectation records.
+    pub found: Option<&'a Found>,
 }
 
 /// What a step left behind.
@@ -231,7 +233,7 @@ impl Runner<'_> {
                 done.digest = Some(self.digest(listener)?);
             }
             if let Some(loss) = step.on_loss.forbidden(&done.report.losses) {
-                self.fail(step.scope, forbidden(step, loss), &[], listener);
+                self.fail(step.scope, forbidden(step, loss), (&[], None), listener);
                 return Err(Stopped);
             }
             listener.step_done(i, &done);
@@ -379,7 +381,7 @@ impl Runner<'_> {
                 None => self.cancelled = true,
                 Some(Fault { message, places }) => {
                     let failure = Diagnostic::error(step.span, message);
-                    self.fail(step.scope, failure, &places, listener);
+                    self.fail(step.scope, failure, (&places, None), listener);
                 }
             }
             Stopped
@@ -390,7 +392,7 @@ impl Runner<'_> {
         &mut self,
         scope: usize,
         failure: Diagnostic,
-        places: &[Place],
+        (places, found): (&[Place], Option<&Found>),
         listener: &dyn Listener,
     ) {
         let diagnostic = self.recipe.located(failure, scope);
@@ -398,6 +400,7 @@ impl Runner<'_> {
             diagnostic: &diagnostic,
             scene: &self.scene,
             places,
+            found,
         });
         self.failures.push(diagnostic);
     }
@@ -484,7 +487,7 @@ impl Runner<'_> {
                 continue;
             }
             let is_about_files = placed.that.output().is_some();
-            if !is_about_files {
+            if !is_about_files || listener.wants_places() {
                 self.bring(self.n_done, listener)?;
             }
             self.log.take();
@@ -503,11 +506,6 @@ impl Runner<'_> {
                     }
                 }
                 Err(broken) => {
-                    self.unmet.push(Unmet {
-                        expectation: i,
-                        failure: self.failures.len(),
-                        found: broken.found,
-                    });
                     let failure = Diagnostic::error(placed.span, broken.message);
                     let step = after.and_then(|i| recipe.steps.get(i));
                     let failure = match step.filter(|step| step.scope == placed.scope) {
@@ -519,7 +517,14 @@ impl Runner<'_> {
                     } else {
                         Vec::new()
                     };
-                    self.fail(placed.scope, failure, &places, listener);
+                    let place = self.failures.len();
+                    let found = broken.found.as_ref();
+                    self.fail(placed.scope, failure, (&places, found), listener);
+                    self.unmet.push(Unmet {
+                        expectation: i,
+                        failure: place,
+                        found: broken.found,
+                    });
                 }
             }
         }

@@ -34,6 +34,9 @@ pub enum PictureError {
     /// It was asked not to go on.
     #[error("cancelled")]
     Cancelled,
+    /// A file is no image.
+    #[error("the image cannot be read: {0}")]
+    Decode(String),
     /// An image cannot be encoded.
     #[error("the image cannot be encoded: {0}")]
     Encode(String),

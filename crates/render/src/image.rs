@@ -35,6 +35,42 @@ impl Image {
         })
     }
 
+    /// The image in a PNG file; the first one of an animation.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Size`] if it is too large, [`PictureError::Decode`] if it is no PNG.
+    pub fn from_png(bytes: &[u8]) -> Result<Self, PictureError> {
+        let failed = |error: png::DecodingError| PictureError::Decode(error.to_string());
+        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
+        let colors = png::Transformations::normalize_to_color8() | png::Transformations::ALPHA;
+        decoder.set_transformations(colors);
+        let mut reader = decoder.read_info().map_err(failed)?;
+        let (width, height) = reader.info().size();
+        let n = checked_size(width, height)?;
+        let size = reader.output_buffer_size().unwrap_or(usize::MAX);
+        if size > 4 * n {
+            return Err(PictureError::Decode("its rows are too long".to_owned()));
+        }
+        let mut bytes = vec![0; size];
+        let info = reader.next_frame(&mut bytes).map_err(failed)?;
+        let pixels: Vec<[u8; 4]> = match info.color_type {
+            png::ColorType::Rgba => bytes.as_chunks().0.to_vec(),
+            _ => (bytes.as_chunks().0.iter())
+                .map(|&[gray, alpha]| [gray, gray, gray, alpha])
+                .collect(),
+        };
+        if (info.width, info.height, pixels.len()) != (width, height, n) {
+            let message = "its first image is smaller than the file says";
+            return Err(PictureError::Decode(message.to_owned()));
+        }
+        Ok(Self {
+            width,
+            height,
+            pixels,
+        })
+    }
+
     /// The image as a PNG file: without alpha where all is opaque. Each text is a keyword of 1 to 79
     /// Latin-1 characters and what it says, for whoever asks where the file comes from.
     ///
@@ -150,5 +186,63 @@ mod tests {
             let refused = Image::filled(width, height, [0; 4]);
             assert!(matches!(refused, Err(PictureError::Size { .. })));
         }
+    }
+
+    #[test]
+    fn an_image_comes_back_from_its_file() {
+        let mut image = Image::filled(7, 3, [1, 2, 3, 255]).unwrap();
+        assert_eq!(Image::from_png(&image.to_png(&[]).unwrap()).unwrap(), image);
+        image.pixels[4] = [9, 8, 7, 6];
+        let text = [("Software", "a program")];
+        assert_eq!(
+            Image::from_png(&image.to_png(&text).unwrap()).unwrap(),
+            image
+        );
+    }
+
+    #[test]
+    fn every_kind_of_color_is_read() {
+        for color in [
+            png::ColorType::Grayscale,
+            png::ColorType::GrayscaleAlpha,
+            png::ColorType::Rgb,
+            png::ColorType::Rgba,
+        ] {
+            for depth in [png::BitDepth::Eight, png::BitDepth::Sixteen] {
+                let mut bytes = Vec::new();
+                let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
+                encoder.set_color(color);
+                encoder.set_depth(depth);
+                let n = 2 * color.samples() * (depth as usize) / 8;
+                let mut writer = encoder.write_header().unwrap();
+                writer.write_image_data(&vec![200; n]).unwrap();
+                writer.finish().unwrap();
+
+                let image = Image::from_png(&bytes).unwrap();
+
+                let has_alpha = color.samples() % 2 == 0;
+                let alpha = if has_alpha { 200 } else { 255 };
+                assert_eq!(image.pixels, [[200, 200, 200, alpha]; 2], "{color:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_image_is_refused() {
+        let whole = Image::filled(7, 3, [1, 2, 3, 255])
+            .unwrap()
+            .to_png(&[])
+            .unwrap();
+        for end in 0..whole.len() - 12 {
+            assert!(Image::from_png(&whole[..end]).is_err(), "{end}");
+        }
+        // A header of more pixels than there are, and a begin of them.
+        let mut huge = Vec::new();
+        let encoder = png::Encoder::new(&mut huge, LARGEST_SIDE + 1, 1);
+        let mut writer = encoder.write_header().unwrap();
+        writer.write_chunk(png::chunk::IDAT, b"begin").unwrap();
+        drop(writer);
+        let error = Image::from_png(&huge).unwrap_err();
+        assert!(matches!(error, PictureError::Size { .. }), "{error}");
     }
 }

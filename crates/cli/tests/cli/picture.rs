@@ -282,3 +282,30 @@ fn paths_on_the_command_line_are_seen_from_the_working_directory() {
         ])
         .with_code(1);
 }
+
+#[test]
+fn a_picture_that_is_not_as_expected_is_shown_beside_the_expected_one() {
+    let recipe = |marked: &str| {
+        format!(
+            r#"(recipe: 1, steps: [
+                Cube(name: "cube"), Picture(path: "cube.png", size: (60, 40){marked}),
+            ], expect: [Output(path: "cube.png", as: "golden.png")])"#
+        )
+    };
+    let folder = Folder::new().with("r.ron", recipe(""));
+    folder.run("test r.ron --update").with_code(0);
+    folder.run("test r.ron --picture-errors").with_code(0);
+    let folder = folder.with("r.ron", recipe(", highlight: Vertices(All)"));
+
+    folder
+        .run("test r.ron --picture-errors")
+        .with_code(1)
+        .complains(&["pixels differ", "see r-error-1.png\n"]);
+
+    // Three of them in a row, with a gap of 12 pixels around each.
+    assert_eq!(size(&folder, "r-error-1.png").0, 3 * 60 + 4 * 12);
+    // What is no picture is no reason to draw none.
+    let folder = folder.with("golden.png", "no picture");
+    folder.run("test r.ron --picture-errors").with_code(1);
+    assert!(size(&folder, "r-error-1.png").0 > 700);
+}

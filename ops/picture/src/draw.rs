@@ -6,13 +6,13 @@ use std::path::{Component, Path};
 use glam::DVec3;
 use op::{Context, Files, OpError};
 use render::figure::label::{Label, draw_labels};
-use render::figure::legend::{Corner, draw_legend};
+use render::figure::legend::{Corner, Legend, draw_legend};
 use render::sheet::{Cell, SheetStyle, sheet};
 use render::{Drawing, GoOn, Image, Overlays, PictureError, View, build, bytes_needed, render};
 use scene::Scene;
 
 use crate::Picture;
-use crate::numbers::Numbers;
+use crate::numbers::{Numbers, Shown};
 use crate::overlays;
 
 /// Ink of numbers beside elements, in sRGB.
@@ -57,24 +57,28 @@ struct Ready<'s> {
 pub struct Extent {
     /// Points that decide where cameras are that fit.
     points: Vec<DVec3>,
-    /// The numbers of the first and the last color, if numbers are shown.
-    range: Option<[f64; 2]>,
+    /// What their colors mean, if numbers are shown.
+    shown: Option<Shown>,
 }
 
 impl Extent {
     /// Takes what another scene takes in, too.
     pub fn join(&mut self, other: Self) {
         self.points.extend(other.points);
-        self.range = match (self.range, other.range) {
-            (Some([a, b]), Some([c, d])) => {
-                Some([if c < a { c } else { a }, if d > b { d } else { b }])
-            }
-            (one, another) => one.or(another),
-        };
+        match (&mut self.shown, other.shown) {
+            (Some(shown), Some(other)) => shown.join(&other),
+            (none, other) => *none = none.take().or(other),
+        }
     }
 
+    /// The numbers of the first and the last color, if numbers are shown.
     pub(crate) fn range(&self) -> Option<[f64; 2]> {
-        self.range
+        self.shown.as_ref().map(|shown| shown.range)
+    }
+
+    /// What the colors of numbers mean in all of them, if numbers are shown and the picture says it.
+    pub fn legend(&self) -> Option<Legend> {
+        self.shown.as_ref().and_then(Shown::legend)
     }
 }
 
@@ -99,8 +103,8 @@ pub(crate) fn extent(
         let each = |each: &mut dyn FnMut(DVec3)| drawing.each_point(each);
         points.extend(camera.decisive(&each, picture.size).map_err(told)?);
     }
-    let range = numbers.map(|n| n.range);
-    Ok(Extent { points, range })
+    let shown = numbers.map(|n| n.shown);
+    Ok(Extent { points, shown })
 }
 
 /// What decides of a picture beside its parameters.
@@ -227,7 +231,7 @@ fn draw(picture: &Picture, ready: &Ready, view: &View, go_on: GoOn) -> Result<Im
         .map(|(label, placed)| Label::new(placed.at, &*label.text, LETTERS, INK))
         .collect();
     draw_labels(&mut image, &labels)?;
-    if let Some(legend) = ready.numbers.as_ref().and_then(Numbers::legend) {
+    if let Some(legend) = ready.numbers.as_ref().and_then(|n| n.shown.legend()) {
         // As large as letters are in a picture of usual size.
         let scale = (f64::from(picture.size[1]) / 720.0).clamp(0.5, 8.0);
         draw_legend(&mut image, &legend, Corner::TopRight, scale)?;

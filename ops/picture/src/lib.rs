@@ -250,7 +250,8 @@ impl Picture {
         draw::extent(self, scene, cx)
     }
 
-    /// Draws a scene so that all of `extent` is seen by cameras that fit, and its numbers in the colors for all.
+    /// Draws a scene so that all of `extent` is seen by cameras that fit, and its numbers in the colors for all;
+    /// without a legend, as that is [the same](Extent::legend) for all.
     ///
     /// # Errors
     ///
@@ -265,6 +266,7 @@ impl Picture {
         let mut picture = self.clone();
         if let Some(color_by) = &mut picture.color_by {
             color_by.range = color_by.range.or(extent.range());
+            color_by.legend = false;
         }
         let further = Further {
             within: Some(extent),

@@ -65,9 +65,19 @@ pub enum Quantity {
 /// The numbers of a scene.
 pub(crate) struct Numbers {
     pub(crate) colorings: Vec<Coloring>,
+    pub(crate) shown: Shown,
+}
+
+/// What the colors of numbers mean.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Shown {
     title: String,
     map: ColorMap,
+    /// The numbers of the first and the last color.
     pub(crate) range: [f64; 2],
+    /// The numbers that there are, if each has a color of its own.
+    classes: Vec<f64>,
+    /// Whether the picture says it.
     legend: bool,
 }
 
@@ -152,12 +162,20 @@ impl ColorBy {
             map,
             range,
         });
+        let colorings: Vec<Coloring> = colorings.collect();
+        let classes = match map {
+            ColorMap::Classes => classes(&colorings),
+            _ => Vec::new(),
+        };
         Ok(Numbers {
-            colorings: colorings.collect(),
-            title: self.of.title(),
-            map,
-            range,
-            legend: self.legend,
+            colorings,
+            shown: Shown {
+                title: self.of.title(),
+                map,
+                range,
+                classes,
+                legend: self.legend,
+            },
         })
     }
 }
@@ -331,20 +349,43 @@ fn attribute(mesh: &Mesh, name: &str, component: Option<u32>) -> Option<(Domain,
     Some((domain, values))
 }
 
-impl Numbers {
+/// The values that each have a color of their own, in order.
+fn classes(colorings: &[Coloring]) -> Vec<f64> {
+    let values = colorings.iter().flat_map(|coloring| &coloring.values);
+    sorted(
+        values
+            .filter(|x| x.is_finite())
+            .map(|x| x.floor())
+            .collect(),
+    )
+}
+
+fn sorted(mut values: Vec<f64>) -> Vec<f64> {
+    values.sort_unstable_by(f64::total_cmp);
+    values.dedup();
+    values
+}
+
+impl Shown {
+    /// Takes what is shown of another scene in, too.
+    pub(crate) fn join(&mut self, other: &Self) {
+        let [low, high] = other.range;
+        if low < self.range[0] {
+            self.range[0] = low;
+        }
+        if high > self.range[1] {
+            self.range[1] = high;
+        }
+        self.classes.extend(&other.classes);
+        self.classes = sorted(std::mem::take(&mut self.classes));
+    }
+
     /// What the colors mean, if the picture says it.
     pub(crate) fn legend(&self) -> Option<Legend> {
         let opaque = |[r, g, b]: [u8; 3]| [r, g, b, 255];
         let scale = if self.map == ColorMap::Classes {
-            let mut classes: Vec<f64> = (self.colorings.iter())
-                .flat_map(|coloring| &coloring.values)
-                .filter(|x| x.is_finite())
-                .map(|x| x.floor())
-                .collect();
-            classes.sort_unstable_by(f64::total_cmp);
-            classes.dedup();
             let entry = |&class: &f64| (format!("{class}"), opaque(self.map.class(class)));
-            Scale::Discrete(classes.iter().map(entry).collect())
+            Scale::Discrete(self.classes.iter().map(entry).collect())
         } else {
             let [low, high] = self.range;
             let colors = (0..=32).map(|i| opaque(self.map.srgb(f64::from(i) / 32.0)));

@@ -117,6 +117,42 @@ fn all_cells_are_seen_in_one_scale() {
 }
 
 #[test]
+fn colors_mean_the_same_in_all_cells_and_are_explained_once() {
+    let folder = folder("over: {\"minor\": [0.2, 0.4]}, keep: [Seconds]");
+    let size = |more: &str| {
+        sheet(&folder, more).with_code(0);
+        pixels(&folder, "s.png").size
+    };
+    let [plain, _] = size("");
+    let [colored, height] = size("--color-by Area");
+    assert!((50..200).contains(&(colored - plain)), "{colored}");
+    assert!(height > 150);
+    let made = pixels(&folder, "s.png");
+    assert!(drawn(&made.part([plain, 0], [colored - plain, height])) > 1000);
+    // The faces of the second are the largest: only they have the last colors.
+    let colors = |i: u32| {
+        let cell = cell(&made, [0, 0], 68, [i, 0]);
+        move |is: fn([u8; 3]) -> bool| cell.count(is)
+    };
+    let is_yellow = |[r, g, b]: [u8; 3]| r > 140 && g > 140 && b < 100;
+    assert_eq!(colors(0)(is_yellow), 0);
+    assert!(colors(1)(is_yellow) > 20);
+    let legend = format!("{}, legend: false)", "color_by: (of: Area");
+    let ended = folder.run_all(&[
+        "sweep",
+        "a.sweep.ron",
+        "--sheet",
+        "s.png",
+        "--size",
+        "90x40",
+        "--with",
+        &legend,
+    ]);
+    ended.with_code(0);
+    assert_eq!(pixels(&folder, "s.png").size[0], plain);
+}
+
+#[test]
 fn a_cell_that_fails_is_an_empty_place_with_its_error() {
     let folder = folder("over: {\"around\": [8, 16]}, expect: true, keep: [Faces]").with(
         "recipe.ron",

@@ -15,8 +15,9 @@ use anyhow::ensure;
 use op::{Context, Files, Registry};
 use picture::{Extent, Picture};
 use recipe::{Axis, InOrder, JobEnd, Jobs, Metric};
-use render::figure::Font;
 use render::figure::label::filled;
+use render::figure::legend::{Corner, Legend, draw_legend, legend_figure};
+use render::figure::{Color, Font};
 use render::sheet::{Cell, Heads, SheetStyle, notice, sheet_size, sheet_with_heads};
 use render::{Image, PictureError};
 use scene::Scene;
@@ -33,7 +34,7 @@ use crate::many::panicked;
 const LINES: [usize; 2] = [2, 3];
 
 /// The ink of errors.
-const RED: render::figure::Color = [0xb9, 0x1c, 0x1c, 255];
+const RED: Color = [0xb9, 0x1c, 0x1c, 255];
 
 /// How the sheet is drawn, before anything has run.
 pub(super) struct Sheet<'a> {
@@ -235,7 +236,10 @@ impl<'a> Sheet<'a> {
             .map(|(image, caption)| Cell { image, caption })
             .collect();
         let budget = self.args.many.budget;
-        let image = sheet_with_heads(&cells, self.layout.heads(), &self.style(), budget)?;
+        let mut image = sheet_with_heads(&cells, self.layout.heads(), &self.style(), budget)?;
+        if let Some(legend) = extent.legend() {
+            image = with_legend(&image, &legend, self.style().background)?;
+        }
         Ok(Drawn {
             image,
             errors,
@@ -271,6 +275,30 @@ impl<'a> Sheet<'a> {
     pub(super) fn path(&self) -> &'a Path {
         self.args.sheet.as_deref().unwrap_or(Path::new("sheet.png"))
     }
+}
+
+/// The sheet with a legend to its right.
+fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Image, PictureError> {
+    /// What the corner keeps free beside the legend, in pixels.
+    const FREE: f64 = 20.0;
+    let figure = legend_figure(legend);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a legend is no larger than its words"
+    )]
+    let [width, height] = [figure.width(), figure.height()].map(|side| (side + FREE).ceil() as u32);
+    let mut wide = Image::filled(
+        sheet.width.saturating_add(width),
+        sheet.height.max(height),
+        background,
+    )?;
+    let rows = wide.pixels.chunks_exact_mut((sheet.width + width) as usize);
+    for (to, from) in rows.zip(sheet.pixels.chunks_exact(sheet.width as usize)) {
+        to[..from.len()].copy_from_slice(from);
+    }
+    draw_legend(&mut wide, legend, Corner::TopRight, 1.0)?;
+    Ok(wide)
 }
 
 /// How much of the budget scenes may take that wait to be drawn; runs get the rest.

@@ -14,7 +14,7 @@ const RECIPE: &str = r#"(
     ],
     expect: [
         Output(path: "a/sheet.png", as: "goldens/sheet.png"),
-        Output(path: "sheet.obj", as: "goldens/sheet.obj"),
+        Output(path: "sheet.obj", as: "goldens/flat.obj"),
     ],
 )"#;
 
@@ -58,7 +58,7 @@ fn what_is_missing_is_said_and_made_by_update() {
         "recipe.ron:9: Output(path: \"a/sheet.png\", as: \"goldens/sheet.png\") -> goldens/sheet.png is written\n",
         "ok     recipe.ron",
     ]);
-    assert_eq!(folder.entries("goldens"), ["sheet.obj", "sheet.png"]);
+    assert_eq!(folder.entries("goldens"), ["flat.obj", "sheet.png"]);
     assert_eq!(folder.read("recipe.ron"), RECIPE.as_bytes());
 
     // Now it holds, with what is in the cache and without, and nothing is written anew.
@@ -93,7 +93,7 @@ fn one_pixel_is_a_difference_and_may_be_tolerated() {
         let tolerance = format!("sheet.png\", tolerance: {tolerance}),");
         let tolerant = RECIPE.replace("sheet.png\"),", &tolerance);
         assert_ne!(tolerant, RECIPE);
-        let files = ["goldens/sheet.png", "goldens/sheet.obj"];
+        let files = ["goldens/sheet.png", "goldens/flat.obj"];
         let [png, obj] = files.map(|name| folder.read(name));
         let folder = Folder::with_recipe(&tolerant)
             .with(files[0], png)
@@ -255,4 +255,29 @@ fn the_contrary_can_be_expected_of_what_is_there() {
         .run("test recipe.ron")
         .with_code(1)
         .complains(&["cannot be read as a picture"]);
+}
+
+#[test]
+fn a_batch_does_files_again_when_what_they_are_held_against_has_changed() {
+    let recipe = r#"(
+        recipe: 1,
+        params: { "model": Path(default: "a.obj") },
+        steps: [Load(path: arg("model")), Save(path: "{model.stem}.off")],
+        expect: [Output(path: "{model.stem}.off", as: "golden.off")],
+    )"#;
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let folder = Folder::with_recipe(recipe).with("a.obj", triangle);
+    folder.run("test recipe.ron --update").with_code(0);
+    let batch = "batch recipe.ron --inputs a.obj";
+    folder.run(batch).with_code(0);
+    let again = folder.run(batch).with_code(0);
+    assert!(again.stdout.contains("done before"), "{again:#?}");
+    let other = String::from_utf8(folder.read("golden.off")).unwrap();
+    let changed = other.replace("\n0 1 0", "\n0 2 0");
+    assert_ne!(changed, other);
+    let folder = folder.with("golden.off", changed);
+    folder.run(batch).with_code(1).prints(&[
+        "FAILED a.obj: expected",
+        "to be as golden.off: expected objects",
+    ]);
 }

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use op::Files;
-use scene::{Digest, Scene};
+use scene::{Digest, Object, Scene};
 
 use super::pixels;
 use super::subject::{Failure, Found, ReadObjects, Subject};
@@ -150,16 +150,17 @@ fn recorded(
 /// Whether a file says the same without those beside it, such as the materials of an OBJ file, under the name of
 /// the file beside the recipe.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
-    let Ok(then) = digest(written, subject.read, subject.files) else {
+    let Ok(objects) = (subject.read)(written, subject.files) else {
         return true;
     };
     let alone = || {
         let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
         let path = folder.path().join(golden.file_name().unwrap_or_default());
         fs::write(&path, bytes).map_err(|error| error.to_string())?;
-        digest(&path, subject.read, subject.files)
+        let alone = (subject.read)(&path, subject.files)?;
+        digests((written, objects), (&path, alone))
     };
-    alone() == Ok(then)
+    alone().is_ok_and(|[then, now]| then == now)
 }
 
 /// What is other in files that are no pictures.
@@ -170,8 +171,9 @@ fn compare(
     files: &Files,
 ) -> Result<(), Difference> {
     // What is no file of objects is a file of bytes.
-    if let Ok(now) = digest(written, read, files) {
-        let then = digest(golden, read, files)?;
+    if let Ok(now) = read(written, files) {
+        let then = read(golden, files)?;
+        let [now, then] = digests((written, now), (golden, then))?;
         let message = format!("expected objects of the digest {then}, found {now}");
         return if now == then {
             Ok(())
@@ -197,13 +199,26 @@ fn compare(
     }))
 }
 
-/// The digest of the objects in a file.
-fn digest(path: &Path, read: ReadObjects, files: &Files) -> Result<Digest, String> {
-    let mut scene = Scene::new();
-    for object in read(path, files)? {
-        scene.insert(object).map_err(|error| error.to_string())?;
+/// The digests of the objects in two files. Objects that have their names from their files count as of one name.
+fn digests(
+    (path, objects): (&Path, Vec<Object>),
+    (other_path, mut others): (&Path, Vec<Object>),
+) -> Result<[Digest; 2], String> {
+    let is_of =
+        |object: &Object, path: &Path| path.file_stem().is_some_and(|stem| *stem == *object.name);
+    for (object, other) in objects.iter().zip(&mut others) {
+        if is_of(object, path) && is_of(other, other_path) {
+            other.name.clone_from(&object.name);
+        }
     }
-    Ok(scene.digest())
+    let digest = |objects: Vec<Object>| {
+        let mut scene = Scene::new();
+        for object in objects {
+            scene.insert(object).map_err(|error| error.to_string())?;
+        }
+        Ok::<_, String>(scene.digest())
+    };
+    Ok([digest(objects)?, digest(others)?])
 }
 
 /// What a file holds beside the line that says where it comes from: the metadata of an SVG, the comment of a GIF.

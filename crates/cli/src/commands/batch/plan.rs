@@ -189,8 +189,10 @@ impl<'a> Batch<'a> {
         }
         let folders = loaded.recipe.files(&loaded.files);
         let compared = loaded.recipe.expectations.iter().filter_map(|placed| {
-            let Other::File(path) = placed.that.others()? else {
-                return None;
+            let path = match (placed.that.others(), placed.that.output()) {
+                (Some(Other::File(path)), _) => path,
+                (_, Some((_, beside))) => beside,
+                _ => return None,
             };
             Some(folders[placed.scope].to_read(path))
         });

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use clap::Args as ClapArgs;
-use op::{Context, Files, NoProgress, Place, Progress};
+use op::{Context, Files, Place, Progress};
 use picture::draw_places;
 use recipe::{Failure, Found, Listener, StepDone};
 use render::sheet::{Cell, SheetStyle, sheet};
@@ -12,6 +12,7 @@ use render::{Image, difference};
 use scene::Scene;
 
 use crate::commands::picture::STAMP;
+use crate::listener::Quiet;
 use crate::output::{complain, write_whole};
 use crate::scenes::BUDGET;
 
@@ -109,7 +110,7 @@ impl Pictures {
 /// A picture of places of a scene, if there is anything to see.
 fn drawn_scene(scene: &Scene, places: &[Place], caption: &str) -> anyhow::Result<Option<Image>> {
     let files = Files::default();
-    let mut cx = Context::new(&NoProgress, &files);
+    let mut cx = Context::new(&Quiet, &files);
     cx.budget = BUDGET;
     Ok(draw_places(scene, places, caption, &mut cx)?)
 }

@@ -14,7 +14,7 @@ use scene::Scene;
 use crate::WrongUsage;
 use crate::args::{DrawArgs, PictureArgs};
 use crate::commands::batch::inputs;
-use crate::listener::{Terminal, catch_interrupts};
+use crate::listener::{Terminal, catch_interrupts, is_interrupted};
 use crate::output::{complain, print, write_whole};
 use crate::scenes::{BUDGET, Found, Stop, find};
 
@@ -45,7 +45,8 @@ pub(crate) fn run(args: &PictureArgs, registry: &Registry) -> anyhow::Result<boo
 
 /// Writes the images of a picture to a file.
 pub(crate) fn write_images(picture: &Picture, images: &[Image], path: &Path) -> anyhow::Result<()> {
-    write(path, &picture.encode(images, Some(STAMP))?, &images[0])
+    let bytes = picture.encode_while(images, Some(STAMP), &|_| !is_interrupted())?;
+    write(path, &bytes, &images[0])
 }
 
 /// What images say of where they come from.
@@ -258,7 +259,7 @@ fn is_cancelled(error: &anyhow::Error) -> bool {
 
 /// Writes one image, and says so if that is wanted.
 pub(crate) fn write_png(image: &Image, path: &Path, say: bool) -> anyhow::Result<()> {
-    let bytes = image.to_png(&[("Software", STAMP)])?;
+    let bytes = image.to_png_while(&[("Software", STAMP)], &|_| !is_interrupted())?;
     if say {
         write(path, &bytes, image)
     } else {

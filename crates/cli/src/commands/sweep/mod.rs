@@ -12,6 +12,7 @@
 //!   "set": {"smooth": true},            the same in every cell
 //!   "parameters": ["levels"],           those that change
 //!   "keep": ["Faces", "Area"],
+//!   "sheet": "levels.png",              the image of --sheet, or null
 //!   "cells": [{
 //!     "cell": 1,
 //!     "parameters": {"levels": 0},
@@ -368,6 +369,7 @@ fn object(args: &SweepArgs, plan: &Plan, results: &[CellResult], succeeded: bool
         "set": named(&set, &mut values.into_iter()),
         "parameters": grid.parameters,
         "keep": names,
+        "sheet": args.sheet.as_ref().map(|path| path.display().to_string()),
         "cells": cells,
     })
 }

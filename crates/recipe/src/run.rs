@@ -6,11 +6,13 @@
 //! With a [cache](crate::cache) a step runs only if the cache does not have its result, and a scene is
 //! brought back from it only where a step runs or an expectation must be held against it.
 
+mod listener;
+mod outcome;
 mod stage;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use op::{Context, FileLog, Files, OpError, Place, Progress, Refusal, Report};
 use scene::{Digest, Geometry, Scene};
@@ -20,104 +22,11 @@ use crate::check::forbidden;
 use crate::diagnostic::Diagnostic;
 use crate::expect::{Found, ReadObjects, Subject};
 use crate::recipe::{Recipe, RecipeStep};
+use listener::Forward;
 use stage::{deliver, listing, staging, written};
 
-/// Follows a run.
-pub trait Listener: Progress {
-    /// A step begins.
-    fn step_begins(&self, number: usize, label: &str);
-    /// A step is done.
-    fn step_done(&self, number: usize, done: &StepDone);
-    /// Whether to tell the digest of the scene after each step, which takes a while for large ones.
-    fn wants_digests(&self) -> bool {
-        false
-    }
-    /// A step or an expectation has failed.
-    fn failed(&self, _: &Failure) {}
-    /// Whether to find the scene and the elements that break an expectation, which takes a while.
-    fn wants_places(&self) -> bool {
-        false
-    }
-}
-
-/// A step that failed, or an expectation that does not hold.
-#[derive(Clone, Copy, Debug)]
-pub struct Failure<'a> {
-    /// What is told of it.
-    pub diagnostic: &'a Diagnostic,
-    /// The scene at that time; before a step that failed.
-    pub scene: &'a Scene,
-    /// The places in the scene that it is about, if any are known.
-    pub places: &'a [Place],
-    /// What was found in place of a value that an expectation records.
-    pub found: Option<&'a Found>,
-}
-
-/// What a step left behind.
-#[derive(Clone, Debug)]
-pub struct StepDone {
-    /// The step's id or operation.
-    pub label: String,
-    /// What it did.
-    pub report: Report,
-    /// The reason for which it was refused, as the recipe says it must be.
-    pub refused: Option<Refusal>,
-    /// The vertices of all meshes together, after it; points of polylines count too.
-    pub vertices: usize,
-    /// The edges.
-    pub edges: usize,
-    /// The faces.
-    pub faces: usize,
-    /// The digest of the scene after it, if the listener wants it.
-    pub digest: Option<Digest>,
-    /// How long it took.
-    pub time: Duration,
-    /// Why it ran; `None` if its result was taken from the cache.
-    pub ran: Option<Why>,
-}
-
-/// How a run ended.
-#[derive(Debug)]
-pub struct Outcome {
-    /// The steps that were done.
-    pub steps: Vec<StepDone>,
-    /// What went wrong: one failed step, or expectations that do not hold.
-    pub failures: Vec<Diagnostic>,
-    /// The expectations that do not hold.
-    pub unmet: Vec<Unmet>,
-    /// Whether the run was cancelled.
-    pub cancelled: bool,
-    /// How many expectations were held against the scene.
-    pub checked: usize,
-    /// The scene at the end; `None` only if it stayed in the cache because nobody wanted it.
-    pub scene: Option<Scene>,
-    /// The digest of the scene at the end.
-    pub digest: Digest,
-    /// The files that were written.
-    pub written: Vec<PathBuf>,
-    /// Why nothing can be stored in the cache any more, if that is so.
-    pub cache_problem: Option<String>,
-    /// What was not stored in the cache, and why, and what was not found there, each one line.
-    pub cache_notes: Vec<String>,
-}
-
-/// An expectation that does not hold.
-#[derive(Clone, Debug)]
-pub struct Unmet {
-    /// Its place in [`Recipe::expectations`].
-    pub expectation: usize,
-    /// The place of what is told of it in [`Outcome::failures`].
-    pub failure: usize,
-    /// What was found, if a value that it records is another one.
-    pub found: Option<Found>,
-}
-
-impl Outcome {
-    /// Whether every step was done and every expectation holds.
-    pub fn succeeded(&self) -> bool {
-        self.failures.is_empty() && !self.cancelled
-    }
-}
+pub use listener::{Failure, Listener, Silent, StepDone};
+pub use outcome::{Outcome, Unmet};
 
 /// What a run needs beside its recipe.
 #[derive(Clone, Copy)]
@@ -584,32 +493,8 @@ fn counts(scene: &Scene) -> [usize; 3] {
     counts
 }
 
-/// A listener as plain progress.
-struct Forward<'a>(&'a dyn Listener);
-
-impl Progress for Forward<'_> {
-    fn advance(&self, what: &str, done: u64, total: u64) -> bool {
-        self.0.advance(what, done, total)
-    }
-}
-
 /// How the names of the folders begin in which the outputs of a process wait. They are there as long as
 /// a run goes on, and stay only if the process is killed.
 pub fn stage_prefix(process: u32) -> String {
     format!(".meshwright-{process}-")
-}
-
-/// Follows nothing and never stops.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
-
-impl Progress for Silent {
-    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
-        true
-    }
-}
-
-impl Listener for Silent {
-    fn step_begins(&self, _: usize, _: &str) {}
-    fn step_done(&self, _: usize, _: &StepDone) {}
 }

@@ -90,6 +90,9 @@ impl<'a> Events<'a> {
     /// The first line that could not be written.
     pub(crate) fn end(self, outcome: &Outcome, pictures: Option<&Pictures>) -> io::Result<()> {
         self.problems(&outcome.failures);
+        if let Some(pictures) = pictures {
+            pictures.warn();
+        }
         for path in pictures.map(Pictures::paths).unwrap_or_default() {
             self.tell(&json!({ "event": "picture", "path": path.display().to_string() }));
         }

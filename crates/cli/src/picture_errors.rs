@@ -13,8 +13,7 @@ use scene::Scene;
 
 use crate::commands::picture::STAMP;
 use crate::listener::Quiet;
-use crate::output::{complain, write_whole};
-use crate::scenes::BUDGET;
+use crate::output::{complain, shown, write_whole};
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct PictureErrorsArgs {
@@ -31,14 +30,15 @@ pub(crate) struct PictureErrorsArgs {
 }
 
 impl PictureErrorsArgs {
-    /// The pictures of a file, if they are wanted: beside each other, named after it and numbered.
-    pub(crate) fn of(&self, file: &Path) -> Option<Pictures> {
+    /// The pictures of a file, if they are wanted: beside each other, named after it and numbered. Each may take so
+    /// many bytes of memory.
+    pub(crate) fn of(&self, file: &Path, budget: u64) -> Option<Pictures> {
         let name = file.file_stem().unwrap_or_default();
-        self.named(Path::new(name))
+        self.named(Path::new(name), budget)
     }
 
     /// The same with a name that may have folders.
-    pub(crate) fn named(&self, name: &Path) -> Option<Pictures> {
+    pub(crate) fn named(&self, name: &Path, budget: u64) -> Option<Pictures> {
         let folder = self.picture_errors.as_deref()?;
         let here = Path::new(".");
         let base = if folder == here {
@@ -47,39 +47,69 @@ impl PictureErrorsArgs {
             folder.join(name)
         };
         Some(Pictures {
-            base: base.display().to_string(),
+            base,
+            budget,
             drawn: Mutex::default(),
         })
     }
 }
 
+/// So many failures of a run are drawn; others are like these.
+const MOST: usize = 20;
+
+/// Larger files are not pictures that a recipe makes.
+const LARGEST: u64 = 64 << 20;
+
 /// Pictures that are drawn during a run.
 pub(crate) struct Pictures {
     /// How their paths begin.
-    base: String,
+    base: PathBuf,
+    /// The bytes that each may take.
+    budget: u64,
     drawn: Mutex<Drawn>,
 }
 
-#[derive(Clone, Default)]
+#[derive(Default)]
 struct Drawn {
-    paths: Vec<PathBuf>,
+    /// The files, each with what it shows.
+    files: Vec<(PathBuf, String)>,
+    /// Why some are not there.
     problems: Vec<String>,
+    /// How many failures were not drawn because there are others.
+    further: usize,
 }
 
 impl Pictures {
-    /// Draws places of a scene. Why one could not be drawn is told with the others.
+    /// Draws places of a scene, unless many were drawn before. Why one could not be drawn is told with the others.
     pub(crate) fn draw(&self, scene: &Scene, places: &[Place], caption: &str) {
-        self.write(drawn_scene(scene, places, caption));
+        self.add(caption, || self.of_scene(scene, places, caption));
+    }
+
+    /// Draws a failure of a run.
+    fn draw_failure(&self, failure: &Failure) {
+        let message = &failure.diagnostic.message;
+        self.add(message, || {
+            match failure.found.map(|f| self.of_difference(f)) {
+                None | Some(Ok(None)) => self.of_scene(failure.scene, failure.places, message),
+                Some(image) => image,
+            }
+        });
     }
 
     /// Writes an image, if there is anything to see.
-    fn write(&self, image: anyhow::Result<Option<Image>>) {
+    fn add(&self, caption: &str, draw: impl FnOnce() -> anyhow::Result<Option<Image>>) {
         let mut drawn = self.drawn();
-        let number = drawn.paths.len() + drawn.problems.len() + 1;
-        let path = PathBuf::from(format!("{}-error-{number}.png", self.base));
+        let number = drawn.files.len() + drawn.problems.len() + 1;
+        if number > MOST {
+            drawn.further += 1;
+            return;
+        }
+        let mut path = self.base.clone().into_os_string();
+        path.push(format!("-error-{number}.png"));
+        let path = PathBuf::from(path);
         let write = |image: Image| write_whole(&path, &image.to_png(&[("Software", STAMP)])?);
-        match image.and_then(|image| image.map(write).transpose()) {
-            Ok(Some(())) => drawn.paths.push(path),
+        match draw().and_then(|image| image.map(write).transpose()) {
+            Ok(Some(())) => drawn.files.push((path, caption.to_owned())),
             Ok(None) => {}
             Err(error) => drawn.problems.push(format!("{error:#}")),
         }
@@ -87,59 +117,96 @@ impl Pictures {
 
     /// The files that were written.
     pub(crate) fn paths(&self) -> Vec<PathBuf> {
-        self.drawn().paths.clone()
+        let drawn = self.drawn();
+        drawn.files.iter().map(|(path, _)| path.clone()).collect()
     }
 
-    /// Says which pictures there are, and why others are not.
+    /// Says which pictures there are.
     pub(crate) fn tell(&self) {
-        let drawn = self.drawn();
-        for path in &drawn.paths {
-            complain(&format!("see {}\n", path.display()));
+        for (path, caption) in &self.drawn().files {
+            complain(&format!("see {}: {}\n", path.display(), shown(caption)));
         }
+        self.warn();
+    }
+
+    /// Says which pictures there are not.
+    pub(crate) fn warn(&self) {
+        let drawn = self.drawn();
         for problem in &drawn.problems {
             complain(&format!("warning: a failure was not drawn: {problem}\n"));
         }
+        if drawn.further > 0 {
+            let n = drawn.further;
+            complain(&format!(
+                "warning: failures behind the first {MOST} were not drawn: {n}\n"
+            ));
+        }
+    }
+
+    /// A picture of places of a scene, if there is anything to see.
+    fn of_scene(
+        &self,
+        scene: &Scene,
+        places: &[Place],
+        caption: &str,
+    ) -> anyhow::Result<Option<Image>> {
+        let files = Files::default();
+        let mut cx = Context::new(&Quiet, &files);
+        cx.budget = self.budget;
+        Ok(draw_places(scene, places, caption, &mut cx)?)
+    }
+
+    /// The picture that was expected, the one that was found, and where they differ; `None` if these are no pictures of
+    /// one image.
+    fn of_difference(&self, found: &Found) -> anyhow::Result<Option<Image>> {
+        let Found::File {
+            golden,
+            bytes,
+            tolerance,
+            ..
+        } = found
+        else {
+            return Ok(None);
+        };
+        let is_png = golden
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("png"));
+        let is_small = std::fs::metadata(golden).is_ok_and(|file| file.len() <= LARGEST);
+        if !(is_png && is_small) {
+            return Ok(None);
+        }
+        let expected = Image::from_png(&std::fs::read(golden)?);
+        let (Ok(expected), Ok(found)) = (expected, Image::from_png(bytes)) else {
+            return Ok(None);
+        };
+        let difference = difference(&expected, &found, *tolerance);
+        let images = [
+            (Some(&expected), "expected"),
+            (Some(&found), "found"),
+            (difference.as_ref(), "difference"),
+        ];
+        let cells: Vec<Cell> = (images.into_iter())
+            .filter_map(|(image, caption)| {
+                Some(Cell {
+                    image: image?,
+                    caption,
+                })
+            })
+            .collect();
+        // Wide ones stand below each other.
+        let is_wide =
+            expected.width.max(found.width) > expected.height.max(found.height).saturating_mul(3);
+        let style = SheetStyle {
+            columns: if is_wide { 1 } else { 3 },
+            ..SheetStyle::default()
+        };
+        Ok(Some(sheet(&cells, &style, self.budget)?))
     }
 
     fn drawn(&self) -> std::sync::MutexGuard<'_, Drawn> {
         let drawn = self.drawn.lock();
         drawn.unwrap_or_else(std::sync::PoisonError::into_inner)
     }
-}
-
-/// A picture of places of a scene, if there is anything to see.
-fn drawn_scene(scene: &Scene, places: &[Place], caption: &str) -> anyhow::Result<Option<Image>> {
-    let files = Files::default();
-    let mut cx = Context::new(&Quiet, &files);
-    cx.budget = BUDGET;
-    Ok(draw_places(scene, places, caption, &mut cx)?)
-}
-
-/// The picture that was expected, the one that was found, and where they differ; `None` if these are no pictures.
-fn drawn_difference(found: &Found) -> anyhow::Result<Option<Image>> {
-    let Found::File { golden, bytes, .. } = found else {
-        return Ok(None);
-    };
-    let expected = std::fs::read(golden).ok();
-    let expected = expected.and_then(|bytes| Image::from_png(&bytes).ok());
-    let (Some(expected), Ok(found)) = (expected, Image::from_png(bytes)) else {
-        return Ok(None);
-    };
-    let difference = difference(&expected, &found);
-    let images = [
-        (Some(&expected), "expected"),
-        (Some(&found), "found"),
-        (difference.as_ref(), "difference"),
-    ];
-    let cells: Vec<Cell> = (images.into_iter())
-        .filter_map(|(image, caption)| {
-            Some(Cell {
-                image: image?,
-                caption,
-            })
-        })
-        .collect();
-    Ok(Some(sheet(&cells, &SheetStyle::default(), BUDGET)?))
 }
 
 /// A listener that draws the failures of a run too.
@@ -170,11 +237,7 @@ impl Listener for Picturing<'_> {
 
     fn failed(&self, failure: &Failure) {
         if let Some(pictures) = self.pictures {
-            match failure.found.map(drawn_difference) {
-                Some(Ok(Some(image))) => pictures.write(Ok(Some(image))),
-                Some(Err(error)) => pictures.write(Err(error)),
-                _ => pictures.draw(failure.scene, failure.places, &failure.diagnostic.message),
-            }
+            pictures.draw_failure(failure);
         }
     }
 

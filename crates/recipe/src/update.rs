@@ -1,9 +1,9 @@
 //! Renewing what a recipe records: expectations whose recorded value is not the one that was found get the
 //! found one, in the text of the recipe, and everything else in the text stays as it is.
 //!
-//! Recorded are `eq`, `is`, the corners of `Bounds`, `Digest`, and the file beside the recipe of `Output`. What bounds a result from one side, such
-//! as `min` and `below`, and what holds or not, such as `Manifold`, is what somebody wants of it: it is never
-//! changed. A value that a parameter brings is changed by whoever changes the parameter.
+//! Recorded are `eq`, `is`, the corners of `Bounds`, `Digest`, and the file beside the recipe of `Output`. What
+//! bounds a result from one side, such as `min` and `below`, and what holds or not, such as `Manifold`, is what
+//! somebody wants of it: it is never changed. A value that a parameter brings is changed by whoever changes the parameter.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -49,7 +49,18 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     let mut left = outcome.failures.clone();
     let mut files = BTreeMap::new();
     for turns in in_the_text(recipe, outcome) {
-        match renewal(&tree, recipe, &turns) {
+        let renewed = renewal(&tree, recipe, &turns).and_then(|(value, fix)| {
+            let is_other = |(path, bytes): &(PathBuf, Vec<u8>)| {
+                files.get(path).is_some_and(|before| before != bytes)
+            };
+            match &fix.file {
+                Some(file) if is_other(file) => {
+                    Err("another expectation records another file there".to_owned())
+                }
+                _ => Ok((value, fix)),
+            }
+        });
+        match renewed {
             Ok((value, fix)) => {
                 changes.push(Change {
                     span: value.span,

@@ -8,9 +8,11 @@ const OTHER: [u8; 4] = [0xd6, 0x20, 0x28, 255];
 /// How much is left of the image around that.
 const FAINT: u32 = 4;
 
-/// An image in which the pixels are red that differ between two others, over the first one, faint and gray. `None` if
-/// their sizes differ.
-pub fn difference(expected: &Image, found: &Image) -> Option<Image> {
+/// An image in which the pixels are red that differ between two others by more than `tolerance` steps of 255, over the
+/// first one, faint and gray. `None` if their sizes differ.
+pub fn difference(expected: &Image, found: &Image, tolerance: u8) -> Option<Image> {
+    let is_near =
+        |a: &[u8; 4], b: &[u8; 4]| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= tolerance);
     let is_as_large = (expected.width, expected.height) == (found.width, found.height);
     is_as_large.then(|| {
         let pixels = expected.pixels.iter().zip(&found.pixels);
@@ -18,7 +20,7 @@ pub fn difference(expected: &Image, found: &Image) -> Option<Image> {
             width: expected.width,
             height: expected.height,
             pixels: pixels
-                .map(|(a, b)| if a == b { faint(*a) } else { OTHER })
+                .map(|(a, b)| if is_near(a, b) { faint(*a) } else { OTHER })
                 .collect(),
         }
     })
@@ -43,25 +45,27 @@ mod tests {
         found.pixels[7] = [10, 200, 30, 254];
         found.pixels[19] = [0; 4];
 
-        let image = difference(&expected, &found).unwrap();
+        let image = difference(&expected, &found, 0).unwrap();
 
         let red: Vec<usize> = (0..20).filter(|&i| image.pixels[i] == OTHER).collect();
         assert_eq!(red, [7, 19]);
         assert_eq!(image.pixels[0], [212, 212, 212, 255]);
+        let image = difference(&expected, &found, 1).unwrap();
+        assert_eq!(image.pixels.iter().position(|p| *p == OTHER), Some(19));
     }
 
     #[test]
     fn what_is_not_seen_is_white_and_other_sizes_have_no_difference() {
         let clear = Image::filled(2, 3, [0; 4]).unwrap();
         assert!(
-            difference(&clear, &clear)
+            difference(&clear, &clear, 0)
                 .unwrap()
                 .pixels
                 .iter()
                 .all(|p| *p == [255; 4])
         );
         assert_eq!(
-            difference(&clear, &Image::filled(3, 2, [0; 4]).unwrap()),
+            difference(&clear, &Image::filled(3, 2, [0; 4]).unwrap(), 0),
             None
         );
     }

@@ -1,7 +1,7 @@
 //! A picture of places that an error is about: the whole scene and where in it they are, and the first one from
 //! near.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 use mesh::{FaceId, Mesh};
@@ -55,9 +55,14 @@ pub fn draw_places(
     let focus = places.first().map(|first| {
         let (middle, size) = sphere(&first.points);
         let size = size.max(1.2 * around.side).max(0.01 * radius);
-        // As far away as numbers of this size can tell.
-        let size = size.max(1e-6 * middle.abs().max_element());
-        (middle, 1.6 * size / TANGENT)
+        // Not from farther away than the whole.
+        (
+            middle,
+            (1.6 * size)
+                .min(radius)
+                .max(1e-6 * middle.abs().max_element())
+                / TANGENT,
+        )
     });
     // No camera is that far away.
     let focus = focus.filter(|(_, distance)| (distance * distance).is_finite());
@@ -161,6 +166,8 @@ impl Around {
                 begin.entry(bits(first)).or_default().push(place);
             }
         }
+        let points = places.first().map_or(&[][..], |first| &first.points);
+        let points: HashSet<[u64; 3]> = points.iter().map(|&p| bits(p)).collect();
         let (mut sides, mut n_sides) = (0.0, 0_u32);
         for object in scene.objects() {
             let Some(mesh) = object.as_mesh() else {
@@ -168,11 +175,11 @@ impl Around {
             };
             around.n_faces += mesh.n_faces();
             let is_meant = |place: &&Place| place.object.is_empty() || place.object == object.name;
-            let first = places.first().filter(is_meant);
+            let first = places.first().filter(is_meant).map(|_| &points);
             let mut faces = Vec::new();
             for f in mesh.faces() {
                 let corners = || mesh.face_vertices(f).map(|v| mesh.position(v));
-                if first.is_some_and(|first| corners().any(|p| first.points.contains(&p))) {
+                if first.is_some_and(|first| corners().any(|p| first.contains(&bits(p)))) {
                     around.normal += mesh.area_vector(f);
                     for h in mesh.face_half_edges(f) {
                         sides += mesh.length(h);
@@ -218,7 +225,7 @@ fn is_among(
     })
 }
 
-fn bits(p: DVec3) -> [u64; 3] {
+pub(crate) fn bits(p: DVec3) -> [u64; 3] {
     // Both zeros are one place.
     (p + DVec3::ZERO).to_array().map(f64::to_bits)
 }
@@ -299,8 +306,14 @@ fn beside(direction: DVec3, distance: f64) -> DVec3 {
 /// The names of the first places.
 fn labels(places: &[Place], beside: DVec3) -> Vec<Label> {
     let named = places.iter().filter(|place| !place.name.is_empty());
+    // Names of faces stand in them, others beside a dot or a line.
     let label = |place: &Place| Label {
-        at: sphere(&place.points).0 + beside,
+        at: sphere(&place.points).0
+            + if place.points.len() > 2 {
+                DVec3::ZERO
+            } else {
+                beside
+            },
         text: place.name.clone(),
     };
     named.take(MOST_NAMES).map(label).collect()

@@ -1,9 +1,13 @@
 //! From where a place in a scene can be seen.
 
+use std::collections::HashSet;
+
 use glam::DVec3;
 use mesh::{FaceId, Mesh};
 use rayon::prelude::*;
 use scene::Scene;
+
+use crate::places::bits;
 
 /// How many directions are tried.
 const DIRECTIONS: u32 = 200;
@@ -28,6 +32,7 @@ pub(crate) fn clear(scene: &Scene, place: &Place, preferred: DVec3, near: f64) -
     let is_outside = |d: &DVec3| place.normal == DVec3::ZERO || place.normal.dot(*d) > 0.0;
     let directions = std::iter::once(preferred).chain(directions());
     let directions: Vec<DVec3> = directions.filter(is_outside).collect();
+    let points: HashSet<[u64; 3]> = place.points.iter().map(|&p| bits(p)).collect();
     // How far one sees in each direction.
     let mut sight = vec![f64::INFINITY; directions.len()];
     for mesh in scene.objects().iter().filter_map(|o| o.as_mesh()) {
@@ -36,7 +41,7 @@ pub(crate) fn clear(scene: &Scene, place: &Place, preferred: DVec3, near: f64) -
             || vec![f64::INFINITY; directions.len()],
             |mut nearest, f| {
                 let f = FaceId::new(f);
-                if mesh.has_face(f) && !touches(mesh, f, place.points) {
+                if mesh.has_face(f) && !touches(mesh, f, &points) {
                     for (nearest, &direction) in nearest.iter_mut().zip(&directions) {
                         *nearest = nearest.min(distance(mesh, f, place.middle, direction));
                     }
@@ -64,9 +69,9 @@ fn least(a: Vec<f64>, b: Vec<f64>) -> Vec<f64> {
     a.into_iter().zip(b).map(|(a, b)| a.min(b)).collect()
 }
 
-fn touches(mesh: &Mesh, f: FaceId, points: &[DVec3]) -> bool {
+fn touches(mesh: &Mesh, f: FaceId, points: &HashSet<[u64; 3]>) -> bool {
     let mut corners = mesh.face_vertices(f).map(|v| mesh.position(v));
-    corners.any(|p| points.contains(&p))
+    corners.any(|p| points.contains(&bits(p)))
 }
 
 /// Directions spread evenly over the sphere, without those from straight above and below.
@@ -180,10 +185,29 @@ mod tests {
     }
 
     #[test]
-    fn what_is_inside_is_seen_from_near_or_as_it_is_wanted() {
-        let scene = scene(shapes::cube());
+    fn what_is_inside_is_seen_from_where_nothing_is_near() {
+        let sized = |size: f64, at: DVec3| {
+            let mut mesh = shapes::cube();
+            mesh.positions_mut()
+                .iter_mut()
+                .for_each(|p| *p = *p * size + at);
+            mesh
+        };
+        // A large cube around everything, and a small one in front of the point.
+        let mut scene = scene(sized(10.0, DVec3::ZERO));
+        let small = Object::mesh("small", sized(0.4, DVec3::Z));
+        scene.insert(small).unwrap();
 
-        assert_eq!(clear(&scene, &at(DVec3::ZERO), DVec3::Z, 0.1), DVec3::Z);
+        let found = clear(&scene, &at(DVec3::ZERO), DVec3::Z, 2.0);
+
+        let small = scene.objects()[1].as_mesh().unwrap();
+        let hits = |d| {
+            small
+                .faces()
+                .any(|f| distance(small, f, DVec3::ZERO, d).is_finite())
+        };
+        assert!(hits(DVec3::Z) && !hits(found), "{found}");
+        // Where everything is near, it is what is wanted.
         assert_eq!(clear(&scene, &at(DVec3::ZERO), DVec3::Z, 100.0), DVec3::Z);
     }
 }

@@ -12,7 +12,7 @@ use crate::args::{Format, ReadArgs};
 use crate::commands::picture::draw_found;
 use crate::output::{grouped, print};
 use crate::picture_errors::{PictureErrorsArgs, Pictures};
-use crate::scenes::Found;
+use crate::scenes::{BUDGET, Found};
 use crate::terminal_picture;
 
 pub(crate) fn run(
@@ -25,7 +25,7 @@ pub(crate) fn run(
     let loaded =
         mesh_io::read(path, &read.options()).map_err(|error| anyhow::anyhow!("{error}"))?;
     let scene = scene(&loaded.objects)?;
-    let pictures = picture_errors.of(path);
+    let pictures = picture_errors.of(path, BUDGET);
     if let Some(pictures) = &pictures {
         for note in &loaded.notes {
             let places = places(note);
@@ -35,6 +35,9 @@ pub(crate) fn run(
         }
     }
     if format == Format::Json {
+        if let Some(pictures) = &pictures {
+            pictures.warn();
+        }
         let objects: Vec<_> = loaded.objects.iter().map(object_json).collect();
         let notes: Vec<_> = loaded.notes.iter().map(note_json).collect();
         let pictures = pictures.as_ref().map(Pictures::paths).unwrap_or_default();

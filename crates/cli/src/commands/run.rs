@@ -20,7 +20,9 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
     let mut loaded = load_to_run(args, registry)?;
     let cache = cache::open(&args.cache)?;
     catch_interrupts();
-    let pictures = args.picture_errors.of(&args.recipe.recipe);
+    let pictures = args
+        .picture_errors
+        .of(&args.recipe.recipe, args.recipe.budget);
     let drawn = pictures.as_ref();
     let Some(outcome) = execute(args, &loaded, cache.as_ref(), drawn, &|| true)? else {
         return Ok(false);

@@ -44,7 +44,9 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
                     let _ = changes.follow(&folder);
                 }
                 let go_on = || !changes.is_waiting();
-                let pictures = args.picture_errors.of(&args.recipe.recipe);
+                let pictures = args
+                    .picture_errors
+                    .of(&args.recipe.recipe, args.recipe.budget);
                 let drawn = pictures.as_ref();
                 let outcome = execute(args, &loaded, cache.as_ref(), drawn, &go_on)?;
                 if let Some(pictures) = drawn {

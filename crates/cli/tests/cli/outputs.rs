@@ -281,3 +281,57 @@ fn a_batch_does_files_again_when_what_they_are_held_against_has_changed() {
         "to be as golden.off: expected objects",
     ]);
 }
+
+#[test]
+fn what_a_recipe_reads_and_what_is_of_another_kind_is_never_written_over() {
+    let recipe =
+        |steps: &str, expect: &str| format!("(recipe: 1, steps: [{steps}], expect: [{expect}])");
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    let moved = r#"Load(path: "in.obj"), Transform(move: (1, 0, 0)), Save(path: "out.obj")"#;
+    let cube = r#"Cube(name: "cube"), Picture(path: "p.png", size: (8, 8))"#;
+    for (name, text, told) in [
+        (
+            "a.ron",
+            recipe(moved, r#"Output(path: "out.obj", as: "in.obj")"#),
+            "a step reads \"in.obj\"",
+        ),
+        (
+            "b.ron",
+            recipe(cube, r#"Output(path: "p.png", as: "b.ron")"#),
+            "is no file of the kind of \"p.png\"",
+        ),
+        (
+            "c.ron",
+            recipe(cube, r#"Output(path: "p.png", as: "folder.png")"#),
+            "\"folder.png\" is not a file",
+        ),
+    ] {
+        let folder = Folder::new()
+            .with(name, &text)
+            .with("in.obj", triangle)
+            .with("folder.png/a", "a");
+        for command in ["check", "test --update"] {
+            folder
+                .run(&format!("{command} {name}"))
+                .with_code(1)
+                .complains(&[told]);
+        }
+        assert_eq!(folder.read(name), text.as_bytes());
+        assert_eq!(folder.read("in.obj"), triangle.as_bytes());
+    }
+}
+
+#[test]
+fn one_file_is_not_recorded_as_two() {
+    let folder = Folder::with_recipe(
+        r#"(recipe: 1, steps: [
+            Cube(name: "cube"),
+            Picture(path: "one.png", size: (8, 8)),
+            Picture(path: "two.png", size: (9, 9)),
+        ], expect: [Output(path: "one.png", as: "g.png"), Output(path: "two.png", as: "g.png")])"#,
+    );
+    folder
+        .run("test recipe.ron --update")
+        .with_code(1)
+        .complains(&["another expectation records another file there"]);
+}

@@ -161,11 +161,11 @@ fn failures_of_a_run_are_drawn_if_that_is_asked_for() {
     folder
         .run("run r.ron --picture-errors")
         .with_code(1)
-        .complains(&["see r-error-1.png\n"]);
+        .complains(&["see r-error-1.png: "]);
     folder
         .run("test r.ron --picture-errors=some/where")
         .with_code(1)
-        .complains(&["see some/where/r-error-1.png\n"]);
+        .complains(&["see some/where/r-error-1.png: "]);
     let [first, second] = ["r-error-1.png", "some/where/r-error-1.png"]
         .map(|name| std::fs::read(folder.path(name)).unwrap());
     assert!(first == second);
@@ -206,7 +206,7 @@ fn what_a_file_has_that_is_no_manifold_is_drawn() {
         .run("info fan.obj --picture-errors=e")
         .with_code(0)
         .prints(&["1 non-manifold edge split (v0-v1)"])
-        .complains(&["see e/fan-error-1.png\n", "see e/fan-error-2.png\n"]);
+        .complains(&["see e/fan-error-1.png: ", "see e/fan-error-2.png: "]);
     folder.run("info cube.obj --picture-errors=e").with_code(0);
 
     assert!(folder.path("e/fan-error-1.png").exists());
@@ -300,7 +300,7 @@ fn a_picture_that_is_not_as_expected_is_shown_beside_the_expected_one() {
     folder
         .run("test r.ron --picture-errors")
         .with_code(1)
-        .complains(&["pixels differ", "see r-error-1.png\n"]);
+        .complains(&["pixels differ", "see r-error-1.png: "]);
 
     // Three of them in a row, with a gap of 12 pixels around each.
     assert_eq!(size(&folder, "r-error-1.png").0, 3 * 60 + 4 * 12);
@@ -308,4 +308,22 @@ fn a_picture_that_is_not_as_expected_is_shown_beside_the_expected_one() {
     let folder = folder.with("golden.png", "no picture");
     folder.run("test r.ron --picture-errors").with_code(1);
     assert!(size(&folder, "r-error-1.png").0 > 700);
+}
+
+#[test]
+fn a_failure_that_comes_again_and_again_is_not_drawn_for_ever() {
+    let folder = Folder::new().with(
+        "r.ron",
+        r#"(recipe: 1, steps: [
+            Grid(name: "grid", columns: 1, rows: 1),
+            Repeat(times: 30, steps: [(id: "move", run: Transform(move: (1, 0, 0)))]),
+        ], expect: [(after: "move", that: Faces(eq: 9))])"#,
+    );
+
+    folder
+        .run("run r.ron --picture-errors=e")
+        .with_code(1)
+        .complains(&["failures behind the first 20 were not drawn: 10\n"]);
+
+    assert_eq!(folder.entries("e").len(), 20);
 }

@@ -246,8 +246,19 @@ fn output(path: &str, beside: &str, plan: &Plan, files: &Files, span: Span) -> V
         }
         Ok(_) => {}
     }
+    let ending = |path: &str| Path::new(path).extension().unwrap_or_default().to_owned();
+    if !ending(path).eq_ignore_ascii_case(ending(beside)) {
+        let message = format!("\"{beside}\" is no file of the kind of \"{path}\"");
+        let help = "both need the same ending";
+        found.push(Diagnostic::error(span, message).with_help(help));
+    }
     match golden(files, beside) {
         Err(message) => found.push(Diagnostic::error(span, message)),
+        Ok(full) if plan.inputs.contains(&full) => {
+            let message = format!("a step reads \"{beside}\", which is to be what it makes");
+            let help = "hold the output against another file: `meshwright test --update` writes it";
+            found.push(Diagnostic::error(span, message).with_help(help));
+        }
         Ok(full) if !full.exists() => {
             // Not an error: then nothing could run that makes it.
             let message = format!("there is no file {}", full.display());

@@ -50,7 +50,7 @@ pub(super) fn is_picture(path: &str) -> bool {
 ///
 /// # Errors
 ///
-/// If the path leaves the recipe's folder, by itself or through a link, or names no file.
+/// If the path leaves the recipe's folder, by itself or through a link, or names no file: a folder, a link, a device.
 pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, String> {
     let relative = Path::new(path);
     let is_plain = relative
@@ -76,7 +76,13 @@ pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, String> {
     beside
         .check_links(relative)
         .map_err(|_| format!("\"{path}\" leads out of the recipe's folder through a link"))?;
-    Ok(files.to_read(path))
+    let full = files.to_read(path);
+    match fs::symlink_metadata(&full) {
+        Ok(found) if found.is_symlink() => Err(format!("\"{path}\" is a link, not a file")),
+        Ok(found) if !found.is_file() => Err(format!("\"{path}\" is not a file")),
+        // What is not there can be made.
+        _ => Ok(full),
+    }
 }
 
 /// Holds a file that a step has written against the one beside the recipe.
@@ -97,7 +103,12 @@ pub(super) fn check(
             "expected \"{path}\" to be as {}, which is not there: `meshwright test --update` makes it",
             golden.display()
         );
-        return Err(recorded(message, &written, &golden, true, subject));
+        return Err(recorded(
+            message,
+            [&written, &golden],
+            (tolerance, true),
+            subject,
+        ));
     }
     let compared = if is_picture(path) {
         pixels::compare(&written, &golden, tolerance)
@@ -113,15 +124,19 @@ pub(super) fn check(
         golden.display(),
         difference.into_message()
     );
-    Err(recorded(message, &written, &golden, is_unknown, subject))
+    Err(recorded(
+        message,
+        [&written, &golden],
+        (tolerance, is_unknown),
+        subject,
+    ))
 }
 
 /// What is found in place of the golden file, if that can be said in one file.
 fn recorded(
     message: String,
-    written: &Path,
-    golden: &Path,
-    is_unknown: bool,
+    [written, golden]: [&Path; 2],
+    (tolerance, is_unknown): (u8, bool),
     subject: Subject,
 ) -> Failure {
     let is_small = fs::metadata(written).is_ok_and(|file| file.len() <= LARGEST);
@@ -139,6 +154,7 @@ fn recorded(
                 Found::File {
                     golden,
                     bytes,
+                    tolerance,
                     is_unknown,
                 },
             )

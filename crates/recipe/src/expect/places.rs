@@ -74,11 +74,17 @@ impl Meant<'_> {
                 self.named(self.selected(of).into_iter().filter(is_off))
             }
             Expectation::MinAngle { of, min, .. } => {
-                let is_off = |f: &FaceId| {
-                    let mut angles = mesh.face_half_edges(*f).map(|h| mesh.corner_angle(h));
-                    angles.any(|angle| !within(angle.to_degrees(), *min, None))
+                let smallest = |f: FaceId| {
+                    let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
+                    angles.fold(f64::INFINITY, f64::min).to_degrees()
                 };
-                self.named(self.selected(of).into_iter().filter(is_off))
+                let angles = self.selected(of).into_iter().map(|f| (smallest(f), f));
+                let mut off: Vec<(f64, FaceId)> = angles
+                    .filter(|(angle, _)| !within(*angle, *min, None))
+                    .collect();
+                // The smallest one is the one that is told.
+                off.sort_by(|a, b| a.0.total_cmp(&b.0));
+                self.named(off.into_iter().map(|(_, f)| f))
             }
             Expectation::MeanFaceArea { of, .. } => self.named(self.selected(of)),
             Expectation::Position { of, is, .. } => {
@@ -131,11 +137,10 @@ impl Meant<'_> {
             !others.any_near(p, tolerance)
         }));
         let missing = other.vertices().map(|v| other.position(v));
-        places.extend(
-            missing
-                .filter(|&p| !these.any_near(p, tolerance))
-                .map(expected),
-        );
+        // Some of either.
+        places.truncate(Place::MOST / 2);
+        let missing = missing.filter(|&p| !these.any_near(p, tolerance));
+        places.extend(missing.map(expected).take(Place::MOST / 2));
         places
     }
 

@@ -22,21 +22,25 @@ impl<'m> Points<'m> {
         tolerance: f64,
         free: impl Fn(VertexId) -> bool,
     ) -> Option<VertexId> {
-        let start = self
-            .by_x
-            .partition_point(|&v| self.mesh.position(v).x < p.x - tolerance);
-        self.by_x[start..]
-            .iter()
-            .take_while(|&&v| self.mesh.position(v).x <= p.x + tolerance)
-            .map(|&v| (self.mesh.position(v).distance(p), v))
+        self.near(p, tolerance)
+            .map(|v| (self.mesh.position(v).distance(p), v))
             .filter(|&(distance, v)| distance <= tolerance && free(v))
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
             .map(|(_, v)| v)
     }
 
+    /// The vertices whose x is within the tolerance of that of `p`.
+    fn near(&self, p: DVec3, tolerance: f64) -> impl Iterator<Item = VertexId> {
+        let x = |v: VertexId| self.mesh.position(v).x;
+        let start = self.by_x.partition_point(|&v| x(v) < p.x - tolerance);
+        let rest = self.by_x[start..].iter().copied();
+        rest.take_while(move |&v| x(v) <= p.x + tolerance)
+    }
+
     /// Whether a vertex lies within the tolerance of `p`.
     pub(super) fn any_near(&self, p: DVec3, tolerance: f64) -> bool {
-        self.nearest(p, tolerance, |_| true).is_some()
+        self.near(p, tolerance)
+            .any(|v| self.mesh.position(v).distance(p) <= tolerance)
     }
 
     /// For each vertex of `other`, by index, the vertex that its image lies on; `None` if they do not

@@ -57,6 +57,8 @@ pub enum Found {
         golden: PathBuf,
         /// What it should hold.
         bytes: Vec<u8>,
+        /// By how many steps of 255 the colors of a picture may differ.
+        tolerance: u8,
         /// Whether there is none so far that could be compared.
         is_unknown: bool,
     },

@@ -227,8 +227,11 @@ impl<'a> Test<'a> {
         }
         let keeps = args.out.is_some();
         let caching = cache.map(|cache| cache::using(cache, &self.found.path));
-        let pictures = args.picture_errors.named(&self.found.own_folder);
         let budget = args.many.budget;
+        // What --update mends is no failure.
+        let pictures = (!args.update)
+            .then(|| args.picture_errors.named(&self.found.own_folder, budget))
+            .flatten();
         let mut outcome = run_drawing(loaded, budget, keeps, caching, pictures.as_ref());
         let mut changes = Vec::new();
         if args.update {

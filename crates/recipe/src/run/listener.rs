@@ -1,0 +1,88 @@
+//! Who follows a run, and what they hear.
+
+use std::time::Duration;
+
+use op::{Place, Progress, Refusal, Report};
+use scene::{Digest, Scene};
+
+use crate::cache::Why;
+use crate::diagnostic::Diagnostic;
+use crate::expect::Found;
+
+/// Follows a run.
+pub trait Listener: Progress {
+    /// A step begins.
+    fn step_begins(&self, number: usize, label: &str);
+    /// A step is done.
+    fn step_done(&self, number: usize, done: &StepDone);
+    /// Whether to tell the digest of the scene after each step, which takes a while for large ones.
+    fn wants_digests(&self) -> bool {
+        false
+    }
+    /// A step or an expectation has failed.
+    fn failed(&self, _: &Failure) {}
+    /// Whether to find the scene and the elements that break an expectation, which takes a while.
+    fn wants_places(&self) -> bool {
+        false
+    }
+}
+
+/// A step that failed, or an expectation that does not hold.
+#[derive(Clone, Copy, Debug)]
+pub struct Failure<'a> {
+    /// What is told of it.
+    pub diagnostic: &'a Diagnostic,
+    /// The scene at that time; before a step that failed.
+    pub scene: &'a Scene,
+    /// The places in the scene that it is about, if any are known.
+    pub places: &'a [Place],
+    /// What was found in place of a value that an expectation records.
+    pub found: Option<&'a Found>,
+}
+
+/// What a step left behind.
+#[derive(Clone, Debug)]
+pub struct StepDone {
+    /// The step's id or operation.
+    pub label: String,
+    /// What it did.
+    pub report: Report,
+    /// The reason for which it was refused, as the recipe says it must be.
+    pub refused: Option<Refusal>,
+    /// The vertices of all meshes together, after it; points of polylines count too.
+    pub vertices: usize,
+    /// The edges.
+    pub edges: usize,
+    /// The faces.
+    pub faces: usize,
+    /// The digest of the scene after it, if the listener wants it.
+    pub digest: Option<Digest>,
+    /// How long it took.
+    pub time: Duration,
+    /// Why it ran; `None` if its result was taken from the cache.
+    pub ran: Option<Why>,
+}
+
+/// A listener as plain progress.
+pub(super) struct Forward<'a>(pub(super) &'a dyn Listener);
+
+impl Progress for Forward<'_> {
+    fn advance(&self, what: &str, done: u64, total: u64) -> bool {
+        self.0.advance(what, done, total)
+    }
+}
+
+/// Follows nothing and never stops.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Silent;
+
+impl Progress for Silent {
+    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+        true
+    }
+}
+
+impl Listener for Silent {
+    fn step_begins(&self, _: usize, _: &str) {}
+    fn step_done(&self, _: usize, _: &StepDone) {}
+}

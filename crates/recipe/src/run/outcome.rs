@@ -36,7 +36,7 @@ pub struct Outcome {
 /// An expectation that does not hold.
 #[derive(Clone, Debug)]
 pub struct Unmet {
-    /// Its place in [`Recipe::expectations`].
+    /// Its place in [`Recipe::expectations`](crate::Recipe::expectations).
     pub expectation: usize,
     /// The place of what is told of it in [`Outcome::failures`].
     pub failure: usize,

@@ -3,6 +3,11 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use scene::Object;
+use store::StoreError;
+
+use crate::text::Place;
+
 /// Why a file could not be read. Nothing of it was taken.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -74,14 +79,14 @@ pub enum ReadError {
     },
 }
 
-impl ReadError {
-    pub(crate) fn io(path: &Path, source: io::Error) -> Self {
-        Self::Io {
-            path: path.to_path_buf(),
-            source,
-        }
+impl From<StoreError> for ReadError {
+    fn from(error: StoreError) -> Self {
+        let (path, source) = error.into_parts();
+        Self::Io { path, source }
     }
+}
 
+impl ReadError {
     /// The file that could not be read: the one that was asked for, or one that it refers to.
     pub fn path(&self) -> &Path {
         match self {
@@ -96,26 +101,60 @@ impl ReadError {
     }
 }
 
-/// What is wrong at one place of a text, before the name of the file is known.
+/// What is wrong at one place of a file, before the name of the file is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct TextError {
-    pub(crate) line: usize,
-    pub(crate) column: usize,
+pub(crate) struct Fault {
+    pub(crate) at: At,
+    /// What was expected and what was there.
     pub(crate) message: String,
 }
 
-impl TextError {
+/// A place in a file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum At {
+    /// Of a text.
+    Text(Place),
+    /// Of a JSON document, as a JSON pointer.
+    Json(String),
+    /// Of a binary file: so many bytes stand before it.
+    Byte(usize),
+}
+
+impl Fault {
+    pub(crate) fn json(pointer: impl Into<String>, message: impl Into<String>) -> Self {
+        Self {
+            at: At::Json(pointer.into()),
+            message: message.into(),
+        }
+    }
+
+    pub(crate) fn byte(offset: usize, message: impl Into<String>) -> Self {
+        Self {
+            at: At::Byte(offset),
+            message: message.into(),
+        }
+    }
+
     pub(crate) fn in_file(self, path: &Path) -> ReadError {
-        let Self {
-            line,
-            column,
-            message,
-        } = self;
-        ReadError::Text {
-            path: path.to_path_buf(),
-            line,
-            column,
-            message,
+        let Self { at, message } = self;
+        let path = path.to_path_buf();
+        match at {
+            At::Text(Place { line, column }) => ReadError::Text {
+                path,
+                line,
+                column,
+                message,
+            },
+            At::Json(pointer) => ReadError::Json {
+                path,
+                pointer,
+                message,
+            },
+            At::Byte(offset) => ReadError::Binary {
+                path,
+                offset,
+                message,
+            },
         }
     }
 }
@@ -160,12 +199,10 @@ pub enum WriteError {
     },
 }
 
-impl WriteError {
-    pub(crate) fn io(path: &Path, source: io::Error) -> Self {
-        Self::Io {
-            path: path.to_path_buf(),
-            source,
-        }
+impl From<StoreError> for WriteError {
+    fn from(error: StoreError) -> Self {
+        let (path, source) = error.into_parts();
+        Self::Io { path, source }
     }
 }
 
@@ -184,6 +221,12 @@ impl Unwritable {
         }
     }
 
+    /// An object of another kind than the format `holds`.
+    pub(crate) fn kind(holds: &str, object: &Object) -> Self {
+        let kind = object.geometry.kind();
+        Self::object(&object.name, format!("{holds}, found {kind}"))
+    }
+
     pub(crate) fn in_file(self, path: &Path) -> WriteError {
         let path = path.to_path_buf();
         match self {
@@ -193,6 +236,17 @@ impl Unwritable {
                 message,
             },
             Self::Scene { message } => WriteError::Scene { path, message },
+        }
+    }
+}
+
+#[cfg(test)]
+impl Fault {
+    /// The line and the column of an error in a text.
+    pub(crate) fn place(&self) -> (usize, usize) {
+        match self.at {
+            At::Text(Place { line, column }) => (line, column),
+            _ => panic!("{self:?} is in no text"),
         }
     }
 }

@@ -4,11 +4,11 @@ use glam::DVec3;
 use gltf_json::accessor::Type;
 use gltf_json::mesh::Semantic;
 use mesh::{Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId};
-use rayon::prelude::*;
 
 use super::names::{custom_semantic, uv_set};
 use super::split::Split;
 use crate::loss::Losses;
+use crate::parallel;
 
 /// An attribute of a mesh as glTF has it: 32 bits, normals of length 1, v downwards, colors from 0 to 1.
 pub(super) struct Stream<'a> {
@@ -32,23 +32,20 @@ pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>
     let mut streams: Vec<Stream> = Vec::new();
     // Texture coordinates are counted from 0, without gaps.
     let is_uv = |set: u32| {
-        let columns = mesh.attributes().of(Domain::Corner).iter();
-        columns
-            .filter(|column| uv_set(&column.name) == Some(set))
-            .any(|column| matches!(column.values, Values::Vec2(_)))
+        let mut columns = mesh.attributes().of(Domain::Corner).iter();
+        let is_it =
+            |c: &Column| uv_set(&c.name) == Some(set) && matches!(c.values, Values::Vec2(_));
+        columns.any(is_it)
     };
     let n_uvs = (0..u32::MAX).take_while(|&set| is_uv(set)).count();
     let n_uvs = u32::try_from(n_uvs).unwrap_or(u32::MAX);
     for domain in [Domain::Corner, Domain::Vertex] {
         for column in mesh.attributes().of(domain) {
-            if let Some(stream) = stream(domain, column, n_uvs) {
+            if let Some(stream) = stream(domain, column, n_uvs)
                 // What corners have goes before what vertices have.
-                if streams
-                    .iter()
-                    .all(|other| other.semantic != stream.semantic)
-                {
-                    streams.push(stream);
-                }
+                && streams.iter().all(|other| other.semantic != stream.semantic)
+            {
+                streams.push(stream);
             }
         }
     }
@@ -107,10 +104,8 @@ impl Stream<'_> {
         match self.meaning {
             Meaning::Normal => {
                 let unit = unit(DVec3::new(x, y, z));
-                let [x, y, z] = unit
-                    .unwrap_or_else(|| face_normal(mesh, mesh.face(h)))
-                    .to_array();
-                narrow([x, y, z, 0.0], unit.is_some())
+                let normal = unit.unwrap_or_else(|| face_normal(mesh, mesh.face(h)));
+                narrow([normal.x, normal.y, normal.z, 0.0], unit.is_some())
             }
             Meaning::Uv => narrow([x, 1.0 - y, 0.0, 0.0], true),
             Meaning::Color => {
@@ -124,14 +119,10 @@ impl Stream<'_> {
 
     /// Says how many values of the written vertices are not what the mesh has.
     pub(super) fn count_broken(&self, mesh: &Mesh, split: &Split, losses: &mut Losses) {
-        let broken = (0..split.n)
-            .into_par_iter()
-            .with_min_len(1 << 12)
-            .filter(|&i| {
-                let (v, h) = split.corner(mesh, i);
-                !self.at(mesh, v, h).1
-            })
-            .count();
+        let broken = parallel::count(split.n, |i| {
+            let (v, h) = split.corner(mesh, i);
+            !self.at(mesh, v, h).1
+        });
         let reason = match self.meaning {
             Meaning::Normal => "without a direction: written as that of the face",
             Meaning::Color => "outside of 0 to 1: written as the nearest inside",

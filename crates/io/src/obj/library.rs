@@ -4,16 +4,14 @@ use scene::{AlphaMode, Material, Sampler, Texture, TextureTransform};
 
 use super::material::alpha_mode;
 use super::states::fit_line;
-use super::write::push_comment;
 use crate::decimal::push_number;
 use crate::loss::Losses;
+use crate::writing::push_comment;
 
 /// The text of a library with these materials. Their names must fit a line.
 pub(super) fn write_library(materials: &[Material], comment: Option<&str>) -> Vec<u8> {
     let mut out = Vec::new();
-    if let Some(comment) = comment {
-        push_comment(&mut out, comment);
-    }
+    push_comment(&mut out, "#", comment);
     for material in materials {
         out.extend_from_slice(format!("newmtl {}\n", material.name).as_bytes());
         let [red, green, blue, alpha] = material.base_color;
@@ -66,22 +64,18 @@ pub(super) fn note_losses(material: &Material, losses: &mut Losses) {
     let is_implied = material.alpha == alpha_mode(material.base_color[3]);
     let cuts = matches!(material.alpha, AlphaMode::Mask(_));
     lose(cuts, "the alpha that cuts away");
-    lose(
-        !cuts && !is_implied,
-        "whether what is behind shines through",
-    );
+    let what = "whether what is behind shines through";
+    lose(!cuts && !is_implied, what);
     lose(material.double_sided, "whether the back is seen");
     lose(material.unlit, "whether light matters");
     lose(material.occlusion_texture.is_some(), "the occlusion");
-    for texture in [
+    let textures = [
         &material.base_color_texture,
         &material.metallic_roughness_texture,
         &material.emissive_texture,
         &material.normal_texture,
-    ]
-    .into_iter()
-    .flatten()
-    {
+    ];
+    for texture in textures.into_iter().flatten() {
         lose(texture.path().is_none(), "embedded pictures");
         let is_renamed = texture.path().is_some_and(|path| fit_line(path) != path);
         lose(is_renamed, "the characters in the name of a picture");

@@ -37,6 +37,3 @@ mod write;
 pub(crate) use peek::peek;
 pub(crate) use read::read;
 pub(crate) use write::write;
-
-/// What the tag of an object's name begins with.
-const OBJECT_TAG: &str = "o:";

@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 
 use mesh::{Column, Domain, FaceId, Mesh, Values};
-use rayon::prelude::*;
 use scene::{Material, Object};
 
-use super::OBJECT_TAG;
 use super::file::NO_MATERIAL;
 use super::library::note_losses;
 use crate::loss::Losses;
+use crate::parallel;
+use crate::polygons::OBJECT_TAG;
 
 /// What the statements so far say of the faces that follow.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -50,15 +50,12 @@ impl<'a> FaceStates<'a> {
             name.strip_prefix(OBJECT_TAG)
                 .is_some_and(|rest| !rest.is_empty() && fit_line(rest) == rest)
         };
-        let one_object_each = |f: FaceId| {
-            let of_face = groups
-                .iter()
-                .filter(|(name, marks)| is_object(name) && marks[f.index()]);
-            of_face.count() == 1
+        let one_object_each = |f: usize| {
+            let is_of = |(name, marks): &&(&str, &[bool])| is_object(name) && marks[f];
+            groups.iter().filter(is_of).count() == 1
         };
         // `o` can be written only if it says the whole truth; otherwise the tags are groups like any other.
-        let faces = (0..mesh.n_faces()).into_par_iter().map(FaceId::new);
-        let objects = if !several && faces.all(one_object_each) {
+        let objects = if !several && parallel::all(mesh.n_faces(), one_object_each) {
             groups.extract_if(.., |(name, _)| is_object(name)).collect()
         } else {
             Vec::new()
@@ -67,32 +64,19 @@ impl<'a> FaceStates<'a> {
             let word = one_word(name);
             let count = marks.iter().filter(|&&is| is).count();
             let renamed = if word == *name { 0 } else { count };
-            losses.add(
-                Domain::Face,
-                name,
-                renamed,
-                format!("the tag is written as group `{word}`"),
-            );
+            let reason = format!("the tag is written as group `{word}`");
+            losses.add(Domain::Face, name, renamed, reason);
         }
         let materials = mesh.get(mesh::MATERIAL);
-        let unknown = materials
-            .into_iter()
-            .flatten()
-            .filter(|&&m| m < -1 || m >= 0 && !exists(m, places));
-        losses.add(
-            Domain::Face,
-            "material",
-            unknown.count(),
-            "the object has no such material",
-        );
+        let exists = |m: i32| usize::try_from(m).is_ok_and(|m| m < places.len());
+        let unknown = materials.into_iter().flatten();
+        let unknown = unknown.filter(|&&m| m != -1 && !exists(m)).count();
+        let reason = "the object has no such material";
+        losses.add(Domain::Face, "material", unknown, reason);
         let smoothing = mesh.get(mesh::SMOOTHING);
         let negative = smoothing.into_iter().flatten().filter(|&&group| group < 0);
-        losses.add(
-            Domain::Face,
-            "smoothing",
-            negative.count(),
-            "OBJ has no negative groups: written as off",
-        );
+        let reason = "OBJ has no negative groups: written as off";
+        losses.add(Domain::Face, "smoothing", negative.count(), reason);
         Self {
             objects,
             groups,
@@ -130,10 +114,6 @@ impl<'a> FaceStates<'a> {
     }
 }
 
-fn exists(material: i32, places: &[usize]) -> bool {
-    usize::try_from(material).is_ok_and(|m| m < places.len())
-}
-
 /// A name as the rest of a line: without line ends and blanks around it.
 pub(super) fn fit_line(name: &str) -> Cow<'_, str> {
     let trimmed = name.trim_matches(|c: char| c.is_whitespace());
@@ -150,11 +130,8 @@ pub(super) fn one_word(name: &str) -> Cow<'_, str> {
     if name.is_empty() || name.contains(blank) || name.starts_with('#') || name.ends_with('\\') {
         let word = name.replace(blank, "_");
         let word = word.trim_start_matches('#').trim_end_matches('\\');
-        return Cow::Owned(if word.is_empty() {
-            "unnamed".to_owned()
-        } else {
-            word.to_owned()
-        });
+        let word = if word.is_empty() { "unnamed" } else { word };
+        return Cow::Owned(word.to_owned());
     }
     Cow::Borrowed(name)
 }
@@ -169,9 +146,8 @@ pub(super) struct Library {
 
 impl Library {
     pub(super) fn add(&mut self, object: &Object, losses: &mut Losses) {
-        let places = object
-            .materials
-            .iter()
+        let materials = object.materials.iter();
+        let places = materials
             .map(|material| self.place(material, losses))
             .collect();
         self.places.push(places);
@@ -188,23 +164,16 @@ impl Library {
             ..material.clone()
         };
         for suffix in 2.. {
-            match self
-                .materials
-                .iter()
-                .position(|known| known.name == new.name)
-            {
+            let is_it = |known: &Material| known.name == new.name;
+            match self.materials.iter().position(is_it) {
                 None => break,
                 Some(place) if self.materials[place] == new => return place,
                 Some(_) => new.name = format!("{base}_{suffix}"),
             }
         }
         let renamed = usize::from(new.name != material.name);
-        losses.add(
-            None,
-            &material.name,
-            renamed,
-            format!("material is written as `{}`", new.name),
-        );
+        let reason = format!("material is written as `{}`", new.name);
+        losses.add(None, &material.name, renamed, reason);
         note_losses(material, losses);
         self.materials.push(new);
         self.materials.len() - 1

@@ -21,8 +21,6 @@
 //! The writer takes the same table from right to left. Texture coordinates are written if they agree around
 //! each vertex.
 
-mod colors;
-mod header;
 mod read;
 mod write;
 

@@ -51,8 +51,8 @@ fn decode(compressed: &Compressed, stream: &[u8]) -> Result<Vec<u8>, String> {
         byte_length: stream.len() as u64,
         ..compressed.clone()
     };
-    let length = compressed.decoded_length(&view(length))?;
-    compressed.decode(stream, usize::try_from(length).unwrap())
+    let length = compressed.decoded_length(&view(length), "")?;
+    compressed.decode(stream, usize::try_from(length).unwrap(), "")
 }
 
 /// Whether arrays are the same: bit by bit, but for one unit of the last place where a filter rounds.
@@ -122,7 +122,7 @@ fn what_no_stream_of_the_length_holds_is_refused_before_it_is_made() {
                 ..compressed.clone()
             };
             let view = view(count.saturating_mul(compressed.byte_stride));
-            assert!(compressed.decoded_length(&view).is_err(), "{name}");
+            assert!(compressed.decoded_length(&view, "").is_err(), "{name}");
         }
     }
 }
@@ -134,7 +134,7 @@ fn rules_of_the_extension_are_checked() {
     });
     let length = |json: &Value| {
         let compressed = Compressed::deserialize(json).map_err(|e| e.to_string())?;
-        compressed.decoded_length(&view(24))
+        compressed.decoded_length(&view(24), "")
     };
     assert_eq!(length(&good), Ok(24));
     for (change, words) in [

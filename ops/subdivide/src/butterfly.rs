@@ -72,6 +72,7 @@ impl MeshOperation for Butterfly {
     const NAME: &'static str = "Butterfly";
     const SUMMARY: &'static str =
         "Cut every triangle into four and smooth through the old vertices";
+    const EXAMPLE: &'static str = "Butterfly(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         self.step().plan(plan, cx)

@@ -105,6 +105,7 @@ impl CatmullClark {
 impl MeshOperation for CatmullClark {
     const NAME: &'static str = "CatmullClark";
     const SUMMARY: &'static str = "Cut every face into quads and smooth";
+    const EXAMPLE: &'static str = "CatmullClark(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         self.step().plan(plan, cx)

@@ -79,6 +79,7 @@ impl DooSabin {
 impl MeshOperation for DooSabin {
     const NAME: &'static str = "DooSabin";
     const SUMMARY: &'static str = "Cut off every edge and vertex";
+    const EXAMPLE: &'static str = "DooSabin(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         self.step().plan(plan, cx)

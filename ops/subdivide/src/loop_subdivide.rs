@@ -109,6 +109,7 @@ impl MeshOperation for LoopSubdivide {
     const NAME: &'static str = "LoopSubdivide";
     const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Cut every triangle into four and smooth";
+    const EXAMPLE: &'static str = "LoopSubdivide(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         self.step().plan(plan, cx)

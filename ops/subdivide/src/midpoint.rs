@@ -75,6 +75,7 @@ impl Midpoint {
 impl MeshOperation for Midpoint {
     const NAME: &'static str = "Midpoint";
     const SUMMARY: &'static str = "Cut every face into smaller ones without moving anything";
+    const EXAMPLE: &'static str = "Midpoint(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         self.step().plan(plan, cx)

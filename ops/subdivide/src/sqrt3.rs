@@ -83,6 +83,7 @@ impl Sqrt3 {
 impl MeshOperation for Sqrt3 {
     const NAME: &'static str = "Sqrt3";
     const SUMMARY: &'static str = "Cut every triangle into three, turned, and smooth";
+    const EXAMPLE: &'static str = "Sqrt3(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         self.step().plan(plan, cx)

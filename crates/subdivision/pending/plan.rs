@@ -54,20 +54,6 @@ fn counts_are_foreseen_exactly_for_every_scheme_on_every_fixture() {
 }
 
 #[test]
-fn the_size_of_a_mesh_tells_that_of_every_level_exactly() {
-    for (name, mesh) in fixtures::all() {
-        for scheme in SCHEMES {
-            let mut size = Size::of(&mesh);
-            for levels in 1..4 {
-                size = size.after(scheme, levels - 1);
-                let new = super::levels(scheme, levels, &mesh);
-                assert_eq!(size, Size::of(&new), "{name} {scheme:?} {levels}");
-            }
-        }
-    }
-}
-
-#[test]
 fn a_budget_holds_for_every_level_until_a_condition_is_met() {
     // What an odd level of Sqrt3 makes of a boundary differs from what an even one makes.
     let mesh = fixtures::sheet(4, 3);

@@ -61,7 +61,7 @@ pub mod test;
 mod turn;
 
 pub use bevel::Cuts;
-pub use context::{Context, NoProgress, Progress};
+pub use context::Context;
 pub use edit::{Edited, OnRefusal, edit_each};
 pub use error::{OpError, Refusal};
 pub use files::{FileError, FileLog, FileUse, Files};
@@ -71,6 +71,7 @@ pub use place::Place;
 pub use plan::{
     MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
 };
+pub use progress::{Cancelled, NoProgress, Progress};
 pub use registry::{DuplicateOperation, Entry, Registry, Step};
 pub use report::{Loss, Refused, Report};
 pub use selection::{

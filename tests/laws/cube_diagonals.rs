@@ -1,8 +1,8 @@
 //! What flipping diagonals can do for the symmetry of a subdivided cube: all 64 patterns.
 
-use loop_subdivide::LoopSubdivide;
 use mesh::{EdgeId, shapes};
 use op::Files;
+use ops_subdivide::LoopSubdivide;
 use recipe::Expectation;
 use recipe::expect::{Group, Subject};
 use scene::{Object, Scene};
@@ -19,7 +19,7 @@ fn subdivided(pattern: usize) -> Scene {
                 .expect("a diagonal of a cube can be flipped");
         }
     }
-    let smooth = op::test::applied(&LoopSubdivide::levels(1), cube);
+    let smooth = op::test::applied(&LoopSubdivide::default(), cube);
     let mut scene = Scene::new();
     scene
         .insert(Object::mesh("cube", smooth))

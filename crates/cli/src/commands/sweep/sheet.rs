@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::ensure;
 use op::{Context, Files, Registry};
-use picture::{Extent, Picture};
+use ops_pictures::{Extent, Picture};
 use recipe::{Axis, InOrder, JobEnd, Jobs, Metric};
 use render::figure::label::filled;
 use render::figure::legend::{Corner, Legend, draw_legend, legend_figure};
@@ -297,7 +297,7 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     for (to, from) in rows.zip(sheet.pixels.chunks_exact(sheet.width as usize)) {
         to[..from.len()].copy_from_slice(from);
     }
-    draw_legend(&mut wide, legend, Corner::TopRight, 1.0)?;
+    draw_legend(&mut wide, legend, Corner::TopRight, 1.0);
     Ok(wide)
 }
 

@@ -1,0 +1,103 @@
+//! Weld: merges vertices that lie near each other, and joins the faces at them.
+//!
+//! ```text
+//!    +-----+ +-----+            +-----+-----+
+//!    |     a b     |            |     |     |       a, b become the one of the lower number,
+//!    |     | |     |    -->     |     |     |       where that is; the two edges become one
+//!    |     c d     |            |     |     |
+//!    +-----+ +-----+            +-----+-----+
+//! ```
+//!
+//! Vertices at most `distance` apart are linked, and all vertices that links connect become one. So two
+//! at 0.9 times the distance always merge, wherever they lie, and two at 1.1 times only through others
+//! between them. Neither depends on the order of vertices or on the number of threads.
+
+use mesh::merge::clusters;
+use mesh::{Mesh, VERTEX_NORMAL};
+use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Merges vertices that lie near each other, and joins the faces at them.
+///
+/// Vertices at most `distance` apart are linked, and all that links connect become one, even if the ends
+/// of such a chain are farther apart. The merged vertex has the position and the values of the lowest
+/// number among them; the others go, and numbers close up. Edges between the same two vertices become
+/// one, with the values of the first. Corner values stay with their corners: seams of UVs are kept.
+///
+/// A face loses corners that merge with the next one around it, and goes if fewer than three are left or
+/// if it would visit a vertex twice. Where faces that hang together then run different ways round, the
+/// smaller number of them is reversed if that makes all agree; they are counted, and normals of vertices
+/// and corners are dropped. Where the result would still not be a manifold it is split and counted: of
+/// three faces at one edge the third gets its own. If no vertices merge, nothing changes at all.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Weld {
+    /// How far apart linked vertices may be, in scene units; 0 links equal positions only.
+    #[schemars(range(min = 0.0))]
+    pub distance: f64,
+}
+
+impl Weld {
+    fn check(&self) -> Result<(), String> {
+        if self.distance >= 0.0 && self.distance.is_finite() {
+            Ok(())
+        } else {
+            let distance = self.distance;
+            Err(format!(
+                "`distance` must be 0 or a positive number, not {distance}"
+            ))
+        }
+    }
+}
+
+impl MeshOperation for Weld {
+    const NAME: &'static str = "Weld";
+    const SUMMARY: &'static str = "Merge vertices that lie near each other";
+    const EXAMPLE: &'static str = "Weld(distance: 0)";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        if let Err(message) = self.check() {
+            return vec![Problem::error(message).at(["distance"])];
+        }
+        // Where faces are reversed, normals go.
+        for attribute in &mut plan.attributes {
+            attribute.certain &= attribute.name != VERTEX_NORMAL.name;
+        }
+        plan.vertices.min = plan.vertices.min.min(1);
+        plan.edges = plan.edges.or_less();
+        plan.faces = plan.faces.or_less();
+        // Faces may lose corners, but not below three.
+        plan.degrees.min = plan.degrees.min.min(3);
+        plan.degrees = Range {
+            max: plan.degrees.max.max(3),
+            ..plan.degrees
+        };
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        self.check().map_err(OpError::Parameter)?;
+        let lowest = clusters(mesh.positions(), self.distance, &|done, total| {
+            cx.advance("weld", done, total)
+        })?;
+        if (0..).zip(&lowest).all(|(v, &low): (u32, _)| v == low) {
+            return Ok(Report::default());
+        }
+        let merged = mesh.merge_clusters(&lowest)?;
+        let n = merged.vertices;
+        let vertices = if n == 1 { "vertex" } else { "vertices" };
+        let mut report = Report::changed(n).note(format!("merged {n} {vertices}"));
+        if merged.smaller_faces > 0 {
+            let n = merged.smaller_faces;
+            report = report.note(format!("faces that lost corners: {n}"));
+        }
+        if !merged.report.is_clean() {
+            report = report.note(merged.report.summary());
+        }
+        Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests;

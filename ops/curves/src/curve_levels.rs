@@ -1,0 +1,169 @@
+//! De Casteljau's construction of one point of a Bezier curve, as polylines.
+//!
+//! ```text
+//!        p1 ---- q1 ------ p2          p: level 0, the control polygon
+//!       /      /    \        \         q: level 1
+//!      /      r0--m--r1       \        r: level 2
+//!     /      /         \       \       m: level 3, the point of the curve
+//!    q0 ----'           '------ q2
+//!   /                             \    each level cuts the legs of the one before
+//! p0                               p3  in the ratio t : 1 - t
+//! ```
+//!
+//! Source: Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, chapter 4.
+
+use op::{
+    Context, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Report,
+    change_curves, plan_curves,
+};
+use scene::{Geometry, Scene};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Replaces curves by the levels of de Casteljau's algorithm.
+///
+/// A curve of n control points becomes n polylines in the plane z = 0: the control polygon with n
+/// points, and then each level with one point less, down to the one point of the curve at `t`.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct CurveLevels {
+    /// The parameter of the point, from 0 (the start of the curve) to 1 (its end).
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub t: f64,
+}
+
+impl CurveLevels {
+    fn problem(&self) -> Option<Problem> {
+        let message = format!("expected a number from 0 to 1, found {:?}", self.t);
+        (!(0.0..=1.0).contains(&self.t)).then(|| Problem::error(message).at(["t"]))
+    }
+}
+
+/// The bytes of all levels of a curve of n control points: n (n + 1) / 2 points of 24 bytes. A
+/// curve has at most 4096.
+fn bytes(n: u64) -> u64 {
+    n.saturating_mul(n.saturating_add(1)) / 2 * 24
+}
+
+fn too_large(n: u64, budget: u64) -> Option<String> {
+    let needed = bytes(n);
+    (needed > budget).then(|| {
+        format!("the levels of {n} control points take {needed} bytes, the budget is {budget}")
+    })
+}
+
+impl Operation for CurveLevels {
+    const NAME: &'static str = "CurveLevels";
+    const SUMMARY: &'static str = "Replace curves by the levels of de Casteljau's algorithm";
+    const EXAMPLE: &'static str = "CurveLevels(t: 0)";
+    const TAKES_ON: bool = true;
+
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        let mut problems = plan_curves(Self::NAME, plan, cx, |points| {
+            let problems = too_large(points.min, cx.budget).map(Problem::error);
+            (PlannedGeometry::Polylines, problems.into_iter().collect())
+        });
+        problems.extend(self.problem());
+        problems
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        if let Some(problem) = self.problem() {
+            return Err(OpError::Parameter(format!("t: {}", problem.message)));
+        }
+        change_curves(Self::NAME, scene, cx, |curve| {
+            if let Some(message) = too_large(curve.points().len() as u64, cx.budget) {
+                return Err(OpError::Budget(message));
+            }
+            let levels = curve.levels(self.t).into_iter();
+            let lines = levels.map(|level| level.iter().map(|p| p.extend(0.0)).collect());
+            Ok(Geometry::Polylines(lines.collect()))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bezier::{Curve, DVec2, DVec3};
+    use scene::Object;
+
+    fn curve() -> Curve<DVec2> {
+        Curve::new(vec![
+            DVec2::ZERO,
+            DVec2::new(0.0, 4.0),
+            DVec2::new(4.0, 4.0),
+        ])
+        .unwrap()
+    }
+
+    fn arch() -> Scene {
+        let mut scene = Scene::new();
+        scene
+            .insert(Object::new("arch", Geometry::Curve(curve())))
+            .unwrap();
+        scene
+    }
+
+    fn lines(t: f64) -> Vec<Vec<DVec3>> {
+        let mut scene = arch();
+        op::test::run(&CurveLevels { t }, &mut scene).unwrap();
+        match &scene.objects()[0].geometry {
+            Geometry::Polylines(lines) => lines.clone(),
+            other => panic!("{}", other.kind()),
+        }
+    }
+
+    #[test]
+    fn each_level_has_one_point_less() {
+        let lines = lines(0.5);
+        assert_eq!(lines.iter().map(Vec::len).collect::<Vec<_>>(), [3, 2, 1]);
+        assert_eq!(
+            lines[1],
+            [DVec3::new(0.0, 2.0, 0.0), DVec3::new(2.0, 4.0, 0.0)]
+        );
+    }
+
+    #[test]
+    fn the_last_level_is_the_point_of_the_curve() {
+        for t in [0.0, 0.3, 1.0] {
+            assert_eq!(lines(t)[2], [curve().point(t).extend(0.0)]);
+        }
+    }
+
+    #[test]
+    fn parameters_outside_the_curve_are_refused() {
+        for text in ["(t: -0.1)", "(t: 1.5)", "(t: NaN)"] {
+            let step: CurveLevels = ron::from_str(text).unwrap();
+            let mut scene = arch();
+            assert!(matches!(
+                op::test::run(&step, &mut scene),
+                Err(OpError::Parameter(_))
+            ));
+            assert_eq!(scene, arch());
+        }
+    }
+
+    #[test]
+    fn levels_beyond_the_budget_are_refused_in_plan_and_scene() {
+        let files = op::Files::default();
+        let step = CurveLevels { t: 0.5 };
+        let mut cx = Context::new(&op::NoProgress, &files);
+        cx.budget = bytes(3) - 1;
+        assert!(matches!(
+            step.apply(&mut arch(), &mut cx),
+            Err(OpError::Budget(_))
+        ));
+
+        let mut plan = Plan::default();
+        let planned = PlannedGeometry::Curve(op::Range::exactly(3));
+        assert_eq!(plan.insert("arch", planned), []);
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: bytes(3) - 1,
+        };
+        assert_eq!(step.plan(&mut plan, &cx).len(), 1);
+        assert_eq!(plan.objects[0].geometry, PlannedGeometry::Polylines);
+    }
+}

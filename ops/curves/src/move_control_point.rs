@@ -1,0 +1,139 @@
+//! Moves one control point of a Bezier curve.
+//!
+//! ```text
+//!                            p1'
+//!      p1 --- p2            /   \
+//!     /  .---. \    --->   / .-.  p2        the whole curve follows, most of it near p1
+//!    / /      \ \         / /   \  \
+//!   p0          p3       p0        p3
+//! ```
+
+use bezier::DVec2;
+use op::{
+    Context, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Report,
+    change_curves, plan_curves,
+};
+use scene::{Geometry, Scene};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Moves one control point of curves.
+///
+/// The others stay where they are. The point of the curve at t moves in the same direction, by the
+/// distance times the Bernstein polynomial of the control point at t.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct MoveControlPoint {
+    /// The number of the control point, from 0. Every curve that the step acts on must have it.
+    pub index: u32,
+    /// Where it goes: `(x, y)` in the plane z = 0, in scene units.
+    pub to: PlanePoint,
+}
+
+/// A point of the plane z = 0: `(x, y)`, in scene units.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+pub struct PlanePoint(pub f64, pub f64);
+
+impl Operation for MoveControlPoint {
+    const NAME: &'static str = "MoveControlPoint";
+    const SUMMARY: &'static str = "Move one control point of curves";
+    const EXAMPLE: &'static str = "MoveControlPoint(index: 1, to: (2, -3.5))";
+    const TAKES_ON: bool = true;
+
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        let mut problems = plan_curves(Self::NAME, plan, cx, |points| {
+            let (index, max) = (self.index, points.max);
+            let message = format!("expected a control point below {max}, found {index}");
+            let missing = (u64::from(index) >= max).then(|| Problem::error(message).at(["index"]));
+            (
+                PlannedGeometry::Curve(points),
+                missing.into_iter().collect(),
+            )
+        });
+        if !DVec2::new(self.to.0, self.to.1).is_finite() {
+            problems.push(Problem::error("expected finite coordinates").at(["to"]));
+        }
+        problems
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        let to = DVec2::new(self.to.0, self.to.1);
+        change_curves(Self::NAME, scene, cx, |curve| {
+            let moved = curve.with_point(self.index as usize, to);
+            moved
+                .map(Geometry::Curve)
+                .map_err(|e| OpError::Parameter(e.to_string()))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bezier::Curve;
+    use op::Range;
+    use scene::Object;
+
+    fn step(text: &str) -> MoveControlPoint {
+        ron::from_str(text).unwrap()
+    }
+
+    fn points() -> Vec<DVec2> {
+        vec![DVec2::ZERO, DVec2::new(0.0, 4.0), DVec2::new(4.0, 4.0)]
+    }
+
+    fn arch() -> Scene {
+        let mut scene = Scene::new();
+        let curve = Geometry::Curve(Curve::new(points()).unwrap());
+        scene.insert(Object::new("arch", curve)).unwrap();
+        scene
+    }
+
+    #[test]
+    fn only_the_named_point_moves() {
+        let mut scene = arch();
+        op::test::run(&step("(index: 1, to: (2, -3.5))"), &mut scene).unwrap();
+        let mut moved = points();
+        moved[1] = DVec2::new(2.0, -3.5);
+        assert_eq!(
+            scene.objects()[0].geometry,
+            Geometry::Curve(Curve::new(moved).unwrap())
+        );
+    }
+
+    #[test]
+    fn a_point_that_is_not_there_or_no_number_is_refused_and_nothing_changes() {
+        for text in ["(index: 3, to: (0, 0))", "(index: 0, to: (NaN, 0))"] {
+            let mut scene = arch();
+            let moved = op::test::run(&step(text), &mut scene);
+            assert!(matches!(moved, Err(OpError::Parameter(_))));
+            assert_eq!(scene, arch());
+        }
+    }
+
+    #[test]
+    fn the_plan_refuses_what_no_curve_of_its_size_has() {
+        let files = op::Files::default();
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let fields = |points, text| {
+            let mut plan = Plan::default();
+            assert_eq!(plan.insert("arch", PlannedGeometry::Curve(points)), []);
+            let problems = step(text).plan(&mut plan, &cx);
+            assert_eq!(plan.objects[0].geometry, PlannedGeometry::Curve(points));
+            problems
+                .iter()
+                .map(|p| p.path.join("."))
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(fields(Range::exactly(3), "(index: 2, to: (0, 0))"), [""; 0]);
+        assert_eq!(
+            fields(Range::exactly(3), "(index: 3, to: (inf, 0))"),
+            ["index", "to"]
+        );
+        assert_eq!(fields(Range::ANY, "(index: 3, to: (0, 0))"), [""; 0]);
+    }
+}

@@ -1,0 +1,164 @@
+//! Samples a Bezier curve: its points at equal steps of the parameter, joined by a polyline.
+//!
+//! ```text
+//!      p1 ------- p2              . --- .
+//!     /   .---.     \           /       \        segments: 3
+//!    /  /       \    \   --->  |         |       points at t = 0, 1/3, 2/3, 1
+//!   p0             p3         |         |
+//! ```
+
+use op::{
+    Context, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Report,
+    change_curves, plan_curves,
+};
+use scene::{Geometry, Scene};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The most segments of a polyline.
+const MAX_SEGMENTS: u32 = 65536;
+
+/// Replaces curves by polylines through their points.
+///
+/// Each becomes one polyline of `segments` + 1 points in the plane z = 0, at the parameters 0,
+/// 1 / segments, ... 1. Both ends are the end control points exactly.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct SampleCurve {
+    /// How many straight segments.
+    #[schemars(range(min = 1, max = 65536))]
+    pub segments: u32,
+}
+
+impl SampleCurve {
+    fn problem(&self) -> Option<Problem> {
+        let message = format!(
+            "expected 1 to {MAX_SEGMENTS} segments, found {}",
+            self.segments
+        );
+        (!(1..=MAX_SEGMENTS).contains(&self.segments))
+            .then(|| Problem::error(message).at(["segments"]))
+    }
+}
+
+impl Operation for SampleCurve {
+    const NAME: &'static str = "SampleCurve";
+    const SUMMARY: &'static str = "Replace curves by polylines through their points";
+    const EXAMPLE: &'static str = "SampleCurve(segments: 1)";
+    const TAKES_ON: bool = true;
+
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        let mut problems = plan_curves(Self::NAME, plan, cx, |_| {
+            (PlannedGeometry::Polylines, Vec::new())
+        });
+        problems.extend(self.problem());
+        problems
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        if let Some(problem) = self.problem() {
+            return Err(OpError::Parameter(problem.message));
+        }
+        change_curves(Self::NAME, scene, cx, |curve| {
+            // A point takes a time that grows with the square of the degree: ask after about a
+            // million steps of the algorithm whether to go on.
+            let every = 1 + (1 << 20) / (1 + curve.degree() * curve.degree());
+            let mut line = Vec::with_capacity(self.segments as usize + 1);
+            for p in curve.sample(self.segments) {
+                if line.len() % every == 0 {
+                    cx.advance("sample", line.len() as u64, u64::from(self.segments) + 1)?;
+                }
+                line.push(p.extend(0.0));
+            }
+            Ok(Geometry::Polylines(vec![line]))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bezier::{Curve, DVec2, DVec3};
+    use scene::Object;
+
+    fn arch() -> Scene {
+        let points = vec![DVec2::ZERO, DVec2::new(0.0, 4.0), DVec2::new(4.0, 4.0)];
+        let mut scene = Scene::new();
+        scene
+            .insert(Object::new(
+                "arch",
+                Geometry::Curve(Curve::new(points).unwrap()),
+            ))
+            .unwrap();
+        scene
+    }
+
+    #[test]
+    fn the_polyline_lies_on_the_curve() {
+        let mut scene = arch();
+        let step: SampleCurve = ron::from_str("(segments: 2)").unwrap();
+        assert_eq!(op::test::run(&step, &mut scene).unwrap().changed, 1);
+        let line = vec![
+            DVec3::ZERO,
+            DVec3::new(1.0, 3.0, 0.0),
+            DVec3::new(4.0, 4.0, 0.0),
+        ];
+        assert_eq!(scene.objects()[0].geometry, Geometry::Polylines(vec![line]));
+    }
+
+    #[test]
+    fn there_is_one_point_more_than_segments() {
+        let mut scene = arch();
+        op::test::run(&SampleCurve { segments: 65536 }, &mut scene).unwrap();
+        let Geometry::Polylines(lines) = &scene.objects()[0].geometry else {
+            panic!("polylines");
+        };
+        assert_eq!(lines[0].len(), 65537);
+    }
+
+    #[test]
+    fn bad_counts_are_refused_and_nothing_changes() {
+        for segments in [0, 65537] {
+            let mut scene = arch();
+            let made = op::test::run(&SampleCurve { segments }, &mut scene);
+            assert!(matches!(made, Err(OpError::Parameter(_))));
+            assert_eq!(scene, arch());
+        }
+    }
+
+    #[test]
+    fn the_plan_turns_curves_into_polylines_and_misses_them() {
+        let files = op::Files::default();
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let step = SampleCurve { segments: 8 };
+        let mut plan = Plan::default();
+        assert_eq!(step.plan(&mut plan, &cx).len(), 1);
+        let curve = PlannedGeometry::Curve(op::Range::exactly(3));
+        assert_eq!(plan.insert("arch", curve), []);
+        assert_eq!(step.plan(&mut plan, &cx), []);
+        assert_eq!(plan.objects[0].geometry, PlannedGeometry::Polylines);
+    }
+
+    #[test]
+    fn an_object_of_on_that_is_no_curve_is_refused() {
+        let mut scene = arch();
+        scene
+            .insert(Object::new("lines", Geometry::Polylines(Vec::new())))
+            .unwrap();
+        let on = ["lines".to_owned()];
+        let files = op::Files::default();
+        let mut cx = Context::new(&op::NoProgress, &files);
+        cx.on = Some(&on);
+        let error = SampleCurve { segments: 8 }
+            .apply(&mut scene, &mut cx)
+            .unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "SampleCurve changes curves, but \"lines\" is polylines"
+        );
+    }
+}

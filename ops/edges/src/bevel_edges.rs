@@ -1,0 +1,184 @@
+//! Bevel edges: puts faces into the place of edges.
+//!
+//! ```text
+//!     \               /            \               /
+//!      \             /              + ----------- +
+//!       a --- e --- b      -->      |             |       the other edges at a and b are cut at a
+//!      /             \              + ----------- +       fraction of their lengths from there
+//!     /               \            /               \
+//! ```
+
+use mesh::Mesh;
+use op::{
+    Context, Cuts, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext,
+    Problem, Range, Report, Select, check_fraction, edit_each,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Puts faces into the place of edges.
+///
+/// An edge and both of its ends go. The other edges at the ends are cut at a fraction of the length that
+/// they had before the step, and a face joins the cuts: one of four corners where three edges met at each end.
+/// Edges are taken in order of their numbers, each as it is when its turn comes: one at the end of
+/// an earlier one begins at its cut. Where an edge is cut at both ends the fraction must be below a half.
+///
+/// The vertices of the edges are gone, so that the numbers of those behind them close up; the new ones are
+/// numbered behind all others, in order of the edges and clockwise around each. Faces keep their
+/// numbers, new ones come behind in order of the edges.
+///
+/// Values at the cuts lie between those at the ends, so that textures stay as they are. A new face has the
+/// values (material, tags) of a face beside the edge, new edges have none. Normals are dropped.
+///
+/// Refused are edges on the boundary or with an end there, those with an end of fewer than three edges,
+/// those whose ends another edge joins, and those with an edge beside them that has too little left for the
+/// cut.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct BevelEdges {
+    /// Which edges.
+    pub edges: EdgeSelection,
+    /// Where the edges around are cut, as a fraction of their lengths: between 0 and 1 and neither.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    pub fraction: f64,
+    /// What to do when an edge is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+impl MeshOperation for BevelEdges {
+    const NAME: &'static str = "BevelEdges";
+    const SUMMARY: &'static str = "Put faces into the place of edges";
+    const EXAMPLE: &'static str = "BevelEdges(edges: Between(0, 2), fraction: 0.25)";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        if let Err(message) = check_fraction("fraction", self.fraction) {
+            return vec![Problem::error(message).at(["fraction"])];
+        }
+        let done = self.on_refusal.done(self.edges.count(plan));
+        if done.max > 0 {
+            // Four cuts at least. Old vertices go with the first of their edges, and all together have two
+            // ends of each edge; new ones have three edges.
+            let cuts = Range {
+                min: done.min.saturating_mul(4),
+                max: plan.edges.by(2).plus(done.by(4)).max,
+            };
+            // A face has as many corners as there are cuts, and later ones can double them.
+            let largest = plan.degrees.max.max(plan.edges.max.saturating_add(3));
+            plan.degrees = Range {
+                min: plan.degrees.min.min(4),
+                max: largest.saturating_mul(2),
+            };
+            let grow = |n: Range, gone: u64| {
+                n.plus(Range {
+                    min: cuts.min - gone * done.min.min(cuts.min / 4),
+                    max: cuts.max.saturating_sub(done.min.saturating_mul(gone)),
+                })
+            };
+            plan.vertices = grow(plan.vertices, 2);
+            plan.edges = grow(plan.edges, 1);
+            plan.faces = plan.faces.plus(done);
+        }
+        plan.drop_normals();
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        check_fraction("fraction", self.fraction).map_err(OpError::Parameter)?;
+        let edges = self.edges.resolve(mesh, cx)?;
+        let mut cuts = Cuts::default();
+        let report = edit_each(mesh, &edges, self.on_refusal, "bevel", cx, |mesh, e| {
+            let f = mesh.bevel_edge_with(e, |e| cuts.fraction(e, self.fraction))?;
+            cuts.cut(mesh, f, self.fraction);
+            Ok(())
+        })?;
+        mesh.remove_normals();
+        Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{FaceId, shapes};
+
+    use op::test::{applied, planned, try_applied};
+
+    fn parse(text: &str) -> BevelEdges {
+        ron::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn one_edge_of_a_cube_becomes_a_quad() {
+        let step = parse("(edges: Between(4, 5), fraction: 0.5)");
+        let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
+        assert_eq!(report.changed, 1);
+        assert_eq!(mesh.degree(FaceId::new(6)), 4);
+        assert!((mesh.volume() - 7.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn four_parallel_edges_are_cut_alike() {
+        let upright = "Or([Between(0, 4), Between(1, 5), Between(2, 6), Between(3, 7)])";
+        let step = parse(&format!(
+            "(edges: Expect(count: 4, of: {upright}), fraction: 0.25)"
+        ));
+        let (plan, problems) = planned(&step, &shapes::cube());
+        assert_eq!(problems, []);
+        assert_eq!(plan.faces, Range::exactly(10));
+        let mesh = applied(&step, shapes::cube());
+        let counts = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()];
+        assert_eq!(counts, [16, 24, 10]);
+        // A prism over an octagon: a square of side 2 without four triangles of legs 1/2.
+        assert!((mesh.volume() - 2.0 * (4.0 - 0.5)).abs() < 1e-13);
+        for &p in mesh.positions() {
+            let (x, y) = (p.x.abs(), p.y.abs());
+            assert!((x.min(y) - 0.5).abs() < 1e-15 && (x.max(y) - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn all_edges_of_a_cube_leave_a_valid_mesh() {
+        for fraction in ["0.1", "0.25", "0.5", "0.75"] {
+            let step = parse(&format!(
+                "(edges: All, fraction: {fraction}, on_refusal: Skip)"
+            ));
+            let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
+            assert!(report.changed >= 4, "{report:?}");
+            assert!(mesh.is_closed());
+            assert_eq!(mesh.genus(), 0);
+            let (plan, _) = planned(&step, &shapes::cube());
+            assert!(plan.vertices.contains(mesh.n_vertices() as u64));
+            assert!(plan.edges.contains(mesh.n_edges() as u64));
+            assert!(plan.faces.contains(mesh.n_faces() as u64));
+        }
+    }
+
+    #[test]
+    fn edges_at_the_boundary_are_refused() {
+        let step = parse("(edges: All, fraction: 0.25, on_refusal: Skip)");
+        let (_, report) = try_applied(&step, shapes::grid(3, 3)).unwrap();
+        // The four edges in the middle.
+        assert_eq!(report.changed, 4);
+        let step = parse("(edges: All, fraction: 0.25)");
+        let refused = try_applied(&step, shapes::grid(3, 3));
+        assert!(
+            matches!(refused, Err(OpError::Refused { .. })),
+            "{refused:?}"
+        );
+    }
+
+    #[test]
+    fn a_fraction_out_of_range_is_refused() {
+        for fraction in [0.0, 1.0, f64::NAN] {
+            let step = BevelEdges {
+                fraction,
+                ..parse("(edges: All, fraction: 0.5)")
+            };
+            let (_, problems) = planned(&step, &shapes::cube());
+            assert_eq!(problems[0].path, ["fraction"]);
+            let refused = try_applied(&step, shapes::cube());
+            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! Collapse edges: shrinks edges to points.
+//!
+//! ```text
+//!        c               c
+//!      / | \             |
+//!    a --e-- b    -->    v        v = (1 - at) a + at b
+//!      \ | /             |
+//!        d               d
+//! ```
+
+use mesh::Mesh;
+use op::{
+    Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
+    Range, Report, Select, edit_each,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Shrinks edges to points: the two ends of each become one vertex.
+///
+/// On closed triangles each collapse takes 1 vertex, 3 edges and 2 faces away, and on the boundary one
+/// face and two edges. A face with more than three corners beside the edge only loses one. The end of
+/// the lower number stays. Edges are taken in order of their numbers; one that an earlier collapse took
+/// away counts as refused.
+///
+/// Refused is what would change the shape of the surface or lay elements on each other: an edge inside
+/// that joins two places of the boundary (`JoinsBoundaries`), ends with a neighbour in common that no
+/// triangle beside the edge has, as around a tube of three sides or at a hole of three (`Link`), ends
+/// that share a second edge (`DuplicateEdge`) or a face elsewhere (`RepeatedVertex`), a tetrahedron or
+/// a lone triangle (`Vanishes`), and edges with the same face on both sides (`SameFace`) or two
+/// triangles that share another edge (`SameOpposite`).
+///
+/// Values at the vertex and its corners lie between those at the ends; both sides of a seam keep theirs.
+/// Of two edges that become one the larger crease counts, and a tag of either. Normals are dropped.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct CollapseEdges {
+    /// Which edges.
+    pub edges: EdgeSelection,
+    /// Where on the edge it shrinks to, from 0 to 1.
+    ///
+    /// Runs from v to w if `edges` is `Between(v, w)`, otherwise from the end of the lower number to the
+    /// other.
+    #[serde(default = "half")]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub at: f64,
+    /// What to do when a collapse is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+const fn half() -> f64 {
+    0.5
+}
+
+impl CollapseEdges {
+    fn is_at_allowed(&self) -> bool {
+        (0.0..=1.0).contains(&self.at)
+    }
+
+    fn at_message(&self) -> String {
+        format!("`at` must lie from 0 to 1, not {}", self.at)
+    }
+}
+
+impl MeshOperation for CollapseEdges {
+    const NAME: &'static str = "CollapseEdges";
+    const SUMMARY: &'static str = "Shrink edges to points";
+    const EXAMPLE: &'static str = "CollapseEdges(edges: All, on_refusal: Skip)";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        if !self.is_at_allowed() {
+            return vec![Problem::error(self.at_message()).at(["at"])];
+        }
+        // One that is refused is an error, unless it is skipped.
+        let selected = self.edges.count(plan);
+        let n = self.on_refusal.done(selected);
+        // On each side of an edge a triangle vanishes, and two edges become one; larger faces and holes stay.
+        let least = u64::from(plan.is_triangles());
+        let faces = n.times(Range { min: least, max: 2 });
+        plan.vertices = plan.vertices.minus(n);
+        plan.edges = plan.edges.minus(n.plus(faces));
+        plan.faces = plan.faces.minus(faces);
+        plan.degrees.min = plan.degrees.min.min(3);
+        plan.drop_normals();
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        if !self.is_at_allowed() {
+            return Err(OpError::Parameter(self.at_message()));
+        }
+        let edges = self.edges.resolve(mesh, cx)?;
+        cx.advance("collapse", 0, edges.len() as u64)?;
+        mesh.remove_normals();
+        edit_each(mesh, &edges, self.on_refusal, "collapse", cx, |mesh, e| {
+            let t = self.edges.place_on(mesh, e, self.at);
+            mesh.collapse_edge_at(e, t).map(drop)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{DVec3, VERTEX_NORMAL, VertexId, shapes};
+    use op::Refusal;
+    use op::test::{applied, planned, try_applied};
+    use proptest::prelude::*;
+
+    fn parse(text: &str) -> CollapseEdges {
+        ron::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn the_place_runs_from_the_first_named_vertex() {
+        // The vertices of the square are (0,0), (1,0), (1,1), (0,1).
+        let x = |text, v| {
+            let mesh = applied(&parse(text), shapes::square());
+            mesh.position(VertexId::new(v)).x
+        };
+        assert_eq!(x("(edges: Between(0, 1), at: 0.25)", 0), 0.25);
+        assert_eq!(x("(edges: Between(1, 0), at: 0.25)", 0), 0.75);
+        assert_eq!(x("(edges: Between(2, 3), at: 0.25)", 2), 0.75);
+        assert_eq!(x("(edges: Between(3, 2), at: 0.25)", 2), 0.25);
+        assert_eq!(x("(edges: Between(0, 1))", 0), 0.5);
+    }
+
+    #[test]
+    fn otherwise_the_place_runs_from_the_lower_number() {
+        let before = shapes::icosahedron();
+        let longest = "(edges: Longest(count: 1), at: 0)";
+        let mesh = applied(&parse(longest), before.clone());
+        // Nothing moved: one vertex is gone, and that is the higher one of the two.
+        assert_eq!(mesh.n_vertices(), 11);
+        assert!(
+            mesh.positions()
+                .iter()
+                .all(|p| before.positions().contains(p))
+        );
+        let mesh = applied(&parse("(edges: Longest(count: 1), at: 1)"), before.clone());
+        assert!(
+            mesh.positions()
+                .iter()
+                .all(|p| before.positions().contains(p))
+        );
+    }
+
+    #[test]
+    fn a_refusal_names_the_edge_by_its_vertices() {
+        let refused = try_applied(&parse("(edges: Between(0, 1))"), shapes::tetrahedron());
+        let Err(OpError::Refused {
+            reason, message, ..
+        }) = refused
+        else {
+            panic!("{refused:?}");
+        };
+        assert_eq!(reason, Refusal::Vanishes);
+        assert!(message.contains("Between(0, 1)"), "{message}");
+    }
+
+    #[test]
+    fn edges_that_are_gone_count_as_refused() {
+        let all = parse("(edges: All, on_refusal: Skip)");
+        let (mesh, report) = try_applied(&all, shapes::icosahedron()).unwrap();
+        assert_eq!(mesh.n_vertices() as u64, 12 - report.changed);
+        let refused: u64 = report.refused.iter().map(|r| r.count).sum();
+        assert_eq!(report.changed + refused, 30);
+        let missing = report.refused.iter().find(|r| r.reason == Refusal::Missing);
+        assert!(missing.is_some_and(|r| r.count >= 2 * report.changed));
+    }
+
+    #[test]
+    fn normals_are_dropped() {
+        let mut mesh = shapes::icosahedron();
+        mesh.set(VERTEX_NORMAL, mesh.positions().to_vec());
+        let collapse = parse("(edges: Longest(count: 1))");
+        let (plan, _) = planned(&collapse, &mesh);
+        assert_eq!(plan.attributes, []);
+        assert!(applied(&collapse, mesh).get(VERTEX_NORMAL).is_none());
+    }
+
+    #[test]
+    fn a_place_outside_the_edge_is_refused_before_anything_changes() {
+        for at in [-0.5, 1.5, f64::NAN, f64::INFINITY] {
+            let collapse = CollapseEdges {
+                at,
+                ..parse("(edges: All, on_refusal: Skip)")
+            };
+            let refused = try_applied(&collapse, shapes::cube());
+            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+            let (_, problems) = planned(&collapse, &shapes::cube());
+            assert_eq!(problems[0].path, ["at"]);
+        }
+    }
+
+    #[test]
+    fn the_plan_of_triangles_knows_the_vertices() {
+        let (plan, problems) = planned(&parse("(edges: Between(0, 1))"), &shapes::octahedron());
+        assert_eq!(problems, []);
+        assert_eq!(plan.vertices, Range::exactly(5));
+        assert_eq!(plan.edges, Range { min: 9, max: 10 });
+        assert_eq!(plan.faces, Range { min: 6, max: 7 });
+        assert!(plan.is_triangles());
+    }
+
+    #[test]
+    fn a_recipe_may_leave_out_all_but_the_edges() {
+        let collapse = parse("(edges: Random(count: 3, seed: 7))");
+        assert_eq!((collapse.at, collapse.on_refusal), (0.5, OnRefusal::Error));
+        assert!(ron::from_str::<CollapseEdges>("(at: 0.5)").is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn shape_and_plan_hold_for_any_choice(
+            count in 0..40_u32, seed in 0..1000_u64, at in 0.0..=1.0_f64, which in 0..6_usize,
+        ) {
+            let before = [
+                Mesh::default(),
+                shapes::grid(3, 2),
+                shapes::fans(&shapes::grid(4, 4)),
+                shapes::cube(),
+                shapes::icosahedron(),
+                shapes::cylinder(5, true),
+            ][which].clone();
+            let edges = EdgeSelection::Random { count, of: Box::default(), seed };
+            let collapse = CollapseEdges { edges, at, on_refusal: OnRefusal::Skip };
+            let after = applied(&collapse, before.clone());
+            let (plan, _) = planned(&collapse, &before);
+            prop_assert!(plan.vertices.contains(after.n_vertices() as u64));
+            prop_assert!(plan.edges.contains(after.n_edges() as u64));
+            prop_assert!(plan.faces.contains(after.n_faces() as u64));
+            prop_assert!(after.faces().all(|f| plan.degrees.contains(after.degree(f) as u64)));
+            prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
+            prop_assert_eq!(after.n_boundary_loops(), before.n_boundary_loops());
+            // No place on an edge lies outside the box.
+            if let (Some([low, high]), Some([min, max])) = (before.bounds(), after.bounds()) {
+                let slack = DVec3::splat(1e-12);
+                prop_assert!((low - slack).cmple(min).all() && max.cmple(high + slack).all());
+            }
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Dissolve edges: takes edges out and merges the faces beside them.
+//!
+//! ```text
+//!    +-----b-----+          +-----b-----+
+//!    |  f  e  g  |   -->    |           |
+//!    +-----a-----+          +-----a-----+
+//! ```
+
+use mesh::Mesh;
+use op::{
+    Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
+    Report, Select, edit_each,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Takes edges out and merges the faces beside them.
+///
+/// Edges are taken in order of their numbers, each judged as the mesh is at that moment. Each takes 1 edge
+/// and 1 face; of the two faces the one of the lower number stays, with its values. No vertex goes or
+/// moves: those that are left with two edges can be taken out by `DissolveVertices(vertices: Valence(2))`.
+/// What is left keeps its order and its values, but numbers move up.
+///
+/// Refused if the edge is on the boundary, has one face on both sides, or has an end with only two edges,
+/// if its faces have other corners in common than its ends, and at a seam.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct DissolveEdges {
+    /// Which edges.
+    pub edges: EdgeSelection,
+    /// What to do when an edge is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+    /// What to do at seams.
+    #[serde(default)]
+    pub seams: Seams,
+}
+
+/// What to do where corner values, like UVs, differ between the two sides of an edge that goes.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Seams {
+    /// Refuse.
+    #[default]
+    Refuse,
+    /// Merge the faces all the same. Each corner keeps the values of one of them.
+    Drop,
+}
+
+impl From<Seams> for mesh::Seams {
+    fn from(seams: Seams) -> Self {
+        match seams {
+            Seams::Refuse => Self::Refuse,
+            Seams::Drop => Self::Drop,
+        }
+    }
+}
+
+impl MeshOperation for DissolveEdges {
+    const NAME: &'static str = "DissolveEdges";
+    const SUMMARY: &'static str = "Take edges out and merge the faces beside them";
+    const EXAMPLE: &'static str = "DissolveEdges(edges: Between(0, 1))";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let chosen = self.edges.count(plan);
+        let n = self.on_refusal.done(chosen);
+        // n edges merge n + 1 faces at most, and each takes two sides.
+        let sides = plan.degrees.max.saturating_sub(2);
+        let merged = n.max.saturating_mul(sides).saturating_add(plan.degrees.max);
+        plan.degrees.max = merged
+            .min(plan.edges.max.saturating_mul(2))
+            .max(plan.degrees.max);
+        plan.edges = plan.edges.minus(n);
+        plan.faces = plan.faces.minus(n);
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        let edges = self.edges.resolve(mesh, cx)?;
+        let seams = self.seams.into();
+        edit_each(mesh, &edges, self.on_refusal, "dissolve", cx, |mesh, e| {
+            mesh.dissolve_edge_with(e, seams).map(drop)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{DVec2, UV, shapes};
+    use op::test::{applied, is_as_planned, planned, try_applied};
+    use op::{Range, Refusal};
+    use proptest::prelude::*;
+
+    fn parse(text: &str) -> DissolveEdges {
+        ron::from_str(text).unwrap()
+    }
+
+    fn refused(text: &str, mesh: Mesh) -> Refusal {
+        op::test::refused(&parse(text), mesh)
+    }
+
+    #[test]
+    fn the_diagonals_of_a_triangulated_sheet_go() {
+        let sheet = shapes::grid(4, 3);
+        let diagonals = "(edges: Longest(count: 12))";
+        let mesh = applied(&parse(diagonals), shapes::fans(&sheet));
+        assert_eq!((mesh.n_edges(), mesh.n_faces()), (sheet.n_edges(), 12));
+        assert!(mesh.faces().all(|f| mesh.degree(f) == 4));
+    }
+
+    #[test]
+    fn what_cannot_be_one_face_is_refused() {
+        assert_eq!(
+            refused("(edges: Boundary)", shapes::square()),
+            Refusal::Boundary
+        );
+        // The third of the four edges at the middle finds it with two.
+        let around = "(edges: Between(1, 4))";
+        let mut mesh = applied(&parse(around), shapes::grid(2, 2));
+        mesh = applied(&parse("(edges: Between(3, 4))"), mesh);
+        assert_eq!(refused("(edges: Between(4, 5))", mesh), Refusal::FewEdges);
+        // The three squares of a tube.
+        let tube = applied(&parse("(edges: Between(0, 3))"), shapes::cylinder(3, false));
+        assert_eq!(
+            refused("(edges: Between(1, 4))", tube),
+            Refusal::RepeatedVertex
+        );
+    }
+
+    #[test]
+    fn a_seam_is_refused_or_dropped() {
+        let mut mesh = shapes::grid(2, 1);
+        let uvs = mesh.half_edges().map(|h| {
+            DVec2::splat(if mesh.face(h).is_some_and(|f| f.index() == 1) {
+                1.0
+            } else {
+                0.0
+            })
+        });
+        let uvs = uvs.collect();
+        mesh.set(UV, uvs);
+        assert_eq!(
+            refused("(edges: Between(1, 4))", mesh.clone()),
+            Refusal::Seam
+        );
+        let merged = applied(&parse("(edges: Between(1, 4), seams: Drop)"), mesh);
+        assert_eq!(merged.n_faces(), 1);
+    }
+
+    #[test]
+    fn skipped_refusals_are_counted() {
+        let skip = parse("(edges: All, on_refusal: Skip)");
+        let (mesh, report) = try_applied(&skip, shapes::grid(2, 1)).unwrap();
+        assert_eq!(
+            (mesh.n_faces(), report.changed, report.refused[0].count),
+            (1, 1, 6)
+        );
+        assert!(is_as_planned(&skip, &shapes::grid(2, 1), &mesh));
+    }
+
+    #[test]
+    fn the_plan_counts_exactly_where_refusals_are_errors() {
+        let (plan, _) = planned(&parse("(edges: Longest(count: 2))"), &shapes::cube());
+        assert_eq!(
+            (plan.edges, plan.faces),
+            (Range::exactly(10), Range::exactly(4))
+        );
+        assert_eq!(plan.degrees, Range { min: 4, max: 8 });
+    }
+
+    proptest! {
+        #[test]
+        fn shape_and_plan_hold_for_any_choice(
+            count in 0..60_u32, seed in 0..1000_u64, which in 0..5_usize,
+        ) {
+            let before = [
+                Mesh::default(),
+                shapes::grid(4, 3),
+                shapes::cube(),
+                shapes::icosahedron(),
+                shapes::torus(4, 3, 2.0, 1.0),
+            ][which].clone();
+            let edges = EdgeSelection::Random { count, of: Box::default(), seed };
+            let dissolve =
+                DissolveEdges { edges, on_refusal: OnRefusal::Skip, seams: Seams::Refuse };
+            let (after, report) = try_applied(&dissolve, before.clone()).unwrap();
+            prop_assert!(is_as_planned(&dissolve, &before, &after));
+            prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
+            prop_assert_eq!(after.n_edges() as u64 + report.changed, before.n_edges() as u64);
+            if report.refused.is_empty() {
+                let strict = DissolveEdges { on_refusal: OnRefusal::Error, ..dissolve };
+                prop_assert!(is_as_planned(&strict, &before, &after));
+            }
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! Split edges: puts a vertex on edges and joins it to the far corners of their triangles.
+//!
+//! ```text
+//!        c                 c
+//!      /   \             / | \
+//!    a --e-- b    -->   a--m--b        m = (1 - at) a + at b
+//!      \   /             \ | /
+//!        d                 d
+//! ```
+
+use mesh::Mesh;
+use op::{
+    Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
+    Range, Report, Select, check_fraction, edit_each,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Puts a vertex on edges and joins it to the far corners of their triangles.
+///
+/// On closed triangles each split adds 1 vertex, 3 edges and 2 faces; on the boundary 1, 2 and 1. A
+/// face with more than three corners only gains the new vertex as a corner. Edges are taken in order
+/// of their numbers; edges that the step makes are not split again. The vertex that is made first gets
+/// the first free number. Values at the new vertex and its corners lie between those at the ends; both
+/// sides of a seam keep theirs.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct SplitEdges {
+    /// Which edges.
+    pub edges: EdgeSelection,
+    /// Where on the edge, between 0 and 1 and neither.
+    ///
+    /// Runs from v to w if `edges` is `Between(v, w)`, otherwise from the end of the lower number to the
+    /// other.
+    #[serde(default = "half")]
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    pub at: f64,
+    /// What to do when a split is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+const fn half() -> f64 {
+    0.5
+}
+
+impl MeshOperation for SplitEdges {
+    const NAME: &'static str = "SplitEdges";
+    const SUMMARY: &'static str = "Put a vertex on edges and join it to the far corners";
+    const EXAMPLE: &'static str = "SplitEdges(edges: All)";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        if let Err(message) = check_fraction("at", self.at) {
+            return vec![Problem::error(message).at(["at"])];
+        }
+        // Between this many and that many for each split: boundary edges and edges of larger faces
+        // give fewer cuts.
+        let n = self.edges.count(plan);
+        let each = |least, most| {
+            n.times(Range {
+                min: least,
+                max: most,
+            })
+        };
+        let (cuts, max_degree) = if plan.is_triangles() {
+            (each(1, 2), 3)
+        } else {
+            // A larger face gains a corner for each of its sides that is split.
+            let doubled = plan.degrees.max.saturating_mul(2);
+            (each(0, 2), doubled)
+        };
+        plan.vertices = plan.vertices.plus(n);
+        plan.edges = plan.edges.plus(n).plus(cuts);
+        plan.faces = plan.faces.plus(cuts);
+        plan.degrees.max = max_degree;
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        check_fraction("at", self.at).map_err(OpError::Parameter)?;
+        let edges = self.edges.resolve(mesh, cx)?;
+        edit_each(mesh, &edges, self.on_refusal, "split", cx, |mesh, e| {
+            // 1 - at rounds to 1 where `at` is tiny, and 1 is no place on an edge.
+            let t = self.edges.place_on(mesh, e, self.at);
+            let t = t.min(1.0_f64.next_down());
+            mesh.split_edge(e, t).map(drop)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{DVec3, VertexId, shapes};
+
+    use op::test::{applied, planned, try_applied};
+    use proptest::prelude::*;
+
+    fn parse(text: &str) -> SplitEdges {
+        ron::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn the_place_runs_from_the_first_named_vertex() {
+        // The vertices of the square are (0,0), (1,0), (1,1), (0,1).
+        let x = |text| {
+            let mesh = applied(&parse(text), shapes::square());
+            mesh.position(VertexId::new(4)).x
+        };
+        assert_eq!(x("(edges: Between(0, 1), at: 0.25)"), 0.25);
+        assert_eq!(x("(edges: Between(1, 0), at: 0.25)"), 0.75);
+        assert_eq!(x("(edges: Between(2, 3), at: 0.25)"), 0.75);
+        assert_eq!(x("(edges: Between(3, 2), at: 0.25)"), 0.25);
+    }
+
+    #[test]
+    fn otherwise_the_place_runs_from_the_lower_number() {
+        let mesh = applied(&parse("(edges: All, at: 0.25)"), shapes::icosahedron());
+        let before = shapes::icosahedron();
+        // In order of edges; each new vertex is nearer to its lower end.
+        for (e, m) in before.edges().zip(12..) {
+            let [a, b] = before.edge_vertices(e);
+            let (low, high) = (a.min(b), a.max(b));
+            let expected = 0.75 * before.position(low) + 0.25 * before.position(high);
+            assert!(mesh.position(VertexId::new(m)).distance(expected) < 1e-15);
+        }
+    }
+
+    #[test]
+    fn the_tiniest_place_works_from_both_ends() {
+        for text in [
+            "(edges: Between(0, 1), at: 1e-300)",
+            "(edges: Between(1, 0), at: 1e-300)",
+        ] {
+            assert_eq!(applied(&parse(text), shapes::square()).n_vertices(), 5);
+        }
+    }
+
+    #[test]
+    fn all_edges_of_closed_triangles_grow_by_one_three_and_two_each() {
+        let (mesh, report) = try_applied(&parse("(edges: All)"), shapes::icosahedron()).unwrap();
+        assert_eq!(
+            (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()),
+            (42, 120, 80)
+        );
+        assert_eq!(report.changed, 30);
+        assert!(mesh.faces().all(|f| mesh.is_triangle(f)));
+    }
+
+    #[test]
+    fn a_place_outside_the_edge_is_refused_before_anything_changes() {
+        for at in [0.0, 1.0, -0.5, f64::NAN, f64::INFINITY] {
+            let split = SplitEdges {
+                at,
+                ..parse("(edges: All, on_refusal: Skip)")
+            };
+            let refused = try_applied(&split, shapes::cube());
+            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+            let (_, problems) = planned(&split, &shapes::cube());
+            assert_eq!(problems[0].path, ["at"]);
+        }
+    }
+
+    #[test]
+    fn the_plan_of_triangles_knows_the_vertices() {
+        let (plan, problems) = planned(&parse("(edges: All)"), &shapes::tetrahedron());
+        assert_eq!(problems, []);
+        assert_eq!(plan.vertices, Range::exactly(10));
+        assert_eq!(plan.edges, Range { min: 18, max: 24 });
+        assert!(plan.is_triangles());
+    }
+
+    #[test]
+    fn a_recipe_may_leave_out_all_but_the_edges() {
+        let split = parse("(edges: Longest(count: 2))");
+        assert_eq!((split.at, split.on_refusal), (0.5, OnRefusal::Error));
+        assert!(ron::from_str::<SplitEdges>("(at: 0.5)").is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn shape_and_plan_hold_for_any_choice(
+            count in 0..40_u32, seed in 0..1000_u64, at in 0.01..0.99_f64, which in 0..5_usize,
+        ) {
+            let before = [
+                Mesh::default(),
+                shapes::grid(3, 2),
+                shapes::cube(),
+                shapes::tetrahedron(),
+                shapes::cylinder(5, true),
+            ][which].clone();
+            let edges = EdgeSelection::Random { count, of: Box::default(), seed };
+            let split = SplitEdges { edges, at, on_refusal: OnRefusal::Error };
+            let after = applied(&split, before.clone());
+            let (plan, _) = planned(&split, &before);
+            prop_assert!(plan.vertices.contains(after.n_vertices() as u64));
+            prop_assert!(plan.edges.contains(after.n_edges() as u64));
+            prop_assert!(plan.faces.contains(after.n_faces() as u64));
+            prop_assert!(after.faces().all(|f| plan.degrees.contains(after.degree(f) as u64)));
+            prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
+            prop_assert!((after.area() - before.area()).abs() < 1e-12 * before.area().max(1.0));
+            let moved = |p: DVec3| after.positions().contains(&p);
+            prop_assert!(before.positions().iter().all(|&p| moved(p)));
+        }
+    }
+}

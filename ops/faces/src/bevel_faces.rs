@@ -1,0 +1,159 @@
+//! Bevel faces: raises a smaller copy of faces, with a ring of faces around it.
+//!
+//! ```text
+//!                                    +------+
+//!                                  /    f    \            f is smaller by the inset and
+//!    + ------ f ------ +    -->   + ---------- +           higher by the height
+//! ```
+
+use mesh::Mesh;
+use op::{
+    Context, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
+    Range, Report, Select, check_fraction, edit_each,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Raises a smaller copy of faces, with a ring of faces around it.
+///
+/// As `InsetFaces`, with the inner face moved along its normal. Each face by itself, also where they
+/// share edges. The inner face keeps the number, and all that was there stays where it was; a face with
+/// n corners adds n vertices, 2 n edges and n faces of four corners. New vertices and faces are numbered
+/// behind all others: the selected faces in order of their numbers, around each counter-clockwise from
+/// its first corner. A face without area has no normal and stays flat.
+///
+/// Values at the new corners and vertices lie between those of the outer corner and the mean of the
+/// face. The ring has the values of the face (material, tags), the inner edges have those of the outer
+/// ones. Normals are dropped.
+///
+/// A face that lies on both sides of one of its edges is refused.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct BevelFaces {
+    /// Which faces.
+    pub faces: FaceSelection,
+    /// How far the corners move towards the middle of the face: between 0 (not at all) and 1 (all the way)
+    /// and neither.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    pub inset: f64,
+    /// How far the inner face moves along its normal, in scene units; below 0 inwards.
+    pub height: f64,
+    /// What to do when a face is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+impl BevelFaces {
+    fn problems(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        if let Err(message) = check_fraction("inset", self.inset) {
+            problems.push(Problem::error(message).at(["inset"]));
+        }
+        if !self.height.is_finite() {
+            let message = format!("`height` must be finite, not {}", self.height);
+            problems.push(Problem::error(message).at(["height"]));
+        }
+        problems
+    }
+}
+
+impl MeshOperation for BevelFaces {
+    const NAME: &'static str = "BevelFaces";
+    const SUMMARY: &'static str = "Raise a smaller copy of faces, with a ring of faces around it";
+    const EXAMPLE: &'static str = "BevelFaces(faces: All, inset: 0.25, height: 0.5)";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let problems = self.problems();
+        if !problems.is_empty() {
+            return problems;
+        }
+        let done = self.on_refusal.done(self.faces.count(plan));
+        // All faces together have no more corners than there are half-edges.
+        let half_edges = Range {
+            min: u64::MAX,
+            max: plan.edges.by(2).max,
+        };
+        let corners = done.times(plan.degrees).capped(half_edges);
+        plan.vertices = plan.vertices.plus(corners);
+        plan.edges = plan.edges.plus(corners.by(2));
+        plan.faces = plan.faces.plus(corners);
+        if corners.max > 0 {
+            plan.degrees.min = plan.degrees.min.min(4);
+            plan.degrees.max = plan.degrees.max.max(4);
+        }
+        plan.drop_normals();
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        if let Some(problem) = self.problems().first() {
+            return Err(OpError::Parameter(problem.message.clone()));
+        }
+        let faces = self.faces.resolve(mesh, cx)?;
+        let report = edit_each(mesh, &faces, self.on_refusal, "bevel", cx, |mesh, f| {
+            mesh.bevel_face(f, self.inset, self.height).map(drop)
+        })?;
+        mesh.remove_normals();
+        Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{FaceId, shapes};
+
+    use op::test::{applied, planned, try_applied};
+
+    fn parse(text: &str) -> BevelFaces {
+        ron::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn a_bevel_adds_a_frustum_to_each_face() {
+        let step = parse("(faces: All, inset: 0.5, height: 1)");
+        let (plan, _) = planned(&step, &shapes::cube());
+        assert_eq!(plan.faces, Range::exactly(30));
+        let mesh = applied(&step, shapes::cube());
+        assert_eq!(mesh.n_faces(), 30);
+        // A frustum from area 4 to area 1 and of height 1 has volume (4 + 2 + 1) / 3.
+        assert!((mesh.volume() - 8.0 - 6.0 * 7.0 / 3.0).abs() < 1e-12);
+        let top = mesh.face_center(FaceId::new(1));
+        assert!((top - mesh::DVec3::new(0.0, 0.0, 2.0)).length() < 1e-15);
+    }
+
+    #[test]
+    fn a_negative_height_goes_inwards() {
+        let step = parse("(faces: Faces([1]), inset: 0.25, height: -0.5, on_refusal: Skip)");
+        let mesh = applied(&step, shapes::cube());
+        assert!(mesh.volume() < 8.0);
+        assert_eq!(mesh.face_center(FaceId::new(1)).z, 0.5);
+    }
+
+    #[test]
+    fn bad_numbers_are_refused() {
+        let good = parse("(faces: All, inset: 0.5, height: 1)");
+        let bad = |inset, height| BevelFaces {
+            inset,
+            height,
+            ..good.clone()
+        };
+        for (step, path) in [
+            (bad(0.0, 1.0), "inset"),
+            (bad(1.0, 1.0), "inset"),
+            (bad(0.5, f64::NAN), "height"),
+        ] {
+            let (_, problems) = planned(&step, &shapes::cube());
+            assert_eq!(problems[0].path, [path]);
+            let refused = try_applied(&step, shapes::cube());
+            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+        }
+        let mut high = shapes::cube();
+        high.positions_mut().iter_mut().for_each(|p| p.z += 1e308);
+        let refused = try_applied(&bad(0.5, 1e308), high);
+        assert!(
+            matches!(refused, Err(OpError::Refused { .. })),
+            "{refused:?}"
+        );
+    }
+}

@@ -1,0 +1,243 @@
+//! Delete faces: takes faces away and leaves holes.
+//!
+//! ```text
+//!    +---+---+---+          +---+---+---+
+//!    |   | f |   |          |   |   |   |
+//!    +---+---+---+   -->    +---+   +---+
+//!    |   | g |   |          |   |   |   |
+//!    +---+---+---+          +---+   +---+
+//! ```
+
+use mesh::{EditError, FaceId, Mesh, VertexId};
+use op::{
+    Context, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
+    Range, Report, Select,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Takes faces away and leaves holes.
+///
+/// All faces go at once, so that their order does not matter. Edges that have no face left go with them,
+/// and so do the corners of these faces that have no edge left, unless they are to be kept; vertices that
+/// were isolated before stay. What is left keeps its order and its values, but numbers move up. To delete
+/// edges or vertices with the faces at them: `FacesBeside(edges)`, `FacesAround(vertices)`.
+///
+/// Refused if the faces that are left around a vertex would form two parts that meet in that vertex alone.
+/// When refusals are skipped, the faces are taken away one after another instead, again and again in order
+/// of their numbers as long as one of them can go; those that stay are counted.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct DeleteFaces {
+    /// Which faces.
+    pub faces: FaceSelection,
+    /// What to do when the faces cannot all go.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+    /// Whether vertices stay that have no edge left.
+    #[serde(default)]
+    pub keep_vertices: bool,
+}
+
+impl MeshOperation for DeleteFaces {
+    const NAME: &'static str = "DeleteFaces";
+    const SUMMARY: &'static str = "Take faces away and leave holes";
+    const EXAMPLE: &'static str = "DeleteFaces(faces: All)";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let chosen = self.faces.count(plan);
+        if chosen.max == 0 {
+            return Vec::new();
+        }
+        let gone = self.on_refusal.done(chosen);
+        plan.faces = plan.faces.minus(gone);
+        plan.edges = plan.edges.or_less();
+        if plan.faces.max == 0 {
+            plan.edges = Range::exactly(0);
+        }
+        if !self.keep_vertices {
+            plan.vertices = plan.vertices.or_less();
+        }
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        let faces = self.faces.resolve(mesh, cx)?;
+        cx.advance("delete faces", 0, faces.len() as u64)?;
+        let mut corners: Vec<VertexId> = Vec::new();
+        if !self.keep_vertices {
+            corners.extend(faces.iter().flat_map(|&f| mesh.face_vertices(f)));
+        }
+        let report = match mesh.delete_faces(&faces) {
+            Ok(()) if faces.is_empty() => Report::default().note("nothing was selected"),
+            Ok(()) => Report::changed(faces.len()),
+            Err(refusal) if self.on_refusal == OnRefusal::Error => return Err(refusal.into()),
+            Err(_) => one_by_one(mesh, faces, cx)?,
+        };
+        for v in corners {
+            if mesh.has_vertex(v) && mesh.vertex_half_edge(v).is_none() {
+                mesh.delete_vertex(v)?;
+            }
+        }
+        Ok(report)
+    }
+}
+
+/// Takes the faces away in rounds, until a round finds none that can go.
+fn one_by_one(mesh: &mut Mesh, faces: Vec<FaceId>, cx: &Context) -> Result<Report, OpError> {
+    let total = faces.len();
+    let mut refused: Vec<(FaceId, EditError)> = Vec::new();
+    let mut left = faces;
+    loop {
+        for (done, &f) in left.iter().enumerate() {
+            if let Err(refusal) = mesh.delete_face(f) {
+                refused.push((f, refusal));
+            }
+            if done % 4096 == 4095 {
+                cx.advance(
+                    "delete faces",
+                    (total - left.len() + done) as u64,
+                    total as u64,
+                )?;
+            }
+        }
+        if refused.is_empty() || refused.len() == left.len() {
+            break;
+        }
+        left = refused.drain(..).map(|(f, _)| f).collect();
+    }
+    let mut report = Report::changed(total - refused.len());
+    for (_, refusal) in refused {
+        report.refuse(refusal.into())?;
+    }
+    Ok(report)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::shapes;
+    use op::Refusal;
+    use op::test::{applied, is_as_planned, planned, try_applied};
+    use proptest::prelude::*;
+
+    fn parse(text: &str) -> DeleteFaces {
+        ron::from_str(text).unwrap()
+    }
+
+    fn counts(mesh: &Mesh) -> [usize; 3] {
+        [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
+    }
+
+    #[test]
+    fn a_face_leaves_a_hole() {
+        let mesh = applied(&parse("(faces: Faces([4]))"), shapes::grid(3, 3));
+        assert_eq!(counts(&mesh), [16, 24, 8]);
+        assert_eq!(mesh.n_boundary_loops(), 2);
+    }
+
+    #[test]
+    fn vertices_that_lose_their_last_edge_go_or_are_kept() {
+        let all = parse("(faces: All)");
+        let mut mesh = shapes::grid(2, 1);
+        assert_eq!(counts(&applied(&all, mesh.clone())), [0, 0, 0]);
+        let kept = applied(&parse("(faces: All, keep_vertices: true)"), mesh.clone());
+        assert_eq!(counts(&kept), [6, 0, 0]);
+        // A vertex that was isolated before stays.
+        mesh = applied(&parse("(faces: Faces([1]), keep_vertices: true)"), mesh);
+        assert_eq!(counts(&mesh), [6, 4, 1]);
+        assert_eq!(counts(&applied(&all, mesh)), [2, 0, 0]);
+    }
+
+    #[test]
+    fn faces_go_together_that_could_not_go_alone() {
+        // The squares around the middle one, which is a hole: each corner touches it with a vertex.
+        let ring = applied(&parse("(faces: Faces([4]))"), shapes::grid(3, 3));
+        let alone = try_applied(&parse("(faces: Faces([0]))"), ring.clone());
+        let Err(OpError::Refused { reason, .. }) = alone else {
+            panic!("expected a refusal, got {alone:?}");
+        };
+        assert_eq!(reason, Refusal::Pinch);
+        let mesh = applied(&parse("(faces: Faces([0, 1]))"), ring);
+        assert_eq!((mesh.n_faces(), mesh.n_boundary_loops()), (6, 1));
+    }
+
+    #[test]
+    fn skipped_faces_stay_and_are_counted() {
+        // Of the diagonal of a sheet all go but the last one, which would leave two fans.
+        let diagonal = "(faces: Faces([0, 3]), on_refusal: Skip)";
+        let (mesh, report) = try_applied(&parse(diagonal), shapes::grid(2, 2)).unwrap();
+        assert_eq!((mesh.n_faces(), report.changed), (3, 1));
+        let refused: Vec<_> = report.refused.iter().map(|r| (r.reason, r.count)).collect();
+        assert_eq!(refused, [(Refusal::Pinch, 1)]);
+    }
+
+    #[test]
+    fn a_face_that_can_go_after_a_later_one_goes() {
+        // Face 0 pinches as long as face 1 is there, and the last one, at the opposite corner, always.
+        let ring = applied(&parse("(faces: Faces([4]))"), shapes::grid(3, 3));
+        let numbers = "(faces: Faces([0, 1, 7]), on_refusal: Skip)";
+        let (mesh, report) = try_applied(&parse(numbers), ring).unwrap();
+        assert_eq!((mesh.n_faces(), report.changed), (6, 2));
+        assert_eq!(report.refused[0].count, 1);
+    }
+
+    #[test]
+    fn faces_beside_edges_and_around_vertices_go() {
+        let beside = parse("(faces: FacesBeside(Between(0, 1)))");
+        assert_eq!(counts(&applied(&beside, shapes::cube())), [8, 11, 4]);
+        let around = parse("(faces: FacesAround(Vertices([0])))");
+        assert_eq!(counts(&applied(&around, shapes::cube())), [7, 9, 3]);
+    }
+
+    #[test]
+    fn the_plan_knows_the_faces_that_go() {
+        let (plan, problems) = planned(&parse("(faces: All)"), &shapes::cube());
+        assert_eq!(problems, []);
+        assert_eq!(
+            (plan.faces, plan.edges),
+            (Range::exactly(0), Range::exactly(0))
+        );
+        let (plan, _) = planned(
+            &parse("(faces: Random(count: 2, seed: 1), keep_vertices: true)"),
+            &shapes::cube(),
+        );
+        assert_eq!(
+            (plan.faces, plan.vertices),
+            (Range::exactly(4), Range::exactly(8))
+        );
+    }
+
+    #[test]
+    fn a_recipe_must_name_the_faces() {
+        assert!(ron::from_str::<DeleteFaces>("()").is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn the_plan_holds_and_skipping_never_fails(
+            count in 0..40_u32, seed in 0..1000_u64, which in 0..5_usize, keep_vertices: bool,
+        ) {
+            let before = [
+                Mesh::default(),
+                shapes::grid(6, 5),
+                shapes::cube(),
+                shapes::icosahedron(),
+                shapes::torus(6, 5, 2.0, 1.0),
+            ][which].clone();
+            let faces = FaceSelection::Random { count, of: Box::default(), seed };
+            let delete = DeleteFaces { faces, on_refusal: OnRefusal::Skip, keep_vertices };
+            let (after, report) = try_applied(&delete, before.clone()).unwrap();
+            prop_assert!(is_as_planned(&delete, &before, &after));
+            prop_assert_eq!(after.n_faces() as u64 + report.changed, before.n_faces() as u64);
+            let strict = DeleteFaces { on_refusal: OnRefusal::Error, ..delete };
+            match try_applied(&strict, before.clone()) {
+                Ok((strictly, _)) => {
+                    prop_assert_eq!(&strictly, &after);
+                    prop_assert!(is_as_planned(&strict, &before, &strictly));
+                }
+                Err(_) => prop_assert!(!report.refused.is_empty()),
+            }
+        }
+    }
+}

@@ -1,0 +1,230 @@
+//! Extrude faces: moves faces out of the surface and puts side faces between the old place and the new.
+//!
+//! ```text
+//!                             +------ +
+//!                            /   f   / |            f keeps its number, the rim is new there
+//!     +-------- +           +------ +  |
+//!    /    f    /     -->    |   s   | .+            s: one side face for each edge of the rim,
+//!   +-------- +             +------ +               which stays where it was
+//! ```
+//!
+//! Faces that share an edge move together, as a region. A point p of a region with the center c goes to
+//! R s (p - c) + c + o: s scales, R turns, o is the offset, d times the normal for `Distance(d)`.
+
+mod region;
+
+use glam::{DMat3, DVec3};
+use mesh::{Column, Domain, FaceId, Mesh, Rule, Values};
+use op::{
+    Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report,
+    Select, Turn, Vector,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use region::Region;
+
+/// Moves faces out of the surface and puts side faces between the old place and the new.
+///
+/// Faces that share an edge move together, as one region, with one normal and one center. First a region
+/// is scaled, then turned, both about the mean of its vertices, then moved. Side faces, all of four
+/// corners, stand along its rim: along the edges that have one of its faces on one side only. A whole
+/// sheet becomes a box that is open where the sheet was. A whole closed part has no rim: it only moves,
+/// and has no normal, so that it needs an `Offset`.
+///
+/// The faces keep their numbers, so that the same selection can be extruded again, step after step: that is
+/// how an arm grows out of a body, all in one piece. So do vertices and edges inside of a region. Those of
+/// its rim stay where they were, and the moved faces get new ones. New side faces are numbered
+/// behind all others: the regions in order of their lowest face, in each the faces in order of their numbers,
+/// around each counter-clockwise from its first corner. New vertices come in the same order, each
+/// above the one that its side face begins with.
+///
+/// Side faces have the values of the face that they stand on (material, tags), and their corners those that
+/// its corners there have, so that textures go on without a seam, but without width on the sides. The new
+/// edges of the rim have the values of the old ones (creases, tags), the upright ones none. Normals are
+/// dropped.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExtrudeFaces {
+    /// Which faces.
+    pub faces: FaceSelection,
+    /// How far and where to.
+    pub by: By,
+    /// The factor of size of each region about its center; above 0.
+    #[serde(default = "one")]
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub scale: f64,
+    /// Turns of each region about its center, one after the other.
+    #[serde(default)]
+    pub turn: Vec<Turn>,
+    /// Marks the moved faces and their side faces with this tag; those that have it already keep it.
+    #[serde(default)]
+    pub tag: Option<String>,
+}
+
+/// How far faces move, and where to.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum By {
+    /// So far along the normal of each region, in scene units; a negative distance moves inwards. The
+    /// normal is the mean of the normals of its faces, weighted by area.
+    Distance(f64),
+    /// So far along x, y and z, in scene units.
+    Offset(Vector),
+}
+
+const fn one() -> f64 {
+    1.0
+}
+
+impl ExtrudeFaces {
+    fn problems(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        let finite = match self.by {
+            By::Distance(d) => d.is_finite(),
+            By::Offset(offset) => DVec3::from(offset).is_finite(),
+        };
+        if !finite {
+            problems.push(Problem::error("expected a finite distance").at(["by"]));
+        }
+        if !(self.scale > 0.0 && self.scale.is_finite()) {
+            let message = format!("expected a factor above 0, found {:?}", self.scale);
+            problems.push(Problem::error(message).at(["scale"]));
+        }
+        for (i, turn) in self.turn.iter().enumerate() {
+            if !turn.degrees.is_finite() {
+                let message = format!("expected a finite angle, found {:?}", turn.degrees);
+                problems.push(Problem::error(message).at(["turn", &i.to_string(), "degrees"]));
+            }
+        }
+        problems
+    }
+
+    fn offset(&self, mesh: &Mesh, region: &Region) -> Result<DVec3, OpError> {
+        match self.by {
+            By::Offset(offset) => Ok(offset.into()),
+            By::Distance(d) => match region.normal(mesh) {
+                Some(n) => Ok(d * n),
+                None => Err(OpError::Parameter(format!(
+                    "by: the faces around {} have no normal to move along: they are closed, or have no \
+                     area; `Offset` moves them",
+                    region.faces[0]
+                ))),
+            },
+        }
+    }
+
+    /// The marks of the tag so far, if one is asked for.
+    fn marks(&self, mesh: &Mesh) -> Result<Option<Vec<bool>>, OpError> {
+        let Some(tag) = &self.tag else {
+            return Ok(None);
+        };
+        let column = mesh.attributes().column(Domain::Face, tag);
+        match column.map(|column| &column.values) {
+            None => Ok(Some(vec![false; mesh.n_faces()])),
+            Some(Values::Tag(marks)) => Ok(Some(marks.clone())),
+            Some(other) => Err(OpError::Parameter(format!(
+                "tag: the face attribute \"{tag}\" is no tag but a {}",
+                other.type_name()
+            ))),
+        }
+    }
+}
+
+impl MeshOperation for ExtrudeFaces {
+    const NAME: &'static str = "ExtrudeFaces";
+    const SUMMARY: &'static str = "Move faces out of the surface, with side faces behind them";
+    const EXAMPLE: &'static str = "ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let problems = self.problems();
+        if !problems.is_empty() {
+            return problems;
+        }
+        // The rim has no more edges than the faces have sides, and each edge is in it once at most.
+        let sides = self.faces.count(plan).times(plan.degrees);
+        let rim = sides.capped(plan.edges).or_less();
+        plan.vertices = plan.vertices.plus(rim);
+        plan.edges = plan.edges.plus(rim.by(2));
+        plan.faces = plan.faces.plus(rim);
+        if rim.max > 0 {
+            plan.degrees = Range {
+                min: plan.degrees.min.min(4),
+                max: plan.degrees.max.max(4),
+            };
+        }
+        plan.drop_normals();
+        if let Some(tag) = &self.tag {
+            plan.provide(Domain::Face, tag);
+        }
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        if let Some(problem) = self.problems().first() {
+            let path = problem.path.join(".");
+            return Err(OpError::Parameter(format!("{path}: {}", problem.message)));
+        }
+        let mut marks = self.marks(mesh)?;
+        let regions = Region::all(mesh, &self.faces.mask(mesh, cx)?);
+        let turned_and_scaled = Turn::all(&self.turn) * self.scale;
+        cx.advance("extrude", 0, regions.len() as u64)?;
+
+        mesh.remove_normals();
+        let (mut n_faces, mut n_sides) = (0, 0);
+        for (done, region) in (1..).zip(&regions) {
+            let offset = self.offset(mesh, region)?;
+            let sides = mesh.extrude_faces(&region.faces, offset)?;
+            change(mesh, region, turned_and_scaled)?;
+            n_faces += region.faces.len();
+            n_sides += sides.len();
+            if let Some(marks) = &mut marks {
+                mark(marks, &region.faces);
+                mark(marks, &sides);
+            }
+            if done % 1024 == 0 {
+                cx.advance("extrude", done, regions.len() as u64)?;
+            }
+        }
+        if let (Some(mut marks), Some(tag)) = (marks, &self.tag) {
+            marks.resize(mesh.domain_len(Domain::Face), false);
+            let (name, rule, values) = (tag.clone(), Rule::Copy, Values::Tag(marks));
+            mesh.insert_column(Domain::Face, Column { name, rule, values });
+        }
+        Ok(if n_faces == 0 {
+            Report::default().note("nothing was selected")
+        } else {
+            let n = regions.len();
+            Report::changed(n_faces).note(format!("regions: {n}, side faces: {n_sides}"))
+        })
+    }
+}
+
+/// Turns and scales a region about its center.
+fn change(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpError> {
+    if linear == DMat3::IDENTITY {
+        return Ok(());
+    }
+    let vertices = region.vertices(mesh);
+    let center = region::center(mesh, &vertices);
+    for v in vertices {
+        let p = linear * (mesh.position(v) - center) + center;
+        if !p.is_finite() {
+            let message = "scale: the coordinates would be too large for numbers";
+            return Err(OpError::Parameter(message.to_owned()));
+        }
+        mesh.set_position(v, p);
+    }
+    Ok(())
+}
+
+/// Marks faces, which may be newer than the marks.
+fn mark(marks: &mut Vec<bool>, faces: &[FaceId]) {
+    for f in faces {
+        marks.resize(marks.len().max(f.index() + 1), false);
+        marks[f.index()] = true;
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,153 @@
+//! Inset faces: puts a smaller copy into faces, with a ring of faces around it.
+//!
+//! ```text
+//!    + ------------- +              + ------------- +
+//!    |               |              | \           / |
+//!    |               |              |   +------- +  |
+//!    |       f       |     -->      |   |   f    |  |       corners go to (1 - t) v + t c:
+//!    |               |              |   +------- +  |       c their mean, t the fraction
+//!    |               |              | /           \ |
+//!    + ------------- +              + ------------- +
+//! ```
+
+use mesh::Mesh;
+use op::{
+    Context, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
+    Range, Report, Select, check_fraction, edit_each,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Puts a smaller copy into faces, with a ring of faces around it.
+///
+/// Each face by itself, also where they share edges. The inner face keeps the number, and all that was there
+/// stays where it was; a face with n corners adds n vertices, 2 n edges and n faces of four corners.
+/// New vertices and faces are numbered behind all others: the selected faces in order of their numbers, around
+/// each counter-clockwise from its first corner.
+///
+/// Values at the new corners and vertices lie between those of the outer corner and the mean of the
+/// face, so that textures stay as they are. The ring has the values of the face (material, tags), the
+/// inner edges have those of the outer ones. Normals are dropped.
+///
+/// A face that lies on both sides of one of its edges is refused.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct InsetFaces {
+    /// Which faces.
+    pub faces: FaceSelection,
+    /// How far the corners move towards the middle of the face: between 0 (not at all) and 1 (all the way)
+    /// and neither.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    pub fraction: f64,
+    /// What to do when a face is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+impl MeshOperation for InsetFaces {
+    const NAME: &'static str = "InsetFaces";
+    const SUMMARY: &'static str = "Put a smaller copy into faces, with a ring of faces around it";
+    const EXAMPLE: &'static str = "InsetFaces(faces: All, fraction: 0.25)";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        if let Err(message) = check_fraction("fraction", self.fraction) {
+            return vec![Problem::error(message).at(["fraction"])];
+        }
+        let done = self.on_refusal.done(self.faces.count(plan));
+        // All faces together have no more corners than there are half-edges.
+        let half_edges = Range {
+            min: u64::MAX,
+            max: plan.edges.by(2).max,
+        };
+        let corners = done.times(plan.degrees).capped(half_edges);
+        plan.vertices = plan.vertices.plus(corners);
+        plan.edges = plan.edges.plus(corners.by(2));
+        plan.faces = plan.faces.plus(corners);
+        if corners.max > 0 {
+            plan.degrees.min = plan.degrees.min.min(4);
+            plan.degrees.max = plan.degrees.max.max(4);
+        }
+        plan.drop_normals();
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        check_fraction("fraction", self.fraction).map_err(OpError::Parameter)?;
+        let faces = self.faces.resolve(mesh, cx)?;
+        let report = edit_each(mesh, &faces, self.on_refusal, "inset", cx, |mesh, f| {
+            mesh.inset_face(f, self.fraction).map(drop)
+        })?;
+        mesh.remove_normals();
+        Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{FaceId, VERTEX_NORMAL, shapes};
+
+    use op::test::{applied, planned, try_applied};
+
+    fn parse(text: &str) -> InsetFaces {
+        ron::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn every_face_of_a_cube_gets_a_ring() {
+        let step = parse("(faces: All, fraction: 0.5)");
+        let (plan, problems) = planned(&step, &shapes::cube());
+        assert_eq!(problems, []);
+        let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
+        assert_eq!(report.changed, 6);
+        let counts = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()];
+        assert_eq!(counts, [32, 60, 30]);
+        let exactly = |n: usize| Range::exactly(n as u64);
+        assert_eq!([plan.vertices, plan.edges, plan.faces], counts.map(exactly));
+        assert_eq!(plan.degrees, Range::exactly(4));
+        assert!((mesh.area() - 24.0).abs() < 1e-13);
+        for f in shapes::cube().faces() {
+            assert!((mesh.face_area(f) - 1.0).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn rings_are_numbered_in_order_of_the_faces() {
+        let mesh = applied(
+            &parse("(faces: Faces([4, 1]), fraction: 0.25)"),
+            shapes::cube(),
+        );
+        for (ring, f) in [(6..10, 1), (10..14, 4)] {
+            let normal = mesh.face_normal(FaceId::new(f));
+            for side in ring {
+                assert_eq!(mesh.face_normal(FaceId::new(side)), normal);
+            }
+        }
+    }
+
+    #[test]
+    fn normals_are_dropped() {
+        let mut mesh = shapes::square();
+        mesh.set(VERTEX_NORMAL, vec![mesh::DVec3::Z; 4]);
+        let step = parse("(faces: Degree(4), fraction: 0.5, on_refusal: Skip)");
+        let (plan, _) = planned(&step, &mesh);
+        assert_eq!(plan.attributes, []);
+        let (mesh, report) = try_applied(&step, mesh).unwrap();
+        assert_eq!(mesh.get(VERTEX_NORMAL), None);
+        assert_eq!(report.losses.len(), 1);
+    }
+
+    #[test]
+    fn a_fraction_out_of_range_is_refused() {
+        for fraction in [0.0, 1.0, -1.0, f64::NAN] {
+            let step = InsetFaces {
+                fraction,
+                ..parse("(faces: All, fraction: 0.5)")
+            };
+            let (_, problems) = planned(&step, &shapes::cube());
+            assert_eq!(problems[0].path, ["fraction"]);
+            let refused = try_applied(&step, shapes::cube());
+            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+        }
+    }
+}

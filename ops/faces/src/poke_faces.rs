@@ -1,0 +1,221 @@
+//! Poke faces: puts a vertex into the middle of faces and joins it to their corners.
+//!
+//! ```text
+//!    d ------- c          d ------- c
+//!    |         |          | \     / |
+//!    |    f    |   -->    |    m    |        m = (a + b + c + d) / 4 + offset n
+//!    |         |          | /     \ |        n = unit normal of f
+//!    a ------- b          a ------- b
+//! ```
+
+use mesh::Mesh;
+use op::{
+    Context, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
+    Range, Report, Select, edit_each,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Puts a vertex into the middle of faces and joins it to their corners.
+///
+/// A face with n corners becomes n triangles; that adds 1 vertex, n edges and n - 1 faces. The first
+/// triangle keeps the number of the face, the other ones and the new vertices and edges come behind, in
+/// order of the faces. The vertex stands at the mean of the corners, moved along the normal of the face by
+/// `offset`. Values of vertices and corners are means too where they can be; the triangles have the values
+/// of their face, the new edges none. With an offset, normals are dropped.
+///
+/// A face is refused only if the vertex would not be finite, or there are no more numbers for elements.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct PokeFaces {
+    /// Which faces.
+    #[serde(default)]
+    pub faces: FaceSelection,
+    /// How far the vertex rises along the normal of its face, in scene units; below 0 it sinks.
+    ///
+    /// A face without area has no normal: its vertex stays in the middle.
+    #[serde(default)]
+    pub offset: f64,
+    /// What to do when a face is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+impl MeshOperation for PokeFaces {
+    const NAME: &'static str = "PokeFaces";
+    const SUMMARY: &'static str =
+        "Put a vertex into the middle of faces and join it to their corners";
+    const EXAMPLE: &'static str = "PokeFaces()";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        if !self.offset.is_finite() {
+            return vec![Problem::error(self.offset_message()).at(["offset"])];
+        }
+        let chosen = self.faces.count(plan);
+        let n = self.on_refusal.done(chosen);
+        // All faces together have no more corners than there are half-edges.
+        let corners = n.times(plan.degrees).capped(Range {
+            min: u64::MAX,
+            max: plan.edges.max.saturating_mul(2),
+        });
+        let cuts = Range {
+            min: n.min.saturating_mul(plan.degrees.min.saturating_sub(1)),
+            max: n
+                .max
+                .saturating_mul(plan.degrees.max.saturating_sub(1))
+                .min(corners.max),
+        };
+        if n.max > 0 {
+            plan.degrees.min = 3;
+        }
+        if n.min >= plan.faces.max {
+            plan.degrees.max = 3;
+        }
+        plan.vertices = plan.vertices.plus(n);
+        plan.edges = plan.edges.plus(corners);
+        plan.faces = plan.faces.plus(cuts);
+        if self.offset != 0.0 {
+            plan.drop_normals();
+        }
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        if !self.offset.is_finite() {
+            return Err(OpError::Parameter(self.offset_message()));
+        }
+        let faces = self.faces.resolve(mesh, cx)?;
+        let report = edit_each(mesh, &faces, self.on_refusal, "poke", cx, |mesh, f| {
+            let middle = mesh.face_center(f) + self.offset * mesh.face_normal(f);
+            mesh.poke_face_at(f, middle).map(drop)
+        })?;
+        if self.offset != 0.0 {
+            mesh.remove_normals();
+        }
+        Ok(report)
+    }
+}
+
+impl PokeFaces {
+    fn offset_message(&self) -> String {
+        format!("`offset` must be finite, not {}", self.offset)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{DVec3, VERTEX_NORMAL, VertexId, shapes};
+
+    use op::test::{applied, is_as_planned, planned, try_applied};
+    use proptest::prelude::*;
+
+    fn parse(text: &str) -> PokeFaces {
+        ron::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn a_square_becomes_four_triangles() {
+        let mesh = applied(&PokeFaces::default(), shapes::square());
+        assert_eq!(mesh.n_faces(), 4);
+        assert!(mesh.faces().all(|f| mesh.is_triangle(f)));
+    }
+
+    #[test]
+    fn the_offset_follows_the_normal() {
+        let mesh = applied(&parse("(offset: 2)"), shapes::square());
+        assert_eq!(mesh.position(VertexId::new(4)), DVec3::new(0.5, 0.5, 2.0));
+        // A cube with a roof of height 1 on each square of 2 x 2.
+        let mesh = applied(&parse("(offset: 1)"), shapes::cube());
+        assert!((mesh.volume() - (8.0 + 6.0 * 4.0 / 3.0)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_new_vertices_come_in_order_of_the_faces() {
+        let cube = shapes::cube();
+        let mesh = applied(&parse("(faces: Faces([5, 2]))"), cube.clone());
+        for (m, f) in [(8, 2), (9, 5)] {
+            let center = cube.face_center(mesh::FaceId::new(f));
+            assert_eq!(mesh.position(VertexId::new(m)), center);
+        }
+        assert_eq!((mesh.n_vertices(), mesh.n_faces()), (10, 12));
+    }
+
+    #[test]
+    fn normals_are_kept_in_the_surface_and_dropped_beside_it() {
+        let mut mesh = shapes::grid(2, 1);
+        mesh.set(VERTEX_NORMAL, vec![DVec3::Z; 6]);
+        let flat = applied(&parse("()"), mesh.clone());
+        assert_eq!(flat.get(VERTEX_NORMAL).unwrap(), [DVec3::Z; 8]);
+        let raised = applied(&parse("(offset: 0.5)"), mesh);
+        assert!(raised.get(VERTEX_NORMAL).is_none());
+    }
+
+    #[test]
+    fn an_offset_that_is_no_number_is_refused() {
+        for offset in [f64::NAN, f64::INFINITY] {
+            let poke = PokeFaces {
+                offset,
+                ..PokeFaces::default()
+            };
+            let refused = try_applied(&poke, shapes::cube());
+            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+            assert_eq!(planned(&poke, &shapes::cube()).1[0].path, ["offset"]);
+        }
+    }
+
+    #[test]
+    fn a_vertex_beyond_all_numbers_is_refused_or_skipped() {
+        let far = parse("(offset: 1e308)");
+        let mut mesh = shapes::square();
+        for p in mesh.positions_mut() {
+            p.z = 1e308;
+        }
+        let refused = try_applied(&far, mesh.clone());
+        assert!(
+            matches!(refused, Err(OpError::Refused { .. })),
+            "{refused:?}"
+        );
+        let skip = PokeFaces {
+            on_refusal: OnRefusal::Skip,
+            ..far
+        };
+        let (after, report) = try_applied(&skip, mesh.clone()).unwrap();
+        assert_eq!(
+            (&after, report.changed, report.refused[0].count),
+            (&mesh, 0, 1)
+        );
+        assert!(is_as_planned(&skip, &mesh, &after));
+    }
+
+    #[test]
+    fn the_plan_of_all_squares_is_exact() {
+        let (plan, problems) = planned(&parse("()"), &shapes::cube());
+        assert_eq!(problems, []);
+        assert_eq!(plan.vertices, Range::exactly(14));
+        assert_eq!(plan.edges, Range::exactly(36));
+        assert_eq!(plan.faces, Range::exactly(24));
+        assert!(plan.is_triangles());
+    }
+
+    proptest! {
+        #[test]
+        fn shape_and_plan_hold_for_any_choice(
+            count in 0..12_u32, seed in 0..1000_u64, which in 0..5_usize,
+        ) {
+            let before = [
+                Mesh::default(),
+                shapes::grid(3, 2),
+                shapes::cube(),
+                shapes::tetrahedron(),
+                shapes::cylinder(5, true),
+            ][which].clone();
+            let faces = FaceSelection::Random { count, of: Box::default(), seed };
+            let poke = PokeFaces { faces, ..PokeFaces::default() };
+            let after = applied(&poke, before.clone());
+            prop_assert!(is_as_planned(&poke, &before, &after));
+            prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
+            prop_assert!((after.area() - before.area()).abs() < 1e-12 * before.area().max(1.0));
+        }
+    }
+}

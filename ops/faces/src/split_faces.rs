@@ -1,0 +1,223 @@
+//! Split faces: cuts faces in two by edges between their corners.
+//!
+//! ```text
+//!    +-----w          +-----w
+//!    |     |          |   / |
+//!    |     |   -->    |  /  |         between: [(v, w)]
+//!    |     |          | /   |
+//!    v-----+          v-----+
+//! ```
+
+use mesh::{Mesh, VertexId};
+use op::{
+    Context, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range, Report,
+    edit_each,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Cuts faces in two by edges between their corners.
+///
+/// Each pair of vertices names a cut: of the one face that has both as corners. The new edge joins them,
+/// which adds 1 edge and 1 face. Cuts are made in the order of the list, so that a face can be cut again
+/// between other corners. The part of the face that lies to the right of the way from v to w is the new
+/// face, the other part keeps the number; new edges and faces come behind. Corners keep their values, the
+/// new face has those of the old one, the new edge none.
+///
+/// A cut is refused if the vertices share an edge already, if they are the same, if no face has both as
+/// corners, and if several have, as then it is not clear which one is meant.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct SplitFaces {
+    /// The cuts: a list of pairs of vertices, by their numbers: `[(0, 2), (5, 9)]`.
+    pub between: Vec<(u32, u32)>,
+    /// What to do when a cut is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+impl MeshOperation for SplitFaces {
+    const NAME: &'static str = "SplitFaces";
+    const SUMMARY: &'static str = "Cut faces in two by edges between their corners";
+    const EXAMPLE: &'static str = "SplitFaces(between: [])";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let n = self.between.len() as u64;
+        let cuts = match self.on_refusal {
+            OnRefusal::Error => Range::exactly(n),
+            OnRefusal::Skip => Range::at_most(n),
+        };
+        let problems = self.problems(plan);
+        plan.edges = plan.edges.plus(cuts);
+        plan.faces = plan.faces.plus(cuts);
+        if n > 0 {
+            plan.degrees.min = 3;
+        }
+        problems
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        let ends = |&(v, w): &(u32, u32)| [vertex(v), vertex(w)];
+        let cuts: Vec<_> = self.between.iter().map(ends).collect();
+        edit_each(
+            mesh,
+            &cuts,
+            self.on_refusal,
+            "cut faces",
+            cx,
+            |mesh, [v, w]| mesh.connect_vertices(v, w).map(drop),
+        )
+    }
+}
+
+impl SplitFaces {
+    /// Cuts that are known to be refused.
+    fn problems(&self, plan: &MeshPlan) -> Vec<Problem> {
+        let mut messages = Vec::new();
+        let missing = |&(v, w): &(u32, u32)| u64::from(v.max(w)) >= plan.vertices.max;
+        if plan.is_triangles() && !self.between.is_empty() {
+            messages.push("every face is a triangle and has no corners to cut between".to_owned());
+        } else if let Some((v, w)) = self.between.iter().copied().find(missing) {
+            let n = plan.vertices.max;
+            messages.push(format!(
+                "there is no vertex {}, only {n} vertices",
+                v.max(w)
+            ));
+        } else if let Some((v, _)) = self.between.iter().find(|(v, w)| v == w) {
+            messages.push(format!("a cut needs two vertices, not {v} twice"));
+        }
+        let problem = |message| match self.on_refusal {
+            OnRefusal::Error => Problem::error(message).at(["between"]),
+            OnRefusal::Skip => Problem::warning(message).at(["between"]),
+        };
+        messages.into_iter().map(problem).collect()
+    }
+}
+
+/// The vertex of a number; one that no mesh has if the number is too high for an id.
+fn vertex(number: u32) -> VertexId {
+    if number == u32::MAX {
+        VertexId::NONE
+    } else {
+        VertexId::new(number as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::shapes;
+    use op::Refusal;
+    use op::test::{applied, is_as_planned, planned, try_applied};
+    use proptest::prelude::*;
+
+    fn parse(text: &str) -> SplitFaces {
+        ron::from_str(text).unwrap()
+    }
+
+    fn refused(text: &str, mesh: Mesh) -> Refusal {
+        op::test::refused(&parse(text), mesh)
+    }
+
+    #[test]
+    fn a_square_is_cut_along_either_diagonal() {
+        for (text, [v, w]) in [
+            ("(between: [(0, 2)])", [0, 2]),
+            ("(between: [(3, 1)])", [3, 1]),
+        ] {
+            let (mesh, report) = try_applied(&parse(text), shapes::square()).unwrap();
+            assert_eq!((mesh.n_edges(), mesh.n_faces(), report.changed), (5, 2, 1));
+            assert!(mesh.find_half_edge(vertex(v), vertex(w)).is_some());
+            assert!(is_as_planned(&parse(text), &shapes::square(), &mesh));
+        }
+    }
+
+    #[test]
+    fn the_new_face_is_to_the_right_of_the_way() {
+        let mesh = applied(&parse("(between: [(0, 2)])"), shapes::square());
+        let right = mesh.find_half_edge(vertex(0), vertex(1)).unwrap();
+        assert_eq!(mesh.face(right).map(mesh::FaceId::index), Some(1));
+    }
+
+    #[test]
+    fn a_face_can_be_cut_several_times() {
+        let fan = parse("(between: [(0, 2), (0, 3), (0, 4)])");
+        let mut hexagon = shapes::cylinder(6, true);
+        hexagon
+            .delete_faces(&(0..7).map(mesh::FaceId::new).collect::<Vec<_>>())
+            .unwrap();
+        hexagon.delete_isolated_vertices();
+        hexagon.compact();
+        let mesh = applied(&fan, hexagon.clone());
+        assert!(mesh.faces().all(|f| mesh.is_triangle(f)));
+        assert_eq!((mesh.n_faces(), mesh.valence(vertex(0))), (4, 5));
+        assert!((mesh.area() - hexagon.area()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_not_clear_or_not_possible_is_refused() {
+        assert_eq!(
+            refused("(between: [(0, 1)])", shapes::cube()),
+            Refusal::DuplicateEdge
+        );
+        assert_eq!(
+            refused("(between: [(0, 7)])", shapes::cube()),
+            Refusal::WrongPlace
+        );
+        assert_eq!(
+            refused("(between: [(3, 3)])", shapes::cube()),
+            Refusal::WrongPlace
+        );
+        assert_eq!(
+            refused("(between: [(0, 8)])", shapes::cube()),
+            Refusal::Missing
+        );
+        assert_eq!(
+            refused("(between: [(0, 4294967295)])", shapes::cube()),
+            Refusal::Missing
+        );
+        // The same cut twice: then the vertices share an edge.
+        assert_eq!(
+            refused("(between: [(0, 3), (3, 0)])", shapes::cube()),
+            Refusal::DuplicateEdge
+        );
+    }
+
+    #[test]
+    fn skipped_refusals_are_counted() {
+        let skip = parse("(between: [(0, 7), (0, 3), (9, 9)], on_refusal: Skip)");
+        let (mesh, report) = try_applied(&skip, shapes::cube()).unwrap();
+        assert_eq!(
+            (mesh.n_faces(), report.changed, report.refused.len()),
+            (7, 1, 2)
+        );
+        assert!(is_as_planned(&skip, &shapes::cube(), &mesh));
+    }
+
+    #[test]
+    fn cuts_that_cannot_be_are_problems_of_the_plan() {
+        let problems = |text, mesh: &Mesh| planned(&parse(text), mesh).1;
+        assert_eq!(problems("(between: [(0, 3)])", &shapes::cube()), []);
+        assert_eq!(problems("(between: [])", &shapes::octahedron()), []);
+        for text in ["(between: [(0, 3), (0, 8)])", "(between: [(0, 3), (5, 5)])"] {
+            assert!(!problems(text, &shapes::cube())[0].is_warning);
+        }
+        let text = "(between: [(0, 1)], on_refusal: Skip)";
+        assert!(problems(text, &shapes::octahedron())[0].is_warning);
+    }
+
+    proptest! {
+        #[test]
+        fn shape_and_plan_hold_for_any_cuts(
+            between in proptest::collection::vec((0..14_u32, 0..14_u32), 0..20), which in 0..3_usize,
+        ) {
+            let before =
+                [shapes::grid(3, 2), shapes::cube(), shapes::cylinder(7, true)][which].clone();
+            let split = SplitFaces { between, on_refusal: OnRefusal::Skip };
+            let after = applied(&split, before.clone());
+            prop_assert!(is_as_planned(&split, &before, &after));
+            prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
+            prop_assert_eq!(after.n_vertices(), before.n_vertices());
+        }
+    }
+}

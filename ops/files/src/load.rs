@@ -1,0 +1,300 @@
+//! Load: reads the objects of a file into the scene.
+
+use mesh::Domain;
+use mesh_io::{
+    NonManifold, Orientation, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions, Unwanted,
+};
+use op::{
+    Context, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Range,
+    Report,
+};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Reads the objects of a file into the scene.
+///
+/// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier
+/// curve) and `.mws` (a whole scene). An OBJ file is one object, whose `o` and `g` become face tags; a glTF or COLLADA file has an
+/// object for each node with a mesh. What the scene cannot hold is counted and listed. A corner that repeats
+/// the one before it is taken once, and a face that still visits a vertex twice is left out.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// The file, seen from the recipe's folder.
+    pub path: String,
+    /// The name of the object, in files that hold one; by default the name of the file without its
+    /// ending.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// What to do where more than two faces share an edge, or faces at a vertex share no edge.
+    #[serde(default)]
+    pub non_manifold: NonManifold,
+    /// What to do where neighboring faces disagree about their orientation.
+    #[serde(default)]
+    pub orientation: Orientation,
+    /// What to do with faces that have the vertices of an earlier one, either way round.
+    #[serde(default)]
+    pub duplicates: Unwanted,
+    /// What to do with faces without area.
+    #[serde(default)]
+    pub degenerate: Unwanted,
+    /// What to do with vertices that no face uses.
+    #[serde(default)]
+    pub isolated: Unwanted,
+    /// Whether to fail where something of the file would be left out.
+    #[serde(default)]
+    pub strict: bool,
+}
+
+impl Load {
+    fn options(&self) -> ReadOptions {
+        ReadOptions {
+            name: self.name.clone(),
+            policies: Policies {
+                non_manifold: self.non_manifold,
+                orientation: self.orientation,
+                duplicates: self.duplicates,
+                degenerate: self.degenerate,
+                isolated: self.isolated,
+            },
+            strict: self.strict,
+        }
+    }
+}
+
+impl Operation for Load {
+    const NAME: &'static str = "Load";
+    const SUMMARY: &'static str = "Read the objects of a file";
+    const EXAMPLE: &'static str = r#"Load(path: "teapot.bez")"#;
+
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        let path = cx.files.to_read(&self.path);
+        plan.inputs.push(path.clone());
+        match mesh_io::peek(&path, &self.options()) {
+            Ok(peek) => self.plan_objects(&peek, plan),
+            Err(error) => {
+                plan.incomplete = true;
+                vec![Problem::error(error.to_string()).at(["path"])]
+            }
+        }
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        cx.advance("read", 0, 1)?;
+        let path = cx.files().to_read(&self.path);
+        let loaded = mesh_io::read(&path, &self.options())
+            .map_err(|error| OpError::File(error.to_string()))?;
+        for file in loaded.files {
+            if file.is_read {
+                cx.files().has_read(file.path);
+            } else {
+                cx.files().has_looked_for(file.path);
+            }
+        }
+        let mut report = Report::changed(loaded.objects.len());
+        for object in loaded.objects {
+            let bytes = object.as_mesh().map_or(0, |mesh| mesh.bytes() as u64);
+            if bytes > cx.budget {
+                let message = format!("\"{}\" takes {bytes} bytes, over the budget", object.name);
+                return Err(OpError::Budget(message));
+            }
+            scene
+                .insert(object)
+                .map_err(|error| OpError::Object(error.to_string()))?;
+        }
+        report
+            .notes
+            .extend(loaded.notes.iter().map(ToString::to_string));
+        cx.advance("read", 1, 1)?;
+        Ok(report)
+    }
+}
+
+impl Load {
+    fn plan_objects(&self, peek: &Peek, plan: &mut Plan) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        for object in &peek.objects {
+            let geometry = match object.geometry {
+                PeekGeometry::Mesh(mesh) => PlannedGeometry::Mesh(planned(&mesh)),
+                PeekGeometry::Patches { patches } => {
+                    PlannedGeometry::Patches(Range::exactly(patches))
+                }
+                PeekGeometry::Curve { points } => PlannedGeometry::Curve(Range::exactly(points)),
+                PeekGeometry::Polylines { .. } => PlannedGeometry::Polylines,
+            };
+            let field = if self.name.is_some() { "name" } else { "path" };
+            let taken = plan.insert(&object.name, geometry);
+            problems.extend(taken.into_iter().map(|p| {
+                p.at([field])
+                    .help("give another name with `name`, or rename the first")
+            }));
+        }
+        problems
+    }
+}
+
+/// What reading will make of a mesh of these counts. Faces may be left out, or lose corners that are there
+/// twice, and splitting may add vertices and edges.
+fn planned(peek: &PeekMesh) -> MeshPlan {
+    let mut plan = MeshPlan {
+        vertices: Range {
+            min: 0,
+            max: peek.vertices.saturating_add(peek.corners),
+        },
+        edges: Range::at_most(peek.corners),
+        faces: Range::at_most(peek.faces),
+        degrees: Range {
+            min: 3,
+            max: peek.max_degree.max(3),
+        },
+        attributes: Vec::new(),
+        others: true,
+    };
+    let mut perhaps = |there: bool, domain, name: &str| {
+        if there {
+            plan.provide(domain, name);
+            if let Some(attribute) = plan.attributes.last_mut() {
+                attribute.certain = false;
+            }
+        }
+    };
+    perhaps(peek.uvs, Domain::Corner, mesh::UV.name);
+    perhaps(peek.normals, Domain::Vertex, mesh::VERTEX_NORMAL.name);
+    perhaps(peek.normals, Domain::Corner, mesh::CORNER_NORMAL.name);
+    perhaps(peek.colors, Domain::Vertex, mesh::COLOR.name);
+    perhaps(peek.materials, Domain::Face, mesh::MATERIAL.name);
+    plan
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use op::{FileUse, Files, NoProgress};
+
+    fn files(folder: &std::path::Path) -> Files {
+        Files {
+            input: folder.into(),
+            ..Files::default()
+        }
+    }
+
+    fn load(text: &str) -> Load {
+        ron::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn a_file_is_planned_and_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+        std::fs::write(folder.path().join("a.obj"), obj).unwrap();
+        let files = files(folder.path());
+        let operation = load("(path: \"a.obj\", name: Some(\"quad\"))");
+
+        let mut plan = Plan::default();
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        assert_eq!(operation.plan(&mut plan, &cx), []);
+        let Some(PlannedGeometry::Mesh(planned)) = plan.object("quad").map(|o| &o.geometry) else {
+            panic!("a mesh is planned");
+        };
+
+        let mut scene = Scene::new();
+        operation
+            .apply(&mut scene, &mut Context::new(&NoProgress, &files))
+            .unwrap();
+        let mesh = scene.object("quad").and_then(|o| o.as_mesh()).unwrap();
+        assert!(planned.vertices.contains(mesh.n_vertices() as u64));
+        assert!(planned.edges.contains(mesh.n_edges() as u64));
+        assert!(planned.faces.contains(mesh.n_faces() as u64));
+        assert!(planned.degrees.contains(4));
+    }
+
+    #[test]
+    fn a_missing_file_is_a_problem_at_its_path() {
+        let files = files(std::path::Path::new("nowhere"));
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let problems = load("(path: \"a.obj\")").plan(&mut Plan::default(), &cx);
+        assert_eq!(problems.len(), 1);
+        assert_eq!(problems[0].path, ["path"]);
+        assert!(
+            problems[0].message.contains("nowhere"),
+            "{}",
+            problems[0].message
+        );
+    }
+
+    #[test]
+    fn what_makes_no_clean_mesh_is_kept_or_dropped() {
+        let folder = tempfile::tempdir().unwrap();
+        let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nv 9 9 9\nf 1 2 3\nf 3 1 2\nf 1 2 4\np 5\n";
+        std::fs::write(folder.path().join("a.obj"), obj).unwrap();
+        let files = files(folder.path());
+        let counts = |text: &str| {
+            let mut scene = Scene::new();
+            let mut cx = Context::new(&NoProgress, &files);
+            let done = load(text)
+                .apply(&mut scene, &mut cx)
+                .map_err(|e| e.to_string())?;
+            let mesh = scene.object("a").and_then(|o| o.as_mesh()).unwrap();
+            Ok::<_, String>((mesh.n_vertices(), mesh.n_faces(), done.notes.len()))
+        };
+        assert_eq!(counts("(path: \"a.obj\")").unwrap().1, 3);
+        let all = "(path: \"a.obj\", duplicates: Drop, degenerate: Drop, isolated: Drop)";
+        assert_eq!(counts(all), Ok((3, 1, 4)));
+        let strict = counts("(path: \"a.obj\", strict: true)").unwrap_err();
+        assert!(strict.contains("points (`p`) left out"), "{strict}");
+    }
+
+    #[test]
+    fn all_files_that_were_looked_at_are_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let obj = "mtllib there.mtl\nmtllib not there.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+        std::fs::write(folder.path().join("a.obj"), obj).unwrap();
+        std::fs::write(folder.path().join("there.mtl"), "newmtl x\n").unwrap();
+        let files = files(folder.path());
+        let mut cx = Context::new(&NoProgress, &files);
+        load("(path: \"a.obj\")")
+            .apply(&mut Scene::new(), &mut cx)
+            .unwrap();
+        let path = |name| folder.path().join(name);
+        assert_eq!(
+            files.log.take(),
+            [
+                FileUse::Asked {
+                    path: "a.obj".into(),
+                    full: path("a.obj"),
+                },
+                FileUse::Read(path("a.obj")),
+                FileUse::LookedFor(path("not")),
+                FileUse::Read(path("not")),
+                FileUse::LookedFor(path("not there.mtl")),
+                FileUse::LookedFor(path("there.mtl")),
+                FileUse::Read(path("there.mtl")),
+            ]
+        );
+    }
+
+    #[test]
+    fn faces_that_are_no_manifold_can_be_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n";
+        std::fs::write(folder.path().join("a.obj"), obj).unwrap();
+        let files = files(folder.path());
+        let mut scene = Scene::new();
+        let mut cx = Context::new(&NoProgress, &files);
+        let refused = load("(path: \"a.obj\", non_manifold: Refuse)").apply(&mut scene, &mut cx);
+        assert!(refused.is_err());
+        let report = load("(path: \"a.obj\")")
+            .apply(&mut scene, &mut cx)
+            .unwrap();
+        assert!(!report.notes.is_empty());
+    }
+}

@@ -1,0 +1,161 @@
+//! Save: writes objects to a file.
+
+use mesh_io::{Format, WriteOptions};
+use op::{Context, Loss, OpError, Operation, Plan, PlanContext, Problem, Report};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Writes objects to a file below the output folder.
+///
+/// The ending chooses the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for
+/// Bezier patches, `.bzc` for a curve, `.mws` for everything, bit for bit. Everything that the format cannot hold is listed. The file appears
+/// when the whole recipe has succeeded.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Save {
+    /// The file, seen from the output folder. `{name.stem}` stands for the name, without its ending, of
+    /// the file that the parameter `name` of the recipe names.
+    pub path: String,
+}
+
+impl Operation for Save {
+    const NAME: &'static str = "Save";
+    const SUMMARY: &'static str = "Write objects to a file";
+    const EXAMPLE: &'static str = r#"Save(path: "a.obj")"#;
+    const TAKES_ON: bool = true;
+
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        let path = match cx.files.to_write(&self.path) {
+            Ok(path) => path,
+            Err(error) => return vec![Problem::error(error.to_string()).at(["path"])],
+        };
+        let mut problems = Vec::new();
+        let format = Format::from_path(&path);
+        if !format.is_some_and(Format::is_written) {
+            let message = match format {
+                Some(format) => format!("{format} files are only read, not written"),
+                None => format!("no format is known for \"{}\"", self.path),
+            };
+            let help = format!("endings that can be written: {}", Format::known_to_write());
+            problems.push(Problem::error(message).at(["path"]).help(help));
+        }
+        if plan.outputs.contains(&path) {
+            let message = format!("an earlier step writes \"{}\" too", self.path);
+            problems.push(Problem::error(message).at(["path"]));
+        }
+        if plan.objects.is_empty() && !plan.incomplete {
+            problems.push(Problem::error("there is nothing to save at this point"));
+        }
+        plan.outputs.push(path);
+        problems
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        cx.advance("write", 0, 1)?;
+        let failed = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
+        let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|e| {
+                failed(&format!("cannot make the folder {}: {e}", folder.display()))
+            })?;
+        }
+        let mut chosen = Scene::new();
+        for object in scene.objects() {
+            if cx.on.is_none_or(|on| on.contains(&object.name)) {
+                chosen.insert(object.clone()).expect("names are unique");
+            }
+        }
+        let options = WriteOptions {
+            provenance: cx.files().provenance.clone(),
+        };
+        let written = mesh_io::write(&path, &chosen, &options).map_err(|e| failed(&e))?;
+        let mut report = Report::changed(chosen.objects().len());
+        report.losses = written
+            .losses
+            .into_iter()
+            .map(|loss| {
+                let domain = loss.domain.map(|d| format!("{d} ")).unwrap_or_default();
+                let what = format!("{domain}\"{}\" ({})", loss.attribute, loss.count);
+                Loss {
+                    object: loss.object,
+                    name: loss.attribute,
+                    what,
+                    reason: loss.reason,
+                }
+            })
+            .collect();
+        cx.advance("write", 1, 1)?;
+        Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::shapes;
+    use op::{Files, NoProgress, PlannedGeometry, Range};
+    use scene::Object;
+
+    fn save(path: &str) -> Save {
+        ron::from_str(&format!("(path: {path:?})")).unwrap()
+    }
+
+    #[test]
+    fn what_is_saved_can_be_read_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let files = Files {
+            output: folder.path().into(),
+            ..Files::default()
+        };
+        let mut scene = Scene::new();
+        scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
+        let mut cx = Context::new(&NoProgress, &files);
+        save("a/cube.obj").apply(&mut scene, &mut cx).unwrap();
+        let path = folder.path().join("a/cube.obj");
+        let back = mesh_io::read(&path, &mesh_io::ReadOptions::default()).unwrap();
+        let mesh = back.objects[0].as_mesh().unwrap();
+        assert_eq!((mesh.n_vertices(), mesh.n_faces()), (8, 6));
+        assert_eq!(mesh.positions(), shapes::cube().positions());
+    }
+
+    #[test]
+    fn only_the_chosen_objects_are_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        let files = Files {
+            output: folder.path().into(),
+            ..Files::default()
+        };
+        let mut scene = Scene::new();
+        scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
+        scene
+            .insert(Object::mesh("torus", shapes::torus(4, 3, 2.0, 1.0)))
+            .unwrap();
+        let on = ["cube".to_owned()];
+        let mut cx = Context::new(&NoProgress, &files);
+        cx.on = Some(&on);
+        save("cube.obj").apply(&mut scene, &mut cx).unwrap();
+        let path = folder.path().join("cube.obj");
+        let back = mesh_io::read(&path, &mesh_io::ReadOptions::default()).unwrap();
+        assert_eq!(back.objects[0].as_mesh().unwrap().n_faces(), 6);
+    }
+
+    #[test]
+    fn bad_paths_are_problems_before_anything_runs() {
+        let files = Files {
+            output: "out".into(),
+            ..Files::default()
+        };
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let mut plan = Plan::default();
+        plan.insert("a", PlannedGeometry::Patches(Range::ANY));
+        assert_eq!(save("a.obj").plan(&mut plan, &cx), []);
+        for path in ["a.obj", "../a.obj", "a.xyz", "a.dae", "{none.stem}.obj"] {
+            assert_eq!(save(path).plan(&mut plan, &cx).len(), 1, "{path}");
+        }
+    }
+}

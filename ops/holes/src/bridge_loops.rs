@@ -1,0 +1,184 @@
+//! Bridge loops: joins two holes by a band of faces.
+//!
+//! ```text
+//!      .-------.               .-------.
+//!     (  first  )             (    |    )
+//!      '---*---'               '---*---'
+//!                     -->      |   |   |       the first new edge joins the two vertices
+//!      .---*---.               .---*---.
+//!     (  second )             (    |    )
+//!      '-------'               '-------'
+//! ```
+
+use mesh::{Mesh, VertexId};
+use op::{
+    Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Refusal, Report,
+    Select, VertexSelection,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Joins two holes by a band of faces.
+///
+/// Each hole is named by one of its vertices, and an edge joins these two; from there the band goes around
+/// both. Holes with n and m edges, n at least m, are joined by m quads and n - m triangles, spread evenly;
+/// n edges are new, and no vertex. The holes may be of one part of the mesh, which then has a tunnel or a
+/// handle more, or of two parts of one object (Join makes one of two).
+///
+/// New faces take the values of the faces beside the longer hole, and corners those of the corners at the
+/// same vertices in the faces beside. Normals are dropped.
+///
+/// Refused if a vertex is not on the boundary (`NotBoundary`), if both lie on one hole (`WrongPlace`), and
+/// if two vertices would be joined that share an edge already (`DuplicateEdge`): other vertices to begin
+/// with may do then.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct BridgeLoops {
+    /// The number of a vertex on the first hole.
+    pub first: u32,
+    /// The number of the vertex on the second hole that it is joined to.
+    pub second: u32,
+}
+
+impl MeshOperation for BridgeLoops {
+    const NAME: &'static str = "BridgeLoops";
+    const SUMMARY: &'static str = "Join two holes by a band of faces";
+    const EXAMPLE: &'static str = "BridgeLoops(first: 0, second: 5)";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        for (field, v) in [("first", self.first), ("second", self.second)] {
+            if u64::from(v) >= plan.vertices.max {
+                let n = plan.vertices.max;
+                let message = format!("there is no vertex {v}, only {n} vertices");
+                problems.push(Problem::error(message).at([field]));
+            }
+        }
+        if self.first == self.second {
+            let message = "`first` and `second` must be on two holes, but are one vertex";
+            problems.push(Problem::error(message).at(["second"]));
+        }
+        // As many as the longer hole has edges; the other has two or more.
+        let band = Range {
+            min: 2,
+            max: plan.edges.max,
+        };
+        plan.edges = plan.edges.plus(band);
+        plan.faces = plan.faces.plus(band);
+        plan.degrees.min = plan.degrees.min.min(3);
+        plan.degrees.max = plan.degrees.max.max(4);
+        plan.drop_normals();
+        problems
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        cx.advance("bridge", 0, 1)?;
+        let [first, second] = [self.first, self.second].map(|v| boundary_vertex(mesh, v, cx));
+        let (first, second) = (first?, second?);
+        let (Some(h), Some(after)) = (mesh.vertex_half_edge(first), mesh.vertex_half_edge(second))
+        else {
+            unreachable!("vertices on the boundary have edges");
+        };
+        let band = mesh.bridge_loops(h, mesh.prev(after))?;
+        mesh.remove_normals();
+        Ok(Report::changed(band.len()))
+    }
+}
+
+/// The vertex of this number, if it is on the boundary.
+fn boundary_vertex(mesh: &Mesh, number: u32, cx: &Context) -> Result<VertexId, OpError> {
+    let v = VertexSelection::Vertices(vec![number]).resolve(mesh, cx)?[0];
+    if mesh.is_boundary_vertex(v) {
+        Ok(v)
+    } else {
+        let message = format!("vertex {number} is not on the boundary");
+        Err(OpError::refused(Refusal::NotBoundary, message).about([v]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{DVec3, FaceId, VERTEX_NORMAL, shapes};
+    use op::test::{applied, try_applied};
+
+    fn parse(text: &str) -> BridgeLoops {
+        ron::from_str(text).unwrap()
+    }
+
+    fn refusal(text: &str, mesh: Mesh) -> Refusal {
+        match try_applied(&parse(text), mesh) {
+            Err(OpError::Refused { reason, .. }) => reason,
+            other => panic!("expected a refusal, got {other:?}"),
+        }
+    }
+
+    /// A flat sheet with a rim of 16 edges and a hole of 8.
+    fn sheet_with_a_hole() -> Mesh {
+        let mut mesh = shapes::grid(4, 4);
+        let mut ring = vec![5, 6, 9, 10];
+        while !ring.is_empty() {
+            ring.retain(|&f| mesh.delete_face(FaceId::new(f)).is_err());
+        }
+        mesh.delete_isolated_vertices();
+        mesh.compact();
+        mesh
+    }
+
+    #[test]
+    fn a_tunnel_through_an_icosahedron_is_a_handle() {
+        let mut mesh = shapes::icosahedron();
+        for f in [0, 13] {
+            mesh.delete_face(FaceId::new(f)).unwrap();
+        }
+        mesh.compact();
+        mesh.set(VERTEX_NORMAL, vec![DVec3::Z; 12]);
+        let (joined, report) = try_applied(&parse("(first: 0, second: 3)"), mesh).unwrap();
+        assert!(joined.is_closed());
+        assert_eq!((joined.genus(), report.changed), (1, 3));
+        let v = VertexId::new;
+        assert!(joined.find_half_edge(v(0), v(3)).is_some());
+        assert!(joined.get(VERTEX_NORMAL).is_none());
+    }
+
+    #[test]
+    fn the_hole_and_the_rim_of_a_sheet_make_it_a_torus() {
+        let mesh = sheet_with_a_hole();
+        assert_eq!(mesh.n_boundary_loops(), 2);
+        // A corner of the rim is joined to the far corner of the hole.
+        let mut corners = mesh.vertices().filter(|&v| {
+            let p = mesh.position(v);
+            p == DVec3::new(1.0, 1.0, 0.0)
+        });
+        let far = corners.next().unwrap().index();
+        let joined = applied(&parse(&format!("(first: 0, second: {far})")), mesh.clone());
+        assert!(joined.is_closed());
+        assert_eq!(joined.genus(), 1);
+        assert_eq!(joined.n_faces(), mesh.n_faces() + 16);
+    }
+
+    #[test]
+    fn vertices_that_do_not_name_two_holes_are_refused() {
+        let mesh = sheet_with_a_hole;
+        assert_eq!(refusal("(first: 0, second: 999)", mesh()), Refusal::Missing);
+        assert_eq!(
+            refusal("(first: 0, second: 1)", mesh()),
+            Refusal::WrongPlace
+        );
+        assert_eq!(
+            refusal("(first: 0, second: 0)", mesh()),
+            Refusal::WrongPlace
+        );
+        let cube = refusal("(first: 0, second: 1)", shapes::cube());
+        assert_eq!(cube, Refusal::NotBoundary);
+        let tube = refusal("(first: 0, second: 4)", shapes::cylinder(4, false));
+        assert_eq!(tube, Refusal::DuplicateEdge);
+    }
+
+    #[test]
+    fn a_recipe_must_name_both_vertices() {
+        assert!(ron::from_str::<BridgeLoops>("(first: 3)").is_err());
+        assert!(ron::from_str::<BridgeLoops>("(first: -1, second: 2)").is_err());
+        assert_eq!(parse("(first: 3, second: 17)").second, 17);
+    }
+}

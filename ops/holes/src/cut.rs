@@ -1,0 +1,166 @@
+//! Cut: opens the mesh along edges.
+//!
+//! ```text
+//!    +-----+-----+          +-----+ +-----+
+//!    |     |     |          |     | |     |
+//!    +-----+-----+    -->   +-----+ +-----+       drawn apart: the sides of a cut lie on each other
+//!    |     |     |          |     | |     |       until something moves them
+//!    +-----+-----+          +-----+ +-----+
+//! ```
+
+use mesh::{EdgeId, EditError, Mesh};
+use op::{
+    Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
+    Range, Report, Select,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Opens the mesh along edges.
+///
+/// The edges may form paths, loops and trees; a loop cuts a piece out. Each becomes two, one for each
+/// side, and where the faces around a vertex fall into several parts, each part gets a vertex of its own:
+/// the one with the lowest face keeps the number, new vertices have the numbers behind all others. Faces
+/// stay, and nothing moves. Copies have the values of what they copy, and corners keep theirs. Stitch is the
+/// inverse.
+///
+/// All edges are cut at once. Refused are those on the boundary (`Boundary`), and those along which nothing
+/// would open, because both ends lie inside the mesh and no other cut goes on there (`DuplicateEdge`).
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cut {
+    /// Which edges.
+    pub edges: EdgeSelection,
+    /// What to do when an edge is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+impl MeshOperation for Cut {
+    const NAME: &'static str = "Cut";
+    const SUMMARY: &'static str = "Open the mesh along edges";
+    const EXAMPLE: &'static str = "Cut(edges: All)";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let n = self.edges.count(plan);
+        let cut = self.on_refusal.done(n);
+        plan.edges = plan.edges.plus(cut);
+        // A vertex gets at most one copy for each cut that ends there.
+        let copies = Range::at_most(n.max.saturating_mul(2));
+        plan.vertices = plan.vertices.plus(copies);
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        let edges = self.edges.resolve(mesh, cx)?;
+        cx.advance("cut", 0, edges.len() as u64)?;
+        let mut report = Report::default();
+        let edges = self.allowed(mesh, &edges, &mut report)?;
+        if edges.is_empty() {
+            return Ok(report.note("no edge was cut"));
+        }
+        let before = mesh.n_vertices();
+        report.changed = mesh.cut_edges(&edges)?.len() as u64;
+        let copies = mesh.n_vertices() - before;
+        Ok(report.note(format!("new vertices: {copies}")))
+    }
+}
+
+impl Cut {
+    /// The edges that can be cut together.
+    fn allowed(
+        &self,
+        mesh: &Mesh,
+        edges: &[EdgeId],
+        report: &mut Report,
+    ) -> Result<Vec<EdgeId>, OpError> {
+        let slits = mesh.slits(edges);
+        let mut allowed = Vec::with_capacity(edges.len());
+        for &e in edges {
+            let [v, w] = mesh.edge_vertices(e);
+            let (refusal, message) = if mesh.is_boundary_edge(e) {
+                (EditError::Boundary(e), "is on the boundary")
+            } else if slits.binary_search(&e).is_ok() {
+                let why = "would not open: both ends lie inside and no other cut goes on there";
+                (EditError::DuplicateEdge(v, w), why)
+            } else {
+                allowed.push(e);
+                continue;
+            };
+            let (v, w) = (v.min(w).index(), v.max(w).index());
+            let message = format!("Between({v}, {w}) {message}");
+            let refused = OpError::refused(refusal.into(), message).about([e]);
+            match self.on_refusal {
+                OnRefusal::Error => return Err(refused),
+                OnRefusal::Skip => report.refuse(refused)?,
+            }
+        }
+        Ok(allowed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::shapes;
+    use op::Refusal;
+    use op::test::{applied, try_applied};
+
+    fn parse(text: &str) -> Cut {
+        ron::from_str(text).unwrap()
+    }
+
+    fn refusal(text: &str, mesh: Mesh) -> Refusal {
+        match try_applied(&parse(text), mesh) {
+            Err(OpError::Refused { reason, .. }) => reason,
+            other => panic!("expected a refusal, got {other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_path_through_a_sheet_makes_two() {
+        // 6 7 8
+        // 3 4 5
+        // 0 1 2
+        let path = parse("(edges: Or([Between(1, 4), Between(4, 7)]))");
+        let (mesh, report) = try_applied(&path, shapes::grid(2, 2)).unwrap();
+        assert_eq!((mesh.n_components(), mesh.n_vertices()), (2, 12));
+        assert_eq!((mesh.n_edges(), mesh.n_faces()), (14, 4));
+        assert_eq!(report.changed, 2);
+        assert_eq!(report.notes, ["new vertices: 3"]);
+    }
+
+    #[test]
+    fn sharp_edges_take_a_cube_apart() {
+        let mesh = applied(&parse("(edges: Sharp(above: 30))"), shapes::cube());
+        assert_eq!((mesh.n_components(), mesh.n_vertices()), (6, 24));
+        assert_eq!(mesh.area(), 24.0);
+    }
+
+    #[test]
+    fn edges_that_cannot_be_cut_fail_or_are_counted() {
+        let grid = || shapes::grid(3, 3);
+        assert_eq!(refusal("(edges: All)", grid()), Refusal::Boundary);
+        assert_eq!(
+            refusal("(edges: Between(5, 6))", grid()),
+            Refusal::DuplicateEdge
+        );
+        let skip = parse("(edges: All, on_refusal: Skip)");
+        let (mesh, report) = try_applied(&skip, grid()).unwrap();
+        assert_eq!(mesh.n_components(), 9);
+        let counts: Vec<_> = report.refused.iter().map(|r| (r.reason, r.count)).collect();
+        assert_eq!(counts, [(Refusal::Boundary, 12)]);
+        let skip = parse("(edges: Between(5, 6), on_refusal: Skip)");
+        let (mesh, report) = try_applied(&skip, grid()).unwrap();
+        assert_eq!(mesh, grid());
+        assert_eq!(report.refused[0].reason, Refusal::DuplicateEdge);
+        assert!(report.refused[0].first.starts_with("Between(5, 6)"));
+    }
+
+    #[test]
+    fn a_recipe_must_name_the_edges() {
+        assert!(ron::from_str::<Cut>("()").is_err());
+        assert!(ron::from_str::<Cut>("(edges: All, at: 0.5)").is_err());
+        assert_eq!(parse("(edges: All)").on_refusal, OnRefusal::Error);
+    }
+}

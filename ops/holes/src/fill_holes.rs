@@ -1,0 +1,190 @@
+//! Fill holes: puts a face, or triangles, over each hole.
+//!
+//! ```text
+//!    +-----+-----+          +-----+-----+          +-----+-----+
+//!    |           |          |           |          | \       / |
+//!    |   hole    |   -->    |   Face    |    or    |   \   /   |    Triangles: of the smallest area
+//!    |           |          |           |          |     \/    |
+//!    +-----+-----+          +-----+-----+          +-----+-----+
+//! ```
+
+use mesh::{CORNER_NORMAL, Domain, HalfEdgeId, Mesh, VERTEX_NORMAL};
+use op::{
+    Context, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range, Report,
+    Select, VertexSelection, edit_each,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Puts faces over holes.
+///
+/// A hole is a loop of edges that have a face on one side only; the outer rim of an open sheet is one as
+/// well, which `around` or `max_edges` leaves out. No vertex is made and no number changes. A hole with n
+/// edges gets 1 face with n corners, or n - 2 triangles and n - 3 edges between them, which join its
+/// vertices.
+///
+/// Up to 500 edges the triangles have the smallest total area; around larger holes those corners are cut
+/// off first whose neighbours are nearest to each other, which may make triangles overlap where the hole
+/// is far from convex. No two vertices are joined that share an edge already: a hole that would need that
+/// is refused (`DuplicateEdge`), and so is one of two edges (`WrongPlace`), which Stitch closes.
+///
+/// New faces take the values of a face beside the hole, and corners those of the corner at the same
+/// vertex in the face beside. Normals are dropped if a hole was filled.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct FillHoles {
+    /// Holes with one of these vertices or more.
+    #[serde(default)]
+    pub around: VertexSelection,
+    /// Leave holes of more edges than this open; without it, none.
+    #[serde(default)]
+    #[schemars(range(min = 3))]
+    pub max_edges: Option<u32>,
+    /// What to put over them.
+    #[serde(default)]
+    pub with: Cover,
+    /// What to do when a hole is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+/// What to put over a hole.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Cover {
+    /// Triangles of the smallest area.
+    #[default]
+    Triangles,
+    /// One face with all the corners.
+    Face,
+}
+
+impl MeshOperation for FillHoles {
+    const NAME: &'static str = "FillHoles";
+    const SUMMARY: &'static str = "Put a face or triangles over holes";
+    const EXAMPLE: &'static str = "FillHoles()";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        // Each hole has three edges or more, and no edge is on two holes.
+        match self.with {
+            Cover::Face => {
+                let corners = self.max_edges.map_or(u64::MAX, u64::from);
+                plan.faces = plan.faces.plus(Range::at_most(plan.edges.max / 3));
+                plan.degrees.max = plan.degrees.max.max(corners.min(plan.edges.max));
+            }
+            Cover::Triangles => {
+                plan.faces = plan.faces.plus(Range::at_most(plan.edges.max));
+                plan.edges = plan.edges.plus(Range::at_most(plan.edges.max));
+            }
+        }
+        plan.degrees.min = plan.degrees.min.min(3);
+        for attribute in &mut plan.attributes {
+            let is_normal = [
+                (Domain::Vertex, VERTEX_NORMAL.name),
+                (Domain::Corner, CORNER_NORMAL.name),
+            ]
+            .contains(&(attribute.domain, &attribute.name));
+            attribute.certain &= !is_normal;
+        }
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        let is_around = self.around.mask(mesh, cx)?;
+        let mut holes = mesh.boundary_loops();
+        holes.retain(|&h| {
+            let mut rim = mesh.loop_half_edges(h);
+            rim.any(|h| is_around[mesh.origin(h).index()])
+        });
+        let chosen = holes.len();
+        if let Some(most) = self.max_edges {
+            holes.retain(|&h| mesh.loop_half_edges(h).count() <= most as usize);
+        }
+        let mut report = edit_each(mesh, &holes, self.on_refusal, "fill", cx, |mesh, h| {
+            self.fill(mesh, h)
+        })?;
+        if report.changed > 0 {
+            mesh.remove_normals();
+        }
+        if chosen > holes.len() {
+            let n = chosen - holes.len();
+            report = report.note(format!("holes with more edges than `max_edges`: {n}"));
+        }
+        Ok(report)
+    }
+}
+
+impl FillHoles {
+    fn fill(&self, mesh: &mut Mesh, h: HalfEdgeId) -> Result<(), mesh::EditError> {
+        match self.with {
+            Cover::Face => mesh.fill_hole(h).map(drop),
+            Cover::Triangles => mesh.fill_hole_triangles(h).map(drop),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{DVec3, FaceId, shapes};
+    use op::test::{applied, try_applied};
+
+    fn parse(text: &str) -> FillHoles {
+        ron::from_str(text).unwrap()
+    }
+
+    /// A torus with a hole of 4 and one of 6 edges, and normals.
+    fn torus() -> Mesh {
+        let mut mesh = shapes::torus(8, 6, 2.0, 1.0);
+        for f in [0, 20, 21] {
+            mesh.delete_face(FaceId::new(f)).unwrap();
+        }
+        mesh.compact();
+        mesh.set(VERTEX_NORMAL, vec![DVec3::Z; mesh.n_vertices()]);
+        mesh
+    }
+
+    #[test]
+    fn a_tube_is_closed_by_faces_or_by_triangles() {
+        let tube = shapes::cylinder(6, false);
+        let faces = applied(&parse("(with: Face)"), tube.clone());
+        assert!(faces.is_closed());
+        assert_eq!((faces.n_faces(), faces.n_edges()), (8, 18));
+        let triangles = applied(&parse("()"), tube);
+        assert!(triangles.is_closed());
+        assert_eq!((triangles.n_faces(), triangles.n_edges()), (14, 24));
+        assert!((triangles.volume() - shapes::cylinder(6, true).volume()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn only_the_chosen_holes_are_filled() {
+        let small = try_applied(&parse("(max_edges: Some(4), with: Face)"), torus()).unwrap();
+        assert_eq!(small.0.n_boundary_loops(), 1);
+        assert_eq!(small.1.notes, ["holes with more edges than `max_edges`: 1"]);
+        let rim = torus().boundary_loops()[0];
+        let v = torus().origin(rim).index();
+        let near = parse(&format!("(around: Vertices([{v}]), with: Face)"));
+        let (mesh, report) = try_applied(&near, torus()).unwrap();
+        assert_eq!((mesh.n_boundary_loops(), report.changed), (1, 1));
+    }
+
+    #[test]
+    fn normals_go_if_a_hole_is_filled_and_nothing_changes_otherwise() {
+        let filled = applied(&parse("()"), torus());
+        assert!(filled.is_closed());
+        assert!(filled.get(VERTEX_NORMAL).is_none());
+        let (same, report) = try_applied(&parse("(max_edges: Some(3))"), torus()).unwrap();
+        assert_eq!(same, torus());
+        assert_eq!(report.changed, 0);
+    }
+
+    #[test]
+    fn a_recipe_names_known_fields_only() {
+        assert!(
+            ron::from_str::<FillHoles>("(around: Boundary, with: Face, on_refusal: Skip)").is_ok()
+        );
+        assert!(ron::from_str::<FillHoles>("(with: Quads)").is_err());
+        assert!(ron::from_str::<FillHoles>("(max: 3)").is_err());
+        assert_eq!(parse("()").with, Cover::Triangles);
+    }
+}

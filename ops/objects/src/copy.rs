@@ -1,0 +1,121 @@
+//! Copies an object under a new name.
+//!
+//! ```text
+//!   "head", "body"   --->   "head", "body", "twin"
+//! ```
+
+use op::{
+    Context, OpError, Operation, Plan, PlanContext, Problem, Report, check_name, named_object,
+};
+use scene::{Object, Scene};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Copies an object, with its attributes and materials, under a new name.
+///
+/// The copy comes behind all other objects. Its elements have the same numbers.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Copy {
+    /// The name of the object to copy.
+    pub from: String,
+    /// The name of the new object.
+    pub to: String,
+}
+
+impl Operation for Copy {
+    const NAME: &'static str = "Copy";
+    const SUMMARY: &'static str = "Copy an object under a new name";
+    const EXAMPLE: &'static str = r#"Copy(from: "mesh", to: "new")"#;
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        let Some(object) = plan.object(&self.from) else {
+            return plan.check_names([self.from.as_str()], "from");
+        };
+        let geometry = object.geometry.clone();
+        let problems = plan.insert(&self.to, geometry).into_iter();
+        problems.map(|p| p.at(["to"])).collect()
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        let object = named_object(scene, &self.from)?;
+        check_name(scene, &self.to)?;
+        cx.advance("copy", 0, 1)?;
+        let copy = Object {
+            name: self.to.clone(),
+            ..object.clone()
+        };
+        scene.insert(copy).expect("the name is free");
+        Ok(Report::changed(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::shapes;
+    use op::{Files, MeshPlan, PlannedGeometry};
+    use scene::Material;
+
+    fn step(text: &str) -> Copy {
+        ron::from_str(text).unwrap()
+    }
+
+    fn scene() -> Scene {
+        let mut scene = Scene::new();
+        let mut head = Object::mesh("head", shapes::cube());
+        head.materials.push(Material::new("skin"));
+        scene.insert(head).unwrap();
+        scene
+            .insert(Object::mesh("body", shapes::square()))
+            .unwrap();
+        scene
+    }
+
+    #[test]
+    fn the_copy_is_equal_and_comes_last() {
+        let mut scene = scene();
+        op::test::run(&step(r#"(from: "head", to: "twin")"#), &mut scene).unwrap();
+        let names: Vec<_> = scene.objects().iter().map(|o| o.name.as_str()).collect();
+        assert_eq!(names, ["head", "body", "twin"]);
+        assert_eq!(scene.objects()[2].geometry, scene.objects()[0].geometry);
+        assert_eq!(scene.objects()[2].materials, scene.objects()[0].materials);
+    }
+
+    #[test]
+    fn a_missing_source_and_a_taken_name_are_refused() {
+        for text in [
+            r#"(from: "tail", to: "twin")"#,
+            r#"(from: "head", to: "body")"#,
+        ] {
+            let mut scene = scene();
+            assert!(matches!(
+                op::test::run(&step(text), &mut scene),
+                Err(OpError::Object(_))
+            ));
+            assert_eq!(scene, self::scene());
+        }
+    }
+
+    #[test]
+    fn the_plan_says_the_same() {
+        let files = Files::default();
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let mut plan = Plan::default();
+        let cube = PlannedGeometry::Mesh(MeshPlan::of(&shapes::cube()));
+        assert_eq!(plan.insert("head", cube.clone()), []);
+        assert_eq!(
+            step(r#"(from: "head", to: "twin")"#).plan(&mut plan, &cx),
+            []
+        );
+        assert_eq!(plan.object("twin").unwrap().geometry, cube);
+        let taken = step(r#"(from: "head", to: "twin")"#).plan(&mut plan, &cx);
+        assert_eq!(taken[0].path, ["to"]);
+        let missing = step(r#"(from: "tail", to: "x")"#).plan(&mut plan, &cx);
+        assert_eq!(missing[0].path, ["from"]);
+    }
+}

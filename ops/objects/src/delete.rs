@@ -1,0 +1,98 @@
+//! Takes objects out of the scene.
+//!
+//! ```text
+//!   "head", "body", "tail"   --->   "head", "tail"
+//! ```
+
+use op::{Context, OpError, Operation, Plan, PlanContext, Problem, Report, named_object};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Takes objects out of the scene.
+///
+/// The others keep their order.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Delete {
+    /// The names of the objects. Each must be there.
+    pub objects: Vec<String>,
+}
+
+impl Operation for Delete {
+    const NAME: &'static str = "Delete";
+    const SUMMARY: &'static str = "Take objects out of the scene";
+    const EXAMPLE: &'static str = r#"Delete(objects: ["mesh"])"#;
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        for (i, name) in self.objects.iter().enumerate() {
+            let place = i.to_string();
+            let missing = plan.check_names([name.as_str()], "objects");
+            problems.extend(missing.into_iter().map(|p| p.at(["objects", &place])));
+            plan.objects.retain(|o| o.name != *name);
+        }
+        problems
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        cx.advance("delete", 0, 1)?;
+        for name in &self.objects {
+            named_object(scene, name)?;
+            scene.remove(name);
+        }
+        Ok(Report::changed(self.objects.len()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::shapes;
+    use scene::Object;
+
+    fn step(text: &str) -> Delete {
+        ron::from_str(text).unwrap()
+    }
+
+    fn scene() -> Scene {
+        let mut scene = Scene::new();
+        for name in ["a", "b", "c"] {
+            scene.insert(Object::mesh(name, shapes::square())).unwrap();
+        }
+        scene
+    }
+
+    #[test]
+    fn the_others_keep_their_order() {
+        let mut scene = scene();
+        let report = op::test::run(&step(r#"(objects: ["b"])"#), &mut scene).unwrap();
+        assert_eq!(report.changed, 1);
+        let names: Vec<_> = scene.objects().iter().map(|o| o.name.as_str()).collect();
+        assert_eq!(names, ["a", "c"]);
+    }
+
+    #[test]
+    fn names_that_are_not_there_or_named_twice_are_refused() {
+        for text in [r#"(objects: ["d"])"#, r#"(objects: ["a", "a"])"#] {
+            let deleted = op::test::run(&step(text), &mut scene());
+            assert!(matches!(deleted, Err(OpError::Object(_))));
+        }
+    }
+
+    #[test]
+    fn the_plan_names_the_place_in_the_list() {
+        let files = op::Files::default();
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let mut plan = Plan::default();
+        assert_eq!(plan.insert("a", op::PlannedGeometry::Polylines), []);
+        let problems = step(r#"(objects: ["a", "d"])"#).plan(&mut plan, &cx);
+        assert_eq!(problems.len(), 1);
+        assert_eq!(problems[0].path, ["objects", "1"]);
+        assert_eq!(plan.objects, []);
+    }
+}

@@ -1,0 +1,223 @@
+//! Joins meshes into one object.
+//!
+//! ```text
+//!    "head"  "body"             "figure": one mesh of two components,
+//!      o       |         --->      o       the faces of the first part first,
+//!             / \                  |       face tags "head" and "body"
+//!                                 / \
+//! ```
+
+mod attributes;
+mod parts;
+
+use std::sync::Arc;
+
+use mesh::Domain;
+use op::{
+    Context, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedAttribute, PlannedGeometry,
+    Problem, Report, check_name, named_object,
+};
+use scene::{Geometry, Object, Scene};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Joins meshes into one.
+///
+/// Vertices, edges and faces are numbered part after part, in the order of the list. The parts stay
+/// unconnected, even where they touch. The result stands at the place of the first one in the list; the
+/// parts are gone.
+///
+/// An attribute that a part does not have is zero there, materials -1 (none). Normals that not every part
+/// has are left out and reported as lost, and so is an attribute of a part whose values are of another
+/// type than those of the parts before it. Equal materials become one.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Join {
+    /// The names of the meshes, at least one, none twice.
+    pub objects: Vec<String>,
+    /// The name of the result; it may be that of a part.
+    pub name: String,
+    /// Whether the faces of each part get a tag with the name that the part had, so that
+    /// `Tagged("head")` selects them afterwards.
+    #[serde(default = "yes")]
+    pub tag_parts: bool,
+}
+
+const fn yes() -> bool {
+    true
+}
+
+impl Operation for Join {
+    const NAME: &'static str = "Join";
+    const SUMMARY: &'static str = "Join meshes into one";
+    const EXAMPLE: &'static str = r#"Join(objects: ["mesh", "other"], name: "joined")"#;
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        let mut problems = self.problems();
+        let mut parts = Vec::new();
+        for (i, name) in self.objects.iter().enumerate() {
+            let at = i.to_string();
+            match plan.object(name).map(|o| &o.geometry) {
+                None => {
+                    let missing = plan.check_names([name.as_str()], "objects").into_iter();
+                    problems.extend(missing.map(|p| p.at(["objects", &at])));
+                }
+                Some(PlannedGeometry::Mesh(mesh)) => parts.push(mesh.clone()),
+                Some(other) => {
+                    let message = not_a_mesh(name, other.kind());
+                    problems.push(Problem::error(message).at(["objects", &at]));
+                }
+            }
+        }
+        if plan.object(&self.name).is_some() && !self.objects.contains(&self.name) {
+            let message = scene::DuplicateName(self.name.clone()).to_string();
+            problems.push(Problem::error(message).at(["name"]));
+        }
+        if !problems.is_empty() {
+            return problems;
+        }
+        if parts.len() != self.objects.len() {
+            // A step before could not be planned, and may make the missing ones.
+            plan.incomplete = true;
+            return problems;
+        }
+        let joined = self.joined_plan(&parts);
+        let largest = joined
+            .edges
+            .by(2)
+            .min
+            .max(joined.vertices.min)
+            .max(joined.faces.min);
+        if largest > parts::MAX_ELEMENTS {
+            problems.push(Problem::error(parts::too_many(largest)));
+        }
+        let first = &self.objects[0];
+        plan.objects
+            .retain(|o| o.name == *first || !self.objects.contains(&o.name));
+        let object = plan
+            .objects
+            .iter_mut()
+            .find(|o| o.name == *first)
+            .expect("checked above");
+        object.name.clone_from(&self.name);
+        object.geometry = PlannedGeometry::Mesh(joined);
+        problems
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        if let Some(problem) = self.problems().into_iter().next() {
+            return Err(OpError::Parameter(problem.message));
+        }
+        if !self.objects.contains(&self.name) {
+            check_name(scene, &self.name)?;
+        }
+        let mut parts: Vec<&Object> = Vec::new();
+        for name in &self.objects {
+            let object = named_object(scene, name)?;
+            if object.as_mesh().is_none() {
+                return Err(OpError::Object(not_a_mesh(name, object.geometry.kind())));
+            }
+            parts.push(object);
+        }
+        let (joined, report) = self.joined(&parts, cx)?;
+
+        // All is checked: the first part becomes the result and the others go.
+        let (first, others) = self.objects.split_first().expect("at least one");
+        let (geometry, materials) = scene.parts_mut(first).expect("found above");
+        (*geometry, *materials) = (joined.geometry, joined.materials);
+        for name in others {
+            scene.remove(name);
+        }
+        scene.rename(first, &self.name).expect("the name is free");
+        Ok(report)
+    }
+}
+
+impl Join {
+    fn problems(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        if self.objects.is_empty() {
+            problems.push(Problem::error("expected at least one object").at(["objects"]));
+        }
+        for (i, name) in self.objects.iter().enumerate() {
+            if self.objects[..i].contains(name) {
+                let message = format!("\"{name}\" is listed twice");
+                problems.push(Problem::error(message).at(["objects", &i.to_string()]));
+            }
+        }
+        problems
+    }
+
+    /// The result of parts that are meshes.
+    fn joined(&self, parts: &[&Object], cx: &Context) -> Result<(Object, Report), OpError> {
+        let meshes: Vec<&mesh::Mesh> = parts
+            .iter()
+            .filter_map(|o| o.as_mesh())
+            .map(Arc::as_ref)
+            .collect();
+        let bytes: usize = meshes.iter().map(|m| m.bytes()).sum();
+        if bytes as u64 > cx.budget {
+            let message = format!(
+                "the result takes {bytes} bytes, the budget is {}",
+                cx.budget
+            );
+            return Err(OpError::Budget(message));
+        }
+        let mut joined = parts::connected(&meshes, cx)?;
+        let mut report = Report::changed(joined.n_faces());
+        let (materials, numbers) = attributes::merged_materials(parts);
+        joined.set_attributes(attributes::appended(parts, &numbers, &mut report));
+        if self.tag_parts {
+            attributes::tag_parts(&mut joined, parts, &mut report);
+        }
+        let geometry = Geometry::Mesh(Arc::new(joined));
+        Ok((
+            Object {
+                name: self.name.clone(),
+                geometry,
+                materials,
+            },
+            report,
+        ))
+    }
+
+    fn joined_plan(&self, parts: &[MeshPlan]) -> MeshPlan {
+        let mut joined = parts[0].clone();
+        for part in &parts[1..] {
+            joined.vertices = joined.vertices.plus(part.vertices);
+            joined.edges = joined.edges.plus(part.edges);
+            joined.faces = joined.faces.plus(part.faces);
+            joined.others |= part.others;
+            joined.degrees.min = joined.degrees.min.min(part.degrees.min);
+            joined.degrees.max = joined.degrees.max.max(part.degrees.max);
+            for a in &part.attributes {
+                if !joined
+                    .attributes
+                    .iter()
+                    .any(|b| (b.domain, &b.name) == (a.domain, &a.name))
+                {
+                    joined.attributes.push(a.clone());
+                }
+            }
+        }
+        // A normal that one part lacks is left out.
+        let certain = |a: &PlannedAttribute| parts.iter().all(|part| part.attributes.contains(a));
+        for attribute in &mut joined.attributes {
+            attribute.certain = true;
+            attribute.certain = certain(attribute);
+        }
+        if self.tag_parts {
+            for name in &self.objects {
+                joined.provide(Domain::Face, name);
+            }
+        }
+        joined
+    }
+}
+
+fn not_a_mesh(name: &str, kind: &str) -> String {
+    format!("Join joins meshes, but \"{name}\" is {kind}")
+}
+
+#[cfg(test)]
+mod tests;

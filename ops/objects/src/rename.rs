@@ -1,0 +1,117 @@
+//! Gives an object another name.
+//!
+//! ```text
+//!   "head", "body"   --->   "skull", "body"
+//! ```
+
+use op::{Context, OpError, Operation, Plan, PlanContext, Problem, Report, named_object};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Gives an object another name.
+///
+/// It keeps its place among the objects.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rename {
+    /// The name that it has.
+    pub from: String,
+    /// The name that it gets.
+    pub to: String,
+}
+
+impl Operation for Rename {
+    const NAME: &'static str = "Rename";
+    const SUMMARY: &'static str = "Give an object another name";
+    const EXAMPLE: &'static str = r#"Rename(from: "mesh", to: "new")"#;
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        let problems = plan.check_names([self.from.as_str()], "from");
+        if !problems.is_empty() {
+            return problems;
+        }
+        if self.from != self.to && plan.object(&self.to).is_some() {
+            let message = scene::DuplicateName(self.to.clone()).to_string();
+            return vec![Problem::error(message).at(["to"])];
+        }
+        let objects = plan.objects.iter_mut();
+        objects
+            .filter(|o| o.name == self.from)
+            .for_each(|o| o.name.clone_from(&self.to));
+        Vec::new()
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        cx.advance("rename", 0, 1)?;
+        named_object(scene, &self.from)?;
+        scene
+            .rename(&self.from, &self.to)
+            .map_err(|e| OpError::Object(e.to_string()))?;
+        Ok(Report::changed(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::shapes;
+    use scene::Object;
+
+    fn step(text: &str) -> Rename {
+        ron::from_str(text).unwrap()
+    }
+
+    fn scene() -> Scene {
+        let mut scene = Scene::new();
+        for name in ["a", "b"] {
+            scene.insert(Object::mesh(name, shapes::square())).unwrap();
+        }
+        scene
+    }
+
+    #[test]
+    fn the_object_keeps_its_place() {
+        let mut scene = scene();
+        op::test::run(&step(r#"(from: "a", to: "c")"#), &mut scene).unwrap();
+        let names: Vec<_> = scene.objects().iter().map(|o| o.name.as_str()).collect();
+        assert_eq!(names, ["c", "b"]);
+    }
+
+    #[test]
+    fn a_missing_object_and_a_taken_name_are_refused() {
+        for text in [r#"(from: "d", to: "c")"#, r#"(from: "a", to: "b")"#] {
+            let mut scene = scene();
+            assert!(matches!(
+                op::test::run(&step(text), &mut scene),
+                Err(OpError::Object(_))
+            ));
+            assert_eq!(scene, self::scene());
+        }
+    }
+
+    #[test]
+    fn the_plan_says_the_same() {
+        let files = op::Files::default();
+        let cx = PlanContext {
+            files: &files,
+            on: None,
+            budget: u64::MAX,
+        };
+        let mut plan = Plan::default();
+        for name in ["a", "b"] {
+            assert_eq!(plan.insert(name, op::PlannedGeometry::Polylines), []);
+        }
+        assert_eq!(
+            step(r#"(from: "d", to: "c")"#).plan(&mut plan, &cx)[0].path,
+            ["from"]
+        );
+        assert_eq!(
+            step(r#"(from: "a", to: "b")"#).plan(&mut plan, &cx)[0].path,
+            ["to"]
+        );
+        assert_eq!(step(r#"(from: "a", to: "a")"#).plan(&mut plan, &cx), []);
+        assert_eq!(step(r#"(from: "a", to: "c")"#).plan(&mut plan, &cx), []);
+        assert_eq!(plan.objects[0].name, "c");
+    }
+}

@@ -1,0 +1,381 @@
+//! Picture: draws the scene into an image file.
+//!
+//! ```text
+//!   scene --selections, numbers (overlays.rs, numbers.rs)--> drawing --cameras (draw.rs)--> images
+//!         --side by side, one after another (lib.rs)--> .png, .apng, .gif
+//! ```
+
+mod draw;
+mod numbers;
+mod overlays;
+mod places;
+mod sight;
+#[cfg(test)]
+mod tests;
+
+use std::fmt::Display;
+use std::path::Path;
+
+use op::{Context, Elements, OpError, Operation, Plan, PlanContext, Problem, Report};
+use render::animation::{Timing, to_apng, to_gif};
+use render::{Camera, Color, GoOn, Image, LARGEST_SIDE, PictureError, Style};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use draw::Further;
+
+pub use draw::Extent;
+pub use numbers::{ColorBy, Quantity};
+pub use places::draw_places;
+
+/// Draws the scene into an image file below the output folder.
+///
+/// The ending chooses the format: `.png`; for a turntable `.gif`, or `.apng` or `.png` for a PNG that moves. The
+/// file appears when the whole recipe has succeeded; the scene stays as it is. It needs no graphics processor,
+/// and gives the same bytes on every machine.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Picture {
+    /// The file, seen from the output folder. `{name.stem}` stands for the name, without its ending, of
+    /// the file that the parameter `name` of the recipe names.
+    pub path: String,
+    /// Width and height in pixels, of each view.
+    #[serde(default = "size")]
+    #[schemars(inner(range(min = 1, max = 16384)))]
+    pub size: [u32; 2],
+    /// Where the scene is seen from.
+    #[serde(default)]
+    pub camera: Camera,
+    /// Several cameras, in place of `camera`: their views stand side by side.
+    #[serde(default)]
+    pub views: Vec<Camera>,
+    /// How many views stand in a row; unless told otherwise all, at most 4.
+    #[serde(default)]
+    #[schemars(range(min = 1, max = 64))]
+    pub columns: Option<u32>,
+    /// How it looks: shading, lines, background.
+    #[serde(default)]
+    pub style: Style,
+    /// Elements that are marked in a strong color, as in `Sharp(above: 30)` or `Faces(Tagged("top"))`.
+    #[serde(default)]
+    pub highlight: Option<Elements>,
+    /// The width of highlighted edges and the diameter of highlighted vertices, in pixels. Unless told otherwise
+    /// 2.8 and 7.5 in pictures that are 240 high, 3.4 and 10 at 480, 4 and 13 at 960, 8 and 26 at 1920; vertices
+    /// are smaller where they are many. Hidden edges shine through, hidden vertices are rings.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub highlight_width: Option<f64>,
+    /// More elements that are marked, each in a color of its own.
+    #[serde(default)]
+    pub marks: Vec<Mark>,
+    /// Numbers that are shown as colors of the surface.
+    #[serde(default)]
+    pub color_by: Option<ColorBy>,
+    /// Makes it an animation in which the camera goes once around the scene.
+    #[serde(default)]
+    pub turntable: Option<Turntable>,
+    /// The folder in which images of materials are looked for, seen from the recipe's folder; without it
+    /// the recipe's folder. What is not there is left out, and told.
+    #[serde(default)]
+    pub images: Option<String>,
+}
+
+/// Elements in a color.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mark {
+    /// Which elements.
+    pub of: Elements,
+    /// Their color.
+    #[serde(default = "orange")]
+    pub color: Color,
+    /// The width of edges and the diameter of vertices, in pixels; unless told otherwise as of highlighted ones.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub width: Option<f64>,
+}
+
+/// One turn around the scene.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Turntable {
+    /// How many images.
+    #[serde(default = "frames")]
+    #[schemars(range(min = 2, max = 720))]
+    pub frames: u32,
+    /// How long a turn takes.
+    #[serde(default = "seconds")]
+    #[schemars(range(min = 0.1, max = 600.0))]
+    pub seconds: f64,
+}
+
+fn size() -> [u32; 2] {
+    [1280, 960]
+}
+
+fn orange() -> Color {
+    Color::rgb(0xe6, 0x55, 0x0d)
+}
+
+fn frames() -> u32 {
+    36
+}
+
+fn seconds() -> f64 {
+    4.0
+}
+
+/// The formats of pictures.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+enum Format {
+    Png,
+    Apng,
+    Gif,
+}
+
+impl Format {
+    fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        match ending.as_str() {
+            "png" => Some(Self::Png),
+            "apng" => Some(Self::Apng),
+            "gif" => Some(Self::Gif),
+            _ => None,
+        }
+    }
+}
+
+impl Picture {
+    /// A picture of this name, with defaults for everything else.
+    pub fn new(path: impl Into<String>) -> Self {
+        Self {
+            path: path.into(),
+            size: size(),
+            camera: Camera::default(),
+            views: Vec::new(),
+            columns: None,
+            style: Style::default(),
+            highlight: None,
+            highlight_width: None,
+            marks: Vec::new(),
+            color_by: None,
+            turntable: None,
+            images: None,
+        }
+    }
+
+    /// What is wrong with the parameters, whatever the scene is.
+    fn problems(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        if let Some(side) = self.size.iter().find(|s| !(1..=LARGEST_SIDE).contains(*s)) {
+            let message = format!("expected 1 to {LARGEST_SIDE} pixels a side, found {side}");
+            problems.push(Problem::error(message).at(["size"]));
+        }
+        match Format::of(Path::new(&self.path)) {
+            None => {
+                let message = format!("no format of pictures is known for \"{}\"", self.path);
+                let help = "endings that can be written: .png, .apng, .gif";
+                problems.push(Problem::error(message).at(["path"]).help(help));
+            }
+            Some(Format::Apng | Format::Gif) if self.turntable.is_none() => {
+                let message = format!("\"{}\" is an animation, but nothing moves", self.path);
+                let help = "add `turntable: ()`, or write a .png";
+                problems.push(Problem::error(message).at(["path"]).help(help));
+            }
+            Some(_) => {}
+        }
+        if let Some(turn) = self.turntable {
+            if !(2..=720).contains(&turn.frames) {
+                let message = format!("expected 2 to 720 images, found {}", turn.frames);
+                problems.push(Problem::error(message).at(["turntable", "frames"]));
+            }
+            if !(0.1..=600.0).contains(&turn.seconds) {
+                let message = format!("expected 0.1 to 600 seconds, found {}", turn.seconds);
+                problems.push(Problem::error(message).at(["turntable", "seconds"]));
+            }
+        }
+        let style = self.style.check().err().map(|error| (error, "style"));
+        let cameras = self.cameras().iter().filter_map(|c| c.check().err());
+        for (error, field) in style.into_iter().chain(cameras.map(|e| (e, "camera"))) {
+            problems.push(Problem::error(error.to_string()).at([field]));
+        }
+        problems
+    }
+
+    /// The cameras, whichever of the two parameters names them.
+    fn cameras(&self) -> &[Camera] {
+        if self.views.is_empty() {
+            std::slice::from_ref(&self.camera)
+        } else {
+            &self.views
+        }
+    }
+
+    /// Draws a scene: the images of a turntable, else one. The notes say what is not shown as the scene has it.
+    ///
+    /// # Errors
+    ///
+    /// [`OpError::Parameter`] and [`OpError::File`] for what is wrong with the parameters, [`OpError::Budget`] if
+    /// the images need more memory than `cx` allows; those of the selections; [`OpError::Cancelled`].
+    pub fn draw(
+        &self,
+        scene: &Scene,
+        cx: &mut Context,
+    ) -> Result<(Vec<Image>, Vec<String>), OpError> {
+        self.draw_beside(&[(scene, "")], cx)
+    }
+
+    /// The same for several scenes side by side, in one scale, each with a caption unless that is empty.
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn draw_beside(
+        &self,
+        scenes: &[(&Scene, &str)],
+        cx: &mut Context,
+    ) -> Result<(Vec<Image>, Vec<String>), OpError> {
+        self.in_order()?;
+        draw::images(self, scenes, &Further::default(), cx)
+    }
+
+    /// What a scene takes of the picture, to draw it beside others that are not in memory with it: see [`Extent`].
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn extent(&self, scene: &Scene, cx: &mut Context) -> Result<Extent, OpError> {
+        self.in_order()?;
+        draw::extent(self, scene, cx)
+    }
+
+    /// Draws a scene so that all of `extent` is seen by cameras that fit, and its numbers in the colors for all;
+    /// without a legend, as that is [the same](Extent::legend) for all.
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn draw_within(
+        &self,
+        scene: &Scene,
+        extent: &Extent,
+        cx: &mut Context,
+    ) -> Result<(Vec<Image>, Vec<String>), OpError> {
+        self.in_order()?;
+        let mut picture = self.clone();
+        if let Some(color_by) = &mut picture.color_by {
+            color_by.range = color_by.range.or(extent.range());
+            color_by.legend = false;
+        }
+        let further = Further {
+            within: Some(extent),
+            ..Further::default()
+        };
+        draw::images(&picture, &[(scene, "")], &further, cx)
+    }
+
+    fn in_order(&self) -> Result<(), OpError> {
+        match self.problems().into_iter().next() {
+            Some(problem) => Err(OpError::Parameter(problem.message)),
+            None => Ok(()),
+        }
+    }
+
+    /// The images that were drawn as a file of the format that the path names. `stamp` says where it comes from.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Encode`] if there is no image, or the images are too large for the format.
+    pub fn encode(&self, images: &[Image], stamp: Option<&str>) -> Result<Vec<u8>, PictureError> {
+        self.encode_while(images, stamp, &|_| true)
+    }
+
+    /// As [`Self::encode`]. `go_on` is told how far it is, from 0 to 1, and stops it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::encode`]; [`PictureError::Cancelled`] if `go_on` says so.
+    pub fn encode_while(
+        &self,
+        images: &[Image],
+        stamp: Option<&str>,
+        go_on: GoOn,
+    ) -> Result<Vec<u8>, PictureError> {
+        let texts: Vec<(&str, &str)> = stamp.iter().map(|stamp| ("Software", *stamp)).collect();
+        let Some(turn) = self.turntable else {
+            return match images {
+                [image] => image.to_png_while(&texts, go_on),
+                _ => Err(PictureError::Encode("there is no image".to_owned())),
+            };
+        };
+        let delay = 1000.0 * turn.seconds / f64::from(turn.frames);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "it is held to what 16 bits can say"
+        )]
+        let delay = delay.round().clamp(1.0, f64::from(u16::MAX)) as u16;
+        let timing = Timing { delay, turns: 0 };
+        match Format::of(Path::new(&self.path)) {
+            Some(Format::Gif) => to_gif(images, timing, stamp, go_on),
+            _ => to_apng(images, timing, &texts, go_on),
+        }
+    }
+}
+
+impl Operation for Picture {
+    const NAME: &'static str = "Picture";
+    const SUMMARY: &'static str = "Draw the scene into an image file";
+    const EXAMPLE: &'static str = r#"Picture(path: "a.png", size: (64, 48), highlight: Edges(Sharp(above: 30)), style: (wireframe: ()))"#;
+    const TAKES_ON: bool = true;
+    const ATOMIC: bool = true;
+
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        let mut problems = self.problems();
+        match cx.files.to_write(&self.path) {
+            Ok(path) => {
+                if plan.outputs.contains(&path) {
+                    let message = format!("an earlier step writes \"{}\" too", self.path);
+                    problems.push(Problem::error(message).at(["path"]));
+                }
+                plan.outputs.push(path);
+            }
+            Err(error) => problems.push(Problem::error(error.to_string()).at(["path"])),
+        }
+        if let Some(color_by) = &self.color_by {
+            problems.extend(color_by.plan(plan, cx));
+        }
+        let bytes = 4 * self.n_pixels();
+        if bytes > cx.budget {
+            let message = format!("the images take {bytes} bytes, over the budget");
+            problems.push(Problem::error(message).at(["size"]));
+        }
+        problems
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        let failed = |error: &dyn Display| OpError::File(error.to_string());
+        let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
+        let (images, notes) = self.draw(scene, cx)?;
+        let stamp = cx.files().provenance.clone();
+        let go_on = |part| {
+            let parts = draw::parts(part);
+            cx.advance("encode", parts, draw::PARTS).is_ok()
+        };
+        let bytes = self
+            .encode_while(&images, stamp.as_deref(), &go_on)
+            .map_err(draw::told)?;
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|e| {
+                failed(&format!("cannot make the folder {}: {e}", folder.display()))
+            })?;
+        }
+        std::fs::write(&path, bytes)
+            .map_err(|e| failed(&format!("cannot write {}: {e}", path.display())))?;
+        Ok(Report {
+            notes,
+            ..Report::default()
+        })
+    }
+}

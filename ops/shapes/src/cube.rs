@@ -1,0 +1,159 @@
+//! A cube of 6 squares, or of 12 triangles.
+//!
+//! ```text
+//!      6 ------ 7        z            d ------ c
+//!     /|       /|        |  y         |  2nd / |
+//!    4 ------ 5 |        | /          |    /   |     with `triangles: true` each square
+//!    | 2 -----| 3        |/           |  / 1st |     (a, b, c, d) is cut from a to c
+//!    |/       |/         +---- x      |/       |
+//!    0 ------ 1                       a ------ b
+//! ```
+//!
+//! Vertex number = (x > middle) + 2 (y > middle) + 4 (z > middle). The squares, seen from outside
+//! counter-clockwise, are bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right
+//! (1, 3, 7, 5), back (3, 2, 6, 7) and left (2, 0, 4, 6), so the diagonals are 0-3, 4-7, 0-5, 1-7,
+//! 3-6 and 2-4.
+
+use mesh::{Mesh, shapes};
+use op::{
+    Context, MeshPlan, OpError, Operation, Plan, PlanContext, Problem, Range, Report, Source,
+    Vector,
+};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Makes a cube.
+///
+/// 8 vertices and 6 squares: bottom (0, 2, 3, 1), top (4, 5, 7, 6), front (0, 1, 5, 4), right
+/// (1, 3, 7, 5), back (3, 2, 6, 7), left (2, 0, 4, 6). Vertex number = (x > middle) +
+/// 2 (y > middle) + 4 (z > middle).
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cube {
+    /// The name of the new object.
+    pub name: String,
+    /// The length of its edges, in scene units; above 0.
+    #[serde(default = "two")]
+    #[schemars(range(min = 0.0))]
+    pub size: f64,
+    /// Where its middle is, in scene units.
+    #[serde(default)]
+    pub center: Vector,
+    /// Whether each square (a, b, c, d) is cut along its diagonal from a to c into the triangles
+    /// (a, b, c) and (a, c, d): square f becomes faces 2 f and 2 f + 1. The diagonals are 0-3, 4-7,
+    /// 0-5, 1-7, 3-6 and 2-4.
+    #[serde(default)]
+    pub triangles: bool,
+}
+
+const fn two() -> f64 {
+    2.0
+}
+
+impl Cube {
+    fn source(&self) -> Source<'_> {
+        let counts = if self.triangles {
+            MeshPlan::counted(8, 18, 12, Range::exactly(3))
+        } else {
+            MeshPlan::counted(8, 12, 6, Range::exactly(4))
+        };
+        Source::new(&self.name, counts)
+            .positive("size", self.size)
+            .placed([self.size / 2.0; 3], self.center)
+    }
+}
+
+impl Operation for Cube {
+    const NAME: &'static str = "Cube";
+    const SUMMARY: &'static str = "Make a cube";
+    const EXAMPLE: &'static str = r#"Cube(name: "new", size: 3, center: (1, 2, 3))"#;
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        self.source().plan(plan)
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        self.source().insert(scene, cx, || {
+            if self.triangles {
+                cut(&shapes::cube())
+            } else {
+                shapes::cube()
+            }
+        })
+    }
+}
+
+/// The cube with each square cut from its first to its third corner.
+fn cut(cube: &Mesh) -> Mesh {
+    let mut triangles = Vec::with_capacity(12);
+    for f in cube.faces() {
+        let corners: Vec<u32> = cube
+            .face_vertices(f)
+            .map(|v| u32::try_from(v.index()).expect("one of 8"))
+            .collect();
+        let [a, b, c, d] = corners[..] else {
+            unreachable!("the faces of a cube are squares")
+        };
+        triangles.extend([[a, b, c], [a, c, d]]);
+    }
+    let (mesh, _) = Mesh::from_polygons(cube.positions().to_vec(), &triangles)
+        .expect("the corners are those of the cube");
+    mesh
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{DVec3, FaceId, VertexId};
+
+    /// The mesh that the recipe text makes.
+    fn made(text: &str) -> Mesh {
+        op::made(&ron::from_str::<Cube>(text).unwrap())
+    }
+
+    #[test]
+    fn a_cube_of_size_2_has_its_corners_at_1() {
+        let mesh = made(r#"(name: "a")"#);
+        assert_eq!(mesh, shapes::cube());
+        assert!((mesh.volume() - 8.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn size_and_center_place_it() {
+        let mesh = made(r#"(name: "a", size: 3, center: (1, 2, 3))"#);
+        let [min, max] = mesh.bounds().unwrap();
+        assert_eq!(min, DVec3::new(-0.5, 0.5, 1.5));
+        assert_eq!(max, DVec3::new(2.5, 3.5, 4.5));
+    }
+
+    #[test]
+    fn the_diagonals_are_those_of_the_documentation() {
+        let mesh = made(r#"(name: "a", triangles: true)"#);
+        assert!(mesh.is_closed());
+        assert!((mesh.volume() - 8.0).abs() < 1e-14);
+        let square = shapes::cube();
+        let vertex = VertexId::new;
+        for (v, w) in [(0, 3), (4, 7), (0, 5), (1, 7), (3, 6), (2, 4)] {
+            assert!(
+                mesh.find_half_edge(vertex(v), vertex(w)).is_some(),
+                "{v}-{w}"
+            );
+            assert!(
+                square.find_half_edge(vertex(v), vertex(w)).is_none(),
+                "{v}-{w}"
+            );
+        }
+        for f in mesh.faces() {
+            let of = FaceId::new(f.index() / 2);
+            assert_eq!(mesh.face_normal(f), square.face_normal(of));
+        }
+    }
+
+    #[test]
+    fn a_size_of_zero_is_refused() {
+        let step: Cube = ron::from_str(r#"(name: "a", size: 0)"#).unwrap();
+        let made = op::test::run(&step, &mut Scene::new());
+        assert!(matches!(made, Err(OpError::Parameter(_))));
+    }
+}

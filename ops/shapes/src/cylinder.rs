@@ -1,0 +1,145 @@
+//! A cylinder around the z axis.
+//!
+//! ```text
+//!     .--------.        caps: two faces of `around` corners
+//!    |\________/|
+//!    |  |    |  |       `around` rectangles
+//!    |  |    |  |
+//!     \_|____|_/
+//! ```
+
+use mesh::shapes;
+use op::{
+    Context, MeshPlan, OpError, Operation, Plan, PlanContext, Problem, Range, Report, Source,
+    Vector,
+};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Makes a cylinder around the z axis.
+///
+/// The vertices are those of the lower rim and then those of the upper one, counter-clockwise seen from
+/// above, the first in the direction +x. The faces are `around` rectangles and, with caps, two
+/// polygons of `around` corners: the lower and the upper one.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cylinder {
+    /// The name of the new object.
+    pub name: String,
+    /// How many sides.
+    #[schemars(range(min = 3))]
+    pub around: u32,
+    /// The distance from the axis to its vertical edges, in scene units; above 0.
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.0))]
+    pub radius: f64,
+    /// Its height along z, in scene units; above 0.
+    #[serde(default = "two")]
+    #[schemars(range(min = 0.0))]
+    pub height: f64,
+    /// Whether its ends are closed.
+    #[serde(default = "yes")]
+    pub caps: bool,
+    /// Where its middle is, in scene units.
+    #[serde(default)]
+    pub center: Vector,
+}
+
+const fn one() -> f64 {
+    1.0
+}
+
+const fn two() -> f64 {
+    2.0
+}
+
+const fn yes() -> bool {
+    true
+}
+
+impl Cylinder {
+    fn source(&self) -> Source<'_> {
+        let n = u64::from(self.around);
+        let (caps, degrees) = if self.caps {
+            (
+                2,
+                Range {
+                    min: n.min(4),
+                    max: n.max(4),
+                },
+            )
+        } else {
+            (0, Range::exactly(4))
+        };
+        Source::new(
+            &self.name,
+            MeshPlan::counted(2 * n, 3 * n, n + caps, degrees),
+        )
+        .at_least("around", self.around, 3)
+        .positive("radius", self.radius)
+        .positive("height", self.height)
+        .placed([self.radius, self.radius, self.height / 2.0], self.center)
+    }
+}
+
+impl Operation for Cylinder {
+    const NAME: &'static str = "Cylinder";
+    const SUMMARY: &'static str = "Make a cylinder";
+    const EXAMPLE: &'static str =
+        r#"Cylinder(name: "new", around: 6, radius: 1, height: 2, caps: true)"#;
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        self.source().plan(plan)
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        self.source()
+            .insert(scene, cx, || shapes::cylinder(self.around, self.caps))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::Mesh;
+
+    /// The mesh that the recipe text makes.
+    fn made(text: &str) -> Mesh {
+        op::made(&ron::from_str::<Cylinder>(text).unwrap())
+    }
+
+    #[test]
+    fn a_cylinder_of_four_sides_is_a_box() {
+        let mesh = made(r#"(name: "a", around: 4, radius: 3, height: 5, center: (0, 0, 1))"#);
+        // The base is a square with diagonals of 6.
+        assert!((mesh.volume() - 18.0 * 5.0).abs() < 1e-12);
+        let [min, max] = mesh.bounds().unwrap();
+        assert_eq!((min.z, max.z), (-1.5, 3.5));
+    }
+
+    #[test]
+    fn caps_close_it() {
+        for around in [3, 4, 7] {
+            assert!(made(&format!(r#"(name: "a", around: {around})"#)).is_closed());
+            let open = made(&format!(r#"(name: "a", around: {around}, caps: false)"#));
+            assert_eq!(open.n_boundary_loops(), 2);
+        }
+    }
+
+    #[test]
+    fn bad_parameters_are_refused_at_their_field() {
+        let step: Cylinder = ron::from_str(r#"(name: "a", around: 2, height: -1)"#).unwrap();
+        let problems = step.source().plan(&mut Plan::default());
+        let fields: Vec<_> = problems.iter().map(|p| p.path.join(".")).collect();
+        assert_eq!(fields, ["around", "height"]);
+        assert!(op::test::run(&step, &mut Scene::new()).is_err());
+    }
+
+    #[test]
+    fn too_many_sides_are_refused() {
+        let step: Cylinder = ron::from_str(r#"(name: "a", around: 4294967295)"#).unwrap();
+        let made = op::test::run(&step, &mut Scene::new());
+        assert!(matches!(made, Err(OpError::Budget(_))));
+    }
+}

@@ -1,0 +1,121 @@
+//! A flat sheet of squares.
+//!
+//! ```text
+//!    6 --- 7 --- 8       y
+//!    |  2  |  3  |       |      columns: 2, rows: 2
+//!    3 --- 4 --- 5       |
+//!    |  0  |  1  |       +--- x
+//!    0 --- 1 --- 2
+//! ```
+
+use mesh::shapes;
+use op::{
+    Context, MeshPlan, OpError, Operation, Plan, PlanContext, Problem, Range, Report, Source,
+    Vector,
+};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Makes a flat sheet of squares that face upwards, +z.
+///
+/// Vertices and faces are numbered in rows, from -x to +x and from -y to +y.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Grid {
+    /// The name of the new object.
+    pub name: String,
+    /// How many squares along x.
+    #[schemars(range(min = 1))]
+    pub columns: u32,
+    /// How many squares along y.
+    #[schemars(range(min = 1))]
+    pub rows: u32,
+    /// The length of a side of one square, in scene units; above 0.
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.0))]
+    pub size: f64,
+    /// Where its middle is, in scene units.
+    #[serde(default)]
+    pub center: Vector,
+}
+
+const fn one() -> f64 {
+    1.0
+}
+
+impl Grid {
+    fn source(&self) -> Source<'_> {
+        let (columns, rows) = (u64::from(self.columns), u64::from(self.rows));
+        let vertices = (columns + 1).saturating_mul(rows + 1);
+        let edges = columns
+            .saturating_mul(rows + 1)
+            .saturating_add((columns + 1).saturating_mul(rows));
+        let faces = columns.saturating_mul(rows);
+        let counts = MeshPlan::counted(vertices, edges, faces, Range::exactly(4));
+        Source::new(&self.name, counts)
+            .at_least("columns", self.columns, 1)
+            .at_least("rows", self.rows, 1)
+            .positive("size", self.size)
+            .placed([self.size; 3], self.center)
+    }
+}
+
+impl Operation for Grid {
+    const NAME: &'static str = "Grid";
+    const SUMMARY: &'static str = "Make a flat sheet of squares";
+    const EXAMPLE: &'static str = r#"Grid(name: "new", columns: 3, rows: 2)"#;
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        self.source().plan(plan)
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        self.source()
+            .insert(scene, cx, || shapes::grid(self.columns, self.rows))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{DVec3, Mesh};
+
+    /// The mesh that the recipe text makes.
+    fn made(text: &str) -> Mesh {
+        op::made(&ron::from_str::<Grid>(text).unwrap())
+    }
+
+    #[test]
+    fn a_grid_covers_its_area_and_faces_upwards() {
+        let mesh = made(r#"(name: "a", columns: 3, rows: 2, size: 0.5)"#);
+        assert_eq!(mesh.area(), 6.0 * 0.25);
+        assert!(mesh.faces().all(|f| mesh.face_normal(f) == DVec3::Z));
+        assert_eq!(mesh.n_boundary_loops(), 1);
+    }
+
+    #[test]
+    fn vertices_are_numbered_in_rows() {
+        let mesh = made(r#"(name: "a", columns: 2, rows: 2, center: (1, 1, 5))"#);
+        assert_eq!(mesh.positions()[0], DVec3::new(0.0, 0.0, 5.0));
+        assert_eq!(mesh.positions()[5], DVec3::new(2.0, 1.0, 5.0));
+    }
+
+    #[test]
+    fn no_columns_and_too_many_squares_are_refused() {
+        let run = |columns, rows| {
+            let (name, size, center) = ("a".into(), 1.0, Vector::default());
+            let grid = Grid {
+                name,
+                columns,
+                rows,
+                size,
+                center,
+            };
+            op::test::run(&grid, &mut Scene::new())
+        };
+        assert!(matches!(run(0, 1), Err(OpError::Parameter(_))));
+        assert!(matches!(run(u32::MAX, u32::MAX), Err(OpError::Budget(_))));
+        assert!(matches!(run(1 << 16, 1 << 16), Err(OpError::Budget(_))));
+    }
+}

@@ -1,0 +1,105 @@
+//! A regular tetrahedron.
+//!
+//! ```text
+//!        0               corners on four of the
+//!       /|\              eight corners of a cube
+//!      / | \
+//!     1--|--3
+//!      \ | /
+//!        2
+//! ```
+
+use mesh::shapes;
+use op::{
+    Context, MeshPlan, OpError, Operation, Plan, PlanContext, Problem, Range, Report, Source,
+    Vector,
+};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Makes a regular tetrahedron: 4 vertices, 4 triangles.
+///
+/// Its corners are four of the eight corners of a cube around the same middle, the first at
+/// (+, +, +), then (-, -, +), (-, +, -) and (+, -, -).
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tetrahedron {
+    /// The name of the new object.
+    pub name: String,
+    /// The distance from the middle to its corners, in scene units; above 0.
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.0))]
+    pub radius: f64,
+    /// Where its middle is, in scene units.
+    #[serde(default)]
+    pub center: Vector,
+}
+
+const fn one() -> f64 {
+    1.0
+}
+
+impl Tetrahedron {
+    fn source(&self) -> Source<'_> {
+        let counts = MeshPlan::counted(4, 6, 4, Range::exactly(3));
+        Source::new(&self.name, counts)
+            .positive("radius", self.radius)
+            .placed([self.radius / 3.0_f64.sqrt(); 3], self.center)
+    }
+}
+
+impl Operation for Tetrahedron {
+    const NAME: &'static str = "Tetrahedron";
+    const SUMMARY: &'static str = "Make a regular tetrahedron";
+    const EXAMPLE: &'static str = r#"Tetrahedron(name: "new")"#;
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        self.source().plan(plan)
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        self.source().insert(scene, cx, shapes::tetrahedron)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{DVec3, Mesh};
+
+    /// The mesh that the recipe text makes.
+    fn made(text: &str) -> Mesh {
+        op::made(&ron::from_str::<Tetrahedron>(text).unwrap())
+    }
+
+    #[test]
+    fn its_corners_lie_on_the_sphere() {
+        let mesh = made(r#"(name: "a", radius: 3, center: (1, 2, 3))"#);
+        let center = DVec3::new(1.0, 2.0, 3.0);
+        assert!(
+            mesh.positions()
+                .iter()
+                .all(|p| (p.distance(center) - 3.0).abs() < 1e-14)
+        );
+    }
+
+    #[test]
+    fn it_is_closed_and_regular() {
+        let mesh = made(r#"(name: "a")"#);
+        assert!(mesh.is_closed());
+        let side = mesh.length(mesh.edges().next().unwrap().half_edge());
+        for e in mesh.edges() {
+            assert!((mesh.length(e.half_edge()) - side).abs() < 1e-14);
+        }
+        // The volume of the regular tetrahedron of radius 1 is 8 / (9 √3).
+        assert!((mesh.volume() - 8.0 / (9.0 * 3.0_f64.sqrt())).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_radius_that_is_no_number_is_refused() {
+        let step: Tetrahedron = ron::from_str(r#"(name: "a", radius: NaN)"#).unwrap();
+        let made = op::test::run(&step, &mut Scene::new());
+        assert!(matches!(made, Err(OpError::Parameter(_))));
+    }
+}

@@ -1,0 +1,132 @@
+//! A sphere of meridians and rings, as on a globe.
+//!
+//! ```text
+//!          .-^-.            triangles at the poles,
+//!        /  / \  \          quadrilaterals between
+//!       |--|---|--|
+//!       |--|---|--|         around: meridians; rings: bands of faces from pole to pole
+//!        \  \ /  /
+//!          '-v-'
+//! ```
+
+use mesh::shapes;
+use op::{
+    Context, MeshPlan, OpError, Operation, Plan, PlanContext, Problem, Range, Report, Source,
+    Vector,
+};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Makes a sphere of meridians and rings, with poles at -z and +z.
+///
+/// Vertex 0 is the lower pole, the circles follow from below, each from the direction +x
+/// counter-clockwise seen from above, and the upper pole comes last.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct UvSphere {
+    /// The name of the new object.
+    pub name: String,
+    /// How many meridians.
+    #[schemars(range(min = 3))]
+    pub around: u32,
+    /// How many bands of faces from pole to pole.
+    #[schemars(range(min = 2))]
+    pub rings: u32,
+    /// The distance from the middle to its vertices, in scene units; above 0.
+    #[serde(default = "one")]
+    #[schemars(range(min = 0.0))]
+    pub radius: f64,
+    /// Where its middle is, in scene units.
+    #[serde(default)]
+    pub center: Vector,
+}
+
+const fn one() -> f64 {
+    1.0
+}
+
+impl UvSphere {
+    fn source(&self) -> Source<'_> {
+        let (around, rings) = (u64::from(self.around), u64::from(self.rings));
+        // `rings - 1` circles; below 2 the count is refused anyway.
+        let circles = rings.saturating_sub(1);
+        let on_circles = around.saturating_mul(circles);
+        let faces = around.saturating_mul(rings);
+        let edges = on_circles.saturating_add(faces);
+        let degrees = Range {
+            min: 3,
+            max: if rings > 2 { 4 } else { 3 },
+        };
+        let counts = MeshPlan::counted(on_circles.saturating_add(2), edges, faces, degrees);
+        Source::new(&self.name, counts)
+            .at_least("around", self.around, 3)
+            .at_least("rings", self.rings, 2)
+            .positive("radius", self.radius)
+            .placed([self.radius; 3], self.center)
+    }
+}
+
+impl Operation for UvSphere {
+    const NAME: &'static str = "UvSphere";
+    const SUMMARY: &'static str = "Make a sphere of meridians and rings";
+    const EXAMPLE: &'static str = r#"UvSphere(name: "new", around: 8, rings: 4, radius: 2)"#;
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        self.source().plan(plan)
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        self.source()
+            .insert(scene, cx, || shapes::uv_sphere(self.around, self.rings))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{DVec3, Mesh};
+
+    /// The mesh that the recipe text makes.
+    fn made(text: &str) -> Mesh {
+        op::made(&ron::from_str::<UvSphere>(text).unwrap())
+    }
+
+    #[test]
+    fn it_is_closed_for_every_number_of_rings() {
+        for (around, rings) in [(3, 2), (4, 3), (7, 5)] {
+            let mesh = made(&format!(r#"(name: "a", around: {around}, rings: {rings})"#));
+            assert!(mesh.is_closed());
+            assert_eq!(mesh.euler_characteristic(), 2);
+            assert!(mesh.volume() > 0.0);
+        }
+    }
+
+    #[test]
+    fn its_vertices_lie_on_the_sphere() {
+        let mesh = made(r#"(name: "a", around: 8, rings: 6, radius: 2, center: (0, 3, 0))"#);
+        let center = DVec3::new(0.0, 3.0, 0.0);
+        assert!(
+            mesh.positions()
+                .iter()
+                .all(|p| (p.distance(center) - 2.0).abs() < 1e-14)
+        );
+    }
+
+    #[test]
+    fn too_few_and_too_many_faces_are_refused() {
+        let run = |around, rings| {
+            let (name, radius, center) = ("a".into(), 1.0, Vector::default());
+            let sphere = UvSphere {
+                name,
+                around,
+                rings,
+                radius,
+                center,
+            };
+            op::test::run(&sphere, &mut Scene::new())
+        };
+        assert!(matches!(run(3, 1), Err(OpError::Parameter(_))));
+        assert!(matches!(run(u32::MAX, u32::MAX), Err(OpError::Budget(_))));
+    }
+}

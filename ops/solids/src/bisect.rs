@@ -1,0 +1,279 @@
+//! Bisect: cuts meshes along a plane.
+//!
+//! ```text
+//!    +-------+-------+           +-------+-------+                +-------+-------+
+//!    |       |       |           |       |       |     or only    |       |       |
+//!    |       |       |    -->    m-------m-------m     the part   m-------m-------m
+//!    |       |       |           |       |       |     in front
+//!    +-------+-------+           +-------+-------+
+//! ```
+
+use mesh::{Domain, EdgeId, Mesh, Rule, Values};
+use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report, Vector};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Cuts meshes along a plane.
+///
+/// Every edge that crosses the plane gets a vertex there, and every face that crosses it is cut along it,
+/// concave ones several times. Vertices nearer than 1e-9 of the largest extent of the mesh count as on the
+/// plane; they are not moved. Edges keep their numbers on the side of their lower vertex, faces at their
+/// first corner; what is new comes behind. Attributes are interpolated at the crossings, on both sides of
+/// seams.
+///
+/// With `keep` one side is left. A face in the plane counts as behind if its normal points to the front,
+/// because what it closes lies behind. Vertices that no face is left at go. Where the faces left around
+/// a vertex do not share edges, each fan of them gets a vertex of its own. The cut stays open.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Bisect {
+    /// A point of the plane.
+    #[serde(default)]
+    pub point: Vector,
+    /// The direction across the plane, to its front; of any length but 0.
+    pub normal: Vector,
+    /// Which side is left.
+    #[serde(default)]
+    pub keep: Keep,
+    /// The name of a tag for the edges on the plane; edges that have it already keep it.
+    #[serde(default)]
+    pub tag: Option<String>,
+}
+
+/// Which side of the plane is left.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Keep {
+    /// Both, still connected.
+    #[default]
+    Both,
+    /// The side that the normal points to.
+    Front,
+    /// The other side.
+    Back,
+}
+
+impl Bisect {
+    fn problems(&self) -> Vec<Problem> {
+        let is_finite = |v: Vector| v.0.is_finite() && v.1.is_finite() && v.2.is_finite();
+        let mut problems = Vec::new();
+        if !is_finite(self.point) {
+            problems.push(Problem::error("expected finite coordinates").at(["point"]));
+        }
+        if !is_finite(self.normal) || self.normal == Vector(0.0, 0.0, 0.0) {
+            let message = "expected a finite direction that is not 0";
+            problems.push(Problem::error(message).at(["normal"]));
+        }
+        if self.tag.as_deref() == Some("") {
+            problems.push(Problem::error("expected a name").at(["tag"]));
+        }
+        problems
+    }
+}
+
+impl MeshOperation for Bisect {
+    const NAME: &'static str = "Bisect";
+    const SUMMARY: &'static str = "Cut meshes along a plane";
+    const EXAMPLE: &'static str = "Bisect(normal: (0, 0, 1))";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let problems = self.problems();
+        if !problems.is_empty() {
+            return problems;
+        }
+        // A line crosses the sides of a face at most as often as there are, and cuts it half as often.
+        let per_face = plan.degrees.max / 2;
+        let crossings = plan.edges.or_less();
+        let cuts = plan.faces.by(per_face).capped(crossings).or_less();
+        plan.vertices = plan.vertices.plus(crossings);
+        plan.edges = plan.edges.plus(crossings).plus(cuts);
+        plan.faces = plan.faces.plus(cuts);
+        plan.degrees = Range {
+            min: 3,
+            max: plan.degrees.max.saturating_add(per_face),
+        };
+        if self.keep != Keep::Both {
+            // Copies are made for fans that meet in a vertex, at most one for each edge.
+            plan.vertices = plan.vertices.plus(plan.edges).or_less();
+            plan.edges = plan.edges.or_less();
+            plan.faces = plan.faces.or_less();
+        }
+        if let Some(tag) = &self.tag {
+            plan.provide(Domain::Edge, tag);
+        }
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        if let Some(problem) = self.problems().first() {
+            let path = problem.path.join(".");
+            return Err(OpError::Parameter(format!("{path}: {}", problem.message)));
+        }
+        cx.advance("bisect", 0, 2)?;
+        let cut = mesh.bisect(self.point.into(), self.normal.into())?;
+        if let Some(name) = &self.tag {
+            tag(mesh, name, &cut.edges)?;
+        }
+        cx.advance("bisect", 1, 2)?;
+        let n_faces = mesh.n_faces();
+        let kept = match self.keep {
+            Keep::Both => return Ok(Report::changed(cut.edges.len())),
+            Keep::Front => &cut.front,
+            Keep::Back => &cut.back,
+        };
+        let mut part_of_face = vec![usize::MAX; mesh.domain_len(Domain::Face)];
+        for f in kept {
+            part_of_face[f.index()] = 0;
+        }
+        let part = mesh
+            .parts(&part_of_face)
+            .pop()
+            .unwrap_or_else(|| nothing(mesh));
+        mesh.replace(part);
+        let gone = n_faces - mesh.n_faces();
+        Ok(Report::changed(cut.edges.len()).note(format!("faces on the other side: {gone}")))
+    }
+}
+
+/// What is left if no face is: the columns, without values.
+fn nothing(mesh: &Mesh) -> Mesh {
+    let mut nothing = Mesh::default();
+    nothing.set_attributes(mesh.attributes().gathered(mesh::Sources {
+        vertices: &[],
+        corners: &[],
+        edges: &[],
+        faces: &[],
+    }));
+    nothing
+}
+
+/// Marks edges by a tag, which may be there already.
+fn tag(mesh: &mut Mesh, name: &str, edges: &[EdgeId]) -> Result<(), OpError> {
+    let n = mesh.domain_len(Domain::Edge);
+    let column = mesh.attributes().column(Domain::Edge, name).cloned();
+    let mut column = column.unwrap_or_else(|| mesh::Column {
+        name: name.to_owned(),
+        rule: Rule::Copy,
+        values: Values::Tag(vec![false; n]),
+    });
+    let Values::Tag(marks) = &mut column.values else {
+        let message = format!(
+            "tag: the edge attribute \"{name}\" holds values of another type: {}",
+            column.values.type_name()
+        );
+        return Err(OpError::Parameter(message));
+    };
+    for e in edges {
+        marks[e.index()] = true;
+    }
+    mesh.insert_column(Domain::Edge, column);
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{Attribute, DVec3, shapes};
+    use op::test::{applied, try_applied};
+
+    /// As recipes are read.
+    fn step(text: &str) -> Bisect {
+        let options = ron::Options::default();
+        let implicit_some = ron::extensions::Extensions::IMPLICIT_SOME;
+        let options = options.with_default_extension(implicit_some);
+        options.from_str(text).unwrap()
+    }
+
+    #[test]
+    fn both_sides_stay_connected() {
+        let (cut, report) = try_applied(&step("(normal: (0, 0, 1))"), shapes::cube()).unwrap();
+        assert_eq!(
+            (cut.n_vertices(), cut.n_edges(), cut.n_faces()),
+            (12, 20, 10)
+        );
+        assert_eq!(report, Report::changed(4));
+    }
+
+    #[test]
+    fn the_sides_that_are_kept_make_up_the_whole() {
+        let torus = shapes::torus(16, 9, 2.0, 0.5);
+        let side = |keep| {
+            let text = format!("(point: (0.1, 0, 0.05), normal: (1, 2, 0.5), keep: {keep})");
+            applied(&step(&text), torus.clone())
+        };
+        let [front, back] = ["Front", "Back"].map(side);
+        assert!((front.area() + back.area() - torus.area()).abs() < 1e-12);
+        for side in [&front, &back] {
+            assert_eq!(side.n_boundary_loops(), 2);
+            assert_eq!(side.n_components(), 1);
+        }
+        let normal = DVec3::new(1.0, 2.0, 0.5);
+        let height = |p: &DVec3| (*p - DVec3::new(0.1, 0.0, 0.05)).dot(normal);
+        assert!(front.positions().iter().all(|p| height(p) > -1e-9));
+        assert!(back.positions().iter().all(|p| height(p) < 1e-9));
+    }
+
+    #[test]
+    fn a_plane_beside_the_mesh_leaves_all_or_nothing() {
+        let cube = shapes::cube();
+        let all = step("(point: (0, 0, -5), normal: (0, 0, 1), keep: Front)");
+        assert_eq!(applied(&all, cube.clone()), cube);
+        let none = step("(point: (0, 0, -5), normal: (0, 0, 1), keep: Back)");
+        assert_eq!(applied(&none, cube), Mesh::default());
+    }
+
+    #[test]
+    fn a_face_in_the_plane_stays_with_what_it_closes() {
+        let cube = shapes::cube();
+        let below = step("(point: (0, 0, 1), normal: (0, 0, 1), keep: Back)");
+        assert_eq!(applied(&below, cube.clone()), cube);
+        let above = step("(point: (0, 0, 1), normal: (0, 0, 1), keep: Front)");
+        assert_eq!(applied(&above, cube.clone()).n_faces(), 0);
+        let bottom = step("(point: (0, 0, -1), normal: (0, 0, 1), keep: Front)");
+        assert_eq!(applied(&bottom, cube.clone()), cube);
+    }
+
+    #[test]
+    fn the_cut_edges_may_be_tagged() {
+        let tagged = |mesh: &Mesh| {
+            let marks = mesh.tag(Domain::Edge, "cut").unwrap();
+            marks.iter().filter(|&&m| m).count()
+        };
+        let cut = applied(&step(r#"(normal: (0, 0, 1), tag: "cut")"#), shapes::cube());
+        assert_eq!(tagged(&cut), 4);
+        let again = applied(&step(r#"(normal: (0, 1, 0), tag: "cut")"#), cut.clone());
+        assert_eq!(tagged(&again), 12);
+        let half = step(r#"(normal: (0, 0, 1), keep: Back, tag: "cut")"#);
+        let half = applied(&half, shapes::cube());
+        let marks = half.tag(Domain::Edge, "cut").unwrap();
+        assert!(
+            half.edges()
+                .all(|e| half.is_boundary_edge(e) == marks[e.index()])
+        );
+        // Creases are numbers.
+        let mut creased = shapes::cube();
+        let crease = Attribute::<EdgeId, f64>::new("crease", Rule::Copy);
+        creased.set(crease, vec![0.0; 12]);
+        let refused = try_applied(&step(r#"(normal: (0, 0, 1), tag: "crease")"#), creased);
+        assert!(matches!(refused, Err(OpError::Parameter(_))));
+    }
+
+    #[test]
+    fn a_plane_without_direction_is_refused() {
+        for normal in [Vector(0.0, 0.0, 0.0), Vector(f64::NAN, 0.0, 1.0)] {
+            let bad = Bisect {
+                normal,
+                ..step("(normal: (0, 0, 1))")
+            };
+            let refused = try_applied(&bad, shapes::cube());
+            assert!(matches!(refused, Err(OpError::Parameter(_))));
+        }
+    }
+
+    #[test]
+    fn a_recipe_must_give_the_normal() {
+        assert!(ron::from_str::<Bisect>("()").is_err());
+        assert!(ron::from_str::<Bisect>("(normal: (0, 0, 1), fill: true)").is_err());
+        assert_eq!(step("(normal: (0, 0, 1))").keep, Keep::Both);
+    }
+}

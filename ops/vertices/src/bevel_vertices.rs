@@ -1,0 +1,179 @@
+//! Bevel vertices: puts faces into the place of vertices.
+//!
+//! ```text
+//!      \     /              \     /
+//!       \   /                +---+
+//!         v        -->        \ /           the edges at v are cut at (1 - t) v + t w,
+//!         |                    +            w their other end, t the fraction
+//!         |                    |
+//! ```
+
+use mesh::Mesh;
+use op::{
+    Context, Cuts, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range,
+    Report, Select, VertexSelection, check_fraction, edit_each,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Puts faces into the place of vertices.
+///
+/// Each edge at a vertex is cut at a fraction of the length that it had before the step, and a face with
+/// as many corners as the vertex had edges joins the cuts. Where both ends of an edge are selected the
+/// fraction must be below a half: with a quarter, a cube becomes a truncated one.
+///
+/// The vertices are gone, so that the numbers of those behind them close up; the new ones are numbered
+/// behind all others, in order of the selected vertices and clockwise around each. Faces keep their
+/// numbers, new ones come behind in order of the vertices.
+///
+/// Values at the cuts lie between those at the ends, so that textures stay as they are. A new face has the
+/// values (material, tags) of a face that was at the vertex, new edges have none. Normals are dropped.
+///
+/// Refused are vertices on the boundary, those with fewer than three edges, and those with an edge that has
+/// too little left for the cut.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct BevelVertices {
+    /// Which vertices.
+    pub vertices: VertexSelection,
+    /// Where the edges are cut, as a fraction of their lengths from the vertex: between 0 and 1 and neither.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
+    pub fraction: f64,
+    /// What to do when a vertex is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+}
+
+impl MeshOperation for BevelVertices {
+    const NAME: &'static str = "BevelVertices";
+    const SUMMARY: &'static str = "Put faces into the place of vertices";
+    const EXAMPLE: &'static str = "BevelVertices(vertices: All, fraction: 0.25)";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        if let Err(message) = check_fraction("fraction", self.fraction) {
+            return vec![Problem::error(message).at(["fraction"])];
+        }
+        let done = self.on_refusal.done(self.vertices.count(plan));
+        if done.max > 0 {
+            // Each edge is cut at both ends at most, and each vertex has three.
+            let cuts = Range {
+                min: done.min.saturating_mul(3),
+                max: plan.edges.by(2).max,
+            };
+            plan.vertices = plan.vertices.plus(Range {
+                min: done.min.saturating_mul(2),
+                max: cuts.max.saturating_sub(done.min),
+            });
+            // A face has as many corners as its vertex had edges; others gain one for each corner.
+            let gained = plan.degrees.by(2).max;
+            plan.degrees = Range {
+                min: 3,
+                max: gained.max(plan.edges.max),
+            };
+            plan.edges = plan.edges.plus(cuts);
+            plan.faces = plan.faces.plus(done);
+        }
+        plan.drop_normals();
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        check_fraction("fraction", self.fraction).map_err(OpError::Parameter)?;
+        let vertices = self.vertices.resolve(mesh, cx)?;
+        let mut cuts = Cuts::default();
+        let report = edit_each(mesh, &vertices, self.on_refusal, "bevel", cx, |mesh, v| {
+            let f = mesh.bevel_vertex_with(v, |e| cuts.fraction(e, self.fraction))?;
+            cuts.cut(mesh, f, self.fraction);
+            Ok(())
+        })?;
+        mesh.remove_normals();
+        Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{FaceId, shapes};
+
+    use op::test::{applied, planned, try_applied};
+
+    fn parse(text: &str) -> BevelVertices {
+        ron::from_str(text).unwrap()
+    }
+
+    #[test]
+    fn a_cube_becomes_a_truncated_cube() {
+        let step = parse("(vertices: All, fraction: 0.25)");
+        let (plan, problems) = planned(&step, &shapes::cube());
+        assert_eq!(problems, []);
+        assert_eq!(plan.faces, Range::exactly(14));
+        let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
+        assert_eq!(report.changed, 8);
+        let counts = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()];
+        assert_eq!(counts, [24, 36, 14]);
+        assert!(plan.vertices.contains(24) && plan.edges.contains(36));
+        // Alike at all corners, whatever their order: each is at 1, 1, 1/2 in some order and signs.
+        for &p in mesh.positions() {
+            let mut p = p.abs().to_array();
+            p.sort_by(f64::total_cmp);
+            assert!((mesh::DVec3::from(p) - mesh::DVec3::new(0.5, 1.0, 1.0)).length() < 1e-15);
+        }
+        assert!((mesh.volume() - 8.0 + 8.0 / 48.0).abs() < 1e-13);
+        assert!((6..14).all(|f| mesh.is_triangle(FaceId::new(f))));
+    }
+
+    #[test]
+    fn a_truncated_icosahedron_has_twelve_pentagons_and_twenty_hexagons() {
+        let step = parse("(vertices: All, fraction: 0.3333333333333333)");
+        let mesh = applied(&step, shapes::icosahedron());
+        let n = |degree| mesh.faces().filter(|&f| mesh.degree(f) == degree).count();
+        assert_eq!((n(5), n(6), mesh.n_faces()), (12, 20, 32));
+        let lengths = || mesh.edges().map(|e| mesh.length(e.half_edges()[0]));
+        let first = lengths().next().unwrap();
+        assert!(lengths().all(|l| (l - first).abs() < 1e-14));
+    }
+
+    #[test]
+    fn a_half_does_not_fit_on_both_ends_of_an_edge() {
+        let refused = try_applied(&parse("(vertices: All, fraction: 0.5)"), shapes::cube());
+        assert!(
+            matches!(refused, Err(OpError::Refused { .. })),
+            "{refused:?}"
+        );
+        // Every second corner of the cube can go that far, and nothing is left between.
+        let step = parse("(vertices: All, fraction: 0.5, on_refusal: Skip)");
+        let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
+        assert_eq!(report.changed, 4);
+        assert_eq!(report.refused[0].count, 4);
+        assert_eq!(mesh.n_faces(), 10);
+    }
+
+    #[test]
+    fn the_boundary_is_refused() {
+        let step = parse("(vertices: All, fraction: 0.25, on_refusal: Skip)");
+        let (mesh, report) = try_applied(&step, shapes::grid(3, 3)).unwrap();
+        assert_eq!((report.changed, report.refused[0].count), (4, 12));
+        assert!((mesh.area() - shapes::grid(3, 3).area()).abs() < 1e-14);
+        let step = parse("(vertices: All, fraction: 0.25)");
+        let refused = try_applied(&step, shapes::grid(3, 3));
+        let Err(OpError::Refused { reason, .. }) = refused else {
+            panic!("{refused:?}");
+        };
+        assert_eq!(reason, op::Refusal::Boundary);
+    }
+
+    #[test]
+    fn a_fraction_out_of_range_is_refused() {
+        for fraction in [0.0, 1.0, f64::NAN] {
+            let step = BevelVertices {
+                fraction,
+                ..parse("(vertices: All, fraction: 0.5)")
+            };
+            let (_, problems) = planned(&step, &shapes::cube());
+            assert_eq!(problems[0].path, ["fraction"]);
+            let refused = try_applied(&step, shapes::cube());
+            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! Dissolve vertices: takes vertices out and merges the faces around them.
+//!
+//! ```text
+//!    +-----+-----+          +-----+-----+          +-----------+          +-----------+
+//!    |     |     |          |           |          |           |          |           |
+//!    +-----v-----+   -->    +           +          a-----v-----b   -->    a-----------b
+//!    |     |     |          |           |          |           |          |           |
+//!    +-----+-----+          +-----+-----+          +-----------+          +-----------+
+//! ```
+
+use mesh::Mesh;
+use op::{
+    Context, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range, Report,
+    Select, VertexSelection, edit_each,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Takes vertices out and merges the faces around them.
+///
+/// Vertices are taken in order of their numbers, each judged as the mesh is at that moment. Inside the
+/// surface all faces around the vertex become one, which has the number and the values of the lowest. On
+/// the boundary likewise, and the two edges of the boundary become one. A vertex with two edges leaves one
+/// edge, and the faces beside it lose a corner. Of two edges the one of the lower number stays, with its
+/// values. What is left keeps its order and its values, but numbers move up, and normals are dropped.
+///
+/// Refused if the vertex is isolated or has a single edge, or a neighbour would be left with a single edge
+/// in the middle of a face, if a face would pass a vertex twice or have fewer than three corners, if an edge
+/// would join vertices that share one, and at a seam.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct DissolveVertices {
+    /// Which vertices.
+    pub vertices: VertexSelection,
+    /// What to do when a vertex is refused.
+    #[serde(default)]
+    pub on_refusal: OnRefusal,
+    /// What to do at seams.
+    #[serde(default)]
+    pub seams: Seams,
+}
+
+/// What to do where corner values, like UVs, differ between the two sides of an edge that goes.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Seams {
+    /// Refuse.
+    #[default]
+    Refuse,
+    /// Merge the faces all the same. Each corner keeps the values of one of them.
+    Drop,
+}
+
+impl From<Seams> for mesh::Seams {
+    fn from(seams: Seams) -> Self {
+        match seams {
+            Seams::Refuse => Self::Refuse,
+            Seams::Drop => Self::Drop,
+        }
+    }
+}
+
+impl MeshOperation for DissolveVertices {
+    const NAME: &'static str = "DissolveVertices";
+    const SUMMARY: &'static str = "Take vertices out and merge the faces around them";
+    const EXAMPLE: &'static str = "DissolveVertices(vertices: Vertices([1]))";
+
+    fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        plan.drop_normals();
+        let chosen = self.vertices.count(plan);
+        if chosen.max == 0 {
+            return Vec::new();
+        }
+        let n = self.on_refusal.done(chosen);
+        plan.vertices = plan.vertices.minus(n);
+        // At least one edge goes with each vertex; some face with its sides is always left.
+        plan.edges = Range {
+            min: plan.edges.min.min(3),
+            max: plan.edges.minus(n).max,
+        };
+        plan.faces.min = plan.faces.min.min(1);
+        plan.degrees = Range {
+            min: 3,
+            max: plan.edges.max.saturating_mul(2).max(3),
+        };
+        Vec::new()
+    }
+
+    fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        let vertices = self.vertices.resolve(mesh, cx)?;
+        let seams = self.seams.into();
+        let word = "dissolve";
+        let report = edit_each(mesh, &vertices, self.on_refusal, word, cx, |mesh, v| {
+            mesh.dissolve_vertex_with(v, seams).map(drop)
+        })?;
+        mesh.remove_normals();
+        Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::{DVec2, DVec3, UV, VERTEX_NORMAL, shapes};
+    use op::Refusal;
+    use op::test::{applied, is_as_planned, try_applied};
+    use proptest::prelude::*;
+
+    fn parse(text: &str) -> DissolveVertices {
+        ron::from_str(text).unwrap()
+    }
+
+    fn refused(text: &str, mesh: Mesh) -> Refusal {
+        op::test::refused(&parse(text), mesh)
+    }
+
+    #[test]
+    fn an_icosahedron_without_two_poles_has_two_pentagons() {
+        // Vertices 0 and 3 are opposite.
+        let poles = parse("(vertices: Vertices([0, 3]))");
+        let mesh = applied(&poles, shapes::icosahedron());
+        assert_eq!(
+            (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()),
+            (10, 20, 12)
+        );
+        let pentagons = mesh.faces().filter(|&f| mesh.degree(f) == 5).count();
+        assert_eq!(pentagons, 2);
+        assert!(is_as_planned(&poles, &shapes::icosahedron(), &mesh));
+    }
+
+    #[test]
+    fn vertices_on_straight_edges_go() {
+        // Corners of the sheet have two edges as well, but those of its rim between them have three.
+        let mut mesh = shapes::square();
+        for e in 0..4 {
+            mesh.split_edge(mesh::EdgeId::new(e), 0.5).unwrap();
+        }
+        let middles = parse("(vertices: Vertices([4, 5, 6, 7]))");
+        let (after, report) = try_applied(&middles, mesh).unwrap();
+        assert_eq!(report.changed, 4);
+        assert_eq!(after.positions(), shapes::square().positions());
+        assert_eq!((after.n_edges(), after.area()), (4, 1.0));
+    }
+
+    #[test]
+    fn what_cannot_be_taken_out_is_refused() {
+        let isolated = {
+            let mut mesh = shapes::square();
+            mesh.delete_face(mesh::FaceId::new(0)).unwrap();
+            mesh
+        };
+        assert_eq!(
+            refused("(vertices: Vertices([2]))", isolated),
+            Refusal::FewEdges
+        );
+        let tube = shapes::cylinder(3, false);
+        assert_eq!(
+            refused("(vertices: Vertices([2]))", tube),
+            Refusal::DuplicateEdge
+        );
+        let triangle = applied(&parse("(vertices: Vertices([3]))"), shapes::square());
+        assert_eq!(refused("(vertices: All)", triangle), Refusal::FewCorners);
+    }
+
+    #[test]
+    fn a_seam_is_refused_or_dropped() {
+        let mut mesh = shapes::grid(2, 2);
+        let shift = |h| {
+            mesh.face(h)
+                .map_or(0.0, |f| if f.index() == 0 { 1.0 } else { 0.0 })
+        };
+        let uvs = mesh.half_edges().map(|h| DVec2::splat(shift(h))).collect();
+        mesh.set(UV, uvs);
+        assert_eq!(
+            refused("(vertices: Vertices([4]))", mesh.clone()),
+            Refusal::Seam
+        );
+        let merged = applied(&parse("(vertices: Vertices([4]), seams: Drop)"), mesh);
+        assert_eq!(merged.n_faces(), 1);
+    }
+
+    #[test]
+    fn normals_are_dropped() {
+        let mut mesh = shapes::grid(2, 2);
+        mesh.set(VERTEX_NORMAL, vec![DVec3::Z; 9]);
+        let (after, report) = try_applied(&parse("(vertices: Vertices([4]))"), mesh).unwrap();
+        assert!(after.get(VERTEX_NORMAL).is_none());
+        assert_eq!(report.losses.len(), 1);
+    }
+
+    #[test]
+    fn skipped_refusals_are_counted() {
+        let skip = parse("(vertices: All, on_refusal: Skip)");
+        let (mesh, report) = try_applied(&skip, shapes::square()).unwrap();
+        assert_eq!(
+            (mesh.n_vertices(), report.changed, report.refused[0].count),
+            (3, 1, 3)
+        );
+    }
+
+    proptest! {
+        #[test]
+        fn shape_and_plan_hold_for_any_choice(
+            count in 0..20_u32, seed in 0..1000_u64, which in 0..5_usize,
+        ) {
+            let before = [
+                Mesh::default(),
+                shapes::grid(4, 3),
+                shapes::cube(),
+                shapes::icosahedron(),
+                shapes::torus(4, 3, 2.0, 1.0),
+            ][which].clone();
+            let vertices = VertexSelection::Random { count, of: Box::default(), seed };
+            let dissolve =
+                DissolveVertices { vertices, on_refusal: OnRefusal::Skip, seams: Seams::Refuse };
+            let (after, report) = try_applied(&dissolve, before.clone()).unwrap();
+            prop_assert!(is_as_planned(&dissolve, &before, &after));
+            prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
+            prop_assert_eq!(after.n_boundary_loops(), before.n_boundary_loops());
+            if report.refused.is_empty() {
+                let strict = DissolveVertices { on_refusal: OnRefusal::Error, ..dissolve };
+                prop_assert!(is_as_planned(&strict, &before, &after));
+            }
+        }
+    }
+}

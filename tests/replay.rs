@@ -129,7 +129,7 @@ fn folder() -> PathBuf {
 }
 
 fn read_objects(path: &Path, _: &Files) -> Result<Vec<scene::Object>, String> {
-    mesh_io::read(path, &mesh_io::ReadOptions::default())
+    mesh_io::read(&store::Disk, path, &mesh_io::ReadOptions::default())
         .map(|loaded| loaded.objects)
         .map_err(|error| error.to_string())
 }

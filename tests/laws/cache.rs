@@ -32,7 +32,7 @@ fn run(path: &Path, cache: Option<&Cache>) -> (Left, Outcome) {
         ..Files::default()
     };
     let read = |path: &Path, files: &Files| {
-        let loaded = mesh_io::read(path, &mesh_io::ReadOptions::default());
+        let loaded = mesh_io::read(&store::Disk, path, &mesh_io::ReadOptions::default());
         let loaded = loaded.map_err(|error| error.to_string())?;
         for file in loaded.files {
             files.has_read(file.path);

@@ -42,7 +42,8 @@ fn a_program_of_five_lines_has_an_operation_of_its_own() {
     assert!(run.status.success(), "{}", text(&run));
     assert!(text(&run).contains("expectations hold"), "{}", text(&run));
     let path = out.path().join("lifted.obj");
-    let lifted = mesh_io::read(&path, &mesh_io::ReadOptions::default()).expect("it was written");
+    let lifted = mesh_io::read(&store::Disk, &path, &mesh_io::ReadOptions::default())
+        .expect("it was written");
     let mesh = lifted.objects[0].as_mesh().expect("a mesh");
     let heights: Vec<f64> = mesh.positions().iter().map(|p| p.z).collect();
     assert_eq!(heights, [2.5; 6]);

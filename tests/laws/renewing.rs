@@ -85,7 +85,7 @@ fn renewed(source: &Source) -> Result<(String, usize), String> {
         ..Files::default()
     };
     let read = |path: &std::path::Path, _: &Files| {
-        let loaded = mesh_io::read(path, &ReadOptions::default());
+        let loaded = mesh_io::read(&store::Disk, path, &ReadOptions::default());
         loaded.map(|l| l.objects).map_err(|error| error.to_string())
     };
     let settings = Settings {

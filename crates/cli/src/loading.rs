@@ -128,8 +128,8 @@ fn load_by(schemas: &Schemas, source: &Source, values: Values, out: &Path, budge
 
 /// Reads the objects of a file, for expectations that compare with one.
 pub(crate) fn read_objects(path: &Path, files: &Files) -> Result<Vec<Object>, String> {
-    let loaded =
-        mesh_io::read(path, &mesh_io::ReadOptions::default()).map_err(|error| error.to_string())?;
+    let loaded = mesh_io::read(&store::Disk, path, &mesh_io::ReadOptions::default())
+        .map_err(|error| error.to_string())?;
     for file in loaded.files {
         if file.is_read {
             files.has_read(file.path);

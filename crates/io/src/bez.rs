@@ -216,8 +216,7 @@ mod tests {
 
     #[test]
     fn patches_are_rows_of_points() {
-        let patches =
-            super::patches(format!("\u{feff}1\r\n\r\n{}", patch_text()).as_bytes()).unwrap();
+        let patches = patches(format!("\u{feff}1\r\n\r\n{}", patch_text()).as_bytes()).unwrap();
 
         assert_eq!(patches.len(), 1);
         assert_eq!(patches[0].points()[1][2], DVec3::new(6.0, 12.5, -1e-3));
@@ -225,7 +224,7 @@ mod tests {
 
     #[test]
     fn a_curve_is_a_count_and_its_points() {
-        let curve = super::curve(b"3\n0 0   0.5 1\n1 0").unwrap();
+        let curve = curve(b"3\n0 0   0.5 1\n1 0").unwrap();
         assert_eq!(
             curve.points(),
             [DVec2::ZERO, DVec2::new(0.5, 1.0), DVec2::X]
@@ -307,7 +306,7 @@ mod tests {
         fn written_curves_read_back_the_same(numbers in prop::collection::vec(-1e9..1e9_f64, 1..20)) {
             let points = numbers.iter().map(|&x| DVec2::new(x, 1e-7 * x)).collect();
             let curve = Curve::new(points).unwrap();
-            prop_assert_eq!(curve(&write_curve(&curve)), Ok(curve));
+            prop_assert_eq!(super::curve(&write_curve(&curve)), Ok(curve));
         }
 
         #[test]

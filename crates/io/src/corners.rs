@@ -101,7 +101,7 @@ mod tests {
             });
             assert_eq!(numbers.number(h), number);
         }
-        assert!(mesh.n_faces() > 2 * MIN_TASK);
+        assert!(mesh.n_faces() > 2 * parallel::BLOCK);
         assert_eq!(numbers.firsts(), firsts);
     }
 

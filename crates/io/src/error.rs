@@ -6,8 +6,6 @@ use std::path::{Path, PathBuf};
 use scene::Object;
 use store::StoreError;
 
-use crate::text::Place;
-
 /// Why a file could not be read. Nothing of it was taken.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -101,64 +99,6 @@ impl ReadError {
     }
 }
 
-/// What is wrong at one place of a file, before the name of the file is known.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Fault {
-    pub(crate) at: At,
-    /// What was expected and what was there.
-    pub(crate) message: String,
-}
-
-/// A place in a file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum At {
-    /// Of a text.
-    Text(Place),
-    /// Of a JSON document, as a JSON pointer.
-    Json(String),
-    /// Of a binary file: so many bytes stand before it.
-    Byte(usize),
-}
-
-impl Fault {
-    pub(crate) fn json(pointer: impl Into<String>, message: impl Into<String>) -> Self {
-        Self {
-            at: At::Json(pointer.into()),
-            message: message.into(),
-        }
-    }
-
-    pub(crate) fn byte(offset: usize, message: impl Into<String>) -> Self {
-        Self {
-            at: At::Byte(offset),
-            message: message.into(),
-        }
-    }
-
-    pub(crate) fn in_file(self, path: &Path) -> ReadError {
-        let Self { at, message } = self;
-        let path = path.to_path_buf();
-        match at {
-            At::Text(Place { line, column }) => ReadError::Text {
-                path,
-                line,
-                column,
-                message,
-            },
-            At::Json(pointer) => ReadError::Json {
-                path,
-                pointer,
-                message,
-            },
-            At::Byte(offset) => ReadError::Binary {
-                path,
-                offset,
-                message,
-            },
-        }
-    }
-}
-
 /// Why a scene could not be written. No file was changed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -236,17 +176,6 @@ impl Unwritable {
                 message,
             },
             Self::Scene { message } => WriteError::Scene { path, message },
-        }
-    }
-}
-
-#[cfg(test)]
-impl Fault {
-    /// The line and the column of an error in a text.
-    pub(crate) fn place(&self) -> (usize, usize) {
-        match self.at {
-            At::Text(Place { line, column }) => (line, column),
-            _ => panic!("{self:?} is in no text"),
         }
     }
 }

@@ -18,6 +18,19 @@
 //! file cannot hold is a [`Loss`]. Errors say where: the line and column of a text, the JSON pointer
 //! of a glTF file. Paths inside a file stay inside its folder. Files are written whole or not at all.
 //!
+//! The folder of a format has `read` (from bytes to polygons), `write` and `peek`, and its `mod.rs` says what becomes
+//! of what: faces of OBJ are read in `obj/statement.rs`, those of glTF in `gltf/primitives.rs`. All formats share:
+//!
+//! | module | |
+//! | --- | --- |
+//! | `text` | words and numbers of a text with their lines; `decimal` is how numbers are read and written |
+//! | `fault` | what is wrong with a file, and where |
+//! | `note`, `loss` | what a reader left out or changed, what a file does not hold |
+//! | `polygons`, `clean`, `weld` | from polygons with attributes to a mesh |
+//! | `joined`, `corners`, `writing` | from a scene to what a file has room for |
+//! | `assets`, `save` | the files beside the one that is read; writing files whole |
+//! | `parallel` | work on all threads |
+//!
 //! # Examples
 //!
 //! ```
@@ -46,6 +59,7 @@ mod corners;
 mod dae;
 mod decimal;
 mod error;
+mod fault;
 mod format;
 mod gltf;
 mod joined;

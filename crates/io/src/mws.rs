@@ -12,7 +12,7 @@
 
 use scene::{NoArrays, Object, Scene};
 
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::{Found, One, PeekGeometry, PeekObject, Shape, WriteOptions};
 
 const MAGIC: &[u8; 4] = b"MWS1";
@@ -77,8 +77,9 @@ fn split(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
 mod tests {
     use super::*;
     use crate::{ReadOptions, peek as peek_file, read as read_file, write as write_file};
-    use mesh::{Column, DVec3, Rule, Values, shapes};
-    use scene::Material;
+    use mesh::{Column, DVec3, Domain, Rule, Values, shapes};
+    use scene::{Geometry, Material};
+    use store::Memory;
 
     fn scene() -> Scene {
         let mut mesh = shapes::torus(5, 4, 2.0, 0.5);
@@ -103,16 +104,18 @@ mod tests {
 
     #[test]
     fn a_scene_comes_back_bit_for_bit() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.mws");
-        let report = write_file(&path, &scene(), &WriteOptions::default()).unwrap();
+        let (store, path) = (Memory::default(), "a.mws".as_ref());
+        let report = write_file(&store, path, &scene(), &WriteOptions::default()).unwrap();
         assert_eq!(report.losses, []);
         let mut back = Scene::new();
-        for object in read_file(&path, &ReadOptions::default()).unwrap().objects {
+        for object in read_file(&store, path, &ReadOptions::default())
+            .unwrap()
+            .objects
+        {
             back.insert(object).unwrap();
         }
         assert_eq!(back.digest(), scene().digest());
-        let peek = peek_file(&path, &ReadOptions::default()).unwrap();
+        let peek = peek_file(&store, path, &ReadOptions::default()).unwrap();
         let [ring, line] = &peek.objects[..] else {
             panic!("two objects")
         };
@@ -129,17 +132,15 @@ mod tests {
 
     #[test]
     fn every_shortened_and_every_changed_file_is_read_or_refused() {
-        let path = Path::new("a.mws");
-        let written = write(path, &scene(), &WriteOptions::default());
-        let whole = &written.files[0].1;
+        let (whole, _) = write(&scene(), &WriteOptions::default());
         for n in 0..whole.len() {
-            assert!(read(path, &whole[..n], None).is_err(), "{n} bytes");
+            assert!(objects(&whole[..n], None).is_err(), "{n} bytes");
         }
         for i in 0..whole.len() {
             let mut changed = whole.clone();
             changed[i] ^= 1 << (i % 8);
             // What is still a scene is a sound one.
-            for object in read(path, &changed, None).into_iter().flatten() {
+            for object in objects(&changed, None).into_iter().flatten() {
                 if let Some(mesh) = object.as_mesh() {
                     assert_eq!(mesh.defects(), [], "byte {i}");
                 }

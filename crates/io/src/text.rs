@@ -1,40 +1,14 @@
 //! Reads words and numbers from the bytes of a text, and knows the line and the column.
 
-use std::fmt;
 use std::str::FromStr;
 
 use crate::decimal::leading_number;
 pub(crate) use crate::decimal::push_number;
-use crate::error::{At, Fault};
+use crate::fault::Fault;
+pub(crate) use crate::fault::{Place, name, quoted};
 
 /// The byte order mark of UTF-8.
 pub(crate) const MARK: &[u8] = b"\xef\xbb\xbf";
-
-/// A place in a text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Place {
-    /// The line, from 1.
-    pub(crate) line: usize,
-    /// The byte in the line, from 1.
-    pub(crate) column: usize,
-}
-
-impl Place {
-    /// Where every text begins.
-    pub(crate) const START: Self = Self { line: 1, column: 1 };
-
-    pub(crate) fn error(self, message: impl Into<String>) -> Fault {
-        Fault {
-            at: At::Text(self),
-            message: message.into(),
-        }
-    }
-
-    /// The error that a word is not what is expected.
-    pub(crate) fn expected(self, what: impl fmt::Display, found: &[u8]) -> Fault {
-        self.error(format!("expected {what}, found {}", quoted(found)))
-    }
-}
 
 /// Walks over the bytes of a text. Lines end in LF, CR LF or CR.
 #[derive(Clone, Debug)]
@@ -339,25 +313,6 @@ pub(crate) fn check_encoding(bytes: &[u8]) -> Result<(), Fault> {
     };
     let message = format!("expected text in UTF-8 or ASCII, found {encoding}");
     Err(Place::START.error(message))
-}
-
-/// A word of a file for a message: between backticks, cut if it is long.
-pub(crate) fn quoted(word: &[u8]) -> String {
-    const LONGEST: usize = 40;
-    if word.is_empty() {
-        return "nothing".to_owned();
-    }
-    let text = name(&word[..word.len().min(LONGEST)]);
-    let dots = if word.len() > LONGEST { "..." } else { "" };
-    format!("`{}{dots}`", text.escape_debug())
-}
-
-/// A name in a file: UTF-8 if it is that, and otherwise Latin-1, in which any bytes are text.
-pub(crate) fn name(bytes: &[u8]) -> String {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
-    }
 }
 
 #[cfg(test)]

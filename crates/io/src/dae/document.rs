@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::{Document as Xml, Error, ParsingOptions};
 
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::text::{MARK, Place, name, number, quoted};
 
 pub(super) type Node<'a> = roxmltree::Node<'a, 'a>;

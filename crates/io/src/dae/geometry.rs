@@ -11,9 +11,9 @@ use super::document::{
 };
 use super::outline::{Outline, shape};
 use super::sources::{Vectors, vectors};
-use super::{Budget, Tally};
+use super::tally::{Budget, Tally};
 use crate::Polygons;
-use crate::error::Fault;
+use crate::fault::Fault;
 
 /// Further sets of texture coordinates are left out.
 const MOST_UV_SETS: usize = 8;
@@ -27,6 +27,19 @@ pub(super) struct Surface<'a> {
     pub(super) symbols: Vec<&'a str>,
     /// For each polygon the place of its symbol, -1 without one.
     pub(super) symbol_of: Vec<i32>,
+}
+
+impl Surface<'_> {
+    /// The bytes that it takes, about.
+    pub(super) fn cost(&self) -> usize {
+        let polygons = &self.polygons;
+        let columns = polygons.attributes.of(Domain::Corner).len();
+        let names: usize = self.symbols.iter().map(|name| name.len()).sum();
+        Budget::VERTEX * polygons.positions.len()
+            + (Budget::CORNER + Budget::VALUE * columns) * polygons.corners.len()
+            + Budget::MATERIAL * self.symbols.len()
+            + names
+    }
 }
 
 /// Reads geometries; vectors that several of them use are read once.

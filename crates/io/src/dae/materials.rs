@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use scene::{AlphaMode, Material, Texture};
 
-use super::Tally;
 use super::document::{
     Document, Node, below, child, elements, error_at, exactly, is, named, number_of, numbers, text,
 };
+use super::tally::Tally;
 use crate::assets::inside_uri;
-use crate::error::Fault;
+use crate::fault::Fault;
 
 /// What a channel of a shader shows.
 enum Paint {

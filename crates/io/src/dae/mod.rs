@@ -35,6 +35,7 @@ mod materials;
 mod nodes;
 mod outline;
 mod sources;
+mod tally;
 
 use std::collections::BTreeMap;
 
@@ -43,14 +44,15 @@ use mesh::{CORNER_NORMAL, Domain, MATERIAL, UV, Value};
 use scene::{Material, Texture};
 
 use crate::clean::gather;
-use crate::error::Fault;
-use crate::note::{Names, NoteKind, Notes};
+use crate::fault::Fault;
+use crate::note::{Names, Notes};
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 use crate::{Found, Polygons, Shape};
 
 use document::{Document, Node, elements, error_at, line, number_of, text};
 use geometry::{Geometries, Surface};
 use nodes::{Placed, placed};
+use tally::{Budget, Tally};
 
 /// Reads the objects of a file from its bytes.
 ///
@@ -109,7 +111,7 @@ fn each_object<T>(
             continue;
         };
         if known && let Some(instance) = placed.instance {
-            geometries.budget.take(instance, Budget::cost_of(surface))?;
+            geometries.budget.take(instance, surface.cost())?;
         }
         let object = Object {
             document: &document,
@@ -239,35 +241,6 @@ fn moved(polygons: &Polygons, to_scene: &DAffine3) -> (Polygons, usize) {
 
 // ---- Notes -------------------------------------------------------------------------------------
 
-/// What was left out or changed, added up by what it is.
-#[derive(Default)]
-struct Tally(BTreeMap<(NoteKind, &'static str), (usize, usize)>);
-
-impl Tally {
-    fn left_out(&mut self, count: usize, node: Node, what: &'static str) {
-        self.add(NoteKind::LeftOut, count, node, what);
-    }
-
-    fn changed(&mut self, count: usize, node: Node, what: &'static str) {
-        self.add(NoteKind::Changed, count, node, what);
-    }
-
-    fn add(&mut self, kind: NoteKind, count: usize, node: Node, what: &'static str) {
-        if count > 0 {
-            // The line is looked for only once: that takes time.
-            let entry = self.0.entry((kind, what));
-            let (sum, _) = entry.or_insert_with(|| (0, line(node)));
-            *sum = sum.saturating_add(count);
-        }
-    }
-
-    fn into_notes(self, notes: &mut Notes) {
-        for ((kind, what), (count, line)) in self.0 {
-            notes.add(kind, count, Some(line), what.to_owned());
-        }
-    }
-}
-
 /// Notes the unit and the direction upwards, if they are not the usual ones.
 fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
     let asset = document::child(document.root, "asset");
@@ -309,48 +282,5 @@ fn note_libraries(document: &Document, tally: &mut Tally) {
         };
         let parts = elements(library).filter(|part| !document::is(*part, "asset"));
         tally.left_out(parts.count(), library, what);
-    }
-}
-
-/// How much memory may still be taken. A file may repeat its geometries by instances, but not without end.
-struct Budget(usize);
-
-impl Budget {
-    /// A file may become this many times its size in memory, ...
-    const TIMES: usize = 64;
-    /// ... and this many bytes in any case.
-    const FREE: usize = 1 << 24;
-    /// How many bytes an object without faces takes, a material of it and what binds it, a vertex, a corner and a
-    /// further value of a corner, about.
-    const OBJECT: usize = 1000;
-    const MATERIAL: usize = 1000;
-    const BOUND: usize = 50;
-    const VERTEX: usize = 64;
-    const CORNER: usize = 48;
-    const VALUE: usize = 24;
-    /// What reading a number costs each time that it is read: time rather than memory.
-    const NUMBER: usize = 20;
-
-    fn of(size: usize) -> Self {
-        Self(size.saturating_mul(Self::TIMES).max(Self::FREE))
-    }
-
-    fn cost_of(surface: &Surface) -> usize {
-        let polygons = &surface.polygons;
-        let columns = polygons.attributes.of(Domain::Corner).len();
-        let names: usize = surface.symbols.iter().map(|name| name.len()).sum();
-        Self::VERTEX * polygons.positions.len()
-            + (Self::CORNER + Self::VALUE * columns) * polygons.corners.len()
-            + Self::MATERIAL * surface.symbols.len()
-            + names
-    }
-
-    fn take(&mut self, node: Node, bytes: usize) -> Result<(), Fault> {
-        let message = "the file repeats its polygons far more often than usual for its size";
-        self.0 = self
-            .0
-            .checked_sub(bytes)
-            .ok_or_else(|| error_at(node, message))?;
-        Ok(())
     }
 }

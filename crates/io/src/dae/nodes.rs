@@ -7,8 +7,8 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::document::{
     Document, Node, below, child, elements, error_at, exactly, is, line, named, number_of, required,
 };
-use super::{Budget, Tally};
-use crate::error::Fault;
+use super::tally::{Budget, Tally};
+use crate::fault::Fault;
 use crate::note::Notes;
 
 /// A geometry at its place.

@@ -1,10 +1,10 @@
 //! How the indices of a list make polygons: triangles, polygons with counted corners, strips and fans.
 
-use super::Tally;
 use super::document::{
     Node, child, elements, error_at, is, named, natural, push_indices, required,
 };
-use crate::error::Fault;
+use super::tally::Tally;
+use crate::fault::Fault;
 
 /// How the indices of a list make polygons.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -9,7 +9,7 @@
 //! ```
 
 use super::document::{Document, Node, below, error_at, named, natural, numbers, required};
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::text::quoted;
 
 /// Vectors of 1 to 4 numbers.

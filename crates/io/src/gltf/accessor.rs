@@ -1,7 +1,5 @@
 //! Accessors: typed arrays in the buffers, with strides, normalized integers and sparse parts.
 
-use std::borrow::Cow;
-use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use bytemuck::Zeroable;
@@ -10,37 +8,15 @@ use gltf_json::accessor::{ComponentType, IndexComponentType, Type};
 use gltf_json::validation::Checked;
 use mesh::Value;
 
-use super::budget::Budget;
-use super::document::{Document, get};
+use super::document::get;
 use super::numbers::{kinds, number, one_of, type_name, whole};
-use crate::error::Fault;
+use super::views::Reader;
+use crate::fault::Fault;
 use crate::parallel;
 
 /// An accessor without a buffer view is all zeros. It may have this many elements even in a tiny file.
 const FREE_ZEROS: u64 = 1 << 16;
-/// Reads arrays out of the buffers of a document.
-pub(super) struct Reader<'a> {
-    pub(super) document: &'a Document,
-    pub(super) buffers: &'a [Cow<'a, [u8]>],
-    pub(super) budget: &'a Budget,
-    /// The bytes of compressed views, as far as they have been needed.
-    pub(super) decoded: Vec<OnceCell<Vec<u8>>>,
-}
-
-impl<'a> Reader<'a> {
-    pub(super) fn new(
-        document: &'a Document,
-        buffers: &'a [Cow<'a, [u8]>],
-        budget: &'a Budget,
-    ) -> Self {
-        Self {
-            document,
-            buffers,
-            budget,
-            decoded: document.views.iter().map(|_| OnceCell::new()).collect(),
-        }
-    }
-
+impl Reader<'_> {
     /// How many elements an accessor has.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use crate::error::Fault;
+use crate::fault::Fault;
 
 /// A file may become this many times its size in memory, ...
 const TIMES: u64 = 64;

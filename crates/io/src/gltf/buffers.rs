@@ -14,7 +14,7 @@ use store::Store;
 use super::budget::Budget;
 use crate::ReadError;
 use crate::assets::{Assets, inside_uri};
-use crate::error::Fault;
+use crate::fault::Fault;
 
 const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: &[u8] = b"JSON";
@@ -205,7 +205,7 @@ fn base64(encoded: &str) -> Option<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::At;
+    use crate::fault::At;
 
     fn glb(chunks: &[(&[u8], &[u8])]) -> Vec<u8> {
         let mut body = Vec::new();

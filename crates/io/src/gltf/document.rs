@@ -13,7 +13,7 @@ use super::meshopt::{self, Compressed, MESHOPT};
 use super::surface::{
     ImageJson, MaterialJson, STRENGTH, SamplerJson, TRANSFORM, TextureJson, UNLIT,
 };
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::note::Notes;
 
 /// Extensions that the reader knows. With the first, positions and texture coordinates may be integers.

@@ -7,15 +7,14 @@ use scene::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransfo
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::accessor::Reader;
 use super::buffers::data_uri;
-use super::decimal;
 use super::document::get;
 use super::surface::{
     AlphaJson, Extensions, ImageJson, InfoJson, STRENGTH, SamplerJson, TRANSFORM, TransformJson,
     UNLIT,
 };
-use crate::error::Fault;
+use super::views::Reader;
+use crate::fault::Fault;
 use crate::note::Notes;
 
 /// Makes materials, each picture once.
@@ -245,5 +244,7 @@ fn unit(x: f64) -> f64 {
 /// The shortest decimal number that is this one with 32 bits, and no larger than 32 bits hold.
 #[expect(clippy::cast_possible_truncation, reason = "that is the purpose")]
 pub(super) fn rounded(x: f64) -> f64 {
-    decimal((x as f32).clamp(f32::MIN, f32::MAX))
+    let x = (x as f32).clamp(f32::MIN, f32::MAX);
+    // 0.8 stays 0.8.
+    x.to_string().parse().unwrap_or(f64::from(x))
 }

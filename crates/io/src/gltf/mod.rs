@@ -88,8 +88,3 @@ pub(crate) use buffers::document_of;
 pub(crate) use peek::peek;
 pub(crate) use read::read;
 pub(crate) use write::write;
-
-/// The shortest decimal number that is this one with 32 bits: 0.8 is written as 0.8.
-fn decimal(x: f32) -> f64 {
-    x.to_string().parse().unwrap_or(f64::from(x))
-}

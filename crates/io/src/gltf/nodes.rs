@@ -5,7 +5,7 @@ use gltf_json::Node;
 
 use super::budget::Budget;
 use super::document::{Document, get};
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::note::Notes;
 
 /// A node with a mesh.

@@ -4,7 +4,7 @@ use gltf_json::Accessor;
 use gltf_json::accessor::{ComponentType, Type};
 use gltf_json::validation::Checked;
 
-use crate::error::Fault;
+use crate::fault::Fault;
 
 pub(super) fn kinds(accessor: &Accessor, here: &str) -> Result<(Type, ComponentType), Fault> {
     let Checked::Valid(kind) = accessor.type_ else {

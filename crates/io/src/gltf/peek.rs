@@ -6,13 +6,13 @@ use gltf_json::Index;
 use gltf_json::mesh::{Mode, Semantic};
 use gltf_json::validation::Checked;
 
-use super::accessor::Reader;
 use super::budget::Budget;
 use super::document::Document;
 use super::nodes::placed_meshes;
 use super::primitives::attributes;
 use super::read::parse;
-use crate::error::Fault;
+use super::views::Reader;
+use crate::fault::Fault;
 use crate::note::{Names, Notes};
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 

@@ -8,7 +8,7 @@ use scene::Object;
 
 use super::faces::{Faces, faces_by_material};
 use super::fill::{Bounds, bounds};
-use super::split::{Split, split};
+use super::split::{Split, note_changed, split};
 use super::streams::{Stream, streams};
 use crate::error::Unwritable;
 use crate::loss::Losses;
@@ -43,7 +43,7 @@ impl<'a> Prepared<'a> {
             return Err(Unwritable::object(&object.name, message));
         }
         for stream in &streams {
-            stream.count_broken(mesh, &split, losses);
+            note_changed(stream, mesh, &split, losses);
         }
         let isolated = mesh.n_isolated_vertices();
         let reason = "isolated vertices: glTF holds triangles";

@@ -9,10 +9,10 @@ use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use mesh::{Value, Values};
 
-use super::accessor::Reader;
 use super::document::get;
 use super::names::attribute_name;
-use crate::error::Fault;
+use super::views::Reader;
+use crate::fault::Fault;
 use crate::note::Notes;
 use crate::parallel;
 

@@ -8,15 +8,15 @@ use mesh::{CORNER_NORMAL, Column, Domain, Rule, Values};
 use scene::{Material, Texture};
 use serde_json::Value;
 
-use super::accessor::Reader;
 use super::budget::Budget;
 use super::buffers;
 use super::document::Document;
 use super::materials::Materials;
 use super::nodes::placed_meshes;
 use super::primitives::{Triangles, triangles};
+use super::views::Reader;
 use crate::assets::Assets;
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::note::{Names, Notes};
 use crate::text::{MARK, Place};
 use crate::{Found, Polygons, Shape, parallel, weld};

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 use mesh::{Domain, HalfEdgeId, Mesh, VertexId};
 
 use super::streams::Stream;
+use crate::loss::Losses;
 use crate::parallel::{self, BLOCK};
 
 /// Of a crowd of different corners around a vertex only the latest are compared, so that a vertex with a
@@ -55,6 +56,20 @@ impl Split {
             None => number(mesh.origin(h).index()),
         }
     }
+}
+
+/// Says how many values of the written vertices are not what the mesh has.
+pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: &mut Losses) {
+    let broken = parallel::count(split.n, |i| {
+        let (v, h) = split.corner(mesh, i);
+        !stream.at(mesh, v, h).1
+    });
+    losses.add(
+        stream.domain,
+        &stream.column.name,
+        broken,
+        stream.otherwise(),
+    );
 }
 
 /// Splits the vertices of a dense mesh. Isolated vertices become none.

@@ -6,9 +6,7 @@ use gltf_json::mesh::Semantic;
 use mesh::{Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId};
 
 use super::names::{custom_semantic, uv_set};
-use super::split::Split;
 use crate::loss::Losses;
-use crate::parallel;
 
 /// An attribute of a mesh as glTF has it: 32 bits, normals of length 1, v downwards, colors from 0 to 1.
 pub(super) struct Stream<'a> {
@@ -117,18 +115,13 @@ impl Stream<'_> {
         }
     }
 
-    /// Says how many values of the written vertices are not what the mesh has.
-    pub(super) fn count_broken(&self, mesh: &Mesh, split: &Split, losses: &mut Losses) {
-        let broken = parallel::count(split.n, |i| {
-            let (v, h) = split.corner(mesh, i);
-            !self.at(mesh, v, h).1
-        });
-        let reason = match self.meaning {
+    /// What becomes of a value that glTF cannot have.
+    pub(super) fn otherwise(&self) -> &'static str {
+        match self.meaning {
             Meaning::Normal => "without a direction: written as that of the face",
             Meaning::Color => "outside of 0 to 1: written as the nearest inside",
             Meaning::Uv | Meaning::Other => "not finite with 32 bits: written as 0",
-        };
-        losses.add(self.domain, &self.column.name, broken, reason);
+        }
     }
 }
 

@@ -1,11 +1,37 @@
 //! Buffer views: parts of the buffers, as they are or compressed, and the elements in them.
 
+use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::fmt;
 
-use super::accessor::Reader;
-use super::document::get;
+use super::budget::Budget;
+use super::document::{Document, get};
 use super::meshopt::{self, Compressed};
-use crate::error::Fault;
+use crate::fault::Fault;
+
+/// Reads arrays out of the buffers of a document.
+pub(super) struct Reader<'a> {
+    pub(super) document: &'a Document,
+    pub(super) buffers: &'a [Cow<'a, [u8]>],
+    pub(super) budget: &'a Budget,
+    /// The bytes of compressed views, as far as they have been needed.
+    pub(super) decoded: Vec<OnceCell<Vec<u8>>>,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(
+        document: &'a Document,
+        buffers: &'a [Cow<'a, [u8]>],
+        budget: &'a Budget,
+    ) -> Self {
+        Self {
+            document,
+            buffers,
+            budget,
+            decoded: document.views.iter().map(|_| OnceCell::new()).collect(),
+        }
+    }
+}
 
 impl Reader<'_> {
     /// The bytes of a view.

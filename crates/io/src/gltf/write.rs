@@ -10,6 +10,7 @@ use scene::{Geometry, Scene};
 use super::pieces::{Piece, container, fill};
 use super::prepare::Prepared;
 use super::write_document::Writer;
+use crate::assets::percent_encoded;
 use crate::error::Unwritable;
 use crate::loss::Losses;
 use crate::writing::dense;
@@ -66,15 +67,4 @@ pub(crate) fn write(
         files.insert(0, (binary_path, bytes));
     }
     Ok(Written { files, losses })
-}
-
-/// A file name as a URI reference (RFC 3986): all but the unreserved characters are escaped.
-pub(super) fn percent_encoded(name: &str) -> String {
-    let encode = |byte: u8| match byte {
-        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
-            char::from(byte).to_string()
-        }
-        _ => format!("%{byte:02X}"),
-    };
-    name.bytes().map(encode).collect()
 }

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::materials::{has_scheme, rounded};
 use super::surface::{STRENGTH, TRANSFORM, UNLIT};
-use super::write::percent_encoded;
+use crate::assets::percent_encoded;
 use crate::loss::Losses;
 
 /// The materials, textures, samplers and images of a document, each once.

@@ -7,9 +7,8 @@ use glam::{DVec2, DVec3, DVec4};
 use mesh::{CORNER_NORMAL, Domain, FaceId, HalfEdgeId, Mesh, UV, VERTEX_NORMAL, Values, VertexId};
 
 use super::file::NO_MATERIAL;
-use super::library::push_values;
-use super::states::{FaceStates, Library, State, one_word};
-use super::write::{Before, push_name};
+use super::library::{Library, push_name, push_values};
+use super::states::{Before, FaceStates, State, one_word};
 use crate::corners::CornerNumbers;
 use crate::decimal::push_whole;
 use crate::loss::Losses;

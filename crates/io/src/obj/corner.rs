@@ -1,7 +1,7 @@
 //! The corners of faces, lines and points: indices from 1, or back from the last.
 
 use super::file::NONE;
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::text::{Place, quoted};
 
 /// The number of one kind of thing, of which corners name one.

@@ -8,7 +8,7 @@ use tobj::LoadError;
 use super::file::ObjFile;
 use super::picture::Picture;
 use crate::assets::{Assets, inside};
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::note::Notes;
 use crate::text::{check_encoding, name, quoted};
 
@@ -276,7 +276,7 @@ mod tests {
     use super::*;
 
     fn read(bytes: &[u8]) -> (Vec<Material>, Vec<crate::Note>) {
-        let mut notes = Notes::of(Path::new("a.mtl"));
+        let mut notes = Notes::of("a.mtl".as_ref());
         let materials = read_library(bytes, &mut notes);
         (materials, notes.into_vec())
     }

@@ -5,7 +5,7 @@ use super::file::{LeftOut, ObjFile};
 use super::join::{fits, join};
 use super::part::Part;
 use super::statement::{read_part, read_whole};
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::parallel;
 use crate::text::{Place, check_encoding, quoted};
 

@@ -14,7 +14,7 @@ use super::file::{LeftOut, NONE, ObjFile, Run};
 use super::material::read_libraries;
 use super::parse::parse;
 use crate::assets::Assets;
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::note::Notes;
 use crate::polygons::{OBJECT_TAG, most_tags};
 use crate::{Polygons, Shape, parallel};

@@ -1,13 +1,12 @@
 //! Reading the statements of an OBJ file, or of a part of it.
 
-use std::collections::BTreeMap;
-
 use glam::{DVec2, DVec3, DVec4};
 
 use super::corner::{Index, Limits, corner};
 use super::file::{LeftOut, NO_MATERIAL, NONE};
-use super::part::{Part, PartRun, to_u32};
-use crate::error::Fault;
+use super::parser::Parser;
+use super::part::{Part, to_u32};
+use crate::fault::Fault;
 use crate::text::{Cursor, Place, is_not_finite, name, number, parsed};
 
 /// What comments with colors of vertices begin with.
@@ -39,27 +38,7 @@ pub(super) fn read_whole(bytes: &[u8], limits: Limits) -> Result<Part, Fault> {
     Parser::new(Cursor::new(bytes), limits).run()
 }
 
-/// Reads statements one after the other.
-pub(super) struct Parser<'a> {
-    pub(super) cursor: Cursor<'a>,
-    pub(super) part: Part,
-    pub(super) limits: Limits,
-    /// What was said last, for the faces that follow.
-    now: PartRun,
-    sets: BTreeMap<Vec<u32>, usize>,
-}
-
-impl<'a> Parser<'a> {
-    fn new(cursor: Cursor<'a>, limits: Limits) -> Self {
-        Self {
-            cursor,
-            part: Part::default(),
-            limits,
-            now: PartRun::default(),
-            sets: BTreeMap::new(),
-        }
-    }
-
+impl Parser<'_> {
     fn run(mut self) -> Result<Part, Fault> {
         let is_part = matches!(self.limits, Limits::Part);
         while !self.cursor.is_at_end() {
@@ -243,29 +222,6 @@ impl<'a> Parser<'a> {
             self.end_face();
         }
         Ok(())
-    }
-
-    /// Whether any corner so far has texture coordinates, and a normal.
-    pub(super) fn columns(&self) -> [bool; 2] {
-        [&self.part.corner_uvs, &self.part.corner_normals].map(|column| column.len() > 0)
-    }
-
-    /// Makes a face of the last corners.
-    pub(super) fn end_face(&mut self) {
-        let run = PartRun {
-            first_face: self.part.face_ends.len(),
-            ..self.now
-        };
-        self.part.face_ends.push(to_u32(self.part.corners.len()));
-        let differs = |last: &PartRun| {
-            run != PartRun {
-                first_face: run.first_face,
-                ..*last
-            }
-        };
-        if self.part.runs.last().is_none_or(differs) {
-            self.part.runs.push(run);
-        }
     }
 
     fn line(&mut self, start: Place) -> Result<(), Fault> {

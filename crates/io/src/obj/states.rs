@@ -3,10 +3,8 @@
 use std::borrow::Cow;
 
 use mesh::{Column, Domain, FaceId, Mesh, Values};
-use scene::{Material, Object};
 
-use super::file::NO_MATERIAL;
-use super::library::note_losses;
+use super::corner::Counts;
 use crate::loss::Losses;
 use crate::parallel;
 use crate::polygons::OBJECT_TAG;
@@ -16,6 +14,14 @@ use crate::polygons::OBJECT_TAG;
 pub(super) struct State<'a> {
     pub(super) object: Option<&'a str>,
     pub(super) groups: Vec<&'a str>,
+    pub(super) material: Option<usize>,
+    pub(super) smoothing: i32,
+}
+
+/// What the text so far defines, and what is in force at its end; groups are closed there.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Before {
+    pub(super) counts: Counts,
     pub(super) material: Option<usize>,
     pub(super) smoothing: i32,
 }
@@ -134,48 +140,4 @@ pub(super) fn one_word(name: &str) -> Cow<'_, str> {
         return Cow::Owned(word.to_owned());
     }
     Cow::Borrowed(name)
-}
-
-/// The materials of all objects. Their names are different and fit a line.
-#[derive(Default)]
-pub(super) struct Library {
-    pub(super) materials: Vec<Material>,
-    /// For each object, for each of its materials, its place in `materials`.
-    pub(super) places: Vec<Vec<usize>>,
-}
-
-impl Library {
-    pub(super) fn add(&mut self, object: &Object, losses: &mut Losses) {
-        let materials = object.materials.iter();
-        let places = materials
-            .map(|material| self.place(material, losses))
-            .collect();
-        self.places.push(places);
-    }
-
-    /// Objects share a material if all of it is the same; a second one of a name gets another name.
-    fn place(&mut self, material: &Material, losses: &mut Losses) -> usize {
-        let mut base = fit_line(&material.name).into_owned();
-        if base.is_empty() || base.as_bytes() == NO_MATERIAL {
-            "unnamed".clone_into(&mut base);
-        }
-        let mut new = Material {
-            name: base.clone(),
-            ..material.clone()
-        };
-        for suffix in 2.. {
-            let is_it = |known: &Material| known.name == new.name;
-            match self.materials.iter().position(is_it) {
-                None => break,
-                Some(place) if self.materials[place] == new => return place,
-                Some(_) => new.name = format!("{base}_{suffix}"),
-            }
-        }
-        let renamed = usize::from(new.name != material.name);
-        let reason = format!("material is written as `{}`", new.name);
-        losses.add(None, &material.name, renamed, reason);
-        note_losses(material, losses);
-        self.materials.push(new);
-        self.materials.len() - 1
-    }
 }

@@ -9,9 +9,8 @@ use scene::{Geometry, Object, Scene};
 use store::Store;
 
 use super::body::MeshBody;
-use super::corner::Counts;
-use super::library::{push_values, write_library};
-use super::states::{Library, fit_line};
+use super::library::{Library, push_name, push_values, write_library};
+use super::states::{Before, fit_line};
 use crate::decimal::push_whole;
 use crate::error::{Unwritable, WriteError};
 use crate::loss::Losses;
@@ -110,14 +109,6 @@ struct Text<'a> {
     before: Before,
 }
 
-/// What the text so far defines, and what is in force at its end; groups are closed there.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Before {
-    pub(super) counts: Counts,
-    pub(super) material: Option<usize>,
-    pub(super) smoothing: i32,
-}
-
 impl<'a> Text<'a> {
     fn mesh(&mut self, mesh: &'a Mesh, places: &'a [usize], losses: &mut Losses) {
         let (several, library, before) = (self.several, self.library, self.before);
@@ -153,8 +144,4 @@ impl<'a> Text<'a> {
             }));
         }
     }
-}
-
-pub(super) fn push_name(out: &mut Vec<u8>, keyword: &str, name: &str) {
-    out.extend_from_slice(format!("{keyword} {name}\n").as_bytes());
 }

@@ -26,6 +26,3 @@ mod write;
 
 pub(crate) use read::{peek, read};
 pub(crate) use write::write;
-
-/// The face attribute for places in a map of colors.
-const COLOR_INDEX: &str = "color_index";

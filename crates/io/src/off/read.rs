@@ -3,12 +3,14 @@
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{COLOR, Domain, Rule, UV, VERTEX_NORMAL};
 
-use super::COLOR_INDEX;
 use crate::Polygons;
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::note::Notes;
 use crate::peek::PeekMesh;
 use crate::text::{Cursor, Place, check_encoding, number, parsed};
+
+/// The face attribute for places in a map of colors.
+pub(super) const COLOR_INDEX: &str = "color_index";
 
 /// The color of faces that have none, where others have one.
 const GRAY: DVec4 = DVec4::new(2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 1.0);

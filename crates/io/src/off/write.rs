@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3, DVec4};
 use mesh::{COLOR, Domain, Mesh, Rule, UV, VERTEX_NORMAL, Value};
 use scene::Scene;
 
-use super::COLOR_INDEX;
+use super::read::COLOR_INDEX;
 use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
 use crate::joined::joined;

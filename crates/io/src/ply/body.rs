@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use super::header::{Element, Encoding, Header, Property};
 use super::table::Table;
 use super::types::Type;
-use crate::error::{At, Fault};
+use crate::fault::{At, Fault};
 use crate::note::Notes;
 use crate::text::{Cursor, Place, is_not_finite, number, parsed};
 

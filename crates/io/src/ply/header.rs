@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 use super::types::Type;
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::text::{MARK, Place, name, parsed, quoted};
 
 /// More properties than any program writes; it bounds the passes over the data.

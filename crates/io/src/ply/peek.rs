@@ -4,7 +4,7 @@ use super::body::Body;
 use super::header::{Element, parse};
 use super::roles::{self, Roles};
 use super::strips::triangles_of_strips;
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::note::Notes;
 use crate::peek::PeekMesh;
 

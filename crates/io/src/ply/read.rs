@@ -14,7 +14,7 @@ use super::strips::triangles_of_strips;
 use super::table::Table;
 use super::types::Type;
 use crate::clean::keep;
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::note::Notes;
 use crate::writing::mend;
 use crate::{Polygons, parallel};

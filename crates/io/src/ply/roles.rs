@@ -1,7 +1,7 @@
 //! What the elements and properties of a header mean.
 
 use super::header::{Element, Header};
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::text::Place;
 
 /// The elements that become a mesh, by their places in the header.

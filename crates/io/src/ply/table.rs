@@ -2,7 +2,7 @@
 
 use super::header::{Element, Property};
 use super::types::{Type, number, read_all, whole};
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::parallel;
 
 /// The rows of one element and where each of its values is.

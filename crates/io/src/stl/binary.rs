@@ -4,7 +4,7 @@ use glam::DVec3;
 use mesh::zeroed;
 
 use super::facets::{Facets, Normals, compare};
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::parallel::{self, BLOCK};
 
 pub(super) const HEADER: usize = 80;

@@ -7,7 +7,7 @@ use mesh::{Domain, Rule};
 use super::facets::{Facets, Normals};
 use super::{binary, text};
 use crate::Polygons;
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::note::Notes;
 use crate::peek::PeekMesh;
 use crate::polygons::{OBJECT_TAG, most_tags};

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::facets::{Facets, compare};
-use crate::error::Fault;
+use crate::fault::Fault;
 use crate::text::{Cursor, is_not_finite, name, number, quoted};
 
 /// The facets of a text.

@@ -103,7 +103,9 @@ impl ColorBy {
         match &self.of {
             Quantity::DistanceTo(path) => {
                 let full = cx.files.to_read(path);
-                if let Err(error) = mesh_io::peek(&full, &mesh_io::ReadOptions::default()) {
+                if let Err(error) =
+                    mesh_io::peek(&store::Disk, &full, &mesh_io::ReadOptions::default())
+                {
                     problems.push(Problem::error(error.to_string()).at(["color_by", "of"]));
                 }
                 plan.inputs.push(full);
@@ -197,8 +199,12 @@ fn there_are(mut names: Vec<&str>) -> String {
 /// The meshes of a file.
 fn meshes_of(path: &str, cx: &Context) -> Result<Vec<Mesh>, OpError> {
     let full = cx.files().to_read(path);
-    let loaded = mesh_io::read(Path::new(&full), &mesh_io::ReadOptions::default())
-        .map_err(|error| OpError::File(error.to_string()))?;
+    let loaded = mesh_io::read(
+        &store::Disk,
+        Path::new(&full),
+        &mesh_io::ReadOptions::default(),
+    )
+    .map_err(|error| OpError::File(error.to_string()))?;
     for file in loaded.files {
         if file.is_read {
             cx.files().has_read(file.path);

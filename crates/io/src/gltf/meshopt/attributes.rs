@@ -10,8 +10,8 @@
 //!
 //! A channel is four bytes of an element. Controls and modes are in version 1 (`0xa1`) only.
 
-use super::Input;
-use crate::error::Fault;
+use super::input::Input;
+use crate::fault::Fault;
 
 /// Differences are stored for this many elements together.
 const GROUP: usize = 16;

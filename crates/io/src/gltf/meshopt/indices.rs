@@ -6,8 +6,8 @@
 //!
 //! The lowest bit of a number says which of the two it goes on from, the others how far.
 
-use super::{Input, header, zigzag};
-use crate::error::Fault;
+use super::input::{Input, header, zigzag};
+use crate::fault::Fault;
 
 /// The length of the end, which says nothing.
 const TAIL: u8 = 4;

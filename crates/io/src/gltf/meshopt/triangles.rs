@@ -5,8 +5,8 @@
 //! 0xe1 | a code for each triangle | numbers | 16 pairs of halves of a byte
 //! ```
 
-use super::{Input, header, zigzag};
-use crate::error::Fault;
+use super::input::{Input, header, zigzag};
+use crate::fault::Fault;
 
 /// The length of the table of pairs at the end.
 const TABLE: u8 = 16;

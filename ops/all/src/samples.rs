@@ -437,7 +437,7 @@ mod tests {
             let entry = registry.get(name);
             let entry = entry.unwrap_or_else(|| panic!("{name} is not in the registry"));
             for sample in *samples {
-                if let Err(error) = entry.parse(sample) {
+                if let Err(error) = entry.parse(&ron_tree::parse(sample).value) {
                     panic!("{name}{sample}: {error}");
                 }
             }

@@ -304,7 +304,7 @@ fn rows(plan: &Plan, results: &[CellResult]) -> Vec<Vec<String>> {
 fn plain(setting: &Setting) -> String {
     match setting.json() {
         Json::String(text) => text,
-        _ => setting.literal.clone(),
+        _ => setting.value.to_string(),
     }
 }
 

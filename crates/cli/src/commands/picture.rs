@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use op::{Context, Files, Registry};
-use picture::{Picture, Quantity};
+use ops_pictures::{Picture, Quantity};
 use recipe::{Source, Values};
 use render::Image;
 use render::sheet::{Cell, SheetStyle, sheet};

@@ -1,7 +1,7 @@
 //! The schemas of operations and recipes: strict, documented, and of one mind with the reader.
 
 use jsonschema::Validator;
-use recipe::{Diagnostic, Parameter, syntax};
+use recipe::{Diagnostic, Parameter};
 use serde_json::Value as Json;
 
 use crate::samples::samples;

@@ -4,10 +4,8 @@
 //!   "head", "body", "tail"   --->   "head", "tail"
 //! ```
 
-use op::{Context, OpError, Operation, Plan, PlanContext, Problem, Report, named_object};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::named_object;
+use op::prelude::*;
 
 /// Takes objects out of the scene.
 ///

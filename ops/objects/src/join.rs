@@ -13,13 +13,9 @@ mod parts;
 use std::sync::Arc;
 
 use mesh::Domain;
-use op::{
-    Context, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedAttribute, PlannedGeometry,
-    Problem, Report, check_name, named_object,
-};
-use scene::{Geometry, Object, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{PlannedAttribute, check_name, named_object};
+use scene::{Geometry, Object};
 
 /// Joins meshes into one.
 ///

@@ -12,6 +12,7 @@
 //!
 //! Source: Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, chapter 4.
 
+use op::Operation;
 use op::prelude::*;
 use op::{change_curves, plan_curves};
 use scene::Geometry;

@@ -10,7 +10,7 @@
 
 use bezier::DVec2;
 use op::prelude::*;
-use op::{change_curves, plan_curves};
+use op::{Operation, change_curves, plan_curves};
 use scene::Geometry;
 
 /// Moves one control point of curves.

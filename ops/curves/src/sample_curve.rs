@@ -8,7 +8,7 @@
 //! ```
 
 use op::prelude::*;
-use op::{change_curves, plan_curves};
+use op::{Operation, change_curves, plan_curves};
 use scene::Geometry;
 
 /// The most segments of a polyline.

@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 use bezier::{BezierError, Patch, Tessellation, counts, tessellate_patch};
 use mesh::{BuildReport, Built, DVec2, DVec3, Domain, NonManifold, UV, VERTEX_NORMAL};
+use op::Operation;
 use op::prelude::*;
 use scene::Geometry;
 

@@ -4,6 +4,7 @@ use mesh::Domain;
 use mesh_io::{
     NonManifold, Orientation, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions, Unwanted,
 };
+use op::Operation;
 use op::prelude::*;
 
 /// Reads the objects of a file into the scene.

@@ -1,8 +1,8 @@
 //! Save: writes objects to a file.
 
 use mesh_io::{Format, WriteOptions};
-use op::Loss;
 use op::prelude::*;
+use op::{Loss, Operation};
 
 /// Writes objects to a file below the output folder.
 ///

@@ -5,7 +5,7 @@
 //! ```
 
 use op::prelude::*;
-use op::{check_name, named_object};
+use op::{Operation, check_name, named_object};
 use scene::Object;
 
 /// Copies an object, with its attributes and materials, under a new name.

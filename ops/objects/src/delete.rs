@@ -4,8 +4,8 @@
 //!   "head", "body", "tail"   --->   "head", "tail"
 //! ```
 
-use op::named_object;
 use op::prelude::*;
+use op::{Operation, named_object};
 
 /// Takes objects out of the scene.
 ///

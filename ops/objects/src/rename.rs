@@ -4,8 +4,8 @@
 //!   "head", "body"   --->   "skull", "body"
 //! ```
 
-use op::named_object;
 use op::prelude::*;
+use op::{Operation, named_object};
 
 /// Gives an object another name.
 ///

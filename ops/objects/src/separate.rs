@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use mesh::{Domain, MATERIAL};
 use op::prelude::*;
-use op::{Loss, PlannedObject, Refusal, check_name, named_object};
+use op::{Loss, Operation, PlannedObject, Refusal, check_name, named_object};
 use scene::{Geometry, Object};
 
 /// Takes a mesh apart into several objects.

@@ -19,7 +19,7 @@ use bezier::{Curve, Patch};
 use glam::DVec3;
 use mesh::{Rule, Values};
 use op::prelude::*;
-use op::{Loss, Turn, named_object};
+use op::{Loss, Operation, Turn, named_object};
 use rayon::prelude::*;
 use scene::Geometry;
 

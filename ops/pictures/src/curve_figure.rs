@@ -12,6 +12,7 @@ use std::path::Path;
 
 use bezier::Curve;
 use glam::DVec2;
+use op::Operation;
 use op::named_object;
 use op::prelude::*;
 use render::figure::construction::{

@@ -16,8 +16,8 @@ mod tests;
 use std::fmt::Display;
 use std::path::Path;
 
-use op::Elements;
 use op::prelude::*;
+use op::{Elements, Operation};
 use render::animation::{Timing, to_apng, to_gif};
 use render::{Camera, Color, GoOn, Image, LARGEST_SIDE, PictureError, Style};
 

@@ -15,6 +15,7 @@
 //! 3-6 and 2-4.
 
 use mesh::shapes;
+use op::Operation;
 use op::prelude::*;
 
 /// Makes a cube.

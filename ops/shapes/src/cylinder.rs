@@ -9,6 +9,7 @@
 //! ```
 
 use mesh::shapes;
+use op::Operation;
 use op::prelude::*;
 
 /// Makes a cylinder around the z axis.

@@ -7,6 +7,7 @@
 //! ```
 
 use mesh::shapes;
+use op::Operation;
 use op::prelude::*;
 
 /// Makes a regular icosahedron: 12 vertices, 20 triangles.

@@ -9,6 +9,7 @@
 //! ```
 
 use mesh::shapes;
+use op::Operation;
 use op::prelude::*;
 
 /// Makes a regular octahedron: 6 vertices, 8 triangles.

@@ -9,6 +9,7 @@
 //! ```
 
 use mesh::{BuildReport, DVec3};
+use op::Operation;
 use op::prelude::*;
 
 /// Makes a mesh of points and faces.

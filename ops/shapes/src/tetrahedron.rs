@@ -10,6 +10,7 @@
 //! ```
 
 use mesh::shapes;
+use op::Operation;
 use op::prelude::*;
 
 /// Makes a regular tetrahedron: 4 vertices, 4 triangles.

@@ -10,6 +10,7 @@
 //! ```
 
 use mesh::shapes;
+use op::Operation;
 use op::prelude::*;
 
 /// Makes a torus of quadrilaterals around the z axis.

@@ -10,6 +10,7 @@
 //! ```
 
 use mesh::shapes;
+use op::Operation;
 use op::prelude::*;
 
 /// Makes a sphere of meridians and rings, with poles at -z and +z.

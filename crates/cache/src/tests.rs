@@ -217,11 +217,11 @@ fn only_what_comes_behind_an_edit_runs_again() {
 #[test]
 fn recipes_with_the_same_steps_share_their_results() {
     let mut place = Place::new();
-    let steps = |more| self::steps(&format!("Sheet(columns: 4), Lift(by: 1), {more}"));
-    place.run(&steps(""));
+    let and = |more| steps(&format!("Sheet(columns: 4), Lift(by: 1), {more}"));
+    place.run(&and(""));
     place.recipe = Some(place.path("other.ron"));
     let why = "it has not run before".to_owned();
-    assert_eq!(place.ran(&steps("Lift(by: 3)")), [(3, why)]);
+    assert_eq!(place.ran(&and("Lift(by: 3)")), [(3, why)]);
 }
 
 #[test]

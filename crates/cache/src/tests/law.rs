@@ -171,7 +171,7 @@ fn two_runs_at_once_are_as_one() {
 }
 
 fn run_in(folder: &Path, text: &str, caching: Caching, out: &str) -> Outcome {
-    let registry = super::registry().with::<FromFile>();
+    let registry = registry().with::<FromFile>();
     let source = recipe::Source::new(folder.join("recipe.ron"), text);
     let reading = recipe::read(&source, &registry, recipe::Values::default());
     let files = Files {

@@ -291,7 +291,7 @@ impl fmt::Display for TooLarge {
 mod tests {
     use super::*;
     use crate::LoopWeights;
-    use mesh::shapes;
+    use geometry::shapes;
 
     const LOOP: Scheme = Scheme::Loop(LoopWeights::Warren);
 

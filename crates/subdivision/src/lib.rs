@@ -56,7 +56,7 @@
 //! use subdivision::{Rules, Scheme};
 //!
 //! let rules = Rules::of(Scheme::CatmullClark);
-//! let mesh = subdivision::subdivide(&mesh::shapes::cube(), rules, 2, &op::NoProgress)?;
+//! let mesh = subdivision::subdivide(&geometry::shapes::cube(), rules, 2, &op::NoProgress)?;
 //! assert_eq!((mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()), (98, 192, 96));
 //! # Ok::<(), op::OpError>(())
 //! ```

@@ -16,8 +16,8 @@
 mod assemble;
 mod doubles;
 
+use geometry::triangulate::{Cut, Cutter};
 use mesh::Mesh;
-use mesh::triangulate::{Cut, Cutter};
 use op::{
     Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Refusal,
     Report, Select,

@@ -12,7 +12,6 @@
 //! at 0.9 times the distance always merge, wherever they lie, and two at 1.1 times only through others
 //! between them. Neither depends on the order of vertices or on the number of threads.
 
-use mesh::merge::clusters;
 use mesh::{Mesh, VERTEX_NORMAL};
 use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report};
 use schemars::JsonSchema;
@@ -76,14 +75,10 @@ impl MeshOperation for Weld {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        self.check().map_err(OpError::Parameter)?;
-        let lowest = clusters(mesh.positions(), self.distance, &|done, total| {
-            cx.advance("weld", done, total)
-        })?;
-        if (0..).zip(&lowest).all(|(v, &low): (u32, _)| v == low) {
+        let merged = geometry::merge_vertices(mesh, self.distance, cx.progress())?;
+        if merged.vertices == 0 {
             return Ok(Report::default());
         }
-        let merged = mesh.merge_clusters(&lowest)?;
         let n = merged.vertices;
         let vertices = if n == 1 { "vertex" } else { "vertices" };
         let mut report = Report::changed(n).note(format!("merged {n} {vertices}"));

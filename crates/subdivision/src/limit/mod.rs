@@ -62,7 +62,7 @@ fn normal([a, b]: &[DVec3; 2]) -> DVec3 {
 /// ```
 /// use subdivision::{Rules, Scheme};
 ///
-/// let cube = mesh::shapes::cube();
+/// let cube = geometry::shapes::cube();
 /// let limit = subdivision::limit(&cube, Rules::of(Scheme::CatmullClark), &op::NoProgress)?;
 /// // Valence 3: 3/8 of the corner, and 4/24 and 1/24 of its neighbors and the corners opposite.
 /// assert!((limit.positions[7] - mesh::DVec3::splat(0.5)).length() < 1e-15);

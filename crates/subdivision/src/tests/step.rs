@@ -1,6 +1,7 @@
 //! The parameters of a step: conditions, some faces, the limit, and what is wrong with them.
 
-use mesh::{CREASE, DVec2, Mesh, TANGENT, UV, VERTEX_NORMAL, shapes};
+use geometry::shapes;
+use mesh::{CREASE, DVec2, Mesh, TANGENT, UV, VERTEX_NORMAL};
 use op::{Context, FaceSelection, Files, MeshPlan, NoProgress, OpError, PlanContext, Report};
 
 use crate::{LoopWeights, Rules, Scheme, Step, Until, limit};

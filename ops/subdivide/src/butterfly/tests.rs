@@ -1,6 +1,6 @@
 //! The operation: counts, refusals, recipes.
 
-use mesh::shapes;
+use geometry::shapes;
 use op::test::{applied_as_planned, counts};
 
 use crate::butterfly::Butterfly;

@@ -2,7 +2,8 @@
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-use mesh::{DVec2, DVec3, Mesh, UV, VERTEX_NORMAL, shapes};
+use geometry::shapes;
+use mesh::{DVec2, DVec3, Mesh, UV, VERTEX_NORMAL};
 use op::{Context, Files, MeshOperation, MeshPlan, NoProgress, OpError, PlanContext, Progress};
 
 use crate::loop_subdivide::LoopSubdivide;

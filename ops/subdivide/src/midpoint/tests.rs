@@ -1,6 +1,6 @@
 //! The operation: counts, refusals, recipes.
 
-use mesh::shapes;
+use geometry::shapes;
 use op::test::{applied_as_planned, counts};
 use subdivision::Split;
 
@@ -18,8 +18,8 @@ fn an_icosahedron_becomes_80_triangles_and_a_cube_24_quads() {
         counts(&applied_as_planned(&quads, &shapes::cube())),
         [26, 48, 24]
     );
-    let area = applied_as_planned(&quads, &shapes::cube()).area();
-    assert!((area - shapes::cube().area()).abs() < 1e-14);
+    let area = geometry::area(&applied_as_planned(&quads, &shapes::cube()));
+    assert!((area - geometry::area(&shapes::cube())).abs() < 1e-14);
 }
 
 #[test]

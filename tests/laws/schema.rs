@@ -4,6 +4,7 @@ use jsonschema::Validator;
 use recipe::{Diagnostic, Parameter, syntax};
 use serde_json::Value as Json;
 
+use crate::samples::samples;
 use crate::{assert_none, recipes};
 
 /// Calls `visit` with each schema below this one, and the way to it.
@@ -88,20 +89,18 @@ fn every_parameter_and_every_variant_has_a_description() {
 fn a_field_that_is_unknown_is_refused_at_every_level() {
     let registry = ops_all::registry();
     let mut failures = Vec::new();
-    for entry in registry.entries() {
-        for sample in ops_all::samples(entry.name) {
-            for (at, _) in sample.match_indices('(') {
-                // Only brackets that hold fields: a tuple is no place for one.
-                let inside = &sample[at + 1..];
-                let mut name = inside.split(':').next().expect("a first part").chars();
-                let is_empty = inside.starts_with(')');
-                if !is_empty && !name.all(|c| c.is_alphanumeric() || c == '_') {
-                    continue;
-                }
-                let broken = format!("{}(surplus: 1, {inside}", &sample[..at]);
-                if entry.parse(&broken).is_ok() {
-                    failures.push(format!("{}{broken}", entry.name));
-                }
+    for (entry, sample) in samples(&registry) {
+        for (at, _) in sample.match_indices('(') {
+            // Only brackets that hold fields: a tuple is no place for one.
+            let inside = &sample[at + 1..];
+            let mut name = inside.split(':').next().expect("a first part").chars();
+            let is_empty = inside.starts_with(')');
+            if !is_empty && !name.all(|c| c.is_alphanumeric() || c == '_') {
+                continue;
+            }
+            let broken = format!("{}(surplus: 1, {inside}", &sample[..at]);
+            if entry.parse(&broken).is_ok() {
+                failures.push(format!("{}{broken}", entry.name));
             }
         }
     }
@@ -162,13 +161,11 @@ fn every_sample_fits_the_schema() {
     let registry = ops_all::registry();
     let validator = validator();
     let mut failures = Vec::new();
-    for entry in registry.entries() {
-        for sample in ops_all::samples(entry.name) {
-            let step = format!("{}{sample}", entry.name);
-            let json = json(&format!("(recipe: 1, steps: [{step}])"));
-            if let Err(error) = validator.validate(&json) {
-                failures.push(format!("{step}: {error}"));
-            }
+    for (entry, sample) in samples(&registry) {
+        let step = format!("{}{sample}", entry.name);
+        let json = json(&format!("(recipe: 1, steps: [{step}])"));
+        if let Err(error) = validator.validate(&json) {
+            failures.push(format!("{step}: {error}"));
         }
     }
     assert_none(&failures);

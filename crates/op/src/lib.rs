@@ -22,6 +22,7 @@
 //! impl MeshOperation for Lift {
 //!     const NAME: &'static str = "Lift";
 //!     const SUMMARY: &'static str = "Lift every vertex";
+//!     const EXAMPLE: &'static str = "Lift(by: 0.5)";
 //!
 //!     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
 //!         Vec::new() // counts and attributes stay as they are

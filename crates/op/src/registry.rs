@@ -29,6 +29,8 @@ pub struct Entry {
     pub version: u32,
     /// One line: what it does.
     pub summary: &'static str,
+    /// A step of it, as recipes write it.
+    pub example: &'static str,
     /// Names that recipes used for it before.
     pub aliases: &'static [&'static str],
     /// Whether a step of it may choose objects with `on:`.
@@ -51,6 +53,7 @@ impl Entry {
             name: T::NAME,
             version: T::VERSION,
             summary: T::SUMMARY,
+            example: T::EXAMPLE,
             aliases: T::ALIASES,
             takes_on: T::TAKES_ON,
             schema: || schemars::schema_for!(T),

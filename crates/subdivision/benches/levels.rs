@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use geometry::shapes;
 use mesh::Mesh;
-use op::NoProgress;
+use progress::NoProgress;
 use rayon::prelude::*;
 use subdivision::{LoopWeights, Rules, Scheme};
 

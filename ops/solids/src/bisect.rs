@@ -74,6 +74,7 @@ impl Bisect {
 impl MeshOperation for Bisect {
     const NAME: &'static str = "Bisect";
     const SUMMARY: &'static str = "Cut meshes along a plane";
+    const EXAMPLE: &'static str = "Bisect(normal: (0, 0, 1))";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let problems = self.problems();

@@ -2,10 +2,12 @@
 
 use geometry::shapes;
 use mesh::{CORNER, CREASE, DVec3, Mesh, VertexId};
-use op::{NoProgress, OpError};
+use progress::NoProgress;
 
 use crate::fixtures;
-use crate::{Boundary, Creasing, Limit, LoopWeights, Rules, Scheme, limit, subdivide};
+use crate::{
+    Boundary, Creasing, Limit, LoopWeights, Rules, Scheme, SubdivisionError, limit, subdivide,
+};
 
 const SCHEMES: [Scheme; 3] = [
     Scheme::Loop(LoopWeights::Warren),
@@ -229,5 +231,5 @@ fn a_neighbor_less_sharp_than_itself_makes_chaikin_creases_settle_too() {
 #[test]
 fn schemes_without_masks_are_refused() {
     let error = limit(&shapes::cube(), Rules::of(Scheme::DooSabin), &NoProgress).unwrap_err();
-    assert!(matches!(error, OpError::Parameter(_)), "{error}");
+    assert_eq!(error, SubdivisionError::NoLimit(Scheme::DooSabin));
 }

@@ -3,18 +3,17 @@
 use mesh::{CORNER_NORMAL, DVec3, Domain, EdgeId, Mesh, TANGENT, VERTEX_NORMAL};
 use op::{
     Context, FaceSelection, MeshPlan, OpError, PlanContext, PlannedAttribute, Problem, Range,
-    Report, Select,
+    Refusal, Report, Select,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use crate::forecast::{Size, TooLarge};
-use crate::local::refine_within;
-use crate::meter::{Meter, Through};
-use crate::{Rules, Scheme, check_faces, finer, limit};
+use subdivision::{
+    Count, Rules, Scheme, Size, Split, SubdivisionError, check_faces, limit, limit_distance,
+    refine_faces, subdivide_within,
+};
 
 /// The most levels that a step may ask for: a single triangle fills the ids before.
-pub const MAX_LEVELS: u32 = 16;
+const MAX_LEVELS: u32 = 16;
 
 /// When to stop, instead of after a number of levels.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -35,29 +34,20 @@ pub enum Until {
     },
 }
 
-/// A step of a recipe that subdivides.
+/// The parameters of an operation that subdivides, whatever its scheme.
 #[derive(Clone, Copy, Debug)]
-pub struct Step<'a> {
-    /// The name of the operation, for messages.
-    pub name: &'static str,
-    /// The scheme and its choices.
-    pub rules: Rules,
-    /// How often: 1 if nothing is said. With [`until`](Self::until) the most levels that are allowed,
-    /// [`MAX_LEVELS`] if nothing is said.
-    pub levels: Option<u32>,
-    /// When to stop.
-    pub until: Option<Until>,
-    /// Whether vertices are pushed to the limit surface in the end.
-    pub to_limit: bool,
-    /// Which faces are refined, if not all, with all that they become.
-    pub faces: Option<&'a FaceSelection>,
+pub(crate) struct Step<'a> {
+    pub(crate) rules: Rules,
+    pub(crate) levels: Option<u32>,
+    pub(crate) until: Option<Until>,
+    pub(crate) to_limit: bool,
+    pub(crate) faces: Option<&'a FaceSelection>,
 }
 
 impl Step<'_> {
     /// One level.
-    pub const fn new(name: &'static str, rules: Rules) -> Self {
+    pub(crate) const fn new(rules: Rules) -> Self {
         Self {
-            name,
             rules,
             levels: None,
             until: None,
@@ -87,7 +77,7 @@ impl Step<'_> {
                 "`until` and `to_limit` are for the whole mesh, not for some of its faces";
             return Some((message.to_owned(), "faces"));
         }
-        let no_limit = !limit::has_limit(self.rules.scheme);
+        let no_limit = !self.rules.scheme.has_limit();
         match self.until {
             Some(Until::EdgeLength { below } | Until::LimitDistance { below })
                 if !(below > 0.0 && below.is_finite()) =>
@@ -104,7 +94,8 @@ impl Step<'_> {
     }
 
     /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns what is wrong.
-    pub fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
+    /// `name` is the name of the operation.
+    pub(crate) fn plan(&self, name: &str, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         if let Some((message, field)) = self.problem() {
             problems.push(Problem::error(message).at([field]));
@@ -117,8 +108,8 @@ impl Step<'_> {
         if scheme.needs_triangles() {
             if plan.degrees.min > 3 && plan.faces.max > 0 {
                 let message = format!(
-                    "{} needs triangles, but the faces have at least {} corners",
-                    self.name, plan.degrees.min
+                    "{name} needs triangles, but the faces have at least {} corners",
+                    plan.degrees.min
                 );
                 problems.push(Problem::error(message).help("cut the faces into triangles before"));
             }
@@ -127,70 +118,47 @@ impl Step<'_> {
         plan.drop_normals();
         plan.drop_attribute(Domain::Vertex, TANGENT.name);
 
-        let start = Size::of_plan(plan);
-        if let Some(faces) = self.faces {
-            self.plan_some(faces, plan, start, levels);
+        if let Some(faces) = self.faces
+            && faces.count(plan).max == 0
+        {
             return problems;
         }
-        if let (Err(too_large), None) = (start.check(scheme, 0..levels, cx.budget), self.until) {
+        let start = planned(plan);
+        let is_certain = self.until.is_none() && self.faces.is_none();
+        if is_certain && let Err(too_large) = start.check(scheme, 0..levels, cx.budget) {
             problems.push(
-                Problem::error(too_large.message())
+                Problem::error(too_large.to_string())
                     .at(["levels"])
                     .help(too_large.help()),
             );
             // The plan goes on with what fits, so that later steps are not blamed for this one.
             levels = too_large.fits.unwrap_or(0);
         }
-        let mut size = start;
-        for level in 0..levels {
-            size = size.after(scheme, level);
-            let finer = scheme.degrees_after(plan.degrees);
-            plan.degrees = if self.until.is_some() {
-                plan.degrees.or(finer)
-            } else {
-                finer
+        let end = (0..levels).fold(start, |size, level| size.after(scheme, level));
+        let degrees = (0..levels).fold(plan.degrees, |n, _| degrees_after(scheme, n));
+        let change = |count: &mut Range, end: Range| {
+            *count = if is_certain { end } else { count.or(end) };
+        };
+        change(&mut plan.vertices, end.vertices.0);
+        change(&mut plan.edges, end.edges.0);
+        change(&mut plan.faces, end.faces.0);
+        if self.faces.is_some() && !scheme.needs_triangles() {
+            // Faces beside get corners on their sides.
+            plan.degrees = Range {
+                min: plan.degrees.min.min(4),
+                max: plan.degrees.max.saturating_mul(1 << levels),
             };
+        } else {
+            change(&mut plan.degrees, degrees);
         }
-        if self.until.is_some() {
-            size = start.or(size);
-        }
-        plan.vertices = size.vertices;
-        plan.edges = size.edges;
-        plan.faces = size.faces;
         if self.to_limit {
             provide_limit(plan);
         }
         problems
     }
 
-    /// Plans the refinement of some faces: between nothing and the whole mesh.
-    fn plan_some(&self, faces: &FaceSelection, plan: &mut MeshPlan, start: Size, levels: u32) {
-        if faces.count(plan).max == 0 {
-            return;
-        }
-        let scheme = self.rules.scheme;
-        let whole = (0..levels).fold(start, |size, level| size.after(scheme, level));
-        let size = start.or(whole);
-        plan.vertices = size.vertices;
-        plan.edges = size.edges;
-        plan.faces = size.faces;
-        if !scheme.needs_triangles() {
-            // Faces beside get corners on their sides.
-            plan.degrees = Range {
-                min: plan.degrees.min.min(4),
-                max: plan.degrees.max.saturating_mul(1 << levels),
-            };
-        }
-    }
-
     /// Subdivides.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`subdivide`](crate::subdivide), [`OpError::Parameter`] for parameters out of their range,
-    /// and [`OpError::Budget`] if the result would take more bytes than the context allows, or the
-    /// condition is not met after the levels that are allowed.
-    pub fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+    pub(crate) fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         if let Some((message, _)) = self.problem() {
             return Err(OpError::Parameter(message));
         }
@@ -200,80 +168,138 @@ impl Step<'_> {
             return Ok(Report::default());
         }
         mesh.compact();
-        check_faces(mesh, scheme)?;
+        check_faces(mesh, scheme).map_err(failed)?;
         if let Some(faces) = self.faces {
             let chosen = faces.mask(mesh, cx)?;
-            let finer = refine_within(mesh, &chosen, self.rules, levels, cx.budget, &Through(cx))?;
+            let (budget, progress) = (cx.budget, cx.progress());
+            let finer = refine_faces(mesh, &chosen, self.rules, levels, budget, progress);
             let n = mesh.n_faces();
-            mesh.replace(finer);
+            mesh.replace(finer.map_err(failed)?);
             return Ok(Report::changed(mesh.n_faces().abs_diff(n)));
         }
-        let torn = torn(mesh, scheme);
-        let mut report = match self.until {
-            None => self.all_levels(mesh, levels, cx)?,
-            Some(until) => self.levels_until(mesh, until, levels, cx)?,
-        };
-        report.notes.extend(torn);
+        let mut notes = torn(mesh, scheme);
+        match self.until {
+            Some(until) => notes.insert(0, self.levels_until(mesh, until, cx)?),
+            None if levels > 0 => {
+                let finer = subdivide_within(mesh, self.rules, 0..levels, cx.budget, cx.progress());
+                mesh.replace(finer.map_err(|error| match error {
+                    SubdivisionError::TooLarge(size) => {
+                        OpError::Budget(format!("{size}; {}", size.help()))
+                    }
+                    other => failed(other),
+                })?);
+            }
+            None => {}
+        }
+        let mut report = Report::changed(mesh.n_faces());
+        report.notes = notes;
         if self.to_limit {
             push_to_limit(mesh, self.rules, cx)?;
         }
         Ok(report)
     }
 
-    fn all_levels(&self, mesh: &mut Mesh, levels: u32, cx: &Context) -> Result<Report, OpError> {
-        let size = Size::of(mesh);
-        let scheme = self.rules.scheme;
-        size.check(scheme, 0..levels, cx.budget).map_err(budget)?;
-        let through = Through(cx);
-        let meter = Meter::new(&through, scheme.name(), size.work(scheme, 0..levels));
-        for level in 0..levels {
-            mesh.replace(finer(mesh, self.rules, level, &meter)?);
-        }
-        meter.finish()?;
-        Ok(Report::changed(mesh.n_faces()))
-    }
-
-    fn levels_until(
-        &self,
-        mesh: &mut Mesh,
-        until: Until,
-        levels: u32,
-        cx: &Context,
-    ) -> Result<Report, OpError> {
-        let through = Through(cx);
-        let scheme = self.rules.scheme;
-        for level in 0..=levels {
-            let (size, one) = (Size::of(mesh), level..level + 1);
-            let work = size.work(scheme, one.clone());
-            let meter = Meter::new(&through, scheme.name(), work);
+    /// Subdivides until the condition is met, and says after how many levels.
+    fn levels_until(&self, mesh: &mut Mesh, until: Until, cx: &Context) -> Result<String, OpError> {
+        let levels = self.most_levels();
+        for level in 0.. {
             let (what, now, below) = match until {
                 Until::EdgeLength { below } => ("an edge is", longest_edge(mesh), below),
                 Until::LimitDistance { below } => {
-                    let distance = limit::distance(mesh, self.rules, &meter)?;
-                    ("a vertex is away from its limit by", distance, below)
+                    let distance = limit_distance(mesh, self.rules, cx.progress());
+                    let what = "a vertex is away from its limit by";
+                    (what, distance.map_err(failed)?, below)
                 }
             };
             if now < below {
-                let mut report = Report::changed(mesh.n_faces());
-                report
-                    .notes
-                    .push(format!("{level} levels; {what} {now:.3} at most"));
-                return Ok(report);
+                return Ok(format!("{level} levels; {what} {now:.3} at most"));
             }
+            let state = format!("after level {level} {what} still {now}");
             if level == levels {
-                let message = format!("after level {level} {what} still {now}, not below {below}");
-                return Err(OpError::Budget(message));
+                return Err(OpError::Budget(format!("{state}, not below {below}")));
             }
-            size.check(scheme, one, cx.budget).map_err(|too_large| {
-                let message = format!("after level {level} {what} still {now}");
-                OpError::Budget(format!(
-                    "{message}, and the next is too large: {}",
-                    too_large.message()
-                ))
-            })?;
-            mesh.replace(finer(mesh, self.rules, level, &meter)?);
+            let one = level..level + 1;
+            let finer = subdivide_within(mesh, self.rules, one, cx.budget, cx.progress());
+            mesh.replace(finer.map_err(|error| match error {
+                SubdivisionError::TooLarge(size) => {
+                    OpError::Budget(format!("{state}, and the next is too large: {size}"))
+                }
+                other => failed(other),
+            })?);
         }
         unreachable!("the last level returns")
+    }
+}
+
+/// The error of the step.
+fn failed(error: SubdivisionError) -> OpError {
+    let message = error.to_string();
+    match error {
+        SubdivisionError::Cancelled(_) => OpError::Cancelled,
+        SubdivisionError::TooLarge(_) => OpError::Budget(message),
+        SubdivisionError::NotTriangle { face, .. } => {
+            OpError::refused(Refusal::NotTriangle, message).about([face])
+        }
+        SubdivisionError::WholeMesh(_)
+        | SubdivisionError::Choices { .. }
+        | SubdivisionError::NoLimit(_) => OpError::Parameter(message),
+    }
+}
+
+/// A count of a plan.
+#[derive(Clone, Copy)]
+struct Planned(Range);
+
+impl Count for Planned {
+    fn plus(self, other: Self) -> Self {
+        Self(self.0.plus(other.0))
+    }
+
+    fn minus(self, other: Self) -> Self {
+        Self(self.0.minus(other.0))
+    }
+
+    fn times(self, n: u64) -> Self {
+        Self(self.0.by(n))
+    }
+
+    fn least(self) -> u64 {
+        self.0.min
+    }
+}
+
+/// The size of a planned mesh: attributes count as in [`MeshPlan::bytes`].
+fn planned(plan: &MeshPlan) -> Size<Planned> {
+    let attributes = Domain::ALL.map(|domain| {
+        let columns = plan.attributes.iter().filter(|a| a.domain == domain);
+        16 * columns.count() as u64
+    });
+    let most_corners = plan.edges.by(2).max;
+    let corners = plan.faces.times(plan.degrees);
+    Size {
+        vertices: Planned(plan.vertices),
+        edges: Planned(plan.edges),
+        faces: Planned(plan.faces),
+        corners: Planned(corners.capped(Range {
+            min: u64::MAX,
+            max: most_corners,
+        })),
+        isolated: Planned(plan.vertices.or_less()),
+        with_two_edges: Planned(plan.vertices.or_less()),
+        attributes,
+    }
+}
+
+/// How many corners faces have after a level, of those that have so many before it.
+fn degrees_after(scheme: Scheme, degrees: Range) -> Range {
+    match scheme {
+        Scheme::CatmullClark | Scheme::Midpoint(Split::Quads) => Range::exactly(4),
+        // Faces around vertices have as many corners as those have edges.
+        Scheme::DooSabin => Range {
+            min: 3,
+            max: u64::MAX,
+        },
+        _ => degrees,
     }
 }
 
@@ -299,10 +325,6 @@ fn torn(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
     lines
 }
 
-fn budget(too_large: TooLarge) -> OpError {
-    OpError::Budget(too_large.to_string())
-}
-
 /// The length of the longest edge of a dense mesh.
 fn longest_edge(mesh: &Mesh) -> f64 {
     let squared = |e: usize| {
@@ -314,7 +336,7 @@ fn longest_edge(mesh: &Mesh) -> f64 {
 
 /// Moves the vertices to the limit surface and gives them its normals and tangents.
 fn push_to_limit(mesh: &mut Mesh, rules: Rules, cx: &Context) -> Result<(), OpError> {
-    let found = limit(mesh, rules, &Through(cx))?;
+    let found = limit(mesh, rules, cx.progress()).map_err(failed)?;
     let normals = found.normals();
     let tangent = |[along, _]: &[DVec3; 2]| along.normalize_or_zero();
     let tangents = found.tangents.iter().map(tangent).collect();
@@ -342,3 +364,6 @@ fn provide_limit(plan: &mut MeshPlan) {
     }
     plan.provide(Domain::Vertex, TANGENT.name);
 }
+
+#[cfg(test)]
+mod tests;

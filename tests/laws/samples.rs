@@ -159,7 +159,7 @@ fn every_sample_is_of_its_operation() {
         assert!(!parameters.contains('\n'), "an example is one line");
     }
     for (entry, parameters) in samples(&registry) {
-        if let Err(error) = entry.parse(parameters) {
+        if let Err(error) = entry.parse(&ron_tree::parse(parameters).value) {
             panic!("{}{parameters}: {error}", entry.name);
         }
     }

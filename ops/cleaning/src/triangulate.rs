@@ -17,14 +17,9 @@ mod assemble;
 mod doubles;
 
 use geometry::triangulate::{Cut, Cutter};
-use mesh::Mesh;
-use op::{
-    Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Refusal,
-    Report, Select,
-};
+use op::Refusal;
+use op::prelude::*;
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// Cuts polygons into triangles.
 ///

@@ -12,10 +12,8 @@
 //! at 0.9 times the distance always merge, wherever they lie, and two at 1.1 times only through others
 //! between them. Neither depends on the order of vertices or on the number of threads.
 
-use mesh::{Mesh, VERTEX_NORMAL};
-use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::VERTEX_NORMAL;
+use op::prelude::*;
 
 /// Merges vertices that lie near each other, and joins the faces at them.
 ///

@@ -8,14 +8,8 @@
 //!     /               \            /               \
 //! ```
 
-use geometry::bevel::Cuts;
-use mesh::Mesh;
-use op::{
-    Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select, check_fraction, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::check_fraction;
+use op::prelude::*;
 
 /// Puts faces into the place of edges.
 ///
@@ -101,6 +95,7 @@ impl MeshOperation for BevelEdges {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geometry::bevel::Cuts;
     use geometry::shapes;
     use mesh::FaceId;
 

@@ -15,14 +15,8 @@
 //! 3-6 and 2-4.
 
 use geometry::shapes;
-use mesh::Mesh;
-use op::{
-    Context, MeshPlan, OpError, Operation, Plan, PlanContext, Problem, Range, Report, Source,
-    Vector,
-};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::Operation;
+use op::prelude::*;
 
 /// Makes a cube.
 ///

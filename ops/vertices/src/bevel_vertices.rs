@@ -8,14 +8,8 @@
 //!         |                    |
 //! ```
 
-use geometry::bevel::Cuts;
-use mesh::Mesh;
-use op::{
-    Context, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range, Report,
-    Select, VertexSelection, check_fraction, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::check_fraction;
+use op::prelude::*;
 
 /// Puts faces into the place of vertices.
 ///
@@ -95,6 +89,7 @@ impl MeshOperation for BevelVertices {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use geometry::bevel::Cuts;
     use geometry::shapes;
     use mesh::FaceId;
 

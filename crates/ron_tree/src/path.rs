@@ -91,7 +91,7 @@ fn step<'v>(value: &'v Value, item: &PathItem, named: bool) -> Step<'v> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::syntax::parse;
+    use crate::parse;
 
     const SOURCE: &str = "Flip(edges: Random(count: 24, of: Some(Not(Tagged(\"a\")))), \
                           at: (1, 2), list: Vertices([7, 8]), map: {\"k\": 5}, kind: Area)";

@@ -19,14 +19,14 @@ pub struct EditOverlap(pub Span);
 /// # Examples
 ///
 /// ```
-/// use recipe::diagnostic::Span;
-/// use recipe::syntax::{parse, replace};
+/// use ron_tree::Span;
+/// use ron_tree::{parse, replace};
 ///
 /// let source = "Loop(levels: 1 /* enough */)";
 /// let levels = parse(source).value.field("levels").unwrap().span;
 /// let edited = replace(source, vec![(levels, "2".to_owned())])?;
 /// assert_eq!(edited, "Loop(levels: 2 /* enough */)");
-/// # Ok::<(), recipe::syntax::EditOverlap>(())
+/// # Ok::<(), ron_tree::EditOverlap>(())
 /// ```
 pub fn replace(source: &str, mut edits: Vec<(Span, String)>) -> Result<String, EditOverlap> {
     edits.sort_by_key(|(span, _)| *span);

@@ -5,7 +5,7 @@ use crate::diagnostic::Span;
 use std::fmt;
 
 /// A value and where it stands.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Value {
     /// The place in the text, from the first to the last character of the value.
     pub span: Span,
@@ -19,7 +19,7 @@ pub struct Value {
 /// The forms of values that RON has.
 ///
 /// `Some(x)` is a call and `None` a name: only a schema can tell an option from an enumeration.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ValueKind {
     /// `true` or `false`.
     Bool(bool),
@@ -48,7 +48,7 @@ pub enum ValueKind {
 }
 
 /// The fields between two brackets.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Struct {
     /// The fields in the order of the text.
     pub fields: Vec<Field>,
@@ -65,7 +65,7 @@ impl Struct {
 }
 
 /// `name: value`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
     /// The name.
     pub name: Name,
@@ -74,7 +74,7 @@ pub struct Field {
 }
 
 /// `Name(..)`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Call {
     /// The name.
     pub name: Name,
@@ -119,7 +119,7 @@ impl Value {
     }
 
     /// The same, to be changed.
-    pub(crate) fn field_mut(&mut self, name: &str) -> Option<&mut Self> {
+    pub fn field_mut(&mut self, name: &str) -> Option<&mut Self> {
         match &mut self.kind {
             ValueKind::Struct(body) => (body.fields.iter_mut())
                 .find(|field| &*field.name.text == name)
@@ -170,17 +170,39 @@ impl Value {
         }
     }
 
+    /// Calls `change` with each value that this one is directly made of, in the order of the text.
+    pub fn for_each_part(&mut self, mut change: impl FnMut(&mut Self)) {
+        match &mut self.kind {
+            ValueKind::Call(call) => change(&mut call.body),
+            ValueKind::Struct(body) => body.fields.iter_mut().for_each(|f| change(&mut f.value)),
+            ValueKind::Tuple(items) | ValueKind::List(items) => items.iter_mut().for_each(change),
+            ValueKind::Map(entries) => {
+                for (key, value) in entries {
+                    change(key);
+                    change(value);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The values that this one is directly made of, in the order of the text.
+    pub fn parts(&self) -> Box<dyn Iterator<Item = &Self> + '_> {
+        match &self.kind {
+            ValueKind::Call(call) => Box::new(std::iter::once(&call.body)),
+            ValueKind::Struct(body) => Box::new(body.fields.iter().map(|field| &field.value)),
+            ValueKind::Tuple(items) | ValueKind::List(items) => Box::new(items.iter()),
+            ValueKind::Map(entries) => Box::new(entries.iter().flat_map(|(k, v)| [k, v])),
+            _ => Box::new(std::iter::empty()),
+        }
+    }
+
     /// Whether something in the value could not be read.
     pub fn has_errors(&self) -> bool {
         match &self.kind {
             ValueKind::Error => true,
-            ValueKind::Struct(s) => !s.complete || s.fields.iter().any(|f| f.value.has_errors()),
-            ValueKind::Tuple(items) | ValueKind::List(items) => items.iter().any(Self::has_errors),
-            ValueKind::Map(entries) => entries
-                .iter()
-                .any(|(key, value)| key.has_errors() || value.has_errors()),
-            ValueKind::Call(call) => call.body.has_errors(),
-            _ => false,
+            ValueKind::Struct(body) if !body.complete => true,
+            _ => self.parts().any(Self::has_errors),
         }
     }
 
@@ -238,7 +260,7 @@ impl fmt::Display for Value {
 /// `text` as a RON string literal.
 ///
 /// ```
-/// assert_eq!(recipe::syntax::string_literal("a \"b\"\n"), r#""a \"b\"\n""#);
+/// assert_eq!(ron_tree::string_literal("a \"b\"\n"), r#""a \"b\"\n""#);
 /// ```
 pub fn string_literal(text: &str) -> String {
     struct Literal<'t>(&'t str);

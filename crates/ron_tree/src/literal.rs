@@ -3,6 +3,8 @@
 //! The rules are those of `ron`, save that numbers carry no type (`1u32`) and that only text is
 //! text (no bytes).
 
+use std::str::FromStr;
+
 use crate::diagnostic::Span;
 
 /// What is wrong with a literal, and where in it.
@@ -28,7 +30,7 @@ impl Number {
     pub fn parse(text: &str) -> Option<Self> {
         if parse_int(text).is_some() {
             Some(Self::Int(text.into()))
-        } else if parse_float(text).is_some() {
+        } else if parse_float::<f64>(text).is_some() {
             Some(Self::Float(text.into()))
         } else {
             None
@@ -50,12 +52,25 @@ impl Number {
         }
     }
 
+    /// Whether the number is whole.
+    pub fn is_int(&self) -> bool {
+        matches!(self, Self::Int(_))
+    }
+
     /// The value, rounded to the nearest number of 64 bits.
     pub fn to_float(&self) -> f64 {
-        let whole = self.to_int().map(|int| int as f64);
-        whole
-            .or_else(|| parse_float(self.text()))
+        let whole = || self.to_int().map(|int| int as f64);
+        parse_float(self.text())
+            .or_else(whole)
             .unwrap_or(f64::INFINITY)
+    }
+
+    /// The value, rounded to the nearest number of 32 bits.
+    pub fn to_single(&self) -> f32 {
+        let whole = || self.to_int().map(|int| int as f32);
+        parse_float(self.text())
+            .or_else(whole)
+            .unwrap_or(f32::INFINITY)
     }
 
     /// Whether the number is whole and written with `0x`, `0o` or `0b`, as `ron` reads whole
@@ -96,12 +111,9 @@ fn base(unsigned: &str) -> (u32, &str) {
     found.next().unwrap_or((10, unsigned))
 }
 
-fn parse_float(text: &str) -> Option<f64> {
-    match text {
-        "inf" | "+inf" => return Some(f64::INFINITY),
-        "-inf" => return Some(f64::NEG_INFINITY),
-        "NaN" | "+NaN" | "-NaN" => return Some(f64::NAN),
-        _ => {}
+fn parse_float<T: FromStr>(text: &str) -> Option<T> {
+    if matches!(text.trim_start_matches(['+', '-']), "inf" | "NaN") {
+        return text.parse().ok();
     }
     // `ron` takes an underscore behind a digit or an exponent, not at the start or behind a point.
     let mut may_follow = false;

@@ -66,7 +66,7 @@ fn number_to_json(number: &Number) -> Json {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::syntax::parse;
+    use crate::parse;
     use serde_json::json;
 
     fn converted(source: &str) -> Json {

@@ -8,6 +8,7 @@
 //!     /               \            /               \
 //! ```
 
+use geometry::bevel::Cuts;
 use op::check_fraction;
 use op::prelude::*;
 
@@ -95,7 +96,6 @@ impl MeshOperation for BevelEdges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use geometry::bevel::Cuts;
     use geometry::shapes;
     use mesh::FaceId;
 

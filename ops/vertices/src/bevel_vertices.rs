@@ -8,6 +8,7 @@
 //!         |                    |
 //! ```
 
+use geometry::bevel::Cuts;
 use op::check_fraction;
 use op::prelude::*;
 
@@ -89,7 +90,6 @@ impl MeshOperation for BevelVertices {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use geometry::bevel::Cuts;
     use geometry::shapes;
     use mesh::FaceId;
 

@@ -348,7 +348,7 @@ mod tests {
     fn accents_stand_on_their_letters_and_take_no_room() {
         let bounds = |text: &str| {
             let text = Text::new(Font::Plain, text, 100.0, [0, 0, 0, 255]);
-            geometry::bounds(&line(DVec2::ZERO, &text).paths[0])
+            line(DVec2::ZERO, &text).paths[0].bounds()
         };
         let (e, one, two) = ("e", "e\u{301}", "e\u{301}\u{302}");
         assert_eq!(width(Font::Plain, two), width(Font::Plain, e));

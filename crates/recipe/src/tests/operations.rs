@@ -1,6 +1,7 @@
 //! Operations that the tests of recipes are made of.
 
-use mesh::{DVec3, Mesh, shapes};
+use geometry::shapes;
+use mesh::{DVec3, Mesh};
 use op::{
     Context, MeshOperation, MeshPlan, OpError, Operation, Plan, PlanContext, Problem, Refusal,
     Registry, Report, Select, Source, VertexSelection,

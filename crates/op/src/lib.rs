@@ -6,10 +6,8 @@
 //! nothing for free. Those that see the whole scene implement [`Operation`].
 //!
 //! ```
-//! use mesh::{DVec3, Mesh};
-//! use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
-//! use schemars::JsonSchema;
-//! use serde::{Deserialize, Serialize};
+//! use mesh::DVec3;
+//! use op::prelude::*;
 //!
 //! /// Lifts every vertex.
 //! #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -52,6 +50,7 @@ mod operation;
 mod parameter;
 mod place;
 mod plan;
+pub mod prelude;
 mod registry;
 mod report;
 mod selection;

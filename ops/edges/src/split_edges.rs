@@ -8,13 +8,8 @@
 //!        d                 d
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select, check_fraction, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::check_fraction;
+use op::prelude::*;
 
 /// Puts a vertex on edges and joins it to the far corners of their triangles.
 ///

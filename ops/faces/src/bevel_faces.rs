@@ -6,13 +6,8 @@
 //!    + ------ f ------ +    -->   + ---------- +           higher by the height
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select, check_fraction, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::check_fraction;
+use op::prelude::*;
 
 /// Raises a smaller copy of faces, with a ring of faces around it.
 ///

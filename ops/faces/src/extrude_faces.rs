@@ -14,13 +14,9 @@
 mod region;
 
 use glam::{DMat3, DVec3};
-use mesh::{Column, Domain, FaceId, Mesh, Rule, Values};
-use op::{
-    Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report,
-    Select, Turn, Vector,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{Column, Domain, FaceId, Rule, Values};
+use op::Turn;
+use op::prelude::*;
 
 use region::Region;
 

@@ -10,13 +10,8 @@
 //!    + ------------- +              + ------------- +
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select, check_fraction, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::check_fraction;
+use op::prelude::*;
 
 /// Puts a smaller copy into faces, with a ring of faces around it.
 ///

@@ -8,10 +8,8 @@
 //!    +-------+-------+           +-------+-------+
 //! ```
 
-use mesh::{Domain, EdgeId, Mesh, Rule, Values};
-use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report, Vector};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{Domain, EdgeId, Rule, Values};
+use op::prelude::*;
 
 /// Cuts meshes along a plane.
 ///

@@ -8,13 +8,8 @@
 //!         |                    |
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, Cuts, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range,
-    Report, Select, VertexSelection, check_fraction, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Cuts, check_fraction};
 
 /// Puts faces into the place of vertices.
 ///

@@ -1,0 +1,13 @@
+//! What nearly every operation names: `use op::prelude::*;`. [`Operation`](crate::Operation) is not among it: every
+//! [`MeshOperation`] is one too, and `Self::NAME` would be that of either.
+
+pub use mesh::Mesh;
+pub use scene::Scene;
+pub use schemars::JsonSchema;
+pub use serde::{Deserialize, Serialize};
+
+pub use crate::{
+    Context, EdgeSelection, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, Plan,
+    PlanContext, PlannedGeometry, Problem, Range, Report, Select, Source, Vector, VertexSelection,
+    edit_each,
+};

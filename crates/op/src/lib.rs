@@ -61,7 +61,7 @@ mod turn;
 
 pub use bevel::Cuts;
 pub use context::Context;
-pub use edit::{Edited, OnRefusal, edit_each};
+pub use edit::{Edited, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};
 pub use files::{FileError, FileLog, FileUse, Files};
 pub use operation::{MeshOperation, Operation};

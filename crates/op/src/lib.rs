@@ -37,11 +37,10 @@
 //!
 //! let registry = op::Registry::new().with::<Lift>();
 //! assert!(registry.get("Lift").is_some());
-//! let lifted = op::test::applied(&Lift { by: 2.0 }, mesh::shapes::square());
+//! let lifted = op::test::applied(&Lift { by: 2.0 }, geometry::shapes::square());
 //! assert_eq!(lifted.position(lifted.vertices().next().unwrap()), DVec3::new(0.0, 0.0, 2.0));
 //! ```
 
-mod bevel;
 mod context;
 mod edit;
 mod error;
@@ -59,7 +58,6 @@ mod tag;
 pub mod test;
 mod turn;
 
-pub use bevel::Cuts;
 pub use context::Context;
 pub use edit::{Edited, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};

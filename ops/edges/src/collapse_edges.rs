@@ -97,7 +97,8 @@ impl MeshOperation for CollapseEdges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, VERTEX_NORMAL, VertexId, shapes};
+    use geometry::shapes;
+    use mesh::{DVec3, VERTEX_NORMAL, VertexId};
     use op::Refusal;
     use op::test::{applied, planned, try_applied};
     use proptest::prelude::*;
@@ -229,7 +230,7 @@ mod tests {
             prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
             prop_assert_eq!(after.n_boundary_loops(), before.n_boundary_loops());
             // No place on an edge lies outside the box.
-            if let (Some([low, high]), Some([min, max])) = (before.bounds(), after.bounds()) {
+            if let (Some([low, high]), Some([min, max])) = (geometry::bounds(&before), geometry::bounds(&after)) {
                 let slack = DVec3::splat(1e-12);
                 prop_assert!((low - slack).cmple(min).all() && max.cmple(high + slack).all());
             }

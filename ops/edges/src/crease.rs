@@ -136,7 +136,8 @@ fn sharpen<I: Id>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{Column, DVec3, Rule, Values, shapes};
+    use geometry::shapes;
+    use mesh::{Column, DVec3, Rule, Values};
     use op::test::{applied, planned, try_applied};
 
     fn step(text: &str) -> Crease {

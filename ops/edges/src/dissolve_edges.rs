@@ -61,7 +61,8 @@ impl MeshOperation for DissolveEdges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec2, UV, shapes};
+    use geometry::shapes;
+    use mesh::{DVec2, UV};
     use op::test::{applied, is_as_planned, planned, try_applied};
     use op::{Range, Refusal};
     use proptest::prelude::*;

@@ -111,7 +111,7 @@ fn one_by_one(mesh: &mut Mesh, faces: Vec<FaceId>, cx: &Context) -> Result<Repor
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::Refusal;
     use op::test::{applied, is_as_planned, planned, try_applied};
     use proptest::prelude::*;

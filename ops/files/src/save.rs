@@ -91,7 +91,7 @@ impl Operation for Save {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::{Files, NoProgress, PlannedGeometry, Range};
     use scene::Object;
 

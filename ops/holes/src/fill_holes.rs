@@ -113,7 +113,7 @@ impl FillHoles {
     fn fill(&self, mesh: &mut Mesh, h: HalfEdgeId) -> Result<(), mesh::EditError> {
         match self.with {
             Cover::Face => mesh.fill_hole(h).map(drop),
-            Cover::Triangles => mesh.fill_hole_triangles(h).map(drop),
+            Cover::Triangles => geometry::fill_hole_triangles(mesh, h).map(drop),
         }
     }
 }
@@ -121,7 +121,8 @@ impl FillHoles {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, FaceId, shapes};
+    use geometry::shapes;
+    use mesh::{DVec3, FaceId};
     use op::test::{applied, try_applied};
 
     fn parse(text: &str) -> FillHoles {
@@ -148,7 +149,10 @@ mod tests {
         let triangles = applied(&parse("()"), tube);
         assert!(triangles.is_closed());
         assert_eq!((triangles.n_faces(), triangles.n_edges()), (14, 24));
-        assert!((triangles.volume() - shapes::cylinder(6, true).volume()).abs() < 1e-12);
+        assert!(
+            (geometry::volume(&triangles) - geometry::volume(&shapes::cylinder(6, true))).abs()
+                < 1e-12
+        );
     }
 
     #[test]

@@ -50,7 +50,7 @@ impl Operation for Copy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::{Files, MeshPlan, PlannedGeometry};
     use scene::Material;
 

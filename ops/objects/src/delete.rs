@@ -46,7 +46,7 @@ impl Operation for Delete {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use scene::Object;
 
     fn step(text: &str) -> Delete {

@@ -53,7 +53,7 @@ impl Operation for Rename {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use scene::Object;
 
     fn step(text: &str) -> Rename {

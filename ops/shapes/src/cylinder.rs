@@ -8,7 +8,7 @@
 //!     \_|____|_/
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -108,8 +108,8 @@ mod tests {
     fn a_cylinder_of_four_sides_is_a_box() {
         let mesh = made(r#"(name: "a", around: 4, radius: 3, height: 5, center: (0, 0, 1))"#);
         // The base is a square with diagonals of 6.
-        assert!((mesh.volume() - 18.0 * 5.0).abs() < 1e-12);
-        let [min, max] = mesh.bounds().unwrap();
+        assert!((geometry::volume(&mesh) - 18.0 * 5.0).abs() < 1e-12);
+        let [min, max] = geometry::bounds(&mesh).unwrap();
         assert_eq!((min.z, max.z), (-1.5, 3.5));
     }
 

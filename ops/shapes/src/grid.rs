@@ -8,7 +8,7 @@
 //!    0 --- 1 --- 2
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -84,7 +84,7 @@ mod tests {
     #[test]
     fn a_grid_covers_its_area_and_faces_upwards() {
         let mesh = made(r#"(name: "a", columns: 3, rows: 2, size: 0.5)"#);
-        assert_eq!(mesh.area(), 6.0 * 0.25);
+        assert_eq!(geometry::area(&mesh), 6.0 * 0.25);
         assert!(mesh.faces().all(|f| mesh.face_normal(f) == DVec3::Z));
         assert_eq!(mesh.n_boundary_loops(), 1);
     }

@@ -6,7 +6,7 @@
 //!    ...   5   ...
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -84,7 +84,7 @@ mod tests {
             assert!((mesh.length(e.half_edge()) - side).abs() < 1e-14);
         }
         // The volume of the regular icosahedron of radius 1: 5 (3 + √5) a³ / 12, a = 4 / √(10 + 2 √5).
-        assert!((mesh.volume() - 2.536_150_710_120_409).abs() < 1e-14);
+        assert!((geometry::volume(&mesh) - 2.536_150_710_120_409).abs() < 1e-14);
     }
 
     #[test]

@@ -147,7 +147,7 @@ mod tests {
             (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()),
             (4, 5, 2)
         );
-        assert_eq!(mesh.area(), 1.0);
+        assert_eq!(geometry::area(&mesh), 1.0);
     }
 
     #[test]

@@ -9,7 +9,7 @@
 //!        2
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -88,7 +88,7 @@ mod tests {
             assert!((mesh.length(e.half_edge()) - side).abs() < 1e-14);
         }
         // The volume of the regular tetrahedron of radius 1 is 8 / (9 √3).
-        assert!((mesh.volume() - 8.0 / (9.0 * 3.0_f64.sqrt())).abs() < 1e-14);
+        assert!((geometry::volume(&mesh) - 8.0 / (9.0 * 3.0_f64.sqrt())).abs() < 1e-14);
     }
 
     #[test]

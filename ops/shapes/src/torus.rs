@@ -9,7 +9,7 @@
 //!    '---'        |        '---'
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -99,15 +99,15 @@ mod tests {
     fn a_torus_has_one_handle() {
         let mesh = made(r#"(name: "a", around: 5, across: 4)"#);
         assert!(mesh.is_closed());
-        assert_eq!(mesh.genus(), 1);
-        assert!(mesh.volume() > 0.0);
+        assert_eq!(geometry::genus(&mesh), 1);
+        assert!(geometry::volume(&mesh) > 0.0);
     }
 
     #[test]
     fn major_and_minor_give_its_size() {
         let mesh =
             made(r#"(name: "a", around: 4, across: 4, major: 3, minor: 1, center: (0, 0, 7))"#);
-        let [min, max] = mesh.bounds().unwrap();
+        let [min, max] = geometry::bounds(&mesh).unwrap();
         assert!(min.abs_diff_eq(DVec3::new(-4.0, -4.0, 6.0), 1e-14));
         assert!(max.abs_diff_eq(DVec3::new(4.0, 4.0, 8.0), 1e-14));
     }

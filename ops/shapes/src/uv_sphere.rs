@@ -9,7 +9,7 @@
 //!          '-v-'
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -93,7 +93,7 @@ mod tests {
             let mesh = made(&format!(r#"(name: "a", around: {around}, rings: {rings})"#));
             assert!(mesh.is_closed());
             assert_eq!(mesh.euler_characteristic(), 2);
-            assert!(mesh.volume() > 0.0);
+            assert!(geometry::volume(&mesh) > 0.0);
         }
     }
 

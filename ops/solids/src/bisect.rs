@@ -108,7 +108,7 @@ impl MeshOperation for Bisect {
             return Err(OpError::Parameter(format!("{path}: {}", problem.message)));
         }
         cx.advance("bisect", 0, 2)?;
-        let cut = mesh.bisect(self.point.into(), self.normal.into())?;
+        let cut = geometry::bisect(mesh, self.point.into(), self.normal.into())?;
         if let Some(name) = &self.tag {
             tag(mesh, name, &cut.edges)?;
         }
@@ -123,8 +123,7 @@ impl MeshOperation for Bisect {
         for f in kept {
             part_of_face[f.index()] = 0;
         }
-        let part = mesh
-            .parts(&part_of_face)
+        let part = geometry::parts(mesh, &part_of_face)
             .pop()
             .unwrap_or_else(|| nothing(mesh));
         mesh.replace(part);
@@ -171,7 +170,8 @@ fn tag(mesh: &mut Mesh, name: &str, edges: &[EdgeId]) -> Result<(), OpError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{Attribute, DVec3, shapes};
+    use geometry::shapes;
+    use mesh::{Attribute, DVec3};
     use op::test::{applied, try_applied};
 
     fn step(text: &str) -> Bisect {
@@ -196,10 +196,12 @@ mod tests {
             applied(&step(&text), torus.clone())
         };
         let [front, back] = ["Front", "Back"].map(side);
-        assert!((front.area() + back.area() - torus.area()).abs() < 1e-12);
+        assert!(
+            (geometry::area(&front) + geometry::area(&back) - geometry::area(&torus)).abs() < 1e-12
+        );
         for side in [&front, &back] {
             assert_eq!(side.n_boundary_loops(), 2);
-            assert_eq!(side.n_components(), 1);
+            assert_eq!(geometry::n_components(&side), 1);
         }
         let normal = DVec3::new(1.0, 2.0, 0.5);
         let height = |p: &DVec3| (*p - DVec3::new(0.1, 0.0, 0.05)).dot(normal);

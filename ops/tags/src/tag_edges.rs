@@ -34,7 +34,7 @@ impl MeshOperation for TagEdges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::test::{applied, planned, try_applied};
 
     fn step(text: &str) -> TagEdges {

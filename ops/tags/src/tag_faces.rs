@@ -35,7 +35,7 @@ impl MeshOperation for TagFaces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::test::{applied, planned, try_applied};
 
     fn step(text: &str) -> TagFaces {

@@ -75,7 +75,8 @@ impl MeshOperation for DissolveVertices {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec2, DVec3, UV, VERTEX_NORMAL, shapes};
+    use geometry::shapes;
+    use mesh::{DVec2, DVec3, UV, VERTEX_NORMAL};
     use op::Refusal;
     use op::test::{applied, is_as_planned, try_applied};
     use proptest::prelude::*;
@@ -113,7 +114,7 @@ mod tests {
         let (after, report) = try_applied(&middles, mesh).unwrap();
         assert_eq!(report.changed, 4);
         assert_eq!(after.positions(), shapes::square().positions());
-        assert_eq!((after.n_edges(), after.area()), (4, 1.0));
+        assert_eq!((after.n_edges(), geometry::area(&after)), (4, 1.0));
     }
 
     #[test]

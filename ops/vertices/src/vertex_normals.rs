@@ -82,7 +82,8 @@ impl MeshOperation for VertexNormals {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, VertexId, shapes};
+    use geometry::shapes;
+    use mesh::{DVec3, VertexId};
     use op::test::{applied, try_applied};
     use proptest::prelude::*;
     use scene::{Object, Scene};

@@ -4,7 +4,8 @@ mod planar;
 mod until;
 
 use super::*;
-use mesh::{DVec2, EdgeId, UV, shapes};
+use geometry::shapes;
+use mesh::{DVec2, EdgeId, UV};
 use op::test::{applied, try_applied};
 use op::{Files, Refusal, Region};
 use proptest::prelude::*;

@@ -1,5 +1,6 @@
 use super::*;
-use mesh::{DVec2, DVec3, EdgeId, UV, shapes};
+use geometry::shapes;
+use mesh::{DVec2, DVec3, EdgeId, UV};
 use op::test::{applied, try_applied};
 
 fn parse(text: &str) -> Stitch {
@@ -37,7 +38,7 @@ fn faces_that_were_cut_apart_are_one_mesh_again() {
         shapes::uv_sphere(8, 5),
     ] {
         let cut = apart(mesh.clone());
-        assert_eq!(cut.n_components(), mesh.n_faces());
+        assert_eq!(geometry::n_components(&cut), mesh.n_faces());
         let stitched = applied(&parse("(distance: 0)"), cut);
         assert_eq!(counts(&stitched), counts(&mesh));
         assert_eq!(stitched.positions(), mesh.positions());

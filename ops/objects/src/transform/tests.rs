@@ -2,7 +2,8 @@
 
 use super::*;
 use bezier::DVec2;
-use mesh::{CORNER_NORMAL, VERTEX_NORMAL, shapes};
+use geometry::shapes;
+use mesh::{CORNER_NORMAL, VERTEX_NORMAL};
 use op::{MeshPlan, Range};
 use scene::Object;
 
@@ -61,8 +62,8 @@ fn a_turn_changes_no_area_and_no_volume() {
     let text =
         "(rotate: [(axis: X, degrees: 33), (axis: Y, degrees: -71.5)], about: Point(4, 5, 6))";
     let mesh = applied(text, torus.clone());
-    assert!((mesh.area() - torus.area()).abs() < 1e-12);
-    assert!((mesh.volume() - torus.volume()).abs() < 1e-12);
+    assert!((geometry::area(&mesh) - geometry::area(&torus)).abs() < 1e-12);
+    assert!((geometry::volume(&mesh) - geometry::volume(&torus)).abs() < 1e-12);
 }
 
 #[test]
@@ -74,7 +75,7 @@ fn scaling_multiplies_the_volume_whatever_the_signs() {
         let tetrahedron = shapes::tetrahedron();
         let mesh = applied(&text, tetrahedron.clone());
         assert!(
-            (mesh.volume() - 6.0 * tetrahedron.volume()).abs() < 1e-12,
+            (geometry::volume(&mesh) - 6.0 * geometry::volume(&tetrahedron)).abs() < 1e-12,
             "{text}"
         );
     }
@@ -92,7 +93,7 @@ fn two_mirrors_are_none() {
 fn the_center_of_each_object_stays() {
     let far = applied("(move: (100, 200, 300))", shapes::cube());
     let text = "(scale: (2, 2, 2), rotate: [(axis: Y, degrees: 90)], about: Center)";
-    let [min, max] = applied(text, far).bounds().unwrap();
+    let [min, max] = geometry::bounds(&applied(text, far)).unwrap();
     assert_eq!(
         (min, max),
         (

@@ -1,6 +1,6 @@
 //! The operation from its text to the bytes of its file.
 
-use mesh::shapes;
+use geometry::shapes;
 use op::{Context, Files, NoProgress, OpError, Operation, Plan, PlanContext, PlannedGeometry};
 use scene::{Object, Scene};
 

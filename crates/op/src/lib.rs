@@ -59,7 +59,7 @@ pub mod test;
 mod turn;
 
 pub use context::Context;
-pub use edit::{Edited, OnRefusal, edit_each};
+pub use edit::{Edited, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};
 pub use files::{FileError, FileLog, FileUse, Files};
 pub use operation::{MeshOperation, Operation};

@@ -8,6 +8,6 @@ pub use serde::{Deserialize, Serialize};
 
 pub use crate::{
     Context, EdgeSelection, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, Plan,
-    PlanContext, PlannedGeometry, Problem, Range, Report, Select, Source, Vector, VertexSelection,
-    edit_each,
+    PlanContext, PlannedGeometry, Problem, Range, Report, Seams, Select, Source, Vector,
+    VertexSelection, edit_each,
 };

@@ -131,7 +131,7 @@ mod tests {
     #[test]
     fn parameters_outside_the_curve_are_refused() {
         for text in ["(t: -0.1)", "(t: 1.5)", "(t: NaN)"] {
-            let step: CurveLevels = ron::from_str(text).unwrap();
+            let step: CurveLevels = op::test::read(text).unwrap();
             let mut scene = arch();
             assert!(matches!(
                 op::test::run(&step, &mut scene),
@@ -153,7 +153,7 @@ mod tests {
         ));
 
         let mut plan = Plan::default();
-        let planned = PlannedGeometry::Curve(op::Range::exactly(3));
+        let planned = PlannedGeometry::Curve(Range::exactly(3));
         assert_eq!(plan.insert("arch", planned), []);
         let cx = PlanContext {
             files: &files,

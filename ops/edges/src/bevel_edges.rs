@@ -102,7 +102,7 @@ mod tests {
     use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> BevelEdges {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]

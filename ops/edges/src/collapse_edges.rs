@@ -104,7 +104,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn parse(text: &str) -> CollapseEdges {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -203,7 +203,7 @@ mod tests {
     fn a_recipe_may_leave_out_all_but_the_edges() {
         let collapse = parse("(edges: Random(count: 3, seed: 7))");
         assert_eq!((collapse.at, collapse.on_refusal), (0.5, OnRefusal::Error));
-        assert!(ron::from_str::<CollapseEdges>("(at: 0.5)").is_err());
+        assert!(op::test::read::<CollapseEdges>("(at: 0.5)").is_err());
     }
 
     proptest! {

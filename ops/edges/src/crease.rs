@@ -140,12 +140,8 @@ mod tests {
     use mesh::{Column, DVec3, Rule, Values};
     use op::test::{applied, planned, try_applied};
 
-    /// As recipes are read.
     fn step(text: &str) -> Crease {
-        let options = ron::Options::default();
-        let implicit_some = ron::extensions::Extensions::IMPLICIT_SOME;
-        let options = options.with_default_extension(implicit_some);
-        options.from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]

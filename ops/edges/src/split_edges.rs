@@ -93,7 +93,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn parse(text: &str) -> SplitEdges {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -170,7 +170,7 @@ mod tests {
     fn a_recipe_may_leave_out_all_but_the_edges() {
         let split = parse("(edges: Longest(count: 2))");
         assert_eq!((split.at, split.on_refusal), (0.5, OnRefusal::Error));
-        assert!(ron::from_str::<SplitEdges>("(at: 0.5)").is_err());
+        assert!(op::test::read::<SplitEdges>("(at: 0.5)").is_err());
     }
 
     proptest! {

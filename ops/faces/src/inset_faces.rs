@@ -86,7 +86,7 @@ mod tests {
     use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> InsetFaces {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]

@@ -106,7 +106,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn parse(text: &str) -> PokeFaces {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]

@@ -96,7 +96,7 @@ mod tests {
     use scene::Object;
 
     fn save(path: &str) -> Save {
-        ron::from_str(&format!("(path: {path:?})")).unwrap()
+        op::test::read(&format!("(path: {path:?})")).unwrap()
     }
 
     #[test]

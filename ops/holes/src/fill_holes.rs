@@ -126,7 +126,7 @@ mod tests {
     use op::test::{applied, try_applied};
 
     fn parse(text: &str) -> FillHoles {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     /// A torus with a hole of 4 and one of 6 edges, and normals.
@@ -180,10 +180,10 @@ mod tests {
     #[test]
     fn a_recipe_names_known_fields_only() {
         assert!(
-            ron::from_str::<FillHoles>("(around: Boundary, with: Face, on_refusal: Skip)").is_ok()
+            op::test::read::<FillHoles>("(around: Boundary, with: Face, on_refusal: Skip)").is_ok()
         );
-        assert!(ron::from_str::<FillHoles>("(with: Quads)").is_err());
-        assert!(ron::from_str::<FillHoles>("(max: 3)").is_err());
+        assert!(op::test::read::<FillHoles>("(with: Quads)").is_err());
+        assert!(op::test::read::<FillHoles>("(max: 3)").is_err());
         assert_eq!(parse("()").with, Cover::Triangles);
     }
 }

@@ -258,12 +258,8 @@ mod tests {
         scene
     }
 
-    /// As recipes are read.
     fn step(text: &str) -> Separate {
-        let options = ron::Options::default();
-        let implicit_some = ron::extensions::Extensions::IMPLICIT_SOME;
-        let options = options.with_default_extension(implicit_some);
-        options.from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn names(scene: &Scene) -> Vec<&str> {

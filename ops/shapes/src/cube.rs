@@ -104,7 +104,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Cube>(text).unwrap())
+        op::made(&op::test::read::<Cube>(text).unwrap())
     }
 
     #[test]
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_size_of_zero_is_refused() {
-        let step: Cube = ron::from_str(r#"(name: "a", size: 0)"#).unwrap();
+        let step: Cube = op::test::read(r#"(name: "a", size: 0)"#).unwrap();
         let made = op::test::run(&step, &mut Scene::new());
         assert!(matches!(made, Err(OpError::Parameter(_))));
     }

@@ -101,7 +101,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Cylinder>(text).unwrap())
+        op::made(&op::test::read::<Cylinder>(text).unwrap())
     }
 
     #[test]
@@ -124,7 +124,7 @@ mod tests {
 
     #[test]
     fn bad_parameters_are_refused_at_their_field() {
-        let step: Cylinder = ron::from_str(r#"(name: "a", around: 2, height: -1)"#).unwrap();
+        let step: Cylinder = op::test::read(r#"(name: "a", around: 2, height: -1)"#).unwrap();
         let problems = step.source().plan(&mut Plan::default());
         let fields: Vec<_> = problems.iter().map(|p| p.path.join(".")).collect();
         assert_eq!(fields, ["around", "height"]);
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn too_many_sides_are_refused() {
-        let step: Cylinder = ron::from_str(r#"(name: "a", around: 4294967295)"#).unwrap();
+        let step: Cylinder = op::test::read(r#"(name: "a", around: 4294967295)"#).unwrap();
         let made = op::test::run(&step, &mut Scene::new());
         assert!(matches!(made, Err(OpError::Budget(_))));
     }

@@ -78,7 +78,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Grid>(text).unwrap())
+        op::made(&op::test::read::<Grid>(text).unwrap())
     }
 
     #[test]

@@ -61,7 +61,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Icosahedron>(text).unwrap())
+        op::made(&op::test::read::<Icosahedron>(text).unwrap())
     }
 
     #[test]
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn a_radius_that_is_no_number_is_refused() {
-        let step: Icosahedron = ron::from_str(r#"(name: "a", radius: NaN)"#).unwrap();
+        let step: Icosahedron = op::test::read(r#"(name: "a", radius: NaN)"#).unwrap();
         let made = op::test::run(&step, &mut Scene::new());
         assert!(matches!(made, Err(OpError::Parameter(_))));
     }

@@ -120,7 +120,7 @@ mod tests {
     use super::*;
 
     fn step(text: &str) -> Polygons {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     /// The path and the message of the one problem.

@@ -65,7 +65,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Tetrahedron>(text).unwrap())
+        op::made(&op::test::read::<Tetrahedron>(text).unwrap())
     }
 
     #[test]
@@ -93,7 +93,7 @@ mod tests {
 
     #[test]
     fn a_radius_that_is_no_number_is_refused() {
-        let step: Tetrahedron = ron::from_str(r#"(name: "a", radius: NaN)"#).unwrap();
+        let step: Tetrahedron = op::test::read(r#"(name: "a", radius: NaN)"#).unwrap();
         let made = op::test::run(&step, &mut Scene::new());
         assert!(matches!(made, Err(OpError::Parameter(_))));
     }

@@ -92,7 +92,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Torus>(text).unwrap())
+        op::made(&op::test::read::<Torus>(text).unwrap())
     }
 
     #[test]
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn a_fat_tube_is_a_warning_and_still_made() {
-        let step: Torus = ron::from_str(r#"(name: "a", around: 5, across: 4, minor: 2)"#).unwrap();
+        let step: Torus = op::test::read(r#"(name: "a", around: 5, across: 4, minor: 2)"#).unwrap();
         let problems = step.source().plan(&mut Plan::default());
         assert!(problems.len() == 1 && problems[0].is_warning);
         assert!(op::test::run(&step, &mut Scene::new()).is_ok());

@@ -84,7 +84,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<UvSphere>(text).unwrap())
+        op::made(&op::test::read::<UvSphere>(text).unwrap())
     }
 
     #[test]

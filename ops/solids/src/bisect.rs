@@ -174,12 +174,8 @@ mod tests {
     use mesh::{Attribute, DVec3};
     use op::test::{applied, try_applied};
 
-    /// As recipes are read.
     fn step(text: &str) -> Bisect {
-        let options = ron::Options::default();
-        let implicit_some = ron::extensions::Extensions::IMPLICIT_SOME;
-        let options = options.with_default_extension(implicit_some);
-        options.from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -272,8 +268,8 @@ mod tests {
 
     #[test]
     fn a_recipe_must_give_the_normal() {
-        assert!(ron::from_str::<Bisect>("()").is_err());
-        assert!(ron::from_str::<Bisect>("(normal: (0, 0, 1), fill: true)").is_err());
+        assert!(op::test::read::<Bisect>("()").is_err());
+        assert!(op::test::read::<Bisect>("(normal: (0, 0, 1), fill: true)").is_err());
         assert_eq!(step("(normal: (0, 0, 1))").keep, Keep::Both);
     }
 }

@@ -38,7 +38,7 @@ mod tests {
     use op::test::{applied, planned, try_applied};
 
     fn step(text: &str) -> TagEdges {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]

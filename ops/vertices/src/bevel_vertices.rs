@@ -96,7 +96,7 @@ mod tests {
     use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> BevelVertices {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]

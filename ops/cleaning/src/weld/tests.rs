@@ -343,9 +343,9 @@ fn it_can_be_cancelled_before_the_first_change() {
 #[test]
 fn a_recipe_must_give_the_distance() {
     assert_eq!(
-        ron::from_str::<Weld>("(distance: 1e-6)").unwrap().distance,
+        op::test::read::<Weld>("(distance: 1e-6)").unwrap().distance,
         1e-6
     );
-    assert!(ron::from_str::<Weld>("()").is_err());
-    assert!(ron::from_str::<Weld>("(distance: 1, uvs: true)").is_err());
+    assert!(op::test::read::<Weld>("()").is_err());
+    assert!(op::test::read::<Weld>("(distance: 1, uvs: true)").is_err());
 }

@@ -38,7 +38,7 @@ fn scene_of(patches: Vec<Patch>) -> Scene {
 }
 
 fn parse(text: &str) -> Tessellate {
-    ron::from_str(text).unwrap()
+    op::test::read(text).unwrap()
 }
 
 fn run(operation: &Tessellate, patches: Vec<Patch>) -> (Mesh, Report) {
@@ -239,6 +239,6 @@ fn a_recipe_may_leave_out_everything() {
     let operation = parse("()");
     assert_eq!((operation.segments, operation.faces), (8, Faces::Triangles));
     assert!(!operation.uvs && !operation.normals);
-    assert!(ron::from_str::<Tessellate>("(faces: Hexagons)").is_err());
-    assert!(ron::from_str::<Tessellate>("(segment: 8)").is_err());
+    assert!(op::test::read::<Tessellate>("(faces: Hexagons)").is_err());
+    assert!(op::test::read::<Tessellate>("(segment: 8)").is_err());
 }

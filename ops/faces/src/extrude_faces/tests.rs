@@ -4,10 +4,7 @@ use mesh::{CORNER_NORMAL, MATERIAL, UV, VERTEX_NORMAL};
 use op::test::{applied, planned, try_applied};
 
 fn parse(text: &str) -> ExtrudeFaces {
-    // As recipes are read.
-    let options =
-        ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
-    options.from_str(text).unwrap()
+    op::test::read(text).unwrap()
 }
 
 fn top() -> FaceId {

@@ -4,7 +4,7 @@ use mesh::{DVec2, DVec3, EdgeId, UV};
 use op::test::{applied, try_applied};
 
 fn parse(text: &str) -> Stitch {
-    ron::from_str(text).unwrap()
+    op::test::read(text).unwrap()
 }
 
 /// The mesh cut along all its inner edges.
@@ -157,7 +157,7 @@ fn a_distance_that_is_none_is_refused_before_anything_runs() {
 
 #[test]
 fn a_recipe_must_give_the_distance() {
-    assert!(ron::from_str::<Stitch>("()").is_err());
-    assert!(ron::from_str::<Stitch>("(distance: 0, weld: true)").is_err());
+    assert!(op::test::read::<Stitch>("()").is_err());
+    assert!(op::test::read::<Stitch>("(distance: 0, weld: true)").is_err());
     assert_eq!(parse("(distance: 1e-6)").on_refusal, OnRefusal::Error);
 }

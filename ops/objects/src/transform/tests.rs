@@ -8,7 +8,7 @@ use op::{MeshPlan, Range};
 use scene::Object;
 
 fn step(text: &str) -> Transform {
-    ron::from_str(text).unwrap()
+    op::test::read(text).unwrap()
 }
 
 fn applied(text: &str, mesh: Mesh) -> Mesh {

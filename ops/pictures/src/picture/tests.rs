@@ -7,10 +7,7 @@ use scene::{Object, Scene};
 use crate::picture::Picture;
 
 fn picture(fields: &str) -> Picture {
-    let options =
-        ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
-    options
-        .from_str(&format!("(size: (32, 24), {fields})"))
+    op::test::read(&format!("(size: (32, 24), {fields})"))
         .unwrap_or_else(|error| panic!("{fields}: {error}"))
 }
 

@@ -4,17 +4,18 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use op::{Context, Files, Registry};
-use ops_pictures::{Picture, Quantity};
+use ops_pictures::Picture;
 use recipe::{Source, Values};
 use render::Image;
-use render::sheet::{Cell, SheetStyle, sheet};
 use ron_tree::string_literal;
 use scene::Scene;
+use view::Quantity;
+use view::sheet::{Cell, SheetStyle, sheet};
 
 use crate::WrongUsage;
 use crate::args::{DrawArgs, PictureArgs};
 use crate::commands::batch::inputs;
-use crate::listener::{Terminal, catch_interrupts, is_interrupted};
+use crate::listener::{Quiet, Terminal, catch_interrupts};
 use crate::output::{complain, print, write_whole};
 use crate::scenes::{BUDGET, Found, Stop, find};
 
@@ -45,7 +46,7 @@ pub(crate) fn run(args: &PictureArgs, registry: &Registry) -> anyhow::Result<boo
 
 /// Writes the images of a picture to a file.
 pub(crate) fn write_images(picture: &Picture, images: &[Image], path: &Path) -> anyhow::Result<()> {
-    let bytes = picture.encode_while(images, Some(STAMP), &|_| !is_interrupted())?;
+    let bytes = picture.encode(images, Some(STAMP), &Quiet)?;
     write(path, &bytes, &images[0])
 }
 
@@ -259,7 +260,7 @@ fn is_cancelled(error: &anyhow::Error) -> bool {
 
 /// Writes one image, and says so if that is wanted.
 pub(crate) fn write_png(image: &Image, path: &Path, say: bool) -> anyhow::Result<()> {
-    let bytes = image.to_png_while(&[("Software", STAMP)], &|_| !is_interrupted())?;
+    let bytes = image.to_png_while(&[("Software", STAMP)], &Quiet)?;
     if say {
         write(path, &bytes, image)
     } else {

@@ -13,14 +13,15 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::ensure;
 use op::{Context, Files, Registry};
-use ops_pictures::{Extent, Picture};
+use ops_pictures::Picture;
 use recipe::{Axis, InOrder, JobEnd, Jobs, Metric};
 use render::figure::label::filled;
 use render::figure::legend::{Corner, Legend, draw_legend, legend_figure};
 use render::figure::{Color, Font};
-use render::sheet::{Cell, Heads, SheetStyle, notice, sheet_size, sheet_with_heads};
 use render::{Image, PictureError};
 use scene::Scene;
+use view::Extent;
+use view::sheet::{Cell, Heads, SheetStyle, notice, sheet_size, sheet_with_heads};
 
 use super::cell::{CellResult, Cells};
 use super::{Plan, short};

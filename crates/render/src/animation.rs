@@ -3,8 +3,8 @@
 use crate::palette::Palette;
 use progress::Progress;
 
+use crate::work::Work;
 use crate::{Image, PictureError};
-use crateprogress::Work;
 
 /// How long an animation shows an image, and how often it runs.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]

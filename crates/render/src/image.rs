@@ -11,7 +11,7 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 use crate::PictureError;
 use crate::blend::over;
-use crateprogress::Work;
+use crate::work::Work;
 
 /// No side of an image is longer, in pixels.
 pub const LARGEST_SIDE: u32 = 16_384;

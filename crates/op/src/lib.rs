@@ -57,7 +57,6 @@ mod selection;
 mod source;
 mod tag;
 pub mod test;
-mod turn;
 
 pub use bevel::Cuts;
 pub use context::{Context, NoProgress, Progress};
@@ -65,7 +64,11 @@ pub use edit::{Edited, OnRefusal, edit_each};
 pub use error::{OpError, Refusal};
 pub use files::{FileError, FileLog, FileUse, Files};
 pub use operation::{MeshOperation, Operation};
-pub use parameter::{Axis, Vector, check_fraction};
+pub use parameter::{
+    Angle, AngleBetween, Axis, BadVector, ClosedFraction, Count, Direction, Distance, Factors,
+    Fraction, Length, Levels, OutOfRange, PositiveFactor, PositiveLength, Turn, Vector,
+    check_fraction,
+};
 pub use place::Place;
 pub use plan::{
     MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
@@ -77,4 +80,3 @@ pub use selection::{
 };
 pub use source::{Source, change_curves, check_name, made, named_object, plan_curves};
 pub use tag::{tag, tag_problems};
-pub use turn::Turn;

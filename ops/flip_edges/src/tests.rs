@@ -118,7 +118,10 @@ proptest! {
     ) {
         let edges = EdgeSelection::Or(vec![
             EdgeSelection::Random { count, of: Box::default(), seed },
-            EdgeSelection::Inside(Region::Sphere { center: op::Vector(1.0, 0.0, 0.0), radius }),
+            EdgeSelection::Inside(Region::Sphere {
+                center: op::Vector::literal(1.0, 0.0, 0.0),
+                radius: op::Length::literal(radius),
+            }),
         ]);
         let flip = FlipEdges { edges, ..parse("(edges: All, on_refusal: Skip)") };
         let before = shapes::icosahedron();

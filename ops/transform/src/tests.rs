@@ -3,7 +3,7 @@
 use super::*;
 use bezier::DVec2;
 use mesh::{CORNER_NORMAL, VERTEX_NORMAL, shapes};
-use op::{MeshPlan, Range};
+use op::Range;
 use scene::Object;
 
 fn step(text: &str) -> Transform {
@@ -248,40 +248,6 @@ fn only_the_objects_of_on_change() {
     cx.on = Some(&on);
     let missing = step("()").apply(&mut scene, &mut cx);
     assert!(matches!(missing, Err(OpError::Object(_))));
-}
-
-#[test]
-fn bad_parameters_are_refused_at_their_field() {
-    let files = op::Files::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
-    for (text, field) in [
-        ("(scale: (1, 0, 1))", "scale"),
-        ("(scale: (1, NaN, 1))", "scale"),
-        (
-            "(rotate: [(axis: X, degrees: 1), (axis: X, degrees: inf)])",
-            "rotate.1.degrees",
-        ),
-        ("(move: (0, 0, inf))", "move"),
-        ("(about: Point(NaN, 0, 0))", "about"),
-    ] {
-        let mut plan = Plan::default();
-        let cube = PlannedGeometry::Mesh(MeshPlan::of(&shapes::cube()));
-        assert_eq!(plan.insert("a", cube), []);
-        let problems = step(text).plan(&mut plan, &cx);
-        assert_eq!(
-            problems
-                .iter()
-                .map(|p| p.path.join("."))
-                .collect::<Vec<_>>(),
-            [field]
-        );
-        let moved = op::test::try_applied(&step(text), shapes::cube());
-        assert!(matches!(moved, Err(OpError::Parameter(_))));
-    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use mesh::sin_cos_degrees;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::Axis;
+use super::{Angle, Axis};
 
 /// One turn around an axis.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -14,13 +14,13 @@ pub struct Turn {
     /// The direction of the axis.
     pub axis: Axis,
     /// How far, counter-clockwise for someone towards whom the axis points. Multiples of 90 are exact.
-    pub degrees: f64,
+    pub degrees: Angle,
 }
 
 impl Turn {
     /// The matrix of the turn.
     pub fn matrix(self) -> DMat3 {
-        let (s, c) = sin_cos_degrees(self.degrees);
+        let (s, c) = sin_cos_degrees(self.degrees.get());
         let [x, y, z] = match self.axis {
             Axis::X => [DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c)],
             Axis::Y => [DVec3::new(c, 0.0, -s), DVec3::Y, DVec3::new(s, 0.0, c)],
@@ -48,15 +48,8 @@ mod tests {
             (Axis::Y, DVec3::Z, DVec3::X),
             (Axis::Z, DVec3::X, DVec3::Y),
         ] {
-            assert_eq!(
-                Turn {
-                    axis,
-                    degrees: 90.0
-                }
-                .matrix()
-                    * from,
-                to
-            );
+            let degrees = Angle::literal(90.0);
+            assert_eq!(Turn { axis, degrees }.matrix() * from, to);
         }
     }
 }

@@ -1,24 +1,21 @@
 //! Types of parameters that operations share.
+//!
+//! A parameter that has a range has it in its type: a value outside is refused when the recipe is read, its
+//! schema says so, and an operation never checks it again.
 
-use glam::DVec3;
+mod number;
+mod turn;
+mod vector;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A point or a direction: `(x, y, z)`, in scene units.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
-pub struct Vector(pub f64, pub f64, pub f64);
-
-impl From<Vector> for DVec3 {
-    fn from(v: Vector) -> Self {
-        Self::new(v.0, v.1, v.2)
-    }
-}
-
-impl From<DVec3> for Vector {
-    fn from(v: DVec3) -> Self {
-        Self(v.x, v.y, v.z)
-    }
-}
+pub use number::{
+    Angle, AngleBetween, ClosedFraction, Count, Distance, Fraction, Length, Levels, OutOfRange,
+    PositiveFactor, PositiveLength,
+};
+pub use turn::Turn;
+pub use vector::{BadVector, Direction, Factors, Vector};
 
 /// One of the three coordinate axes.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
@@ -31,7 +28,6 @@ pub enum Axis {
     /// The z axis.
     Z,
 }
-
 /// Checks a parameter that must lie between 0 and 1, neither included.
 ///
 /// # Errors

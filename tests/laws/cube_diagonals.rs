@@ -1,8 +1,8 @@
 //! What flipping diagonals can do for the symmetry of a subdivided cube: all 64 patterns.
 
-use loop_subdivide::LoopSubdivide;
 use mesh::{EdgeId, shapes};
 use op::Files;
+use ops_subdivide::LoopSubdivide;
 use recipe::Expectation;
 use recipe::expect::{Group, Subject};
 use scene::{Object, Scene};

@@ -1,46 +1,56 @@
-//! The folders in `ops/` and the list of built-in operations say the same.
+//! The files in `ops/` and the list of built-in operations say the same.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 
-/// The folders in `ops/` but `all`.
-fn folders() -> BTreeSet<String> {
-    let entries = std::fs::read_dir(crate::root().join("ops")).expect("there is a folder ops/");
-    entries
-        .map(|entry| entry.expect("the folder can be listed"))
-        .filter(|entry| entry.path().join("Cargo.toml").is_file())
-        .map(|entry| entry.file_name().into_string().expect("names are ASCII"))
-        .filter(|name| name != "all")
+/// The name of each operation that a file of a group has, with the file.
+fn files() -> BTreeMap<String, PathBuf> {
+    let list = |folder: PathBuf| {
+        let entries = std::fs::read_dir(folder).into_iter().flatten();
+        entries.map(|entry| entry.expect("the folder can be listed").path())
+    };
+    list(crate::root().join("ops"))
+        .flat_map(|group| list(group.join("src")))
+        .filter(|path| path.extension().is_some_and(|x| x == "rs"))
+        .filter(|path| {
+            let source = std::fs::read_to_string(path).expect("sources can be read");
+            source.lines().any(|line| {
+                line.starts_with("impl Operation for ")
+                    || line.starts_with("impl MeshOperation for ")
+            })
+        })
+        .map(|path| {
+            let stem = path.file_stem().and_then(|stem| stem.to_str());
+            (camel_case(stem.expect("names are ASCII")), path)
+        })
         .collect()
 }
 
 /// `uv_sphere` is `UvSphere`.
-fn camel_case(folder: &str) -> String {
+fn camel_case(file: &str) -> String {
     let word = |word: &str| word[..1].to_uppercase() + &word[1..];
-    folder.split('_').map(word).collect()
+    file.split('_').map(word).collect()
 }
 
 #[test]
-fn every_folder_is_in_the_registry() {
+fn every_file_is_in_the_registry() {
     let registry = ops_all::registry();
-    let names: BTreeSet<_> = registry.entries().iter().map(|e| e.name).collect();
-    let forgotten: Vec<_> = folders()
-        .into_iter()
-        .filter(|folder| !names.contains(camel_case(folder).as_str()))
-        .collect();
-    assert!(
-        forgotten.is_empty(),
-        "ops/all does not list these folders of ops/: {}",
-        forgotten.join(", ")
-    );
+    for (name, path) in files() {
+        assert!(
+            registry.entries().iter().any(|entry| entry.name == name),
+            "{} is not registered: its group's lib.rs needs `.with::<{name}>()` in `register`, or ops/all the group",
+            path.display()
+        );
+    }
 }
 
 #[test]
-fn every_operation_has_its_folder() {
-    let names: BTreeSet<_> = folders().iter().map(|f| camel_case(f)).collect();
+fn every_operation_has_its_file() {
+    let files = files();
     for entry in ops_all::registry().entries() {
         assert!(
-            names.contains(entry.name),
-            "{} has no folder of its name in ops/",
+            files.contains_key(entry.name),
+            "{} has no file of its name in a group of ops/",
             entry.name
         );
     }
@@ -54,22 +64,6 @@ fn every_name_is_there_once() {
     for entry in registry.entries() {
         for name in [entry.name].iter().chain(entry.aliases) {
             assert!(seen.insert(*name), "two operations are named {name}");
-        }
-    }
-}
-
-#[test]
-fn packages_and_libraries_have_the_names_of_their_folders() {
-    for folder in folders() {
-        let path = crate::root().join("ops").join(&folder).join("Cargo.toml");
-        let manifest = std::fs::read_to_string(path).expect("found above");
-        let kebab = folder.replace('_', "-");
-        for name in [format!("meshwright-op-{kebab}"), folder.clone()] {
-            let line = format!("name = \"{name}\"");
-            assert!(
-                manifest.lines().any(|l| l == line),
-                "ops/{folder}/Cargo.toml has no line {line}"
-            );
         }
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use clap::Args as ClapArgs;
 use op::{Context, Files, Place, Progress};
-use picture::draw_places;
+use ops_pictures::draw_places;
 use recipe::{Failure, Found, Listener, StepDone};
 use render::sheet::{Cell, SheetStyle, sheet};
 use render::{Image, difference};

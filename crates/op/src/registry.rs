@@ -108,6 +108,12 @@ impl Registry {
         self.with::<T>()
     }
 
+    /// Adds a group of operations: `register` adds each of them.
+    #[must_use]
+    pub fn with_group(self, register: fn(Self) -> Self) -> Self {
+        register(self)
+    }
+
     /// Whether every name is there once.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use std::path::Path;
 use mesh::{Elements, Mesh, VertexId};
 use mesh_io::{Note, NoteKind};
 use op::Place;
-use picture::Picture;
+use ops_pictures::Picture;
 use scene::{Geometry, Object, Scene};
 
 use crate::args::{Format, ReadArgs};

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use op::{Context, Files, Registry};
-use picture::{Picture, Quantity};
+use ops_pictures::{Picture, Quantity};
 use recipe::syntax::string_literal;
 use recipe::{Source, Values};
 use render::Image;

@@ -2,7 +2,7 @@
 
 use mesh::{EdgeId, Mesh, VertexId};
 use op::{ElementKind, Elements, Registry, Selected};
-use picture::Picture;
+use ops_pictures::Picture;
 use recipe::{Source, read_selection, resolve};
 use scene::Object;
 use serde_json::{Value as Json, json};

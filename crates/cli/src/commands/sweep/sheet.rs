@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::ensure;
 use op::{Context, Files, Registry};
-use picture::{Extent, Picture};
+use ops_pictures::{Extent, Picture};
 use recipe::{Axis, InOrder, JobEnd, Jobs, Metric};
 use render::figure::label::filled;
 use render::figure::legend::{Corner, Legend, draw_legend, legend_figure};

@@ -1,0 +1,23 @@
+//! Operations: Bezier curves and patches.
+
+mod curve_levels;
+mod move_control_point;
+mod sample_curve;
+mod tessellate;
+
+use op::Registry;
+
+pub use curve_levels::CurveLevels;
+pub use move_control_point::{MoveControlPoint, PlanePoint};
+pub use sample_curve::SampleCurve;
+pub use tessellate::{Faces, Tessellate};
+
+/// Adds the operations of this group, in the order of the reference.
+#[rustfmt::skip]
+pub fn register(registry: Registry) -> Registry {
+    registry
+        .with::<Tessellate>()
+        .with::<SampleCurve>()
+        .with::<CurveLevels>()
+        .with::<MoveControlPoint>()
+}

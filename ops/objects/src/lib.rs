@@ -1,0 +1,29 @@
+//! Operations: whole objects: copying, joining, placing.
+
+mod copy;
+mod delete;
+mod join;
+mod rename;
+mod separate;
+mod transform;
+
+use op::Registry;
+
+pub use copy::Copy;
+pub use delete::Delete;
+pub use join::Join;
+pub use rename::Rename;
+pub use separate::{By, Separate};
+pub use transform::{About, Transform};
+
+/// Adds the operations of this group, in the order of the reference.
+#[rustfmt::skip]
+pub fn register(registry: Registry) -> Registry {
+    registry
+        .with::<Copy>()
+        .with::<Delete>()
+        .with::<Rename>()
+        .with::<Join>()
+        .with::<Separate>()
+        .with::<Transform>()
+}

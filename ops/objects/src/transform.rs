@@ -1,0 +1,248 @@
+//! Transform: scales, turns and moves objects, by changing their points.
+//!
+//! ```text
+//!                                                         +---+
+//!    +---+       +------+         +---+                   |   |
+//!    |   |  -->  |      |  -->    |   |        -->        |   |
+//!    c---+       c------+         |   |                   |   |
+//!                             +---c                   +---c
+//!             scale: (2, 1, 1)   rotate: [(axis: Z, degrees: 90)]   move: (3, 1, 0)
+//! ```
+//!
+//! A point p goes to R S (p - c) + c + m: S scales, R turns, m moves, c is the point of `about`.
+
+mod map;
+
+use std::sync::Arc;
+
+use bezier::{Curve, Patch};
+use glam::DVec3;
+use mesh::{Mesh, Rule, Values};
+use op::{
+    Context, Factors, Loss, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem,
+    Report, Turn, Vector, named_object,
+};
+use rayon::prelude::*;
+use scene::{Geometry, Scene};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::transform::map::Map;
+
+/// Scales, turns and moves objects.
+///
+/// First the points are scaled, then turned, then moved. Meshes, patches, curves and polylines are
+/// changed themselves: no placement is kept beside them. A curve must stay in the plane z = 0.
+///
+/// Ids do not change. Normals are turned along; other attributes stay as they are. A mirror (one or
+/// three negative factors in `scale`) turns faces over, so that they are counter-clockwise seen from
+/// outside again: the first corner of a face stays the first, the others follow in reverse. In mirrored
+/// patches u and v are exchanged for the same reason. Attributes that edits drop are dropped by a mirror.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Transform {
+    /// The factors along x, y and z: not zero; a negative one mirrors.
+    #[serde(default = "ones")]
+    pub scale: Factors,
+    /// Turns, one after the other.
+    #[serde(default)]
+    pub rotate: Vec<Turn>,
+    /// How far to move along x, y and z, in scene units.
+    #[serde(default, rename = "move")]
+    pub translate: Vector,
+    /// The point that scaling and turning leave where it is.
+    #[serde(default)]
+    pub about: About,
+}
+
+const fn ones() -> Factors {
+    Factors::literal(1.0, 1.0, 1.0)
+}
+
+/// The point that scaling and turning leave where it is.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum About {
+    /// The origin of the scene.
+    #[default]
+    Origin,
+    /// The middle of the bounds of each object: of its vertices or control points.
+    Center,
+    /// A point of the scene: x, y, z.
+    Point(f64, f64, f64),
+}
+
+impl Transform {
+    /// The fixed point for an object of these points.
+    fn center(&self, points: impl Iterator<Item = DVec3>) -> DVec3 {
+        match self.about {
+            About::Origin => DVec3::ZERO,
+            About::Point(x, y, z) => DVec3::new(x, y, z),
+            About::Center => {
+                let bounds = points.fold(None, |bounds: Option<[DVec3; 2]>, p| {
+                    let [min, max] = bounds.unwrap_or([p, p]);
+                    Some([min.min(p), max.max(p)])
+                });
+                // Halved before they are added: the sum of two large numbers may not be one.
+                bounds.map_or(DVec3::ZERO, |[min, max]| 0.5 * min + 0.5 * max)
+            }
+        }
+    }
+
+    /// Changes one object. The report counts its points.
+    fn change(&self, name: &str, geometry: &mut Geometry, map: &Map) -> Result<Report, OpError> {
+        let too_large = || {
+            OpError::Parameter(format!(
+                "the coordinates of \"{name}\" would be too large for numbers"
+            ))
+        };
+        match geometry {
+            Geometry::Mesh(mesh) => {
+                let center = self.center(mesh.positions().iter().copied());
+                let mesh = Arc::make_mut(mesh);
+                let moved = mesh.positions_mut().par_iter_mut().with_min_len(4096);
+                moved.for_each(|p| *p = map.point(*p, center));
+                if !mesh.positions().par_iter().all(|p| p.is_finite()) {
+                    return Err(too_large());
+                }
+                if !map.only_moves() {
+                    turn_normals(mesh, map);
+                }
+                let mut report = Report::changed(mesh.n_vertices());
+                if map.mirrors() {
+                    let columns = mesh.attributes().iter();
+                    let lost = columns.filter(|(_, c)| c.rule == Rule::Drop);
+                    let reason = "a mirror turns the faces over";
+                    report.losses = lost
+                        .map(|(domain, c)| Loss::attribute(name, domain, &c.name, reason))
+                        .collect();
+                    mesh.reverse();
+                    mesh.compact();
+                }
+                Ok(report)
+            }
+            Geometry::Patches(patches) => {
+                let points = patches
+                    .iter()
+                    .flat_map(|patch| patch.points().as_flattened());
+                let center = self.center(points.copied());
+                for patch in &mut *patches {
+                    let points = patch.points().map(|row| row.map(|p| map.point(p, center)));
+                    let moved = Patch::new(points).map_err(|_| too_large())?;
+                    *patch = if map.mirrors() {
+                        moved.transposed()
+                    } else {
+                        moved
+                    };
+                }
+                Ok(Report::changed(16 * patches.len()))
+            }
+            Geometry::Curve(curve) => {
+                let points = || curve.points().iter().map(|p| p.extend(0.0));
+                let center = self.center(points());
+                let moved: Vec<DVec3> = points().map(|p| map.point(p, center)).collect();
+                if let Some((i, p)) = moved.iter().enumerate().find(|(_, p)| p.z != 0.0) {
+                    return Err(OpError::Parameter(format!(
+                        "the curve \"{name}\" must stay in the plane z = 0, but its control point {i} \
+                         would get z = {}",
+                        p.z
+                    )));
+                }
+                let n = moved.len();
+                *curve = Curve::new(moved.iter().map(|p| p.truncate()).collect())
+                    .map_err(|_| too_large())?;
+                Ok(Report::changed(n))
+            }
+            Geometry::Polylines(lines) => {
+                let center = self.center(lines.iter().flatten().copied());
+                for p in lines.iter_mut().flatten() {
+                    *p = map.point(*p, center);
+                    if !p.is_finite() {
+                        return Err(too_large());
+                    }
+                }
+                Ok(Report::changed(lines.iter().map(Vec::len).sum()))
+            }
+        }
+    }
+
+    /// What is known to go wrong with a curve.
+    fn curve_problem(&self, name: &str) -> Option<Problem> {
+        let center = match self.about {
+            About::Point(x, y, z) => DVec3::new(x, y, z),
+            // The middle of a curve lies in the plane as the origin does.
+            About::Origin | About::Center => DVec3::ZERO,
+        };
+        match Map::new(self).height_of_plane(center) {
+            Some(0.0) => None,
+            Some(z) => Some(Problem::error(format!(
+                "the curve \"{name}\" must stay in the plane z = 0, but would get z = {z}"
+            ))),
+            None => Some(Problem::warning(format!(
+                "the curve \"{name}\" must stay in the plane z = 0, and this turns it out of it unless \
+                 it lies on the axis"
+            ))),
+        }
+    }
+}
+
+impl Operation for Transform {
+    const NAME: &'static str = "Transform";
+    const SUMMARY: &'static str = "Scale, turn, move and mirror objects";
+    const TAKES_ON: bool = true;
+
+    fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        let chosen = |name: &String| cx.on.is_none_or(|on| on.contains(name));
+        let objects: Vec<_> = plan.objects.iter().filter(|o| chosen(&o.name)).collect();
+        if objects.is_empty() && !plan.incomplete {
+            problems.push(Problem::error("Transform finds no object to change"));
+        }
+        for object in objects {
+            if let PlannedGeometry::Curve(_) = object.geometry {
+                problems.extend(self.curve_problem(&object.name));
+            }
+        }
+        problems
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        let names: Vec<String> = cx.on.map_or_else(
+            || scene.objects().iter().map(|o| o.name.clone()).collect(),
+            <[String]>::to_vec,
+        );
+        let map = Map::new(self);
+        let mut report = Report::default();
+        cx.advance("transform", 0, names.len() as u64)?;
+        for (done, name) in (1..).zip(&names) {
+            named_object(scene, name)?;
+            let (geometry, _) = scene.parts_mut(name).expect("found above");
+            report.merge(self.change(name, geometry, &map)?);
+            cx.advance("transform", done, names.len() as u64)?;
+        }
+        Ok(report)
+    }
+}
+
+/// Turns the values of all columns that hold normals.
+fn turn_normals(mesh: &mut Mesh, map: &Map) {
+    let normals: Vec<_> = mesh
+        .attributes()
+        .iter()
+        .filter(|(_, column)| column.rule == Rule::Normal)
+        .map(|(domain, column)| (domain, column.name.clone()))
+        .collect();
+    for (domain, name) in normals {
+        let mut column = mesh.remove_column(domain, &name).expect("listed above");
+        if let Values::Vec3(values) = &mut column.values {
+            values
+                .par_iter_mut()
+                .with_min_len(4096)
+                .for_each(|n| *n = map.normal(*n));
+        }
+        mesh.insert_column(domain, column);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,17 @@
+//! Operations: pictures of scenes and figures of curves.
+
+mod curve_figure;
+mod picture;
+
+use op::Registry;
+
+pub use curve_figure::CurveFigure;
+pub use picture::{ColorBy, Extent, Mark, Picture, Quantity, Turntable, draw_places};
+
+/// Adds the operations of this group, in the order of the reference.
+#[rustfmt::skip]
+pub fn register(registry: Registry) -> Registry {
+    registry
+        .with::<Picture>()
+        .with::<CurveFigure>()
+}

@@ -1,0 +1,316 @@
+//! The operation from its text to the bytes of its file.
+
+use mesh::shapes;
+use op::{Context, Files, NoProgress, OpError, Operation, Plan, PlanContext, PlannedGeometry};
+use scene::{Object, Scene};
+
+use crate::picture::Picture;
+
+fn picture(fields: &str) -> Picture {
+    let options =
+        ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
+    options
+        .from_str(&format!("(size: (32, 24), {fields})"))
+        .unwrap_or_else(|error| panic!("{fields}: {error}"))
+}
+
+fn scene() -> Scene {
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
+    scene
+        .insert(Object::mesh("torus", shapes::torus(12, 8, 3.0, 0.5)))
+        .unwrap();
+    scene
+}
+
+/// The bytes that a step writes.
+fn written(fields: &str, on: Option<&[String]>) -> Result<Vec<u8>, OpError> {
+    let folder = tempfile::tempdir().unwrap();
+    let files = Files {
+        output: folder.path().into(),
+        input: folder.path().into(),
+        provenance: Some("meshwright 1, recipe \"a\"".to_owned()),
+        ..Files::default()
+    };
+    let mut cx = Context::new(&NoProgress, &files);
+    cx.on = on;
+    cx.budget = 1 << 30;
+    let mut scene = scene();
+    let before = scene.clone();
+    let picture = picture(fields);
+    picture.apply(&mut scene, &mut cx)?;
+    assert_eq!(scene, before);
+    Ok(std::fs::read(folder.path().join(&picture.path)).unwrap())
+}
+
+/// Width, height and pixels of a PNG, without alpha.
+fn decoded(bytes: &[u8]) -> (u32, u32, Vec<[u8; 3]>) {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+        .read_info()
+        .unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let info = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!(info.color_type, png::ColorType::Rgb);
+    (info.width, info.height, pixels.as_chunks().0.to_vec())
+}
+
+#[test]
+fn a_picture_is_as_large_as_it_says_and_carries_the_stamp() {
+    let bytes = written("path: \"a/b.png\"", None).unwrap();
+    let (width, height, pixels) = decoded(&bytes);
+    assert_eq!((width, height), (32, 24));
+    assert!(pixels.iter().any(|p| *p != [255; 3]) && pixels[0] == [255; 3]);
+    let stamp = b"recipe \"a\"";
+    assert!(bytes.windows(stamp.len()).any(|w| w == stamp));
+}
+
+#[test]
+fn only_the_chosen_objects_are_drawn() {
+    let drawn = |on: &[String]| decoded(&written("path: \"a.png\"", Some(on)).unwrap()).2;
+    let [cube, torus] = ["cube", "torus"].map(|name| drawn(&[name.to_owned()]));
+    assert_ne!(cube, torus);
+    // The middle of the torus is a hole when it is seen from above.
+    let bytes = written(
+        "path: \"a.png\", camera: Fit(from: Front)",
+        Some(&["torus".to_owned()]),
+    );
+    assert_eq!(decoded(&bytes.unwrap()).2[12 * 32 + 16], [255; 3]);
+}
+
+#[test]
+fn views_stand_side_by_side() {
+    let views = "path: \"a.png\", views: [Fit(from: Front), Fit(from: Top), Fit(from: Left)]";
+    let (width, height, _) = decoded(&written(views, None).unwrap());
+    assert_eq!((width, height), (96, 24));
+    let (width, height, _) = decoded(&written(&format!("{views}, columns: 2"), None).unwrap());
+    assert_eq!((width, height), (64, 48));
+}
+
+#[test]
+fn what_is_marked_is_seen() {
+    let plain = written("path: \"a.png\"", None).unwrap();
+    for marked in [
+        "highlight: Edges(Sharp(above: 30))",
+        "highlight: Faces(All)",
+        "marks: [(of: Vertices(All), color: \"blue\", width: 3)]",
+        "color_by: (of: Valence)",
+        "color_by: (of: MeanCurvature, legend: false)",
+        "color_by: (of: SmallestAngle, map: Gray, range: (0, 90))",
+        "color_by: (of: DihedralAngle)",
+    ] {
+        let bytes = written(&format!("path: \"a.png\", {marked}"), None).unwrap();
+        assert_ne!(decoded(&bytes).2, decoded(&plain).2, "{marked}");
+    }
+}
+
+#[test]
+fn a_turntable_has_its_frames() {
+    let bytes = written("path: \"a.apng\", turntable: (frames: 5, seconds: 1)", None).unwrap();
+    let reader = png::Decoder::new(std::io::Cursor::new(bytes))
+        .read_info()
+        .unwrap();
+    assert_eq!(reader.info().animation_control().unwrap().num_frames, 5);
+    let bytes = written("path: \"a.gif\", turntable: (frames: 3)", None).unwrap();
+    assert_eq!(&bytes[..6], b"GIF89a");
+}
+
+#[test]
+fn the_color_of_a_distance_is_that_of_the_place() {
+    // The cube against itself: no vertex is away from it, whatever it looks like.
+    let folder = tempfile::tempdir().unwrap();
+    let files = Files {
+        output: folder.path().into(),
+        input: folder.path().into(),
+        ..Files::default()
+    };
+    let mut scene = Scene::new();
+    scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
+    let path = folder.path().join("cube.obj");
+    mesh_io::write(&path, &scene, &mesh_io::WriteOptions::default()).unwrap();
+    let picture = picture("path: \"a.png\", color_by: (of: DistanceTo(\"cube.obj\"))");
+    let numbers = picture.color_by.as_ref().unwrap();
+    let cx = Context::new(&NoProgress, &files);
+    let found = numbers.numbers(&scene, &cx).unwrap();
+    assert_eq!(found.colorings[0].values, [0.0; 8]);
+}
+
+#[test]
+fn wrong_parameters_are_problems_before_anything_runs() {
+    let files = Files {
+        output: "out".into(),
+        ..Files::default()
+    };
+    let cx = PlanContext {
+        files: &files,
+        on: None,
+        budget: 1 << 20,
+    };
+    let problems = |fields: &str| {
+        let mut plan = Plan::default();
+        let cube = op::MeshPlan::of(&shapes::cube());
+        plan.insert("a", PlannedGeometry::Mesh(cube));
+        let found = picture(fields).plan(&mut plan, &cx);
+        found.into_iter().map(|p| p.message).collect::<Vec<_>>()
+    };
+    assert_eq!(problems("path: \"a.png\""), [""; 0]);
+    for (fields, message) in [
+        (
+            "path: \"a.jpg\"",
+            "no format of pictures is known for \"a.jpg\"",
+        ),
+        (
+            "path: \"a.gif\"",
+            "\"a.gif\" is an animation, but nothing moves",
+        ),
+        (
+            "path: \"../a.png\"",
+            "the output path \"../a.png\" must stay inside the output folder: no \"..\", no absolute path",
+        ),
+        (
+            "path: \"a.png\", style: (sharp: 200)",
+            "expected `sharp` from 0 to 180, found 200",
+        ),
+        (
+            "path: \"a.png\", camera: LookAt(from: (0, 0, 0), to: (0, 0, 0))",
+            "expected a camera that looks from one point to another, found no direction",
+        ),
+        (
+            "path: \"a.png\", turntable: (frames: 1)",
+            "expected 2 to 720 images, found 1",
+        ),
+        (
+            "path: \"a.png\", color_by: (of: Attribute(name: \"heat\"))",
+            "no mesh has an attribute \"heat\" here",
+        ),
+        (
+            "path: \"a.png\", color_by: (of: Valence, range: (2, 1))",
+            "expected a range from less to more, found 2 to 1",
+        ),
+        (
+            "path: \"a.png\", turntable: (frames: 720)",
+            "the images take 2211840 bytes, over the budget",
+        ),
+    ] {
+        let found = problems(fields);
+        assert!(found.iter().any(|m| m == message), "{fields}: {found:?}");
+    }
+    let error = written("path: \"a.png\", highlight: Faces(Tagged(\"nose\"))", None);
+    assert!(matches!(error, Err(OpError::Refused { .. })), "{error:?}");
+}
+
+#[test]
+fn a_scene_without_anything_is_an_empty_picture() {
+    let files = Files::default();
+    let mut cx = Context::new(&NoProgress, &files);
+    let (images, notes) = picture("path: \"a.png\"")
+        .draw(&Scene::new(), &mut cx)
+        .unwrap();
+    assert!(images[0].pixels.iter().all(|p| *p == [255; 4]) && notes.is_empty());
+}
+
+#[test]
+fn a_mark_on_what_is_no_mesh_is_told_to_mark_nothing() {
+    let line = scene::Geometry::Polylines(vec![vec![glam::DVec3::ZERO, glam::DVec3::ONE]]);
+    let mut scene = Scene::new();
+    scene.insert(Object::new("line", line)).unwrap();
+    let files = Files::default();
+    let mut cx = Context::new(&NoProgress, &files);
+    let mut notes = |fields: &str, scene: &Scene| {
+        let (_, notes) = picture(fields).draw(scene, &mut cx).unwrap();
+        notes
+    };
+    for marked in ["highlight: Vertices(All)", "marks: [(of: Edges(All))]"] {
+        let found = notes(&format!("path: \"a.png\", {marked}"), &scene);
+        assert!(found[0].starts_with("nothing is marked"), "{found:?}");
+    }
+    assert_eq!(notes("path: \"a.png\"", &scene), [""; 0]);
+    scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
+    let marked = "path: \"a.png\", highlight: Vertices(All)";
+    assert_eq!(notes(marked, &scene), [""; 0]);
+}
+
+/// Stops when a loop of this name is halfway.
+struct Halfway(&'static str);
+
+impl op::Progress for Halfway {
+    fn advance(&self, what: &str, done: u64, total: u64) -> bool {
+        what != self.0 || 2 * done < total
+    }
+}
+
+#[test]
+fn a_picture_that_is_cancelled_halfway_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = Files {
+        output: folder.path().into(),
+        ..Files::default()
+    };
+    for what in ["draw", "encode"] {
+        for fields in ["path: \"a.png\"", "path: \"a.gif\", turntable: (frames: 3)"] {
+            let halfway = Halfway(what);
+            let mut cx = Context::new(&halfway, &files);
+            let stopped = picture(fields).apply(&mut scene(), &mut cx);
+            assert!(matches!(stopped, Err(OpError::Cancelled)), "{what}");
+            let written = std::fs::read_dir(folder.path()).unwrap().count();
+            assert_eq!(written, 0, "{what}");
+        }
+    }
+}
+
+#[test]
+fn scenes_within_an_extent_are_drawn_as_side_by_side() {
+    let files = Files::default();
+    let cx = || Context::new(&NoProgress, &files);
+    let [cube, torus] = ["cube", "torus"].map(|name| {
+        let mut one = Scene::new();
+        let objects = scene();
+        let found = objects.objects().iter().find(|o| o.name == name);
+        one.insert(found.unwrap().clone()).unwrap();
+        one
+    });
+    for fields in [
+        "path: \"a.png\"",
+        "path: \"a.png\", color_by: (of: SmallestAngle)",
+        "path: \"a.png\", color_by: (of: Area), views: [Fit(from: Top), Fit(from: Front, projection: Orthographic)]",
+        "path: \"a.png\", camera: LookAt(from: (9, 9, 9), to: (0, 0, 0))",
+    ] {
+        let picture = picture(fields);
+        let mut extent = picture.extent(&cube, &mut cx()).unwrap();
+        extent.join(picture.extent(&torus, &mut cx()).unwrap());
+        let one = picture.draw_within(&cube, &extent, &mut cx()).unwrap().0;
+        // Seen from as far away as the torus, which is larger: not as alone, unless the camera does not fit.
+        let alone = picture.draw(&cube, &mut cx()).unwrap().0;
+        assert_eq!(one != alone, !fields.contains("LookAt"), "{fields}");
+        if picture.views.is_empty() && picture.color_by.is_none() {
+            let beside = [(&cube, "a"), (&torus, "b")];
+            let both = &picture.draw_beside(&beside, &mut cx()).unwrap().0[0];
+            let left: Vec<[u8; 4]> = (0..24)
+                .flat_map(|y| both.pixels[y * 64..y * 64 + 32].to_vec())
+                .collect();
+            // The few points of the extent give the last digits of the view, not its pixels.
+            let differ = left.iter().zip(&one[0].pixels);
+            let most = differ.flat_map(|(a, b)| (0..3).map(|i| a[i].abs_diff(b[i])));
+            assert!(most.max() <= Some(2), "{fields}");
+        }
+    }
+}
+
+#[test]
+fn an_extent_has_the_numbers_of_all() {
+    let files = Files::default();
+    let mut cx = Context::new(&NoProgress, &files);
+    let picture = picture("path: \"a.png\", color_by: (of: Area)");
+    let extent = |size: f64, cx: &mut Context| {
+        let mut scene = Scene::new();
+        let mut cube = shapes::cube();
+        cube.positions_mut().iter_mut().for_each(|p| *p *= size);
+        scene.insert(Object::mesh("cube", cube)).unwrap();
+        picture.extent(&scene, cx).unwrap()
+    };
+    let mut both = extent(1.0, &mut cx);
+    let area = both.range().unwrap()[0];
+    both.join(extent(2.0, &mut cx));
+    assert_eq!(both.range(), Some([area, 4.0 * area]));
+    both.join(crate::picture::Extent::default());
+    assert_eq!(both.range(), Some([area, 4.0 * area]));
+}

@@ -1,0 +1,29 @@
+//! Operations: subdivision of whole meshes.
+
+mod butterfly;
+mod catmull_clark;
+mod doo_sabin;
+mod loop_subdivide;
+mod midpoint;
+mod sqrt3;
+
+use op::Registry;
+
+pub use butterfly::Butterfly;
+pub use catmull_clark::CatmullClark;
+pub use doo_sabin::DooSabin;
+pub use loop_subdivide::LoopSubdivide;
+pub use midpoint::Midpoint;
+pub use sqrt3::Sqrt3;
+
+/// Adds the operations of this group, in the order of the reference.
+#[rustfmt::skip]
+pub fn register(registry: Registry) -> Registry {
+    registry
+        .with::<LoopSubdivide>()
+        .with::<CatmullClark>()
+        .with::<Midpoint>()
+        .with::<Butterfly>()
+        .with::<Sqrt3>()
+        .with::<DooSabin>()
+}

@@ -1,0 +1,20 @@
+//! Operations: named selections.
+
+mod tag_edges;
+mod tag_faces;
+mod tag_vertices;
+
+use op::Registry;
+
+pub use tag_edges::TagEdges;
+pub use tag_faces::TagFaces;
+pub use tag_vertices::TagVertices;
+
+/// Adds the operations of this group, in the order of the reference.
+#[rustfmt::skip]
+pub fn register(registry: Registry) -> Registry {
+    registry
+        .with::<TagVertices>()
+        .with::<TagEdges>()
+        .with::<TagFaces>()
+}

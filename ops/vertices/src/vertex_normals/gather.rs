@@ -1,0 +1,138 @@
+//! The normals: face vectors first, then a walk around every vertex.
+
+use mesh::blocks::BLOCK;
+use mesh::{DVec3, FaceId, Mesh, VertexId, angle_between};
+use rayon::prelude::*;
+
+use crate::vertex_normals::Weight;
+
+/// A sum of face vectors this much shorter than its parts is what rounding left of zero.
+const CANCELLED: f64 = 1e-14;
+
+/// The unit normal of every vertex of a dense mesh, and how many have none and got the zero vector.
+///
+/// The faces around a vertex are added in the order of the walk around it, so the result is the same for
+/// any number of threads. The size of the mesh does not matter: lengths are scaled by a power of two.
+pub fn normals(mesh: &Mesh, weight: Weight) -> (Vec<DVec3>, usize) {
+    let scale = scale(mesh);
+    let face_vectors: Vec<DVec3> = (0..mesh.n_faces())
+        .into_par_iter()
+        .with_min_len(BLOCK)
+        .map(|f| {
+            let area = area_vector(mesh, FaceId::new(f), scale);
+            match weight {
+                Weight::Area => area,
+                Weight::Angle | Weight::Uniform => area.normalize_or_zero(),
+            }
+        })
+        .collect();
+    let normals: Vec<DVec3> = (0..mesh.n_vertices())
+        .into_par_iter()
+        .with_min_len(BLOCK)
+        .map(|v| {
+            let v = VertexId::new(v);
+            match weight {
+                Weight::Area | Weight::Uniform => summed(mesh, v, &face_vectors),
+                Weight::Angle => summed_by_angle(mesh, v, &face_vectors, scale),
+            }
+        })
+        .collect();
+    let without = normals.par_iter().filter(|&&n| n == DVec3::ZERO).count();
+    (normals, without)
+}
+
+/// The sum of vectors, and of the magnitudes of their coordinates, which tells what rounding may be.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    sum: DVec3,
+    magnitude: DVec3,
+}
+
+impl Sum {
+    fn add(self, part: DVec3) -> Self {
+        Self {
+            sum: self.sum + part,
+            magnitude: self.magnitude + part.abs(),
+        }
+    }
+
+    fn direction(self) -> DVec3 {
+        if self.sum.abs().max_element() <= CANCELLED * self.magnitude.max_element() {
+            DVec3::ZERO
+        } else {
+            self.sum.normalize_or_zero()
+        }
+    }
+}
+
+fn summed(mesh: &Mesh, v: VertexId, face_vectors: &[DVec3]) -> DVec3 {
+    mesh.vertex_faces(v)
+        .fold(Sum::default(), |sum, f| sum.add(face_vectors[f.index()]))
+        .direction()
+}
+
+fn summed_by_angle(mesh: &Mesh, v: VertexId, face_vectors: &[DVec3], scale: f64) -> DVec3 {
+    let p = scale * mesh.position(v);
+    let side = |w| scale * mesh.position(w) - p;
+    // Clockwise, so that the half-edge before one lies on the other side of its face's corner.
+    let last = mesh.vertex_neighbors(v).last().map_or(DVec3::ZERO, side);
+    let (sum, _) = mesh
+        .vertex_half_edges(v)
+        .fold((Sum::default(), last), |(sum, before), h| {
+            let along = side(mesh.target(h));
+            let sum = match mesh.face(h) {
+                Some(f) => sum.add(angle_between(along, before) * face_vectors[f.index()]),
+                None => sum,
+            };
+            (sum, along)
+        });
+    sum.direction()
+}
+
+/// [`Mesh::area_vector`] of the mesh scaled by `scale`.
+fn area_vector(mesh: &Mesh, f: FaceId, scale: f64) -> DVec3 {
+    let mut corners = mesh.face_vertices(f).map(|v| scale * mesh.position(v));
+    let Some(first) = corners.next() else {
+        return DVec3::ZERO;
+    };
+    let mut sum = DVec3::ZERO;
+    let mut last = DVec3::ZERO;
+    for p in corners.map(|p| p - first) {
+        sum += last.cross(p);
+        last = p;
+    }
+    0.5 * sum
+}
+
+/// The power of two that brings the extent of the mesh near 1. Multiplying by it rounds nothing, so
+/// normals do not depend on it, but products of lengths neither overflow nor vanish.
+fn scale(mesh: &Mesh) -> f64 {
+    let [min, max] = mesh.bounds().unwrap_or_default();
+    // Halves first: the difference of two finite numbers may be infinite.
+    let extent = (0.5 * max - 0.5 * min).max_element();
+    if extent == 0.0 {
+        return 1.0;
+    }
+    let exponent = extent.to_bits() >> 52;
+    f64::from_bits(2046_u64.saturating_sub(exponent).max(1) << 52)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_scale_is_a_power_of_two_that_brings_the_extent_near_one() {
+        for size in [f64::MIN_POSITIVE / 8.0, 1e-300, 0.3, 1.0, 1e10, f64::MAX] {
+            let mut mesh = mesh::shapes::square();
+            mesh.positions_mut().iter_mut().for_each(|p| *p *= size);
+            let scale = scale(&mesh);
+            assert_eq!(scale.to_bits() << 12, 0, "a power of two");
+            let extent = scale * size;
+            assert!(
+                (0.1..=16.0).contains(&extent) || size < 1e-307,
+                "{size} {extent}"
+            );
+        }
+    }
+}

@@ -16,9 +16,8 @@ use std::sync::Arc;
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use op::Files;
-use recipe::diagnostic::Span;
-use recipe::syntax::{self, Lexer, TokenKind, Value};
 use recipe::{Outcome, Settings, Silent};
+use ron_tree::{Lexer, Span, TokenKind, Value};
 use tempfile::TempDir;
 
 /// The bytes that meshes may take.
@@ -228,7 +227,7 @@ fn any_number_of_threads(recipe: &Scene) -> Result<(), Failed> {
 
 fn every_step_counts(recipe: &Scene) -> Result<(), Failed> {
     let source = &recipe.source;
-    let parsed = syntax::parse(source);
+    let parsed = ron_tree::parse(source);
     let mut unnoticed = Vec::new();
     for step in list(&parsed.value, "steps") {
         let run = step
@@ -254,7 +253,7 @@ fn every_step_counts(recipe: &Scene) -> Result<(), Failed> {
             let mut spans = vec![step.span];
             spans.extend(more);
             let shortened = without(source, &spans);
-            if syntax::parse(&shortened).diagnostics.len() > parsed.diagnostics.len() {
+            if ron_tree::parse(&shortened).diagnostics.len() > parsed.diagnostics.len() {
                 return fail(format!(
                     "taking {operation} out broke the text:\n{shortened}"
                 ));
@@ -326,5 +325,5 @@ fn without(source: &str, items: &[Span]) -> String {
             edits.push((Span::new(item.end + start, item.end + end), String::new()));
         }
     }
-    syntax::replace(source, edits).expect("items of a list lie apart")
+    ron_tree::replace(source, edits).expect("items of a list lie apart")
 }

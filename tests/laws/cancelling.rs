@@ -7,6 +7,7 @@ use recipe::{Listener, Outcome, Settings, StepDone};
 
 use crate::assert_none;
 use crate::every_op::{Case, files};
+use crate::samples::samples;
 
 /// Goes on so many times and then says stop.
 struct StopAfter {
@@ -66,11 +67,8 @@ const PRELUDE: &str = r#"
 fn a_run_that_is_cancelled_ends_with_the_scene_from_before_the_step() {
     let registry = ops_all::registry();
     let mut failures = Vec::new();
-    let steps = registry.entries().iter().flat_map(|entry| {
-        let samples = ops_all::samples(entry.name).iter();
-        samples.map(|sample| format!("{}{sample}", entry.name))
-    });
-    for step in steps {
+    for (entry, sample) in samples(&registry) {
+        let step = format!("{}{sample}", entry.name);
         let before = run(PRELUDE, usize::MAX);
         assert!(before.outcome.succeeded(), "{:?}", before.outcome.failures);
         let whole = run(&format!("{PRELUDE}{step}"), usize::MAX);

@@ -19,7 +19,7 @@ fn subdivided(pattern: usize) -> Scene {
                 .expect("a diagonal of a cube can be flipped");
         }
     }
-    let smooth = op::test::applied(&LoopSubdivide::levels(1), cube);
+    let smooth = op::test::applied(&LoopSubdivide::default(), cube);
     let mut scene = Scene::new();
     scene
         .insert(Object::mesh("cube", smooth))

@@ -11,6 +11,7 @@ use op::{
 };
 use scene::{Geometry, Object, Scene};
 
+use crate::samples::samples;
 use crate::threads::POOLS;
 use crate::{assert_none, fixtures};
 
@@ -30,11 +31,8 @@ impl Case {
     pub(crate) fn all() -> Vec<Self> {
         let scenes = fixtures::scenes();
         let registry = ops_all::registry();
-        let steps = registry.entries().iter().flat_map(|entry| {
-            let samples = ops_all::samples(entry.name).iter();
-            samples.map(move |sample| (entry, *sample))
-        });
-        steps
+        samples(&registry)
+            .into_iter()
             .flat_map(|(entry, sample)| {
                 let case = |(name, scene)| Self::new(entry, sample, name, scene);
                 scenes.iter().map(|(name, scene)| (*name, scene)).map(case)
@@ -47,7 +45,7 @@ impl Case {
             name: format!("{}{sample} on {fixture}", entry.name),
             operation: entry.name,
             step: entry
-                .parse(sample)
+                .parse(&ron_tree::parse(sample).value)
                 .expect("a test of the samples reads them"),
             scene: scene.clone(),
         }

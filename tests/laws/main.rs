@@ -13,6 +13,7 @@ mod outside;
 mod random_edits;
 mod registry;
 mod renewing;
+mod samples;
 mod schema;
 mod threads;
 

@@ -3,12 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
+/// What is in a folder, if there is one.
+fn list(folder: PathBuf) -> impl Iterator<Item = PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    entries.map(|entry| entry.expect("the folder can be listed").path())
+}
+
 /// The name of each operation that a file of a group has, with the file.
 fn files() -> BTreeMap<String, PathBuf> {
-    let list = |folder: PathBuf| {
-        let entries = std::fs::read_dir(folder).into_iter().flatten();
-        entries.map(|entry| entry.expect("the folder can be listed").path())
-    };
     list(crate::root().join("ops"))
         .flat_map(|group| list(group.join("src")))
         .filter(|path| path.extension().is_some_and(|x| x == "rs"))
@@ -53,6 +55,42 @@ fn every_operation_has_its_file() {
             "{} has no file of its name in a group of ops/",
             entry.name
         );
+    }
+}
+
+/// `UvSphere` is `uv_sphere`.
+fn snake_case(name: &str) -> String {
+    let mut file = String::new();
+    for c in name.chars() {
+        if c.is_ascii_uppercase() && !file.is_empty() {
+            file.push('_');
+        }
+        file.push(c.to_ascii_lowercase());
+    }
+    file
+}
+
+#[test]
+fn every_operation_but_save_has_its_recipe_and_its_pictures() {
+    let folder = crate::root().join("ops/all/pictures");
+    for entry in ops_all::registry().entries() {
+        let name = snake_case(entry.name);
+        let recipe = folder.join(&name).with_extension("ron");
+        assert!(recipe.is_file(), "{} is forgotten", recipe.display());
+        let text = std::fs::read_to_string(recipe).expect("found above");
+        let drawn = ["before.png", "after.png"].map(|file| text.contains(&format!("\"{file}\"")));
+        assert_eq!(drawn[1], entry.name != "Save", "{name}.ron draws after.png");
+        for (file, drawn) in ["before.png", "after.png"].iter().zip(drawn) {
+            let picture = folder.join(&name).join(file);
+            let size = picture.metadata().map_or(0, |file| file.len());
+            assert_eq!(
+                drawn,
+                size > 0,
+                "{} is forgotten: run its recipe",
+                picture.display()
+            );
+            assert!(size < 50_000, "{}: {size} bytes", picture.display());
+        }
     }
 }
 

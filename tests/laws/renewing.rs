@@ -3,9 +3,9 @@
 
 use mesh_io::ReadOptions;
 use op::Files;
-use recipe::syntax::{self, Value, ValueKind};
 use recipe::update::update;
 use recipe::{Settings, Silent, Source, Span, Values};
+use ron_tree::{Value, ValueKind};
 
 use crate::{assert_none, recipes};
 
@@ -16,13 +16,13 @@ fn broken_numbers_of_every_scene_come_back() {
     for path in recipes() {
         let shown = path.display();
         let source = std::fs::read_to_string(&path).expect("the recipe can be read");
-        let tree = syntax::parse(&source).value;
+        let tree = ron_tree::parse(&source).value;
         let mut numbers = Vec::new();
         let expected = tree.field("expect").and_then(Value::items);
         recorded(expected.unwrap_or_default(), &mut numbers);
         n_broken += numbers.len();
         let edits = numbers.iter().map(|&span| (span, other(span.of(&source))));
-        let broken = syntax::replace(&source, edits.collect()).expect("numbers lie apart");
+        let broken = ron_tree::replace(&source, edits.collect()).expect("numbers lie apart");
         match renewed(&Source::new(&path, broken)) {
             Ok((text, n)) => {
                 if text != source {

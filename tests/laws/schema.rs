@@ -1,9 +1,10 @@
 //! The schemas of operations and recipes: strict, documented, and of one mind with the reader.
 
 use jsonschema::Validator;
-use recipe::{Diagnostic, Parameter, syntax};
+use recipe::{Diagnostic, Parameter};
 use serde_json::Value as Json;
 
+use crate::samples::samples;
 use crate::{assert_none, recipes};
 
 /// Calls `visit` with each schema below this one, and the way to it.
@@ -88,20 +89,18 @@ fn every_parameter_and_every_variant_has_a_description() {
 fn a_field_that_is_unknown_is_refused_at_every_level() {
     let registry = ops_all::registry();
     let mut failures = Vec::new();
-    for entry in registry.entries() {
-        for sample in ops_all::samples(entry.name) {
-            for (at, _) in sample.match_indices('(') {
-                // Only brackets that hold fields: a tuple is no place for one.
-                let inside = &sample[at + 1..];
-                let mut name = inside.split(':').next().expect("a first part").chars();
-                let is_empty = inside.starts_with(')');
-                if !is_empty && !name.all(|c| c.is_alphanumeric() || c == '_') {
-                    continue;
-                }
-                let broken = format!("{}(surplus: 1, {inside}", &sample[..at]);
-                if entry.parse(&broken).is_ok() {
-                    failures.push(format!("{}{broken}", entry.name));
-                }
+    for (entry, sample) in samples(&registry) {
+        for (at, _) in sample.match_indices('(') {
+            // Only brackets that hold fields: a tuple is no place for one.
+            let inside = &sample[at + 1..];
+            let mut name = inside.split(':').next().expect("a first part").chars();
+            let is_empty = inside.starts_with(')');
+            if !is_empty && !name.all(|c| c.is_alphanumeric() || c == '_') {
+                continue;
+            }
+            let broken = format!("{}(surplus: 1, {inside}", &sample[..at]);
+            if entry.parse(&ron_tree::parse(&broken).value).is_ok() {
+                failures.push(format!("{}{broken}", entry.name));
             }
         }
     }
@@ -124,16 +123,17 @@ fn read(source: &str) -> recipe::Reading {
 
 /// A recipe as JSON, with these parameters.
 fn json_with(parameters: &[Parameter], source: &str) -> Json {
-    let parsed = syntax::parse(source);
+    let mut parsed = ron_tree::parse(source);
     assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
-    let filled = syntax::substitute(source, &parsed.value, |name, span| {
+    let unknown = recipe::substitute(&mut parsed.value, |name, span| {
         let found = parameters.iter().find(|p| p.name == name);
         let unknown = || Diagnostic::error(span, format!("no parameter {name}"));
         found
-            .map(|p| p.literal.clone())
+            .map(|p| p.value.clone())
             .ok_or_else(|| Box::new(unknown()))
     });
-    syntax::to_json(&filled.expect("every parameter is declared").value)
+    assert!(unknown.is_empty(), "every parameter is declared");
+    ron_tree::to_json(&parsed.value)
 }
 
 fn validator() -> Validator {
@@ -162,13 +162,11 @@ fn every_sample_fits_the_schema() {
     let registry = ops_all::registry();
     let validator = validator();
     let mut failures = Vec::new();
-    for entry in registry.entries() {
-        for sample in ops_all::samples(entry.name) {
-            let step = format!("{}{sample}", entry.name);
-            let json = json(&format!("(recipe: 1, steps: [{step}])"));
-            if let Err(error) = validator.validate(&json) {
-                failures.push(format!("{step}: {error}"));
-            }
+    for (entry, sample) in samples(&registry) {
+        let step = format!("{}{sample}", entry.name);
+        let json = json(&format!("(recipe: 1, steps: [{step}])"));
+        if let Err(error) = validator.validate(&json) {
+            failures.push(format!("{step}: {error}"));
         }
     }
     assert_none(&failures);

@@ -69,7 +69,7 @@ impl<'a> Events<'a> {
             }),
         };
         let parameters: Vec<Json> = (loaded.recipe.parameters().iter())
-            .map(|p| json!({ "name": p.name, "value": p.literal, "from": origin(&p.origin) }))
+            .map(|p| json!({ "name": p.name, "value": p.value.to_string(), "from": origin(&p.origin) }))
             .collect();
         events.tell(&json!({
             "event": "start",

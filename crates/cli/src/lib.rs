@@ -53,7 +53,11 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Test(args) => commands::test::run(&args, &registry),
         Command::Batch(args) => commands::batch::run(&args, &registry),
         Command::Sweep(args) => commands::sweep::run(&args, &registry),
-        Command::Ops { name, markdown } => commands::ops::run(name.as_deref(), markdown, &registry),
+        Command::Ops {
+            name,
+            markdown,
+            pictures,
+        } => commands::ops::run(name.as_deref(), markdown, pictures.as_deref(), &registry),
         Command::Info {
             file,
             picture,

@@ -74,3 +74,16 @@ pub(crate) fn first_error(diagnostics: &[Diagnostic]) -> String {
         n => format!("{message} (and {} more)", n - 1),
     }
 }
+
+/// A line of a table of comma-separated values, as RFC 4180 has it.
+pub(crate) fn csv_line(cells: &[impl AsRef<str>]) -> String {
+    let cell = |cell: &str| {
+        if cell.contains([',', '"', '\r', '\n']) {
+            format!("\"{}\"", cell.replace('"', "\"\""))
+        } else {
+            cell.to_owned()
+        }
+    };
+    let cells: Vec<String> = cells.iter().map(|text| cell(text.as_ref())).collect();
+    cells.join(",") + "\n"
+}

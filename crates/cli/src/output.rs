@@ -138,7 +138,7 @@ pub(crate) fn explain(recipe: &Recipe) -> String {
             };
             rows.push(vec![
                 name,
-                parameter.literal.clone(),
+                parameter.value.to_string(),
                 origin(&parameter.origin),
             ]);
         }

@@ -1,22 +1,8 @@
 //! What an operation runs in: progress, cancellation, the random stream, files, the budget.
 
+use progress::Progress;
+
 use crate::{Files, OpError, Place};
-
-/// Listens to progress and can ask for the run to stop.
-pub trait Progress: Sync {
-    /// Called with how far a loop is: `done` of `total`. Returns whether to go on.
-    fn advance(&self, what: &str, done: u64, total: u64) -> bool;
-}
-
-/// Listens to nothing and never stops.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct NoProgress;
-
-impl Progress for NoProgress {
-    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
-        true
-    }
-}
 
 /// What an operation runs in.
 pub struct Context<'a> {
@@ -56,11 +42,12 @@ impl<'a> Context<'a> {
     ///
     /// [`OpError::Cancelled`] if the run is to stop. Return it at once.
     pub fn advance(&self, what: &str, done: u64, total: u64) -> Result<(), OpError> {
-        if self.progress.advance(what, done, total) {
-            Ok(())
-        } else {
-            Err(OpError::Cancelled)
-        }
+        Ok(self.progress.report(what, done, total)?)
+    }
+
+    /// What a long computation outside of operations takes.
+    pub fn progress(&self) -> &'a dyn Progress {
+        self.progress
     }
 
     /// Where files are read and written.

@@ -1,6 +1,7 @@
 //! Why an operation failed.
 
 use mesh::{BuildError, EditError, Element, Mesh, VertexId};
+use progress::Cancelled;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -179,5 +180,11 @@ impl OpError {
 impl From<EditError> for OpError {
     fn from(error: EditError) -> Self {
         Self::refused(error.into(), error.to_string()).about(error.elements())
+    }
+}
+
+impl From<Cancelled> for OpError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
     }
 }

@@ -22,6 +22,7 @@
 //! impl MeshOperation for Lift {
 //!     const NAME: &'static str = "Lift";
 //!     const SUMMARY: &'static str = "Lift every vertex";
+//!     const EXAMPLE: &'static str = "Lift(by: 0.5)";
 //!
 //!     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
 //!         Vec::new() // counts and attributes stay as they are
@@ -59,7 +60,7 @@ mod tag;
 pub mod test;
 
 pub use bevel::Cuts;
-pub use context::{Context, NoProgress, Progress};
+pub use context::Context;
 pub use edit::{Edited, OnRefusal, edit_each};
 pub use error::{OpError, Refusal};
 pub use files::{FileError, FileLog, FileUse, Files};
@@ -73,6 +74,7 @@ pub use place::Place;
 pub use plan::{
     MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
 };
+pub use progress::{Cancelled, NoProgress, Progress};
 pub use registry::{DuplicateOperation, Entry, Registry, Step};
 pub use report::{Loss, Refused, Report};
 pub use selection::{

@@ -23,6 +23,8 @@ pub trait MeshOperation:
     const VERSION: u32 = 1;
     /// One line for lists: what it does, without a full stop.
     const SUMMARY: &'static str;
+    /// A step as recipes write it, for the documentation and the tests: `Weld(distance: 0.001)`.
+    const EXAMPLE: &'static str;
     /// Names that recipes used for it before.
     const ALIASES: &'static [&'static str] = &[];
 
@@ -50,6 +52,8 @@ pub trait Operation:
     const VERSION: u32 = 1;
     /// One line for lists: what it does, without a full stop.
     const SUMMARY: &'static str;
+    /// A step as recipes write it, for the documentation and the tests: `Weld(distance: 0.001)`.
+    const EXAMPLE: &'static str;
     /// Names that recipes used for it before.
     const ALIASES: &'static [&'static str] = &[];
     /// Whether a step of it may choose objects with `on:`.
@@ -74,6 +78,7 @@ impl<T: MeshOperation> Operation for T {
     const NAME: &'static str = <T as MeshOperation>::NAME;
     const VERSION: u32 = <T as MeshOperation>::VERSION;
     const SUMMARY: &'static str = <T as MeshOperation>::SUMMARY;
+    const EXAMPLE: &'static str = <T as MeshOperation>::EXAMPLE;
     const ALIASES: &'static [&'static str] = <T as MeshOperation>::ALIASES;
     const TAKES_ON: bool = true;
     const ATOMIC: bool = true;

@@ -54,6 +54,7 @@ mod tests {
     impl MeshOperation for SplitAndFlip {
         const NAME: &'static str = "SplitAndFlip";
         const SUMMARY: &'static str = "Split and flip";
+        const EXAMPLE: &'static str = "SplitAndFlip(edges: [0])";
 
         fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
             Vec::new()

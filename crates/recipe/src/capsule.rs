@@ -13,7 +13,7 @@ use std::path::Path;
 use crate::read::VERSION;
 use crate::recipe::{Recipe, RecipeStep};
 use crate::source::seen_from;
-use crate::syntax::{Value, ValueKind, string_literal};
+use ron_tree::{Value, ValueKind, string_literal};
 
 /// The name of the scene in a capsule.
 pub const BEFORE: &str = "before.mws";

@@ -19,10 +19,10 @@ use scene::{Digest, Geometry, Scene};
 
 use crate::cache::{Before, Caching, Done, Session, Why};
 use crate::check::forbidden;
-use crate::diagnostic::Diagnostic;
 use crate::expect::{Found, ReadObjects, Subject};
 use crate::recipe::{Recipe, RecipeStep};
 use listener::Forward;
+use ron_tree::Diagnostic;
 use stage::{deliver, listing, staging, written};
 
 pub use listener::{Failure, Listener, Silent, StepDone};

@@ -4,7 +4,7 @@ use std::io::Read as _;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-use crate::syntax::MAX_BYTES;
+use ron_tree::MAX_BYTES;
 
 /// A text and the file that it comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]

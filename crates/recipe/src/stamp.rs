@@ -62,9 +62,8 @@ impl Stamp {
             match &parameter.origin {
                 Origin::Preset(name) => run.preset = Some(name.clone()),
                 Origin::Set => {
-                    let text = ron::from_str::<String>(&parameter.literal);
-                    let text = text.unwrap_or_else(|_| parameter.literal.clone());
-                    run.set.insert(parameter.name.clone(), text);
+                    run.set
+                        .insert(parameter.name.clone(), parameter.plain_text());
                 }
                 Origin::Default | Origin::Call => {}
             }

@@ -48,6 +48,7 @@ impl Sheet {
 impl Operation for Sheet {
     const NAME: &'static str = "Sheet";
     const SUMMARY: &'static str = "Make a sheet";
+    const EXAMPLE: &'static str = "Sheet(columns: 3)";
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)
@@ -103,6 +104,7 @@ impl MeshOperation for Lift {
     const VERSION: u32 = 2;
     const ALIASES: &'static [&'static str] = &["Raise", "Elevate"];
     const SUMMARY: &'static str = "Lift vertices";
+    const EXAMPLE: &'static str = "Lift(by: 1)";
 
     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         if self.by > 1e6 {
@@ -145,6 +147,7 @@ struct Write {
 impl Operation for Write {
     const NAME: &'static str = "Write";
     const SUMMARY: &'static str = "Write names";
+    const EXAMPLE: &'static str = r#"Write(path: "names.txt")"#;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         match cx.files.to_write(&self.path) {

@@ -2,6 +2,12 @@
 
 use std::io::Write;
 
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::errors::DecodeErrors;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
+
 use crate::PictureError;
 use crate::progress::{GoOn, Work};
 
@@ -35,6 +41,19 @@ impl Image {
         })
     }
 
+    /// The image in a PNG or JPEG file.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Size`] if it is too large, [`PictureError::Decode`] if it is neither.
+    pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
+        if bytes.starts_with(b"\xff\xd8") {
+            Self::from_jpeg(bytes)
+        } else {
+            Self::from_png(bytes)
+        }
+    }
+
     /// The image in a PNG file; the first one of an animation.
     ///
     /// # Errors
@@ -43,17 +62,21 @@ impl Image {
     pub fn from_png(bytes: &[u8]) -> Result<Self, PictureError> {
         let failed = |error: png::DecodingError| PictureError::Decode(error.to_string());
         let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
-        let colors = png::Transformations::normalize_to_color8() | png::Transformations::ALPHA;
-        decoder.set_transformations(colors);
+        decoder.set_transformations(png::Transformations::ALPHA | png::Transformations::EXPAND);
         let mut reader = decoder.read_info().map_err(failed)?;
         let (width, height) = reader.info().size();
         let n = checked_size(width, height)?;
         let size = reader.output_buffer_size().unwrap_or(usize::MAX);
-        if size > 4 * n {
+        if size > 8 * n {
             return Err(PictureError::Decode("its rows are too long".to_owned()));
         }
         let mut bytes = vec![0; size];
         let info = reader.next_frame(&mut bytes).map_err(failed)?;
+        if info.bit_depth == png::BitDepth::Sixteen {
+            bytes = (bytes.as_chunks().0.iter())
+                .map(|&sample| rounded(u16::from_be_bytes(sample)))
+                .collect();
+        }
         let pixels: Vec<[u8; 4]> = match info.color_type {
             png::ColorType::Rgba => bytes.as_chunks().0.to_vec(),
             _ => (bytes.as_chunks().0.iter())
@@ -68,6 +91,34 @@ impl Image {
             width,
             height,
             pixels,
+        })
+    }
+
+    fn from_jpeg(bytes: &[u8]) -> Result<Self, PictureError> {
+        let failed = |error: DecodeErrors| PictureError::Decode(error.to_string());
+        let options = DecoderOptions::default()
+            .jpeg_set_out_colorspace(ColorSpace::RGB)
+            .set_strict_mode(false)
+            .set_max_width(usize::MAX)
+            .set_max_height(usize::MAX);
+        let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+        decoder.decode_headers().map_err(failed)?;
+        // A side of a JPEG file has 16 bits; one without pixels is refused.
+        let (width, height) = decoder
+            .info()
+            .map_or((0, 0), |info| (info.width, info.height));
+        let (width, height) = (u32::from(width), u32::from(height));
+        checked_size(width, height)?;
+        let bytes = decoder.decode().map_err(failed)?;
+        let pixels = bytes
+            .as_chunks()
+            .0
+            .iter()
+            .map(|&[r, g, b]| [r, g, b, u8::MAX]);
+        Ok(Self {
+            width,
+            height,
+            pixels: pixels.collect(),
         })
     }
 
@@ -127,6 +178,11 @@ impl Image {
         writer.finish().map_err(failed)?;
         Ok(bytes)
     }
+}
+
+/// The byte that is nearest to a sample of 16 bits.
+fn rounded(sample: u16) -> u8 {
+    u8::try_from((u32::from(sample) + 128) / 257).unwrap_or(u8::MAX)
 }
 
 /// The number of pixels of an image, if its sides are allowed.

@@ -216,7 +216,7 @@ pub fn sheet_with_heads(
         }
         top += high + places.caption + gap;
     }
-    draw_labels(&mut sheet, &labels)?;
+    draw_labels(&mut sheet, &labels);
     Ok(sheet)
 }
 
@@ -260,7 +260,7 @@ pub fn notice(
             label(line, style, place, f64::from(width))
         })
         .collect();
-    draw_labels(&mut image, &labels)?;
+    draw_labels(&mut image, &labels);
     Ok(image)
 }
 

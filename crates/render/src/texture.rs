@@ -3,14 +3,10 @@
 //! What is not opaque has less weight where colors are mixed: the color of what is not seen does not bleed into what is.
 
 use glam::DVec2;
-use image::{ImageReader, Limits};
 use scene::{Filter, Sampler, TextureTransform, Wrap};
 
+use crate::Image;
 use crate::color::{byte, to_linear, to_srgb};
-
-/// A texture may have so many pixels along a side, and so many bytes.
-const LARGEST_SIDE: u32 = 16_384;
-const MOST_BYTES: u64 = 1 << 30;
 
 /// A picture in memory, and how it lies on a surface.
 #[derive(Clone, Debug)]
@@ -86,23 +82,12 @@ impl Texture {
         transform: TextureTransform,
         alpha: Alpha,
     ) -> Result<Self, String> {
-        let mut reader = ImageReader::new(std::io::Cursor::new(bytes))
-            .with_guessed_format()
-            .map_err(|e| e.to_string())?;
-        let mut limits = Limits::no_limits();
-        limits.max_image_width = Some(LARGEST_SIDE);
-        limits.max_image_height = Some(LARGEST_SIDE);
-        limits.max_alloc = Some(MOST_BYTES);
-        reader.limits(limits);
-        let picture = reader.decode().map_err(|e| e.to_string())?.into_rgba8();
+        let picture = Image::decode(bytes).map_err(|error| error.to_string())?;
         let first = Level {
-            width: picture.width() as usize,
-            height: picture.height() as usize,
-            pixels: picture.pixels().map(|p| p.0).collect(),
+            width: picture.width as usize,
+            height: picture.height as usize,
+            pixels: picture.pixels,
         };
-        if first.pixels.is_empty() {
-            return Err("expected pixels, found none".to_owned());
-        }
         let is_opaque = first.pixels.iter().all(|p| p[3] == u8::MAX);
         let alpha = if is_opaque { Alpha::Ignored } else { alpha };
         let mut levels = vec![first];
@@ -334,7 +319,6 @@ fn wrapped(x: f64, n: usize, wrap: Wrap) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Image;
 
     const RED: [u8; 4] = [255, 0, 0, 255];
     const GREEN: [u8; 4] = [0, 255, 0, 255];

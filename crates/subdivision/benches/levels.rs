@@ -12,7 +12,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use mesh::{Mesh, shapes};
-use op::NoProgress;
+use progress::NoProgress;
 use rayon::prelude::*;
 use subdivision::{LoopWeights, Rules, Scheme};
 

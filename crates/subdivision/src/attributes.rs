@@ -3,15 +3,14 @@
 use mesh::{
     Attributes, CORNER, CREASE, Column, DVec2, DVec3, DVec4, Domain, Mesh, Rule, Value, Values,
 };
-use op::OpError;
-use rayon::prelude::*;
+use progress::Cancelled;
 
 use crate::face_varying::Field;
-use crate::level::{Place, Topology};
-use crate::masks::{AnyMasks, pulled};
-use crate::meter::{BLOCK, Meter};
+use crate::masks::AnyMasks;
+use crate::parallel::{Meter, fill_uncounted};
+use crate::rules::{FaceVarying, Rules};
 use crate::sharpness::{Sharpness, decreased};
-use crate::{FaceVarying, Rules};
+use crate::topology::{Place, Topology, linear, linear_value};
 
 /// Where the values of the next level come from.
 pub(crate) struct From<'a> {
@@ -38,7 +37,7 @@ impl From<'_> {
     /// - faces: parts of an old one as that.
     ///
     /// Columns of [`Rule::Normal`] and [`Rule::Drop`] are left out. Sharpness fades.
-    pub(crate) fn attributes(&self, finer: &Mesh, meter: &Meter) -> Result<Attributes, OpError> {
+    pub(crate) fn attributes(&self, finer: &Mesh, meter: &Meter) -> Result<Attributes, Cancelled> {
         let mut new = Attributes::default();
         let columns = self.mesh.attributes().iter();
         for (domain, column) in columns.filter(|(_, c)| is_carried(c)) {
@@ -47,9 +46,9 @@ impl From<'_> {
             let n = finer.domain_len(domain);
             let values = match domain {
                 Domain::Vertex => self.vertex_values(column, n, meter)?,
-                Domain::Corner => self.corner_values(column, n),
-                Domain::Edge => self.edge_values(column, n),
-                Domain::Face => column.values.gather(n, |i| self.topology.face(i)),
+                Domain::Corner => self.corner_values(column, n, meter)?,
+                Domain::Edge => self.edge_values(column, n, meter)?,
+                Domain::Face => gathered(column, n, &|i| self.topology.face(i)),
             };
             let name = column.name.clone();
             let rule = column.rule;
@@ -58,24 +57,24 @@ impl From<'_> {
         Ok(new)
     }
 
-    fn vertex_values(&self, column: &Column, n: usize, meter: &Meter) -> Result<Values, OpError> {
+    fn vertex_values(&self, column: &Column, n: usize, meter: &Meter) -> Result<Values, Cancelled> {
         if column.rule == Rule::Copy {
             let n_old = self.mesh.n_vertices();
-            return Ok(match (&self.sharpness, &column.values) {
+            return match (&self.sharpness, &column.values) {
                 (Some(_), Values::Float(old)) if column.name == CORNER.name => {
                     let fade = |i: usize| match old.get(i) {
                         Some(&s) if self.topology.moves(i) => decreased(s.max(0.0)),
                         other => other.copied().unwrap_or_default(),
                     };
-                    f64::wrap(collected(n, fade))
+                    collected(n, meter, fade)
                 }
-                _ => column
-                    .values
-                    .gather(n, |i| self.topology.vertex(i).filter(|&v| v < n_old)),
-            });
+                _ => Ok(gathered(column, n, &|i| {
+                    self.topology.vertex(i).filter(|&v| v < n_old)
+                })),
+            };
         }
         // All as vectors of three numbers, so that masks are compiled for these only.
-        let smoothed = |old: Vec<DVec3>| self.masks.values(&old, meter);
+        let smoothed = |old: Vec<DVec3>| self.masks.values(n, &old, meter);
         Ok(match &column.values {
             Values::Float(v) => {
                 let new = smoothed(v.iter().map(|&x| DVec3::new(x, 0.0, 0.0)).collect())?;
@@ -85,7 +84,7 @@ impl From<'_> {
                 let new = smoothed(v.iter().map(|v| v.extend(0.0)).collect())?;
                 DVec2::wrap(new.into_iter().map(DVec3::truncate).collect())
             }
-            Values::Vec3(v) => DVec3::wrap(self.masks.values(v, meter)?),
+            Values::Vec3(v) => DVec3::wrap(self.masks.values(n, v, meter)?),
             Values::Vec4(v) => {
                 let new = smoothed(v.iter().map(|v| v.truncate()).collect())?;
                 let last = smoothed(v.iter().map(|v| DVec3::new(v.w, 0.0, 0.0)).collect())?;
@@ -98,112 +97,101 @@ impl From<'_> {
         })
     }
 
-    fn edge_values(&self, column: &Column, n: usize) -> Values {
+    fn edge_values(&self, column: &Column, n: usize, meter: &Meter) -> Result<Values, Cancelled> {
         match (&self.sharpness, &column.values) {
             (Some(sharpness), Values::Float(old)) if column.name == CREASE.name => {
                 let fade = |i: usize| match self.topology.half(i) {
                     Some(h) if self.topology.smooths(h.edge()) => sharpness.next_of_half(h),
                     other => other.map_or(0.0, |h| old[h.edge().index()]),
                 };
-                f64::wrap(collected(n, fade))
+                collected(n, meter, fade)
             }
-            _ => column.values.gather(n, |i| self.topology.edge(i)),
+            _ => Ok(gathered(column, n, &|i| self.topology.edge(i))),
         }
     }
 
-    fn corner_values(&self, column: &Column, n: usize) -> Values {
+    fn corner_values(&self, column: &Column, n: usize, meter: &Meter) -> Result<Values, Cancelled> {
         if column.rule == Rule::Copy {
-            return column.values.gather(n, |i| match self.topology.corner(i) {
+            return Ok(gathered(column, n, &|i| match self.topology.corner(i) {
                 Place::At(h) => Some(h.index()),
                 _ => None,
-            });
+            }));
         }
         if let (Some(sharpness), true) =
             (self.sharpness, self.rules.face_varying != FaceVarying::All)
         {
             // All as vectors of four numbers, so that the rules are compiled for these only.
-            let smoothed = |old: Vec<DVec4>| self.smooth_corners(sharpness, &old, n).into_iter();
+            let smoothed = |old: Vec<DVec4>| {
+                let new = self.smooth_corners(sharpness, &old, n, meter);
+                new.map(Vec::into_iter)
+            };
             match &column.values {
                 Values::Float(v) => {
                     let new = smoothed(v.iter().map(|&x| DVec4::new(x, 0.0, 0.0, 0.0)).collect());
-                    return f64::wrap(new.map(|v| v.x).collect());
+                    return Ok(f64::wrap(new?.map(|v| v.x).collect()));
                 }
                 Values::Vec2(v) => {
                     let new = smoothed(v.iter().map(|v| v.extend(0.0).extend(0.0)).collect());
-                    return DVec2::wrap(new.map(|v| v.truncate().truncate()).collect());
+                    return Ok(DVec2::wrap(new?.map(|v| v.truncate().truncate()).collect()));
                 }
                 Values::Vec3(v) => {
                     let new = smoothed(v.iter().map(|v| v.extend(0.0)).collect());
-                    return DVec3::wrap(new.map(DVec4::truncate).collect());
+                    return Ok(DVec3::wrap(new?.map(DVec4::truncate).collect()));
                 }
                 Values::Vec4(v) => {
-                    return DVec4::wrap(self.smooth_corners(sharpness, v, n));
+                    let new = self.smooth_corners(sharpness, v, n, meter)?;
+                    return Ok(DVec4::wrap(new));
                 }
                 Values::Int(_) | Values::Tag(_) => {}
             }
         }
-        column
+        Ok(column
             .values
-            .blend(n, |i, add| linear(self.mesh, self.topology.corner(i), add))
+            .blend(n, |i, add| linear(self.mesh, self.topology.corner(i), add)))
     }
 
-    fn smooth_corners(&self, sharpness: Sharpness, old: &[DVec4], n: usize) -> Vec<DVec4> {
-        let Rules {
-            scheme,
-            face_varying,
-            ..
-        } = self.rules;
-        let field = Field::new(self.mesh, sharpness, scheme, face_varying, old);
+    fn smooth_corners(
+        &self,
+        sharpness: Sharpness,
+        old: &[DVec4],
+        n: usize,
+        meter: &Meter,
+    ) -> Result<Vec<DVec4>, Cancelled> {
+        let field = Field::new(self.mesh, sharpness, self.rules, old);
         let is_smoothed = |place| match place {
             Place::At(h) => self.topology.moves(self.mesh.origin(h).index()),
             Place::On(h) => self.topology.smooths(h.edge()),
             _ => true,
         };
-        let value = |i: usize| {
+        let mut new = mesh::zeroed(n);
+        fill_uncounted(&mut new, meter, |i| {
             let place = self.topology.corner(i);
             if is_smoothed(place) {
-                return field.value(place);
+                field.value(place)
+            } else {
+                linear_value(self.mesh, place, old)
             }
-            let mut sum = DVec4::ZERO;
-            linear(self.mesh, place, &mut |source, w| {
-                sum += old[source] * w;
-            });
-            sum
-        };
-        collected(n, value)
+        })?;
+        Ok(new)
     }
 }
 
-/// `n` values, computed in parallel.
-fn collected<V: Value>(n: usize, value: impl Fn(usize) -> V + Sync) -> Vec<V> {
-    let mut new: Vec<V> = mesh::zeroed(n);
-    new.par_iter_mut()
-        .with_min_len(BLOCK)
-        .enumerate()
-        .for_each(|(i, slot)| *slot = value(i));
-    new
+/// [`Values::gather`], compiled once.
+pub(crate) fn gathered(
+    column: &Column,
+    n: usize,
+    source: &(dyn Fn(usize) -> Option<usize> + Sync),
+) -> Values {
+    column.values.gather(n, source)
 }
 
-/// Adds the old corners that a new one is the mean of, all in its own old face.
-pub(crate) fn linear(mesh: &Mesh, place: Place, add: &mut dyn FnMut(usize, f64)) {
-    match place {
-        Place::At(h) => add(h.index(), 1.0),
-        Place::On(h) => {
-            add(h.index(), 0.5);
-            add(mesh.next(h).index(), 0.5);
-        }
-        Place::In(f) => {
-            let part = 1.0 / mesh.degree(f) as f64;
-            for h in mesh.face_half_edges(f) {
-                add(h.index(), part);
-            }
-        }
-        Place::Pulled(h) => pulled(mesh, h, |h, w| add(h.index(), w)),
-        Place::Toward([near, far], n) => {
-            let part = 1.0 / f64::from(n);
-            add(near.index(), 1.0 - part);
-            add(far.index(), part);
-        }
-        Place::Outside => {}
-    }
+/// `n` numbers, computed in parallel.
+fn collected(
+    n: usize,
+    meter: &Meter,
+    value: impl Fn(usize) -> f64 + Sync,
+) -> Result<Values, Cancelled> {
+    let mut new = mesh::zeroed(n);
+    fill_uncounted(&mut new, meter, value)?;
+    Ok(f64::wrap(new))
 }

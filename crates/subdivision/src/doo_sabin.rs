@@ -32,12 +32,13 @@
 //! whose twin is across(k), and the edges that follow have lower numbers by as many.
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
-use op::OpError;
+use progress::Cancelled;
 
 use crate::chosen::Chosen;
-use crate::level::{Place, Topology};
 use crate::links::{self, Link, Links};
-use crate::meter::Meter;
+use crate::parallel::Meter;
+use crate::size::has_two_edges_inside;
+use crate::topology::{Place, Topology};
 
 /// A dense mesh whose corners, edges and vertices are cut off.
 pub(crate) struct DooSabin<'a> {
@@ -62,14 +63,6 @@ pub(crate) enum Source {
     Near(HalfEdgeId),
     /// An isolated vertex.
     Isolated(VertexId),
-}
-
-/// Whether `v` is inside and has two edges.
-pub(crate) fn has_two_edges_inside(mesh: &Mesh, v: VertexId) -> bool {
-    mesh.vertex_half_edge(v).is_some_and(|h| {
-        let k = mesh.next(h.twin());
-        mesh.face(h).is_some() && mesh.next(k.twin()) == h
-    })
 }
 
 impl<'a> DooSabin<'a> {
@@ -287,7 +280,7 @@ impl Links for DooSabin<'_> {
 }
 
 impl Topology for DooSabin<'_> {
-    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, OpError> {
+    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled> {
         links::connectivity(self, meter)
     }
 

@@ -20,10 +20,9 @@
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use rayon::prelude::*;
 
-use crate::attributes::linear;
-use crate::level::Place;
+use crate::rules::{FaceVarying, Rules, Scheme};
 use crate::sharpness::{INFINITE, Sharpness, VertexRule, decreased, fading};
-use crate::{FaceVarying, Scheme};
+use crate::topology::{Place, linear_value};
 
 /// A column of corner values that is smoothed.
 pub(crate) struct Field<'a> {
@@ -79,8 +78,7 @@ impl<'a> Field<'a> {
     pub(crate) fn new(
         mesh: &'a Mesh,
         sharpness: Sharpness<'a>,
-        scheme: Scheme,
-        choice: FaceVarying,
+        rules: Rules,
         values: &'a [DVec4],
     ) -> Self {
         let differ = |a: HalfEdgeId, b: HalfEdgeId| values[a.index()] != values[b.index()];
@@ -92,8 +90,8 @@ impl<'a> Field<'a> {
         Self {
             mesh,
             sharpness,
-            scheme,
-            choice,
+            scheme: rules.scheme,
+            choice: rules.face_varying,
             values,
             seams: (0..mesh.n_edges()).into_par_iter().map(is_seam).collect(),
         }
@@ -105,12 +103,7 @@ impl<'a> Field<'a> {
             Place::At(h) => self.at(h),
             Place::On(h) => self.on(h),
             Place::In(f) => self.center(f),
-            Place::Pulled(_) | Place::Toward(..) => {
-                let mut sum = DVec4::ZERO;
-                linear(self.mesh, place, &mut |i, w| sum += self.values[i] * w);
-                sum
-            }
-            Place::Outside => DVec4::ZERO,
+            _ => linear_value(self.mesh, place, self.values),
         }
     }
 

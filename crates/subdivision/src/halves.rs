@@ -21,11 +21,11 @@
 //! for edges in pairs.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
-use op::OpError;
-use rayon::prelude::*;
+use progress::Cancelled;
 
-use crate::level::Place;
-use crate::meter::{BLOCK, Meter};
+use crate::links::{self, Arrays, Entries};
+use crate::parallel::{Meter, fill_uncounted};
+use crate::topology::Place;
 
 /// The part of half-edge `h` that leaves its origin.
 #[inline]
@@ -64,9 +64,7 @@ pub(crate) type Parts = ([HalfEdgeId; 2], [FaceId; 2]);
 
 /// The arrays of the next level, to be filled behind the halves of old edges.
 pub(crate) struct Rest<'n> {
-    pub(crate) next: &'n mut [HalfEdgeId],
-    pub(crate) origin: &'n mut [VertexId],
-    pub(crate) face: &'n mut [FaceId],
+    pub(crate) halves: Arrays<'n>,
     /// Of the vertices behind those on old edges.
     pub(crate) vertex_half_edge: &'n mut [HalfEdgeId],
     pub(crate) face_half_edge: &'n mut [HalfEdgeId],
@@ -78,63 +76,40 @@ pub(crate) fn split_edges(
     mesh: &Mesh,
     [vertices, edges, faces]: [usize; 3],
     parts: impl Fn(HalfEdgeId) -> Parts + Sync,
-    rest: impl FnOnce(Rest) -> Result<(), OpError>,
+    rest: impl FnOnce(Rest) -> Result<(), Cancelled>,
     meter: &Meter,
-) -> Result<Connectivity, OpError> {
+) -> Result<Connectivity, Cancelled> {
     let (n_vertices, n_edges) = (mesh.n_vertices(), mesh.n_edges());
-    let n_half_edges = 4 * n_edges + 2 * edges;
-    let mut new = Connectivity {
-        next: mesh::zeroed(n_half_edges),
-        origin: mesh::zeroed(n_half_edges),
-        face: mesh::zeroed(n_half_edges),
-        vertex_half_edge: mesh::zeroed(n_vertices + n_edges + vertices),
-        face_half_edge: mesh::zeroed(faces),
+    let mut new = links::zeroed([n_vertices + n_edges + vertices, 2 * n_edges + edges, faces]);
+    let halves = Arrays {
+        next: &mut new.next,
+        origin: &mut new.origin,
+        face: &mut new.face,
     };
-    {
-        let (next, next_rest) = new.next.split_at_mut(4 * n_edges);
-        let (origin, origin_rest) = new.origin.split_at_mut(4 * n_edges);
-        let (face, face_rest) = new.face.split_at_mut(4 * n_edges);
-        let (kept, added) = new.vertex_half_edge.split_at_mut(n_vertices);
-        let (leaving, vertex_half_edge) = added.split_at_mut(n_edges);
-        (
-            next.par_chunks_mut(4 * BLOCK),
-            origin.par_chunks_mut(4 * BLOCK),
-            face.par_chunks_mut(4 * BLOCK),
-            leaving.par_chunks_mut(BLOCK),
-        )
-            .into_par_iter()
-            .enumerate()
-            .try_for_each(|(block, (next, origin, face, leaving))| {
-                let next = next.as_chunks_mut::<4>().0.iter_mut();
-                let origin = origin.as_chunks_mut::<4>().0.iter_mut();
-                let face = face.as_chunks_mut::<4>().0.iter_mut();
-                let n = leaving.len();
-                let arrays = next.zip(origin).zip(face).zip(leaving);
-                for (e, (((next, origin), face), leaving)) in (block * BLOCK..).zip(arrays) {
-                    let h = HalfEdgeId::new(2 * e);
-                    let ([h1, h2], [f1, f2]) = parts(h);
-                    let ([t1, t2], [g1, g2]) = parts(h.twin());
-                    let m = VertexId::new(n_vertices + e);
-                    *next = [h1, t2, h2, t1];
-                    *origin = [mesh.origin(h), m, m, mesh.origin(h.twin())];
-                    *face = [f1, g2, f2, g1];
-                    *leaving = second(if g2 == FaceId::NONE { h.twin() } else { h });
-                }
-                meter.add(n)
-            })?;
-        let old = &mesh.connectivity().vertex_half_edge;
-        kept.par_iter_mut()
-            .with_min_len(BLOCK)
-            .zip(old)
-            .for_each(|(new, old)| *new = old.some().map_or(HalfEdgeId::NONE, first));
-        rest(Rest {
-            next: next_rest,
-            origin: origin_rest,
-            face: face_rest,
-            vertex_half_edge,
-            face_half_edge: &mut new.face_half_edge,
-        })?;
-    }
+    let (of_edges, halves) = halves.split_at(4 * n_edges);
+    let (kept, added) = new.vertex_half_edge.split_at_mut(n_vertices);
+    let (leaving, vertex_half_edge) = added.split_at_mut(n_edges);
+    links::write(of_edges, leaving, meter, |e| {
+        let h = HalfEdgeId::new(2 * e);
+        let ([h1, h2], [f1, f2]) = parts(h);
+        let ([t1, t2], [g1, g2]) = parts(h.twin());
+        let m = VertexId::new(n_vertices + e);
+        Entries {
+            next: [h1, t2, h2, t1],
+            origin: [mesh.origin(h), m, m, mesh.origin(h.twin())],
+            face: [f1, g2, f2, g1],
+            first: [second(if g2 == FaceId::NONE { h.twin() } else { h })],
+        }
+    })?;
+    let old = &mesh.connectivity().vertex_half_edge;
+    fill_uncounted(kept, meter, |v| {
+        old[v].some().map_or(HalfEdgeId::NONE, first)
+    })?;
+    rest(Rest {
+        halves,
+        vertex_half_edge,
+        face_half_edge: &mut new.face_half_edge,
+    })?;
     Ok(new)
 }
 

@@ -1,88 +1,100 @@
 //! One level: the connectivity by a topology, the values at vertices by masks, the attributes by both.
 
-use mesh::{Connectivity, EdgeId, HalfEdgeId, Mesh};
-use op::OpError;
+use mesh::Mesh;
+use progress::Cancelled;
 
-use crate::Rules;
 use crate::attributes;
-use crate::masks::AnyMasks;
-use crate::meter::Meter;
+use crate::doo_sabin::DooSabin;
+use crate::masks::{AnyMasks, ButterflyMasks, CatmullClarkMasks, LoopMasks, MidpointMasks};
+use crate::parallel::Meter;
+use crate::quads::Quads;
+use crate::rules::{Rules, Scheme, Split};
 use crate::sharpness::Sharpness;
+use crate::sqrt3::Sqrt3;
+use crate::topology::Topology;
+use crate::triangles::Triangles;
 
-/// How the elements of the next level lie in a dense mesh.
-pub(crate) trait Topology: Sync {
-    /// The connectivity of the next level.
-    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, OpError>;
-
-    /// Where the corner of new half-edge `i` lies in the old mesh.
-    fn corner(&self, i: usize) -> Place;
-
-    /// The old vertex that new vertex `i` is, if any. By default old vertices come first, and a number above
-    /// theirs is none.
-    fn vertex(&self, i: usize) -> Option<usize> {
-        Some(i)
-    }
-
-    /// The old edge that new edge `i` is a part of.
-    fn edge(&self, i: usize) -> Option<usize>;
-
-    /// The old face that new face `i` is a part of.
-    fn face(&self, i: usize) -> Option<usize>;
-
-    /// The old half-edge whose part at the origin new edge `i` is. Where there are creases, each edge has two
-    /// parts, which come first unless this says otherwise.
-    fn half(&self, i: usize) -> Option<HalfEdgeId> {
-        self.edge(i).map(|_| HalfEdgeId::new(i))
-    }
-
-    /// Whether an old vertex, and what is there, is smoothed where the scheme smooths; otherwise it stays.
-    fn moves(&self, _: usize) -> bool {
-        true
-    }
-
-    /// Whether what is new on an edge is smoothed where the scheme smooths; otherwise it lies in the
-    /// middle.
-    fn smooths(&self, _: EdgeId) -> bool {
-        true
-    }
-}
-
-/// Where a corner of the next level lies in an old face.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
-    /// At the origin of this half-edge.
-    At(HalfEdgeId),
-    /// In the middle of this half-edge.
-    On(HalfEdgeId),
-    /// In the center of this face.
-    In(mesh::FaceId),
-    /// At the Doo-Sabin point that is pulled in from the origin of this half-edge.
-    Pulled(HalfEdgeId),
-    /// On an edge, one n-th of the way from the origin of the first half-edge to that of the second.
-    Toward([HalfEdgeId; 2], u32),
-    /// Nowhere: the half-edge is on the boundary.
-    Outside,
-}
-
-/// The next level of a dense mesh. Creases fade by their sharpness, if the scheme uses it; otherwise their
-/// numbers are handed on.
+/// Level number `level` (from 0) of a dense mesh whose faces the scheme takes and whose next level fits.
 pub(crate) fn finer(
     mesh: &Mesh,
     rules: Rules,
+    level: u32,
     meter: &Meter,
+) -> Result<Mesh, Cancelled> {
+    let sharpness = Sharpness::of(mesh, rules);
+    with_level(mesh, rules, level, sharpness, |topology, masks| {
+        build(mesh, rules, sharpness, topology, masks, meter)
+    })
+}
+
+/// Gives the topology and the masks of a level of a scheme to `visit`.
+pub(crate) fn with_level<T>(
+    mesh: &Mesh,
+    rules: Rules,
+    level: u32,
+    sharpness: Sharpness,
+    visit: impl FnOnce(&dyn Topology, &dyn AnyMasks) -> T,
+) -> T {
+    match rules.scheme {
+        Scheme::DooSabin => {
+            let topology = DooSabin::new(mesh);
+            visit(&topology, &topology)
+        }
+        Scheme::Sqrt3 => {
+            let topology = Sqrt3::new(mesh, level);
+            visit(&topology, &topology)
+        }
+        Scheme::Butterfly => visit(&Triangles(mesh), &ButterflyMasks(mesh)),
+        Scheme::Loop(_) | Scheme::Midpoint(Split::Triangles) => {
+            with_masks(mesh, rules, sharpness, |masks| {
+                visit(&Triangles(mesh), masks)
+            })
+        }
+        Scheme::CatmullClark | Scheme::Midpoint(Split::Quads) => {
+            with_masks(mesh, rules, sharpness, |masks| {
+                visit(&Quads::new(mesh), masks)
+            })
+        }
+    }
+}
+
+/// Gives the masks of a scheme that can refine some of the faces to `visit`.
+pub(crate) fn with_masks<T>(
+    mesh: &Mesh,
+    rules: Rules,
+    sharpness: Sharpness,
+    visit: impl FnOnce(&dyn AnyMasks) -> T,
+) -> T {
+    match rules.scheme {
+        Scheme::Loop(weights) => visit(&LoopMasks {
+            mesh,
+            sharpness,
+            weights,
+        }),
+        Scheme::CatmullClark => visit(&CatmullClarkMasks { mesh, sharpness }),
+        _ => visit(&MidpointMasks(mesh)),
+    }
+}
+
+/// The next level of a dense mesh.
+pub(crate) fn build(
+    mesh: &Mesh,
+    rules: Rules,
+    sharpness: Sharpness,
     topology: &dyn Topology,
     masks: &dyn AnyMasks,
-    sharpness: Option<Sharpness>,
-) -> Result<Mesh, OpError> {
+    meter: &Meter,
+) -> Result<Mesh, Cancelled> {
     let connectivity = topology.connectivity(meter)?;
-    let positions = masks.values(mesh.positions(), meter)?;
+    let n = connectivity.vertex_half_edge.len();
+    let positions = masks.values(n, mesh.positions(), meter)?;
     let mut finer = Mesh::from_arrays(connectivity, positions);
     if mesh.attributes().iter().next().is_some() {
         let from = attributes::From {
             mesh,
             topology,
             masks,
-            sharpness,
+            sharpness: rules.scheme.has_creases().then_some(sharpness),
             rules,
         };
         let attributes = from.attributes(&finer, meter)?;

@@ -34,15 +34,18 @@ mod closure;
 mod drawing;
 mod pieces;
 
-use mesh::{FaceId, Mesh};
-use op::{OpError, Progress};
+use std::borrow::Cow;
 
-use crate::forecast::Size;
+use mesh::{FaceId, Mesh};
+use progress::{Cancelled, Progress};
+
+use crate::error::SubdivisionError;
+use crate::input::{check_faces, dense};
 use crate::level;
-use crate::masks::{AnyMasks, CatmullClarkMasks, LoopMasks, MidpointMasks};
-use crate::meter::Meter;
+use crate::parallel::Meter;
+use crate::rules::{Rules, Scheme, Split};
 use crate::sharpness::Sharpness;
-use crate::{Rules, Scheme, Split, check_faces};
+use crate::size::{Size, TooLarge};
 
 use area::{Area, AreaMasks};
 use closure::Cuts;
@@ -74,52 +77,37 @@ use pieces::Pieces;
 ///
 /// # Errors
 ///
-/// [`OpError::Parameter`] for other schemes and unless `faces` has one value for each face,
-/// [`OpError::Refused`] with [`Refusal::NotTriangle`](op::Refusal::NotTriangle) if the scheme needs triangles
-/// and a face has more corners, [`OpError::Budget`] if the elements would outnumber the ids,
-/// [`OpError::Cancelled`].
+/// [`SubdivisionError::WholeMesh`] for other schemes, [`SubdivisionError::Choices`] unless `faces` has one value
+/// for each face, [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a face has more corners,
+/// [`SubdivisionError::TooLarge`] if on some level the elements would outnumber the ids or take more than `budget`
+/// bytes, [`SubdivisionError::Cancelled`].
 pub fn refine_faces(
-    mesh: &Mesh,
-    faces: &[bool],
-    rules: Rules,
-    levels: u32,
-    progress: &dyn Progress,
-) -> Result<Mesh, OpError> {
-    refine_within(mesh, faces, rules, levels, u64::MAX, progress)
-}
-
-/// [`refine_faces`] unless the mesh takes more than `budget` bytes on some level.
-pub(crate) fn refine_within(
     mesh: &Mesh,
     faces: &[bool],
     rules: Rules,
     levels: u32,
     budget: u64,
     progress: &dyn Progress,
-) -> Result<Mesh, OpError> {
+) -> Result<Mesh, SubdivisionError> {
     let is_triangles = match rules.scheme {
         Scheme::Loop(_) | Scheme::Midpoint(Split::Triangles) => true,
         Scheme::CatmullClark | Scheme::Midpoint(Split::Quads) => false,
         Scheme::Butterfly | Scheme::Sqrt3 | Scheme::DooSabin => {
-            let name = rules.scheme.name();
-            let message = format!("{name} cannot refine some of the faces only");
-            return Err(OpError::Parameter(message));
+            return Err(SubdivisionError::WholeMesh(rules.scheme));
         }
     };
     let n = mesh.domain_len(mesh::Domain::Face);
     if faces.len() != n {
-        let message = format!(
-            "expected a choice for each of {n} faces, not {}",
-            faces.len()
-        );
-        return Err(OpError::Parameter(message));
+        return Err(SubdivisionError::Choices {
+            faces: n,
+            choices: faces.len(),
+        });
     }
     let mut chosen: Vec<bool> = mesh.faces().map(|f| faces[f.index()]).collect();
-    let mut mesh = mesh.clone();
-    mesh.compact();
+    let mut mesh = dense(mesh);
     check_faces(&mesh, rules.scheme)?;
     if levels == 0 || !chosen.contains(&true) {
-        return Ok(mesh);
+        return Ok(mesh.into_owned());
     }
 
     let meter = Meter::new(progress, rules.scheme.name(), work(&mesh, &chosen, levels));
@@ -129,53 +117,34 @@ pub(crate) fn refine_within(
         } else {
             Cuts::of_polygons(&mesh, &chosen)
         };
-        check_size(&mesh, &cuts, level, budget)?;
+        check_size(&mesh, &cuts, rules.scheme, level, budget)?;
         let pieces = Pieces::new(&mesh, cuts, Area::of(&mesh, &chosen));
         let finer = finer(&mesh, &pieces, rules, &meter)?;
         chosen = pieces.inherited(&chosen);
-        mesh = finer;
+        mesh = Cow::Owned(finer);
     }
     if is_triangles {
         let cuts = Cuts::in_two(&mesh);
-        check_size(&mesh, &cuts, levels, budget)?;
+        check_size(&mesh, &cuts, rules.scheme, levels, budget)?;
         let pieces = Pieces::new(&mesh, cuts, Area::of(&mesh, &vec![false; chosen.len()]));
         // Nothing is smoothed, and nothing fades.
         let linear = Rules {
             scheme: Scheme::Midpoint(Split::Triangles),
             ..rules
         };
-        mesh = finer(&mesh, &pieces, linear, &meter)?;
+        mesh = Cow::Owned(finer(&mesh, &pieces, linear, &meter)?);
     }
     meter.finish()?;
-    Ok(mesh)
+    Ok(mesh.into_owned())
 }
 
 /// One level of a dense mesh.
-fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Mesh, OpError> {
-    let run = |masks: &dyn AnyMasks, sharpness: Option<Sharpness>| {
-        let masks = AreaMasks { pieces, masks };
-        level::finer(mesh, rules, meter, pieces, &masks, sharpness)
-    };
+fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Mesh, Cancelled> {
     let sharpness = Sharpness::of(mesh, rules);
-    match rules.scheme {
-        Scheme::Loop(weights) => {
-            let masks = LoopMasks {
-                mesh,
-                sharpness,
-                weights,
-            };
-            run(&masks, Some(sharpness))
-        }
-        Scheme::CatmullClark => {
-            let masks = CatmullClarkMasks { mesh, sharpness };
-            run(&masks, Some(sharpness))
-        }
-        _ => {
-            let split = Split::Quads;
-            let masks = MidpointMasks { mesh, split };
-            run(&masks, None)
-        }
-    }
+    level::with_masks(mesh, rules, sharpness, |masks| {
+        let masks = AreaMasks { pieces, masks };
+        level::build(mesh, rules, sharpness, pieces, &masks, meter)
+    })
 }
 
 /// About how much the levels add to the meter, without what is cut around the chosen faces.
@@ -188,11 +157,21 @@ fn work(mesh: &Mesh, chosen: &[bool], levels: u32) -> u64 {
     })
 }
 
-fn check_size(mesh: &Mesh, cuts: &Cuts, level: u32, budget: u64) -> Result<(), OpError> {
-    let counts = cuts.counts_after(mesh);
-    Size::of(mesh)
-        .check_counts(counts, level, budget)
-        .map_err(|too_large| OpError::Budget(too_large.message()))
+fn check_size(
+    mesh: &Mesh,
+    cuts: &Cuts,
+    scheme: Scheme,
+    level: u32,
+    budget: u64,
+) -> Result<(), TooLarge> {
+    let [vertices, edges, faces] = cuts.counts_after(mesh);
+    let size = Size {
+        vertices,
+        edges,
+        faces,
+        ..Size::of(mesh)
+    };
+    size.check(scheme, level..level, budget)
 }
 
 /// The sides of a face in order, from its first half-edge.

@@ -9,30 +9,25 @@ mod sqrt3;
 
 pub(crate) use butterfly::ButterflyMasks;
 pub(crate) use catmull_clark::CatmullClarkMasks;
-pub(crate) use doo_sabin::pulled;
 pub(crate) use loop_masks::LoopMasks;
 pub(crate) use midpoint::MidpointMasks;
 
 use mesh::{DVec3, HalfEdgeId, Mesh, VertexId};
-use op::OpError;
-use rayon::prelude::*;
+use progress::Cancelled;
 
-use crate::meter::{BLOCK, Meter};
+use crate::parallel::{Meter, fill};
 use crate::sharpness::{Sharpness, VertexRule};
 
 /// The masks of a scheme on one mesh.
 pub(crate) trait Masks: Sync {
-    /// How many vertices the next level has.
-    fn n_vertices(&self) -> usize;
-
     /// Calls `add` with old vertices that new vertex `i` is a sum of, and their weights, in a fixed order.
     /// The weights sum to 1; a vertex may come more than once.
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64));
 
-    /// The values at the vertices of the next level. Equal to the sums of [`mask`](Self::mask) but for
+    /// The values at the `n` vertices of the next level. Equal to the sums of [`mask`](Self::mask) but for
     /// rounding.
-    fn values(&self, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, OpError> {
-        let mut new: Vec<DVec3> = mesh::zeroed(self.n_vertices());
+    fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
+        let mut new: Vec<DVec3> = mesh::zeroed(n);
         fill(&mut new, meter, |i| {
             let mut sum = DVec3::ZERO;
             self.mask(i, &mut |source, w| sum += old[source] * w);
@@ -44,44 +39,21 @@ pub(crate) trait Masks: Sync {
 
 /// [`Masks`] of any scheme: for code that is compiled once for all of them.
 pub(crate) trait AnyMasks: Sync {
-    /// As [`Masks::n_vertices`].
-    fn n_vertices(&self) -> usize;
-
     /// As [`Masks::mask`].
     fn mask(&self, i: usize, add: &mut dyn FnMut(usize, f64));
 
     /// As [`Masks::values`].
-    fn values(&self, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, OpError>;
+    fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled>;
 }
 
 impl<M: Masks> AnyMasks for M {
-    fn n_vertices(&self) -> usize {
-        Masks::n_vertices(self)
-    }
-
     fn mask(&self, i: usize, add: &mut dyn FnMut(usize, f64)) {
         Masks::mask(self, i, &mut |source, w| add(source, w));
     }
 
-    fn values(&self, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, OpError> {
-        Masks::values(self, old, meter)
+    fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
+        Masks::values(self, n, old, meter)
     }
-}
-
-/// Computes values in parallel: the i-th of `new` is `value(i)`.
-pub(crate) fn fill(
-    new: &mut [DVec3],
-    meter: &Meter,
-    value: impl Fn(usize) -> DVec3 + Sync,
-) -> Result<(), OpError> {
-    new.par_chunks_mut(BLOCK)
-        .enumerate()
-        .try_for_each(|(block, new)| {
-            for (i, slot) in (block * BLOCK..).zip(new.iter_mut()) {
-                *slot = value(i);
-            }
-            meter.add(new.len())
-        })
 }
 
 /// Adds the mask of an old vertex: `smooth(weight, add)` adds the one that holds where nothing is sharp,

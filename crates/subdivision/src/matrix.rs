@@ -3,11 +3,16 @@
 use std::ops::Range;
 
 use mesh::{CORNER, CREASE, Column, Domain, Mesh};
-use op::{OpError, Progress};
+use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
-use crate::meter::{BLOCK, Meter};
-use crate::{Rules, check_faces, finer, forecast::Size, with_scheme};
+use crate::error::SubdivisionError;
+use crate::input::{check_faces, dense};
+use crate::level;
+use crate::parallel::{BLOCK, Meter};
+use crate::rules::Rules;
+use crate::sharpness::Sharpness;
+use crate::size::Size;
 
 /// A sparse matrix in compressed rows: row i has the weights `weights[r]` in the columns `columns[r]`, with
 /// r from `offsets[i]` to `offsets[i + 1]`.
@@ -62,7 +67,7 @@ impl SparseMatrix {
         n_columns: usize,
         meter: &Meter,
         row: impl Fn(usize, &mut dyn FnMut(usize, f64)) + Sync,
-    ) -> Result<Self, OpError> {
+    ) -> Result<Self, Cancelled> {
         // Blocks of rows by themselves, then one after the other.
         let block = |block: usize| {
             let mut part = Self::default();
@@ -83,7 +88,7 @@ impl SparseMatrix {
             meter.add(part.offsets.len())?;
             Ok(part)
         };
-        let parts: Result<Vec<Self>, OpError> = (0..n_rows.div_ceil(BLOCK))
+        let parts: Result<Vec<Self>, Cancelled> = (0..n_rows.div_ceil(BLOCK))
             .into_par_iter()
             .map(block)
             .collect();
@@ -118,24 +123,22 @@ impl SparseMatrix {
 ///
 /// let mesh = mesh::shapes::icosahedron();
 /// let rules = Rules::of(Scheme::Loop(LoopWeights::Warren));
-/// let matrix = subdivision::subdivision_matrix(&mesh, rules, 2, &op::NoProgress)?;
+/// let matrix = subdivision::subdivision_matrix(&mesh, rules, 2, &progress::NoProgress)?;
 /// let heights: Vec<f64> = mesh.positions().iter().map(|p| p.z).collect();
 /// assert_eq!(matrix.apply(&heights).len(), 162);
-/// # Ok::<(), op::OpError>(())
+/// # Ok::<(), subdivision::SubdivisionError>(())
 /// ```
 pub fn subdivision_matrix(
     mesh: &Mesh,
     rules: Rules,
     levels: u32,
     progress: &dyn Progress,
-) -> Result<SparseMatrix, OpError> {
-    let mut mesh = mesh.clone();
-    mesh.compact();
+) -> Result<SparseMatrix, SubdivisionError> {
+    let mut mesh = dense(mesh).into_owned();
     keep_sharpness(&mut mesh);
     check_faces(&mesh, rules.scheme)?;
-    let size = Size::of(&mesh);
-    size.check(rules.scheme, 0..levels, u64::MAX)
-        .map_err(|too_large| OpError::Budget(too_large.to_string()))?;
+    let mut size = Size::of(&mesh);
+    size.check(rules.scheme, 0..levels, u64::MAX)?;
     let work = size.work(rules.scheme, 0..levels).saturating_mul(2);
     let meter = Meter::new(progress, "subdivision matrix", work);
     let n = mesh.n_vertices();
@@ -143,8 +146,11 @@ pub fn subdivision_matrix(
     for level in 0..levels {
         let old = matrix;
         // The product of the level's own matrix and the one up to it.
-        matrix = with_scheme(&mesh, rules, level, |_, masks, _| {
-            SparseMatrix::of_rows(masks.n_vertices(), n, &meter, |i, add| {
+        size = size.after(rules.scheme, level);
+        let n_rows = usize::try_from(size.vertices).expect("ids fit");
+        let sharpness = Sharpness::of(&mesh, rules);
+        matrix = level::with_level(&mesh, rules, level, sharpness, |_, masks| {
+            SparseMatrix::of_rows(n_rows, n, &meter, |i, add| {
                 masks.mask(i, &mut |source, w| {
                     for (column, weight) in old.row(source) {
                         add(column, w * weight);
@@ -153,7 +159,7 @@ pub fn subdivision_matrix(
             })
         })?;
         if level + 1 < levels {
-            mesh = finer(&mesh, rules, level, &meter)?;
+            mesh = level::finer(&mesh, rules, level, &meter)?;
         }
     }
     meter.finish()?;

@@ -26,12 +26,13 @@
 //! Subdivision", 2021, for edges in pairs.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
-use op::OpError;
+use progress::Cancelled;
 use rayon::prelude::*;
 
 use crate::halves::{Parts, Rest, first, on_edge, place, second, split_edges};
-use crate::level::{Place, Topology};
-use crate::meter::{BLOCK, Meter};
+use crate::links::{self, Entries};
+use crate::parallel::{Meter, fill_uncounted};
+use crate::topology::{Place, Topology};
 
 /// A dense mesh whose faces are cut into quads.
 pub(crate) struct Quads<'a> {
@@ -122,45 +123,25 @@ impl<'a> Quads<'a> {
         ([self.out(c), after], [FaceId::new(c), FaceId::new(next)])
     }
 
-    /// Writes the spokes, two half-edges for each corner, and the half-edges of the faces and centers.
-    fn draw_spokes(&self, new: &mut Rest, meter: &Meter) -> Result<(), OpError> {
-        (
-            new.next.par_chunks_mut(2 * BLOCK),
-            new.origin.par_chunks_mut(2 * BLOCK),
-            new.face.par_chunks_mut(2 * BLOCK),
-            new.face_half_edge.par_chunks_mut(BLOCK),
-        )
-            .into_par_iter()
-            .enumerate()
-            .try_for_each(|(block, (next, origin, face, starts))| {
-                let next = next.as_chunks_mut::<2>().0.iter_mut();
-                let origin = origin.as_chunks_mut::<2>().0.iter_mut();
-                let face = face.as_chunks_mut::<2>().0.iter_mut();
-                let n = starts.len();
-                let arrays = next.zip(origin).zip(face).zip(starts);
-                for (c, (((next, origin), face), start)) in (block * BLOCK..).zip(arrays) {
-                    let (h, f) = self.face_corner(c);
-                    let [before, _, after] = self.corners(h, f);
-                    let center = VertexId::new(self.n_vertices + self.n_edges + f.index());
-                    *next = [self.out(before).twin(), second(h)];
-                    *origin = [on_edge(self.mesh, h), center];
-                    *face = [FaceId::new(c), FaceId::new(after)];
-                    *start = first(h);
-                }
-                meter.add(n)
-            })?;
+    /// The spoke of corner `c`, two half-edges, and the half-edge of its face.
+    #[inline]
+    fn spoke(&self, c: usize) -> Entries<2, 1> {
+        let (h, f) = self.face_corner(c);
+        let [before, _, after] = self.corners(h, f);
+        let center = VertexId::new(self.n_vertices + self.n_edges + f.index());
+        Entries {
+            next: [self.out(before).twin(), second(h)],
+            origin: [on_edge(self.mesh, h), center],
+            face: [FaceId::new(c), FaceId::new(after)],
+            first: [first(h)],
+        }
+    }
 
-        let in_face = |(f, leaving): (usize, &mut HalfEdgeId)| {
-            let f = FaceId::new(f);
-            let [_, c, _] = self.corners(self.mesh.face_half_edge(f), f);
-            *leaving = self.out(c).twin();
-        };
-        new.vertex_half_edge
-            .par_iter_mut()
-            .with_min_len(BLOCK)
-            .enumerate()
-            .for_each(in_face);
-        Ok(())
+    /// The half-edge of the center of a face.
+    #[inline]
+    fn leaving_center(&self, f: FaceId) -> HalfEdgeId {
+        let [_, c, _] = self.corners(self.mesh.face_half_edge(f), f);
+        self.out(c).twin()
     }
 }
 
@@ -179,9 +160,14 @@ impl Listed {
 }
 
 impl Topology for Quads<'_> {
-    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, OpError> {
+    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled> {
         let added = [self.n_faces, self.n_corners, self.n_corners];
-        let rest = |mut rest: Rest| self.draw_spokes(&mut rest, meter);
+        let rest = |rest: Rest| {
+            let spoke = |c| self.spoke(c);
+            links::write(rest.halves, rest.face_half_edge, meter, spoke)?;
+            let leaving = |f| self.leaving_center(FaceId::new(f));
+            fill_uncounted(rest.vertex_half_edge, meter, leaving)
+        };
         split_edges(self.mesh, added, |h| self.parts(h), rest, meter)
     }
 

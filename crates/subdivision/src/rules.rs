@@ -1,6 +1,5 @@
 //! What can be chosen about a subdivision surface.
 
-use op::Range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -135,16 +134,13 @@ impl Scheme {
         )
     }
 
-    /// How many corners faces have after a level, of those that have so many before it.
-    pub(crate) fn degrees_after(self, degrees: Range) -> Range {
-        match self {
-            Self::CatmullClark | Self::Midpoint(Split::Quads) => Range::exactly(4),
-            // Faces around vertices have as many corners as those have edges.
-            Self::DooSabin => Range {
-                min: 3,
-                max: u64::MAX,
-            },
-            _ => degrees,
-        }
+    /// Whether its limit surface is known in closed form.
+    pub const fn has_limit(self) -> bool {
+        self.has_creases()
+    }
+
+    /// Whether sharpness shapes its surfaces.
+    pub(crate) const fn has_creases(self) -> bool {
+        matches!(self, Self::Loop(_) | Self::CatmullClark)
     }
 }

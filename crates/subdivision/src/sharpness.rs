@@ -19,7 +19,7 @@
 use mesh::{CORNER, CREASE, EdgeId, HalfEdgeId, Mesh, VertexId};
 use rayon::prelude::*;
 
-use crate::{Boundary, Creasing, Rules};
+use crate::rules::{Boundary, Creasing, Rules};
 
 /// From here on sharpness does not decrease.
 pub(crate) const INFINITE: f64 = 10.0;

@@ -36,12 +36,12 @@
 //! After two levels every edge of the boundary, and every old edge, is three. Kobbelt, "√3-Subdivision", 2000.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
-use op::OpError;
+use progress::Cancelled;
 
 use crate::chosen::Chosen;
-use crate::level::{Place, Topology};
 use crate::links::{self, Link, Links};
-use crate::meter::Meter;
+use crate::parallel::Meter;
+use crate::topology::{Place, Topology};
 
 /// A dense mesh of triangles, each of which becomes three.
 pub(crate) struct Sqrt3<'a> {
@@ -366,7 +366,7 @@ impl Links for Sqrt3<'_> {
 }
 
 impl Topology for Sqrt3<'_> {
-    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, OpError> {
+    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled> {
         links::connectivity(self, meter)
     }
 

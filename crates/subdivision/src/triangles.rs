@@ -20,12 +20,12 @@
 //! One task for each old face writes six half-edges and four faces.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh};
-use op::OpError;
-use rayon::prelude::*;
+use progress::Cancelled;
 
 use crate::halves::{Parts, Rest, first, on_edge, place, second, split_edges};
-use crate::level::{Place, Topology};
-use crate::meter::{BLOCK, Meter};
+use crate::links::{self, Entries};
+use crate::parallel::Meter;
+use crate::topology::{Place, Topology};
 
 /// A dense mesh of triangles, each of which is cut into four.
 pub(crate) struct Triangles<'a>(pub(crate) &'a Mesh);
@@ -56,53 +56,39 @@ impl Triangles<'_> {
         ([self.cut(f, k), first(next)], [corner(k), corner(after_k)])
     }
 
-    /// Writes the edges inside old faces, six half-edges for each face, and the new faces.
-    fn cut_faces(&self, new: &mut Rest, meter: &Meter) -> Result<(), OpError> {
-        (
-            new.next.par_chunks_mut(6 * BLOCK),
-            new.origin.par_chunks_mut(6 * BLOCK),
-            new.face.par_chunks_mut(6 * BLOCK),
-            new.face_half_edge.par_chunks_mut(4 * BLOCK),
-        )
-            .into_par_iter()
-            .enumerate()
-            .try_for_each(|(block, (next, origin, face, starts))| {
-                let next = next.as_chunks_mut::<6>().0.iter_mut();
-                let origin = origin.as_chunks_mut::<6>().0.iter_mut();
-                let face = face.as_chunks_mut::<6>().0.iter_mut();
-                let starts = starts.as_chunks_mut::<4>().0;
-                let n = starts.len();
-                let arrays = next.zip(origin).zip(face).zip(starts);
-                for (f, (((next, origin), face), starts)) in (block * BLOCK..).zip(arrays) {
-                    let f = FaceId::new(f);
-                    let h0 = self.0.face_half_edge(f);
-                    let h1 = self.0.next(h0);
-                    let h2 = self.0.next(h1);
-                    let [x0, x1, x2] = [h0, h1, h2].map(|h| on_edge(self.0, h));
-                    let [c0, c1, c2] = [0, 1, 2].map(|k| self.cut(f, k));
-                    let [f0, f1, f2, f3] = [0, 1, 2, 3].map(|k| FaceId::new(4 * f.index() + k));
-                    *next = [
-                        second(h2),
-                        c1.twin(),
-                        second(h0),
-                        c2.twin(),
-                        second(h1),
-                        c0.twin(),
-                    ];
-                    *origin = [x0, x2, x1, x0, x2, x1];
-                    *face = [f0, f3, f1, f3, f2, f3];
-                    *starts = [first(h0), first(h1), first(h2), c0.twin()];
-                }
-                meter.add(n)
-            })
+    /// The edges inside an old face, six half-edges, and the new faces.
+    #[inline]
+    fn cut_face(&self, f: FaceId) -> Entries<6, 4> {
+        let h0 = self.0.face_half_edge(f);
+        let h1 = self.0.next(h0);
+        let h2 = self.0.next(h1);
+        let [x0, x1, x2] = [h0, h1, h2].map(|h| on_edge(self.0, h));
+        let [c0, c1, c2] = [0, 1, 2].map(|k| self.cut(f, k));
+        let [f0, f1, f2, f3] = [0, 1, 2, 3].map(|k| FaceId::new(4 * f.index() + k));
+        Entries {
+            next: [
+                second(h2),
+                c1.twin(),
+                second(h0),
+                c2.twin(),
+                second(h1),
+                c0.twin(),
+            ],
+            origin: [x0, x2, x1, x0, x2, x1],
+            face: [f0, f3, f1, f3, f2, f3],
+            first: [first(h0), first(h1), first(h2), c0.twin()],
+        }
     }
 }
 
 impl Topology for Triangles<'_> {
-    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, OpError> {
+    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled> {
         let n_faces = self.0.n_faces();
         let added = [0, 3 * n_faces, 4 * n_faces];
-        let rest = |mut rest: Rest| self.cut_faces(&mut rest, meter);
+        let rest = |rest: Rest| {
+            let entries = |f| self.cut_face(FaceId::new(f));
+            links::write(rest.halves, rest.face_half_edge, meter, entries)
+        };
         split_edges(self.0, added, |h| self.parts(h), rest, meter)
     }
 

@@ -1,12 +1,6 @@
 //! The list of built-in operations: one line a group.
 
-mod pictures;
-mod samples;
-
 use op::Registry;
-
-pub use pictures::pictures;
-pub use samples::samples;
 
 /// Every built-in operation, in the order of the reference.
 #[rustfmt::skip]

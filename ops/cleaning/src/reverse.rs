@@ -33,6 +33,7 @@ pub struct Reverse {
 impl MeshOperation for Reverse {
     const NAME: &'static str = "Reverse";
     const SUMMARY: &'static str = "Turn faces over";
+    const EXAMPLE: &'static str = "Reverse()";
 
     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         Vec::new() // counts, degrees and attributes stay as they are

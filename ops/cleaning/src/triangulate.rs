@@ -52,6 +52,7 @@ pub struct Triangulate {
 impl MeshOperation for Triangulate {
     const NAME: &'static str = "Triangulate";
     const SUMMARY: &'static str = "Cut polygons into triangles";
+    const EXAMPLE: &'static str = "Triangulate()";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let cut = self.faces.count(plan);

@@ -54,6 +54,7 @@ impl Weld {
 impl MeshOperation for Weld {
     const NAME: &'static str = "Weld";
     const SUMMARY: &'static str = "Merge vertices that lie near each other";
+    const EXAMPLE: &'static str = "Weld(distance: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         if let Err(message) = self.check() {

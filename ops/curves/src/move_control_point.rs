@@ -37,6 +37,7 @@ pub struct PlanePoint(pub f64, pub f64);
 impl Operation for MoveControlPoint {
     const NAME: &'static str = "MoveControlPoint";
     const SUMMARY: &'static str = "Move one control point of curves";
+    const EXAMPLE: &'static str = "MoveControlPoint(index: 1, to: (2, -3.5))";
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {

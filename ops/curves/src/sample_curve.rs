@@ -44,6 +44,7 @@ impl SampleCurve {
 impl Operation for SampleCurve {
     const NAME: &'static str = "SampleCurve";
     const SUMMARY: &'static str = "Replace curves by polylines through their points";
+    const EXAMPLE: &'static str = "SampleCurve(segments: 1)";
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {

@@ -80,6 +80,7 @@ const MOST_SEGMENTS: u32 = 4096;
 impl Operation for Tessellate {
     const NAME: &'static str = "Tessellate";
     const SUMMARY: &'static str = "Turn Bezier patches into a mesh";
+    const EXAMPLE: &'static str = "Tessellate(segments: 3)";
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {

@@ -49,6 +49,7 @@ pub struct BevelEdges {
 impl MeshOperation for BevelEdges {
     const NAME: &'static str = "BevelEdges";
     const SUMMARY: &'static str = "Put faces into the place of edges";
+    const EXAMPLE: &'static str = "BevelEdges(edges: Between(0, 2), fraction: 0.25)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         if let Err(message) = check_fraction("fraction", self.fraction) {

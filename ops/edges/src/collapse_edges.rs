@@ -66,6 +66,7 @@ impl CollapseEdges {
 impl MeshOperation for CollapseEdges {
     const NAME: &'static str = "CollapseEdges";
     const SUMMARY: &'static str = "Shrink edges to points";
+    const EXAMPLE: &'static str = "CollapseEdges(edges: All, on_refusal: Skip)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         if !self.is_at_allowed() {

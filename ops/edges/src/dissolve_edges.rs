@@ -59,6 +59,7 @@ impl From<Seams> for mesh::Seams {
 impl MeshOperation for DissolveEdges {
     const NAME: &'static str = "DissolveEdges";
     const SUMMARY: &'static str = "Take edges out and merge the faces beside them";
+    const EXAMPLE: &'static str = "DissolveEdges(edges: Between(0, 1))";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let chosen = self.edges.count(plan);

@@ -105,6 +105,7 @@ impl From<Seams> for mesh::Seams {
 impl MeshOperation for FlipEdges {
     const NAME: &'static str = "FlipEdges";
     const SUMMARY: &'static str = "Turn edges to the other diagonal of their two triangles";
+    const EXAMPLE: &'static str = "FlipEdges(edges: All)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();

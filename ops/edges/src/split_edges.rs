@@ -47,6 +47,7 @@ const fn half() -> f64 {
 impl MeshOperation for SplitEdges {
     const NAME: &'static str = "SplitEdges";
     const SUMMARY: &'static str = "Put a vertex on edges and join it to the far corners";
+    const EXAMPLE: &'static str = "SplitEdges(edges: All)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         if let Err(message) = check_fraction("at", self.at) {

@@ -42,6 +42,7 @@ pub struct DeleteFaces {
 impl MeshOperation for DeleteFaces {
     const NAME: &'static str = "DeleteFaces";
     const SUMMARY: &'static str = "Take faces away and leave holes";
+    const EXAMPLE: &'static str = "DeleteFaces(faces: All)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let chosen = self.faces.count(plan);

@@ -128,6 +128,7 @@ impl ExtrudeFaces {
 impl MeshOperation for ExtrudeFaces {
     const NAME: &'static str = "ExtrudeFaces";
     const SUMMARY: &'static str = "Move faces out of the surface, with side faces behind them";
+    const EXAMPLE: &'static str = "ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let problems = self.problems();

@@ -47,6 +47,7 @@ pub struct InsetFaces {
 impl MeshOperation for InsetFaces {
     const NAME: &'static str = "InsetFaces";
     const SUMMARY: &'static str = "Put a smaller copy into faces, with a ring of faces around it";
+    const EXAMPLE: &'static str = "InsetFaces(faces: All, fraction: 0.25)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         if let Err(message) = check_fraction("fraction", self.fraction) {

@@ -45,6 +45,7 @@ impl MeshOperation for PokeFaces {
     const NAME: &'static str = "PokeFaces";
     const SUMMARY: &'static str =
         "Put a vertex into the middle of faces and join it to their corners";
+    const EXAMPLE: &'static str = "PokeFaces()";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         if !self.offset.is_finite() {

@@ -39,6 +39,7 @@ pub struct SplitFaces {
 impl MeshOperation for SplitFaces {
     const NAME: &'static str = "SplitFaces";
     const SUMMARY: &'static str = "Cut faces in two by edges between their corners";
+    const EXAMPLE: &'static str = "SplitFaces(between: [])";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let n = self.between.len() as u64;

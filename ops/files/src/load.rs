@@ -66,6 +66,7 @@ impl Load {
 impl Operation for Load {
     const NAME: &'static str = "Load";
     const SUMMARY: &'static str = "Read the objects of a file";
+    const EXAMPLE: &'static str = r#"Load(path: "teapot.bez")"#;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let path = cx.files.to_read(&self.path);

@@ -22,6 +22,7 @@ pub struct Save {
 impl Operation for Save {
     const NAME: &'static str = "Save";
     const SUMMARY: &'static str = "Write objects to a file";
+    const EXAMPLE: &'static str = r#"Save(path: "a.obj")"#;
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {

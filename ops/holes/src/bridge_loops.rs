@@ -43,6 +43,7 @@ pub struct BridgeLoops {
 impl MeshOperation for BridgeLoops {
     const NAME: &'static str = "BridgeLoops";
     const SUMMARY: &'static str = "Join two holes by a band of faces";
+    const EXAMPLE: &'static str = "BridgeLoops(first: 0, second: 5)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();

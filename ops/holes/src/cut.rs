@@ -39,6 +39,7 @@ pub struct Cut {
 impl MeshOperation for Cut {
     const NAME: &'static str = "Cut";
     const SUMMARY: &'static str = "Open the mesh along edges";
+    const EXAMPLE: &'static str = "Cut(edges: All)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let n = self.edges.count(plan);

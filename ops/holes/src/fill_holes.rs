@@ -62,6 +62,7 @@ pub enum Cover {
 impl MeshOperation for FillHoles {
     const NAME: &'static str = "FillHoles";
     const SUMMARY: &'static str = "Put a face or triangles over holes";
+    const EXAMPLE: &'static str = "FillHoles()";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         // Each hole has three edges or more, and no edge is on two holes.

@@ -61,6 +61,7 @@ impl Stitch {
 impl MeshOperation for Stitch {
     const NAME: &'static str = "Stitch";
     const SUMMARY: &'static str = "Glue boundary edges that lie on each other";
+    const EXAMPLE: &'static str = "Stitch(distance: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         if let Err(message) = self.check() {

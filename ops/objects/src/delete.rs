@@ -22,6 +22,7 @@ pub struct Delete {
 impl Operation for Delete {
     const NAME: &'static str = "Delete";
     const SUMMARY: &'static str = "Take objects out of the scene";
+    const EXAMPLE: &'static str = r#"Delete(objects: ["mesh"])"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();

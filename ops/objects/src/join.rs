@@ -50,6 +50,7 @@ const fn yes() -> bool {
 impl Operation for Join {
     const NAME: &'static str = "Join";
     const SUMMARY: &'static str = "Join meshes into one";
+    const EXAMPLE: &'static str = r#"Join(objects: ["mesh", "other"], name: "joined")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = self.problems();

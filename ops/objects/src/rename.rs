@@ -24,6 +24,7 @@ pub struct Rename {
 impl Operation for Rename {
     const NAME: &'static str = "Rename";
     const SUMMARY: &'static str = "Give an object another name";
+    const EXAMPLE: &'static str = r#"Rename(from: "mesh", to: "new")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let problems = plan.check_names([self.from.as_str()], "from");

@@ -58,6 +58,7 @@ pub enum By {
 impl Operation for Separate {
     const NAME: &'static str = "Separate";
     const SUMMARY: &'static str = "Take a mesh apart into several objects";
+    const EXAMPLE: &'static str = r#"Separate(object: "mesh")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let Some(place) = plan.objects.iter().position(|o| o.name == self.object) else {

@@ -189,6 +189,7 @@ impl Transform {
 impl Operation for Transform {
     const NAME: &'static str = "Transform";
     const SUMMARY: &'static str = "Scale, turn, move and mirror objects";
+    const EXAMPLE: &'static str = "Transform()";
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {

@@ -100,6 +100,7 @@ impl Format {
 impl Operation for CurveFigure {
     const NAME: &'static str = "CurveFigure";
     const SUMMARY: &'static str = "Draw de Casteljau's construction of Bezier curves";
+    const EXAMPLE: &'static str = r#"CurveFigure(path: "figure.svg", t: [0.25, 0.5])"#;
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {

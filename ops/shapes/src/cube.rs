@@ -67,6 +67,7 @@ impl Cube {
 impl Operation for Cube {
     const NAME: &'static str = "Cube";
     const SUMMARY: &'static str = "Make a cube";
+    const EXAMPLE: &'static str = r#"Cube(name: "new", size: 3, center: (1, 2, 3))"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

@@ -86,6 +86,8 @@ impl Cylinder {
 impl Operation for Cylinder {
     const NAME: &'static str = "Cylinder";
     const SUMMARY: &'static str = "Make a cylinder";
+    const EXAMPLE: &'static str =
+        r#"Cylinder(name: "new", around: 6, radius: 1, height: 2, caps: true)"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

@@ -64,6 +64,7 @@ impl Grid {
 impl Operation for Grid {
     const NAME: &'static str = "Grid";
     const SUMMARY: &'static str = "Make a flat sheet of squares";
+    const EXAMPLE: &'static str = r#"Grid(name: "new", columns: 3, rows: 2)"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

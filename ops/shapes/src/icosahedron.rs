@@ -48,6 +48,7 @@ impl Icosahedron {
 impl Operation for Icosahedron {
     const NAME: &'static str = "Icosahedron";
     const SUMMARY: &'static str = "Make a regular icosahedron";
+    const EXAMPLE: &'static str = r#"Icosahedron(name: "new")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

@@ -50,6 +50,7 @@ impl Octahedron {
 impl Operation for Octahedron {
     const NAME: &'static str = "Octahedron";
     const SUMMARY: &'static str = "Make a regular octahedron";
+    const EXAMPLE: &'static str = r#"Octahedron(name: "new")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

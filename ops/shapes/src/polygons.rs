@@ -92,6 +92,8 @@ impl Polygons {
 impl Operation for Polygons {
     const NAME: &'static str = "Polygons";
     const SUMMARY: &'static str = "Make a mesh of points and faces";
+    const EXAMPLE: &'static str =
+        r#"Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces: [[0, 1, 2]])"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let (mut source, _, done) = self.source();

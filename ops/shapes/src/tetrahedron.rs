@@ -52,6 +52,7 @@ impl Tetrahedron {
 impl Operation for Tetrahedron {
     const NAME: &'static str = "Tetrahedron";
     const SUMMARY: &'static str = "Make a regular tetrahedron";
+    const EXAMPLE: &'static str = r#"Tetrahedron(name: "new")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

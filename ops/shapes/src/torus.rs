@@ -76,6 +76,8 @@ impl Torus {
 impl Operation for Torus {
     const NAME: &'static str = "Torus";
     const SUMMARY: &'static str = "Make a torus";
+    const EXAMPLE: &'static str =
+        r#"Torus(name: "new", around: 7, across: 5, major: 2, minor: 0.5)"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

@@ -70,6 +70,7 @@ impl UvSphere {
 impl Operation for UvSphere {
     const NAME: &'static str = "UvSphere";
     const SUMMARY: &'static str = "Make a sphere of meridians and rings";
+    const EXAMPLE: &'static str = r#"UvSphere(name: "new", around: 8, rings: 4, radius: 2)"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         self.source().plan(plan)

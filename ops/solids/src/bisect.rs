@@ -59,6 +59,7 @@ pub enum Keep {
 impl MeshOperation for Bisect {
     const NAME: &'static str = "Bisect";
     const SUMMARY: &'static str = "Cut meshes along a plane";
+    const EXAMPLE: &'static str = "Bisect(normal: (0, 0, 1))";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         if self.tag.as_deref() == Some("") {

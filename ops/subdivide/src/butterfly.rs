@@ -26,7 +26,9 @@ use mesh::Mesh;
 use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use subdivision::{Rules, Scheme, Step, Until};
+use subdivision::{Rules, Scheme};
+
+use crate::step::{Step, Until};
 
 /// Cuts every triangle into four and smooths, without moving old vertices, as often as `levels` says.
 ///
@@ -51,19 +53,11 @@ pub struct Butterfly {
 }
 
 impl Butterfly {
-    /// So many levels, with the defaults of everything else.
-    pub fn levels(levels: u32) -> Self {
-        Self {
-            levels: Some(levels),
-            ..Self::default()
-        }
-    }
-
     fn step(&self) -> Step<'_> {
         Step {
             levels: self.levels,
             until: self.until,
-            ..Step::new(Self::NAME, Rules::of(Scheme::Butterfly))
+            ..Step::new(Rules::of(Scheme::Butterfly))
         }
     }
 }
@@ -72,15 +66,13 @@ impl MeshOperation for Butterfly {
     const NAME: &'static str = "Butterfly";
     const SUMMARY: &'static str =
         "Cut every triangle into four and smooth through the old vertices";
+    const EXAMPLE: &'static str = "Butterfly(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
-        self.step().plan(plan, cx)
+        self.step().plan(Self::NAME, plan, cx)
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         self.step().apply(mesh, cx)
     }
 }
-
-#[cfg(test)]
-mod tests;

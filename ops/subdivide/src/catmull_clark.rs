@@ -34,7 +34,9 @@ use mesh::Mesh;
 use op::{Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use subdivision::{Boundary, Creasing, FaceVarying, Rules, Scheme, Step, Until};
+use subdivision::{Boundary, Creasing, FaceVarying, Rules, Scheme};
+
+use crate::step::{Step, Until};
 
 /// Cuts every face into quads and smooths, as often as `levels` says.
 ///
@@ -77,17 +79,8 @@ pub struct CatmullClark {
 }
 
 impl CatmullClark {
-    /// So many levels, with the defaults of everything else.
-    pub fn levels(levels: u32) -> Self {
-        Self {
-            levels: Some(levels),
-            ..Self::default()
-        }
-    }
-
     fn step(&self) -> Step<'_> {
         Step {
-            name: Self::NAME,
             rules: Rules {
                 scheme: Scheme::CatmullClark,
                 boundary: self.boundary,
@@ -105,15 +98,13 @@ impl CatmullClark {
 impl MeshOperation for CatmullClark {
     const NAME: &'static str = "CatmullClark";
     const SUMMARY: &'static str = "Cut every face into quads and smooth";
+    const EXAMPLE: &'static str = "CatmullClark(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
-        self.step().plan(plan, cx)
+        self.step().plan(Self::NAME, plan, cx)
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         self.step().apply(mesh, cx)
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -33,7 +33,9 @@ use mesh::Mesh;
 use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use subdivision::{Rules, Scheme, Step, Until};
+use subdivision::{Rules, Scheme};
+
+use crate::step::{Step, Until};
 
 /// Cuts off every edge and vertex, as often as `levels` says.
 ///
@@ -59,19 +61,11 @@ pub struct DooSabin {
 }
 
 impl DooSabin {
-    /// So many levels, with the defaults of everything else.
-    pub fn levels(levels: u32) -> Self {
-        Self {
-            levels: Some(levels),
-            ..Self::default()
-        }
-    }
-
     fn step(&self) -> Step<'_> {
         Step {
             levels: self.levels,
             until: self.until,
-            ..Step::new(Self::NAME, Rules::of(Scheme::DooSabin))
+            ..Step::new(Rules::of(Scheme::DooSabin))
         }
     }
 }
@@ -79,15 +73,13 @@ impl DooSabin {
 impl MeshOperation for DooSabin {
     const NAME: &'static str = "DooSabin";
     const SUMMARY: &'static str = "Cut off every edge and vertex";
+    const EXAMPLE: &'static str = "DooSabin(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
-        self.step().plan(plan, cx)
+        self.step().plan(Self::NAME, plan, cx)
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         self.step().apply(mesh, cx)
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -6,6 +6,7 @@ mod doo_sabin;
 mod loop_subdivide;
 mod midpoint;
 mod sqrt3;
+mod step;
 
 use op::Registry;
 
@@ -15,6 +16,7 @@ pub use doo_sabin::DooSabin;
 pub use loop_subdivide::LoopSubdivide;
 pub use midpoint::Midpoint;
 pub use sqrt3::Sqrt3;
+pub use step::Until;
 
 /// Adds the operations of this group, in the order of the reference.
 #[rustfmt::skip]
@@ -27,3 +29,6 @@ pub fn register(registry: Registry) -> Registry {
         .with::<Sqrt3>()
         .with::<DooSabin>()
 }
+
+#[cfg(test)]
+mod tests;

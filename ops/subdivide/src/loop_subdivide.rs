@@ -34,7 +34,9 @@ use mesh::Mesh;
 use op::{Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Step, Until};
+use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme};
+
+use crate::step::{Step, Until};
 
 /// Cuts every triangle into four and smooths, as often as `levels` says.
 ///
@@ -80,17 +82,8 @@ pub struct LoopSubdivide {
 }
 
 impl LoopSubdivide {
-    /// So many levels, with the defaults of everything else.
-    pub fn levels(levels: u32) -> Self {
-        Self {
-            levels: Some(levels),
-            ..Self::default()
-        }
-    }
-
     fn step(&self) -> Step<'_> {
         Step {
-            name: Self::NAME,
             rules: Rules {
                 scheme: Scheme::Loop(self.weights),
                 boundary: self.boundary,
@@ -109,15 +102,13 @@ impl MeshOperation for LoopSubdivide {
     const NAME: &'static str = "LoopSubdivide";
     const VERSION: u32 = 2;
     const SUMMARY: &'static str = "Cut every triangle into four and smooth";
+    const EXAMPLE: &'static str = "LoopSubdivide(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
-        self.step().plan(plan, cx)
+        self.step().plan(Self::NAME, plan, cx)
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         self.step().apply(mesh, cx)
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -21,7 +21,9 @@ use mesh::Mesh;
 use op::{Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use subdivision::{Rules, Scheme, Split, Step, Until};
+use subdivision::{Rules, Scheme, Split};
+
+use crate::step::{Step, Until};
 
 /// Cuts every face into smaller ones without moving anything, as often as `levels` says.
 ///
@@ -54,20 +56,12 @@ pub struct Midpoint {
 }
 
 impl Midpoint {
-    /// So many levels, with the defaults of everything else.
-    pub fn levels(levels: u32) -> Self {
-        Self {
-            levels: Some(levels),
-            ..Self::default()
-        }
-    }
-
     fn step(&self) -> Step<'_> {
         Step {
             levels: self.levels,
             until: self.until,
             faces: self.faces.as_ref(),
-            ..Step::new(Self::NAME, Rules::of(Scheme::Midpoint(self.into)))
+            ..Step::new(Rules::of(Scheme::Midpoint(self.into)))
         }
     }
 }
@@ -75,15 +69,13 @@ impl Midpoint {
 impl MeshOperation for Midpoint {
     const NAME: &'static str = "Midpoint";
     const SUMMARY: &'static str = "Cut every face into smaller ones without moving anything";
+    const EXAMPLE: &'static str = "Midpoint(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
-        self.step().plan(plan, cx)
+        self.step().plan(Self::NAME, plan, cx)
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         self.step().apply(mesh, cx)
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -35,7 +35,9 @@ use mesh::Mesh;
 use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use subdivision::{Rules, Scheme, Step, Until};
+use subdivision::{Rules, Scheme};
+
+use crate::step::{Step, Until};
 
 /// Cuts every triangle into three, turned, and smooths, as often as `levels` says.
 ///
@@ -63,19 +65,11 @@ pub struct Sqrt3 {
 }
 
 impl Sqrt3 {
-    /// So many levels, with the defaults of everything else.
-    pub fn levels(levels: u32) -> Self {
-        Self {
-            levels: Some(levels),
-            ..Self::default()
-        }
-    }
-
     fn step(&self) -> Step<'_> {
         Step {
             levels: self.levels,
             until: self.until,
-            ..Step::new(Self::NAME, Rules::of(Scheme::Sqrt3))
+            ..Step::new(Rules::of(Scheme::Sqrt3))
         }
     }
 }
@@ -83,15 +77,13 @@ impl Sqrt3 {
 impl MeshOperation for Sqrt3 {
     const NAME: &'static str = "Sqrt3";
     const SUMMARY: &'static str = "Cut every triangle into three, turned, and smooth";
+    const EXAMPLE: &'static str = "Sqrt3(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
-        self.step().plan(plan, cx)
+        self.step().plan(Self::NAME, plan, cx)
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         self.step().apply(mesh, cx)
     }
 }
-
-#[cfg(test)]
-mod tests;

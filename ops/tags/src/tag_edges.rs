@@ -21,6 +21,7 @@ pub struct TagEdges {
 impl MeshOperation for TagEdges {
     const NAME: &'static str = "TagEdges";
     const SUMMARY: &'static str = "Mark edges with a tag";
+    const EXAMPLE: &'static str = r#"TagEdges(name: "marked", edges: EdgeLoop(Longest(count: 2)))"#;
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.provide(Domain::Edge, &self.name);

@@ -21,6 +21,8 @@ pub struct TagFaces {
 impl MeshOperation for TagFaces {
     const NAME: &'static str = "TagFaces";
     const SUMMARY: &'static str = "Mark faces with a tag";
+    const EXAMPLE: &'static str =
+        r#"TagFaces(name: "some", faces: Facing(direction: (0, 0, 1), within: 45))"#;
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.provide(Domain::Face, &self.name);

@@ -23,6 +23,7 @@ pub struct TagVertices {
 impl MeshOperation for TagVertices {
     const NAME: &'static str = "TagVertices";
     const SUMMARY: &'static str = "Mark vertices with a tag";
+    const EXAMPLE: &'static str = r#"TagVertices(name: "some", vertices: Boundary)"#;
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.provide(Domain::Vertex, &self.name);

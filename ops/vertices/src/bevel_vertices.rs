@@ -47,6 +47,7 @@ pub struct BevelVertices {
 impl MeshOperation for BevelVertices {
     const NAME: &'static str = "BevelVertices";
     const SUMMARY: &'static str = "Put faces into the place of vertices";
+    const EXAMPLE: &'static str = "BevelVertices(vertices: All, fraction: 0.25)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         if let Err(message) = check_fraction("fraction", self.fraction) {

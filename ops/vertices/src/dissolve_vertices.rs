@@ -63,6 +63,7 @@ impl From<Seams> for mesh::Seams {
 impl MeshOperation for DissolveVertices {
     const NAME: &'static str = "DissolveVertices";
     const SUMMARY: &'static str = "Take vertices out and merge the faces around them";
+    const EXAMPLE: &'static str = "DissolveVertices(vertices: Vertices([1]))";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.drop_normals();

@@ -56,6 +56,7 @@ pub enum Weight {
 impl MeshOperation for VertexNormals {
     const NAME: &'static str = "VertexNormals";
     const SUMMARY: &'static str = "Give every vertex a unit normal from the faces around it";
+    const EXAMPLE: &'static str = "VertexNormals()";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.drop_attribute(Domain::Corner, CORNER_NORMAL.name);

@@ -16,6 +16,7 @@ pub struct Lift {
 impl MeshOperation for Lift {
     const NAME: &'static str = "Lift";
     const SUMMARY: &'static str = "Move every vertex upwards";
+    const EXAMPLE: &'static str = "Lift(by: 2.5)";
 
     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         Vec::new()

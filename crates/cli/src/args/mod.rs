@@ -51,6 +51,9 @@ pub(crate) enum Command {
         /// Print the whole reference as Markdown
         #[arg(long, conflicts_with = "name")]
         markdown: bool,
+        /// With what the recipes in this folder draw: `NAME/before.png` and `NAME/after.png` of `NAME.ron`
+        #[arg(long, requires = "markdown", value_name = "FOLDER")]
+        pictures: Option<PathBuf>,
     },
     /// Show what a file holds
     Info {

@@ -21,7 +21,7 @@ const TYPES: &str = "Context DVec3 Deserialize JsonSchema MeshOperation MeshPlan
     Problem Report Result Select Serialize Vec VertexSelection";
 
 pub(crate) fn run(name: &str, root: &Path) -> anyhow::Result<bool> {
-    let snake = snake_case(name)?;
+    let snake = checked(name)?;
     let folder = root.join("ops").join(&snake);
     let (list, manifest) = (
         root.join("ops/all/src/lib.rs"),
@@ -70,12 +70,7 @@ pub(crate) fn run(name: &str, root: &Path) -> anyhow::Result<bool> {
 }
 
 /// `InflateFaces` as `inflate_faces`.
-fn snake_case(name: &str) -> anyhow::Result<String> {
-    let mut letters = name.chars();
-    let first_is_upper = letters.next().is_some_and(|c| c.is_ascii_uppercase());
-    if !first_is_upper || !letters.all(|c| c.is_ascii_alphanumeric()) {
-        bail!("expected a name in camel case, such as InflateFaces, found `{name}`");
-    }
+pub(crate) fn snake_case(name: &str) -> String {
     let mut snake = String::new();
     for c in name.chars() {
         if c.is_ascii_uppercase() && !snake.is_empty() {
@@ -83,6 +78,17 @@ fn snake_case(name: &str) -> anyhow::Result<String> {
         }
         snake.push(c.to_ascii_lowercase());
     }
+    snake
+}
+
+/// The name in snake case, if an operation can have it.
+fn checked(name: &str) -> anyhow::Result<String> {
+    let mut letters = name.chars();
+    let first_is_upper = letters.next().is_some_and(|c| c.is_ascii_uppercase());
+    if !first_is_upper || !letters.all(|c| c.is_ascii_alphanumeric()) {
+        bail!("expected a name in camel case, such as InflateFaces, found `{name}`");
+    }
+    let snake = snake_case(name);
     let among = |words: &str, word: &str| words.split(' ').any(|w| w == word);
     ensure!(
         !among(TAKEN, &snake),
@@ -121,7 +127,7 @@ mod tests {
 
     #[test]
     fn camel_case_becomes_snake_case() {
-        assert_eq!(snake_case("InflateFaces").unwrap(), "inflate_faces");
+        assert_eq!(checked("InflateFaces").unwrap(), "inflate_faces");
         for bad in [
             "inflate",
             "",
@@ -132,7 +138,7 @@ mod tests {
             "Std",
             "Report",
         ] {
-            assert!(snake_case(bad).is_err(), "{bad}");
+            assert!(checked(bad).is_err(), "{bad}");
         }
     }
 

@@ -2,16 +2,23 @@
 //! into.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use op::{Entry, Registry};
 use recipe::{FieldDoc, TypeDoc, did_you_mean, fields, step_kinds, types};
 use serde_json::Value as Json;
 
+use super::new_op::snake_case;
 use crate::output::{print, table};
 
-pub(crate) fn run(name: Option<&str>, markdown: bool, registry: &Registry) -> anyhow::Result<bool> {
+pub(crate) fn run(
+    name: Option<&str>,
+    markdown: bool,
+    pictures: Option<&Path>,
+    registry: &Registry,
+) -> anyhow::Result<bool> {
     if markdown {
-        print(&reference(registry))?;
+        print(&reference(registry, pictures))?;
         return Ok(true);
     }
     let Some(name) = name else {
@@ -55,17 +62,7 @@ fn detail(entry: &Entry) -> String {
     if entry.takes_on {
         text += "\nTakes `on: [\"name\", ..]` to act on chosen objects; without it on all that it can.\n";
     }
-    if let Some(sample) = sample(entry.name) {
-        text += &format!("\nSample: {sample}\n");
-    }
-    text
-}
-
-/// A step as a recipe has it.
-fn sample(operation: &str) -> Option<String> {
-    let parameters = ops_all::samples(operation).first()?;
-    let words: Vec<&str> = parameters.split_whitespace().collect();
-    Some(format!("{operation}{}", words.join(" ")))
+    text + &format!("\nExample: {}\n", entry.example)
 }
 
 /// The description and the parameters.
@@ -120,7 +117,7 @@ fn variants_text(variants: &[(String, String)], indent: &str) -> String {
 }
 
 /// The reference of all operations as Markdown.
-pub(crate) fn reference(registry: &Registry) -> String {
+fn reference(registry: &Registry, pictures: Option<&Path>) -> String {
     let mut text =
         "# Operations\n\nMade by `meshwright ops --markdown` from the operations themselves.\n\n"
             .to_owned();
@@ -139,10 +136,10 @@ pub(crate) fn reference(registry: &Registry) -> String {
         if let Some(description) = schema.get("description").and_then(|d| d.as_str()) {
             text += &format!("{description}\n\n");
         }
-        if let Some(sample) = sample(entry.name) {
-            text += &format!("```ron\n{sample}\n```\n\n");
+        text += &format!("```ron\n{}\n```\n\n", entry.example);
+        if let Some(folder) = pictures {
+            text += &shown(entry.name, folder);
         }
-        text += &shown(entry.name);
         let fields = fields(&schema);
         if fields.is_empty() {
             text += "No parameters.\n";
@@ -174,18 +171,18 @@ pub(crate) fn reference(registry: &Registry) -> String {
 }
 
 /// The pictures of an operation side by side, with the recipe that draws them.
-fn shown(operation: &str) -> String {
-    let paths = ops_all::pictures(operation);
-    let Some(last) = paths.last() else {
-        return String::new();
-    };
-    let recipe = last.rsplit_once('/').map_or("", |(folder, _)| folder);
-    let image = |path: &String| {
-        let name = path.rsplit('/').next().unwrap_or_default();
-        format!("![{}]({path})", name.trim_end_matches(".png"))
-    };
-    let images: Vec<String> = paths.iter().map(image).collect();
-    format!("{} [drawn by]({recipe}.ron)\n\n", images.join(" "))
+fn shown(operation: &str, folder: &Path) -> String {
+    let name = snake_case(operation);
+    let recipe = format!("{}/{name}", folder.display());
+    let images: String = ["before", "after"]
+        .iter()
+        .filter(|image| folder.join(format!("{name}/{image}.png")).is_file())
+        .map(|image| format!("![{image}]({recipe}/{image}.png) "))
+        .collect();
+    if images.is_empty() {
+        return images;
+    }
+    format!("{images}[drawn by]({recipe}.ron)\n\n")
 }
 
 fn fields_table(fields: &[FieldDoc]) -> String {

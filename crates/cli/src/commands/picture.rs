@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use op::{Context, Files, Registry};
 use ops_pictures::{Picture, Quantity};
-use recipe::syntax::string_literal;
 use recipe::{Source, Values};
 use render::Image;
 use render::sheet::{Cell, SheetStyle, sheet};
+use ron_tree::string_literal;
 use scene::Scene;
 
 use crate::WrongUsage;

@@ -28,7 +28,7 @@ fn one_operation_is_shown_with_its_parameters() {
         "  at: number above 0.0 below 1.0 = 0.5\n",
         "  on_refusal: ",
         "Takes `on: [\"name\", ..]`",
-        "Sample: SplitEdges(",
+        "Example: SplitEdges(",
     ]);
     Folder::new().run("ops Repeat").with_code(0).prints(&[
         "Repeat: Run steps several times",

@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 use super::folder::{Folder, Hash, Kind};
 use super::key::{Ingredients, digest};
 use super::record::{load_data, store_data};
-use crate::syntax;
 
 /// Why a step ran. Shown as the end of a sentence that begins with "because".
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -221,15 +220,15 @@ impl Ingredients {
 
 /// The fields that differ: `levels 1 -> 2, at 0.5 -> 0.25`.
 fn changes(from: &str, to: &str) -> String {
-    let (from, to) = (syntax::parse(from).value, syntax::parse(to).value);
-    let name = |field: &syntax::Field| field.name.text.to_string();
+    let (from, to) = (ron_tree::parse(from).value, ron_tree::parse(to).value);
+    let name = |field: &ron_tree::Field| field.name.text.to_string();
     let mut names: Vec<String> = from.fields().iter().map(name).collect();
     for added in to.fields().iter().map(name) {
         if !names.contains(&added) {
             names.push(added);
         }
     }
-    let text = |value: Option<&syntax::Value>| {
+    let text = |value: Option<&ron_tree::Value>| {
         // As recipes have it.
         let value = value.map(|value| value.some().unwrap_or(value));
         value.map_or_else(|| "nothing".to_owned(), |value| short(&value.to_string()))
@@ -243,7 +242,7 @@ fn changes(from: &str, to: &str) -> String {
     if changed.is_empty() {
         // Long values that are alike at their beginning.
         let differs = |name: &&String| {
-            let value = |value: &syntax::Value| value.field(name).map(ToString::to_string);
+            let value = |value: &ron_tree::Value| value.field(name).map(ToString::to_string);
             value(&from) != value(&to)
         };
         let names: Vec<&str> = names.iter().filter(differs).map(String::as_str).collect();

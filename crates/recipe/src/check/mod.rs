@@ -6,11 +6,10 @@ use std::path::{Path, PathBuf};
 
 use op::{Files, MeshPlan, Plan, PlanContext, PlannedGeometry, Problem, Range};
 
-use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::expect::{Other, golden};
 use crate::recipe::{Placed, Recipe, RecipeStep};
 use crate::shape::did_you_mean;
-use crate::syntax::{PathItem, field_span};
+use ron_tree::{Diagnostic, PathItem, Severity, Span, field_span};
 
 use attributes::Attributes;
 

@@ -41,9 +41,7 @@ fn lines() -> Scene {
 }
 
 fn expectation(text: &str) -> Expectation {
-    crate::syntax::ron_options()
-        .from_str(text)
-        .unwrap_or_else(|error| panic!("{text}: {error}"))
+    ron_tree::from_str(text).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
 /// Holds an expectation against some objects of a scene. The file `octahedron.obj` holds one, every

@@ -13,13 +13,12 @@
 use std::path::Path;
 
 use super::{Draft, MAX_STEPS, Reader, real};
-use crate::diagnostic::Span;
 use crate::params::{Move, Param};
 use crate::recipe::{Origin, Scope};
 use crate::schema;
 use crate::shape::{check_shape, check_step, did_you_mean};
 use crate::source::Source;
-use crate::syntax::{Value, ValueKind};
+use ron_tree::{Span, Value, ValueKind};
 
 /// The most calls inside each other.
 const MAX_CALLS: usize = 32;
@@ -159,15 +158,15 @@ impl Reader<'_, '_> {
         };
         let Some(is) = run.field("is") else {
             if let Param::Bool { .. } = parameter.param {
-                return Some(parameter.literal == "true");
+                return Some(parameter.value.kind == ValueKind::Bool(true));
             }
             let kind = parameter.param.type_name();
             let message = format!("`{name}` is of the type {kind}, expected Bool");
             self.error(at.span, message, "`is: value` asks for one of its values");
             return None;
         };
-        match parameter.param.literal_of(is, None) {
-            Ok(literal) => Some(parameter.literal == literal),
+        match parameter.param.value_from(is, None) {
+            Ok(value) => Some(parameter.value == value),
             Err(problem) => {
                 let message = format!("`{name}` can never be this: {problem}");
                 self.error(is.span, message, "");
@@ -212,8 +211,8 @@ impl Reader<'_, '_> {
                 from: from.folder(),
                 to: to.folder(),
             };
-            let (literals, problems) = called.literals(with, Some(folders));
-            called.assign(&literals, &Origin::Call);
+            let (values, problems) = called.values_of(with, Some(folders));
+            called.assign(&values, &Origin::Call);
             wrong = problems;
         });
         called.close();

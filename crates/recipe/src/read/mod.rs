@@ -16,15 +16,15 @@ pub(crate) use flow::Kind;
 use std::path::{Path, PathBuf};
 
 use op::Registry;
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 
-use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::recipe::{OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, located};
 use crate::schema::{self, Schemas};
 use crate::shape::{self, check_shape};
 use crate::source::Source;
-use crate::syntax::{self, Value, ValueKind};
+use ron_tree::{Diagnostic, Severity, Span, Value, ValueKind};
 
 /// The version of recipes that this program reads.
 pub const VERSION: i128 = 1;
@@ -186,7 +186,7 @@ impl<'s, 'a> Reader<'s, 'a> {
     /// and what must hold at the end.
     fn text(&mut self, values: impl FnOnce(&mut Self)) -> (Vec<Draft>, Vec<Placed>) {
         let text = self.source.text.clone();
-        let parsed = syntax::parse(&text);
+        let parsed = ron_tree::parse(&text);
         let root = &parsed.value;
         self.diagnostics.extend(parsed.diagnostics);
         let nothing = (Vec::new(), Vec::new());
@@ -208,9 +208,7 @@ impl<'s, 'a> Reader<'s, 'a> {
         }
         if let Some(on_loss) = root.field("on_loss") {
             // A wrong one was reported with the envelope.
-            if let Ok(on_loss) = syntax::ron_options().from_str(&on_loss.to_string()) {
-                self.on_loss = on_loss;
-            }
+            self.on_loss = OnLoss::deserialize(on_loss).unwrap_or_default();
         }
         self.declare(root.field("params"));
         self.declare_presets(root.field("presets"));

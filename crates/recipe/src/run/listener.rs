@@ -6,8 +6,8 @@ use op::{Place, Progress, Refusal, Report};
 use scene::{Digest, Scene};
 
 use crate::cache::Why;
-use crate::diagnostic::Diagnostic;
 use crate::expect::Found;
+use ron_tree::Diagnostic;
 
 /// Follows a run.
 pub trait Listener: Progress {

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use scene::{Digest, Scene};
 
 use super::listener::StepDone;
-use crate::diagnostic::Diagnostic;
 use crate::expect::Found;
+use ron_tree::Diagnostic;
 
 /// How a run ended.
 #[derive(Debug)]

@@ -29,6 +29,7 @@ struct FromFile {
 impl Operation for FromFile {
     const NAME: &'static str = "FromFile";
     const SUMMARY: &'static str = "Make a sheet";
+    const EXAMPLE: &'static str = r#"FromFile(path: "sheet.txt")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         plan.incomplete = true;

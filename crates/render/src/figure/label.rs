@@ -2,9 +2,10 @@
 
 use glam::DVec2;
 
-use super::pixels::{draw, extent};
+use super::letters::line;
+use super::pixels::draw;
 use super::svg::{Anchor, Color, Font, Svg, Text};
-use crate::{Image, PictureError};
+use crate::Image;
 
 /// A text beside a place of an image.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,31 +28,19 @@ impl Label {
 
 /// Draws labels over an image, later ones above: each with the middle of its letters at the height of its place.
 /// What is outside of the image is cut off.
-///
-/// # Errors
-///
-/// None that a label can cause: see [`draw`].
-pub fn draw_labels(image: &mut Image, labels: &[Label]) -> Result<(), PictureError> {
+pub fn draw_labels(image: &mut Image, labels: &[Label]) {
     let size = DVec2::new(f64::from(image.width), f64::from(image.height));
     for label in labels {
         // Each alone: the memory for one is small, however large the image is.
         let mut svg = Svg::new(size.x, size.y);
         svg.text(label.place + DVec2::Y * label.text.size * 0.36, &label.text);
-        draw(image, &svg, 1.0)?;
+        draw(image, &svg, 1.0);
     }
-    Ok(())
 }
 
 /// How far a text goes from left to right, in pixels, without its halo.
 pub fn text_width(text: &Text) -> f64 {
-    let mut svg = Svg::new(1.0, 1.0);
-    let text = Text {
-        halo: None,
-        anchor: Anchor::Start,
-        ..text.clone()
-    };
-    svg.text(DVec2::ZERO, &text);
-    extent(&svg).map_or(0.0, |[left, _, right, _]| right - left)
+    line(DVec2::ZERO, text).width.into()
 }
 
 /// A text of more characters fits into no image that a caption is shortened for; what is measured is bounded.
@@ -118,7 +107,7 @@ mod tests {
     fn labels_stand_around_their_places() {
         let mut image = Image::filled(80, 40, [255; 4]).unwrap();
         let label = Label::new(DVec2::new(50.0, 20.0), "88", 20.0, BLACK);
-        draw_labels(&mut image, &[label]).unwrap();
+        draw_labels(&mut image, &[label]);
         let dark: Vec<DVec2> = (0..80 * 40)
             .filter(|&i| image.pixels[i][0] < 100)
             .map(|i| DVec2::new((i % 80) as f64 + 0.5, (i / 80) as f64 + 0.5))
@@ -131,7 +120,7 @@ mod tests {
     fn a_halo_covers_what_is_below() {
         let mut image = Image::filled(60, 40, [0, 0, 200, 255]).unwrap();
         let label = Label::new(DVec2::new(30.0, 20.0), "8", 20.0, BLACK);
-        draw_labels(&mut image, &[label]).unwrap();
+        draw_labels(&mut image, &[label]);
         assert!(image.pixels.iter().any(|p| p[0] > 200));
     }
 
@@ -145,7 +134,7 @@ mod tests {
                 DVec2::splat(30.0),
             ] {
                 let mut image = Image::filled(30, 30, [255; 4]).unwrap();
-                draw_labels(&mut image, &[Label::new(place, *text, 12.0, BLACK)]).unwrap();
+                draw_labels(&mut image, &[Label::new(place, *text, 12.0, BLACK)]);
             }
         }
     }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::label::text_width;
 use super::pixels::draw;
 use super::svg::{Anchor, Color, Font, Paint, Svg, Text};
-use crate::{Image, PictureError};
+use crate::Image;
 
 /// The meaning of colors.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,16 +69,7 @@ const MOST_ENTRIES: usize = 24;
 
 /// Draws a legend into a corner of an image, `scale` times its plain size of about 100 x 200 pixels. A list of more
 /// than 24 entries says how many are not shown. What has no room in the image is cut off.
-///
-/// # Errors
-///
-/// None that a legend can cause: see [`draw`].
-pub fn draw_legend(
-    image: &mut Image,
-    legend: &Legend,
-    corner: Corner,
-    scale: f64,
-) -> Result<(), PictureError> {
+pub fn draw_legend(image: &mut Image, legend: &Legend, corner: Corner, scale: f64) {
     let size = DVec2::new(f64::from(image.width), f64::from(image.height)) / scale;
     let own = measured(legend);
     let gap = 10.0;
@@ -92,7 +83,7 @@ pub fn draw_legend(
     };
     let mut svg = Svg::new(size.x, size.y);
     write(&mut svg, legend, place.round(), own);
-    draw(image, &svg, scale)
+    draw(image, &svg, scale);
 }
 
 /// A legend as a figure of its own, as large as it needs to be.
@@ -387,7 +378,7 @@ mod tests {
     #[test]
     fn the_bar_runs_through_its_colors_from_below() {
         let mut image = Image::filled(300, 300, [0, 255, 0, 255]).unwrap();
-        draw_legend(&mut image, &bar(), Corner::TopLeft, 1.0).unwrap();
+        draw_legend(&mut image, &bar(), Corner::TopLeft, 1.0);
         let column = |x: usize| (0..300).map(move |y| y * 300 + x);
         let reds: Vec<u8> = column(30)
             .map(|i| image.pixels[i])
@@ -414,7 +405,7 @@ mod tests {
             ] {
                 for side in [1, 20, 400] {
                     let mut image = Image::filled(side, side, [0, 0, 0, 255]).unwrap();
-                    draw_legend(&mut image, &legend, corner, 1.0).unwrap();
+                    draw_legend(&mut image, &legend, corner, 1.0);
                 }
             }
         }

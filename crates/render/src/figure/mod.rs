@@ -10,6 +10,7 @@
 pub mod construction;
 pub mod label;
 pub mod legend;
+mod letters;
 mod pixels;
 mod svg;
 

@@ -1,45 +1,30 @@
-//! The pixels of an SVG document, and drawing over images.
+//! The pixels of a document, and drawing over images.
 //!
-//! `resvg` draws, with the fonts of this crate and no others: a character that they do not have is left out. Our
-//! documents keep to what it draws without rounding that depends on the processor: plain colors over what is
+//! `tiny-skia` draws the shapes and the outlines of the letters, by themselves and not by way of the text of the
+//! document. Documents keep to what it draws without rounding that depends on the processor: plain colors over what is
 //! there, which it adds in whole numbers.
 
-use std::sync::{Arc, LazyLock};
+use glam::DVec2;
+use tiny_skia::{
+    FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, StrokeDash,
+    Transform,
+};
 
-use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::{self, fontdb};
-
-use super::svg::Svg;
+use super::letters;
+use super::svg::{Color, Element, Part, Shape, Svg};
 use crate::blend::blended;
 use crate::image::checked_size;
 use crate::{Image, PictureError};
-
-/// The embedded fonts. `fonts/README.md` says where they come from.
-static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
-    let mut fonts = fontdb::Database::new();
-    for bytes in [
-        &include_bytes!("../../fonts/Inter-Regular.ttf")[..],
-        include_bytes!("../../fonts/Inter-SemiBold.ttf"),
-        include_bytes!("../../fonts/KaTeX_Math-Italic.ttf"),
-        include_bytes!("../../fonts/KaTeX_Main-Regular.ttf"),
-    ] {
-        fonts.load_font_source(fontdb::Source::Binary(Arc::new(bytes)));
-    }
-    fonts.set_sans_serif_family("Inter");
-    fonts.set_serif_family("KaTeX_Main");
-    Arc::new(fonts)
-});
 
 /// The pixels of a document, each unit of it `scale` pixels long, over `background`.
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is not from 1 to [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels;
-/// [`PictureError::Encode`] if the document is none.
+/// [`PictureError::Size`] if a side is not from 1 to [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
 pub fn pixels(svg: &Svg, scale: f64, background: [u8; 4]) -> Result<Image, PictureError> {
     let (width, height) = pixel_size(svg, scale)?;
     let mut image = Image::filled(width, height, background)?;
-    draw(&mut image, svg, scale)?;
+    draw(&mut image, svg, scale);
     Ok(image)
 }
 
@@ -67,14 +52,12 @@ pub fn bytes_needed(width: u32, height: u32) -> u64 {
 
 /// Draws a document over an image, its top left corner on that of the image. What lies outside of the image is
 /// cut off. Takes memory for the part that is drawn on.
-///
-/// # Errors
-///
-/// [`PictureError::Encode`] if the document is none.
-pub fn draw(image: &mut Image, svg: &Svg, scale: f64) -> Result<(), PictureError> {
-    let tree = parsed(&svg.finish(None))?;
+pub fn draw(image: &mut Image, svg: &Svg, scale: f64) {
+    let drawn: Vec<Drawn> = svg.elements.iter().flat_map(Drawn::of).collect();
+    let Some(area) = drawn.iter().filter_map(Drawn::area).reduce(joined) else {
+        return;
+    };
     // The box of strokes is not always tight around dashes and caps: one pixel more.
-    let area = tree.root().abs_layer_bounding_box();
     let span = |low: f32, high: f32, side: u32| {
         #[expect(
             clippy::cast_possible_truncation,
@@ -92,7 +75,7 @@ pub fn draw(image: &mut Image, svg: &Svg, scale: f64) -> Result<(), PictureError
     let (top, height) = span(area.top(), area.bottom(), image.height);
     let Some(mut layer) = Pixmap::new(width, height) else {
         // Nothing of it is inside.
-        return Ok(());
+        return;
     };
     #[expect(
         clippy::cast_possible_truncation,
@@ -106,7 +89,9 @@ pub fn draw(image: &mut Image, svg: &Svg, scale: f64) -> Result<(), PictureError
         -(left as f32),
         -(top as f32),
     );
-    resvg::render(&tree, place, &mut layer.as_mut());
+    for drawn in &drawn {
+        drawn.draw(&mut layer, place);
+    }
     let rows = layer.pixels().chunks_exact(width as usize);
     let below = image
         .pixels
@@ -119,45 +104,185 @@ pub fn draw(image: &mut Image, svg: &Svg, scale: f64) -> Result<(), PictureError
             *under = blended(color, over.alpha(), *under);
         }
     }
-    Ok(())
 }
 
-/// How wide and how high a document is drawn: what encloses everything in it, from the left, top, right and
-/// bottom. `None` if it draws nothing.
-pub(crate) fn extent(svg: &Svg) -> Option<[f64; 4]> {
-    let tree = parsed(&svg.finish(None)).ok()?;
-    if !tree.root().has_children() {
-        return None;
+/// A path with its colors.
+struct Drawn {
+    path: Path,
+    fill: Option<Color>,
+    stroke: Option<(Color, Stroke)>,
+}
+
+impl Drawn {
+    /// What is drawn of an element, from below to above.
+    fn of(element: &Element) -> Vec<Self> {
+        match element {
+            Element::Shape {
+                shape,
+                fill,
+                stroke,
+                dashes,
+            } => {
+                let stroke = stroke.map(|(color, width)| {
+                    let dashes = dashes.iter().copied().map(narrow).collect();
+                    let stroke = Stroke {
+                        width: narrow(width),
+                        line_cap: LineCap::Round,
+                        line_join: LineJoin::Round,
+                        dash: StrokeDash::new(dashes, 0.0),
+                        ..Stroke::default()
+                    };
+                    (color, stroke)
+                });
+                let drawn = |path| Self {
+                    path,
+                    fill: *fill,
+                    stroke,
+                };
+                outline(shape).map(drawn).into_iter().collect()
+            }
+            Element::Text { place, text } => {
+                let paths = letters::line(*place, text).paths;
+                let halo = text.halo.map(|(color, width)| {
+                    let stroke = Stroke {
+                        width: narrow(super::svg::number(width * 2.0)),
+                        line_join: LineJoin::Round,
+                        ..Stroke::default()
+                    };
+                    (color, stroke)
+                });
+                let halos = paths.iter().filter(|_| halo.is_some()).map(|path| Self {
+                    path: path.clone(),
+                    fill: None,
+                    stroke: halo.clone(),
+                });
+                let letters = paths.iter().map(|path| Self {
+                    path: path.clone(),
+                    fill: Some(text.color),
+                    stroke: None,
+                });
+                halos.chain(letters).collect()
+            }
+            Element::Open { .. } | Element::Close => Vec::new(),
+        }
     }
-    let b = tree.root().abs_bounding_box();
-    Some([b.left(), b.top(), b.right(), b.bottom()].map(f64::from))
+
+    /// What encloses it, without the caps of lines.
+    fn area(&self) -> Option<Rect> {
+        let area = self.path.compute_tight_bounds()?;
+        match &self.stroke {
+            Some((_, stroke)) => area.outset(stroke.width / 2.0, stroke.width / 2.0),
+            None => Some(area),
+        }
+    }
+
+    fn draw(&self, layer: &mut Pixmap, place: Transform) {
+        let paint = |[r, g, b, a]: Color| {
+            let mut paint = Paint::default();
+            paint.set_color_rgba8(r, g, b, a);
+            paint
+        };
+        let bounds = self.path.bounds();
+        // Lines along an axis have no inside.
+        if let Some(color) = self.fill
+            && bounds.width() > 0.0
+            && bounds.height() > 0.0
+        {
+            layer.fill_path(&self.path, &paint(color), FillRule::Winding, place, None);
+        }
+        if let Some((color, stroke)) = &self.stroke
+            && stroke.width > 0.0
+        {
+            layer.stroke_path(&self.path, &paint(*color), stroke, place, None);
+        }
+    }
 }
 
-fn parsed(xml: &str) -> Result<usvg::Tree, PictureError> {
-    let select_fallback = usvg::FontResolver::default_fallback_selector();
-    let options = usvg::Options {
-        font_family: "Inter".to_owned(),
-        fontdb: FONTS.clone(),
-        font_resolver: usvg::FontResolver {
-            // A part of a formula is looked for in the font of every other part, and a font that has the
-            // whole formula would take the place of all.
-            select_fallback: Box::new(move |c, used, fonts| {
-                let first = used.first().and_then(|&id| fonts.face(id));
-                let of_formula = first.is_some_and(|face| face.families[0].0.starts_with("KaTeX"));
-                (!of_formula).then(|| select_fallback(c, used, fonts))?
-            }),
-            ..usvg::FontResolver::default()
-        },
-        ..usvg::Options::default()
-    };
-    usvg::Tree::from_str(xml, &options).map_err(|error| PictureError::Encode(error.to_string()))
+fn joined(a: Rect, b: Rect) -> Rect {
+    let [left, top] = [a.left().min(b.left()), a.top().min(b.top())];
+    let [right, bottom] = [a.right().max(b.right()), a.bottom().max(b.bottom())];
+    Rect::from_ltrb(left, top, right, bottom).unwrap_or(a)
+}
+
+/// The outline of a shape; none if it has no size.
+fn outline(shape: &Shape) -> Option<Path> {
+    let mut path = PathBuilder::new();
+    match shape {
+        Shape::Rectangle { corner, size } => {
+            let [x, y, w, h] = [corner.x, corner.y, size.x, size.y].map(narrow);
+            if w <= 0.0 || h <= 0.0 {
+                return None;
+            }
+            path.push_rect(Rect::from_xywh(x, y, w, h)?);
+        }
+        Shape::Circle { center, radius } => {
+            if *radius <= 0.0 {
+                return None;
+            }
+            let [x, y, r] = [center.x, center.y, *radius].map(narrow);
+            // A quarter of a circle is as good as a cubic curve whose tangents have this share of the radius:
+            // 4 / 3 * tan(pi / 8).
+            let k = r * 0.552_284_75;
+            path.move_to(x + r, y);
+            path.cubic_to(x + r, y + k, x + k, y + r, x, y + r);
+            path.cubic_to(x - k, y + r, x - r, y + k, x - r, y);
+            path.cubic_to(x - r, y - k, x - k, y - r, x, y - r);
+            path.cubic_to(x + k, y - r, x + r, y - k, x + r, y);
+            path.close();
+        }
+        Shape::Polyline(points) => {
+            for (i, p) in points.iter().enumerate() {
+                let [x, y] = point(*p);
+                if i == 0 {
+                    path.move_to(x, y);
+                } else {
+                    path.line_to(x, y);
+                }
+            }
+        }
+        Shape::Path(shape) => {
+            for part in &shape.parts {
+                match *part {
+                    Part::Move(p) => {
+                        let [x, y] = point(p);
+                        path.move_to(x, y);
+                    }
+                    Part::Line(p) => {
+                        let [x, y] = point(p);
+                        path.line_to(x, y);
+                    }
+                    Part::Quadratic(points) => {
+                        let [[x1, y1], [x, y]] = points.map(point);
+                        path.quad_to(x1, y1, x, y);
+                    }
+                    Part::Cubic(points) => {
+                        let [[x1, y1], [x2, y2], [x, y]] = points.map(point);
+                        path.cubic_to(x1, y1, x2, y2, x, y);
+                    }
+                    Part::Close => path.close(),
+                }
+            }
+        }
+    }
+    path.finish()
+}
+
+fn point(p: DVec2) -> [f32; 2] {
+    [p.x, p.y].map(narrow)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the rasterizer has 32-bit numbers"
+)]
+fn narrow(x: f64) -> f32 {
+    x as f32
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::figure::svg::{Font, Paint, Run, Text};
-    use glam::DVec2;
 
     const BLACK: [u8; 4] = [0, 0, 0, 255];
     const WHITE: [u8; 4] = [255; 4];
@@ -241,12 +366,12 @@ mod tests {
             svg.circle(DVec2::new(x, 5.0), 3.0, &Paint::fill(BLACK));
             let mut image = Image::filled(8, 8, WHITE).unwrap();
             let before = image.clone();
-            draw(&mut image, &svg, 1.0).unwrap();
+            draw(&mut image, &svg, 1.0);
             assert_eq!(image, before);
         }
         svg.circle(DVec2::new(0.0, 0.0), 3.0, &Paint::fill(BLACK));
         let mut image = Image::filled(8, 8, WHITE).unwrap();
-        draw(&mut image, &svg, 1.0).unwrap();
+        draw(&mut image, &svg, 1.0);
         assert_eq!((image.pixels[0], image.pixels[63]), (BLACK, WHITE));
     }
 

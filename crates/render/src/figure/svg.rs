@@ -191,7 +191,17 @@ impl Text {
 /// A path of lines and Bezier curves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
-    data: String,
+    pub(super) parts: Vec<Part>,
+}
+
+/// A command of a path, with the points that lead to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Part {
+    Move(DVec2),
+    Line(DVec2),
+    Quadratic([DVec2; 2]),
+    Cubic([DVec2; 3]),
+    Close,
 }
 
 impl Path {
@@ -202,48 +212,86 @@ impl Path {
 
     /// Begins a new part at `p`.
     pub fn move_to(&mut self, p: DVec2) {
-        self.command('M', &[p]);
+        self.parts.push(Part::Move(rounded(p)));
     }
 
     /// A straight line to `p`.
     pub fn line_to(&mut self, p: DVec2) {
-        self.command('L', &[p]);
+        self.parts.push(Part::Line(rounded(p)));
     }
 
     /// A quadratic Bezier curve with the inner control point `b`, to `p`.
     pub fn quadratic_to(&mut self, b: DVec2, p: DVec2) {
-        self.command('Q', &[b, p]);
+        self.parts.push(Part::Quadratic([b, p].map(rounded)));
     }
 
     /// A cubic Bezier curve with the inner control points `b` and `c`, to `p`.
     pub fn cubic_to(&mut self, b: DVec2, c: DVec2, p: DVec2) {
-        self.command('C', &[b, c, p]);
+        self.parts.push(Part::Cubic([b, c, p].map(rounded)));
     }
 
     /// Joins the end of the part to its beginning.
     pub fn close(&mut self) {
-        self.data.push('Z');
+        self.parts.push(Part::Close);
     }
 
-    fn command(&mut self, letter: char, points: &[DVec2]) {
-        self.data.push(letter);
-        for (i, p) in points.iter().enumerate() {
-            let gap = if i == 0 { "" } else { " " };
-            write!(self.data, "{gap}{} {}", number(p.x), number(p.y)).expect(WRITTEN);
+    /// The path as SVG writes it.
+    fn data(&self) -> String {
+        let mut data = String::new();
+        for part in &self.parts {
+            let (letter, points) = match part {
+                Part::Move(p) => ('M', std::slice::from_ref(p)),
+                Part::Line(p) => ('L', std::slice::from_ref(p)),
+                Part::Quadratic(points) => ('Q', points.as_slice()),
+                Part::Cubic(points) => ('C', points.as_slice()),
+                Part::Close => ('Z', [].as_slice()),
+            };
+            data.push(letter);
+            for (i, p) in points.iter().enumerate() {
+                let gap = if i == 0 { "" } else { " " };
+                write!(data, "{gap}{} {}", p.x, p.y).expect(WRITTEN);
+            }
         }
+        data
     }
 }
 
 /// Strings take everything.
 const WRITTEN: &str = "a string can be written to";
 
+/// What a document is made of. All numbers are rounded as they are written.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Element {
+    Shape {
+        shape: Shape,
+        fill: Option<Color>,
+        stroke: Option<(Color, f64)>,
+        dashes: Vec<f64>,
+    },
+    Text {
+        place: DVec2,
+        text: Text,
+    },
+    Open {
+        id: String,
+    },
+    Close,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Shape {
+    Rectangle { corner: DVec2, size: DVec2 },
+    Circle { center: DVec2, radius: f64 },
+    Polyline(Vec<DVec2>),
+    Path(Path),
+}
+
 /// An SVG document: what is drawn later lies above.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Svg {
     width: f64,
     height: f64,
-    body: String,
-    depth: usize,
+    pub(super) elements: Vec<Element>,
 }
 
 impl Svg {
@@ -252,8 +300,7 @@ impl Svg {
         Self {
             width,
             height,
-            body: String::new(),
-            depth: 1,
+            elements: Vec::new(),
         }
     }
 
@@ -269,135 +316,181 @@ impl Svg {
 
     /// An axis-aligned rectangle with the corner `corner` at its top left.
     pub fn rectangle(&mut self, corner: DVec2, size: DVec2, paint: &Paint) {
-        let [x, y, w, h] = [corner.x, corner.y, size.x, size.y].map(number);
-        self.shape(
-            &format!("rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\""),
-            paint,
-        );
+        let [corner, size] = [corner, size].map(rounded);
+        self.shape(Shape::Rectangle { corner, size }, paint);
     }
 
     /// A circle.
     pub fn circle(&mut self, center: DVec2, radius: f64, paint: &Paint) {
-        let [x, y, r] = [center.x, center.y, radius].map(number);
-        self.shape(&format!("circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\""), paint);
+        let (center, radius) = (rounded(center), number(radius));
+        self.shape(Shape::Circle { center, radius }, paint);
     }
 
     /// Straight lines from point to point; nothing for less than two.
     pub fn polyline(&mut self, points: &[DVec2], paint: &Paint) {
-        if points.len() < 2 {
-            return;
+        if points.len() >= 2 {
+            let points = points.iter().copied().map(rounded).collect();
+            self.shape(Shape::Polyline(points), paint);
         }
-        let mut data = String::new();
-        for p in points {
-            let gap = if data.is_empty() { "" } else { " " };
-            write!(data, "{gap}{},{}", number(p.x), number(p.y)).expect(WRITTEN);
-        }
-        self.shape(&format!("polyline points=\"{data}\""), paint);
     }
 
     /// A path.
     pub fn path(&mut self, path: &Path, paint: &Paint) {
-        self.shape(&format!("path d=\"{}\"", path.data), paint);
+        self.shape(Shape::Path(path.clone()), paint);
     }
 
     /// A line of text at `place`, its base line at the height of `place`.
     pub fn text(&mut self, place: DVec2, text: &Text) {
-        // Outline and letters are two elements: `paint-order` is not known everywhere.
-        if let Some((color, width)) = text.halo {
-            let stroke = format!(
-                "fill=\"none\"{} stroke-width=\"{}\" stroke-linejoin=\"round\"",
-                paint_attribute("stroke", color),
-                number(width * 2.0)
-            );
-            self.letters(place, text, &stroke);
-        }
-        let fill = paint_attribute("fill", text.color);
-        self.letters(place, text, fill.trim_start());
+        self.elements.push(Element::Text {
+            place: rounded(place),
+            text: text.clone(),
+        });
     }
 
     /// A group with an id: what `draw` draws.
     pub fn group(&mut self, id: &str, draw: impl FnOnce(&mut Self)) {
-        self.line(&format!(
-            "<g id=\"{}\">",
-            escaped(id).replace('"', "&quot;")
-        ));
-        self.depth += 1;
+        self.elements.push(Element::Open { id: id.to_owned() });
         draw(self);
-        self.depth -= 1;
-        self.line("</g>");
+        self.elements.push(Element::Close);
+    }
+
+    fn shape(&mut self, shape: Shape, paint: &Paint) {
+        self.elements.push(Element::Shape {
+            shape,
+            fill: paint.fill,
+            stroke: paint.stroke.map(|(color, width)| (color, number(width))),
+            dashes: paint.dashes.iter().copied().map(number).collect(),
+        });
     }
 
     /// The document as a text. `provenance` says where it comes from, as its metadata.
     pub fn finish(&self, provenance: Option<&str>) -> String {
         let [w, h] = [self.width, self.height].map(number);
-        let mut text = format!(
+        let mut xml = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {w} {h}\">\n"
         );
         if let Some(provenance) = provenance {
-            text += &format!("  <metadata>{}</metadata>\n", escaped(provenance));
+            xml += &format!("  <metadata>{}</metadata>\n", escaped(provenance));
         }
-        text + &self.body + "</svg>\n"
+        let mut depth = 1;
+        for element in &self.elements {
+            let mut line = |depth, text: &str| {
+                xml.extend(std::iter::repeat_n("  ", depth));
+                xml += text;
+                xml.push('\n');
+            };
+            match element {
+                Element::Shape {
+                    shape,
+                    fill,
+                    stroke,
+                    dashes,
+                } => {
+                    let paint = paint_attributes(*fill, *stroke, dashes);
+                    line(depth, &format!("<{}{paint}/>", shape.attributes()));
+                }
+                Element::Text { place, text } => {
+                    // Outline and letters are two elements: `paint-order` is not known everywhere.
+                    if let Some((color, width)) = text.halo {
+                        let stroke = format!(
+                            "fill=\"none\"{} stroke-width=\"{}\" stroke-linejoin=\"round\"",
+                            paint_attribute("stroke", color),
+                            number(width * 2.0)
+                        );
+                        line(depth, &letters(*place, text, &stroke));
+                    }
+                    let fill = paint_attribute("fill", text.color);
+                    line(depth, &letters(*place, text, fill.trim_start()));
+                }
+                Element::Open { id } => {
+                    let id = escaped(id).replace('"', "&quot;");
+                    line(depth, &format!("<g id=\"{id}\">"));
+                    depth += 1;
+                }
+                Element::Close => {
+                    depth -= 1;
+                    line(depth, "</g>");
+                }
+            }
+        }
+        xml + "</svg>\n"
     }
+}
 
-    fn letters(&mut self, place: DVec2, text: &Text, attributes: &str) {
-        let anchor = match text.anchor {
-            Anchor::Start => "",
-            Anchor::Middle => " text-anchor=\"middle\"",
-            Anchor::End => " text-anchor=\"end\"",
-        };
-        let mut runs = String::new();
-        let mut raised = 0.0;
-        for run in &text.runs {
-            let mut more = String::new();
-            if run.size != 1.0 {
-                more += &format!(" font-size=\"{}\"", number(run.size * text.size));
+impl Shape {
+    /// The name and the attributes of its element.
+    fn attributes(&self) -> String {
+        match self {
+            Self::Rectangle { corner, size } => format!(
+                "rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"",
+                corner.x, corner.y, size.x, size.y
+            ),
+            Self::Circle { center, radius } => {
+                format!(
+                    "circle cx=\"{}\" cy=\"{}\" r=\"{radius}\"",
+                    center.x, center.y
+                )
             }
-            if run.skip != 0.0 {
-                more += &format!(" dx=\"{}\"", number(run.skip * text.size));
+            Self::Polyline(points) => {
+                let points: Vec<String> =
+                    points.iter().map(|p| format!("{},{}", p.x, p.y)).collect();
+                format!("polyline points=\"{}\"", points.join(" "))
             }
-            if run.raise != raised {
-                more += &format!(" dy=\"{}\"", number((raised - run.raise) * text.size));
-                raised = run.raise;
-            }
-            runs += &format!(
-                "<tspan {}{more}>{}</tspan>",
-                run.font.attributes(),
-                escaped(&run.text)
-            );
+            Self::Path(path) => format!("path d=\"{}\"", path.data()),
         }
-        let [x, y, size] = [place.x, place.y, text.size].map(number);
-        // Blanks at the ends and between parts count.
-        self.line(&format!(
-            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor} {attributes} xml:space=\"preserve\">{runs}</text>"
-        ));
     }
+}
 
-    fn shape(&mut self, shape: &str, paint: &Paint) {
-        let mut attributes = match paint.fill {
-            Some(color) => paint_attribute("fill", color),
-            None => " fill=\"none\"".to_owned(),
-        };
-        if let Some((color, width)) = paint.stroke {
-            attributes += &paint_attribute("stroke", color);
-            attributes += &format!(
-                " stroke-width=\"{}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"",
-                number(width)
-            );
-            if !paint.dashes.is_empty() {
-                let dashes: Vec<String> = paint.dashes.iter().map(|&d| number(d)).collect();
-                attributes += &format!(" stroke-dasharray=\"{}\"", dashes.join(" "));
-            }
+/// The element of a text with these attributes.
+fn letters(place: DVec2, text: &Text, attributes: &str) -> String {
+    let anchor = match text.anchor {
+        Anchor::Start => "",
+        Anchor::Middle => " text-anchor=\"middle\"",
+        Anchor::End => " text-anchor=\"end\"",
+    };
+    let mut runs = String::new();
+    let mut raised = 0.0;
+    for run in &text.runs {
+        let mut more = String::new();
+        if run.size != 1.0 {
+            more += &format!(" font-size=\"{}\"", number(run.size * text.size));
         }
-        self.line(&format!("<{shape}{attributes}/>"));
+        if run.skip != 0.0 {
+            more += &format!(" dx=\"{}\"", number(run.skip * text.size));
+        }
+        if run.raise != raised {
+            more += &format!(" dy=\"{}\"", number((raised - run.raise) * text.size));
+            raised = run.raise;
+        }
+        runs += &format!(
+            "<tspan {}{more}>{}</tspan>",
+            run.font.attributes(),
+            escaped(&run.text)
+        );
     }
+    let [x, y, size] = [place.x, place.y, number(text.size)];
+    // Blanks at the ends and between parts count.
+    format!(
+        "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{anchor} {attributes} xml:space=\"preserve\">{runs}</text>"
+    )
+}
 
-    fn line(&mut self, text: &str) {
-        for _ in 0..self.depth {
-            self.body.push_str("  ");
+fn paint_attributes(fill: Option<Color>, stroke: Option<(Color, f64)>, dashes: &[f64]) -> String {
+    let mut attributes = match fill {
+        Some(color) => paint_attribute("fill", color),
+        None => " fill=\"none\"".to_owned(),
+    };
+    if let Some((color, width)) = stroke {
+        attributes += &paint_attribute("stroke", color);
+        attributes += &format!(
+            " stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\""
+        );
+        if !dashes.is_empty() {
+            let dashes: Vec<String> = dashes.iter().map(ToString::to_string).collect();
+            attributes += &format!(" stroke-dasharray=\"{}\"", dashes.join(" "));
         }
-        self.body.push_str(text);
-        self.body.push('\n');
     }
+    attributes
 }
 
 /// ` name="#rrggbb"`, and the opacity unless the color is opaque.
@@ -410,31 +503,42 @@ fn paint_attribute(name: &str, [r, g, b, a]: Color) -> String {
 }
 
 /// A number with at most three decimals. What is no number, or too large for a picture, is cut off.
-pub(crate) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> f64 {
     const LARGEST: f64 = 1e6;
     if value.is_nan() {
-        return "0".to_owned();
+        return 0.0;
     }
     let rounded = (value.clamp(-LARGEST, LARGEST) * 1000.0).round() / 1000.0;
     // No "-0".
-    format!("{}", rounded + 0.0)
+    rounded + 0.0
 }
 
-/// The text as XML between tags: what has a meaning there is written in another way, and a character that XML does not
-/// allow becomes U+FFFD. Line ends and tabs become blanks.
+fn rounded(p: DVec2) -> DVec2 {
+    DVec2::new(number(p.x), number(p.y))
+}
+
+/// The text as XML between tags: what has a meaning there is written in another way, and the rest is [shown].
 pub(crate) fn escaped(text: &str) -> String {
     let mut xml = String::with_capacity(text.len());
-    for c in text.chars() {
+    for c in text.chars().map(shown) {
         match c {
             '&' => xml.push_str("&amp;"),
             '<' => xml.push_str("&lt;"),
             '>' => xml.push_str("&gt;"),
-            '\t' | '\n' | '\r' => xml.push(' '),
-            '\0'..='\x1f' | '\x7f'..='\u{9f}' | '\u{fffe}' | '\u{ffff}' => xml.push('\u{fffd}'),
             c => xml.push(c),
         }
     }
     xml
+}
+
+/// The character that stands for one in a document: a line end or a tab becomes a blank, and what XML does not allow
+/// becomes U+FFFD.
+pub(super) fn shown(c: char) -> char {
+    match c {
+        '\t' | '\n' | '\r' => ' ',
+        '\0'..='\x1f' | '\x7f'..='\u{9f}' | '\u{fffe}' | '\u{ffff}' => '\u{fffd}',
+        c => c,
+    }
 }
 
 #[cfg(test)]
@@ -481,7 +585,7 @@ mod tests {
             (f64::INFINITY, "1000000"),
             (-1e300, "-1000000"),
         ] {
-            assert_eq!(number(value), text);
+            assert_eq!(number(value).to_string(), text);
         }
     }
 

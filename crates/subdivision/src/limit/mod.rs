@@ -13,12 +13,14 @@ mod masks;
 mod star;
 
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, VertexId};
-use op::{OpError, Progress};
+use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
-use crate::meter::{BLOCK, Meter};
+use crate::error::SubdivisionError;
+use crate::input::{check_faces, dense};
+use crate::parallel::{BLOCK, Meter};
+use crate::rules::Rules;
 use crate::sharpness::Sharpness;
-use crate::{Rules, Scheme, check_faces};
 use masks::Plane;
 use star::Star;
 
@@ -55,7 +57,7 @@ fn normal([a, b]: &[DVec3; 2]) -> DVec3 {
 ///
 /// # Errors
 ///
-/// Those of [`subdivide`](crate::subdivide), and [`OpError::Parameter`] for other schemes.
+/// Those of [`subdivide`](crate::subdivide), and [`SubdivisionError::NoLimit`] for other schemes.
 ///
 /// # Examples
 ///
@@ -63,47 +65,50 @@ fn normal([a, b]: &[DVec3; 2]) -> DVec3 {
 /// use subdivision::{Rules, Scheme};
 ///
 /// let cube = mesh::shapes::cube();
-/// let limit = subdivision::limit(&cube, Rules::of(Scheme::CatmullClark), &op::NoProgress)?;
+/// let rules = Rules::of(Scheme::CatmullClark);
+/// let limit = subdivision::limit(&cube, rules, &progress::NoProgress)?;
 /// // Valence 3: 3/8 of the corner, and 4/24 and 1/24 of its neighbors and the corners opposite.
 /// assert!((limit.positions[7] - mesh::DVec3::splat(0.5)).length() < 1e-15);
-/// # Ok::<(), op::OpError>(())
+/// # Ok::<(), subdivision::SubdivisionError>(())
 /// ```
-pub fn limit(mesh: &Mesh, rules: Rules, progress: &dyn Progress) -> Result<Limit, OpError> {
-    if !mesh.is_dense() {
-        let mut dense = mesh.clone();
-        dense.compact();
-        return limit(&dense, rules, progress);
-    }
-    if !has_limit(rules.scheme) {
-        let message = format!("the limit of {} is not known", rules.scheme.name());
-        return Err(OpError::Parameter(message));
-    }
-    check_faces(mesh, rules.scheme)?;
+pub fn limit(
+    mesh: &Mesh,
+    rules: Rules,
+    progress: &dyn Progress,
+) -> Result<Limit, SubdivisionError> {
+    let mesh = dense(mesh);
+    let at = At::checked(&mesh, rules)?;
     let meter = Meter::new(progress, "limit surface", mesh.n_vertices() as u64);
-    At::new(mesh, rules).limit(&meter)
+    Ok(at.limit(&meter)?)
 }
 
-/// Whether there are limit masks for a scheme.
-pub(crate) fn has_limit(scheme: Scheme) -> bool {
-    matches!(scheme, Scheme::Loop(_) | Scheme::CatmullClark)
-}
-
-/// The largest distance from a vertex of a dense mesh to its limit.
-pub(crate) fn distance(mesh: &Mesh, rules: Rules, meter: &Meter) -> Result<f64, OpError> {
-    let at = At::new(mesh, rules);
-    let blocks = mesh.n_vertices().div_ceil(BLOCK);
+/// The largest distance from a vertex to its [`limit`].
+///
+/// # Errors
+///
+/// Those of [`limit`].
+pub fn limit_distance(
+    mesh: &Mesh,
+    rules: Rules,
+    progress: &dyn Progress,
+) -> Result<f64, SubdivisionError> {
+    let mesh = dense(mesh);
+    let at = At::checked(&mesh, rules)?;
+    let n = mesh.n_vertices();
+    let meter = Meter::new(progress, "limit surface", n as u64);
     let largest = |block: usize| {
-        let (mut star, mut largest) = (Star::default(), 0.0_f64);
-        for i in block * BLOCK..mesh.n_vertices().min((block + 1) * BLOCK) {
-            let v = VertexId::new(i);
+        let vertices = block * BLOCK..n.min((block + 1) * BLOCK);
+        let (mut star, mut largest, len) = (Star::default(), 0.0_f64, vertices.len());
+        for v in vertices.map(VertexId::new) {
             if at.settled(&mut star, v) {
                 largest = largest.max(star.limit().distance(mesh.position(v)));
             }
         }
-        meter.add(0)?;
+        meter.add(len)?;
         Ok(largest)
     };
-    let blocks: Result<Vec<f64>, OpError> = (0..blocks).into_par_iter().map(largest).collect();
+    let blocks = (0..n.div_ceil(BLOCK)).into_par_iter();
+    let blocks: Result<Vec<f64>, Cancelled> = blocks.map(largest).collect();
     Ok(blocks?.into_iter().fold(0.0, f64::max))
 }
 
@@ -124,15 +129,19 @@ struct At<'a> {
 }
 
 impl<'a> At<'a> {
-    fn new(mesh: &'a Mesh, rules: Rules) -> Self {
-        Self {
+    fn checked(mesh: &'a Mesh, rules: Rules) -> Result<Self, SubdivisionError> {
+        if !rules.scheme.has_limit() {
+            return Err(SubdivisionError::NoLimit(rules.scheme));
+        }
+        check_faces(mesh, rules.scheme)?;
+        Ok(Self {
             mesh,
             rules,
             sharpness: Sharpness::of(mesh, rules),
-        }
+        })
     }
 
-    fn limit(&self, meter: &Meter) -> Result<Limit, OpError> {
+    fn limit(&self, meter: &Meter) -> Result<Limit, Cancelled> {
         let mut found = vec![AtVertex::default(); self.mesh.n_vertices()];
         found
             .par_chunks_mut(BLOCK)

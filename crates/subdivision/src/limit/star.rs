@@ -2,8 +2,8 @@
 
 use mesh::{DVec3, HalfEdgeId, Mesh, VertexId};
 
+use crate::rules::{Creasing, LoopWeights, Rules, Scheme};
 use crate::sharpness::{Blend, INFINITE, SemiSharp, Sharpness, VertexRule, decreased};
-use crate::{Creasing, LoopWeights, Rules, Scheme};
 
 /// A vertex, its neighbors, and for Catmull-Clark the corners opposite to it in the quads around it. One
 /// level turns a star into a smaller one of the same shape.

@@ -1,12 +1,12 @@
 //! Where a level smooths: inside of the chosen faces.
 
 use mesh::{DVec3, EdgeId, Mesh};
-use op::OpError;
+use progress::Cancelled;
 
 use super::pieces::Pieces;
-use crate::level::Topology;
-use crate::masks::{AnyMasks, Masks, fill};
-use crate::meter::Meter;
+use crate::masks::AnyMasks;
+use crate::parallel::{Meter, fill};
+use crate::topology::Topology;
 
 /// What belongs to the chosen faces alone.
 pub(super) struct Area {
@@ -68,12 +68,8 @@ impl AreaMasks<'_> {
     }
 }
 
-impl Masks for AreaMasks<'_> {
-    fn n_vertices(&self) -> usize {
-        self.pieces.counts()[0]
-    }
-
-    fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64)) {
+impl AnyMasks for AreaMasks<'_> {
+    fn mask(&self, i: usize, add: &mut dyn FnMut(usize, f64)) {
         match self.source(i) {
             Source::Whole(i) => self.masks.mask(i, add),
             Source::Old(i) => add(i, 1.0),
@@ -85,18 +81,22 @@ impl Masks for AreaMasks<'_> {
         }
     }
 
-    fn values(&self, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, OpError> {
+    fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
         // Each vertex of a large face would sum all its corners for itself.
-        let has_centers = !self.pieces.centered.is_empty();
-        let whole = has_centers.then(|| self.masks.values(old, meter));
-        let whole = whole.transpose()?;
-        let mut new: Vec<DVec3> = mesh::zeroed(Masks::n_vertices(self));
+        let whole = if self.pieces.centered.is_empty() {
+            Vec::new()
+        } else {
+            let mesh = self.pieces.mesh;
+            let n_whole = mesh.n_vertices() + mesh.n_edges() + mesh.n_faces();
+            self.masks.values(n_whole, old, meter)?
+        };
+        let mut new: Vec<DVec3> = mesh::zeroed(n);
         fill(&mut new, meter, |i| {
-            if let (Some(whole), Source::Whole(i)) = (&whole, self.source(i)) {
+            if let (false, Source::Whole(i)) = (whole.is_empty(), self.source(i)) {
                 return whole[i];
             }
             let mut sum = DVec3::ZERO;
-            Masks::mask(self, i, &mut |source, w| sum += old[source] * w);
+            self.mask(i, &mut |source, w| sum += old[source] * w);
             sum
         })?;
         Ok(new)

@@ -1,10 +1,10 @@
 //! Which faces and edges a level cuts.
 
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh};
-use op::OpError;
+use progress::Cancelled;
 
 use super::sides;
-use crate::meter::{BLOCK, Meter};
+use crate::parallel::{BLOCK, Meter};
 
 /// What becomes of a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,7 +68,7 @@ impl Cuts {
         mesh: &Mesh,
         chosen: &[bool],
         meter: &Meter,
-    ) -> Result<Self, OpError> {
+    ) -> Result<Self, Cancelled> {
         let mut faces = vec![Cut::Whole; mesh.n_faces()];
         let mut edges = vec![false; mesh.n_edges()];
         // Whether another vertex would be one too many.

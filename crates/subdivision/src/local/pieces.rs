@@ -16,14 +16,14 @@
 //! ```
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
-use op::OpError;
+use progress::Cancelled;
 
 use super::area::Area;
 use super::closure::{Cut, Cuts};
 use super::drawing::Drawing;
 use super::sides;
-use crate::level::{Place, Topology};
-use crate::meter::{BLOCK, Meter};
+use crate::parallel::{BLOCK, Meter};
+use crate::topology::{Place, Topology};
 
 /// A dense mesh and what becomes of its elements.
 pub(super) struct Pieces<'a> {
@@ -219,7 +219,7 @@ fn sums(numbers: impl Iterator<Item = u32>) -> Vec<u32> {
 }
 
 impl Topology for Pieces<'_> {
-    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, OpError> {
+    fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled> {
         let mut drawing = Drawing::of_edges(self);
         for f in 0..self.cuts.len() {
             if f % BLOCK == 0 {

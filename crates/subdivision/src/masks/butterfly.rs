@@ -37,10 +37,6 @@ use super::Masks;
 pub(crate) struct ButterflyMasks<'a>(pub(crate) &'a Mesh);
 
 impl Masks for ButterflyMasks<'_> {
-    fn n_vertices(&self) -> usize {
-        self.0.n_vertices() + self.0.n_edges()
-    }
-
     #[inline]
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64)) {
         match i.checked_sub(self.0.n_vertices()) {

@@ -13,11 +13,11 @@
 //! Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes", 1978.
 
 use mesh::{DVec3, EdgeId, FaceId, Mesh, VertexId};
-use op::OpError;
+use progress::Cancelled;
 
 use super::midpoint::center;
-use super::{Masks, at_vertex, fill};
-use crate::meter::Meter;
+use super::{Masks, at_vertex};
+use crate::parallel::{Meter, fill};
 use crate::sharpness::Sharpness;
 
 pub(crate) struct CatmullClarkMasks<'a> {
@@ -33,10 +33,6 @@ enum Source {
 }
 
 impl Masks for CatmullClarkMasks<'_> {
-    fn n_vertices(&self) -> usize {
-        self.mesh.n_vertices() + self.mesh.n_edges() + self.mesh.n_faces()
-    }
-
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64)) {
         let first_center = self.mesh.n_vertices() + self.mesh.n_edges();
         if i < first_center {
@@ -49,8 +45,8 @@ impl Masks for CatmullClarkMasks<'_> {
         }
     }
 
-    fn values(&self, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, OpError> {
-        let mut new: Vec<DVec3> = mesh::zeroed(self.n_vertices());
+    fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
+        let mut new: Vec<DVec3> = mesh::zeroed(n);
         let first_center = self.mesh.n_vertices() + self.mesh.n_edges();
         // The centers first: the others read them.
         let (others, centers) = new.split_at_mut(first_center);

@@ -16,7 +16,7 @@
 use mesh::{EdgeId, Mesh, VertexId};
 
 use super::{Masks, at_vertex};
-use crate::LoopWeights;
+use crate::rules::LoopWeights;
 use crate::sharpness::Sharpness;
 
 pub(crate) struct LoopMasks<'a> {
@@ -43,10 +43,6 @@ impl LoopWeights {
 }
 
 impl Masks for LoopMasks<'_> {
-    fn n_vertices(&self) -> usize {
-        self.mesh.n_vertices() + self.mesh.n_edges()
-    }
-
     #[inline]
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64)) {
         let n_vertices = self.mesh.positions().len();

@@ -3,38 +3,23 @@
 use mesh::{EdgeId, FaceId, Mesh};
 
 use super::Masks;
-use crate::Split;
 
-pub(crate) struct MidpointMasks<'a> {
-    pub(crate) mesh: &'a Mesh,
-    pub(crate) split: Split,
-}
+pub(crate) struct MidpointMasks<'a>(pub(crate) &'a Mesh);
 
 impl Masks for MidpointMasks<'_> {
-    fn n_vertices(&self) -> usize {
-        let n = self.mesh.n_vertices() + self.mesh.n_edges();
-        match self.split {
-            Split::Triangles => n,
-            Split::Quads => n + self.mesh.n_faces(),
-        }
-    }
-
     #[inline]
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64)) {
-        let (n_vertices, n_edges) = (self.mesh.n_vertices(), self.mesh.n_edges());
-        if i < n_vertices {
-            add(i, 1.0);
-        } else if i < n_vertices + n_edges {
-            for v in self.mesh.edge_vertices(EdgeId::new(i - n_vertices)) {
-                add(v.index(), 0.5);
+        let mesh = self.0;
+        let Some(e) = i.checked_sub(mesh.n_vertices()) else {
+            return add(i, 1.0);
+        };
+        match e.checked_sub(mesh.n_edges()) {
+            None => {
+                for v in mesh.edge_vertices(EdgeId::new(e)) {
+                    add(v.index(), 0.5);
+                }
             }
-        } else {
-            center(
-                self.mesh,
-                FaceId::new(i - n_vertices - n_edges),
-                1.0,
-                &mut |i, w| add(i, w),
-            );
+            Some(f) => center(mesh, FaceId::new(f), 1.0, add),
         }
     }
 }

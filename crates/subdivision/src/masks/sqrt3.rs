@@ -19,14 +19,9 @@ use std::f64::consts::TAU;
 use mesh::{HalfEdgeId, VertexId};
 
 use super::{Masks, midpoint::center};
-use crate::links::Links;
 use crate::sqrt3::{Source, Sqrt3};
 
 impl Masks for Sqrt3<'_> {
-    fn n_vertices(&self) -> usize {
-        self.counts()[0]
-    }
-
     #[inline]
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64)) {
         match self.source(i) {

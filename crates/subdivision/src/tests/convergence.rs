@@ -3,11 +3,10 @@
 use std::f64::consts::TAU;
 
 use mesh::{DVec3, Mesh, shapes};
-use op::NoProgress;
+use progress::NoProgress;
 
 use crate::fixtures;
-use crate::meter::Meter;
-use crate::{LoopWeights, Rules, Scheme, limit, subdivide};
+use crate::{LoopWeights, Rules, Scheme, limit, limit_distance, subdivide};
 
 const LOOP: Scheme = Scheme::Loop(LoopWeights::Warren);
 
@@ -15,8 +14,7 @@ const LOOP: Scheme = Scheme::Loop(LoopWeights::Warren);
 fn distances(mut mesh: Mesh, rules: Rules, levels: u32) -> Vec<f64> {
     let mut found = Vec::new();
     for _ in 0..=levels {
-        let meter = Meter::new(&NoProgress, "distance", 0);
-        found.push(limit::distance(&mesh, rules, &meter).unwrap());
+        found.push(limit_distance(&mesh, rules, &NoProgress).unwrap());
         mesh = subdivide(&mesh, rules, 1, &NoProgress).unwrap();
     }
     found

@@ -1,10 +1,12 @@
 //! The limit surface: the same from every level, and where known surfaces lie.
 
 use mesh::{CORNER, CREASE, DVec3, Mesh, VertexId, shapes};
-use op::{NoProgress, OpError};
+use progress::NoProgress;
 
 use crate::fixtures;
-use crate::{Boundary, Creasing, Limit, LoopWeights, Rules, Scheme, limit, subdivide};
+use crate::{
+    Boundary, Creasing, Limit, LoopWeights, Rules, Scheme, SubdivisionError, limit, subdivide,
+};
 
 const SCHEMES: [Scheme; 3] = [
     Scheme::Loop(LoopWeights::Warren),
@@ -228,5 +230,5 @@ fn a_neighbor_less_sharp_than_itself_makes_chaikin_creases_settle_too() {
 #[test]
 fn schemes_without_masks_are_refused() {
     let error = limit(&shapes::cube(), Rules::of(Scheme::DooSabin), &NoProgress).unwrap_err();
-    assert!(matches!(error, OpError::Parameter(_)), "{error}");
+    assert_eq!(error, SubdivisionError::NoLimit(Scheme::DooSabin));
 }

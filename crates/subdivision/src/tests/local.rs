@@ -3,11 +3,12 @@
 mod values;
 
 use mesh::{COLOR, CORNER, CREASE, DVec2, DVec3, DVec4, FaceId, MATERIAL, Mesh, UV, shapes};
-use op::{NoProgress, OpError, Refusal};
+use progress::NoProgress;
 
 use crate::fixtures::{self, sheet};
 use crate::{
-    Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split, refine_faces, subdivide,
+    Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split, SubdivisionError,
+    refine_faces, subdivide,
 };
 
 const LOOP: Rules = Rules::of(Scheme::Loop(LoopWeights::Warren));
@@ -17,7 +18,7 @@ const QUADS: Rules = Rules::of(Scheme::Midpoint(Split::Quads));
 
 /// Checked.
 fn refined(mesh: &Mesh, faces: &[bool], rules: Rules, levels: u32) -> Mesh {
-    let new = refine_faces(mesh, faces, rules, levels, &NoProgress).unwrap();
+    let new = refine_faces(mesh, faces, rules, levels, u64::MAX, &NoProgress).unwrap();
     assert_eq!(new.defects(), [], "{:?} {faces:?}", rules.scheme);
     new
 }
@@ -338,23 +339,35 @@ fn the_bytes_are_the_same_for_any_number_of_threads() {
 #[test]
 fn what_cannot_be_refined_is_refused() {
     let refine = |mesh: &Mesh, n: usize, rules| {
-        refine_faces(mesh, &vec![true; n], rules, 1, &NoProgress).unwrap_err()
+        refine_faces(mesh, &vec![true; n], rules, 1, u64::MAX, &NoProgress).unwrap_err()
     };
     let cube = shapes::cube();
-    let OpError::Refused { reason, .. } = refine(&cube, 6, LOOP) else {
-        panic!("the faces are squares")
-    };
-    assert_eq!(reason, Refusal::NotTriangle);
-    let sqrt3 = Rules::of(Scheme::Sqrt3);
-    assert!(matches!(refine(&cube, 6, sqrt3), OpError::Parameter(_)));
-    let message = refine(&cube, 5, QUADS).to_string();
-    assert_eq!(message, "expected a choice for each of 6 faces, not 5");
+    let errors = [
+        (
+            refine(&cube, 6, LOOP),
+            "Loop subdivision needs triangles, but f0 has 4 corners",
+        ),
+        (
+            refine(&cube, 6, Rules::of(Scheme::Sqrt3)),
+            "Sqrt3 subdivision cannot refine some of the faces only",
+        ),
+        (
+            refine(&cube, 5, QUADS),
+            "expected a choice for each of 6 faces, not 5",
+        ),
+    ];
+    for (error, message) in errors {
+        assert_eq!(error.to_string(), message);
+    }
     let within = |budget| {
         let ico = shapes::icosahedron();
         let faces = some(&ico, 3, 0);
-        crate::local::refine_within(&ico, &faces, LOOP, 2, budget, &NoProgress)
+        refine_faces(&ico, &faces, LOOP, 2, budget, &NoProgress)
     };
     let bytes = within(u64::MAX).unwrap().bytes() as u64;
     assert!(within(bytes).is_ok());
-    assert!(matches!(within(bytes - 1), Err(OpError::Budget(_))));
+    assert!(matches!(
+        within(bytes - 1),
+        Err(SubdivisionError::TooLarge(_))
+    ));
 }

@@ -1,7 +1,7 @@
 //! The matrix makes what subdivision makes.
 
 use mesh::{CREASE, DVec3, UV};
-use op::NoProgress;
+use progress::NoProgress;
 
 use super::distance;
 use crate::fixtures;

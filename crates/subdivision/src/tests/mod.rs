@@ -9,13 +9,11 @@ mod limit;
 mod local;
 mod matrix;
 mod other_ways;
-mod plan;
 mod schemes;
 mod sqrt3;
-mod step;
 
 use mesh::{DVec3, Mesh, VertexId};
-use op::NoProgress;
+use progress::NoProgress;
 
 use crate::{LoopWeights, Rules, Scheme, Split, subdivide};
 

@@ -1,10 +1,10 @@
 //! Laws that hold for every scheme.
 
 use mesh::{COLOR, DVec2, DVec3, DVec4, Mesh, UV};
-use op::NoProgress;
+use progress::NoProgress;
 
 use super::{SCHEMES, distance, kind, level, levels};
-use crate::{Rules, Scheme, fixtures, subdivide};
+use crate::{Rules, Scheme, Size, fixtures, subdivide};
 
 #[test]
 fn the_kind_of_surface_stays() {
@@ -91,6 +91,20 @@ fn levels_follow_one_another_and_none_changes_nothing() {
                 levels(scheme, 2 * step, &mesh) == twice,
                 "{name} {scheme:?}"
             );
+        }
+    }
+}
+
+#[test]
+fn the_size_of_a_mesh_tells_that_of_every_level_exactly() {
+    for (name, mesh) in fixtures::all() {
+        for scheme in SCHEMES {
+            let mut size = Size::of(&mesh);
+            for levels in 1..4 {
+                size = size.after(scheme, levels - 1);
+                let new = super::levels(scheme, levels, &mesh);
+                assert_eq!(size, Size::of(&new), "{name} {scheme:?} {levels}");
+            }
         }
     }
 }

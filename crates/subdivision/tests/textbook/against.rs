@@ -33,7 +33,7 @@ impl Comparison {
     /// Compares one mesh.
     fn compare(&mut self, name: &str, mesh: &Polygons, rules: Rules, levels: u32) {
         self.compared += 1;
-        let found = subdivide(&mesh_of(mesh), rules, levels, &op::NoProgress);
+        let found = subdivide(&mesh_of(mesh), rules, levels, &progress::NoProgress);
         let difference = match found {
             Ok(found) => difference(&found, &textbook(mesh, rules, levels)),
             Err(error) => Some(format!("{error:?}")),

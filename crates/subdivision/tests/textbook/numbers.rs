@@ -1,7 +1,7 @@
 //! What is documented about the numbers of new elements, columns that are copied, and what is refused.
 
 use mesh::{Attribute, DVec3, FaceId, MATERIAL, Mesh, Rule, VertexId};
-use op::NoProgress;
+use progress::NoProgress;
 use subdivision::{LoopWeights, Rules, Scheme, Split, subdivide};
 
 use crate::compare::{difference, mesh_of};

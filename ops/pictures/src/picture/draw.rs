@@ -230,11 +230,11 @@ fn draw(picture: &Picture, ready: &Ready, view: &View, go_on: GoOn) -> Result<Im
         .filter_map(|(label, placed)| Some((label, placed.filter(|p| !p.is_hidden)?)))
         .map(|(label, placed)| Label::new(placed.at, &*label.text, LETTERS, INK))
         .collect();
-    draw_labels(&mut image, &labels)?;
+    draw_labels(&mut image, &labels);
     if let Some(legend) = ready.numbers.as_ref().and_then(|n| n.shown.legend()) {
         // As large as letters are in a picture of usual size.
         let scale = (f64::from(picture.size[1]) / 720.0).clamp(0.5, 8.0);
-        draw_legend(&mut image, &legend, Corner::TopRight, scale)?;
+        draw_legend(&mut image, &legend, Corner::TopRight, scale);
     }
     Ok(image)
 }

@@ -2,8 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail, ensure};
-use globset::GlobBuilder;
+use anyhow::{Context as _, anyhow, bail, ensure};
 use walkdir::WalkDir;
 
 use crate::args::Shard;
@@ -57,8 +56,13 @@ pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
 fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
     let (base, rest) = split(pattern);
     let wrong = || format!("{pattern} is no pattern of files");
-    let glob = GlobBuilder::new(rest).literal_separator(true).build();
-    let matcher = glob.with_context(wrong)?.compile_matcher();
+    fast_glob::validate(rest).map_err(|error| anyhow!("{error}").context(wrong()))?;
+    // A leading exclamation mark is part of a name here, not a negation.
+    let glob = if rest.starts_with('!') {
+        format!("\\{rest}")
+    } else {
+        rest.to_owned()
+    };
     let folder = if base.is_empty() { "." } else { base };
     if !Path::new(folder).is_dir() {
         return Ok(());
@@ -77,7 +81,8 @@ fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
     for entry in walk.into_iter().filter_entry(visible) {
         let entry = entry.with_context(|| format!("cannot search for {pattern}"))?;
         let relative = entry.path().strip_prefix(folder).unwrap_or(entry.path());
-        if matcher.is_match(relative) && entry.path().is_file() {
+        let is_match = fast_glob::glob_match(&glob, relative.as_os_str().as_encoded_bytes());
+        if is_match && entry.path().is_file() {
             let path = Path::new(base).join(relative);
             let Some(text) = path.to_str() else {
                 bail!(

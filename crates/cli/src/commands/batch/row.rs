@@ -32,6 +32,7 @@ use anyhow::{Context as _, bail, ensure};
 use serde::{Deserialize, Serialize};
 
 use crate::args::Shard;
+use crate::many::csv_line;
 use crate::output::write_whole;
 
 /// What became of one file.
@@ -204,12 +205,9 @@ impl Report {
     pub(super) fn write(&self, path: &Path) -> anyhow::Result<()> {
         let bytes = match Form::of(path)? {
             Form::Csv => {
-                let mut table = csv::Writer::from_writer(Vec::new());
-                table.write_record(COLUMNS)?;
-                for row in &self.rows {
-                    table.write_record(row.cells())?;
-                }
-                table.into_inner()?
+                let rows = self.rows.iter().map(|row| csv_line(&row.cells()));
+                let lines = std::iter::once(csv_line(&COLUMNS)).chain(rows);
+                lines.collect::<String>().into_bytes()
             }
             Form::Json => [serde_json::to_vec_pretty(self)?, b"\n".to_vec()].concat(),
             Form::JsonLines => {

@@ -42,7 +42,7 @@ use crate::commands::picture::write_png;
 use crate::commands::run::refuse;
 use crate::listener::{catch_interrupts, is_interrupted};
 use crate::loading::{Loaded, load_text};
-use crate::many::CHECKED_AHEAD;
+use crate::many::{CHECKED_AHEAD, csv_line};
 use crate::output::{complain, counted, print, show_texts, shown, table, write_whole};
 use cell::{CellResult, Cells};
 use sheet::{Sheet, kept_bytes};
@@ -234,11 +234,8 @@ fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Resu
         let bytes = if is_json(path) {
             format!("{:#}\n", object(args, plan, results, succeeded)).into_bytes()
         } else {
-            let mut writer = csv::Writer::from_writer(Vec::new());
-            for row in &rows {
-                writer.write_record(row)?;
-            }
-            writer.into_inner().context("cannot make the table")?
+            let lines = rows.iter().map(|row| csv_line(row));
+            lines.collect::<String>().into_bytes()
         };
         write_whole(path, &bytes)?;
     }
@@ -304,7 +301,7 @@ fn rows(plan: &Plan, results: &[CellResult]) -> Vec<Vec<String>> {
 fn plain(setting: &Setting) -> String {
     match setting.json() {
         Json::String(text) => text,
-        _ => setting.literal.clone(),
+        _ => setting.value.to_string(),
     }
 }
 

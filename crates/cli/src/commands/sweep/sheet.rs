@@ -297,7 +297,7 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     for (to, from) in rows.zip(sheet.pixels.chunks_exact(sheet.width as usize)) {
         to[..from.len()].copy_from_slice(from);
     }
-    draw_legend(&mut wide, legend, Corner::TopRight, 1.0)?;
+    draw_legend(&mut wide, legend, Corner::TopRight, 1.0);
     Ok(wide)
 }
 

@@ -1,0 +1,83 @@
+//! Work on many elements by all threads, counted together.
+
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
+use progress::{Cancelled, Progress};
+use rayon::prelude::*;
+
+/// How many elements one task works on. A block takes well below a millisecond, so that progress is
+/// smooth and cancelling quick.
+pub(crate) const BLOCK: usize = 4096;
+
+/// Adds up the work of all threads and tells the listener.
+pub(crate) struct Meter<'a> {
+    listener: &'a dyn Progress,
+    what: &'static str,
+    done: AtomicU64,
+    total: u64,
+}
+
+impl<'a> Meter<'a> {
+    pub(crate) fn new(listener: &'a dyn Progress, what: &'static str, total: u64) -> Self {
+        Self {
+            listener,
+            what,
+            done: AtomicU64::new(0),
+            total,
+        }
+    }
+
+    /// Counts `n` more elements as done.
+    pub(crate) fn add(&self, n: usize) -> Result<(), Cancelled> {
+        let done = self.done.fetch_add(n as u64, Relaxed) + n as u64;
+        self.listener
+            .report(self.what, done.min(self.total), self.total)
+    }
+
+    /// All is done.
+    pub(crate) fn finish(&self) -> Result<(), Cancelled> {
+        self.done.store(self.total, Relaxed);
+        self.add(0)
+    }
+}
+
+/// What is done with a block of an array, given the number of its first element.
+type Task<'a, T> = dyn Fn(usize, &mut [T]) -> Result<(), Cancelled> + Sync + 'a;
+
+/// Hands the blocks of an array to tasks. The loop of the threads is compiled once for each type of element, and
+/// what a task inlines is its own.
+fn in_blocks<T: Send>(array: &mut [T], task: &Task<T>) -> Result<(), Cancelled> {
+    let blocks = array.par_chunks_mut(BLOCK).enumerate();
+    blocks.try_for_each(|(block, part)| task(block * BLOCK, part))
+}
+
+/// Computes an array in parallel: element i is `value(i)`. Each counts as one on the meter.
+pub(crate) fn fill<T: Send>(
+    array: &mut [T],
+    meter: &Meter,
+    value: impl Fn(usize) -> T + Sync,
+) -> Result<(), Cancelled> {
+    in_blocks(array, &|start, part| {
+        write(part, start, &value);
+        meter.add(part.len())
+    })
+}
+
+/// As [`fill`], for what the total of the meter leaves out.
+pub(crate) fn fill_uncounted<T: Send>(
+    array: &mut [T],
+    meter: &Meter,
+    value: impl Fn(usize) -> T + Sync,
+) -> Result<(), Cancelled> {
+    in_blocks(array, &|start, part| {
+        write(part, start, &value);
+        meter.add(0)
+    })
+}
+
+#[inline]
+fn write<T>(part: &mut [T], start: usize, value: &impl Fn(usize) -> T) {
+    for (i, slot) in (start..).zip(part) {
+        *slot = value(i);
+    }
+}

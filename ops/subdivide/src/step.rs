@@ -1,0 +1,369 @@
+//! What the operations of all schemes have in common: the plan, the budget, and the levels.
+
+use mesh::{CORNER_NORMAL, DVec3, Domain, EdgeId, Mesh, TANGENT, VERTEX_NORMAL};
+use op::{
+    Context, FaceSelection, MeshPlan, OpError, PlanContext, PlannedAttribute, Problem, Range,
+    Refusal, Report, Select,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use subdivision::{
+    Count, Rules, Scheme, Size, Split, SubdivisionError, check_faces, limit, limit_distance,
+    refine_faces, subdivide_within,
+};
+
+/// The most levels that a step may ask for: a single triangle fills the ids before.
+const MAX_LEVELS: u32 = 16;
+
+/// When to stop, instead of after a number of levels.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Until {
+    /// As soon as all edges are shorter than this.
+    EdgeLength {
+        /// In scene units.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        below: f64,
+    },
+    /// As soon as every vertex is nearer than this to the point of the limit surface that it goes to: for
+    /// Loop and Catmull-Clark.
+    LimitDistance {
+        /// In scene units.
+        #[schemars(extend("exclusiveMinimum" = 0.0))]
+        below: f64,
+    },
+}
+
+/// The parameters of an operation that subdivides, whatever its scheme.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Step<'a> {
+    pub(crate) rules: Rules,
+    pub(crate) levels: Option<u32>,
+    pub(crate) until: Option<Until>,
+    pub(crate) to_limit: bool,
+    pub(crate) faces: Option<&'a FaceSelection>,
+}
+
+impl Step<'_> {
+    /// One level.
+    pub(crate) const fn new(rules: Rules) -> Self {
+        Self {
+            rules,
+            levels: None,
+            until: None,
+            to_limit: false,
+            faces: None,
+        }
+    }
+
+    fn most_levels(&self) -> u32 {
+        let otherwise = if self.until.is_some() { MAX_LEVELS } else { 1 };
+        self.levels.unwrap_or(otherwise)
+    }
+
+    fn does_nothing(&self) -> bool {
+        self.most_levels() == 0 && !self.to_limit && self.until.is_none()
+    }
+
+    /// What is wrong with the parameters, and which.
+    fn problem(&self) -> Option<(String, &'static str)> {
+        let levels = self.most_levels();
+        if levels > MAX_LEVELS {
+            let message = format!("levels must lie between 0 and {MAX_LEVELS}, not {levels}");
+            return Some((message, "levels"));
+        }
+        if self.faces.is_some() && (self.until.is_some() || self.to_limit) {
+            let message =
+                "`until` and `to_limit` are for the whole mesh, not for some of its faces";
+            return Some((message.to_owned(), "faces"));
+        }
+        let no_limit = !self.rules.scheme.has_limit();
+        match self.until {
+            Some(Until::EdgeLength { below } | Until::LimitDistance { below })
+                if !(below > 0.0 && below.is_finite()) =>
+            {
+                let message = format!("a length must be a number above 0, not {below}");
+                Some((message, "until"))
+            }
+            Some(Until::LimitDistance { .. }) if no_limit => {
+                let message = format!("the limit of {} is not known", self.rules.scheme.name());
+                Some((message, "until"))
+            }
+            _ => None,
+        }
+    }
+
+    /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns what is wrong.
+    /// `name` is the name of the operation.
+    pub(crate) fn plan(&self, name: &str, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        if let Some((message, field)) = self.problem() {
+            problems.push(Problem::error(message).at([field]));
+        }
+        let mut levels = self.most_levels().min(MAX_LEVELS);
+        if self.does_nothing() {
+            return problems;
+        }
+        let scheme = self.rules.scheme;
+        if scheme.needs_triangles() {
+            if plan.degrees.min > 3 && plan.faces.max > 0 {
+                let message = format!(
+                    "{name} needs triangles, but the faces have at least {} corners",
+                    plan.degrees.min
+                );
+                problems.push(Problem::error(message).help("cut the faces into triangles before"));
+            }
+            plan.degrees = Range::exactly(3);
+        }
+        plan.drop_normals();
+        plan.drop_attribute(Domain::Vertex, TANGENT.name);
+
+        if let Some(faces) = self.faces
+            && faces.count(plan).max == 0
+        {
+            return problems;
+        }
+        let start = planned(plan);
+        let is_certain = self.until.is_none() && self.faces.is_none();
+        if is_certain && let Err(too_large) = start.check(scheme, 0..levels, cx.budget) {
+            problems.push(
+                Problem::error(too_large.to_string())
+                    .at(["levels"])
+                    .help(too_large.help()),
+            );
+            // The plan goes on with what fits, so that later steps are not blamed for this one.
+            levels = too_large.fits.unwrap_or(0);
+        }
+        let end = (0..levels).fold(start, |size, level| size.after(scheme, level));
+        let degrees = (0..levels).fold(plan.degrees, |n, _| degrees_after(scheme, n));
+        let change = |count: &mut Range, end: Range| {
+            *count = if is_certain { end } else { count.or(end) };
+        };
+        change(&mut plan.vertices, end.vertices.0);
+        change(&mut plan.edges, end.edges.0);
+        change(&mut plan.faces, end.faces.0);
+        if self.faces.is_some() && !scheme.needs_triangles() {
+            // Faces beside get corners on their sides.
+            plan.degrees = Range {
+                min: plan.degrees.min.min(4),
+                max: plan.degrees.max.saturating_mul(1 << levels),
+            };
+        } else {
+            change(&mut plan.degrees, degrees);
+        }
+        if self.to_limit {
+            provide_limit(plan);
+        }
+        problems
+    }
+
+    /// Subdivides.
+    pub(crate) fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
+        if let Some((message, _)) = self.problem() {
+            return Err(OpError::Parameter(message));
+        }
+        let (scheme, levels) = (self.rules.scheme, self.most_levels());
+        cx.advance(scheme.name(), 0, 1)?;
+        if self.does_nothing() {
+            return Ok(Report::default());
+        }
+        mesh.compact();
+        check_faces(mesh, scheme).map_err(failed)?;
+        if let Some(faces) = self.faces {
+            let chosen = faces.mask(mesh, cx)?;
+            let (budget, progress) = (cx.budget, cx.progress());
+            let finer = refine_faces(mesh, &chosen, self.rules, levels, budget, progress);
+            let n = mesh.n_faces();
+            mesh.replace(finer.map_err(failed)?);
+            return Ok(Report::changed(mesh.n_faces().abs_diff(n)));
+        }
+        let mut notes = torn(mesh, scheme);
+        match self.until {
+            Some(until) => notes.insert(0, self.levels_until(mesh, until, cx)?),
+            None if levels > 0 => {
+                let finer = subdivide_within(mesh, self.rules, 0..levels, cx.budget, cx.progress());
+                mesh.replace(finer.map_err(|error| match error {
+                    SubdivisionError::TooLarge(size) => {
+                        OpError::Budget(format!("{size}; {}", size.help()))
+                    }
+                    other => failed(other),
+                })?);
+            }
+            None => {}
+        }
+        let mut report = Report::changed(mesh.n_faces());
+        report.notes = notes;
+        if self.to_limit {
+            push_to_limit(mesh, self.rules, cx)?;
+        }
+        Ok(report)
+    }
+
+    /// Subdivides until the condition is met, and says after how many levels.
+    fn levels_until(&self, mesh: &mut Mesh, until: Until, cx: &Context) -> Result<String, OpError> {
+        let levels = self.most_levels();
+        for level in 0.. {
+            let (what, now, below) = match until {
+                Until::EdgeLength { below } => ("an edge is", longest_edge(mesh), below),
+                Until::LimitDistance { below } => {
+                    let distance = limit_distance(mesh, self.rules, cx.progress());
+                    let what = "a vertex is away from its limit by";
+                    (what, distance.map_err(failed)?, below)
+                }
+            };
+            if now < below {
+                return Ok(format!("{level} levels; {what} {now:.3} at most"));
+            }
+            let state = format!("after level {level} {what} still {now}");
+            if level == levels {
+                return Err(OpError::Budget(format!("{state}, not below {below}")));
+            }
+            let one = level..level + 1;
+            let finer = subdivide_within(mesh, self.rules, one, cx.budget, cx.progress());
+            mesh.replace(finer.map_err(|error| match error {
+                SubdivisionError::TooLarge(size) => {
+                    OpError::Budget(format!("{state}, and the next is too large: {size}"))
+                }
+                other => failed(other),
+            })?);
+        }
+        unreachable!("the last level returns")
+    }
+}
+
+/// The error of the step.
+fn failed(error: SubdivisionError) -> OpError {
+    let message = error.to_string();
+    match error {
+        SubdivisionError::Cancelled(_) => OpError::Cancelled,
+        SubdivisionError::TooLarge(_) => OpError::Budget(message),
+        SubdivisionError::NotTriangle { face, .. } => {
+            OpError::refused(Refusal::NotTriangle, message).about([face])
+        }
+        SubdivisionError::WholeMesh(_)
+        | SubdivisionError::Choices { .. }
+        | SubdivisionError::NoLimit(_) => OpError::Parameter(message),
+    }
+}
+
+/// A count of a plan.
+#[derive(Clone, Copy)]
+struct Planned(Range);
+
+impl Count for Planned {
+    fn plus(self, other: Self) -> Self {
+        Self(self.0.plus(other.0))
+    }
+
+    fn minus(self, other: Self) -> Self {
+        Self(self.0.minus(other.0))
+    }
+
+    fn times(self, n: u64) -> Self {
+        Self(self.0.by(n))
+    }
+
+    fn least(self) -> u64 {
+        self.0.min
+    }
+}
+
+/// The size of a planned mesh: attributes count as in [`MeshPlan::bytes`].
+fn planned(plan: &MeshPlan) -> Size<Planned> {
+    let attributes = Domain::ALL.map(|domain| {
+        let columns = plan.attributes.iter().filter(|a| a.domain == domain);
+        16 * columns.count() as u64
+    });
+    let most_corners = plan.edges.by(2).max;
+    let corners = plan.faces.times(plan.degrees);
+    Size {
+        vertices: Planned(plan.vertices),
+        edges: Planned(plan.edges),
+        faces: Planned(plan.faces),
+        corners: Planned(corners.capped(Range {
+            min: u64::MAX,
+            max: most_corners,
+        })),
+        isolated: Planned(plan.vertices.or_less()),
+        with_two_edges: Planned(plan.vertices.or_less()),
+        attributes,
+    }
+}
+
+/// How many corners faces have after a level, of those that have so many before it.
+fn degrees_after(scheme: Scheme, degrees: Range) -> Range {
+    match scheme {
+        Scheme::CatmullClark | Scheme::Midpoint(Split::Quads) => Range::exactly(4),
+        // Faces around vertices have as many corners as those have edges.
+        Scheme::DooSabin => Range {
+            min: 3,
+            max: u64::MAX,
+        },
+        _ => degrees,
+    }
+}
+
+/// What schemes cannot keep whose faces lie across old edges.
+fn torn(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
+    let mut lines = Vec::new();
+    if matches!(scheme, Scheme::Sqrt3 | Scheme::DooSabin) {
+        let seams = mesh.edges().filter(|&e| mesh.is_seam(e)).count();
+        if seams > 0 {
+            lines.push(format!(
+                "{seams} seams of corner values are torn: new faces lie across them"
+            ));
+        }
+    }
+    let columns = mesh.attributes().of(Domain::Edge);
+    if scheme == Scheme::Sqrt3 && !columns.is_empty() {
+        let names: Vec<&str> = columns.iter().map(|c| c.name.as_str()).collect();
+        let names = names.join(", ");
+        lines.push(format!(
+            "edges inside lose their values ({names}): every one is turned"
+        ));
+    }
+    lines
+}
+
+/// The length of the longest edge of a dense mesh.
+fn longest_edge(mesh: &Mesh) -> f64 {
+    let squared = |e: usize| {
+        let [a, b] = mesh.edge_vertices(EdgeId::new(e));
+        mesh.position(a).distance_squared(mesh.position(b))
+    };
+    mesh::blocks::fold(mesh.n_edges(), 0.0, squared, f64::max).sqrt()
+}
+
+/// Moves the vertices to the limit surface and gives them its normals and tangents.
+fn push_to_limit(mesh: &mut Mesh, rules: Rules, cx: &Context) -> Result<(), OpError> {
+    let found = limit(mesh, rules, cx.progress()).map_err(failed)?;
+    let normals = found.normals();
+    let tangent = |[along, _]: &[DVec3; 2]| along.normalize_or_zero();
+    let tangents = found.tangents.iter().map(tangent).collect();
+    mesh.positions_mut().copy_from_slice(&found.positions);
+    mesh.remove_normals();
+    match found.corner_normals {
+        Some(normals) => mesh.set(CORNER_NORMAL, normals),
+        None => mesh.set(VERTEX_NORMAL, normals),
+    }
+    mesh.set(TANGENT, tangents);
+    Ok(())
+}
+
+/// Where nothing is sharp the normals are on vertices, else on corners.
+fn provide_limit(plan: &mut MeshPlan) {
+    for (domain, name) in [
+        (Domain::Vertex, VERTEX_NORMAL.name),
+        (Domain::Corner, CORNER_NORMAL.name),
+    ] {
+        plan.attributes.push(PlannedAttribute {
+            domain,
+            name: name.to_owned(),
+            certain: false,
+        });
+    }
+    plan.provide(Domain::Vertex, TANGENT.name);
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,294 @@
+//! The parameters of a step: conditions, some faces, the limit, and what is wrong with them; and whether what
+//! it foresees is what it makes.
+
+use mesh::{CREASE, DVec2, DVec3, Mesh, TANGENT, UV, VERTEX_NORMAL, shapes};
+use op::{Context, FaceSelection, Files, MeshPlan, NoProgress, OpError, PlanContext, Report};
+use subdivision::{LoopWeights, Rules, Scheme, Split, limit, subdivide};
+
+use super::{Step, Until};
+
+const LOOP: Rules = Rules::of(Scheme::Loop(LoopWeights::Warren));
+
+const SCHEMES: [Scheme; 7] = [
+    Scheme::Loop(LoopWeights::Warren),
+    Scheme::CatmullClark,
+    Scheme::Midpoint(Split::Triangles),
+    Scheme::Midpoint(Split::Quads),
+    Scheme::Butterfly,
+    Scheme::DooSabin,
+    Scheme::Sqrt3,
+];
+
+/// Triangle meshes of every kind.
+fn fixtures() -> Vec<(&'static str, Mesh)> {
+    let of = |n: u32, triangles: &[[u32; 3]]| {
+        let positions = (0..n).map(|i| {
+            let (sin, cos) = libm::sincos(f64::from(i));
+            DVec3::new(cos, sin, 0.3 * f64::from(i))
+        });
+        let (mesh, _) = Mesh::from_polygons(positions.collect(), triangles).unwrap();
+        mesh
+    };
+    let fans = |mesh: Mesh| shapes::fans(&mesh);
+    vec![
+        ("nothing", Mesh::default()),
+        ("one vertex", of(1, &[])),
+        ("one triangle", of(3, &[[0, 1, 2]])),
+        ("pillow", of(3, &[[0, 1, 2], [2, 1, 0]])),
+        ("two triangles", of(4, &[[0, 1, 2], [2, 1, 3]])),
+        ("tetrahedron", shapes::tetrahedron()),
+        ("octahedron", shapes::octahedron()),
+        ("icosahedron", shapes::icosahedron()),
+        ("torus", fans(shapes::torus(6, 4, 2.0, 1.0))),
+        ("sheet", sheet()),
+        ("tube", fans(shapes::cylinder(5, false))),
+        ("high valence", fans(shapes::uv_sphere(11, 3))),
+        ("bow-tie", of(5, &[[0, 1, 2], [0, 3, 4]])),
+        (
+            "parts and isolated vertices",
+            of(
+                12,
+                &[[1, 2, 3], [3, 2, 4], [6, 7, 8], [6, 8, 9], [6, 9, 10]],
+            ),
+        ),
+    ]
+}
+
+fn sheet() -> Mesh {
+    shapes::fans(&shapes::grid(4, 3))
+}
+
+fn apply(step: &Step, mesh: &Mesh) -> Result<(Mesh, Report), OpError> {
+    let files = Files::default();
+    let mut mesh = mesh.clone();
+    let report = step.apply(&mut mesh, &mut Context::new(&NoProgress, &files))?;
+    Ok((mesh, report))
+}
+
+fn problems(step: &Step, mesh: &Mesh) -> Vec<String> {
+    let files = Files::default();
+    let cx = PlanContext {
+        files: &files,
+        on: None,
+        budget: u64::MAX,
+    };
+    let found = step.plan("Test", &mut MeshPlan::of(mesh), &cx);
+    found
+        .into_iter()
+        .map(|p| format!("{:?} {}", p.path, p.message))
+        .collect()
+}
+
+fn longest(mesh: &Mesh) -> f64 {
+    let length = |e| {
+        let [a, b] = mesh.edge_vertices(e).map(|v| mesh.position(v));
+        a.distance(b)
+    };
+    mesh.edges().map(length).fold(0.0, f64::max)
+}
+
+#[test]
+fn it_stops_at_the_first_level_whose_edges_are_short_enough() {
+    let step = Step {
+        until: Some(Until::EdgeLength { below: 0.2 }),
+        ..Step::new(LOOP)
+    };
+    let (mesh, report) = apply(&step, &shapes::icosahedron()).unwrap();
+    assert!(longest(&mesh) < 0.2);
+    let coarser = Step {
+        levels: Some(2),
+        ..Step::new(LOOP)
+    };
+    let (coarser, _) = apply(&coarser, &shapes::icosahedron()).unwrap();
+    assert!(longest(&coarser) >= 0.2);
+    assert_eq!(mesh.n_faces(), 4 * coarser.n_faces());
+    assert!(
+        report.notes[0].starts_with("3 levels; "),
+        "{:?}",
+        report.notes
+    );
+}
+
+#[test]
+fn it_stops_at_the_first_level_that_is_near_enough_to_the_limit() {
+    let step = Step {
+        until: Some(Until::LimitDistance { below: 0.01 }),
+        ..Step::new(LOOP)
+    };
+    let (mesh, _) = apply(&step, &shapes::icosahedron()).unwrap();
+    let goal = limit(&mesh, LOOP, &NoProgress).unwrap().positions;
+    let far = |(p, q): (&DVec3, &DVec3)| p.distance(*q);
+    assert!(
+        mesh.positions()
+            .iter()
+            .zip(&goal)
+            .map(far)
+            .all(|d| d < 0.01)
+    );
+    assert_eq!(mesh.n_faces(), 20 << 6);
+}
+
+#[test]
+fn a_condition_that_is_not_met_is_an_error_with_what_is_left() {
+    for levels in [0, 2] {
+        let step = Step {
+            levels: Some(levels),
+            until: Some(Until::EdgeLength { below: 0.01 }),
+            ..Step::new(LOOP)
+        };
+        let error = apply(&step, &shapes::icosahedron())
+            .unwrap_err()
+            .to_string();
+        let start = format!("after level {levels} an edge is still ");
+        assert!(error.contains(&start), "{error}");
+        assert!(error.ends_with("not below 0.01"), "{error}");
+    }
+}
+
+#[test]
+fn the_limit_gives_positions_normals_and_tangents() {
+    let step = Step {
+        levels: Some(0),
+        to_limit: true,
+        ..Step::new(LOOP)
+    };
+    let mesh = shapes::icosahedron();
+    let (mesh, goal) = (
+        apply(&step, &mesh).unwrap().0,
+        limit(&mesh, LOOP, &NoProgress).unwrap(),
+    );
+    assert_eq!(mesh.positions(), goal.positions);
+    assert_eq!(mesh.get(VERTEX_NORMAL).unwrap(), goal.normals());
+    for (t, n) in mesh.get(TANGENT).unwrap().iter().zip(goal.normals()) {
+        assert!((t.length() - 1.0).abs() < 1e-14 && t.dot(n).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn what_is_wrong_is_said_before_anything_runs_and_by_the_step_itself() {
+    let some = FaceSelection::All;
+    let new = |rules| Step::new(rules);
+    let cases = [
+        (
+            Step {
+                levels: Some(17),
+                ..new(LOOP)
+            },
+            "[\"levels\"] levels must lie between 0 and 16, not 17",
+        ),
+        (
+            Step {
+                until: Some(Until::EdgeLength { below: f64::NAN }),
+                ..new(LOOP)
+            },
+            "[\"until\"] a length must be a number above 0, not NaN",
+        ),
+        (
+            Step {
+                until: Some(Until::LimitDistance { below: 1.0 }),
+                ..new(Rules::of(Scheme::Butterfly))
+            },
+            "[\"until\"] the limit of Butterfly subdivision is not known",
+        ),
+        (
+            Step {
+                faces: Some(&some),
+                to_limit: true,
+                ..new(LOOP)
+            },
+            "[\"faces\"] `until` and `to_limit` are for the whole mesh, not for some of its faces",
+        ),
+    ];
+    for (step, message) in cases {
+        assert_eq!(problems(&step, &shapes::icosahedron())[0], message);
+        let error = apply(&step, &shapes::icosahedron()).unwrap_err();
+        assert!(matches!(error, OpError::Parameter(_)), "{error}");
+    }
+}
+
+#[test]
+fn torn_seams_and_lost_values_are_reported() {
+    let mut mesh = shapes::octahedron();
+    mesh.set(UV, (0..24).map(|i| DVec2::splat(f64::from(i))).collect());
+    mesh.set(CREASE, vec![1.0; 12]);
+    let notes = |scheme| apply(&Step::new(Rules::of(scheme)), &mesh).unwrap().1.notes;
+    assert_eq!(notes(Scheme::Sqrt3).len(), 2);
+    assert_eq!(
+        notes(Scheme::DooSabin),
+        ["12 seams of corner values are torn: new faces lie across them"]
+    );
+    assert_eq!(notes(Scheme::CatmullClark), Vec::<String>::new());
+}
+
+#[test]
+fn counts_are_foreseen_exactly_for_every_scheme_on_every_fixture() {
+    let files = Files::default();
+    let cx = PlanContext {
+        files: &files,
+        on: None,
+        budget: u64::MAX,
+    };
+    for (name, mut mesh) in fixtures() {
+        mesh.set(UV, vec![DVec2::X; mesh.n_half_edges()]);
+        mesh.set(CREASE, vec![1.5; mesh.n_edges()]);
+        for scheme in SCHEMES {
+            for levels in 0..3 {
+                let step = Step {
+                    levels: Some(levels),
+                    ..Step::new(Rules::of(scheme))
+                };
+                let mut plan = MeshPlan::of(&mesh);
+                assert_eq!(step.plan("Test", &mut plan, &cx), [], "{name} {scheme:?}");
+                let mut new: Mesh = mesh.clone();
+                let mut cx = Context::new(&NoProgress, &files);
+                step.apply(&mut new, &mut cx).unwrap();
+                if new.n_faces() == 0 {
+                    plan.degrees = MeshPlan::of(&new).degrees;
+                }
+                let exactly = MeshPlan::of(&new);
+                if scheme == Scheme::DooSabin && levels > 0 {
+                    // A plan does not know how many vertices become no face.
+                    for (planned, exactly) in [
+                        (&mut plan.vertices, exactly.vertices),
+                        (&mut plan.edges, exactly.edges),
+                        (&mut plan.faces, exactly.faces),
+                        (&mut plan.degrees, exactly.degrees),
+                    ] {
+                        assert!(planned.min <= exactly.min && exactly.max <= planned.max);
+                        *planned = exactly;
+                    }
+                }
+                assert_eq!(plan, exactly, "{name} {scheme:?} {levels}");
+                assert_eq!(new.defects(), [], "{name} {scheme:?} {levels}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_budget_holds_for_every_level_until_a_condition_is_met() {
+    // What an odd level of Sqrt3 makes of a boundary differs from what an even one makes.
+    let mesh = sheet();
+    let files = Files::default();
+    for scheme in SCHEMES {
+        let finer = subdivide(&mesh, Rules::of(scheme), 2, &NoProgress).unwrap();
+        let bytes = finer.bytes() as u64;
+        let message = |budget| {
+            let step = Step {
+                levels: Some(2),
+                until: Some(Until::EdgeLength { below: 1e-9 }),
+                ..Step::new(Rules::of(scheme))
+            };
+            let mut cx = Context::new(&NoProgress, &files);
+            cx.budget = budget;
+            step.apply(&mut mesh.clone(), &mut cx)
+                .unwrap_err()
+                .to_string()
+        };
+        let met = message(bytes);
+        assert!(met.contains("after level 2 "), "{scheme:?} {met}");
+        let short = message(bytes - 1);
+        assert!(short.contains("after level 1 "), "{scheme:?} {short}");
+        assert!(short.contains("level 2 has "), "{scheme:?} {short}");
+    }
+}

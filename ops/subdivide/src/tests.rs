@@ -1,0 +1,259 @@
+//! The operations: counts, plan, budget, refusals, progress, threads, recipes.
+
+use std::fmt::Debug;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
+use mesh::{DVec2, DVec3, Mesh, UV, VERTEX_NORMAL, shapes};
+use op::test::{applied, applied_as_planned, counts, planned, refused, try_applied};
+use op::{
+    Context, Files, MeshOperation, MeshPlan, NoProgress, OpError, PlanContext, Progress, Refusal,
+};
+use subdivision::Split;
+
+use crate::{Butterfly, CatmullClark, DooSabin, LoopSubdivide, Midpoint, Sqrt3};
+
+/// The parameters that a recipe gives.
+fn read<T: MeshOperation>(text: &str) -> Result<T, ron::error::SpannedError> {
+    ron::from_str(&format!("#![enable(implicit_some)]{text}"))
+}
+
+/// So many levels, with the defaults of everything else.
+fn levels<T: MeshOperation>(levels: u32) -> T {
+    read(&format!("(levels: {levels})")).unwrap()
+}
+
+#[test]
+fn a_recipe_can_leave_the_levels_out_and_nothing_else_is_taken() {
+    fn check<T: MeshOperation + Default + Debug + PartialEq>() {
+        assert_eq!(read::<T>("()"), Ok(T::default()));
+        assert_ne!(read::<T>("(levels: 3)"), Ok(T::default()));
+        assert!(read::<T>("(level: 3)").is_err());
+        assert!(read::<T>("(levels: -1)").is_err());
+    }
+    check::<LoopSubdivide>();
+    check::<CatmullClark>();
+    check::<Midpoint>();
+    check::<Butterfly>();
+    check::<Sqrt3>();
+    check::<DooSabin>();
+}
+
+#[test]
+fn elements_are_as_many_as_planned_after_one_level_and_two() {
+    fn check<T: MeshOperation>(mesh: &Mesh, expected: [[usize; 3]; 2]) {
+        for (n, expected) in (1..).zip(expected) {
+            let new = applied_as_planned(&levels::<T>(n), mesh);
+            assert_eq!(counts(&new), expected, "{} {n}", T::NAME);
+        }
+    }
+    let [cube, icosahedron] = [shapes::cube(), shapes::icosahedron()];
+    check::<LoopSubdivide>(&icosahedron, [[42, 120, 80], [162, 480, 320]]);
+    check::<CatmullClark>(&cube, [[26, 48, 24], [98, 192, 96]]);
+    check::<Midpoint>(&icosahedron, [[42, 120, 80], [162, 480, 320]]);
+    check::<Butterfly>(&icosahedron, [[42, 120, 80], [162, 480, 320]]);
+    check::<Sqrt3>(&icosahedron, [[32, 90, 60], [92, 270, 180]]);
+    check::<DooSabin>(&cube, [[24, 48, 26], [96, 192, 98]]);
+}
+
+#[test]
+fn polygons_are_refused_before_anything_runs_where_triangles_are_needed() {
+    fn check<T: MeshOperation + Default>() {
+        let cube = shapes::cube();
+        assert_eq!(refused(&T::default(), cube.clone()), Refusal::NotTriangle);
+        let (_, problems) = planned(&T::default(), &cube);
+        assert_eq!(problems.len(), 1);
+        assert!(problems[0].message.contains("at least 4 corners"));
+    }
+    check::<LoopSubdivide>();
+    check::<Midpoint>();
+    check::<Butterfly>();
+    check::<Sqrt3>();
+}
+
+#[test]
+fn polygons_of_all_degrees_become_quads() {
+    let new = applied_as_planned(&CatmullClark::default(), &shapes::cylinder(7, true));
+    assert!(new.faces().all(|f| new.degree(f) == 4));
+    assert_eq!(new.n_faces(), 7 * 4 + 2 * 7);
+}
+
+#[test]
+fn midpoints_can_cut_a_cube_into_24_quads_of_the_same_area() {
+    let quads = Midpoint {
+        into: Split::Quads,
+        ..Midpoint::default()
+    };
+    let new = applied_as_planned(&quads, &shapes::cube());
+    assert_eq!(counts(&new), [26, 48, 24]);
+    assert!((new.area() - shapes::cube().area()).abs() < 1e-14);
+}
+
+#[test]
+fn sqrt3_cuts_a_boundary_on_every_second_level() {
+    let mesh = shapes::fans(&shapes::grid(3, 2));
+    let n_outer = |n| {
+        let new = applied_as_planned(&levels::<Sqrt3>(n), &mesh);
+        new.edges().filter(|&e| new.is_boundary_edge(e)).count()
+    };
+    assert_eq!([1, 2, 3, 4].map(n_outer), [10, 30, 30, 90]);
+}
+
+/// One level, by the operation.
+fn once(mesh: &Mesh) -> Mesh {
+    applied(&LoopSubdivide::default(), mesh.clone())
+}
+
+#[test]
+fn the_bytes_are_the_same_for_any_number_of_threads() {
+    let mut mesh = shapes::icosahedron();
+    mesh.set(
+        UV,
+        (0..60).map(|i| DVec2::splat(f64::from(i) / 7.0)).collect(),
+    );
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| applied(&levels::<LoopSubdivide>(6), mesh.clone()))
+    };
+    let one = with(1);
+    assert_eq!(one.n_faces(), 20 << 12);
+    for threads in [2, 8] {
+        let other = with(threads);
+        // Equal as bits: `==` would take -0 for 0.
+        let bits = |m: &Mesh| -> Vec<[u64; 3]> {
+            let bits = m.positions().iter().map(|p| p.to_array().map(f64::to_bits));
+            bits.collect()
+        };
+        assert_eq!(bits(&other), bits(&one));
+        assert!(other == one);
+    }
+}
+
+#[test]
+fn levels_follow_one_another_and_none_changes_nothing() {
+    let mesh = shapes::fans(&shapes::grid(3, 2));
+    let apply = |n| applied(&levels::<LoopSubdivide>(n), mesh.clone());
+    assert!(apply(0) == mesh);
+    assert!(apply(3) == once(&once(&once(&mesh))));
+}
+
+#[test]
+fn polygons_are_refused_and_the_first_is_named() {
+    let at = |x, y| DVec3::new(x, y, 0.0);
+    let points = vec![at(0., 0.), at(1., 0.), at(1., 1.), at(0., 1.), at(2., 0.)];
+    let polygons = [vec![1, 4, 2], vec![0, 1, 2, 3]];
+    let (mesh, _) = Mesh::from_polygons(points, &polygons).unwrap();
+    let error = try_applied(&LoopSubdivide::default(), mesh).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "Loop subdivision needs triangles, but f1 has 4 corners"
+    );
+    let OpError::Refused { reason, .. } = error else {
+        panic!("{error}")
+    };
+    assert_eq!(reason, Refusal::NotTriangle);
+}
+
+#[test]
+fn fourteen_levels_of_an_icosahedron_are_refused_before_anything_runs() {
+    let operation = levels::<LoopSubdivide>(14);
+    let error = try_applied(&operation, shapes::icosahedron()).unwrap_err();
+    assert!(matches!(error, OpError::Budget(_)));
+    assert!(error.to_string().ends_with("level 13 fits"), "{error}");
+
+    let (_, problems) = planned(&operation, &shapes::icosahedron());
+    assert_eq!(problems.len(), 1);
+    assert_eq!(problems[0].path, ["levels"]);
+    assert_eq!(problems[0].help.as_deref(), Some("level 13 fits"));
+}
+
+#[test]
+fn the_budget_is_kept_by_the_plan_and_by_the_operation() {
+    let mesh = shapes::icosahedron();
+    let budget = once(&once(&mesh)).bytes() as u64;
+    let files = Files::default();
+    let run = |n, budget| {
+        let mut cx = Context::new(&NoProgress, &files);
+        cx.budget = budget;
+        let mut mesh = mesh.clone();
+        let plan_cx = PlanContext {
+            files: &files,
+            on: None,
+            budget,
+        };
+        let problems = levels::<LoopSubdivide>(n).plan(&mut MeshPlan::of(&mesh), &plan_cx);
+        let done = MeshOperation::apply(&levels::<LoopSubdivide>(n), &mut mesh, &mut cx);
+        assert_eq!(done.is_ok(), problems.is_empty());
+        done
+    };
+    assert!(run(2, budget).is_ok());
+    let error = run(2, budget - 1).unwrap_err();
+    assert!(error.to_string().ends_with("level 1 fits"), "{error}");
+}
+
+#[test]
+fn levels_out_of_range_are_an_error() {
+    let operation = levels::<LoopSubdivide>(u32::MAX);
+    let error = try_applied(&operation, Mesh::default()).unwrap_err();
+    assert!(matches!(error, OpError::Parameter(_)));
+    assert_eq!(planned(&operation, &Mesh::default()).1.len(), 1);
+}
+
+/// Stops after so many calls, and remembers how far it was.
+struct StopAfter {
+    calls: AtomicU64,
+    furthest: AtomicU64,
+    total: AtomicU64,
+    limit: u64,
+}
+
+impl StopAfter {
+    fn new(limit: u64) -> Self {
+        let zero = || AtomicU64::new(0);
+        Self {
+            calls: zero(),
+            furthest: zero(),
+            total: zero(),
+            limit,
+        }
+    }
+}
+
+impl Progress for StopAfter {
+    fn advance(&self, _: &str, done: u64, total: u64) -> bool {
+        self.furthest.fetch_max(done, Relaxed);
+        self.total.store(total, Relaxed);
+        self.calls.fetch_add(1, Relaxed) < self.limit
+    }
+}
+
+#[test]
+fn it_can_be_cancelled_at_any_call_and_otherwise_arrives_at_the_end() {
+    let files = Files::default();
+    let run = |listener: &StopAfter| {
+        let mut mesh = shapes::icosahedron();
+        let mut cx = Context::new(listener, &files);
+        MeshOperation::apply(&levels::<LoopSubdivide>(6), &mut mesh, &mut cx)
+    };
+    let free = StopAfter::new(u64::MAX);
+    run(&free).unwrap();
+    assert_eq!(free.furthest.load(Relaxed), free.total.load(Relaxed));
+    let calls = free.calls.load(Relaxed);
+    assert!(calls > 40, "{calls}");
+    for limit in 0..calls {
+        assert!(
+            matches!(run(&StopAfter::new(limit)), Err(OpError::Cancelled)),
+            "{limit}"
+        );
+    }
+}
+
+#[test]
+fn normals_are_dropped_and_reported() {
+    let mut mesh = shapes::octahedron();
+    mesh.set(VERTEX_NORMAL, mesh.positions().to_vec());
+    let (new, report) = try_applied(&LoopSubdivide::default(), mesh).unwrap();
+    assert_eq!(new.get(VERTEX_NORMAL), None);
+    assert_eq!(report.losses.len(), 1);
+    assert_eq!(report.changed, 32);
+}

@@ -1,0 +1,166 @@
+//! Steps that every law tries: the example of each operation, and those below.
+
+use op::{Entry, Registry};
+
+const MORE: &[&str] = &[
+    r#"Load(path: "curve.bzc", name: "new")"#,
+    r#"Load(path: "bunny.obj", non_manifold: Refuse)"#,
+    // A bow-tie, which is split, and a point without a face.
+    r#"Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (-1, 0, 0),
+        (-1, -1, 0)], faces: [[0, 1, 2], [0, 4, 5]])"#,
+    r#"Polygons(name: "new", points: [(0, 0, 0)], faces: [[0, 1, 2]])"#,
+    r#"Cube(name: "new", triangles: true)"#,
+    r#"Cube(name: "mesh")"#,
+    r#"Tetrahedron(name: "new", radius: 0.5)"#,
+    r#"Octahedron(name: "new", radius: 0.5)"#,
+    r#"Icosahedron(name: "new", radius: 0.5)"#,
+    r#"Grid(name: "new", columns: 70, rows: 70, size: 0.1, center: (0, 0, 1))"#,
+    r#"Cylinder(name: "new", around: 6, radius: 1, height: 2, caps: false)"#,
+    "Tessellate(segments: 1, faces: Quads, uvs: true, normals: true)",
+    "Tessellate(segments: 5, faces: Triangles, uvs: true, normals: true)",
+    "SampleCurve(segments: 9)",
+    "CurveLevels(t: 0.25)",
+    "MoveControlPoint(index: 99, to: (0, 0))",
+    r#"Copy(from: "curve", to: "new")"#,
+    r#"Delete(objects: ["patches", "curve"])"#,
+    r#"Rename(from: "mesh", to: "other")"#,
+    r#"Join(objects: ["other", "mesh"], name: "mesh", tag_parts: false)"#,
+    r#"Join(objects: ["mesh"], name: "alone")"#,
+    "Transform(scale: (2, 1, 0.5), move: (1, 2, 3))",
+    "Transform(scale: (-1, 1, 1), about: Center)",
+    "Transform(rotate: [(axis: Z, degrees: 90), (axis: X, degrees: 33)], about: Point(1, 0, 0))",
+    "Transform(rotate: [(axis: Z, degrees: 30)])",
+    r#"Separate(object: "mesh", count: 2)"#,
+    r#"Separate(object: "mesh", by: Material, count: 3)"#,
+    r#"Separate(object: "mesh", by: Tag("marked"), count: 2)"#,
+    "Bisect(normal: (1, 2, 3), point: (0.3, 0.2, 0.1), keep: Front)",
+    r#"Bisect(normal: (1, 0, 0), keep: Back, tag: "cut")"#,
+    r#"Bisect(normal: (1, 1, 0), point: (0.5, 0.5, 0), tag: "marked")"#,
+    "Reverse(faces: Faces([0, 1, 2, 3]))",
+    r#"Reverse(faces: Tagged("marked"))"#,
+    "Triangulate(faces: Degree(5))",
+    "Triangulate(faces: Faces([0]))",
+    "FlipEdges(edges: All, on_refusal: Skip)",
+    "FlipEdges(edges: Random(count: 9, seed: 7), on_refusal: Skip, seams: Drop)",
+    "FlipEdges(edges: Between(0, 2))",
+    r#"FlipEdges(edges: Tagged("marked"), on_refusal: Skip)"#,
+    "FlipEdges(edges: All, until: Delaunay)",
+    "FlipEdges(edges: Flat(below: 30), until: Delaunay, passes: 2, seams: Drop)",
+    "FlipEdges(edges: All, until: Valence)",
+    "SplitEdges(edges: Boundary, at: 0.25)",
+    "SplitEdges(edges: Between(1, 0), at: 0.125)",
+    "SplitEdges(edges: Expect(count: 3, of: Longest(count: 3)), on_refusal: Skip)",
+    "SplitEdges(edges: EdgesOf(Grow(Faces([0]))))",
+    "PokeFaces(faces: Degree(4), offset: 0.25)",
+    "PokeFaces(faces: Random(count: 3, seed: 7), on_refusal: Skip)",
+    r#"PokeFaces(faces: Tagged("marked"))"#,
+    "SplitFaces(between: [(0, 3)])",
+    "SplitFaces(between: [(0, 5), (6, 1), (2, 2), (0, 99), (0, 3)], on_refusal: Skip)",
+    "DeleteFaces(faces: Faces([0]), keep_vertices: true)",
+    "DeleteFaces(faces: FacesAround(Nearest(to: (1, 1, 1))))",
+    "DeleteFaces(faces: Random(count: 9, seed: 7), on_refusal: Skip)",
+    r#"DeleteFaces(faces: Tagged("marked"), on_refusal: Skip)"#,
+    "DissolveEdges(edges: Longest(count: 1))",
+    "DissolveEdges(edges: All, on_refusal: Skip)",
+    "DissolveEdges(edges: Random(count: 9, seed: 7), on_refusal: Skip, seams: Drop)",
+    "DissolveVertices(vertices: All, on_refusal: Skip)",
+    "DissolveVertices(vertices: Random(count: 5, seed: 7), on_refusal: Skip, seams: Drop)",
+    r#"ExtrudeFaces(faces: Boundary, by: Offset((0, 0, 1)), tag: "marked")"#,
+    r#"ExtrudeFaces(faces: Random(count: 9, seed: 3), by: Distance(-0.25), scale: 0.5, tag: "new")"#,
+    "ExtrudeFaces(faces: All, by: Offset((1, 2, 3)), scale: 2, turn: [(axis: Z, degrees: 30)])",
+    "InsetFaces(faces: Degree(4), fraction: 0.5, on_refusal: Skip)",
+    "InsetFaces(faces: Expect(count: 2, of: Random(count: 2, seed: 5)), fraction: 0.125)",
+    "BevelFaces(faces: Faces([0]), inset: 0.5, height: -0.25)",
+    "BevelFaces(faces: Boundary, inset: 0.75, height: 0, on_refusal: Skip)",
+    "BevelEdges(edges: All, fraction: 0.25, on_refusal: Skip)",
+    "BevelEdges(edges: Random(count: 20, seed: 2), fraction: 0.75, on_refusal: Skip)",
+    "BevelVertices(vertices: All, fraction: 0.5, on_refusal: Skip)",
+    "BevelVertices(vertices: Vertices([0]), fraction: 0.75)",
+    "Stitch(distance: 0.5)",
+    "Stitch(distance: 0.001, on_refusal: Skip)",
+    "Stitch(distance: 100, on_refusal: Skip)",
+    "Cut(edges: All, on_refusal: Skip)",
+    "Cut(edges: Sharp(above: 30))",
+    "Cut(edges: EdgesOf(Faces([0])), on_refusal: Skip)",
+    "Cut(edges: Random(count: 9, seed: 7), on_refusal: Skip)",
+    "FillHoles(with: Face)",
+    "FillHoles(around: Vertices([0]), with: Face, on_refusal: Skip)",
+    "FillHoles(around: Boundary, max_edges: 4, on_refusal: Skip)",
+    "BridgeLoops(first: 0, second: 3)",
+    "BridgeLoops(first: 3, second: 0)",
+    "CollapseEdges(edges: Between(0, 1))",
+    "CollapseEdges(edges: Between(1, 0), at: 0.125)",
+    "CollapseEdges(edges: Boundary, at: 1, on_refusal: Skip)",
+    "CollapseEdges(edges: Longest(count: 1), at: 0)",
+    "CollapseEdges(edges: Random(count: 9, seed: 7), on_refusal: Skip)",
+    r#"CollapseEdges(edges: Tagged("marked"), on_refusal: Skip)"#,
+    "Crease(edges: Boundary, vertices: Boundary, sharpness: 10)",
+    "Crease(vertices: Vertices([0]), sharpness: 1)",
+    "Crease(edges: All, sharpness: 0)",
+    r#"TagVertices(name: "some", vertices: Component(Vertices([0])))"#,
+    r#"TagEdges(name: "some", edges: EdgeRing(Random(count: 3, seed: 1)))"#,
+    r#"TagEdges(name: "some", edges: Path(from: 0, to: 1))"#,
+    r#"TagFaces(name: "some", faces: Expand(to_angle: 30, of: Faces([0])))"#,
+    "LoopSubdivide(levels: 1)",
+    "LoopSubdivide(levels: 2)",
+    "LoopSubdivide(weights: Loop, boundary: Fixed, face_varying: Boundaries, to_limit: true)",
+    "LoopSubdivide(until: EdgeLength(below: 0.4), levels: 5)",
+    "LoopSubdivide(levels: 2, faces: Random(count: 2, seed: 3))",
+    "CatmullClark(levels: 1)",
+    "CatmullClark(levels: 2, boundary: EdgesAndCorners, creasing: Chaikin, face_varying: CornersPlus1)",
+    "CatmullClark(levels: 1, to_limit: true)",
+    "CatmullClark(until: LimitDistance(below: 0.05), levels: 4)",
+    "CatmullClark(levels: 2, faces: Random(count: 2, seed: 3))",
+    "Midpoint(levels: 1)",
+    "Midpoint(levels: 2, into: Quads)",
+    "Midpoint(levels: 1, faces: Random(count: 2, seed: 3))",
+    "Butterfly(levels: 1)",
+    "Butterfly(levels: 2)",
+    "Sqrt3(levels: 1)",
+    "Sqrt3(levels: 2)",
+    "DooSabin(levels: 1)",
+    "DooSabin(levels: 2)",
+    "Weld(distance: 0.5)",
+    "Weld(distance: 100)",
+    "VertexNormals(weight: Angle)",
+    "VertexNormals(weight: Uniform)",
+    r#"Picture(path: "b/a.png", size: (32, 24), views: [Fit(from: Front), Fit(from: Top, projection: Orthographic)], style: (shading: Flat, background: Transparent))"#,
+    r#"Picture(path: "valence.png", size: (48, 36), color_by: (of: Valence))"#,
+    r#"Picture(path: "a.gif", size: (24, 18), turntable: (frames: 3), style: (shading: Matcap, boundary: (), ids: Vertices))"#,
+    r#"CurveFigure(path: "a/figure.png", width: 100, scale: 1)"#,
+    r#"CurveFigure(path: "figure.svg", t: [], labels: false, legend: false)"#,
+    r#"Save(path: "b/a.glb")"#,
+    r#"Save(path: "a.gltf")"#,
+    r#"Save(path: "a.bez")"#,
+    r#"Save(path: "a.bzc")"#,
+];
+
+/// Each operation with its parameters, as in `(levels: 2)`. Most of them work on a mesh that is there.
+pub(crate) fn samples(registry: &Registry) -> Vec<(&Entry, &'static str)> {
+    let examples = registry.entries().iter().map(|entry| entry.example);
+    examples
+        .chain(MORE.iter().copied())
+        .map(|step| {
+            let (name, _) = step.split_once('(').expect("a step has parameters");
+            let entry = registry.get(name);
+            (
+                entry.unwrap_or_else(|| panic!("{step}: no such operation")),
+                &step[name.len()..],
+            )
+        })
+        .collect()
+}
+
+#[test]
+fn every_sample_is_of_its_operation() {
+    let registry = ops_all::registry();
+    for (entry, (of, parameters)) in registry.entries().iter().zip(samples(&registry)) {
+        assert_eq!(entry.name, of.name, "{} is no example of it", entry.example);
+        assert!(!parameters.contains('\n'), "an example is one line");
+    }
+    for (entry, parameters) in samples(&registry) {
+        if let Err(error) = entry.parse(&ron_tree::parse(parameters).value) {
+            panic!("{}{parameters}: {error}", entry.name);
+        }
+    }
+}

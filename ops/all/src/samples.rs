@@ -111,8 +111,8 @@ const SAMPLES: &[(&str, &[&str])] = &[
             "()",
             "(scale: (2, 1, 0.5), move: (1, 2, 3))",
             "(scale: (-1, 1, 1), about: Center)",
-            "(rotate: [(axis: Z, degrees: 90), (axis: X, degrees: 33)], about: Point(1, 0, 0))",
-            "(rotate: [(axis: Z, degrees: 30)])",
+            "(rotate: [(axis: Z, angle: 90), (axis: X, angle: 33)], about: Point(1, 0, 0))",
+            "(rotate: [(axis: Z, angle: 30)])",
         ],
     ),
     (
@@ -172,7 +172,7 @@ const SAMPLES: &[(&str, &[&str])] = &[
         "PokeFaces",
         &[
             "()",
-            "(faces: Degree(4), offset: 0.25)",
+            "(faces: Degree(4), distance: 0.25)",
             "(faces: Random(count: 3, seed: 7), on_refusal: Skip)",
             r#"(faces: Tagged("marked"))"#,
         ],
@@ -218,7 +218,7 @@ const SAMPLES: &[(&str, &[&str])] = &[
             "(faces: Faces([0]), by: Distance(0.5))",
             r#"(faces: Boundary, by: Offset((0, 0, 1)), tag: "marked")"#,
             r#"(faces: Random(count: 9, seed: 3), by: Distance(-0.25), scale: 0.5, tag: "new")"#,
-            "(faces: All, by: Offset((1, 2, 3)), scale: 2, turn: [(axis: Z, degrees: 30)])",
+            "(faces: All, by: Offset((1, 2, 3)), scale: 2, rotate: [(axis: Z, angle: 30)])",
         ],
     ),
     (
@@ -232,9 +232,9 @@ const SAMPLES: &[(&str, &[&str])] = &[
     (
         "BevelFaces",
         &[
-            "(faces: All, inset: 0.25, height: 0.5)",
-            "(faces: Faces([0]), inset: 0.5, height: -0.25)",
-            "(faces: Boundary, inset: 0.75, height: 0, on_refusal: Skip)",
+            "(faces: All, fraction: 0.25, distance: 0.5)",
+            "(faces: Faces([0]), fraction: 0.5, distance: -0.25)",
+            "(faces: Boundary, fraction: 0.75, distance: 0, on_refusal: Skip)",
         ],
     ),
     (

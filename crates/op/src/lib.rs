@@ -67,8 +67,7 @@ pub use files::{FileError, FileLog, FileUse, Files};
 pub use operation::{MeshOperation, Operation};
 pub use parameter::{
     Angle, AngleBetween, Axis, BadVector, ClosedFraction, Count, Direction, Distance, Factors,
-    Fraction, Length, Levels, OutOfRange, PositiveFactor, PositiveLength, Turn, Vector,
-    check_fraction,
+    Fraction, Length, Levels, OutOfRange, PositiveFactor, PositiveLength, Sharpness, Turn, Vector,
 };
 pub use place::Place;
 pub use plan::{
@@ -81,4 +80,4 @@ pub use selection::{
     EdgeSelection, ElementKind, Elements, FaceSelection, Region, Select, Selected, VertexSelection,
 };
 pub use source::{Source, change_curves, check_name, made, named_object, plan_curves};
-pub use tag::{tag, tag_problems};
+pub use tag::{BadTagName, TagName, tag};

@@ -64,25 +64,6 @@ impl<'a> Source<'a> {
         source
     }
 
-    /// The same, with a problem unless a count is high enough.
-    #[must_use]
-    pub fn at_least(self, field: &str, count: u32, min: u32) -> Self {
-        if count >= min {
-            return self;
-        }
-        self.with(Problem::error(format!("expected at least {min}, found {count}")).at([field]))
-    }
-
-    /// The same, with a problem unless a length is above zero and finite.
-    #[must_use]
-    pub fn positive(self, field: &str, length: f64) -> Self {
-        if length > 0.0 && length.is_finite() {
-            return self;
-        }
-        let message = format!("expected a finite number above 0, found {length:?}");
-        self.with(Problem::error(message).at([field]))
-    }
-
     /// The same mesh, its coordinates multiplied by a factor for each axis, above zero, and then moved
     /// from the origin to `center`, the parameter of that name.
     #[must_use]
@@ -337,21 +318,6 @@ mod tests {
         insert(source, &mut scene, u64::MAX).unwrap();
         let mesh = scene.object("a").unwrap().as_mesh().unwrap();
         assert_eq!(mesh.positions()[2], DVec3::new(3.0, 3.0, 5.0));
-    }
-
-    #[test]
-    fn bad_numbers_are_problems_at_their_field() {
-        let source = Source::new("a", square())
-            .positive("size", 0.0)
-            .at_least("around", 2, 3);
-        let problems = source.clone().plan(&mut Plan::default());
-        let fields: Vec<_> = problems.iter().map(|p| p.path.join(".")).collect();
-        assert_eq!(fields, ["size", "around"]);
-        let error = insert(source, &mut Scene::new(), u64::MAX).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "size: expected a finite number above 0, found 0.0"
-        );
     }
 
     #[test]

@@ -6,7 +6,7 @@
 //!    |   |  -->  |      |  -->    |   |        -->        |   |
 //!    c---+       c------+         |   |                   |   |
 //!                             +---c                   +---c
-//!             scale: (2, 1, 1)   rotate: [(axis: Z, degrees: 90)]   move: (3, 1, 0)
+//!             scale: (2, 1, 1)   rotate: [(axis: Z, angle: 90)]   move: (3, 1, 0)
 //! ```
 //!
 //! A point p goes to R S (p - c) + c + m: S scales, R turns, m moves, c is the point of `about`.

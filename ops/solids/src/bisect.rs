@@ -8,10 +8,10 @@
 //!    +-------+-------+           +-------+-------+
 //! ```
 
-use mesh::{Domain, EdgeId, Mesh, Rule, Values};
+use mesh::{Domain, Mesh};
 use op::{
     Context, Direction, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report,
-    Vector,
+    TagName, Vector,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ pub struct Bisect {
     pub keep: Keep,
     /// The name of a tag for the edges on the plane; edges that have it already keep it.
     #[serde(default)]
-    pub tag: Option<String>,
+    pub tag: Option<TagName>,
 }
 
 /// Which side of the plane is left.
@@ -62,9 +62,6 @@ impl MeshOperation for Bisect {
     const EXAMPLE: &'static str = "Bisect(normal: (0, 0, 1))";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if self.tag.as_deref() == Some("") {
-            return vec![Problem::error("expected a name").at(["tag"])];
-        }
         // A line crosses the sides of a face at most as often as there are, and cuts it half as often.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
@@ -83,7 +80,7 @@ impl MeshOperation for Bisect {
             plan.faces = plan.faces.or_less();
         }
         if let Some(tag) = &self.tag {
-            plan.provide(Domain::Edge, tag);
+            plan.provide(Domain::Edge, tag.as_str());
         }
         Vec::new()
     }
@@ -91,8 +88,12 @@ impl MeshOperation for Bisect {
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("bisect", 0, 2)?;
         let cut = mesh.bisect(self.point.get(), self.normal.get())?;
-        if let Some(name) = &self.tag {
-            tag(mesh, name, &cut.edges)?;
+        if let Some(tag) = &self.tag {
+            let mut marks = tag.marks(mesh, Domain::Edge)?;
+            for e in &cut.edges {
+                marks[e.index()] = true;
+            }
+            tag.write(mesh, Domain::Edge, marks);
         }
         cx.advance("bisect", 1, 2)?;
         let n_faces = mesh.n_faces();
@@ -127,33 +128,10 @@ fn nothing(mesh: &Mesh) -> Mesh {
     nothing
 }
 
-/// Marks edges by a tag, which may be there already.
-fn tag(mesh: &mut Mesh, name: &str, edges: &[EdgeId]) -> Result<(), OpError> {
-    let n = mesh.domain_len(Domain::Edge);
-    let column = mesh.attributes().column(Domain::Edge, name).cloned();
-    let mut column = column.unwrap_or_else(|| mesh::Column {
-        name: name.to_owned(),
-        rule: Rule::Copy,
-        values: Values::Tag(vec![false; n]),
-    });
-    let Values::Tag(marks) = &mut column.values else {
-        let message = format!(
-            "tag: the edge attribute \"{name}\" holds values of another type: {}",
-            column.values.type_name()
-        );
-        return Err(OpError::Parameter(message));
-    };
-    for e in edges {
-        marks[e.index()] = true;
-    }
-    mesh.insert_column(Domain::Edge, column);
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{Attribute, DVec3, shapes};
+    use mesh::{Attribute, DVec3, EdgeId, Rule, shapes};
     use op::test::{applied, try_applied};
 
     /// As recipes are read.

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 pub use number::{
     Angle, AngleBetween, ClosedFraction, Count, Distance, Fraction, Length, Levels, OutOfRange,
-    PositiveFactor, PositiveLength,
+    PositiveFactor, PositiveLength, Sharpness,
 };
 pub use turn::Turn;
 pub use vector::{BadVector, Direction, Factors, Vector};
@@ -27,16 +27,4 @@ pub enum Axis {
     Y,
     /// The z axis.
     Z,
-}
-/// Checks a parameter that must lie between 0 and 1, neither included.
-///
-/// # Errors
-///
-/// A message that names the parameter, `field`, and its value.
-pub fn check_fraction(field: &str, value: f64) -> Result<(), String> {
-    if value > 0.0 && value < 1.0 {
-        Ok(())
-    } else {
-        Err(format!("`{field}` must lie between 0 and 1, not {value}"))
-    }
 }

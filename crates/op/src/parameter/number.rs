@@ -156,6 +156,9 @@ numbers! {
     Length: Included(0.0), Unbounded;
     /// A length in scene units, above 0.
     PositiveLength: Excluded(0.0), Unbounded;
+    /// For how many levels of subdivision an edge or a vertex stays sharp: from 0 to 10, which is for ever.
+    #[derive(Default)]
+    Sharpness: Included(0.0), Included(10.0);
     /// A factor above 0.
     PositiveFactor: Excluded(0.0), Unbounded;
     /// How far to go in a direction, in scene units; below 0 the other way.

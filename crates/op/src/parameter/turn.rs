@@ -13,14 +13,16 @@ use super::{Angle, Axis};
 pub struct Turn {
     /// The direction of the axis.
     pub axis: Axis,
-    /// How far, counter-clockwise for someone towards whom the axis points. Multiples of 90 are exact.
-    pub degrees: Angle,
+    /// In degrees, counter-clockwise seen from the tip of the axis. Multiples of 90 are exact.
+    #[serde(alias = "degrees")]
+    #[schemars(extend("aliases" = ["degrees"]))]
+    pub angle: Angle,
 }
 
 impl Turn {
     /// The matrix of the turn.
     pub fn matrix(self) -> DMat3 {
-        let (s, c) = sin_cos_degrees(self.degrees.get());
+        let (s, c) = sin_cos_degrees(self.angle.get());
         let [x, y, z] = match self.axis {
             Axis::X => [DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c)],
             Axis::Y => [DVec3::new(c, 0.0, -s), DVec3::Y, DVec3::new(s, 0.0, c)],
@@ -48,8 +50,8 @@ mod tests {
             (Axis::Y, DVec3::Z, DVec3::X),
             (Axis::Z, DVec3::X, DVec3::Y),
         ] {
-            let degrees = Angle::literal(90.0);
-            assert_eq!(Turn { axis, degrees }.matrix() * from, to);
+            let angle = Angle::literal(90.0);
+            assert_eq!(Turn { axis, angle }.matrix() * from, to);
         }
     }
 }

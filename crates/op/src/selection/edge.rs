@@ -67,6 +67,23 @@ selection! {
     }
 }
 
+impl EdgeSelection {
+    /// Where the place `at` of a recipe lies on `e`, measured from the origin of its first half. `at` runs
+    /// from v to w in `Between(v, w)` and otherwise from the end of the lower number to the other. For an
+    /// edge that is not there, `at` itself: the edit refuses that.
+    pub fn place_on(&self, mesh: &Mesh, e: EdgeId, at: f64) -> f64 {
+        if !mesh.has_edge(e) {
+            return at;
+        }
+        let [a, b] = mesh.edge_vertices(e);
+        let start = match self {
+            Self::Between(v, _) => *v as usize,
+            _ => a.min(b).index(),
+        };
+        if start == a.index() { at } else { 1.0 - at }
+    }
+}
+
 impl Select for EdgeSelection {
     type Id = EdgeId;
     const WORD: &'static str = "edges";

@@ -108,7 +108,7 @@ fn a_recipe_must_name_the_edges_and_only_known_fields() {
     let flip = parse("(edges: Random(count: 3, seed: 7))");
     assert_eq!(flip.seams, Seams::Refuse);
     assert_eq!(flip.on_refusal, OnRefusal::Error);
-    assert_eq!((flip.until, flip.passes), (Until::Once, 100));
+    assert_eq!((flip.until, flip.passes), (Until::Once, hundred()));
 }
 
 proptest! {

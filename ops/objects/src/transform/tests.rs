@@ -27,7 +27,7 @@ fn nothing_to_do_changes_nothing() {
 
 #[test]
 fn points_are_scaled_then_turned_then_moved() {
-    let text = "(scale: (2, 1, 1), rotate: [(axis: Z, degrees: 90)], move: (3, 1, 0))";
+    let text = "(scale: (2, 1, 1), rotate: [(axis: Z, angle: 90)], move: (3, 1, 0))";
     let mesh = applied(text, shapes::square());
     let at = |x, y| DVec3::new(x, y, 0.0);
     assert_eq!(
@@ -38,7 +38,7 @@ fn points_are_scaled_then_turned_then_moved() {
 
 #[test]
 fn turns_are_done_in_order() {
-    let text = "(rotate: [(axis: Z, degrees: 90), (axis: X, degrees: 90)])";
+    let text = "(rotate: [(axis: Z, angle: 90), (axis: X, angle: 90)])";
     let mesh = applied(text, shapes::square());
     // x goes to y and on to z.
     assert_eq!(mesh.positions()[1], DVec3::Z);
@@ -58,8 +58,7 @@ fn four_quarter_turns_are_none() {
 #[test]
 fn a_turn_changes_no_area_and_no_volume() {
     let torus = shapes::torus(7, 5, 2.0, 0.5);
-    let text =
-        "(rotate: [(axis: X, degrees: 33), (axis: Y, degrees: -71.5)], about: Point(4, 5, 6))";
+    let text = "(rotate: [(axis: X, angle: 33), (axis: Y, angle: -71.5)], about: Point(4, 5, 6))";
     let mesh = applied(text, torus.clone());
     assert!((mesh.area() - torus.area()).abs() < 1e-12);
     assert!((mesh.volume() - torus.volume()).abs() < 1e-12);
@@ -91,7 +90,7 @@ fn two_mirrors_are_none() {
 #[test]
 fn the_center_of_each_object_stays() {
     let far = applied("(move: (100, 200, 300))", shapes::cube());
-    let text = "(scale: (2, 2, 2), rotate: [(axis: Y, degrees: 90)], about: Center)";
+    let text = "(scale: (2, 2, 2), rotate: [(axis: Y, angle: 90)], about: Center)";
     let [min, max] = applied(text, far).bounds().unwrap();
     assert_eq!(
         (min, max),
@@ -104,7 +103,7 @@ fn the_center_of_each_object_stays() {
 
 #[test]
 fn the_point_about_stays() {
-    let text = "(scale: (3, -3, 5), rotate: [(axis: Z, degrees: 90)], about: Point(1, 1, 0))";
+    let text = "(scale: (3, -3, 5), rotate: [(axis: Z, angle: 90)], about: Point(1, 1, 0))";
     assert_eq!(
         applied(text, shapes::square()).positions()[2],
         DVec3::new(1.0, 1.0, 0.0)
@@ -121,7 +120,7 @@ fn normals_stay_normal_to_their_faces() {
             .collect();
         mesh.set(CORNER_NORMAL, corners);
         mesh.set(VERTEX_NORMAL, vec![DVec3::ZERO; 12]);
-        let text = format!("(scale: {scale}, rotate: [(axis: X, degrees: 20)])");
+        let text = format!("(scale: {scale}, rotate: [(axis: X, angle: 20)])");
         let mesh = applied(&text, mesh);
         let normals = mesh.get(CORNER_NORMAL).unwrap();
         for h in mesh.half_edges() {
@@ -173,7 +172,7 @@ fn curve() -> Geometry {
 fn a_curve_turns_and_moves_in_its_plane() {
     let mut scene = scene_of(curve());
     op::test::run(
-        &step("(rotate: [(axis: Z, degrees: 90)], move: (1, 0, 0))"),
+        &step("(rotate: [(axis: Z, angle: 90)], move: (1, 0, 0))"),
         &mut scene,
     )
     .unwrap();
@@ -187,7 +186,7 @@ fn a_curve_turns_and_moves_in_its_plane() {
         Geometry::Curve(Curve::new(points).unwrap())
     );
     // A half turn around x stays in the plane too.
-    assert!(op::test::run(&step("(rotate: [(axis: X, degrees: 180)])"), &mut scene).is_ok());
+    assert!(op::test::run(&step("(rotate: [(axis: X, angle: 180)])"), &mut scene).is_ok());
 }
 
 #[test]
@@ -201,7 +200,7 @@ fn a_curve_does_not_leave_its_plane() {
     for (text, certain) in [
         ("(move: (0, 0, 1))", true),
         ("(scale: (1, 1, 2), about: Point(0, 0, 3))", true),
-        ("(rotate: [(axis: X, degrees: 30)])", false),
+        ("(rotate: [(axis: X, angle: 30)])", false),
     ] {
         let moved = op::test::run(&step(text), &mut scene_of(curve()));
         assert!(matches!(moved, Err(OpError::Parameter(_))), "{text}");

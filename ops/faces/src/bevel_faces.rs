@@ -49,7 +49,7 @@ pub struct BevelFaces {
 impl MeshOperation for BevelFaces {
     const NAME: &'static str = "BevelFaces";
     const SUMMARY: &'static str = "Raise a smaller copy of faces, with a ring of faces around it";
-    const EXAMPLE: &'static str = "BevelFaces(faces: All, inset: 0.25, height: 0.5)";
+    const EXAMPLE: &'static str = "BevelFaces(faces: All, fraction: 0.25, distance: 0.5)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let done = self.on_refusal.done(self.faces.count(plan));

@@ -6,23 +6,21 @@
 //! nothing for free. Those that see the whole scene implement [`Operation`].
 //!
 //! ```
-//! use mesh::{DVec3, Mesh};
-//! use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
-//! use schemars::JsonSchema;
-//! use serde::{Deserialize, Serialize};
+//! use mesh::DVec3;
+//! use op::prelude::*;
 //!
 //! /// Lifts every vertex.
 //! #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 //! #[serde(deny_unknown_fields)]
 //! pub struct Lift {
-//!     /// How far, in scene units.
-//!     pub by: f64,
+//!     /// How far, in scene units; below 0 it sinks.
+//!     pub distance: Distance,
 //! }
 //!
 //! impl MeshOperation for Lift {
 //!     const NAME: &'static str = "Lift";
 //!     const SUMMARY: &'static str = "Lift every vertex";
-//!     const EXAMPLE: &'static str = "Lift(by: 0.5)";
+//!     const EXAMPLE: &'static str = "Lift(distance: 0.5)";
 //!
 //!     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
 //!         Vec::new() // counts and attributes stay as they are
@@ -31,7 +29,7 @@
 //!     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
 //!         cx.advance("lift", 0, 1)?;
 //!         for p in mesh.positions_mut() {
-//!             *p += DVec3::new(0.0, 0.0, self.by);
+//!             *p += DVec3::new(0.0, 0.0, self.distance.get());
 //!         }
 //!         Ok(Report::changed(mesh.n_vertices()))
 //!     }
@@ -39,7 +37,7 @@
 //!
 //! let registry = op::Registry::new().with::<Lift>();
 //! assert!(registry.get("Lift").is_some());
-//! let lifted = op::test::applied(&Lift { by: 2.0 }, mesh::shapes::square());
+//! let lifted = op::test::applied(&Lift { distance: Distance::literal(2.0) }, mesh::shapes::square());
 //! assert_eq!(lifted.position(lifted.vertices().next().unwrap()), DVec3::new(0.0, 0.0, 2.0));
 //! ```
 
@@ -52,6 +50,7 @@ mod operation;
 mod parameter;
 mod place;
 mod plan;
+pub mod prelude;
 mod registry;
 mod report;
 mod selection;

@@ -8,12 +8,7 @@
 //!  a ------> b          a <------ b
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report, Select,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Turns faces over, so that their other side is the outside.
 ///

@@ -12,11 +12,9 @@
 //! at 0.9 times the distance always merge, wherever they lie, and two at 1.1 times only through others
 //! between them. Neither depends on the order of vertices or on the number of threads.
 
+use mesh::VERTEX_NORMAL;
 use mesh::merge::clusters;
-use mesh::{Mesh, VERTEX_NORMAL};
-use op::{Context, Length, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Merges vertices that lie near each other, and joins the faces at them.
 ///

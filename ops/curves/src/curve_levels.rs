@@ -12,13 +12,9 @@
 //!
 //! Source: Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, chapter 4.
 
-use op::{
-    ClosedFraction, Context, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem,
-    Report, change_curves, plan_curves,
-};
-use scene::{Geometry, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Operation, change_curves, plan_curves};
+use scene::Geometry;
 
 /// Replaces curves by the levels of de Casteljau's algorithm.
 ///

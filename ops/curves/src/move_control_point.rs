@@ -9,13 +9,9 @@
 //! ```
 
 use bezier::DVec2;
-use op::{
-    Context, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Report,
-    change_curves, plan_curves,
-};
-use scene::{Geometry, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Operation, change_curves, plan_curves};
+use scene::Geometry;
 
 /// Moves one control point of curves.
 ///

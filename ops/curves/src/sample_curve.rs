@@ -7,13 +7,9 @@
 //!   p0             p3         |         |
 //! ```
 
-use op::{
-    Context, Count, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Report,
-    change_curves, plan_curves,
-};
-use scene::{Geometry, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Operation, change_curves, plan_curves};
+use scene::Geometry;
 
 /// Replaces curves by polylines through their points.
 ///

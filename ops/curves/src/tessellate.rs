@@ -14,14 +14,10 @@
 use std::sync::Arc;
 
 use bezier::{BezierError, Patch, Tessellation, counts, tessellate_patch};
-use mesh::{BuildReport, Built, DVec2, DVec3, Domain, Mesh, NonManifold, UV, VERTEX_NORMAL};
-use op::{
-    Context, Count, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem,
-    Range, Report,
-};
-use scene::{Geometry, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{BuildReport, Built, DVec2, DVec3, Domain, NonManifold, UV, VERTEX_NORMAL};
+use op::Operation;
+use op::prelude::*;
+use scene::Geometry;
 
 /// Turns Bezier patches into a mesh.
 ///

@@ -8,13 +8,7 @@
 //!        d               d
 //! ```
 
-use mesh::Mesh;
-use op::{
-    ClosedFraction, Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError,
-    PlanContext, Problem, Range, Report, Select, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Shrinks edges to points: the two ends of each become one vertex.
 ///

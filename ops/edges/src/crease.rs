@@ -10,13 +10,8 @@
 //!
 //! The numbers are those of DeRose, Kass and Truong, "Subdivision Surfaces in Character Animation", 1998.
 
-use mesh::{Attribute, CORNER, CREASE, Domain, Id, Mesh};
-use op::{
-    Context, EdgeSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report, Select,
-    Sharpness, VertexSelection,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{Attribute, CORNER, CREASE, Domain, Id};
+use op::prelude::*;
 
 /// Makes edges and vertices sharp for subdivision.
 ///

@@ -6,13 +6,7 @@
 //!    +-----a-----+          +-----a-----+
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Report, Select, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Takes edges out and merges the faces beside them.
 ///

@@ -14,13 +14,8 @@
 mod goal;
 mod until;
 
-use mesh::{EdgeId, EditError, Mesh};
-use op::{
-    Context, Count, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext,
-    Problem, Report, Select, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{EdgeId, EditError};
+use op::prelude::*;
 
 use goal::Goal;
 

@@ -8,13 +8,7 @@
 //!        d                 d
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, EdgeSelection, Fraction, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext,
-    Problem, Range, Report, Select, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Puts a vertex on edges and joins it to the far corners of their triangles.
 ///

@@ -6,13 +6,7 @@
 //!    + ------ f ------ +    -->   + ---------- +           and higher by the distance
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, Distance, FaceSelection, Fraction, MeshOperation, MeshPlan, OnRefusal, OpError,
-    PlanContext, Problem, Range, Report, Select, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Raises a smaller copy of faces, with a ring of faces around it.
 ///

@@ -8,13 +8,8 @@
 //!    +---+---+---+          +---+   +---+
 //! ```
 
-use mesh::{EditError, FaceId, Mesh, VertexId};
-use op::{
-    Context, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{EditError, FaceId, VertexId};
+use op::prelude::*;
 
 /// Takes faces away and leaves holes.
 ///

@@ -14,13 +14,9 @@
 mod region;
 
 use glam::{DMat3, DVec3};
-use mesh::{Domain, FaceId, Mesh};
-use op::{
-    Context, Distance, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext,
-    PositiveFactor, Problem, Range, Report, Select, TagName, Turn, Vector,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{Domain, FaceId};
+use op::Turn;
+use op::prelude::*;
 
 use region::Region;
 

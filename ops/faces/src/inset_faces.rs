@@ -10,13 +10,7 @@
 //!    + ------------- +              + ------------- +
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, FaceSelection, Fraction, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext,
-    Problem, Range, Report, Select, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Puts a smaller copy into faces, with a ring of faces around it.
 ///

@@ -8,13 +8,7 @@
 //!    a ------- b          a ------- b
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, Distance, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext,
-    Problem, Range, Report, Select, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Puts a vertex into the middle of faces and joins it to their corners.
 ///

@@ -8,13 +8,8 @@
 //!    v-----+          v-----+
 //! ```
 
-use mesh::{Mesh, VertexId};
-use op::{
-    Context, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range, Report,
-    edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::VertexId;
+use op::prelude::*;
 
 /// Cuts faces in two by edges between their corners.
 ///

@@ -4,13 +4,8 @@ use mesh::Domain;
 use mesh_io::{
     NonManifold, Orientation, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions, Unwanted,
 };
-use op::{
-    Context, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Range,
-    Report,
-};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::Operation;
+use op::prelude::*;
 
 /// Reads the objects of a file into the scene.
 ///

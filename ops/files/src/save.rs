@@ -1,10 +1,8 @@
 //! Save: writes objects to a file.
 
 use mesh_io::{Format, WriteOptions};
-use op::{Context, Loss, OpError, Operation, Plan, PlanContext, Problem, Report};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Loss, Operation};
 
 /// Writes objects to a file below the output folder.
 ///

@@ -10,13 +10,9 @@
 //!      '-------'               '-------'
 //! ```
 
-use mesh::{Mesh, VertexId};
-use op::{
-    Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Refusal, Report,
-    Select, VertexSelection,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::VertexId;
+use op::Refusal;
+use op::prelude::*;
 
 /// Joins two holes by a band of faces.
 ///

@@ -8,13 +8,8 @@
 //!    +-----+-----+          +-----+ +-----+
 //! ```
 
-use mesh::{EdgeId, EditError, Mesh};
-use op::{
-    Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{EdgeId, EditError};
+use op::prelude::*;
 
 /// Opens the mesh along edges.
 ///

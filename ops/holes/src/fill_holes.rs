@@ -8,13 +8,8 @@
 //!    +-----+-----+          +-----+-----+          +-----+-----+
 //! ```
 
-use mesh::{CORNER_NORMAL, Domain, HalfEdgeId, Mesh, VERTEX_NORMAL};
-use op::{
-    Context, Count, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range,
-    Report, Select, VertexSelection, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{CORNER_NORMAL, Domain, HalfEdgeId, VERTEX_NORMAL};
+use op::prelude::*;
 
 /// Puts faces over holes.
 ///

@@ -10,13 +10,9 @@
 
 mod pairs;
 
-use mesh::{HalfEdgeId, Mesh};
-use op::{
-    Context, Length, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range,
-    Refusal, Report, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::HalfEdgeId;
+use op::Refusal;
+use op::prelude::*;
 
 use pairs::Pairs;
 

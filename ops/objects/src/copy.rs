@@ -4,12 +4,9 @@
 //!   "head", "body"   --->   "head", "body", "twin"
 //! ```
 
-use op::{
-    Context, OpError, Operation, Plan, PlanContext, Problem, Report, check_name, named_object,
-};
-use scene::{Object, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Operation, check_name, named_object};
+use scene::Object;
 
 /// Copies an object, with its attributes and materials, under a new name.
 ///

@@ -4,10 +4,8 @@
 //!   "head", "body", "tail"   --->   "head", "tail"
 //! ```
 
-use op::{Context, OpError, Operation, Plan, PlanContext, Problem, Report, named_object};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Operation, named_object};
 
 /// Takes objects out of the scene.
 ///

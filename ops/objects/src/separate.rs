@@ -9,14 +9,10 @@
 
 use std::sync::Arc;
 
-use mesh::{Domain, MATERIAL, Mesh};
-use op::{
-    Context, Count, Loss, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry,
-    PlannedObject, Problem, Refusal, Report, check_name, named_object,
-};
-use scene::{Geometry, Object, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{Domain, MATERIAL};
+use op::prelude::*;
+use op::{Loss, Operation, PlannedObject, Refusal, check_name, named_object};
+use scene::{Geometry, Object};
 
 /// Takes a mesh apart into several objects.
 ///

@@ -17,15 +17,11 @@ use std::sync::Arc;
 
 use bezier::{Curve, Patch};
 use glam::DVec3;
-use mesh::{Mesh, Rule, Values};
-use op::{
-    Context, Factors, Loss, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem,
-    Report, Turn, Vector, named_object,
-};
+use mesh::{Rule, Values};
+use op::prelude::*;
+use op::{Loss, Operation, named_object};
 use rayon::prelude::*;
-use scene::{Geometry, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use scene::Geometry;
 
 use crate::transform::map::Map;
 

@@ -12,17 +12,14 @@ use std::path::Path;
 
 use bezier::Curve;
 use glam::DVec2;
-use op::{
-    ClosedFraction, Context, Count, OpError, Operation, Plan, PlanContext, PlannedGeometry,
-    Problem, Report, named_object,
-};
+use op::Operation;
+use op::named_object;
+use op::prelude::*;
 use render::figure::construction::{
     Layout, MAX_CONSTRUCTED, MAX_DRAWN, MAX_PANELS, MAX_POINTS, Panel, construction,
 };
 use render::figure::{Svg, bytes_needed, pixel_size, pixels};
-use scene::{Geometry, Object, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use scene::{Geometry, Object};
 
 /// Draws Bezier curves with the construction of their points, into a file below the output folder.
 ///

@@ -16,12 +16,10 @@ mod tests;
 use std::fmt::Display;
 use std::path::Path;
 
-use op::{Context, Elements, OpError, Operation, Plan, PlanContext, Problem, Report};
+use op::prelude::*;
+use op::{Elements, Operation};
 use render::animation::{Timing, to_apng, to_gif};
 use render::{Camera, Color, GoOn, Image, LARGEST_SIDE, PictureError, Style};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use draw::Further;
 

@@ -14,14 +14,9 @@
 //! (1, 3, 7, 5), back (3, 2, 6, 7) and left (2, 0, 4, 6), so the diagonals are 0-3, 4-7, 0-5, 1-7,
 //! 3-6 and 2-4.
 
-use mesh::{Mesh, shapes};
-use op::{
-    Context, MeshPlan, OpError, Operation, Plan, PlanContext, PositiveLength, Problem, Range,
-    Report, Source, Vector,
-};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::shapes;
+use op::Operation;
+use op::prelude::*;
 
 /// Makes a cube.
 ///

@@ -9,13 +9,8 @@
 //! ```
 
 use mesh::shapes;
-use op::{
-    Context, Count, MeshPlan, OpError, Operation, Plan, PlanContext, PositiveLength, Problem,
-    Range, Report, Source, Vector,
-};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::Operation;
+use op::prelude::*;
 
 /// Makes a flat sheet of squares that face upwards, +z.
 ///

@@ -7,13 +7,8 @@
 //! ```
 
 use mesh::shapes;
-use op::{
-    Context, MeshPlan, OpError, Operation, Plan, PlanContext, PositiveLength, Problem, Range,
-    Report, Source, Vector,
-};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::Operation;
+use op::prelude::*;
 
 /// Makes a regular icosahedron: 12 vertices, 20 triangles.
 ///

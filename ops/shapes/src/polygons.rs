@@ -8,13 +8,9 @@
 //!    0 ------- 1
 //! ```
 
-use mesh::{BuildReport, DVec3, Mesh};
-use op::{
-    Context, MeshPlan, OpError, Operation, Plan, PlanContext, Problem, Report, Source, Vector,
-};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{BuildReport, DVec3};
+use op::Operation;
+use op::prelude::*;
 
 /// Makes a mesh of points and faces.
 ///

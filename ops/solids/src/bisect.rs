@@ -8,13 +8,8 @@
 //!    +-------+-------+           +-------+-------+
 //! ```
 
-use mesh::{Domain, Mesh};
-use op::{
-    Context, Direction, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report,
-    TagName, Vector,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::Domain;
+use op::prelude::*;
 
 /// Cuts meshes along a plane.
 ///

@@ -1,11 +1,7 @@
 //! `TagEdges`: marks edges with a tag.
 
-use mesh::{Domain, Mesh};
-use op::{
-    Context, EdgeSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report, TagName,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::Domain;
+use op::prelude::*;
 
 /// Marks the selected edges, and no others, with a tag: `Tagged("rim")` selects them in later steps.
 ///

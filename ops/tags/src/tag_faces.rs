@@ -1,11 +1,7 @@
 //! `TagFaces`: marks faces with a tag.
 
-use mesh::{Domain, Mesh};
-use op::{
-    Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report, TagName,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::Domain;
+use op::prelude::*;
 
 /// Marks the selected faces, and no others, with a tag: `Tagged("rim")` selects them in later steps.
 ///

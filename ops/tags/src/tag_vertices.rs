@@ -1,12 +1,7 @@
 //! `TagVertices`: marks vertices with a tag.
 
-use mesh::{Domain, Mesh};
-use op::{
-    Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report, TagName,
-    VertexSelection,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::Domain;
+use op::prelude::*;
 
 /// Marks the selected vertices, and no others, with a tag: `Tagged("rim")` selects them in later steps.
 ///

@@ -8,13 +8,8 @@
 //!         |                    |
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, Cuts, Fraction, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select, VertexSelection, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::Cuts;
+use op::prelude::*;
 
 /// Puts faces into the place of vertices.
 ///

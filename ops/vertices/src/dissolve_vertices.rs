@@ -8,13 +8,7 @@
 //!    +-----+-----+          +-----+-----+          +-----------+          +-----------+
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range, Report,
-    Select, VertexSelection, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Takes vertices out and merges the faces around them.
 ///

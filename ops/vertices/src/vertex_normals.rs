@@ -20,10 +20,8 @@
 
 mod gather;
 
-use mesh::{CORNER_NORMAL, Domain, Mesh, VERTEX_NORMAL};
-use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{CORNER_NORMAL, Domain, VERTEX_NORMAL};
+use op::prelude::*;
 
 pub use gather::normals;
 

@@ -1,9 +1,7 @@
 //! Lift: moves every vertex upwards.
 
-use mesh::{DVec3, Mesh};
-use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::DVec3;
+use op::prelude::*;
 
 /// Moves every vertex along the z axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]

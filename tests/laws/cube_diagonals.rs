@@ -1,6 +1,7 @@
 //! What flipping diagonals can do for the symmetry of a subdivided cube: all 64 patterns.
 
-use mesh::{EdgeId, shapes};
+use geometry::shapes;
+use mesh::EdgeId;
 use op::Files;
 use ops_subdivide::LoopSubdivide;
 use recipe::Expectation;

@@ -17,7 +17,8 @@ use criterion::measurement::WallTime;
 use criterion::{
     BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main,
 };
-use mesh::{Mesh, shapes};
+use geometry::shapes;
+use mesh::Mesh;
 use mesh_io::{ReadOptions, WriteOptions, read, read_polygons, write};
 use scene::{Object, Scene};
 

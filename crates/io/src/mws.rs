@@ -120,7 +120,8 @@ fn error(path: &Path, offset: usize, message: impl Into<String>) -> ReadError {
 mod tests {
     use super::*;
     use crate::{ReadOptions, peek as peek_file, read as read_file, write as write_file};
-    use mesh::{Column, DVec3, Rule, Values, shapes};
+    use geometry::shapes;
+    use mesh::{Column, DVec3, Rule, Values};
     use scene::Material;
 
     fn scene() -> Scene {

@@ -147,7 +147,7 @@ fn of_svg(bytes: &[u8]) -> Option<String> {
 mod tests {
     use super::*;
     use crate::{WriteOptions, write};
-    use mesh::shapes;
+    use geometry::shapes;
     use scene::{Object, Scene};
 
     #[test]

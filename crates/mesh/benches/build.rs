@@ -72,7 +72,7 @@ fn a_million_triangles(c: &mut Criterion) {
 
 /// A torus of a million triangles.
 fn torus() -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let quads = mesh::shapes::torus(1000, 500, 2.0, 1.0);
+    let quads = geometry::shapes::torus(1000, 500, 2.0, 1.0);
     let triangles = quads.faces().flat_map(|f| {
         let mut v = quads.face_vertices(f).map(mesh::VertexId::index);
         let v = [(); 4].map(|()| v.next().expect("a quadrilateral"));

@@ -37,11 +37,10 @@
 //!
 //! let registry = op::Registry::new().with::<Lift>();
 //! assert!(registry.get("Lift").is_some());
-//! let lifted = op::test::applied(&Lift { distance: Distance::literal(2.0) }, mesh::shapes::square());
+//! let lifted = op::test::applied(&Lift { distance: Distance::literal(2.0) }, geometry::shapes::square());
 //! assert_eq!(lifted.position(lifted.vertices().next().unwrap()), DVec3::new(0.0, 0.0, 2.0));
 //! ```
 
-mod bevel;
 mod context;
 mod edit;
 mod error;
@@ -58,9 +57,8 @@ mod source;
 mod tag;
 pub mod test;
 
-pub use bevel::Cuts;
 pub use context::Context;
-pub use edit::{Edited, OnRefusal, edit_each};
+pub use edit::{Edited, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};
 pub use files::{FileError, FileLog, FileUse, Files};
 pub use operation::{MeshOperation, Operation};

@@ -34,7 +34,8 @@ impl Place {
 
 #[cfg(test)]
 mod tests {
-    use mesh::{EdgeId, EditError, VertexId, shapes};
+    use geometry::shapes;
+    use mesh::{EdgeId, EditError, VertexId};
     use scene::{Object, Scene};
     use schemars::JsonSchema;
     use serde::{Deserialize, Serialize};

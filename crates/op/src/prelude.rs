@@ -10,5 +10,5 @@ pub use crate::{
     Angle, AngleBetween, ClosedFraction, Context, Count, Direction, Distance, EdgeSelection,
     FaceSelection, Factors, Fraction, Length, Levels, MeshOperation, MeshPlan, OnRefusal, OpError,
     Plan, PlanContext, PlannedGeometry, PositiveFactor, PositiveLength, Problem, Range, Report,
-    Select, Sharpness, Source, TagName, Turn, Vector, VertexSelection, edit_each,
+    Seams, Select, Sharpness, Source, TagName, Turn, Vector, VertexSelection, edit_each,
 };

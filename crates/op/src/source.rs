@@ -20,7 +20,7 @@ const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 /// An operation describes its source once and hands it to both of its methods:
 ///
 /// ```
-/// use mesh::shapes;
+/// use geometry::shapes;
 /// use op::{MeshPlan, Plan, Range, Source, Vector};
 ///
 /// let counts = MeshPlan::counted(4, 6, 4, Range::exactly(3));
@@ -269,7 +269,7 @@ fn not_a_curve(operation: &str, name: &str, kind: &str) -> String {
 mod tests {
     use super::*;
     use crate::NoProgress;
-    use mesh::shapes;
+    use geometry::shapes;
 
     fn square() -> MeshPlan {
         MeshPlan::counted(4, 4, 1, Range::exactly(4))

@@ -8,6 +8,9 @@ use crate::{
     Refusal, Report,
 };
 
+/// Reads the parameters of an operation as recipes write them: `(levels: 2)`.
+pub use ron_tree::from_str as read;
+
 /// The mesh after `operation`.
 ///
 /// # Panics

@@ -65,7 +65,8 @@ pub fn resolve(
 
 #[cfg(test)]
 mod tests {
-    use mesh::{VertexId, shapes};
+    use geometry::shapes;
+    use mesh::VertexId;
 
     use super::*;
 

@@ -10,7 +10,8 @@ mod upgrade;
 
 use std::path::Path;
 
-use mesh::{DVec3, Mesh, shapes};
+use geometry::shapes;
+use mesh::{DVec3, Mesh};
 use op::{
     Context, Files, MeshOperation, MeshPlan, OpError, Operation, Plan, PlanContext, Problem,
     Refusal, Registry, Report, Select, Source, VertexSelection,

@@ -9,7 +9,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use mesh::{Mesh, shapes};
+use geometry::shapes;
+use mesh::Mesh;
 use render::{Camera, Lines, Overlays, Shading, Style, picture};
 use scene::{Object, Scene};
 

@@ -18,7 +18,7 @@
 //! # Examples
 //!
 //! ```
-//! use mesh::shapes;
+//! use geometry::shapes;
 //! use render::{Camera, Overlays, Style, picture};
 //! use scene::{Object, Scene};
 //!
@@ -100,7 +100,8 @@ pub fn picture(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{Domain, FaceId, shapes};
+    use geometry::shapes;
+    use mesh::{Domain, FaceId};
     use scene::{Material, Object, Scene};
 
     fn scene(object: Object) -> Scene {

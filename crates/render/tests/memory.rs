@@ -2,7 +2,8 @@
 //!
 //! One test, because what others allocate at the same time would be counted too.
 
-use mesh::{DVec3, shapes};
+use geometry::shapes;
+use mesh::DVec3;
 use peak_alloc::PeakAlloc;
 use render::{
     Camera, Drawing, Line, NO_FACE, Overlays, PictureError, Shading, Style, View, build,

@@ -152,7 +152,7 @@ impl Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
 
     #[test]
     fn a_second_object_of_a_name_is_refused_and_nothing_changes() {

@@ -11,7 +11,8 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use mesh::{Mesh, shapes};
+use geometry::shapes;
+use mesh::Mesh;
 use progress::NoProgress;
 use rayon::prelude::*;
 use subdivision::{LoopWeights, Rules, Scheme};

@@ -16,7 +16,7 @@
 mod assemble;
 mod doubles;
 
-use mesh::triangulate::{Cut, Cutter};
+use geometry::triangulate::{Cut, Cutter};
 use op::Refusal;
 use op::prelude::*;
 use rayon::prelude::*;

@@ -13,7 +13,6 @@
 //! between them. Neither depends on the order of vertices or on the number of threads.
 
 use mesh::VERTEX_NORMAL;
-use mesh::merge::clusters;
 use op::prelude::*;
 
 /// Merges vertices that lie near each other, and joins the faces at them.
@@ -58,13 +57,10 @@ impl MeshOperation for Weld {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        let lowest = clusters(mesh.positions(), self.distance.get(), &|done, total| {
-            cx.advance("weld", done, total)
-        })?;
-        if (0..).zip(&lowest).all(|(v, &low): (u32, _)| v == low) {
+        let merged = geometry::merge_vertices(mesh, self.distance.get(), cx.progress())?;
+        if merged.vertices == 0 {
             return Ok(Report::default());
         }
-        let merged = mesh.merge_clusters(&lowest)?;
         let n = merged.vertices;
         let vertices = if n == 1 { "vertex" } else { "vertices" };
         let mut report = Report::changed(n).note(format!("merged {n} {vertices}"));

@@ -128,7 +128,7 @@ mod tests {
         ));
 
         let mut plan = Plan::default();
-        let planned = PlannedGeometry::Curve(op::Range::exactly(3));
+        let planned = PlannedGeometry::Curve(Range::exactly(3));
         assert_eq!(plan.insert("arch", planned), []);
         let cx = PlanContext {
             files: &files,

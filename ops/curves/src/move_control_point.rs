@@ -67,7 +67,7 @@ mod tests {
     use scene::Object;
 
     fn step(text: &str) -> MoveControlPoint {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn points() -> Vec<DVec2> {

@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn the_polyline_lies_on_the_curve() {
         let mut scene = arch();
-        let step: SampleCurve = ron::from_str("(segments: 2)").unwrap();
+        let step: SampleCurve = op::test::read("(segments: 2)").unwrap();
         assert_eq!(op::test::run(&step, &mut scene).unwrap().changed, 1);
         let line = vec![
             DVec3::ZERO,
@@ -109,7 +109,7 @@ mod tests {
         let step = sample(8);
         let mut plan = Plan::default();
         assert_eq!(step.plan(&mut plan, &cx).len(), 1);
-        let curve = PlannedGeometry::Curve(op::Range::exactly(3));
+        let curve = PlannedGeometry::Curve(Range::exactly(3));
         assert_eq!(plan.insert("arch", curve), []);
         assert_eq!(step.plan(&mut plan, &cx), []);
         assert_eq!(plan.objects[0].geometry, PlannedGeometry::Polylines);

@@ -8,7 +8,7 @@
 //!     /               \            /               \
 //! ```
 
-use op::Cuts;
+use geometry::bevel::Cuts;
 use op::prelude::*;
 
 /// Puts faces into the place of edges.
@@ -90,12 +90,13 @@ impl MeshOperation for BevelEdges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{FaceId, shapes};
+    use geometry::shapes;
+    use mesh::FaceId;
 
     use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> BevelEdges {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -104,7 +105,7 @@ mod tests {
         let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
         assert_eq!(report.changed, 1);
         assert_eq!(mesh.degree(FaceId::new(6)), 4);
-        assert!((mesh.volume() - 7.0).abs() < 1e-13);
+        assert!((geometry::volume(&mesh) - 7.0).abs() < 1e-13);
     }
 
     #[test]
@@ -120,7 +121,7 @@ mod tests {
         let counts = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()];
         assert_eq!(counts, [16, 24, 10]);
         // A prism over an octagon: a square of side 2 without four triangles of legs 1/2.
-        assert!((mesh.volume() - 2.0 * (4.0 - 0.5)).abs() < 1e-13);
+        assert!((geometry::volume(&mesh) - 2.0 * (4.0 - 0.5)).abs() < 1e-13);
         for &p in mesh.positions() {
             let (x, y) = (p.x.abs(), p.y.abs());
             assert!((x.min(y) - 0.5).abs() < 1e-15 && (x.max(y) - 1.0).abs() < 1e-15);
@@ -136,7 +137,7 @@ mod tests {
             let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
             assert!(report.changed >= 4, "{report:?}");
             assert!(mesh.is_closed());
-            assert_eq!(mesh.genus(), 0);
+            assert_eq!(geometry::genus(&mesh), 0);
             let (plan, _) = planned(&step, &shapes::cube());
             assert!(plan.vertices.contains(mesh.n_vertices() as u64));
             assert!(plan.edges.contains(mesh.n_edges() as u64));

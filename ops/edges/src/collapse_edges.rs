@@ -80,13 +80,14 @@ impl MeshOperation for CollapseEdges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, VERTEX_NORMAL, VertexId, shapes};
+    use geometry::shapes;
+    use mesh::{DVec3, VERTEX_NORMAL, VertexId};
     use op::Refusal;
     use op::test::{applied, planned, try_applied};
     use proptest::prelude::*;
 
     fn parse(text: &str) -> CollapseEdges {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -174,7 +175,7 @@ mod tests {
             (collapse.at, collapse.on_refusal),
             (half(), OnRefusal::Error)
         );
-        assert!(ron::from_str::<CollapseEdges>("(at: 0.5)").is_err());
+        assert!(op::test::read::<CollapseEdges>("(at: 0.5)").is_err());
     }
 
     proptest! {
@@ -202,7 +203,7 @@ mod tests {
             prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
             prop_assert_eq!(after.n_boundary_loops(), before.n_boundary_loops());
             // No place on an edge lies outside the box.
-            if let (Some([low, high]), Some([min, max])) = (before.bounds(), after.bounds()) {
+            if let (Some([low, high]), Some([min, max])) = (geometry::bounds(&before), geometry::bounds(&after)) {
                 let slack = DVec3::splat(1e-12);
                 prop_assert!((low - slack).cmple(min).all() && max.cmple(high + slack).all());
             }

@@ -123,15 +123,12 @@ fn sharpen<I: Id>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{Column, DVec3, Rule, Values, shapes};
+    use geometry::shapes;
+    use mesh::{Column, DVec3, Rule, Values};
     use op::test::{applied, planned, try_applied};
 
-    /// As recipes are read.
     fn step(text: &str) -> Crease {
-        let options = ron::Options::default();
-        let implicit_some = ron::extensions::Extensions::IMPLICIT_SOME;
-        let options = options.with_default_extension(implicit_some);
-        options.from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]

@@ -69,28 +69,8 @@ pub enum Until {
     Valence,
 }
 
-/// What to do with an edge whose corner values, like UVs, differ between its two sides.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub enum Seams {
-    /// Refuse the flip.
-    #[default]
-    Refuse,
-    /// Flip, and give each triangle the corner values of the other side where it crosses the seam.
-    Drop,
-}
-
 const fn hundred() -> Count<1, 1_000_000> {
     Count::literal(100)
-}
-
-impl From<Seams> for mesh::Seams {
-    fn from(seams: Seams) -> Self {
-        match seams {
-            Seams::Refuse => Self::Refuse,
-            Seams::Drop => Self::Drop,
-        }
-    }
 }
 
 impl MeshOperation for FlipEdges {

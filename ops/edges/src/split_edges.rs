@@ -80,13 +80,14 @@ impl MeshOperation for SplitEdges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, VertexId, shapes};
+    use geometry::shapes;
+    use mesh::{DVec3, VertexId};
 
     use op::test::{applied, planned, try_applied};
     use proptest::prelude::*;
 
     fn parse(text: &str) -> SplitEdges {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -149,7 +150,7 @@ mod tests {
     fn a_recipe_may_leave_out_all_but_the_edges() {
         let split = parse("(edges: Longest(count: 2))");
         assert_eq!((split.at, split.on_refusal), (half(), OnRefusal::Error));
-        assert!(ron::from_str::<SplitEdges>("(at: 0.5)").is_err());
+        assert!(op::test::read::<SplitEdges>("(at: 0.5)").is_err());
     }
 
     proptest! {
@@ -174,7 +175,7 @@ mod tests {
             prop_assert!(plan.faces.contains(after.n_faces() as u64));
             prop_assert!(after.faces().all(|f| plan.degrees.contains(after.degree(f) as u64)));
             prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
-            prop_assert!((after.area() - before.area()).abs() < 1e-12 * before.area().max(1.0));
+            prop_assert!((geometry::area(&after) - geometry::area(&before)).abs() < 1e-12 * geometry::area(&before).max(1.0));
             let moved = |p: DVec3| after.positions().contains(&p);
             prop_assert!(before.positions().iter().all(|&p| moved(p)));
         }

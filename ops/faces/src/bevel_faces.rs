@@ -78,12 +78,13 @@ impl MeshOperation for BevelFaces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{FaceId, shapes};
+    use geometry::shapes;
+    use mesh::FaceId;
 
     use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> BevelFaces {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -94,7 +95,7 @@ mod tests {
         let mesh = applied(&step, shapes::cube());
         assert_eq!(mesh.n_faces(), 30);
         // A frustum from area 4 to area 1 and of height 1 has volume (4 + 2 + 1) / 3.
-        assert!((mesh.volume() - 8.0 - 6.0 * 7.0 / 3.0).abs() < 1e-12);
+        assert!((geometry::volume(&mesh) - 8.0 - 6.0 * 7.0 / 3.0).abs() < 1e-12);
         let top = mesh.face_center(FaceId::new(1));
         assert!((top - mesh::DVec3::new(0.0, 0.0, 2.0)).length() < 1e-15);
     }
@@ -103,7 +104,7 @@ mod tests {
     fn a_negative_distance_goes_inwards() {
         let step = parse("(faces: Faces([1]), fraction: 0.25, distance: -0.5, on_refusal: Skip)");
         let mesh = applied(&step, shapes::cube());
-        assert!(mesh.volume() < 8.0);
+        assert!(geometry::volume(&mesh) < 8.0);
         assert_eq!(mesh.face_center(FaceId::new(1)).z, 0.5);
     }
 

@@ -74,12 +74,13 @@ impl MeshOperation for InsetFaces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{FaceId, VERTEX_NORMAL, shapes};
+    use geometry::shapes;
+    use mesh::{FaceId, VERTEX_NORMAL};
 
     use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> InsetFaces {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -94,7 +95,7 @@ mod tests {
         let exactly = |n: usize| Range::exactly(n as u64);
         assert_eq!([plan.vertices, plan.edges, plan.faces], counts.map(exactly));
         assert_eq!(plan.degrees, Range::exactly(4));
-        assert!((mesh.area() - 24.0).abs() < 1e-13);
+        assert!((geometry::area(&mesh) - 24.0).abs() < 1e-13);
         for f in shapes::cube().faces() {
             assert!((mesh.face_area(f) - 1.0).abs() < 1e-13);
         }

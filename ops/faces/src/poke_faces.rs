@@ -88,13 +88,14 @@ impl MeshOperation for PokeFaces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, VERTEX_NORMAL, VertexId, shapes};
+    use geometry::shapes;
+    use mesh::{DVec3, VERTEX_NORMAL, VertexId};
 
     use op::test::{applied, is_as_planned, planned, try_applied};
     use proptest::prelude::*;
 
     fn parse(text: &str) -> PokeFaces {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -110,7 +111,7 @@ mod tests {
         assert_eq!(mesh.position(VertexId::new(4)), DVec3::new(0.5, 0.5, 2.0));
         // A cube with a roof of height 1 on each square of 2 x 2.
         let mesh = applied(&parse("(distance: 1)"), shapes::cube());
-        assert!((mesh.volume() - (8.0 + 6.0 * 4.0 / 3.0)).abs() < 1e-12);
+        assert!((geometry::volume(&mesh) - (8.0 + 6.0 * 4.0 / 3.0)).abs() < 1e-12);
     }
 
     #[test]
@@ -185,7 +186,7 @@ mod tests {
             let after = applied(&poke, before.clone());
             prop_assert!(is_as_planned(&poke, &before, &after));
             prop_assert_eq!(after.euler_characteristic(), before.euler_characteristic());
-            prop_assert!((after.area() - before.area()).abs() < 1e-12 * before.area().max(1.0));
+            prop_assert!((geometry::area(&after) - geometry::area(&before)).abs() < 1e-12 * geometry::area(&before).max(1.0));
         }
     }
 }

@@ -91,12 +91,12 @@ impl Operation for Save {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::{Files, NoProgress, PlannedGeometry, Range};
     use scene::Object;
 
     fn save(path: &str) -> Save {
-        ron::from_str(&format!("(path: {path:?})")).unwrap()
+        op::test::read(&format!("(path: {path:?})")).unwrap()
     }
 
     #[test]

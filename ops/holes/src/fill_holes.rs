@@ -112,7 +112,7 @@ impl FillHoles {
     fn fill(&self, mesh: &mut Mesh, h: HalfEdgeId) -> Result<(), mesh::EditError> {
         match self.with {
             Cover::Face => mesh.fill_hole(h).map(drop),
-            Cover::Triangles => mesh.fill_hole_triangles(h).map(drop),
+            Cover::Triangles => geometry::fill_hole_triangles(mesh, h).map(drop),
         }
     }
 }
@@ -120,11 +120,12 @@ impl FillHoles {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, FaceId, shapes};
+    use geometry::shapes;
+    use mesh::{DVec3, FaceId};
     use op::test::{applied, try_applied};
 
     fn parse(text: &str) -> FillHoles {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     /// A torus with a hole of 4 and one of 6 edges, and normals.
@@ -147,7 +148,10 @@ mod tests {
         let triangles = applied(&parse("()"), tube);
         assert!(triangles.is_closed());
         assert_eq!((triangles.n_faces(), triangles.n_edges()), (14, 24));
-        assert!((triangles.volume() - shapes::cylinder(6, true).volume()).abs() < 1e-12);
+        assert!(
+            (geometry::volume(&triangles) - geometry::volume(&shapes::cylinder(6, true))).abs()
+                < 1e-12
+        );
     }
 
     #[test]
@@ -175,10 +179,10 @@ mod tests {
     #[test]
     fn a_recipe_names_known_fields_only() {
         assert!(
-            ron::from_str::<FillHoles>("(around: Boundary, with: Face, on_refusal: Skip)").is_ok()
+            op::test::read::<FillHoles>("(around: Boundary, with: Face, on_refusal: Skip)").is_ok()
         );
-        assert!(ron::from_str::<FillHoles>("(with: Quads)").is_err());
-        assert!(ron::from_str::<FillHoles>("(max: 3)").is_err());
+        assert!(op::test::read::<FillHoles>("(with: Quads)").is_err());
+        assert!(op::test::read::<FillHoles>("(max: 3)").is_err());
         assert_eq!(parse("()").with, Cover::Triangles);
     }
 }

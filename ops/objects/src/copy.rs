@@ -50,12 +50,12 @@ impl Operation for Copy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::{Files, MeshPlan, PlannedGeometry};
     use scene::Material;
 
     fn step(text: &str) -> Copy {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn scene() -> Scene {

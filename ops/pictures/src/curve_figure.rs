@@ -305,10 +305,7 @@ mod tests {
     }
 
     fn step(parameters: &str) -> CurveFigure {
-        ron::Options::default()
-            .with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
-            .from_str(parameters)
-            .unwrap()
+        op::test::read(parameters).unwrap()
     }
 
     /// Runs a step with a stamp, and gives back what it has written.

@@ -14,7 +14,7 @@
 //! (1, 3, 7, 5), back (3, 2, 6, 7) and left (2, 0, 4, 6), so the diagonals are 0-3, 4-7, 0-5, 1-7,
 //! 3-6 and 2-4.
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -101,20 +101,20 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Cube>(text).unwrap())
+        op::made(&op::test::read::<Cube>(text).unwrap())
     }
 
     #[test]
     fn a_cube_of_size_2_has_its_corners_at_1() {
         let mesh = made(r#"(name: "a")"#);
         assert_eq!(mesh, shapes::cube());
-        assert!((mesh.volume() - 8.0).abs() < 1e-14);
+        assert!((geometry::volume(&mesh) - 8.0).abs() < 1e-14);
     }
 
     #[test]
     fn size_and_center_place_it() {
         let mesh = made(r#"(name: "a", size: 3, center: (1, 2, 3))"#);
-        let [min, max] = mesh.bounds().unwrap();
+        let [min, max] = geometry::bounds(&mesh).unwrap();
         assert_eq!(min, DVec3::new(-0.5, 0.5, 1.5));
         assert_eq!(max, DVec3::new(2.5, 3.5, 4.5));
     }
@@ -123,7 +123,7 @@ mod tests {
     fn the_diagonals_are_those_of_the_documentation() {
         let mesh = made(r#"(name: "a", triangles: true)"#);
         assert!(mesh.is_closed());
-        assert!((mesh.volume() - 8.0).abs() < 1e-14);
+        assert!((geometry::volume(&mesh) - 8.0).abs() < 1e-14);
         let square = shapes::cube();
         let vertex = VertexId::new;
         for (v, w) in [(0, 3), (4, 7), (0, 5), (1, 7), (3, 6), (2, 4)] {

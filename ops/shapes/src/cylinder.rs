@@ -8,7 +8,7 @@
 //!     \_|____|_/
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -102,15 +102,15 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Cylinder>(text).unwrap())
+        op::made(&op::test::read::<Cylinder>(text).unwrap())
     }
 
     #[test]
     fn a_cylinder_of_four_sides_is_a_box() {
         let mesh = made(r#"(name: "a", around: 4, radius: 3, height: 5, center: (0, 0, 1))"#);
         // The base is a square with diagonals of 6.
-        assert!((mesh.volume() - 18.0 * 5.0).abs() < 1e-12);
-        let [min, max] = mesh.bounds().unwrap();
+        assert!((geometry::volume(&mesh) - 18.0 * 5.0).abs() < 1e-12);
+        let [min, max] = geometry::bounds(&mesh).unwrap();
         assert_eq!((min.z, max.z), (-1.5, 3.5));
     }
 
@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn too_many_sides_are_refused() {
-        let step: Cylinder = ron::from_str(r#"(name: "a", around: 4294967295)"#).unwrap();
+        let step: Cylinder = op::test::read(r#"(name: "a", around: 4294967295)"#).unwrap();
         let made = op::test::run(&step, &mut Scene::new());
         assert!(matches!(made, Err(OpError::Budget(_))));
     }

@@ -8,7 +8,7 @@
 //!    0 --- 1 --- 2
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -72,13 +72,13 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Grid>(text).unwrap())
+        op::made(&op::test::read::<Grid>(text).unwrap())
     }
 
     #[test]
     fn a_grid_covers_its_area_and_faces_upwards() {
         let mesh = made(r#"(name: "a", columns: 3, rows: 2, size: 0.5)"#);
-        assert_eq!(mesh.area(), 6.0 * 0.25);
+        assert_eq!(geometry::area(&mesh), 6.0 * 0.25);
         assert!(mesh.faces().all(|f| mesh.face_normal(f) == DVec3::Z));
         assert_eq!(mesh.n_boundary_loops(), 1);
     }
@@ -94,7 +94,7 @@ mod tests {
     fn too_many_squares_are_refused() {
         for n in [u32::MAX, 1 << 16] {
             let text = format!(r#"(name: "a", columns: {n}, rows: {n})"#);
-            let step: Grid = ron::from_str(&text).unwrap();
+            let step: Grid = op::test::read(&text).unwrap();
             let made = op::test::run(&step, &mut Scene::new());
             assert!(matches!(made, Err(OpError::Budget(_))));
         }

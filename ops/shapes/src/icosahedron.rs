@@ -6,7 +6,7 @@
 //!    ...   5   ...
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -58,7 +58,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Icosahedron>(text).unwrap())
+        op::made(&op::test::read::<Icosahedron>(text).unwrap())
     }
 
     #[test]
@@ -81,6 +81,6 @@ mod tests {
             assert!((mesh.length(e.half_edge()) - side).abs() < 1e-14);
         }
         // The volume of the regular icosahedron of radius 1: 5 (3 + √5) a³ / 12, a = 4 / √(10 + 2 √5).
-        assert!((mesh.volume() - 2.536_150_710_120_409).abs() < 1e-14);
+        assert!((geometry::volume(&mesh) - 2.536_150_710_120_409).abs() < 1e-14);
     }
 }

@@ -8,7 +8,7 @@
 //!          5           +---- x      2 is behind, 3 in front
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -60,7 +60,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Octahedron>(text).unwrap())
+        op::made(&op::test::read::<Octahedron>(text).unwrap())
     }
 
     #[test]
@@ -83,6 +83,6 @@ mod tests {
             assert!((mesh.length(e.half_edge()) - side).abs() < 1e-14);
         }
         // The volume of the regular octahedron of radius 1 is 4 / 3.
-        assert!((mesh.volume() - 4.0 / 3.0).abs() < 1e-14);
+        assert!((geometry::volume(&mesh) - 4.0 / 3.0).abs() < 1e-14);
     }
 }

@@ -116,7 +116,7 @@ mod tests {
     use super::*;
 
     fn step(text: &str) -> Polygons {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     /// The path and the message of the one problem.
@@ -143,7 +143,7 @@ mod tests {
             (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()),
             (4, 5, 2)
         );
-        assert_eq!(mesh.area(), 1.0);
+        assert_eq!(geometry::area(&mesh), 1.0);
     }
 
     #[test]

@@ -9,7 +9,7 @@
 //!        2
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -62,7 +62,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Tetrahedron>(text).unwrap())
+        op::made(&op::test::read::<Tetrahedron>(text).unwrap())
     }
 
     #[test]
@@ -85,6 +85,6 @@ mod tests {
             assert!((mesh.length(e.half_edge()) - side).abs() < 1e-14);
         }
         // The volume of the regular tetrahedron of radius 1 is 8 / (9 √3).
-        assert!((mesh.volume() - 8.0 / (9.0 * 3.0_f64.sqrt())).abs() < 1e-14);
+        assert!((geometry::volume(&mesh) - 8.0 / (9.0 * 3.0_f64.sqrt())).abs() < 1e-14);
     }
 }

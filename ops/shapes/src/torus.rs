@@ -9,7 +9,7 @@
 //!    '---'        |        '---'
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -88,29 +88,29 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<Torus>(text).unwrap())
+        op::made(&op::test::read::<Torus>(text).unwrap())
     }
 
     #[test]
     fn a_torus_has_one_handle() {
         let mesh = made(r#"(name: "a", around: 5, across: 4)"#);
         assert!(mesh.is_closed());
-        assert_eq!(mesh.genus(), 1);
-        assert!(mesh.volume() > 0.0);
+        assert_eq!(geometry::genus(&mesh), 1);
+        assert!(geometry::volume(&mesh) > 0.0);
     }
 
     #[test]
     fn major_and_minor_give_its_size() {
         let mesh =
             made(r#"(name: "a", around: 4, across: 4, major: 3, minor: 1, center: (0, 0, 7))"#);
-        let [min, max] = mesh.bounds().unwrap();
+        let [min, max] = geometry::bounds(&mesh).unwrap();
         assert!(min.abs_diff_eq(DVec3::new(-4.0, -4.0, 6.0), 1e-14));
         assert!(max.abs_diff_eq(DVec3::new(4.0, 4.0, 8.0), 1e-14));
     }
 
     #[test]
     fn a_fat_tube_is_a_warning_and_still_made() {
-        let step: Torus = ron::from_str(r#"(name: "a", around: 5, across: 4, minor: 2)"#).unwrap();
+        let step: Torus = op::test::read(r#"(name: "a", around: 5, across: 4, minor: 2)"#).unwrap();
         let problems = step.source().plan(&mut Plan::default());
         assert!(problems.len() == 1 && problems[0].is_warning);
         assert!(op::test::run(&step, &mut Scene::new()).is_ok());
@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn too_many_faces_are_refused() {
         let text = r#"(name: "a", around: 4294967295, across: 4294967295)"#;
-        let step: Torus = ron::from_str(text).unwrap();
+        let step: Torus = op::test::read(text).unwrap();
         let made = op::test::run(&step, &mut Scene::new());
         assert!(matches!(made, Err(OpError::Budget(_))));
     }

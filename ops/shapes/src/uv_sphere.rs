@@ -9,7 +9,7 @@
 //!          '-v-'
 //! ```
 
-use mesh::shapes;
+use geometry::shapes;
 use op::Operation;
 use op::prelude::*;
 
@@ -78,7 +78,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&ron::from_str::<UvSphere>(text).unwrap())
+        op::made(&op::test::read::<UvSphere>(text).unwrap())
     }
 
     #[test]
@@ -87,7 +87,7 @@ mod tests {
             let mesh = made(&format!(r#"(name: "a", around: {around}, rings: {rings})"#));
             assert!(mesh.is_closed());
             assert_eq!(mesh.euler_characteristic(), 2);
-            assert!(mesh.volume() > 0.0);
+            assert!(geometry::volume(&mesh) > 0.0);
         }
     }
 
@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn too_many_faces_are_refused() {
         let text = r#"(name: "a", around: 4294967295, rings: 4294967295)"#;
-        let step: UvSphere = ron::from_str(text).unwrap();
+        let step: UvSphere = op::test::read(text).unwrap();
         let made = op::test::run(&step, &mut Scene::new());
         assert!(matches!(made, Err(OpError::Budget(_))));
     }

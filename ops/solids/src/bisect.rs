@@ -82,7 +82,7 @@ impl MeshOperation for Bisect {
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("bisect", 0, 2)?;
-        let cut = mesh.bisect(self.point.get(), self.normal.get())?;
+        let cut = geometry::bisect(mesh, self.point.get(), self.normal.get())?;
         if let Some(tag) = &self.tag {
             let mut marks = tag.marks(mesh, Domain::Edge)?;
             for e in &cut.edges {
@@ -101,8 +101,7 @@ impl MeshOperation for Bisect {
         for f in kept {
             part_of_face[f.index()] = 0;
         }
-        let part = mesh
-            .parts(&part_of_face)
+        let part = geometry::parts(mesh, &part_of_face)
             .pop()
             .unwrap_or_else(|| nothing(mesh));
         mesh.replace(part);
@@ -126,15 +125,12 @@ fn nothing(mesh: &Mesh) -> Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{Attribute, DVec3, EdgeId, Rule, shapes};
+    use geometry::shapes;
+    use mesh::{Attribute, DVec3};
     use op::test::{applied, try_applied};
 
-    /// As recipes are read.
     fn step(text: &str) -> Bisect {
-        let options = ron::Options::default();
-        let implicit_some = ron::extensions::Extensions::IMPLICIT_SOME;
-        let options = options.with_default_extension(implicit_some);
-        options.from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -155,10 +151,12 @@ mod tests {
             applied(&step(&text), torus.clone())
         };
         let [front, back] = ["Front", "Back"].map(side);
-        assert!((front.area() + back.area() - torus.area()).abs() < 1e-12);
+        assert!(
+            (geometry::area(&front) + geometry::area(&back) - geometry::area(&torus)).abs() < 1e-12
+        );
         for side in [&front, &back] {
             assert_eq!(side.n_boundary_loops(), 2);
-            assert_eq!(side.n_components(), 1);
+            assert_eq!(geometry::n_components(&side), 1);
         }
         let normal = DVec3::new(1.0, 2.0, 0.5);
         let height = |p: &DVec3| (*p - DVec3::new(0.1, 0.0, 0.05)).dot(normal);
@@ -213,9 +211,9 @@ mod tests {
 
     #[test]
     fn a_recipe_must_give_the_normal() {
-        assert!(ron::from_str::<Bisect>("()").is_err());
-        assert!(ron::from_str::<Bisect>("(normal: (0, 0, 0))").is_err());
-        assert!(ron::from_str::<Bisect>("(normal: (0, 0, 1), fill: true)").is_err());
+        assert!(op::test::read::<Bisect>("()").is_err());
+        assert!(op::test::read::<Bisect>("(normal: (0, 0, 0))").is_err());
+        assert!(op::test::read::<Bisect>("(normal: (0, 0, 1), fill: true)").is_err());
         assert_eq!(step("(normal: (0, 0, 1))").keep, Keep::Both);
     }
 }

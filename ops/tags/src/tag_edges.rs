@@ -34,11 +34,11 @@ impl MeshOperation for TagEdges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::test::{applied, planned, try_applied};
 
     fn step(text: &str) -> TagEdges {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]

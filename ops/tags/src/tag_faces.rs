@@ -35,11 +35,11 @@ impl MeshOperation for TagFaces {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::test::{applied, planned, try_applied};
 
     fn step(text: &str) -> TagFaces {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]

@@ -4,7 +4,8 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use mesh::{Mesh, shapes};
+use geometry::shapes;
+use mesh::Mesh;
 use ops_vertices::{Weight, normals};
 
 fn million_triangles(c: &mut Criterion) {

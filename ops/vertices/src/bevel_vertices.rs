@@ -8,7 +8,7 @@
 //!         |                    |
 //! ```
 
-use op::Cuts;
+use geometry::bevel::Cuts;
 use op::prelude::*;
 
 /// Puts faces into the place of vertices.
@@ -85,12 +85,13 @@ impl MeshOperation for BevelVertices {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{FaceId, shapes};
+    use geometry::shapes;
+    use mesh::FaceId;
 
     use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> BevelVertices {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -110,7 +111,7 @@ mod tests {
             p.sort_by(f64::total_cmp);
             assert!((mesh::DVec3::from(p) - mesh::DVec3::new(0.5, 1.0, 1.0)).length() < 1e-15);
         }
-        assert!((mesh.volume() - 8.0 + 8.0 / 48.0).abs() < 1e-13);
+        assert!((geometry::volume(&mesh) - 8.0 + 8.0 / 48.0).abs() < 1e-13);
         assert!((6..14).all(|f| mesh.is_triangle(FaceId::new(f))));
     }
 
@@ -145,7 +146,7 @@ mod tests {
         let step = parse("(vertices: All, fraction: 0.25, on_refusal: Skip)");
         let (mesh, report) = try_applied(&step, shapes::grid(3, 3)).unwrap();
         assert_eq!((report.changed, report.refused[0].count), (4, 12));
-        assert!((mesh.area() - shapes::grid(3, 3).area()).abs() < 1e-14);
+        assert!((geometry::area(&mesh) - geometry::area(&shapes::grid(3, 3))).abs() < 1e-14);
         let step = parse("(vertices: All, fraction: 0.25)");
         let refused = try_applied(&step, shapes::grid(3, 3));
         let Err(OpError::Refused { reason, .. }) = refused else {

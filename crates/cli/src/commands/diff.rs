@@ -1,6 +1,6 @@
 //! `meshwright diff`: two files, or what two recipes make, side by side.
 
-use mesh::distance::{Distance, OneSided};
+use geometry::distance::{Distance, OneSided};
 use op::Registry;
 use recipe::compare::{
     AttributeDifference, ColumnDifference, Connectivity, Counts, Difference, MeshDifference,
@@ -249,7 +249,7 @@ fn counts_json(counts: &Counts) -> Json {
 }
 
 fn side_json(side: &OneSided) -> Json {
-    let place = |place: &mesh::distance::Place| json!({ "on": place.on.to_string(), "position": place.position.to_array() });
+    let place = |place: &geometry::distance::Place| json!({ "on": place.on.to_string(), "position": place.position.to_array() });
     json!({
         "largest": side.largest, "at_most": side.at_most, "mean": side.mean,
         "from": place(&side.from), "to": place(&side.to),

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use geometry::triangulate::Cutter;
 use glam::{DVec3, Vec3};
-use mesh::triangulate::Cutter;
 use mesh::{Domain, FaceId, Mesh, VertexId};
 use rayon::prelude::*;
 use scene::Scene;

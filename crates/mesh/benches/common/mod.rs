@@ -1,6 +1,7 @@
 //! What the benchmarks of local edits share.
 
-use mesh::{EdgeId, Mesh, shapes};
+use geometry::shapes;
+use mesh::{EdgeId, Mesh};
 
 /// A torus of a million triangles.
 pub(crate) fn torus() -> Mesh {

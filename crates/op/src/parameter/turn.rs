@@ -1,7 +1,7 @@
 //! Turns around the coordinate axes.
 
+use geometry::sin_cos_degrees;
 use glam::{DMat3, DVec3};
-use mesh::sin_cos_degrees;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

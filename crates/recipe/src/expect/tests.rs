@@ -8,7 +8,8 @@ mod same;
 
 use std::path::Path;
 
-use mesh::{DVec3, Mesh, shapes};
+use geometry::shapes;
+use mesh::{DVec3, Mesh};
 use op::Files;
 use scene::{Geometry, Object, Scene};
 

@@ -44,7 +44,7 @@ impl Operation for FromFile {
         }
         let text = fs::read_to_string(&path).unwrap_or_else(|_| "1".to_owned());
         let n = text.trim().parse().unwrap_or(1);
-        let object = Object::mesh("file", mesh::shapes::grid(n, 1));
+        let object = Object::mesh("file", geometry::shapes::grid(n, 1));
         let inserted = scene.insert(object);
         inserted.map_err(|error| OpError::Object(error.to_string()))?;
         Ok(Report::changed(1).note(format!("read {text}")))
@@ -107,7 +107,7 @@ impl Place {
             files.has_read(path);
             let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
             let n = text.trim().parse().map_err(|_| "no number".to_owned())?;
-            Ok(vec![Object::mesh("file", mesh::shapes::grid(n, 1))])
+            Ok(vec![Object::mesh("file", geometry::shapes::grid(n, 1))])
         };
         let settings = Settings {
             files: &files,

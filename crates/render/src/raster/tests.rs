@@ -158,7 +158,7 @@ fn a_square_of_whole_pixels_is_exactly_them() {
 
 /// A sphere around the origin, of triangles.
 fn sphere(radius: f64) -> Part<'static> {
-    let mesh = mesh::shapes::fans(&mesh::shapes::uv_sphere(192, 96));
+    let mesh = geometry::shapes::fans(&geometry::shapes::uv_sphere(192, 96));
     let mut triangles = Vec::new();
     for f in mesh.faces() {
         let corners: Vec<u32> = mesh

@@ -38,7 +38,7 @@ fn scene_of(patches: Vec<Patch>) -> Scene {
 }
 
 fn parse(text: &str) -> Tessellate {
-    ron::from_str(text).unwrap()
+    op::test::read(text).unwrap()
 }
 
 fn run(operation: &Tessellate, patches: Vec<Patch>) -> (Mesh, Report) {
@@ -76,7 +76,7 @@ fn a_flat_patch_becomes_a_grid_of_its_parameters() {
         (25, 40, 16)
     );
     assert_eq!(report, Report::changed(16));
-    assert!((mesh.area() - 1.0).abs() < 1e-15);
+    assert!((geometry::area(&mesh) - 1.0).abs() < 1e-15);
     for (p, i) in mesh.positions().iter().zip(0..) {
         let expected = DVec3::new(f64::from(i % 5) / 4.0, f64::from(i / 5) / 4.0, 0.0);
         assert!(p.distance(expected) < 1e-15);
@@ -138,7 +138,7 @@ fn patches_follow_each_other_and_share_no_vertices() {
         &parse("(segments: 2)"),
         vec![hill(|_, _| 0.0), hill(|_, _| 1.0)],
     );
-    assert_eq!((mesh.n_vertices(), mesh.n_components()), (18, 2));
+    assert_eq!((mesh.n_vertices(), geometry::n_components(&mesh)), (18, 2));
     assert_eq!(mesh.position(VertexId::new(9)), DVec3::Z);
 }
 
@@ -158,7 +158,7 @@ fn empty_patches_and_no_patches_are_told() {
 fn other_objects_stay_and_named_ones_must_be_patches() {
     let mut scene = scene_of(vec![hill(|_, _| 0.0)]);
     scene
-        .insert(Object::mesh("cube", mesh::shapes::cube()))
+        .insert(Object::mesh("cube", geometry::shapes::cube()))
         .unwrap();
     let before = scene.clone();
     op::test::run(&parse("()"), &mut scene).unwrap();
@@ -232,6 +232,6 @@ fn a_recipe_may_leave_out_everything() {
         (eight(), Faces::Triangles)
     );
     assert!(!operation.uvs && !operation.normals);
-    assert!(ron::from_str::<Tessellate>("(faces: Hexagons)").is_err());
-    assert!(ron::from_str::<Tessellate>("(segment: 8)").is_err());
+    assert!(op::test::read::<Tessellate>("(faces: Hexagons)").is_err());
+    assert!(op::test::read::<Tessellate>("(segment: 8)").is_err());
 }

@@ -1,12 +1,10 @@
 use super::*;
-use mesh::{CORNER_NORMAL, MATERIAL, UV, VERTEX_NORMAL, shapes};
+use geometry::shapes;
+use mesh::{CORNER_NORMAL, MATERIAL, UV, VERTEX_NORMAL};
 use op::test::{applied, planned, try_applied};
 
 fn parse(text: &str) -> ExtrudeFaces {
-    // As recipes are read.
-    let options =
-        ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
-    options.from_str(text).unwrap()
+    op::test::read(text).unwrap()
 }
 
 fn top() -> FaceId {
@@ -20,12 +18,12 @@ fn a_face_moves_along_its_normal() {
         shapes::cube(),
     );
     assert_eq!(mesh.face_center(top()), DVec3::new(0.0, 0.0, 1.5));
-    assert!((mesh.volume() - 10.0).abs() < 1e-13);
+    assert!((geometry::volume(&mesh) - 10.0).abs() < 1e-13);
     let inwards = applied(
         &parse("(faces: Faces([1]), by: Distance(-0.5))"),
         shapes::cube(),
     );
-    assert!((inwards.volume() - 6.0).abs() < 1e-13);
+    assert!((geometry::volume(&inwards) - 6.0).abs() < 1e-13);
 }
 
 #[test]
@@ -103,7 +101,10 @@ fn a_figure_grows_out_of_a_cube_in_one_closed_piece() {
         mesh = applied(&parse(step), mesh);
     }
     assert!(mesh.is_closed());
-    assert_eq!((mesh.n_components(), mesh.genus()), (1, 0));
+    assert_eq!(
+        (geometry::n_components(&mesh), geometry::genus(&mesh)),
+        (1, 0)
+    );
     assert!(mesh.faces().all(|f| mesh.degree(f) == 4));
     assert!(mesh.face_normal(FaceId::new(3)).z > 0.8);
     // Sides of faces with a tag have it too, through later steps.
@@ -170,7 +171,10 @@ fn a_closed_part_has_no_normal_but_can_be_moved() {
         &parse("(faces: All, by: Offset((1, 0, 0)))"),
         shapes::cube(),
     );
-    assert_eq!(moved.bounds().unwrap()[0], DVec3::new(0.0, -1.0, -1.0));
+    assert_eq!(
+        geometry::bounds(&moved).unwrap()[0],
+        DVec3::new(0.0, -1.0, -1.0)
+    );
     assert_eq!(moved.n_faces(), 6);
 }
 

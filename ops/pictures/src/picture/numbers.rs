@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use mesh::{Domain, EdgeId, FaceId, Mesh, Values, VertexId, distance};
+use geometry::distance;
+use mesh::{Domain, EdgeId, FaceId, Mesh, Values, VertexId};
 use op::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem};
 use render::figure::legend::{Legend, Scale};
 use render::{ColorMap, Coloring};
@@ -253,8 +254,8 @@ impl Quantity {
                 let values = all.map(|e| angle(e).map_or(f64::NAN, f64::to_degrees));
                 (Domain::Edge, values.collect())
             }
-            Self::MeanCurvature => (Domain::Vertex, mesh.mean_curvatures()),
-            Self::GaussianCurvature => (Domain::Vertex, mesh.gaussian_curvatures()),
+            Self::MeanCurvature => (Domain::Vertex, geometry::mean_curvatures(&mesh)),
+            Self::GaussianCurvature => (Domain::Vertex, geometry::gaussian_curvatures(&mesh)),
             Self::Attribute { name, component } => attribute(mesh, name, *component)?,
             Self::DistanceTo(_) => {
                 let mut least = vec![f64::NAN; mesh.domain_len(Domain::Vertex)];

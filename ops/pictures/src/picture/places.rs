@@ -243,8 +243,8 @@ fn direction(normal: DVec3, places: &[Place], center: DVec3) -> DVec3 {
     let towards = (direction + 0.45 * aside).normalize_or(aside);
     // Not from straight above: which way is up would turn over.
     let (azimuth, elevation) = angles(towards);
-    let (sin, cos) = mesh::sin_cos_degrees(azimuth);
-    let (up, along) = mesh::sin_cos_degrees(elevation.clamp(-75.0, 75.0));
+    let (sin, cos) = geometry::sin_cos_degrees(azimuth);
+    let (up, along) = geometry::sin_cos_degrees(elevation.clamp(-75.0, 75.0));
     DVec3::new(sin * along, up, cos * along)
 }
 

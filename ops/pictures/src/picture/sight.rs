@@ -82,7 +82,7 @@ fn directions() -> impl Iterator<Item = DVec3> {
     let n = f64::from(DIRECTIONS);
     (0..DIRECTIONS).map(f64::from).filter_map(move |i| {
         let up = 1.0 - (2.0 * i + 1.0) / n;
-        let (sin, cos) = mesh::sin_cos_degrees(golden_angle * i);
+        let (sin, cos) = geometry::sin_cos_degrees(golden_angle * i);
         let along = (1.0 - up * up).sqrt();
         (up.abs() <= HIGHEST).then(|| DVec3::new(along * cos, up, along * sin))
     })
@@ -124,7 +124,7 @@ fn triangle([a, b, c]: [DVec3; 3], from: DVec3, direction: DVec3) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use scene::Object;
 
     fn scene(mesh: Mesh) -> Scene {

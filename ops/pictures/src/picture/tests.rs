@@ -1,16 +1,13 @@
 //! The operation from its text to the bytes of its file.
 
-use mesh::shapes;
+use geometry::shapes;
 use op::{Context, Files, NoProgress, OpError, Operation, Plan, PlanContext, PlannedGeometry};
 use scene::{Object, Scene};
 
 use crate::picture::Picture;
 
 fn picture(fields: &str) -> Picture {
-    let options =
-        ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
-    options
-        .from_str(&format!("(size: (32, 24), {fields})"))
+    op::test::read(&format!("(size: (32, 24), {fields})"))
         .unwrap_or_else(|error| panic!("{fields}: {error}"))
 }
 

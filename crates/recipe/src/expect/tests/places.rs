@@ -1,6 +1,7 @@
 //! Which elements break an expectation.
 
-use mesh::{DVec3, EdgeId, VertexId, shapes};
+use geometry::shapes;
+use mesh::{DVec3, EdgeId, VertexId};
 use op::{Files, Place};
 use scene::Scene;
 

@@ -1,6 +1,7 @@
 //! On any surface: laws against energies that are computed here, over the whole mesh.
 
-use mesh::{Attribute, DVec2, DVec3, EdgeId, Mesh, Rule, UV, shapes};
+use geometry::shapes;
+use mesh::{Attribute, DVec2, DVec3, EdgeId, Mesh, Rule, UV};
 use op::test::{applied, try_applied};
 use op::{Context, Files, NoProgress, Refusal, Report};
 use proptest::prelude::*;

@@ -1,6 +1,7 @@
 //! What is seen of a failure.
 
-use mesh::{Element, shapes};
+use geometry::shapes;
+use mesh::Element;
 use op::{Files, NoProgress};
 use scene::Object;
 

@@ -8,9 +8,7 @@
 //!           +-----------------+
 //! ```
 
-use glam::DVec3;
-
-use crate::edit::cut_face::parts;
+use mesh::{DVec3, polygon_parts};
 
 /// A corner of a polygon, seen from a line that is not far from its plane.
 pub(super) struct Corner {
@@ -31,14 +29,13 @@ impl Corner {
     }
 }
 
-/// The chords that cut the polygon so that each part has corners on one side of the line only, and the
-/// [`parts`]. `normal` is that of the polygon, which has corners on both sides.
+/// The chords that cut the polygon so that each part has corners on one side of the line only. `normal` is that of the polygon, which has corners on both sides.
 ///
 /// If the corners on the line do not tell the inside from the outside, the parts to the left of it are cut
 /// off one by one.
-pub(super) fn between(corners: &[Corner], normal: DVec3) -> (Vec<[u32; 2]>, Vec<Vec<usize>>) {
+pub(super) fn between(corners: &[Corner], normal: DVec3) -> Vec<[u32; 2]> {
     let n = corners.len();
-    let good_parts = |chords: &[[u32; 2]]| {
+    let is_good = |chords: &[[u32; 2]]| {
         let is_one_sided = |part: &Vec<usize>| {
             // The sides of a part begin at its corners; chords end where sides or chords begin.
             let sides = part.iter().filter(|&&h| h < n);
@@ -48,16 +45,14 @@ pub(super) fn between(corners: &[Corner], normal: DVec3) -> (Vec<[u32; 2]>, Vec<
             });
             low == 0.0 || high == 0.0
         };
-        parts(n, chords).filter(|parts| parts.iter().all(is_one_sided))
+        polygon_parts(n, chords).is_some_and(|parts| parts.iter().all(is_one_sided))
     };
     if let Some(chords) = inside(corners, normal)
-        && let Some(parts) = good_parts(&chords)
+        && is_good(&chords)
     {
-        return (chords, parts);
+        return chords;
     }
-    let chords = left_parts(corners);
-    let parts = good_parts(&chords).expect("chords of separate chains do not cross");
-    (chords, parts)
+    left_parts(corners)
 }
 
 /// The chords inside the polygon; `None` if that is not clear.
@@ -168,8 +163,8 @@ mod tests {
     fn cut(points: &[(f64, f64)]) -> Vec<[u32; 2]> {
         let corner = |&(x, y): &(f64, f64)| Corner::new(y, x, DVec3::new(x, y, 0.0));
         let corners: Vec<Corner> = points.iter().map(corner).collect();
-        let (mut chords, parts) = between(&corners, DVec3::Z);
-        assert_eq!(parts.len(), chords.len() + 1);
+        let mut chords = between(&corners, DVec3::Z);
+        assert!(polygon_parts(corners.len(), &chords).is_some());
         chords.sort_unstable();
         chords
     }

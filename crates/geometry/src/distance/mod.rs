@@ -21,7 +21,9 @@ mod piece;
 mod surface;
 mod triangle;
 
-use crate::{DVec3, Domain, Element, FaceId, Mesh, VertexId, blocks};
+use mesh::{DVec3, Domain, Element, FaceId, Mesh, VertexId, blocks};
+
+use crate::{area, bounds};
 use rayon::prelude::*;
 
 use piece::{Farthest, Piece, Sample, refine};
@@ -111,7 +113,7 @@ impl Distance {
 
 /// The length of the diagonal of the bounds of two meshes together.
 pub fn diagonal(a: &Mesh, b: &Mesh) -> f64 {
-    match (a.bounds(), b.bounds()) {
+    match (bounds(a), bounds(b)) {
         (Some([min, max]), Some([low, high])) => max.max(high).distance(min.min(low)),
         (Some([min, max]), None) | (None, Some([min, max])) => max.distance(min),
         (None, None) => 0.0,
@@ -149,7 +151,7 @@ impl OneSided {
         let slots = from.domain_len(Domain::Face);
         let mut found = farthest_vertex(from, &hits).expect("a mesh with faces has vertices");
         // A sample stands for at most so much area.
-        let portion = from.area() / SAMPLES;
+        let portion = area(from) / SAMPLES;
         let enough = found.certain() + tolerance;
         let blocks: Vec<Block> = (0..slots.div_ceil(BLOCK))
             .into_par_iter()

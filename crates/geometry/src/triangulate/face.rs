@@ -1,84 +1,81 @@
 //! Cutting a face into triangles.
 
-use crate::edit::cut_face::parts;
-use crate::triangulate::Cutter;
-use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
+use mesh::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
-impl Mesh {
-    /// Cuts a face into triangles, whatever its shape and however it lies in space.
-    ///
-    /// ```text
-    ///    e --- d           e --- d
-    ///    |      \          | 2 / |\        f = a b c d e keeps its id as triangle 0, with its first
-    ///    |       c   -->   |  /  |1c       corner and its first side; the others are new
-    ///    |      /          | / 0 |/
-    ///    a --- b           a --- b
-    /// ```
-    ///
-    /// A face of n corners becomes n - 2 triangles. The n - 3 diagonals are new edges, in order of their
-    /// corners counted from the first corner of `f`, each from the lower to the higher; the new faces come
-    /// in order of their lowest side, counted likewise, those without a side of `f` last. Which diagonals,
-    /// is told by [`Cutter`]. A diagonal between vertices that share an edge already is avoided if there is
-    /// another way to cut the face; then those with the shortest diagonals are taken.
-    ///
-    /// The new faces have the values of `f`, and corners those of the same vertex in `f`. The diagonals have
-    /// zero values.
-    ///
-    /// Returns the triangles, `f` first.
-    ///
-    /// # Errors
-    ///
-    /// [`EditError::DuplicateEdge`] if a diagonal that joins two vertices again cannot be avoided, which is
-    /// not tried for more than 256 corners; [`EditError::Pinch`] if it would begin and end at one vertex,
-    /// which `f` passes twice; [`EditError::NoSuchFace`], [`EditError::Full`]. The mesh is unchanged.
-    ///
-    /// # Examples
-    ///
-    /// ```
-    /// let mut prism = mesh::shapes::cylinder(5, true);
-    /// let top = prism.faces().last().unwrap();
-    /// assert_eq!(prism.triangulate_face(top)?.len(), 3);
-    /// assert!(prism.is_triangle(top));
-    /// # Ok::<(), mesh::EditError>(())
-    /// ```
-    pub fn triangulate_face(&mut self, f: FaceId) -> Result<Vec<FaceId>, EditError> {
-        self.check_face(f)?;
-        let sides: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
-        if sides.len() == 3 {
-            return Ok(vec![f]);
-        }
-        self.check_room(2 * (sides.len() - 3))?;
-        let vertices = |pair: [u32; 2]| pair.map(|corner| self.origin(sides[corner as usize]));
-        let allowed = |pair: [u32; 2]| {
-            let [x, y] = pair.map(|corner| sides[corner as usize]);
-            self.origin(x) != self.origin(y) && !self.share_an_edge(x, y)
-        };
-        let mut cutter = Cutter::default();
-        let mut diagonals = Vec::new();
-        let Some(cut) = cutter.cut_where(self, f, allowed) else {
-            cutter.cut(self, f).diagonals(&mut diagonals);
-            let bad = diagonals.into_iter().find(|&pair| !allowed(pair));
-            let [v, w] = vertices(bad.expect("else it can be cut so"));
-            return Err(refusal(v, w));
-        };
-        cut.diagonals(&mut diagonals);
-        // A face that passes a vertex twice may have two diagonals between the same vertices.
-        let mut joined: Vec<[VertexId; 2]> = diagonals
-            .iter()
-            .map(|&pair| {
-                let [v, w] = vertices(pair);
-                [v.min(w), v.max(w)]
-            })
-            .collect();
-        joined.sort_unstable();
-        if let Some(pair) = joined.windows(2).find(|pair| pair[0] == pair[1]) {
-            return Err(refusal(pair[0][0], pair[0][1]));
-        }
-        let parts = parts(sides.len(), &diagonals).expect("diagonals of a triangulation");
-        Ok(self.cut_face(&sides, &diagonals, &parts))
+use super::Cutter;
+
+/// Cuts a face into triangles, whatever its shape and however it lies in space.
+///
+/// ```text
+///    e --- d           e --- d
+///    |      \          | 2 / |\        f = a b c d e keeps its id as triangle 0, with its first
+///    |       c   -->   |  /  |1c       corner and its first side; the others are new
+///    |      /          | / 0 |/
+///    a --- b           a --- b
+/// ```
+///
+/// A face of n corners becomes n - 2 triangles. The n - 3 diagonals are new edges, in order of their
+/// corners counted from the first corner of `f`, each from the lower to the higher; the new faces come
+/// in order of their lowest side, counted likewise, those without a side of `f` last. Which diagonals,
+/// is told by [`Cutter`]. A diagonal between vertices that share an edge already is avoided if there is
+/// another way to cut the face; then those with the shortest diagonals are taken.
+///
+/// The new faces have the values of `f`, and corners those of the same vertex in `f`. The diagonals have
+/// zero values.
+///
+/// Returns the triangles, `f` first.
+///
+/// # Errors
+///
+/// [`EditError::DuplicateEdge`] if a diagonal that joins two vertices again cannot be avoided, which is
+/// not tried for more than 256 corners; [`EditError::Pinch`] if it would begin and end at one vertex,
+/// which `f` passes twice; [`EditError::NoSuchFace`], [`EditError::Full`]. The mesh is unchanged.
+///
+/// # Examples
+///
+/// ```
+/// let mut prism = mesh::shapes::cylinder(5, true);
+/// let top = prism.faces().last().unwrap();
+/// assert_eq!(geometry::triangulate::triangulate_face(&mut prism, top)?.len(), 3);
+/// assert!(prism.is_triangle(top));
+/// # Ok::<(), mesh::EditError>(())
+/// ```
+pub fn triangulate_face(mesh: &mut Mesh, f: FaceId) -> Result<Vec<FaceId>, EditError> {
+    if !mesh.has_face(f) {
+        return Err(EditError::NoSuchFace(f));
     }
+    let sides: Vec<HalfEdgeId> = mesh.face_half_edges(f).collect();
+    if sides.len() == 3 {
+        return Ok(vec![f]);
+    }
+    let vertices = |pair: [u32; 2]| pair.map(|corner| mesh.origin(sides[corner as usize]));
+    let allowed = |pair: [u32; 2]| {
+        let [x, y] = pair.map(|corner| sides[corner as usize]);
+        mesh.origin(x) != mesh.origin(y) && !mesh.share_an_edge(x, y)
+    };
+    let mut cutter = Cutter::default();
+    let mut diagonals = Vec::new();
+    let Some(cut) = cutter.cut_where(mesh, f, allowed) else {
+        cutter.cut(mesh, f).diagonals(&mut diagonals);
+        let bad = diagonals.into_iter().find(|&pair| !allowed(pair));
+        let [v, w] = vertices(bad.expect("else it can be cut so"));
+        return Err(refusal(v, w));
+    };
+    cut.diagonals(&mut diagonals);
+    // A face that passes a vertex twice may have two diagonals between the same vertices.
+    let mut joined: Vec<[VertexId; 2]> = diagonals
+        .iter()
+        .map(|&pair| {
+            let [v, w] = vertices(pair);
+            [v.min(w), v.max(w)]
+        })
+        .collect();
+    joined.sort_unstable();
+    if let Some(pair) = joined.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(refusal(pair[0][0], pair[0][1]));
+    }
+    mesh.cut_face(f, &diagonals)
 }
-
 fn refusal(v: VertexId, w: VertexId) -> EditError {
     if v == w {
         EditError::Pinch(v)
@@ -90,7 +87,9 @@ fn refusal(v: VertexId, w: VertexId) -> EditError {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{CREASE, DVec2, DVec3, MATERIAL, UV, shapes};
+    use mesh::{CREASE, DVec2, DVec3, MATERIAL, UV};
+
+    use crate::{shapes, volume};
 
     /// One face in the plane z = 0.
     fn polygon(points: &[(f64, f64)]) -> Mesh {
@@ -105,7 +104,7 @@ mod tests {
     fn cut(before: &Mesh, f: FaceId) -> Result<Mesh, EditError> {
         let mut mesh = before.clone();
         mesh.begin();
-        let triangles = mesh.triangulate_face(f);
+        let triangles = triangulate_face(&mut mesh, f);
         assert_eq!(mesh.defects(), [], "{triangles:?}");
         let after = mesh.clone();
         mesh.rollback();
@@ -123,7 +122,7 @@ mod tests {
         assert!((area - before.face_area(f)).abs() < 1e-12 * (1.0 + area));
 
         mesh.begin();
-        mesh.triangulate_face(f).unwrap();
+        triangulate_face(&mut mesh, f).unwrap();
         let change = mesh.commit().unwrap();
         let again = mesh.revert(change);
         assert_eq!(&mesh, before);
@@ -148,11 +147,11 @@ mod tests {
             }
             let mut all = shape.clone();
             for f in shape.faces() {
-                all.triangulate_face(f).unwrap();
+                triangulate_face(&mut all, f).unwrap();
             }
             assert_eq!(all.defects(), []);
             assert!(all.faces().all(|f| all.is_triangle(f)));
-            assert!((all.volume() - shape.volume()).abs() < 1e-12);
+            assert!((volume(&all) - volume(&shape)).abs() < 1e-12);
         }
     }
 
@@ -259,7 +258,7 @@ mod tests {
         let (mesh, _) = Mesh::from_polygons(points, &[[0, 1, 2, 3], [3, 2, 1, 0]]).unwrap();
         let mut mesh = cut(&mesh, FaceId::new(0)).unwrap();
         let before = mesh.clone();
-        let refused = mesh.triangulate_face(FaceId::new(1));
+        let refused = triangulate_face(&mut mesh, FaceId::new(1));
         assert!(
             matches!(refused, Err(EditError::DuplicateEdge(..))),
             "{refused:?}"

@@ -1,6 +1,6 @@
 //! Pieces of triangles, and how far from the other surface they can be.
 
-use crate::{DVec3, Element, FaceId};
+use mesh::{DVec3, Element, FaceId};
 use rayon::prelude::*;
 
 use super::Place;

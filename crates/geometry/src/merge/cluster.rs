@@ -16,7 +16,8 @@
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-use crate::DVec3;
+use mesh::DVec3;
+use progress::{Cancelled, Progress};
 
 use super::union_find::UnionFind;
 
@@ -29,19 +30,18 @@ const TASK: usize = 8192;
 /// `distance`, which is finite and not negative.
 ///
 /// Two points are a step apart if the length of their difference, rounded, is at most the distance.
-/// Positions must be finite and fewer than 2³². `progress(done, total)` is asked from time to time
-/// whether to go on.
+/// Positions must be finite and fewer than 2³².
 ///
 /// # Errors
 ///
-/// What `progress` returns.
-pub fn clusters<E: Send>(
+/// [`Cancelled`] if `progress` asks to stop.
+pub fn clusters(
     positions: &[DVec3],
     distance: f64,
-    progress: &(dyn Fn(u64, u64) -> Result<(), E> + Sync),
-) -> Result<Vec<u32>, E> {
+    progress: &dyn Progress,
+) -> Result<Vec<u32>, Cancelled> {
     let n = u32::try_from(positions.len()).expect("ids of a mesh fit 32 bits");
-    progress(0, u64::from(n))?;
+    progress.report("weld", 0, u64::from(n))?;
     let mut points: Vec<Point> = positions
         .iter()
         .zip(0..)
@@ -58,7 +58,7 @@ pub fn clusters<E: Send>(
     if !points.is_empty() {
         search.within(&Tree::of(&points, &search.reach))?;
     }
-    progress(u64::from(n), u64::from(n))?;
+    progress.report("weld", u64::from(n), u64::from(n))?;
     Ok(search.sets.into_lowest())
 }
 
@@ -166,17 +166,17 @@ impl Reach {
 }
 
 /// The comparison of boxes.
-struct Search<'a, E> {
+struct Search<'a> {
     reach: Reach,
     sets: UnionFind,
     done: AtomicU64,
     total: u64,
-    progress: &'a (dyn Fn(u64, u64) -> Result<(), E> + Sync),
+    progress: &'a dyn Progress,
 }
 
-impl<E: Send> Search<'_, E> {
+impl Search<'_> {
     /// Joins what is connected inside a box.
-    fn within(&self, tree: &Tree) -> Result<(), E> {
+    fn within(&self, tree: &Tree) -> Result<(), Cancelled> {
         if let (false, Some([a, b])) = (tree.is_one, tree.halves.as_deref()) {
             if tree.points.len() > TASK {
                 let (low, high) = rayon::join(|| self.within(a), || self.within(b));
@@ -249,24 +249,25 @@ impl<E: Send> Search<'_, E> {
     }
 
     /// Tells progress, once for every [`TASK`] points or so.
-    fn count(&self, points: usize) -> Result<(), E> {
+    fn count(&self, points: usize) -> Result<(), Cancelled> {
         let task = TASK as u64;
         let more = points as u64;
         let before = self.done.fetch_add(more, Relaxed);
         if before / task == (before + more) / task {
             return Ok(());
         }
-        (self.progress)(before + more, self.total)
+        self.progress.report("weld", before + more, self.total)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use progress::NoProgress;
     use proptest::prelude::*;
 
     fn clustered(points: &[DVec3], distance: f64) -> Vec<u32> {
-        clusters::<()>(points, distance, &|_, _| Ok(())).unwrap()
+        clusters(points, distance, &NoProgress).unwrap()
     }
 
     /// The same by comparing all pairs, until nothing changes.
@@ -370,9 +371,15 @@ mod tests {
 
     #[test]
     fn it_stops_when_told_to() {
-        let stop = |done, _| if done > 0 { Err(done) } else { Ok(()) };
-        let stopped = clusters(&noise(50_000), 1e-3, &stop);
-        assert!(stopped.unwrap_err() < 50_000);
+        struct Stop;
+        impl Progress for Stop {
+            fn advance(&self, _: &str, done: u64, _: u64) -> bool {
+                assert!(done < 50_000);
+                done == 0
+            }
+        }
+        let stopped = clusters(&noise(50_000), 1e-3, &Stop);
+        assert_eq!(stopped, Err(Cancelled));
     }
 
     proptest! {

@@ -1,6 +1,6 @@
 //! Distances against cases that can be calculated, and against many samples.
 
-use crate::shapes;
+use crate::{bounds, shapes};
 
 use super::*;
 
@@ -67,9 +67,9 @@ fn shifted_squares_are_as_far_apart_as_the_shift_however_they_are_divided() {
         (found.largest(), found.at_most(), found.mean()),
         (0.25, 0.25, 0.25)
     );
-    let size = plane.bounds().unwrap()[1];
+    let size = bounds(&plane).unwrap()[1];
     let other = moved(shapes::grid(31, 2), |p| {
-        let unit = p / shapes::grid(31, 2).bounds().unwrap()[1].max(DVec3::splat(1e-9));
+        let unit = p / bounds(&shapes::grid(31, 2)).unwrap()[1].max(DVec3::splat(1e-9));
         DVec3::new(unit.x * size.x, unit.y * size.y, 1e-3)
     });
     let found = between(&plane, &other, 1e-9);

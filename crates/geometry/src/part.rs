@@ -12,82 +12,81 @@
 //! around each vertex through the faces of the part, from the side where it is entered to the side where
 //! it is left: one fan. Of several fans at a vertex the first keeps it and the others get copies.
 
-use crate::attribute::{Domain, Sources};
-use crate::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
+use mesh::{Connectivity, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 
-impl Mesh {
-    /// For each face (by index, dead ones too) the number of its component, from 0 in order of the lowest
-    /// face; `usize::MAX` for dead ones.
-    pub fn face_components(&self) -> Vec<usize> {
-        let of_vertex = self.components();
-        let mut number = vec![usize::MAX; of_vertex.len()];
-        let mut components = vec![usize::MAX; self.domain_len(Domain::Face)];
-        let mut n = 0;
-        for f in self.faces() {
-            let component = of_vertex[self.origin(self.face_half_edge(f)).index()];
-            if number[component] == usize::MAX {
-                number[component] = n;
-                n += 1;
-            }
-            components[f.index()] = number[component];
+use crate::components;
+
+/// For each face (by index, dead ones too) the number of its component, from 0 in order of the lowest
+/// face; `usize::MAX` for dead ones.
+pub fn face_components(mesh: &Mesh) -> Vec<usize> {
+    let of_vertex = components(mesh);
+    let mut number = vec![usize::MAX; of_vertex.len()];
+    let mut components = vec![usize::MAX; mesh.domain_len(Domain::Face)];
+    let mut n = 0;
+    for f in mesh.faces() {
+        let component = of_vertex[mesh.origin(mesh.face_half_edge(f)).index()];
+        if number[component] == usize::MAX {
+            number[component] = n;
+            n += 1;
         }
-        components
+        components[f.index()] = number[component];
     }
+    components
+}
 
-    /// The components as meshes of their own, in order of their lowest face.
-    ///
-    /// Elements keep their order and all their values. Isolated vertices belong to no component and are left
-    /// out; [`n_isolated_vertices`](Self::n_isolated_vertices) counts them. The parts are dense. Takes
-    /// linear time, however many there are.
-    ///
-    /// # Examples
-    ///
-    /// ```
-    /// use mesh::{DVec3, Mesh};
-    ///
-    /// let points = (0..6).map(|i| DVec3::new(f64::from(i), f64::from(i * i), 0.0)).collect();
-    /// let (mesh, _) = Mesh::from_polygons(points, &[[0, 1, 2], [3, 4, 5]])?;
-    /// let parts = mesh.separated();
-    /// assert_eq!(parts.len(), 2);
-    /// assert_eq!(parts[1].positions(), &mesh.positions()[3..]);
-    /// # Ok::<(), mesh::BuildError>(())
-    /// ```
-    pub fn separated(&self) -> Vec<Self> {
-        self.parts(&self.face_components())
-    }
+/// The components as meshes of their own, in order of their lowest face.
+///
+/// Elements keep their order and all their values. Isolated vertices belong to no component and are left
+/// out; [`Mesh::n_isolated_vertices`] counts them. The parts are dense. Takes
+/// linear time, however many there are.
+///
+/// # Examples
+///
+/// ```
+/// use mesh::{DVec3, Mesh};
+///
+/// let points = (0..6).map(|i| DVec3::new(f64::from(i), f64::from(i * i), 0.0)).collect();
+/// let (mesh, _) = Mesh::from_polygons(points, &[[0, 1, 2], [3, 4, 5]])?;
+/// let parts = geometry::separated(&mesh);
+/// assert_eq!(parts.len(), 2);
+/// assert_eq!(parts[1].positions(), &mesh.positions()[3..]);
+/// # Ok::<(), mesh::BuildError>(())
+/// ```
+pub fn separated(mesh: &Mesh) -> Vec<Mesh> {
+    parts(mesh, &face_components(mesh))
+}
 
-    /// The mesh taken apart into meshes of their own: a part for each number in `part_of_face` (by index of
-    /// the face), in rising order. Faces of `usize::MAX` are left out, and so are isolated vertices.
-    ///
-    /// Elements keep their order and their values. An edge between two parts is in both. Where the faces of
-    /// a part around a vertex form several fans, the fan of the lowest boundary edge keeps the vertex and
-    /// each other one gets a copy of it, behind all others. A part with a new boundary loses columns of
-    /// [`Rule::Drop`](crate::Rule::Drop). The parts are dense. Apart from sorting takes linear time, however
-    /// many there are.
-    ///
-    /// # Panics
-    ///
-    /// If there is not one number for each face, dead ones included.
-    pub fn parts(&self, part_of_face: &[usize]) -> Vec<Self> {
-        assert_eq!(
-            part_of_face.len(),
-            self.domain_len(Domain::Face),
-            "one number for each face"
-        );
-        let number = |f: FaceId| part_of_face[f.index()];
-        let mut faces: Vec<FaceId> = self.faces().filter(|&f| number(f) != usize::MAX).collect();
-        // Stable: the faces of a part stay in order.
-        faces.sort_by_key(|&f| number(f));
-        let mut scissors = Scissors {
-            mesh: self,
-            vertices: vec![VertexId::NONE; self.domain_len(Domain::Vertex)],
-            edges: vec![EdgeId::NONE; self.domain_len(Domain::Edge)],
-        };
-        faces
-            .chunk_by(|&f, &g| number(f) == number(g))
-            .map(|faces| scissors.part(faces))
-            .collect()
-    }
+/// The mesh taken apart into meshes of their own: a part for each number in `part_of_face` (by index of
+/// the face), in rising order. Faces of `usize::MAX` are left out, and so are isolated vertices.
+///
+/// Elements keep their order and their values. An edge between two parts is in both. Where the faces of
+/// a part around a vertex form several fans, the fan of the lowest boundary edge keeps the vertex and
+/// each other one gets a copy of it, behind all others. A part with a new boundary loses columns of
+/// [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Apart from sorting takes linear time, however
+/// many there are.
+///
+/// # Panics
+///
+/// If there is not one number for each face, dead ones included.
+pub fn parts(mesh: &Mesh, part_of_face: &[usize]) -> Vec<Mesh> {
+    assert_eq!(
+        part_of_face.len(),
+        mesh.domain_len(Domain::Face),
+        "one number for each face"
+    );
+    let number = |f: FaceId| part_of_face[f.index()];
+    let mut faces: Vec<FaceId> = mesh.faces().filter(|&f| number(f) != usize::MAX).collect();
+    // Stable: the faces of a part stay in order.
+    faces.sort_by_key(|&f| number(f));
+    let mut scissors = Scissors {
+        mesh,
+        vertices: vec![VertexId::NONE; mesh.domain_len(Domain::Vertex)],
+        edges: vec![EdgeId::NONE; mesh.domain_len(Domain::Edge)],
+    };
+    faces
+        .chunk_by(|&f, &g| number(f) == number(g))
+        .map(|faces| scissors.part(faces))
+        .collect()
 }
 
 /// A mesh that is taken apart, with the numbers that elements have in the part at work.
@@ -216,7 +215,8 @@ fn link_boundary(c: &mut Connectivity, prev: &[HalfEdgeId], vertices: &mut Vec<V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{CREASE, Column, DVec2, DVec3, MATERIAL, Rule, UV, Values, shapes};
+    use crate::{area, n_components, shapes};
+    use mesh::{CREASE, Column, DVec2, DVec3, MATERIAL, Rule, UV, Values};
 
     /// A mesh of several shapes whose faces come in turns, with attributes.
     fn mixed() -> (Mesh, Vec<Mesh>) {
@@ -257,16 +257,16 @@ mod tests {
     #[test]
     fn components_become_meshes_in_order_of_their_faces() {
         let (mesh, shapes) = mixed();
-        let parts = mesh.separated();
+        let parts = separated(&mesh);
         assert_eq!(parts.len(), shapes.len());
         let mut materials = Vec::new();
         for (part, shape) in parts.iter().zip(&shapes) {
             assert_eq!(part.defects(), []);
-            assert_eq!(part.n_components(), 1);
+            assert_eq!(n_components(&part), 1);
             assert_eq!(part.n_vertices(), shape.n_vertices());
             assert_eq!(part.n_edges(), shape.n_edges());
             assert_eq!(part.n_faces(), shape.n_faces());
-            assert!((part.area() - shape.area()).abs() < 1e-9);
+            assert!((area(&part) - area(&shape)).abs() < 1e-9);
             assert_eq!(part.n_boundary_loops(), shape.n_boundary_loops());
             // Nothing was cut, so nothing is dropped.
             assert_eq!(part.attributes().iter().count(), 4);
@@ -291,9 +291,9 @@ mod tests {
             shapes::cylinder(6, true),
             shapes::fans(&shapes::grid(2, 2)),
         ] {
-            assert_eq!(shape.separated(), [shape]);
+            assert_eq!(separated(&shape), [shape]);
         }
-        assert_eq!(Mesh::default().separated(), []);
+        assert_eq!(separated(&Mesh::default()), []);
     }
 
     #[test]
@@ -302,14 +302,14 @@ mod tests {
         mesh.delete_face(FaceId::new(0)).unwrap();
         let mut dense = mesh.clone();
         dense.compact();
-        assert_eq!(mesh.separated(), dense.separated());
+        assert_eq!(separated(&mesh), separated(&dense));
     }
 
     #[test]
     fn edges_between_parts_are_in_both() {
         let mut mesh = shapes::grid(4, 1);
         mesh.set(UV, mesh.half_edges().map(|_| DVec2::ONE).collect());
-        let parts = mesh.parts(&[usize::MAX - 1, usize::MAX - 1, usize::MAX, 0]);
+        let parts = parts(&mesh, &[usize::MAX - 1, usize::MAX - 1, usize::MAX, 0]);
         let counts = |m: &Mesh| (m.n_vertices(), m.n_edges(), m.n_faces());
         assert_eq!(
             parts.iter().map(counts).collect::<Vec<_>>(),
@@ -327,7 +327,7 @@ mod tests {
     fn a_cut_part_drops_what_edits_drop() {
         let (mesh, _) = mixed();
         let part_of_face: Vec<usize> = (0..mesh.n_faces()).map(|f| f % 2).collect();
-        for part in mesh.parts(&part_of_face) {
+        for part in parts(&mesh, &part_of_face) {
             assert_eq!(part.defects(), []);
             assert!(part.attributes().column(Domain::Face, "passing").is_none());
         }
@@ -338,17 +338,17 @@ mod tests {
         // A board of black and white squares.
         let board = shapes::grid(5, 5);
         let color: Vec<usize> = (0..25).map(|f| f % 2).collect();
-        for (part, n) in board.parts(&color).iter().zip([13, 12]) {
+        for (part, n) in parts(&board, &color).iter().zip([13, 12]) {
             assert_eq!(part.defects(), []);
-            assert_eq!((part.n_faces(), part.n_components()), (n, n));
+            assert_eq!((part.n_faces(), n_components(&part)), (n, n));
             assert_eq!((part.n_vertices(), part.n_edges()), (4 * n, 4 * n));
         }
         let sphere = shapes::uv_sphere(8, 5);
         let all: Vec<usize> = (0..sphere.n_faces()).map(|f| f % 3).collect();
-        let parts = sphere.parts(&all);
+        let parts = parts(&sphere, &all);
         assert!(parts.iter().all(|part| part.defects().is_empty()));
-        let area: f64 = parts.iter().map(Mesh::area).sum();
-        assert!((area - sphere.area()).abs() < 1e-12);
+        let sum: f64 = parts.iter().map(area).sum();
+        assert!((sum - area(&sphere)).abs() < 1e-12);
     }
 
     #[test]
@@ -357,7 +357,7 @@ mod tests {
         let points = (0..3 * n).map(|i| DVec3::new(f64::from(i), f64::from(i % 3), 0.0));
         let polygons: Vec<[u32; 3]> = (0..n).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         let (mesh, _) = Mesh::from_polygons(points.collect(), &polygons).unwrap();
-        let parts = mesh.separated();
+        let parts = separated(&mesh);
         assert_eq!(parts.len(), n as usize);
         assert_eq!(
             parts[70_000].positions(),

@@ -12,7 +12,7 @@
 //! Polygonal Domains", 1980. If all triangles of a simple polygon face its way, none overlap.
 
 use super::{TOLERANCE, Triangle, doubled_area};
-use crate::DVec3;
+use mesh::DVec3;
 
 /// Larger polygons would take too long.
 const MOST_CORNERS: usize = 256;

@@ -10,16 +10,19 @@
 //!
 //! A quadrilateral is cut along its shorter diagonal, a larger polygon by ears, improved until it is a
 //! Delaunay triangulation inside its sides; what cannot be cut this way becomes a fan. [`Cutter`] tells
-//! all that is to know. Cutting one face of a mesh is [`Mesh::triangulate_face`].
+//! all that is to know. Cutting one face of a mesh is [`triangulate_face`].
 //!
 //! Corners are counted from 0 along the face. A triangle is written with its corners in rising order,
 //! which is also its direction.
 
 mod avoid;
+mod face;
 
 use earcut::{Earcut, Refiner};
 
-use crate::{DVec3, FaceId, Mesh};
+use mesh::{DVec3, FaceId, Mesh};
+
+pub use face::triangulate_face;
 
 /// Three corners of a face, rising.
 pub type Triangle = [u32; 3];
@@ -105,9 +108,9 @@ impl Cut {
 /// # Examples
 ///
 /// ```
-/// use mesh::triangulate::Cutter;
+/// use geometry::triangulate::Cutter;
 ///
-/// let prism = mesh::shapes::cylinder(5, true);
+/// let prism = geometry::shapes::cylinder(5, true);
 /// let mut cutter = Cutter::default();
 /// let n: usize = prism.faces().map(|f| cutter.cut(&prism, f).n_diagonals()).sum();
 /// assert_eq!(n, 5 * 1 + 2 * 2);

@@ -38,7 +38,8 @@ impl Cuts {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{VertexId, shapes};
+    use crate::shapes;
+    use mesh::VertexId;
 
     #[test]
     fn both_ends_are_cut_by_the_same_length() {

@@ -3,13 +3,14 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::{CREASE, DVec2, MATERIAL, UV, shapes};
+use crate::{area, n_components, shapes};
+use mesh::{CREASE, DVec2, MATERIAL, UV};
 
 /// Cuts the mesh and checks what holds for every cut; takes it back and does it again.
 fn cut(before: &Mesh, point: DVec3, normal: DVec3) -> (Mesh, Bisection) {
     let mut mesh = before.clone();
     mesh.begin();
-    let cut = mesh.bisect(point, normal).unwrap();
+    let cut = bisect(&mut mesh, point, normal).unwrap();
     assert_eq!(mesh.defects(), []);
     let after = mesh.clone();
     let change = mesh.commit().unwrap();
@@ -19,14 +20,11 @@ fn cut(before: &Mesh, point: DVec3, normal: DVec3) -> (Mesh, Bisection) {
     assert_eq!(mesh, after);
 
     assert_eq!(mesh.euler_characteristic(), before.euler_characteristic());
-    assert_eq!(mesh.n_components(), before.n_components());
+    assert_eq!(n_components(&mesh), n_components(&before));
     assert_eq!(mesh.n_boundary_loops(), before.n_boundary_loops());
     assert_eq!(cut.front.len() + cut.back.len(), mesh.n_faces());
     assert!(cut.edges.is_sorted());
-    let near = 2e-9
-        * before
-            .bounds()
-            .map_or(0.0, |[min, max]| (max - min).max_element());
+    let near = 2e-9 * bounds(&before).map_or(0.0, |[min, max]| (max - min).max_element());
     let height = |v: VertexId| (mesh.position(v) - point).dot(normal.normalize());
     for (faces, sign) in [(&cut.front, 1.0), (&cut.back, -1.0)] {
         for &f in faces {
@@ -144,7 +142,7 @@ fn a_concave_face_is_cut_several_times() {
         (found.front.len(), found.back.len(), found.edges.len()),
         (4, 1, 4)
     );
-    assert!((mesh.area() - comb.area()).abs() < 1e-12);
+    assert!((area(&mesh) - area(&comb)).abs() < 1e-12);
     assert!(mesh.faces().all(|f| mesh.area_vector(f).z > 0.0));
     // Through the bottoms of the gaps, which are corners.
     let (mesh, found) = cut(&comb, DVec3::Y, DVec3::Y);
@@ -199,13 +197,13 @@ fn a_face_around_a_hole_is_cut_on_both_sides_of_it() {
     points.extend(ring(2.0).into_iter().rev());
     let keyhole = [0, 1, 2, 3, 0, 7, 4, 5, 6, 7].map(|i: usize| points[i]);
     let mesh = polygon(&keyhole);
-    assert!((mesh.area() - 48.0).abs() < 1e-12);
+    assert!((area(&mesh) - 48.0).abs() < 1e-12);
     // Across the slit, then across the hole.
     let (mesh, found) = cut(&mesh, DVec3::Y * -3.0, DVec3::Y);
     assert_eq!((found.edges.len(), mesh.n_faces()), (2, 3));
     let (mesh, found) = cut(&mesh, DVec3::ZERO, DVec3::Y);
     assert_eq!(found.edges.len(), 2);
-    assert!((mesh.area() - 48.0).abs() < 1e-12);
+    assert!((area(&mesh) - 48.0).abs() < 1e-12);
     assert!(mesh.faces().all(|f| mesh.area_vector(f).z > 0.0));
 }
 
@@ -219,7 +217,7 @@ fn what_is_no_plane_is_refused() {
         (DVec3::X * f64::INFINITY, DVec3::Z),
     ] {
         let mut edited = mesh.clone();
-        let refused = edited.bisect(point, normal);
+        let refused = bisect(&mut edited, point, normal);
         assert!(
             matches!(refused, Err(EditError::BadNumber(_))),
             "{refused:?}"
@@ -229,7 +227,7 @@ fn what_is_no_plane_is_refused() {
     let mut huge = mesh.clone();
     huge.positions_mut().iter_mut().for_each(|p| *p *= f64::MAX);
     let before = huge.clone();
-    let refused = huge.bisect(DVec3::ZERO, DVec3::ONE);
+    let refused = bisect(&mut huge, DVec3::ZERO, DVec3::ONE);
     assert!(
         matches!(refused, Err(EditError::BadNumber(_))),
         "{refused:?}"
@@ -246,7 +244,7 @@ fn tiny_and_large_meshes_and_normals_are_cut_alike() {
         let scale = f64::from_bits(u64::try_from(1023 + exponent).unwrap() << 52);
         let mut scaled = mesh.clone();
         scaled.positions_mut().iter_mut().for_each(|p| *p *= scale);
-        scaled.bisect(point * scale, normal * scale).unwrap();
+        bisect(&mut scaled, point * scale, normal * scale).unwrap();
         assert_eq!(scaled.connectivity(), expected.connectivity(), "{exponent}");
     }
 }
@@ -257,9 +255,9 @@ fn far_from_the_origin_what_rounding_does_counts_as_on_the_plane() {
     mesh.positions_mut().iter_mut().for_each(|p| *p += 1e9);
     let (point, normal) = (DVec3::splat(1e9), DVec3::new(1.0, 2.0, 3.0));
     let mut once = mesh.clone();
-    let cut = once.bisect(point, normal).unwrap();
+    let cut = bisect(&mut once, point, normal).unwrap();
     let mut twice = once.clone();
-    assert_eq!(twice.bisect(point, normal).unwrap(), cut);
+    assert_eq!(bisect(&mut twice, point, normal).unwrap(), cut);
     assert_eq!(once, twice);
 }
 
@@ -279,7 +277,7 @@ proptest! {
         let (sin, cos) = libm::sincos(turn);
         let normal = DVec3::new(cos, sin, 0.0);
         let (after, _) = cut(&mesh, normal * offset, normal);
-        prop_assert!((after.area() - mesh.area()).abs() < 1e-9 * mesh.area());
+        prop_assert!((area(&after) - area(&mesh)).abs() < 1e-9 * area(&mesh));
         prop_assert!(after.faces().all(|f| after.area_vector(f).z > -1e-9));
     }
 
@@ -296,7 +294,7 @@ proptest! {
             mesh.positions().iter().map(|p| p.dot(normal)).collect()
         };
         let normal = at(&normal);
-        let found = mesh.bisect(DVec3::ZERO, normal).unwrap();
+        let found = bisect(&mut mesh, DVec3::ZERO, normal).unwrap();
         prop_assert_eq!(mesh.defects(), []);
         let height = heights(&mesh, normal);
         for (faces, sign) in [(&found.front, 1.0), (&found.back, -1.0)] {

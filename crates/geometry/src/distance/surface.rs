@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use crate::{DVec3, FaceId, Mesh, VertexId};
+use mesh::{DVec3, FaceId, Mesh, VertexId};
 
 use super::triangle::nearest_on_triangle;
 

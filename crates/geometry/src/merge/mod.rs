@@ -8,17 +8,17 @@
 //!    +-----+ +-----+            +-----+-----+
 //! ```
 //!
-//! [`clusters`] finds which vertices belong together, [`Mesh::merge_clusters`] makes them one and builds
+//! [`clusters`] finds which vertices belong together, [`merge_clusters`] makes them one and builds
 //! the mesh again from its polygons.
 
 mod cluster;
 mod union_find;
 
-use crate::build::{BuildError, BuildReport, Built, NonManifold, build};
-use crate::{
-    CORNER_NORMAL, DVec3, Domain, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, Sources,
-    VERTEX_NORMAL, VertexId,
+use mesh::{
+    BuildError, BuildReport, Built, CORNER_NORMAL, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh,
+    NonManifold, Sources, VERTEX_NORMAL, VertexId, build,
 };
+use progress::{Cancelled, Progress};
 
 pub use cluster::clusters;
 
@@ -33,100 +33,108 @@ pub struct Merged {
     pub report: BuildReport,
 }
 
-impl Mesh {
-    /// Merges vertices at most `distance` apart, and all that such steps connect.
-    ///
-    /// Two vertices at 0.9 times the distance always merge, wherever they lie, and two at 1.1 times only
-    /// through others between them. Neither depends on the order of vertices or on the number of threads.
-    /// A distance of 0 merges equal positions.
-    ///
-    /// [`merge_clusters`](Self::merge_clusters) tells what becomes of everything. If no two vertices merge,
-    /// nothing changes at all.
-    ///
-    /// # Errors
-    ///
-    /// [`EditError::BadNumber`] if the distance is negative or not finite, or a position is not finite;
-    /// [`EditError::Full`] if the result had more vertices than ids can number. The mesh is unchanged.
-    ///
-    /// # Examples
-    ///
-    /// ```
-    /// use mesh::{DVec3, Mesh};
-    ///
-    /// let points = [0.0, 1.0, 2.0, 0.0, 1.0, 2.0].map(|x| DVec3::new(x, x * x, 0.0));
-    /// let (mut mesh, _) = Mesh::from_polygons(points.to_vec(), &[[0, 1, 2], [5, 4, 3]])?;
-    /// let merged = mesh.merge_vertices(0.0).unwrap();
-    /// assert_eq!((merged.vertices, mesh.n_vertices()), (3, 3));
-    /// # Ok::<(), mesh::BuildError>(())
-    /// ```
-    pub fn merge_vertices(&mut self, distance: f64) -> Result<Merged, EditError> {
-        if !(distance >= 0.0 && distance.is_finite()) {
-            return Err(EditError::BadNumber(distance));
-        }
-        let bad = |v: VertexId| !self.position(v).is_finite();
-        if let Some(v) = self.vertices().find(|&v| bad(v)) {
-            return Err(EditError::BadNumber(self.position(v).max_element()));
-        }
-        let positions: Vec<DVec3> = self.vertices().map(|v| self.position(v)).collect();
-        let result: Result<_, std::convert::Infallible> =
-            clusters(&positions, distance, &|_, _| Ok(()));
-        let Ok(lowest) = result;
-        if (0..).zip(&lowest).all(|(v, &low): (u32, _)| v == low) {
-            return Ok(Merged::default());
-        }
-        // Numbered as the vertices of the compacted mesh.
-        let mut dense = self.clone();
-        dense.journal = None;
-        dense.compact();
-        let merged = dense.merge_clusters(&lowest).map_err(|_| EditError::Full)?;
-        self.replace(dense);
-        Ok(merged)
-    }
+/// Why vertices were not merged. The mesh is unchanged.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MergeError {
+    /// The distance is negative or not finite.
+    #[error("`distance` must be 0 or a positive number, not {0}")]
+    Distance(f64),
+    /// The computation was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// The result is not a mesh.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+}
 
-    /// Makes each cluster of vertices one: `lowest` has for each vertex the lowest of those it merges with,
-    /// its own number if it is that. The mesh must be dense.
-    ///
-    /// The merged vertex has the position and the values of the lowest; the others go, and numbers close
-    /// up. Edges between the same two vertices become one, with the values of the first. Faces keep their
-    /// order and values, and corners theirs, so that seams are kept.
-    ///
-    /// A face loses corners that merge with the next one around it, and goes if fewer than three are left
-    /// or if it would visit a vertex twice. Where faces that hang together then run different ways round,
-    /// the smaller number of them is reversed if that makes all agree, and normals are dropped. Where the
-    /// result would still not be a manifold it is split, as [`build`] does: of three faces at one edge the
-    /// third gets its own.
-    ///
-    /// # Errors
-    ///
-    /// [`BuildError`] if a position is not finite, or if the result could have more vertices than ids can
-    /// number. The mesh is unchanged.
-    ///
-    /// # Panics
-    ///
-    /// If the mesh is not dense, or `lowest` has not one number for each vertex, or one names no vertex.
-    pub fn merge_clusters(&mut self, lowest: &[u32]) -> Result<Merged, BuildError> {
-        assert!(self.is_dense(), "the mesh must be dense");
-        assert_eq!(
-            lowest.len(),
-            self.n_vertices(),
-            "one number for each vertex"
-        );
-        let polygons = Polygons::of(self, lowest);
-        let built = build(
-            polygons.positions.clone(),
-            &polygons.offsets,
-            &polygons.corners,
-            NonManifold::Split,
-        )?;
-        let merged = Merged {
-            vertices: lowest.len() - polygons.kept.len(),
-            smaller_faces: polygons.reduced,
-            report: built.report.clone(),
-        };
-        let mesh = polygons.with_attributes(self, built);
-        self.replace(mesh);
-        Ok(merged)
+/// Merges vertices at most `distance` apart, and all that such steps connect.
+///
+/// Two vertices at 0.9 times the distance always merge, wherever they lie, and two at 1.1 times only
+/// through others between them. Neither depends on the order of vertices or on the number of threads.
+/// A distance of 0 merges equal positions.
+///
+/// [`merge_clusters`] tells what becomes of everything. If no two vertices merge, nothing changes at all.
+///
+/// # Errors
+///
+/// [`MergeError::Distance`] if the distance is negative or not finite, [`MergeError::Cancelled`], and those of
+/// [`merge_clusters`]. The mesh is unchanged.
+///
+/// # Panics
+///
+/// If the mesh is not dense.
+///
+/// # Examples
+///
+/// ```
+/// use mesh::{DVec3, Mesh};
+///
+/// let points = [0.0, 1.0, 2.0, 0.0, 1.0, 2.0].map(|x| DVec3::new(x, x * x, 0.0));
+/// let (mut mesh, _) = Mesh::from_polygons(points.to_vec(), &[[0, 1, 2], [5, 4, 3]])?;
+/// let merged = geometry::merge_vertices(&mut mesh, 0.0, &progress::NoProgress)?;
+/// assert_eq!((merged.vertices, mesh.n_vertices()), (3, 3));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn merge_vertices(
+    mesh: &mut Mesh,
+    distance: f64,
+    progress: &dyn Progress,
+) -> Result<Merged, MergeError> {
+    if !(distance >= 0.0 && distance.is_finite()) {
+        return Err(MergeError::Distance(distance));
     }
+    if let Some(v) = mesh.positions().iter().position(|p| !p.is_finite()) {
+        return Err(BuildError::NotFinite(v).into());
+    }
+    let lowest = clusters(mesh.positions(), distance, progress)?;
+    if (0..).zip(&lowest).all(|(v, &low): (u32, _)| v == low) {
+        return Ok(Merged::default());
+    }
+    Ok(merge_clusters(mesh, &lowest)?)
+}
+
+/// Makes each cluster of vertices one: `lowest` has for each vertex the lowest of those it merges with,
+/// its own number if it is that. The mesh must be dense.
+///
+/// The merged vertex has the position and the values of the lowest; the others go, and numbers close
+/// up. Edges between the same two vertices become one, with the values of the first. Faces keep their
+/// order and values, and corners theirs, so that seams are kept.
+///
+/// A face loses corners that merge with the next one around it, and goes if fewer than three are left
+/// or if it would visit a vertex twice. Where faces that hang together then run different ways round,
+/// the smaller number of them is reversed if that makes all agree, and normals are dropped. Where the
+/// result would still not be a manifold it is split, as [`build`] does: of three faces at one edge the
+/// third gets its own.
+///
+/// # Errors
+///
+/// [`BuildError`] if a position is not finite, or if the result could have more vertices than ids can
+/// number. The mesh is unchanged.
+///
+/// # Panics
+///
+/// If the mesh is not dense, or `lowest` has not one number for each vertex, or one names no vertex.
+pub fn merge_clusters(mesh: &mut Mesh, lowest: &[u32]) -> Result<Merged, BuildError> {
+    assert!(mesh.is_dense(), "the mesh must be dense");
+    assert_eq!(
+        lowest.len(),
+        mesh.n_vertices(),
+        "one number for each vertex"
+    );
+    let polygons = Polygons::of(mesh, lowest);
+    let built = build(
+        polygons.positions.clone(),
+        &polygons.offsets,
+        &polygons.corners,
+        NonManifold::Split,
+    )?;
+    let merged = Merged {
+        vertices: lowest.len() - polygons.kept.len(),
+        smaller_faces: polygons.reduced,
+        report: built.report.clone(),
+    };
+    mesh.replace(polygons.with_attributes(mesh, built));
+    Ok(merged)
 }
 
 /// The faces of a mesh over the vertices that are left.

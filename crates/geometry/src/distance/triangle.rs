@@ -1,6 +1,6 @@
 //! Nearest points of segments and triangles.
 
-use crate::DVec3;
+use mesh::DVec3;
 
 /// The point of the segment from `a` to `b` nearest to `p`; `a` if the segment is a point.
 pub(super) fn nearest_on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {

@@ -82,7 +82,12 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Cache(args) => commands::cache::run(&args),
         Command::Shrink(args) => commands::shrink::run(&args, &registry),
         Command::Schema => commands::schema::run(&registry),
-        Command::NewOp { name, dir } => commands::new_op::run(&name, &dir),
+        Command::NewOp {
+            name,
+            group,
+            dir,
+            meshwright,
+        } => commands::new_op::run(&name, group.as_deref(), &dir, &meshwright),
     };
     match done.and_then(|succeeded| flushed().map(|()| succeeded)) {
         Ok(true) => ExitCode::SUCCESS,

@@ -1,6 +1,7 @@
 //! What commands that run many recipes at once share.
 
-use recipe::{Caching, Diagnostic, JobEnd, JobLimits, Jobs, Outcome, Settings, Severity};
+use ::cache::Caching;
+use recipe::{Diagnostic, JobEnd, JobLimits, Jobs, Outcome, Settings, Severity, StepCache};
 
 use crate::listener::{Quiet, is_interrupted};
 use crate::loading::Loaded;
@@ -47,7 +48,7 @@ pub(crate) fn run_drawing(
 ) -> Outcome {
     let settings = Settings {
         keep_outputs,
-        cache,
+        cache: cache.as_ref().map(|cache| cache as &dyn StepCache),
         ..loaded.settings(budget)
     };
     let listener = Picturing {

@@ -3,9 +3,11 @@
 //! Steps run one after another on a scene. If one fails, the run ends and nothing is written: outputs
 //! go to a folder of their own beside their places, and are moved there when everything has held.
 //!
-//! With a [cache](crate::cache) a step runs only if the cache does not have its result, and a scene is
+//! With a [cache](StepCache) a step runs only if the cache does not have its result, and a scene is
 //! brought back from it only where a step runs or an expectation must be held against it.
 
+mod before;
+mod cache;
 mod listener;
 mod outcome;
 mod stage;
@@ -17,14 +19,15 @@ use std::time::Instant;
 use op::{Context, FileLog, Files, OpError, Place, Progress, Refusal, Report};
 use scene::{Digest, Geometry, Scene};
 
-use crate::cache::{Before, Caching, Done, Session, Why};
 use crate::check::forbidden;
 use crate::expect::{Found, ReadObjects, Subject};
 use crate::recipe::{Recipe, RecipeStep};
+use before::Before;
 use listener::Forward;
 use ron_tree::Diagnostic;
 use stage::{deliver, listing, staging, written};
 
+pub use cache::{CachedRun, Change, Done, Finding, StepCache, Why};
 pub use listener::{Failure, Listener, Silent, StepDone};
 pub use outcome::{Outcome, Unmet};
 
@@ -42,7 +45,7 @@ pub struct Settings<'a> {
     /// Whether the recipe writes anything.
     pub writes: bool,
     /// The cache, if there is one.
-    pub cache: Option<Caching<'a>>,
+    pub cache: Option<&'a dyn StepCache>,
 }
 
 /// Runs a recipe that was read and checked without errors.
@@ -53,7 +56,7 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
         files: Vec::new(),
         log: FileLog::default(),
         stage: None,
-        session: settings.cache.map(Session::new),
+        session: settings.cache.map(StepCache::begin),
         scene: Scene::new(),
         at: 0,
         n_done: 0,
@@ -98,7 +101,7 @@ struct Runner<'a> {
     /// What they ask for.
     log: FileLog,
     stage: Option<PathBuf>,
-    session: Option<Session<'a>>,
+    session: Option<Box<dyn CachedRun + 'a>>,
     /// The scene before the step of number `at`. Later steps than that were found in the cache.
     scene: Scene,
     at: usize,
@@ -126,7 +129,7 @@ impl Runner<'_> {
         let _ = self.run_steps(listener);
         if self.failures.is_empty()
             && !self.cancelled
-            && self.session.as_ref().is_some_and(Session::wants_scene)
+            && self.session.as_ref().is_some_and(|s| s.wants_scene())
         {
             let _ = self.bring(self.n_done, listener);
         }
@@ -213,7 +216,7 @@ impl Runner<'_> {
                 refused,
                 counts: [vertices, edges, faces],
                 scene: &self.scene,
-                before,
+                same: before.is_still(&self.scene),
                 time,
                 uses: &self.log.take(),
                 written: written
@@ -237,7 +240,7 @@ impl Runner<'_> {
 
     /// The digest of the scene after the steps that are done.
     fn digest(&mut self, listener: &dyn Listener) -> Result<Digest, Stopped> {
-        if let Some(known) = self.session.as_ref().and_then(Session::digest) {
+        if let Some(known) = self.session.as_ref().and_then(|s| s.digest()) {
             return Ok(known);
         }
         self.bring(self.n_done, listener)?;
@@ -260,8 +263,7 @@ impl Runner<'_> {
         let recipe = self.recipe;
         while self.at < to {
             let place = self.at;
-            let is_same = |session: &Session| session.is_same(place);
-            if !self.session.as_ref().is_some_and(is_same) {
+            if !self.session.as_ref().is_some_and(|s| s.is_same(place)) {
                 let step = &recipe.steps[place];
                 let begin = Instant::now();
                 self.apply(step, listener)?;
@@ -442,7 +444,7 @@ impl Runner<'_> {
 
     fn end(mut self, written: Vec<PathBuf>) -> Outcome {
         let is_whole = self.at == self.n_done;
-        let known = self.session.as_ref().and_then(Session::digest);
+        let known = self.session.as_ref().and_then(|s| s.digest());
         if known.is_none() && !is_whole && !self.cancelled {
             // A step that is run again for its scene and fails was told before.
             let _ = self.bring(self.n_done, &Silent);

@@ -1,8 +1,9 @@
 //! `meshwright run`: runs a recipe.
 
+use ::cache::Cache;
 use anyhow::Context as _;
 use op::Registry;
-use recipe::{Cache, Outcome, Settings};
+use recipe::{Outcome, Settings, StepCache};
 
 use crate::args::{Format, RunArgs};
 use crate::cache;
@@ -95,9 +96,10 @@ pub(crate) fn execute(
     if !json {
         show(loaded, &loaded.diagnostics);
     }
+    let caching = cache.map(|cache| cache::using(cache, &args.recipe.recipe));
     let settings = Settings {
         keep_outputs: true,
-        cache: cache.map(|cache| cache::using(cache, &args.recipe.recipe)),
+        cache: caching.as_ref().map(|caching| caching as &dyn StepCache),
         ..loaded.settings(args.recipe.budget)
     };
     let terminal = Terminal::new();

@@ -5,7 +5,7 @@ use std::time::Duration;
 use op::{Place, Progress, Refusal, Report};
 use scene::{Digest, Scene};
 
-use crate::cache::Why;
+use super::cache::Why;
 use crate::expect::Found;
 use ron_tree::Diagnostic;
 

@@ -3,7 +3,8 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use recipe::{Cache, Caching, Grid, JobEnd, Measured, Metric, Outcome, Schemas, Source, Span};
+use ::cache::{Cache, Caching};
+use recipe::{Grid, JobEnd, Measured, Metric, Outcome, Schemas, Source, Span};
 use scene::Scene;
 
 use super::sheet::{Seen, Sheet};

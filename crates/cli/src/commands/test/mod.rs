@@ -29,9 +29,10 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use ::cache::Cache;
 use anyhow::ensure;
 use op::Registry;
-use recipe::{Cache, Diagnostic, InOrder, JobEnd, Jobs, Schemas, Source};
+use recipe::{Diagnostic, InOrder, JobEnd, Jobs, Schemas, Source};
 use serde_json::{Value as Json, json};
 
 use super::test_update::renew;

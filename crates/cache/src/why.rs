@@ -1,128 +1,25 @@
-//! Why a step ran and was not taken from the cache.
+//! The steps of the last run of a recipe, to say why a step runs again.
 
-use std::fmt;
 use std::path::PathBuf;
 
+use recipe::Why;
 use serde::{Deserialize, Serialize};
 
-use super::folder::{Folder, Hash, Kind};
-use super::key::{Ingredients, digest};
-use super::record::{load_data, store_data};
-
-/// Why a step ran. Shown as the end of a sentence that begins with "because".
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Why {
-    /// There is no cache.
-    NoCache,
-    /// The cache knows no run of this step.
-    New,
-    /// Another version of the program, or another build of it.
-    Program,
-    /// The operation has another version.
-    Version {
-        /// The version then.
-        from: u32,
-        /// The version now.
-        to: u32,
-    },
-    /// Parameters have other values: which, and what they were and are.
-    Parameters(String),
-    /// `on` names other objects.
-    On,
-    /// The id is another one, and keys the random choices.
-    Id,
-    /// `refused` is another one.
-    Refused,
-    /// The memory budget is another one.
-    Budget,
-    /// It reads from another folder.
-    Folder,
-    /// A file is not what it was.
-    File(PathBuf, Change),
-    /// The recipe or its parameters are others, and the files that the step writes say which.
-    Provenance,
-    /// The names of the files that the step writes are others.
-    Outputs,
-    /// An earlier step, by its number from 1 and its label, ran.
-    Earlier(usize, String),
-    /// There are other steps before it.
-    Order,
-    /// The cache does not have its result any more.
-    Gone,
-    /// Its result in the cache was damaged: how.
-    Damaged(String),
-    /// Its result was not stored: making it took less time than storing it would have.
-    NotKept,
-    /// What it depends on cannot be told: a file and the reason.
-    Unknown(PathBuf, String),
-    /// What it depends on cannot be told, because an earlier step has left a scene with removed elements.
-    NoState,
-}
-
-/// What became of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Change {
-    /// It has another content.
-    Changed,
-    /// It is not there any more.
-    Gone,
-    /// It was not there.
-    Appeared,
-}
-
-impl fmt::Display for Why {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoCache => f.write_str("there is no cache"),
-            Self::New => f.write_str("it has not run before"),
-            Self::Program => f.write_str("the program is another one"),
-            Self::Version { from, to } => {
-                write!(f, "the version of the operation changed: {from} -> {to}")
-            }
-            Self::Parameters(which) => write!(f, "parameters changed: {which}"),
-            Self::On => f.write_str("`on` changed"),
-            Self::Id => f.write_str("its id changed, which keys random choices"),
-            Self::Refused => f.write_str("`refused` changed"),
-            Self::Budget => f.write_str("the memory budget changed"),
-            Self::Folder => f.write_str("it reads from another folder"),
-            Self::File(path, change) => {
-                let change = match change {
-                    Change::Changed => "changed",
-                    Change::Gone => "is gone",
-                    Change::Appeared => "was not there before",
-                };
-                write!(f, "the file {} {change}", path.display())
-            }
-            Self::Provenance => {
-                f.write_str("the recipe changed, and what is written says from which one it is")
-            }
-            Self::Outputs => f.write_str("the names of its outputs changed"),
-            Self::Earlier(number, label) => write!(f, "step {number} {label} ran again"),
-            Self::Order => f.write_str("there are other steps before it"),
-            Self::Gone => f.write_str("its result is not in the cache any more"),
-            Self::Damaged(how) => write!(f, "its result in the cache was damaged: {how}"),
-            Self::NotKept => f.write_str(
-                "its result was not stored: making it took less time than storing it would",
-            ),
-            Self::Unknown(path, why) => {
-                write!(f, "what it read cannot be told: {}, {why}", path.display())
-            }
-            Self::NoState => f.write_str("what an earlier step has left cannot be told"),
-        }
-    }
-}
+use crate::folder::{Folder, Hash, Kind};
+use crate::key::{Ingredients, digest};
+use crate::record::{load_data, store_data};
 
 /// A step of the last run.
 #[derive(Clone, Debug, Deserialize, Serialize)]
-pub(super) struct Past {
-    pub(super) made_of: Ingredients,
+pub(crate) struct Past {
+    pub(crate) made_of: Ingredients,
     /// Why it was not stored.
-    pub(super) unknown: Option<(PathBuf, String)>,
+    pub(crate) unknown: Option<(PathBuf, String)>,
 }
 
 /// The steps of the last run of a recipe, and those of this one.
 #[derive(Debug, Default)]
-pub(super) struct History {
+pub(crate) struct History {
     id: Option<Hash>,
     past: Vec<Past>,
     now: Vec<Past>,
@@ -130,7 +27,7 @@ pub(super) struct History {
 
 impl History {
     /// What is known of a recipe; nothing without one.
-    pub(super) fn load(folder: &Folder, recipe: Option<&std::path::Path>) -> Self {
+    pub(crate) fn load(folder: &Folder, recipe: Option<&std::path::Path>) -> Self {
         let absolute = recipe.map(|path| std::path::absolute(path).unwrap_or_else(|_| path.into()));
         let id = absolute.map(|path| digest("recipe", &path.as_os_str().as_encoded_bytes()));
         Self {
@@ -143,12 +40,12 @@ impl History {
     }
 
     /// Adds a step of this run.
-    pub(super) fn push(&mut self, made_of: Ingredients, unknown: Option<(PathBuf, String)>) {
+    pub(crate) fn push(&mut self, made_of: Ingredients, unknown: Option<(PathBuf, String)>) {
         self.now.push(Past { made_of, unknown });
     }
 
     /// Stores the steps of this run, and behind them those of the last one that this one did not come to.
-    pub(super) fn store(&mut self, folder: &Folder) {
+    pub(crate) fn store(&mut self, folder: &Folder) {
         let Some(id) = self.id else { return };
         let n = self.now.len();
         let (now, past) = (
@@ -169,7 +66,7 @@ impl History {
 
     /// Why a step has another key than in the last run; `ran` is the last earlier step that ran in this one, with
     /// its number.
-    pub(super) fn why(&self, now: &Ingredients, ran: Option<(usize, String)>) -> Why {
+    pub(crate) fn why(&self, now: &Ingredients, ran: Option<(usize, String)>) -> Why {
         let here = self.now.len();
         let is_it = |past: &&Past| {
             past.made_of.operation == now.operation && past.made_of.stream == now.stream

@@ -7,7 +7,7 @@ use std::path::Path;
 use scene::{Arrays, Scene};
 use serde::{Deserialize, Serialize};
 
-use super::folder::{
+use crate::folder::{
     Folder, Hash, Kind, Unusable, copy_hashed, hash, hash_rest, open, read_hashed, unreadable,
 };
 
@@ -16,22 +16,22 @@ const LONG: usize = 1 << 14;
 
 /// The name of a blob.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
-pub(super) struct BlobRef {
-    pub(super) hash: Hash,
-    pub(super) len: u64,
+pub(crate) struct BlobRef {
+    pub(crate) hash: Hash,
+    pub(crate) len: u64,
 }
 
 /// A scene whose long arrays are blobs.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
-pub(super) struct SceneRef {
+pub(crate) struct SceneRef {
     /// The canonical form without the long arrays.
     #[serde(with = "serde_bytes")]
-    pub(super) rest: Vec<u8>,
-    pub(super) arrays: Vec<BlobRef>,
+    pub(crate) rest: Vec<u8>,
+    pub(crate) arrays: Vec<BlobRef>,
 }
 
 /// Stores a scene of dense meshes. `None` if it cannot be written.
-pub(super) fn store_scene(folder: &Folder, scene: &Scene) -> Option<SceneRef> {
+pub(crate) fn store_scene(folder: &Folder, scene: &Scene) -> Option<SceneRef> {
     let mut arrays = Vec::new();
     let mut stored = true;
     let rest = scene.encode_apart(LONG, &mut |bytes| {
@@ -46,7 +46,7 @@ pub(super) fn store_scene(folder: &Folder, scene: &Scene) -> Option<SceneRef> {
 }
 
 /// Brings a scene back. What is damaged is removed.
-pub(super) fn load_scene(folder: &Folder, scene: &SceneRef) -> Result<Scene, Unusable> {
+pub(crate) fn load_scene(folder: &Folder, scene: &SceneRef) -> Result<Scene, Unusable> {
     let mut arrays = Stored {
         folder,
         left: &scene.arrays,
@@ -108,7 +108,7 @@ fn load_bytes(folder: &Folder, blob: &BlobRef, into: &mut [u8]) -> Result<(), Un
 }
 
 /// Stores a file that a step has written. `None` if it cannot be read or stored.
-pub(super) fn store_file(folder: &Folder, path: &Path) -> Option<BlobRef> {
+pub(crate) fn store_file(folder: &Folder, path: &Path) -> Option<BlobRef> {
     let (mut file, _) = open(path).ok()?;
     let (hash, len) = hash_rest(&mut file).ok()?;
     let blob = BlobRef { hash, len };
@@ -122,13 +122,13 @@ pub(super) fn store_file(folder: &Folder, path: &Path) -> Option<BlobRef> {
 }
 
 /// Whether a blob seems to be there, without reading it.
-pub(super) fn seems_there(folder: &Folder, blob: &BlobRef) -> bool {
+pub(crate) fn seems_there(folder: &Folder, blob: &BlobRef) -> bool {
     let path = folder.path(Kind::Blob, &blob.hash);
     fs::metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() == blob.len)
 }
 
 /// Writes a blob to a file. After an error there is none.
-pub(super) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result<(), Unusable> {
+pub(crate) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result<(), Unusable> {
     let path = folder.path(Kind::Blob, &blob.hash);
     let mut file = open_blob(&path, blob)?;
     let written = |error: io::Error| Unusable::Damaged(format!("{}: {error}", to.display()));

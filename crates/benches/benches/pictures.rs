@@ -2,7 +2,7 @@
 //! memory, with one thread and two: many small triangles, few large ones, lines, and ambient occlusion by
 //! itself.
 //!
-//! `cargo bench -p meshwright-render` prints the median times.
+//! `cargo bench -p meshwright-benches --bench pictures` prints the median times.
 
 #![expect(clippy::print_stdout, reason = "this is its report")]
 

@@ -151,9 +151,9 @@ fn a_cache_can_be_cleared() {
 #[test]
 fn a_step_that_changes_one_thing_stores_one_thing() {
     let place = Place::new();
-    place.run(&super::super::steps("Sheet(columns: 700)"));
+    place.run(&steps("Sheet(columns: 700)"));
     let before = place.cache.size().unwrap().blobs;
-    place.run(&super::super::steps("Sheet(columns: 700), Lift(by: 1)"));
+    place.run(&steps("Sheet(columns: 700), Lift(by: 1)"));
     // The positions.
     assert_eq!(place.cache.size().unwrap().blobs, before + 1);
 }

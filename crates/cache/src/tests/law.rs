@@ -132,7 +132,7 @@ fn two_runs_at_once_are_as_one() {
     let place = Place::new();
     place.write("n.txt", "2");
     let text = |n: usize| {
-        super::super::steps(&format!(
+        steps(&format!(
             "FromFile(path: \"n.txt\", tells: true), Sheet(columns: 700), Lift(by: 1), Lift(by: {}), Write(path: \"a.txt\")",
             n % 3 + 1
         ))
@@ -171,9 +171,9 @@ fn two_runs_at_once_are_as_one() {
 }
 
 fn run_in(folder: &Path, text: &str, caching: Caching, out: &str) -> Outcome {
-    let registry = super::super::registry().with::<FromFile>();
-    let source = crate::Source::new(folder.join("recipe.ron"), text);
-    let reading = crate::read(&source, &registry, crate::Values::default());
+    let registry = registry().with::<FromFile>();
+    let source = recipe::Source::new(folder.join("recipe.ron"), text);
+    let reading = recipe::read(&source, &registry, recipe::Values::default());
     let files = Files {
         input: folder.into(),
         output: folder.join(out),
@@ -186,7 +186,7 @@ fn run_in(folder: &Path, text: &str, caching: Caching, out: &str) -> Outcome {
         read: &|_, _| Err(String::new()),
         keep_outputs: true,
         writes: true,
-        cache: Some(caching),
+        cache: Some(&caching),
     };
-    crate::run(&reading.recipe, settings, &Silent)
+    recipe::run(&reading.recipe, settings, &Silent)
 }

@@ -2,7 +2,7 @@
 //! memory of the machine allows? The cases are those that other libraries are measured with; `tests/oracle`
 //! measures `OpenSubdiv` with them.
 //!
-//! `cargo bench -p meshwright-subdivision` prints, for one thread and two, the median time from the cage in
+//! `cargo bench -p meshwright-benches --bench levels` prints, for one thread and two, the median time from the cage in
 //! memory to the refined mesh in memory, the faces a second, the bytes of the result, and what a second of
 //! copying and of filling new memory would make of them.
 

@@ -6,11 +6,11 @@ use op::{Refusal, Report};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::blob::{BlobRef, SceneRef};
-use super::folder::{Folder, Hash, Kind, Unusable, hash, write_all};
-use super::held::Held;
-use super::key::Key;
-use super::seen::Inputs;
+use crate::blob::{BlobRef, SceneRef};
+use crate::folder::{Folder, Hash, Kind, Unusable, hash, write_all};
+use crate::held::Held;
+use crate::key::Key;
+use crate::seen::Inputs;
 
 /// The first bytes of every file that is not a blob.
 const MAGIC: &[u8] = b"meshwright cache\n";
@@ -21,41 +21,41 @@ const MOST_RESULTS: usize = 4;
 
 /// What a step did.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub(super) struct Record {
-    pub(super) read: Inputs,
-    pub(super) outputs: Option<Outputs>,
-    pub(super) report: Report,
-    pub(super) refused: Option<Refusal>,
-    pub(super) vertices: u64,
-    pub(super) edges: u64,
-    pub(super) faces: u64,
+pub(crate) struct Record {
+    pub(crate) read: Inputs,
+    pub(crate) outputs: Option<Outputs>,
+    pub(crate) report: Report,
+    pub(crate) refused: Option<Refusal>,
+    pub(crate) vertices: u64,
+    pub(crate) edges: u64,
+    pub(crate) faces: u64,
     /// Whether the scene is the one from before.
-    pub(super) same: bool,
+    pub(crate) same: bool,
     /// The scene after the step, if it is kept.
-    pub(super) scene: Option<SceneRef>,
+    pub(crate) scene: Option<SceneRef>,
     /// The digest of the scene, if it was computed.
-    pub(super) digest: Option<[u8; 16]>,
+    pub(crate) digest: Option<[u8; 16]>,
     /// The expectations that held after the step.
-    pub(super) held: Vec<Held>,
+    pub(crate) held: Vec<Held>,
 }
 
 /// What a step has written.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
-pub(super) struct Outputs {
+pub(crate) struct Outputs {
     /// The line on where the files come from, which may stand in them.
-    pub(super) provenance: Option<String>,
+    pub(crate) provenance: Option<String>,
     /// The paths that were asked for, as the recipe has them and below the output folder.
-    pub(super) asked: Vec<(String, PathBuf)>,
+    pub(crate) asked: Vec<(String, PathBuf)>,
     /// The files, unless they are not kept.
-    pub(super) files: Option<Vec<OutputFile>>,
+    pub(crate) files: Option<Vec<OutputFile>>,
 }
 
 /// A file that a step has written.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
-pub(super) struct OutputFile {
+pub(crate) struct OutputFile {
     /// Below the output folder.
-    pub(super) path: PathBuf,
-    pub(super) content: BlobRef,
+    pub(crate) path: PathBuf,
+    pub(crate) content: BlobRef,
 }
 
 impl Record {
@@ -70,7 +70,7 @@ impl Record {
     }
 
     /// The arrays and files that belong to it.
-    pub(super) fn blobs(&self) -> impl Iterator<Item = &BlobRef> {
+    pub(crate) fn blobs(&self) -> impl Iterator<Item = &BlobRef> {
         let outputs = self.outputs.iter().filter_map(|o| o.files.as_ref());
         let scene = self.scene.iter().flat_map(|scene| &scene.arrays);
         outputs.flatten().map(|file| &file.content).chain(scene)
@@ -78,12 +78,12 @@ impl Record {
 }
 
 /// The results that are known for a key, the latest first.
-pub(super) fn load(folder: &Folder, key: Key) -> Result<Vec<Record>, Unusable> {
+pub(crate) fn load(folder: &Folder, key: Key) -> Result<Vec<Record>, Unusable> {
     load_data(folder, Kind::Step, &key.0)
 }
 
 /// Stores a result beside those that are known for its key.
-pub(super) fn store(folder: &Folder, key: Key, record: Record) {
+pub(crate) fn store(folder: &Folder, key: Key, record: Record) {
     let mut records = load(folder, key).unwrap_or_default();
     records.retain(|known| !known.is_about_the_same(&record));
     records.insert(0, record);
@@ -92,7 +92,7 @@ pub(super) fn store(folder: &Folder, key: Key, record: Record) {
 }
 
 /// Reads plain data, which is held against its digest. What is damaged is removed.
-pub(super) fn load_data<T: DeserializeOwned>(
+pub(crate) fn load_data<T: DeserializeOwned>(
     folder: &Folder,
     kind: Kind,
     id: &Hash,
@@ -118,7 +118,7 @@ pub(super) fn load_data<T: DeserializeOwned>(
 }
 
 /// Stores plain data under a name.
-pub(super) fn store_data(folder: &Folder, kind: Kind, id: &Hash, data: &impl Serialize) {
+pub(crate) fn store_data(folder: &Folder, kind: Kind, id: &Hash, data: &impl Serialize) {
     // Paths that are no text cannot be stored.
     if let Ok(data) = postcard::to_stdvec(data)
         && (data.len() as u64) < MOST_BYTES / 2

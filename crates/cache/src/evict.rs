@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-use super::CacheSize;
-use super::folder::{Folder, Kind, write_all};
+use crate::CacheSize;
+use crate::folder::{Folder, Kind, write_all};
 
 /// What a process leaves that was killed while it wrote is removed after this time.
 const LEFT: Duration = Duration::from_secs(3600);
@@ -59,7 +59,7 @@ fn list(folder: &Path) -> io::Result<Vec<DirEntry>> {
     }
 }
 
-pub(super) fn size(folder: &Folder) -> io::Result<CacheSize> {
+pub(crate) fn size(folder: &Folder) -> io::Result<CacheSize> {
     Ok(sum(&entries(folder)?))
 }
 
@@ -72,7 +72,7 @@ fn sum(entries: &[Entry]) -> CacheSize {
     }
 }
 
-pub(super) fn clear(folder: &Folder) -> io::Result<CacheSize> {
+pub(crate) fn clear(folder: &Folder) -> io::Result<CacheSize> {
     let entries = entries(folder)?;
     for entry in &entries {
         remove(&entry.path)?;
@@ -106,7 +106,7 @@ fn sizes(folder: &Folder) -> PathBuf {
 }
 
 /// Keeps the cache below its limit, if something was added since the last call. Failures are left to the next run.
-pub(super) fn after_run(folder: &Folder, limit: u64) {
+pub(crate) fn after_run(folder: &Folder, limit: u64) {
     let added = folder.take_written();
     if added > 0 {
         let _ = account(folder, added, limit);

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, SystemTime};
 
 /// A BLAKE3 digest.
-pub(super) type Hash = [u8; 32];
+pub(crate) type Hash = [u8; 32];
 
 /// From this size on several threads read, write and hash, in pieces of this size.
 const PIECE: usize = 4 << 20;
@@ -17,16 +17,16 @@ const FRESH: Duration = Duration::from_secs(3600);
 
 /// Kinds of files, each with a folder of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     Step,
     Blob,
     Recipe,
 }
 
 impl Kind {
-    pub(super) const ALL: [Self; 3] = [Self::Step, Self::Blob, Self::Recipe];
+    pub(crate) const ALL: [Self; 3] = [Self::Step, Self::Blob, Self::Recipe];
 
-    pub(super) const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Step => "steps",
             Self::Blob => "blobs",
@@ -37,7 +37,7 @@ impl Kind {
 
 /// Why a file of the cache cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Unusable {
+pub(crate) enum Unusable {
     /// It is not there.
     Missing,
     /// It is not what it was when it was stored, or cannot be read.
@@ -46,7 +46,7 @@ pub(super) enum Unusable {
 
 /// The folder of a cache.
 #[derive(Debug)]
-pub(super) struct Folder {
+pub(crate) struct Folder {
     root: PathBuf,
     problem: OnceLock<String>,
     /// The bytes that were written and not yet counted.
@@ -54,7 +54,7 @@ pub(super) struct Folder {
 }
 
 impl Folder {
-    pub(super) fn new(root: PathBuf) -> Self {
+    pub(crate) fn new(root: PathBuf) -> Self {
         Self {
             root,
             problem: OnceLock::new(),
@@ -62,32 +62,32 @@ impl Folder {
         }
     }
 
-    pub(super) fn root(&self) -> &Path {
+    pub(crate) fn root(&self) -> &Path {
         &self.root
     }
 
-    pub(super) fn problem(&self) -> Option<&str> {
+    pub(crate) fn problem(&self) -> Option<&str> {
         self.problem.get().map(String::as_str)
     }
 
     /// The bytes that were written since the last call.
-    pub(super) fn take_written(&self) -> u64 {
+    pub(crate) fn take_written(&self) -> u64 {
         self.written.swap(0, Ordering::Relaxed)
     }
 
-    pub(super) fn path(&self, kind: Kind, hash: &Hash) -> PathBuf {
+    pub(crate) fn path(&self, kind: Kind, hash: &Hash) -> PathBuf {
         let hex = blake3::Hash::from_bytes(*hash).to_hex();
         let folder = self.root.join(kind.name()).join(&hex[..2]);
         folder.join(&hex[2..])
     }
 
-    pub(super) fn temporary(&self) -> PathBuf {
+    pub(crate) fn temporary(&self) -> PathBuf {
         self.root.join("tmp")
     }
 
     /// Writes a file whole or not at all, and returns whether it is there. The first failure is kept as the
     /// problem, and nothing is written after it.
-    pub(super) fn write(&self, path: &Path, fill: impl Fn(&mut File) -> io::Result<u64>) -> bool {
+    pub(crate) fn write(&self, path: &Path, fill: impl Fn(&mut File) -> io::Result<u64>) -> bool {
         if self.problem.get().is_some() {
             return false;
         }
@@ -125,7 +125,7 @@ impl Folder {
     }
 
     /// Reads a file of at most `most` bytes.
-    pub(super) fn read(path: &Path, most: u64) -> Result<Vec<u8>, Unusable> {
+    pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, Unusable> {
         let (file, len) = open(path)?;
         if len > most {
             return Err(Unusable::Damaged(format!("it has {len} bytes")));
@@ -138,13 +138,13 @@ impl Folder {
     }
 
     /// Removes a file that is no good.
-    pub(super) fn discard(path: &Path) {
+    pub(crate) fn discard(path: &Path) {
         // If it cannot be removed, it is found damaged again.
         let _ = fs::remove_file(path);
     }
 
     /// Marks a file as used now. Returns whether it was long ago that it was used before.
-    pub(super) fn touch(path: &Path) -> bool {
+    pub(crate) fn touch(path: &Path) -> bool {
         let now = SystemTime::now();
         let Ok(file) = File::open(path) else {
             return false;
@@ -159,7 +159,7 @@ impl Folder {
 }
 
 /// A plain file and its length.
-pub(super) fn open(path: &Path) -> Result<(File, u64), Unusable> {
+pub(crate) fn open(path: &Path) -> Result<(File, u64), Unusable> {
     let meta = fs::metadata(path).map_err(unreadable)?;
     if !meta.is_file() {
         return Err(Unusable::Damaged("it is no plain file".to_owned()));
@@ -169,14 +169,14 @@ pub(super) fn open(path: &Path) -> Result<(File, u64), Unusable> {
 }
 
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
-pub(super) fn unreadable(error: io::Error) -> Unusable {
+pub(crate) fn unreadable(error: io::Error) -> Unusable {
     match error.kind() {
         io::ErrorKind::NotFound => Unusable::Missing,
         _ => Unusable::Damaged(error.to_string()),
     }
 }
 
-pub(super) fn hash(bytes: &[u8]) -> Hash {
+pub(crate) fn hash(bytes: &[u8]) -> Hash {
     let mut hasher = blake3::Hasher::new();
     update(&mut hasher, bytes);
     *hasher.finalize().as_bytes()
@@ -193,7 +193,7 @@ fn update(hasher: &mut blake3::Hasher, bytes: &[u8]) {
 
 /// Reads exactly as many bytes as `into` has, and returns their digest. While one piece is hashed, the next
 /// is read.
-pub(super) fn read_hashed(file: &mut (impl Read + Send), into: &mut [u8]) -> io::Result<Hash> {
+pub(crate) fn read_hashed(file: &mut (impl Read + Send), into: &mut [u8]) -> io::Result<Hash> {
     let mut hasher = blake3::Hasher::new();
     let mut last: &[u8] = &[];
     for piece in into.chunks_mut(PIECE) {
@@ -211,7 +211,7 @@ pub(super) fn read_hashed(file: &mut (impl Read + Send), into: &mut [u8]) -> io:
 
 /// Copies a file to its end, or to `sink` as the case may be, and returns its digest and length. While one piece
 /// is hashed and written, the next is read.
-pub(super) fn copy_hashed(
+pub(crate) fn copy_hashed(
     from: &mut (impl Read + Send),
     mut sink: impl FnMut(&[u8]) -> io::Result<()> + Send,
 ) -> io::Result<(Hash, u64)> {
@@ -249,12 +249,12 @@ fn read_piece(from: &mut impl Read, piece: &mut Vec<u8>) -> io::Result<()> {
 }
 
 /// The digest and length of what is behind in a file.
-pub(super) fn hash_rest(file: &mut File) -> io::Result<(Hash, u64)> {
+pub(crate) fn hash_rest(file: &mut File) -> io::Result<(Hash, u64)> {
     copy_hashed(file, |_| Ok(()))
 }
 
 /// Writes bytes and returns how many.
-pub(super) fn write_all(file: &mut File, pieces: &[&[u8]]) -> io::Result<u64> {
+pub(crate) fn write_all(file: &mut File, pieces: &[&[u8]]) -> io::Result<u64> {
     let mut n = 0;
     for piece in pieces {
         file.write_all(piece)?;

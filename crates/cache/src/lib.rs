@@ -42,10 +42,9 @@ mod why;
 use std::io;
 use std::path::{Path, PathBuf};
 
-pub(crate) use session::{Before, Done, Session};
-pub use why::{Change, Why};
-
 use folder::Folder;
+use recipe::{CachedRun, StepCache};
+use session::Session;
 
 /// Scenes and files of fewer bytes are always kept.
 pub const SMALL: u64 = 1 << 20;
@@ -71,7 +70,7 @@ pub struct Caching<'a> {
     /// The recipe's file, if it has one: what its steps are made of is kept, to tell in the next run what
     /// has changed.
     pub recipe: Option<&'a Path>,
-    /// Whether [`Outcome::scene`](crate::Outcome::scene) is wanted even where no step needs it.
+    /// Whether [`Outcome::scene`](recipe::Outcome::scene) is wanted even where no step needs it.
     pub want_scene: bool,
 }
 
@@ -84,6 +83,12 @@ pub struct CacheSize {
     pub steps: u64,
     /// The number of arrays and output files.
     pub blobs: u64,
+}
+
+impl StepCache for Caching<'_> {
+    fn begin(&self) -> Box<dyn CachedRun + '_> {
+        Box::new(Session::new(*self))
+    }
 }
 
 impl Cache {
@@ -130,3 +135,6 @@ impl Cache {
         evict::clear(&self.folder)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,6 +2,8 @@
 
 mod damage;
 mod law;
+#[path = "../../recipe/src/tests/operations.rs"]
+mod operations;
 
 use std::cell::Cell;
 use std::fs;
@@ -13,7 +15,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
-use crate::{Cache, Caching, Outcome, Settings, Silent, Why};
+use recipe::{Outcome, Settings, Silent, Why};
+
+use self::operations::{registry, steps};
+use crate::{Cache, Caching};
 
 /// Makes a sheet of as many squares as a file says.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -92,9 +97,9 @@ impl Place {
 
     #[track_caller]
     fn run_with(&self, text: &str, caching: Option<Caching>, out: &str) -> Outcome {
-        let registry = super::registry().with::<FromFile>();
-        let source = crate::Source::new(self.path("recipe.ron"), text);
-        let reading = crate::read(&source, &registry, crate::Values::default());
+        let registry = registry().with::<FromFile>();
+        let source = recipe::Source::new(self.path("recipe.ron"), text);
+        let reading = recipe::read(&source, &registry, recipe::Values::default());
         assert!(!reading.has_errors(), "{text}: {:?}", reading.diagnostics);
         let files = Files {
             input: self.folder.path().into(),
@@ -115,9 +120,11 @@ impl Place {
             read: &read,
             keep_outputs: self.keep_outputs,
             writes: text.contains("Write"),
-            cache: caching,
+            cache: caching
+                .as_ref()
+                .map(|caching| caching as &dyn recipe::StepCache),
         };
-        crate::run(&reading.recipe, settings, &Silent)
+        recipe::run(&reading.recipe, settings, &Silent)
     }
 
     /// Runs a recipe with the cache and without it, and asks for the same outcome.
@@ -142,7 +149,7 @@ impl Place {
     fn ran(&self, text: &str) -> Vec<(usize, String)> {
         let outcome = self.run(text);
         let why =
-            |(i, step): (usize, &crate::StepDone)| Some((i + 1, step.ran.as_ref()?.to_string()));
+            |(i, step): (usize, &recipe::StepDone)| Some((i + 1, step.ran.as_ref()?.to_string()));
         outcome.steps.iter().enumerate().filter_map(why).collect()
     }
 
@@ -161,7 +168,7 @@ impl Place {
 #[track_caller]
 fn assert_same(a: &Outcome, b: &Outcome) {
     let steps = |outcome: &Outcome| {
-        let of = |s: &crate::StepDone| {
+        let of = |s: &recipe::StepDone| {
             let counts = [s.vertices, s.edges, s.faces];
             (s.label.clone(), s.report.clone(), s.refused, counts)
         };
@@ -180,7 +187,7 @@ fn ten(change: impl Fn(usize) -> f64) -> String {
     let lift = |i| format!("(id: \"lift{i}\", run: Lift(by: {:?}))", change(i));
     let lifts: Vec<String> = (2..=10).map(lift).collect();
     let lifts = lifts.join(", ");
-    super::steps(&format!("Sheet(columns: 4), {lifts}"))
+    steps(&format!("Sheet(columns: 4), {lifts}"))
 }
 
 #[test]
@@ -210,11 +217,11 @@ fn only_what_comes_behind_an_edit_runs_again() {
 #[test]
 fn recipes_with_the_same_steps_share_their_results() {
     let mut place = Place::new();
-    let steps = |more| super::steps(&format!("Sheet(columns: 4), Lift(by: 1), {more}"));
-    place.run(&steps(""));
+    let and = |more| steps(&format!("Sheet(columns: 4), Lift(by: 1), {more}"));
+    place.run(&and(""));
     place.recipe = Some(place.path("other.ron"));
     let why = "it has not run before".to_owned();
-    assert_eq!(place.ran(&steps("Lift(by: 3)")), [(3, why)]);
+    assert_eq!(place.ran(&and("Lift(by: 3)")), [(3, why)]);
 }
 
 #[test]
@@ -248,8 +255,8 @@ fn everything_that_a_step_is_made_of_runs_it_again() {
         ),
     ] {
         let place = Place::new();
-        place.run(&super::steps(base));
-        let ran = place.ran(&super::steps(&changed));
+        place.run(&steps(base));
+        let ran = place.ran(&steps(&changed));
         assert_eq!(
             ran.last().map(|(_, why)| why.as_str()),
             Some(why),
@@ -261,7 +268,7 @@ fn everything_that_a_step_is_made_of_runs_it_again() {
 #[test]
 fn another_budget_or_program_runs_all_steps_again() {
     let mut place = Place::new();
-    let text = super::steps("Sheet(columns: 2), Lift(by: 1)");
+    let text = steps("Sheet(columns: 2), Lift(by: 1)");
     place.run(&text);
     place.budget.set(1 << 30);
     let ran = place.ran(&text);
@@ -275,7 +282,7 @@ fn another_budget_or_program_runs_all_steps_again() {
 #[test]
 fn a_file_that_changes_goes_or_appears_is_named() {
     let place = Place::new();
-    let text = super::steps("FromFile(path: \"n.txt\", tells: true), Lift(by: 1)");
+    let text = steps("FromFile(path: \"n.txt\", tells: true), Lift(by: 1)");
     let n = place.path("n.txt").display().to_string();
     let beside = place.path("n.beside").display().to_string();
     place.write("n.txt", "3");
@@ -313,7 +320,7 @@ fn a_file_that_changes_goes_or_appears_is_named() {
 #[test]
 fn a_file_that_is_only_said_to_be_wanted_is_read_in_every_run() {
     let place = Place::new();
-    let text = super::steps("FromFile(path: \"n.txt\"), Lift(by: 1), Lift(by: 2)");
+    let text = steps("FromFile(path: \"n.txt\"), Lift(by: 1), Lift(by: 2)");
     place.write("n.txt", "3");
     place.run(&text);
     let ran = place.ran(&text);
@@ -360,7 +367,7 @@ fn a_loss_that_is_not_allowed_fails_from_the_cache_too() {
 #[test]
 fn outputs_come_from_the_cache_with_the_same_bytes() {
     let mut place = Place::new();
-    let text = super::steps(
+    let text = steps(
         "Sheet(columns: 2), Write(path: \"deep/a.txt\"), Lift(by: 1), Write(path: \"b.txt\")",
     );
     place.run(&text);
@@ -381,9 +388,8 @@ fn outputs_come_from_the_cache_with_the_same_bytes() {
 #[test]
 fn a_refused_step_is_known_and_leaves_the_scene() {
     let place = Place::new();
-    let text = super::steps(
-        "Sheet(columns: 2), (run: Lift(by: 1, fails: Seam), refused: Seam), Lift(by: 3)",
-    );
+    let text =
+        steps("Sheet(columns: 2), (run: Lift(by: 1, fails: Seam), refused: Seam), Lift(by: 3)");
     place.run(&text);
     place.runs_nothing(&text);
     assert_eq!(place.numbers(&text.replace("by: 3", "by: 4")), [3]);
@@ -392,7 +398,7 @@ fn a_refused_step_is_known_and_leaves_the_scene() {
 #[test]
 fn a_failing_step_is_not_stored_and_fails_again() {
     let place = Place::new();
-    let text = super::steps("Sheet(columns: 2), Lift(by: 1, fails: Pinch), Lift(by: 2)");
+    let text = steps("Sheet(columns: 2), Lift(by: 1, fails: Pinch), Lift(by: 2)");
     for _ in 0..2 {
         let outcome = place.run(&text);
         assert_eq!((outcome.steps.len(), outcome.failures.len()), (1, 1));
@@ -425,7 +431,7 @@ fn expectations_that_held_are_not_asked_again() {
 #[test]
 fn the_scene_comes_if_it_is_wanted() {
     let mut place = Place::new();
-    let text = super::steps("Sheet(columns: 2), Lift(by: 1)");
+    let text = steps("Sheet(columns: 2), Lift(by: 1)");
     place.run(&text);
     assert!(place.run(&text).scene.is_none());
     place.want_scene = true;
@@ -437,7 +443,7 @@ fn the_scene_comes_if_it_is_wanted() {
 #[test]
 fn a_large_scene_that_is_made_in_no_time_is_made_again() {
     let place = Place::new();
-    let text = super::steps("Sheet(columns: 60000), Write(path: \"a.txt\")");
+    let text = steps("Sheet(columns: 60000), Write(path: \"a.txt\")");
     place.run(&text);
     // Whether it is stored depends on the machine; the outcome does not.
     let more = text.replace("])", ", Sheet(columns: 1, name: \"b\")])");

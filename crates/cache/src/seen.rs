@@ -8,12 +8,12 @@ use std::time::SystemTime;
 use op::{FileUse, Files};
 use serde::{Deserialize, Serialize};
 
-use super::folder::{Hash, Unusable, hash_rest, open};
-use super::why::Change;
+use crate::folder::{Hash, Unusable, hash_rest, open};
+use recipe::Change;
 
 /// What there was under a path.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
-pub(super) enum Seen {
+pub(crate) enum Seen {
     /// A plain file of this content.
     Content(Hash),
     /// A plain file whose content does not matter.
@@ -24,24 +24,24 @@ pub(super) enum Seen {
 
 /// A path and what there was.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
-pub(super) struct FileState {
-    pub(super) path: PathBuf,
-    pub(super) seen: Seen,
+pub(crate) struct FileState {
+    pub(crate) path: PathBuf,
+    pub(crate) seen: Seen,
 }
 
 /// What was read, and what was asked for.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
-pub(super) struct Inputs {
+pub(crate) struct Inputs {
     /// The paths that were asked for: as the recipe has them, and where that was. The same text means another
     /// file in another folder.
     asked: Vec<(String, PathBuf)>,
     /// The files that were read or looked for.
-    pub(super) files: Vec<FileState>,
+    pub(crate) files: Vec<FileState>,
 }
 
 impl Inputs {
     /// Whether what is asked for is where it was.
-    pub(super) fn are_asked_for_in(&self, files: &Files) -> bool {
+    pub(crate) fn are_asked_for_in(&self, files: &Files) -> bool {
         let mut asked = self.asked.iter();
         asked.all(|(path, full)| files.input.join(path) == *full)
     }
@@ -49,7 +49,7 @@ impl Inputs {
 
 /// Looks at files, at each once in a run.
 #[derive(Debug)]
-pub(super) struct Eyes {
+pub(crate) struct Eyes {
     /// When the run began.
     began: SystemTime,
     /// Digests of plain files; `None` where there is none, an error where it cannot be read.
@@ -57,7 +57,7 @@ pub(super) struct Eyes {
 }
 
 impl Eyes {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             began: SystemTime::now(),
             known: BTreeMap::new(),
@@ -74,7 +74,7 @@ impl Eyes {
     }
 
     /// What has become of the first of these files that is not as it was.
-    pub(super) fn changed(&mut self, files: &[FileState]) -> Option<(PathBuf, Change)> {
+    pub(crate) fn changed(&mut self, files: &[FileState]) -> Option<(PathBuf, Change)> {
         files.iter().find_map(|file| {
             let is_there = file.path.is_file();
             let change = match file.seen {
@@ -94,7 +94,7 @@ impl Eyes {
     /// # Errors
     ///
     /// A path for which that cannot be told, and why.
-    pub(super) fn read(&mut self, uses: &[FileUse]) -> Result<Inputs, (PathBuf, &'static str)> {
+    pub(crate) fn read(&mut self, uses: &[FileUse]) -> Result<Inputs, (PathBuf, &'static str)> {
         let (mut read, mut looked_for, mut asked) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
         for file in uses {
             match file {

@@ -3,41 +3,41 @@
 use op::Refusal;
 use serde::{Deserialize, Serialize};
 
-use super::folder::Hash;
-use super::seen::FileState;
-use crate::recipe::RecipeStep;
+use crate::folder::Hash;
+use crate::seen::FileState;
+use recipe::RecipeStep;
 
 /// The form of everything that is stored; another one never meets the files of this one.
 const FORM: &str = "meshwright step cache 1";
 
 /// All that decides the result of a step before it runs.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
-pub(super) struct Ingredients {
-    pub(super) program: String,
-    pub(super) operation: String,
-    pub(super) version: u32,
+pub(crate) struct Ingredients {
+    pub(crate) program: String,
+    pub(crate) operation: String,
+    pub(crate) version: u32,
     /// With every default written out.
-    pub(super) parameters: String,
-    pub(super) on: Option<Vec<String>>,
+    pub(crate) parameters: String,
+    pub(crate) on: Option<Vec<String>>,
     /// The name that keys random choices.
-    pub(super) stream: String,
-    pub(super) refused: Option<Refusal>,
-    pub(super) budget: u64,
+    pub(crate) stream: String,
+    pub(crate) refused: Option<Refusal>,
+    pub(crate) budget: u64,
     /// The state before the step.
-    pub(super) before: State,
+    pub(crate) before: State,
 }
 
 /// The key of a step: what its result is stored under.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
-pub(super) struct Key(pub(super) Hash);
+pub(crate) struct Key(pub(crate) Hash);
 
 /// The state of a scene, by how it came to be.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
-pub(super) struct State(pub(super) Hash);
+pub(crate) struct State(pub(crate) Hash);
 
 impl Ingredients {
     /// What a step is made of; `None` if it could not be read.
-    pub(super) fn of(step: &RecipeStep, program: &str, budget: u64, before: State) -> Option<Self> {
+    pub(crate) fn of(step: &RecipeStep, program: &str, budget: u64, before: State) -> Option<Self> {
         let operation = step.step.as_ref()?;
         Some(Self {
             program: program.to_owned(),
@@ -52,14 +52,14 @@ impl Ingredients {
         })
     }
 
-    pub(super) fn key(&self) -> Key {
+    pub(crate) fn key(&self) -> Key {
         Key(digest("key", self))
     }
 }
 
 impl Key {
     /// The state after a step that has read these files.
-    pub(super) fn after(self, read: &[FileState]) -> State {
+    pub(crate) fn after(self, read: &[FileState]) -> State {
         let files: Vec<_> = read
             .iter()
             .map(|file| (file.path.as_os_str().as_encoded_bytes(), file.seen))
@@ -70,18 +70,18 @@ impl Key {
 
 impl State {
     /// The state of an empty scene.
-    pub(super) fn start() -> Self {
+    pub(crate) fn start() -> Self {
         Self(digest("start", &()))
     }
 
     /// The state of a scene of which only the content is known.
-    pub(super) fn of_scene(digest_of_scene: scene::Digest) -> Self {
+    pub(crate) fn of_scene(digest_of_scene: scene::Digest) -> Self {
         Self(digest("scene", &digest_of_scene.to_bytes()))
     }
 }
 
 /// The digest of plain data; `what` keeps different uses apart.
-pub(super) fn digest(what: &str, data: &impl Serialize) -> Hash {
+pub(crate) fn digest(what: &str, data: &impl Serialize) -> Hash {
     let bytes = postcard::to_stdvec(data).expect("plain data of known lengths");
     let mut hasher = blake3::Hasher::new_derive_key(FORM);
     hasher.update(&(what.len() as u64).to_le_bytes());
@@ -94,8 +94,8 @@ pub(super) fn digest(what: &str, data: &impl Serialize) -> Hash {
 mod tests {
     use std::collections::BTreeSet;
 
-    use super::super::seen::Seen;
     use super::*;
+    use crate::seen::Seen;
 
     fn made_of() -> Ingredients {
         Ingredients {

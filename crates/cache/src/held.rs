@@ -3,14 +3,14 @@
 use op::{FileUse, Files};
 use serde::{Deserialize, Serialize};
 
-use super::folder::Hash;
-use super::key::digest;
-use super::seen::{Eyes, Inputs};
-use crate::recipe::Placed;
+use crate::folder::Hash;
+use crate::key::digest;
+use crate::seen::{Eyes, Inputs};
+use recipe::Placed;
 
 /// An expectation that held for a scene.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
-pub(super) struct Held {
+pub(crate) struct Held {
     /// The digest of its text and of the objects that it is about.
     text: Hash,
     /// The files that it compares with.
@@ -19,7 +19,7 @@ pub(super) struct Held {
 
 impl Held {
     /// An expectation that held, with what it did with files; `None` if that cannot be told.
-    pub(super) fn new(placed: &Placed, uses: &[FileUse], eyes: &mut Eyes) -> Option<Self> {
+    pub(crate) fn new(placed: &Placed, uses: &[FileUse], eyes: &mut Eyes) -> Option<Self> {
         Some(Self {
             text: text(placed),
             read: eyes.read(uses).ok()?,
@@ -28,7 +28,7 @@ impl Held {
 }
 
 /// Whether one of these says that the expectation holds.
-pub(super) fn holds(held: &[Held], placed: &Placed, files: &Files, eyes: &mut Eyes) -> bool {
+pub(crate) fn holds(held: &[Held], placed: &Placed, files: &Files, eyes: &mut Eyes) -> bool {
     let text = text(placed);
     let mut same = held.iter().filter(|held| held.text == text);
     same.any(|held| held.read.are_asked_for_in(files) && eyes.changed(&held.read.files).is_none())

@@ -126,7 +126,7 @@ fn nothing(mesh: &Mesh) -> Mesh {
 mod tests {
     use super::*;
     use geometry::shapes;
-    use mesh::{Attribute, DVec3};
+    use mesh::{Attribute, DVec3, EdgeId, Rule};
     use op::test::{applied, try_applied};
 
     fn step(text: &str) -> Bisect {

@@ -4,7 +4,7 @@ use super::*;
 use bezier::DVec2;
 use geometry::shapes;
 use mesh::{CORNER_NORMAL, VERTEX_NORMAL};
-use op::{MeshPlan, Range};
+use op::Range;
 use scene::Object;
 
 fn step(text: &str) -> Transform {

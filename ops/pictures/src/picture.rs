@@ -437,13 +437,8 @@ impl Operation for Picture {
         let stamp = cx.files().provenance.clone();
         let bytes = self.encode(&images, stamp.as_deref(), cx.progress());
         let bytes = bytes.map_err(failed)?;
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|e| {
-                of_file(&format!("cannot make the folder {}: {e}", folder.display()))
-            })?;
-        }
-        std::fs::write(&path, bytes)
-            .map_err(|e| of_file(&format!("cannot write {}: {e}", path.display())))?;
+        let store = &cx.files().store;
+        store.write(&path, &bytes).map_err(|e| of_file(&e))?;
         Ok(Report {
             notes,
             ..Report::default()
@@ -475,9 +470,9 @@ fn read_image(files: &Files, folder: Option<&str>, path: &str) -> Option<Vec<u8>
         Some(folder) => files.to_read(&format!("{folder}/{path}")),
         None => files.to_read(path),
     };
-    if full.is_file() {
+    if files.store.is_file(&full) {
         files.has_read(&full);
-        std::fs::read(full).ok()
+        files.store.read(&full).ok()
     } else {
         files.has_looked_for(&full);
         None

@@ -35,10 +35,6 @@ impl Polygons {
     /// The mesh and what was done to make it a manifold, or the first problem.
     fn build(&self) -> Result<(Mesh, BuildReport), Problem> {
         let points: Vec<DVec3> = self.points.iter().map(|&p| p.into()).collect();
-        if let Some(i) = points.iter().position(|p| !p.is_finite()) {
-            let message = format!("point {i} has a coordinate that is infinite or no number");
-            return Err(Problem::error(message).at(["points", &i.to_string()]));
-        }
         for (f, face) in self.faces.iter().enumerate() {
             self.check(f, face)?;
         }

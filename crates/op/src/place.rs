@@ -5,7 +5,7 @@ pub use scene::Place;
 #[cfg(test)]
 mod tests {
     use geometry::shapes;
-    use mesh::{EdgeId, EditError, VertexId};
+    use mesh::{EdgeId, EditError, Element, Mesh, VertexId};
     use scene::{Object, Scene};
     use schemars::JsonSchema;
     use serde::{Deserialize, Serialize};

@@ -135,16 +135,10 @@ impl Operation for CurveFigure {
                 return Err(OpError::Parameter(message));
             }
         };
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|error| {
-                failed(&format!(
-                    "cannot make the folder {}: {error}",
-                    folder.display()
-                ))
-            })?;
-        }
-        std::fs::write(&path, bytes)
-            .map_err(|error| failed(&format!("cannot write {}: {error}", path.display())))?;
+        cx.files()
+            .store
+            .write(&path, &bytes)
+            .map_err(|error| failed(&error))?;
         cx.advance("draw", 1, 1)?;
         Ok(Report::changed(0))
     }

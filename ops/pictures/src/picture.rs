@@ -364,13 +364,8 @@ impl Operation for Picture {
         let bytes = self
             .encode_while(&images, stamp.as_deref(), &go_on)
             .map_err(draw::told)?;
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|e| {
-                failed(&format!("cannot make the folder {}: {e}", folder.display()))
-            })?;
-        }
-        std::fs::write(&path, bytes)
-            .map_err(|e| failed(&format!("cannot write {}: {e}", path.display())))?;
+        let store = &cx.files().store;
+        store.write(&path, &bytes).map_err(|e| failed(&e))?;
         Ok(Report {
             notes,
             ..Report::default()

@@ -276,9 +276,9 @@ fn read_image(files: &Files, folder: Option<&str>, path: &str) -> Option<Vec<u8>
         Some(folder) => files.to_read(&format!("{folder}/{path}")),
         None => files.to_read(path),
     };
-    if full.is_file() {
+    if files.store.is_file(&full) {
         files.has_read(&full);
-        std::fs::read(full).ok()
+        files.store.read(&full).ok()
     } else {
         files.has_looked_for(&full);
         None

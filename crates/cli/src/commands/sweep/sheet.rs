@@ -12,7 +12,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::ensure;
-use op::{Context, Files, Registry};
+use engine::Engine;
+use op::{Context, Files};
 use ops_pictures::{Extent, Picture};
 use recipe::{Axis, InOrder, JobEnd, Jobs, Metric};
 use render::figure::label::filled;
@@ -70,7 +71,7 @@ impl<'a> Sheet<'a> {
     pub(super) fn new(
         args: &'a SweepArgs,
         plan: &Plan,
-        registry: &Registry,
+        engine: &Engine,
     ) -> anyhow::Result<Option<Self>> {
         let Some(path) = &args.sheet else {
             return Ok(None);
@@ -82,7 +83,7 @@ impl<'a> Sheet<'a> {
             let message = format!("{}: expected an image that ends in .png", path.display());
             return Err(WrongUsage(message).into());
         }
-        let picture = parameters(&args.draw, path, SHEET_CELL, Vec::new(), registry)?;
+        let picture = parameters(&args.draw, path, SHEET_CELL, Vec::new(), engine)?;
         if picture.turntable.is_some() {
             return Err(WrongUsage("the cells on a sheet do not move".to_owned()).into());
         }

@@ -76,5 +76,5 @@ pub use report::{Loss, Refused, Report};
 pub use selection::{
     EdgeSelection, ElementKind, Elements, FaceSelection, Region, Select, Selected, VertexSelection,
 };
-pub use source::{Source, change_curves, check_name, made, named_object, plan_curves};
+pub use source::{Source, change_curves, check_name, named_object, plan_curves};
 pub use tag::{BadTagName, TagName, tag};

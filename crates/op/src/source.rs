@@ -7,8 +7,7 @@ use mesh::Mesh;
 use scene::{Geometry, Object, Scene};
 
 use crate::{
-    Context, Files, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem,
-    Range, Report, Vector,
+    Context, MeshPlan, OpError, Plan, PlanContext, PlannedGeometry, Problem, Range, Report, Vector,
 };
 
 /// The most edges of a mesh that is built from polygons: its faces have two corners at an edge, and
@@ -229,38 +228,6 @@ pub fn change_curves(
     Ok(Report::changed(names.len()))
 }
 
-/// The one mesh that a source makes in an empty scene: for tests.
-///
-/// # Panics
-///
-/// If the operation fails, makes another number of objects, its plan has problems or other counts than
-/// the mesh, or the mesh breaks an invariant.
-pub fn made(operation: &impl Operation) -> Mesh {
-    let files = Files::default();
-    let mut plan = Plan::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
-    let problems = operation.plan(&mut plan, &cx);
-    assert!(
-        problems.iter().all(|p| p.is_warning),
-        "the plan has problems: {problems:?}"
-    );
-
-    let mut scene = Scene::new();
-    crate::test::run(operation, &mut scene).expect("the operation succeeds");
-    let ([object], [planned]) = (scene.objects(), &plan.objects[..]) else {
-        panic!("a source makes one object");
-    };
-    let mesh = object.as_mesh().expect("the object is a mesh");
-    assert_eq!(mesh.defects(), [], "the source makes a valid mesh");
-    assert_eq!(planned.name, object.name);
-    assert_eq!(planned.geometry, PlannedGeometry::Mesh(MeshPlan::of(mesh)));
-    mesh.as_ref().clone()
-}
-
 fn not_a_curve(operation: &str, name: &str, kind: &str) -> String {
     format!("{operation} changes curves, but \"{name}\" is {kind}")
 }
@@ -268,7 +235,7 @@ fn not_a_curve(operation: &str, name: &str, kind: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::NoProgress;
+    use crate::{Files, NoProgress};
     use geometry::shapes;
 
     fn square() -> MeshPlan {

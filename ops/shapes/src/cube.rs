@@ -29,7 +29,7 @@ pub struct Cube {
     /// The name of the new object.
     pub name: String,
     /// The length of its edges, in scene units; above 0.
-    #[serde(default = "two")]
+    #[serde(default = "crate::two")]
     pub size: PositiveLength,
     /// Where its middle is, in scene units.
     #[serde(default)]
@@ -39,10 +39,6 @@ pub struct Cube {
     /// 0-5, 1-7, 3-6 and 2-4.
     #[serde(default)]
     pub triangles: bool,
-}
-
-const fn two() -> PositiveLength {
-    PositiveLength::literal(2.0)
 }
 
 impl Cube {
@@ -101,7 +97,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&op::test::read::<Cube>(text).unwrap())
+        op::test::made(&op::test::read::<Cube>(text).unwrap())
     }
 
     #[test]

@@ -25,29 +25,17 @@ pub struct Cylinder {
     /// How many sides.
     pub around: Count<3>,
     /// The distance from the axis to its vertical edges, in scene units; above 0.
-    #[serde(default = "one")]
+    #[serde(default = "crate::one")]
     pub radius: PositiveLength,
     /// Its height along z, in scene units; above 0.
-    #[serde(default = "two")]
+    #[serde(default = "crate::two")]
     pub height: PositiveLength,
     /// Whether its ends are closed.
-    #[serde(default = "yes")]
+    #[serde(default = "crate::yes")]
     pub caps: bool,
     /// Where its middle is, in scene units.
     #[serde(default)]
     pub center: Vector,
-}
-
-const fn one() -> PositiveLength {
-    PositiveLength::literal(1.0)
-}
-
-const fn two() -> PositiveLength {
-    PositiveLength::literal(2.0)
-}
-
-const fn yes() -> bool {
-    true
 }
 
 impl Cylinder {
@@ -102,7 +90,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&op::test::read::<Cylinder>(text).unwrap())
+        op::test::made(&op::test::read::<Cylinder>(text).unwrap())
     }
 
     #[test]

@@ -25,15 +25,11 @@ pub struct Grid {
     /// How many squares along y.
     pub rows: Count<1>,
     /// The length of a side of one square, in scene units; above 0.
-    #[serde(default = "one")]
+    #[serde(default = "crate::one")]
     pub size: PositiveLength,
     /// Where its middle is, in scene units.
     #[serde(default)]
     pub center: Vector,
-}
-
-const fn one() -> PositiveLength {
-    PositiveLength::literal(1.0)
 }
 
 impl Grid {
@@ -72,7 +68,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&op::test::read::<Grid>(text).unwrap())
+        op::test::made(&op::test::read::<Grid>(text).unwrap())
     }
 
     #[test]

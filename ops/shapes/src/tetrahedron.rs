@@ -23,15 +23,11 @@ pub struct Tetrahedron {
     /// The name of the new object.
     pub name: String,
     /// The distance from the middle to its corners, in scene units; above 0.
-    #[serde(default = "one")]
+    #[serde(default = "crate::one")]
     pub radius: PositiveLength,
     /// Where its middle is, in scene units.
     #[serde(default)]
     pub center: Vector,
-}
-
-const fn one() -> PositiveLength {
-    PositiveLength::literal(1.0)
 }
 
 impl Tetrahedron {
@@ -62,7 +58,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&op::test::read::<Tetrahedron>(text).unwrap())
+        op::test::made(&op::test::read::<Tetrahedron>(text).unwrap())
     }
 
     #[test]

@@ -27,7 +27,7 @@ pub struct Torus {
     /// How many faces around the tube.
     pub across: Count<3>,
     /// The distance from the z axis to the middle of the tube, in scene units; above 0.
-    #[serde(default = "one")]
+    #[serde(default = "crate::one")]
     pub major: PositiveLength,
     /// The radius of the tube, in scene units; above 0. The tube cuts itself unless it is below `major`.
     #[serde(default = "quarter")]
@@ -35,10 +35,6 @@ pub struct Torus {
     /// Where its middle is, in scene units.
     #[serde(default)]
     pub center: Vector,
-}
-
-const fn one() -> PositiveLength {
-    PositiveLength::literal(1.0)
 }
 
 const fn quarter() -> PositiveLength {
@@ -88,7 +84,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&op::test::read::<Torus>(text).unwrap())
+        op::test::made(&op::test::read::<Torus>(text).unwrap())
     }
 
     #[test]

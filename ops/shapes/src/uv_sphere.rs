@@ -27,15 +27,11 @@ pub struct UvSphere {
     /// How many bands of faces from pole to pole.
     pub rings: Count<2>,
     /// The distance from the middle to its vertices, in scene units; above 0.
-    #[serde(default = "one")]
+    #[serde(default = "crate::one")]
     pub radius: PositiveLength,
     /// Where its middle is, in scene units.
     #[serde(default)]
     pub center: Vector,
-}
-
-const fn one() -> PositiveLength {
-    PositiveLength::literal(1.0)
 }
 
 impl UvSphere {
@@ -78,7 +74,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&op::test::read::<UvSphere>(text).unwrap())
+        op::test::made(&op::test::read::<UvSphere>(text).unwrap())
     }
 
     #[test]

@@ -157,7 +157,7 @@ pub fn named_object<'s>(scene: &'s Scene, name: &str) -> Result<&'s Object, OpEr
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Files, NoProgress};
+    use crate::{Files, NoProgress, Range};
     use geometry::shapes;
 
     fn square() -> MeshPlan {

@@ -68,7 +68,12 @@ fn crates_know_only_what_stands_left_of_them() {
     let metadata = cargo("metadata --no-deps --format-version 1");
     let metadata: Value = serde_json::from_str(&metadata).expect("cargo writes JSON");
     let short = |value: &Value| -> Option<String> {
-        Some(value["name"].as_str()?.strip_prefix("meshwright-")?.to_owned())
+        Some(
+            value["name"]
+                .as_str()?
+                .strip_prefix("meshwright-")?
+                .to_owned(),
+        )
     };
     let packages = metadata["packages"].as_array().expect("a list");
     let crates: BTreeMap<String, &Value> = packages
@@ -87,7 +92,9 @@ fn crates_know_only_what_stands_left_of_them() {
                 allowed.contains(used.as_str()) || is_group && allowed.contains("ops-*");
             // Tests may use more.
             if dependency["kind"].is_null() && !is_allowed {
-                failures.push(format!("{name} uses {used}, which does not stand left of it"));
+                failures.push(format!(
+                    "{name} uses {used}, which does not stand left of it"
+                ));
             }
         }
     }
@@ -97,9 +104,8 @@ fn crates_know_only_what_stands_left_of_them() {
 
 #[test]
 fn a_first_build_compiles_no_more_packages_than_before() {
-    let tree = cargo(
-        "tree -p meshwright-cli -e normal --prefix none --target x86_64-unknown-linux-gnu",
-    );
+    let tree =
+        cargo("tree -p meshwright-cli -e normal --prefix none --target x86_64-unknown-linux-gnu");
     let packages: BTreeSet<&str> = tree
         .lines()
         .map(|line| line.trim_end_matches(" (*)"))

@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
+use engine::FileReader;
 use libtest_mimic::{Arguments, Failed, Trial};
 use op::Files;
 use recipe::{Outcome, Settings, Silent};
@@ -109,7 +110,7 @@ impl Scene {
         let settings = Settings {
             files: &files,
             budget: BUDGET,
-            read: &read_objects,
+            reader: &FileReader,
             keep_outputs: true,
             writes: !forecast.outputs.is_empty(),
             cache: None,
@@ -125,12 +126,6 @@ impl Scene {
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
-}
-
-fn read_objects(path: &Path, _: &Files) -> Result<Vec<scene::Object>, String> {
-    mesh_io::read(path, &mesh_io::ReadOptions::default())
-        .map(|loaded| loaded.objects)
-        .map_err(|error| error.to_string())
 }
 
 fn fail<T>(message: impl Into<String>) -> Result<T, Failed> {

@@ -8,7 +8,8 @@
 mod any_edit;
 
 use libfuzzer_sys::fuzz_target;
-use mesh::{COLOR, CREASE, DVec2, DVec4, MATERIAL, Mesh, UV, shapes};
+use mesh::{COLOR, CREASE, DVec2, DVec4, MATERIAL, Mesh, UV};
+use geometry::shapes;
 
 use any_edit::{Code, edit_and_check};
 

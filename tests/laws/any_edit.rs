@@ -74,7 +74,7 @@ pub(crate) fn edit(mesh: &mut Mesh, code: Code) -> Result<(), EditError> {
             mesh.extrude_faces(&faces, point).map(drop)
         }
         14 => mesh.fill_hole(hole(mesh, h)).map(drop),
-        15 => mesh.fill_hole_triangles(hole(mesh, h)).map(drop),
+        15 => geometry::fill_hole_triangles(mesh, hole(mesh, h)).map(drop),
         16 => {
             let other = HalfEdgeId::new(pick(mesh, Domain::Corner, b));
             mesh.bridge_loops(hole(mesh, h), hole(mesh, other))

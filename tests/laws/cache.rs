@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use ::cache::{Cache, Caching};
+use engine::FileReader;
 use op::Files;
-use recipe::{Cache, Caching, Outcome, Settings, Silent};
+use recipe::{Outcome, Settings, Silent, StepCache};
 use tempfile::TempDir;
 
 /// What a run leaves behind, without times.
@@ -31,25 +33,18 @@ fn run(path: &Path, cache: Option<&Cache>) -> (Left, Outcome) {
         provenance: Some(format!("recipe {}", reading.recipe.digest())),
         ..Files::default()
     };
-    let read = |path: &Path, files: &Files| {
-        let loaded = mesh_io::read(&store::Disk, path, &mesh_io::ReadOptions::default());
-        let loaded = loaded.map_err(|error| error.to_string())?;
-        for file in loaded.files {
-            files.has_read(file.path);
-        }
-        Ok(loaded.objects)
-    };
+    let caching = cache.map(|cache| Caching {
+        cache,
+        recipe: Some(path),
+        want_scene: false,
+    });
     let settings = Settings {
         files: &files,
         budget: u64::MAX,
-        read: &read,
+        reader: &FileReader,
         keep_outputs: true,
         writes: true,
-        cache: cache.map(|cache| Caching {
-            cache,
-            recipe: Some(path),
-            want_scene: false,
-        }),
+        cache: caching.as_ref().map(|caching| caching as &dyn StepCache),
     };
     let outcome = recipe::run(&reading.recipe, settings, &Silent);
     let step = |s: &recipe::StepDone| {

@@ -1,6 +1,8 @@
 //! What flipping diagonals can do for the symmetry of a subdivided cube: all 64 patterns.
 
-use mesh::{EdgeId, shapes};
+use engine::FileReader;
+use geometry::shapes;
+use mesh::EdgeId;
 use op::Files;
 use ops_subdivide::LoopSubdivide;
 use recipe::Expectation;
@@ -37,13 +39,12 @@ fn keeps(scene: &Scene, eq: Option<u64>, max: Option<u64>) -> bool {
         connectivity: true,
     };
     let files = Files::default();
-    let read = |_: &std::path::Path, _: &Files| Err("no file is read".to_owned());
     symmetric
         .check(Subject {
             scene,
             on: None,
             files: &files,
-            read: &read,
+            reader: &FileReader,
         })
         .is_ok()
 }

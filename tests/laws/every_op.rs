@@ -45,7 +45,7 @@ impl Case {
             name: format!("{}{sample} on {fixture}", entry.name),
             operation: entry.name,
             step: entry
-                .parse(sample)
+                .parse(&ron_tree::parse(sample).value)
                 .expect("a test of the samples reads them"),
             scene: scene.clone(),
         }

@@ -2,8 +2,9 @@
 
 use std::sync::LazyLock;
 
+use geometry::shapes;
 use glam::DVec3;
-use mesh::{Domain, EdgeId, EditError, FaceId, Mesh, VertexId, shapes};
+use mesh::{Domain, EdgeId, EditError, FaceId, Mesh, VertexId};
 use proptest::prelude::*;
 
 use crate::fixtures;

@@ -1,11 +1,11 @@
 //! Recorded numbers of the recipes in `scenes/` that are broken come back when they are renewed, and the text is
 //! what it was.
 
-use mesh_io::ReadOptions;
+use engine::FileReader;
 use op::Files;
-use recipe::syntax::{self, Value, ValueKind};
 use recipe::update::update;
 use recipe::{Settings, Silent, Source, Span, Values};
+use ron_tree::{Value, ValueKind};
 
 use crate::{assert_none, recipes};
 
@@ -16,13 +16,13 @@ fn broken_numbers_of_every_scene_come_back() {
     for path in recipes() {
         let shown = path.display();
         let source = std::fs::read_to_string(&path).expect("the recipe can be read");
-        let tree = syntax::parse(&source).value;
+        let tree = ron_tree::parse(&source).value;
         let mut numbers = Vec::new();
         let expected = tree.field("expect").and_then(Value::items);
         recorded(expected.unwrap_or_default(), &mut numbers);
         n_broken += numbers.len();
         let edits = numbers.iter().map(|&span| (span, other(span.of(&source))));
-        let broken = syntax::replace(&source, edits.collect()).expect("numbers lie apart");
+        let broken = ron_tree::replace(&source, edits.collect()).expect("numbers lie apart");
         match renewed(&Source::new(&path, broken)) {
             Ok((text, n)) => {
                 if text != source {
@@ -84,14 +84,10 @@ fn renewed(source: &Source) -> Result<(String, usize), String> {
         placeholders: reading.recipe.placeholders(),
         ..Files::default()
     };
-    let read = |path: &std::path::Path, _: &Files| {
-        let loaded = mesh_io::read(&store::Disk, path, &ReadOptions::default());
-        loaded.map(|l| l.objects).map_err(|error| error.to_string())
-    };
     let settings = Settings {
         files: &files,
         budget: 4 << 30,
-        read: &read,
+        reader: &FileReader,
         keep_outputs: true,
         writes: true,
         cache: None,

@@ -28,8 +28,8 @@ const MORE: &[&str] = &[
     r#"Join(objects: ["mesh"], name: "alone")"#,
     "Transform(scale: (2, 1, 0.5), move: (1, 2, 3))",
     "Transform(scale: (-1, 1, 1), about: Center)",
-    "Transform(rotate: [(axis: Z, degrees: 90), (axis: X, degrees: 33)], about: Point(1, 0, 0))",
-    "Transform(rotate: [(axis: Z, degrees: 30)])",
+    "Transform(rotate: [(axis: Z, angle: 90), (axis: X, angle: 33)], about: Point(1, 0, 0))",
+    "Transform(rotate: [(axis: Z, angle: 30)])",
     r#"Separate(object: "mesh", count: 2)"#,
     r#"Separate(object: "mesh", by: Material, count: 3)"#,
     r#"Separate(object: "mesh", by: Tag("marked"), count: 2)"#,
@@ -51,7 +51,7 @@ const MORE: &[&str] = &[
     "SplitEdges(edges: Between(1, 0), at: 0.125)",
     "SplitEdges(edges: Expect(count: 3, of: Longest(count: 3)), on_refusal: Skip)",
     "SplitEdges(edges: EdgesOf(Grow(Faces([0]))))",
-    "PokeFaces(faces: Degree(4), offset: 0.25)",
+    "PokeFaces(faces: Degree(4), distance: 0.25)",
     "PokeFaces(faces: Random(count: 3, seed: 7), on_refusal: Skip)",
     r#"PokeFaces(faces: Tagged("marked"))"#,
     "SplitFaces(between: [(0, 3)])",
@@ -67,11 +67,11 @@ const MORE: &[&str] = &[
     "DissolveVertices(vertices: Random(count: 5, seed: 7), on_refusal: Skip, seams: Drop)",
     r#"ExtrudeFaces(faces: Boundary, by: Offset((0, 0, 1)), tag: "marked")"#,
     r#"ExtrudeFaces(faces: Random(count: 9, seed: 3), by: Distance(-0.25), scale: 0.5, tag: "new")"#,
-    "ExtrudeFaces(faces: All, by: Offset((1, 2, 3)), scale: 2, turn: [(axis: Z, degrees: 30)])",
+    "ExtrudeFaces(faces: All, by: Offset((1, 2, 3)), scale: 2, rotate: [(axis: Z, angle: 30)])",
     "InsetFaces(faces: Degree(4), fraction: 0.5, on_refusal: Skip)",
     "InsetFaces(faces: Expect(count: 2, of: Random(count: 2, seed: 5)), fraction: 0.125)",
-    "BevelFaces(faces: Faces([0]), inset: 0.5, height: -0.25)",
-    "BevelFaces(faces: Boundary, inset: 0.75, height: 0, on_refusal: Skip)",
+    "BevelFaces(faces: Faces([0]), fraction: 0.5, distance: -0.25)",
+    "BevelFaces(faces: Boundary, fraction: 0.75, distance: 0, on_refusal: Skip)",
     "BevelEdges(edges: All, fraction: 0.25, on_refusal: Skip)",
     "BevelEdges(edges: Random(count: 20, seed: 2), fraction: 0.75, on_refusal: Skip)",
     "BevelVertices(vertices: All, fraction: 0.5, on_refusal: Skip)",
@@ -159,7 +159,7 @@ fn every_sample_is_of_its_operation() {
         assert!(!parameters.contains('\n'), "an example is one line");
     }
     for (entry, parameters) in samples(&registry) {
-        if let Err(error) = entry.parse(parameters) {
+        if let Err(error) = entry.parse(&ron_tree::parse(parameters).value) {
             panic!("{}{parameters}: {error}", entry.name);
         }
     }

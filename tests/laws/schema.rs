@@ -1,7 +1,7 @@
 //! The schemas of operations and recipes: strict, documented, and of one mind with the reader.
 
 use jsonschema::Validator;
-use recipe::{Diagnostic, Parameter, syntax};
+use recipe::{Diagnostic, Parameter};
 use serde_json::Value as Json;
 
 use crate::samples::samples;
@@ -99,7 +99,7 @@ fn a_field_that_is_unknown_is_refused_at_every_level() {
                 continue;
             }
             let broken = format!("{}(surplus: 1, {inside}", &sample[..at]);
-            if entry.parse(&broken).is_ok() {
+            if entry.parse(&ron_tree::parse(&broken).value).is_ok() {
                 failures.push(format!("{}{broken}", entry.name));
             }
         }
@@ -123,16 +123,17 @@ fn read(source: &str) -> recipe::Reading {
 
 /// A recipe as JSON, with these parameters.
 fn json_with(parameters: &[Parameter], source: &str) -> Json {
-    let parsed = syntax::parse(source);
+    let mut parsed = ron_tree::parse(source);
     assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
-    let filled = syntax::substitute(source, &parsed.value, |name, span| {
+    let unknown = recipe::substitute(&mut parsed.value, |name, span| {
         let found = parameters.iter().find(|p| p.name == name);
         let unknown = || Diagnostic::error(span, format!("no parameter {name}"));
         found
-            .map(|p| p.literal.clone())
+            .map(|p| p.value.clone())
             .ok_or_else(|| Box::new(unknown()))
     });
-    syntax::to_json(&filled.expect("every parameter is declared").value)
+    assert!(unknown.is_empty(), "every parameter is declared");
+    ron_tree::to_json(&parsed.value)
 }
 
 fn validator() -> Validator {

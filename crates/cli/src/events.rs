@@ -28,9 +28,9 @@ use op::Progress;
 use recipe::{Listener, Outcome, StepDone};
 use serde_json::{Value as Json, json};
 
-use crate::loading::Loaded;
-use crate::output::{origin, problems_json};
+use crate::output::{STAMP, origin, problems_json};
 use crate::picture_errors::Pictures;
+use engine::Loaded;
 
 /// The version of the events.
 const FORMAT: u32 = 1;
@@ -69,12 +69,12 @@ impl<'a> Events<'a> {
             }),
         };
         let parameters: Vec<Json> = (loaded.recipe.parameters().iter())
-            .map(|p| json!({ "name": p.name, "value": p.literal, "from": origin(&p.origin) }))
+            .map(|p| json!({ "name": p.name, "value": p.value.to_string(), "from": origin(&p.origin) }))
             .collect();
         events.tell(&json!({
             "event": "start",
             "format": FORMAT,
-            "program": concat!("meshwright ", env!("CARGO_PKG_VERSION")),
+            "program": STAMP,
             "recipe": loaded.path,
             "recipe_digest": loaded.recipe.digest(),
             "parameters": parameters,

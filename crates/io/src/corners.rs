@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn values_are_numbered_in_the_order_in_which_the_corners_name_them() {
-        let mesh = mesh::shapes::fans(&mesh::shapes::torus(80, 60, 2.0, 0.5));
+        let mesh = geometry::shapes::fans(&geometry::shapes::torus(80, 60, 2.0, 0.5));
         let value = |h: HalfEdgeId| h.index() * 7919 % 5;
         let numbers = CornerNumbers::new(&mesh, |a, b| value(a) == value(b));
         let mut known = BTreeMap::new();

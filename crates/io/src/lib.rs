@@ -40,7 +40,7 @@
 //! let folder = tempfile::tempdir()?;
 //! let path = folder.path().join("cube.obj");
 //! let mut scene = Scene::new();
-//! scene.insert(Object::mesh("cube", mesh::shapes::cube()))?;
+//! scene.insert(Object::mesh("cube", geometry::shapes::cube()))?;
 //!
 //! let report = mesh_io::write(&Disk, &path, &scene, &mesh_io::WriteOptions::default())?;
 //! assert!(report.losses.is_empty());

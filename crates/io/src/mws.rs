@@ -77,7 +77,8 @@ fn split(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
 mod tests {
     use super::*;
     use crate::{ReadOptions, peek as peek_file, read as read_file, write as write_file};
-    use mesh::{Column, DVec3, Domain, Rule, Values, shapes};
+    use geometry::shapes;
+    use mesh::{Column, DVec3, Domain, Rule, Values};
     use scene::{Geometry, Material};
     use store::Memory;
 

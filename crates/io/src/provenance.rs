@@ -110,7 +110,7 @@ fn of_svg(bytes: &[u8]) -> Option<String> {
 mod tests {
     use super::*;
     use crate::{WriteOptions, write};
-    use mesh::shapes;
+    use geometry::shapes;
     use scene::{Object, Scene};
     use store::Disk;
 

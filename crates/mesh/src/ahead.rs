@@ -18,7 +18,7 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let mut mesh = mesh::shapes::torus(100, 100, 2.0, 1.0);
+    /// let mut mesh = geometry::shapes::torus(100, 100, 2.0, 1.0);
     /// let queue: Vec<mesh::EdgeId> = mesh.edges().step_by(7).collect();
     /// for (i, &e) in queue.iter().enumerate() {
     ///     mesh.fetch_ahead(&queue, i);

@@ -275,7 +275,7 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let mut mesh = mesh::shapes::tetrahedron();
+    /// let mut mesh = geometry::shapes::tetrahedron();
     /// let before = mesh.clone();
     /// mesh.begin();
     /// let m = mesh.split_edge(mesh::EdgeId::new(0), 0.5)?;

@@ -29,8 +29,8 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let cube = mesh::shapes::cube();
-    /// assert_eq!(cube.reversed().volume(), -cube.volume());
+    /// let cube = geometry::shapes::cube();
+    /// assert_eq!(geometry::volume(&cube.reversed()), -geometry::volume(&cube));
     /// assert_eq!(cube.reversed().reversed(), cube);
     /// ```
     #[must_use]
@@ -124,7 +124,9 @@ mod tests {
         for mesh in meshes() {
             let reversed = mesh.reversed();
             assert_eq!(reversed.defects(), []);
-            assert!((reversed.volume() + mesh.volume()).abs() < 1e-14);
+            assert!(
+                (crate::geometry::volume(&reversed) + crate::geometry::volume(&mesh)).abs() < 1e-14
+            );
             assert_eq!(reversed.positions(), mesh.positions());
             assert_eq!(reversed.n_boundary_loops(), mesh.n_boundary_loops());
         }

@@ -110,6 +110,24 @@ impl Mesh {
         self.vertex_half_edges(v).find(|&h| self.target(h) == w)
     }
 
+    /// Whether the origins of `x` and `y` share an edge. Walks around both at once, so that an end of
+    /// few edges answers for one of many.
+    #[inline]
+    pub fn share_an_edge(&self, x: HalfEdgeId, y: HalfEdgeId) -> bool {
+        let (v, w) = (self.origin(x), self.origin(y));
+        let (mut a, mut b) = (x, y);
+        loop {
+            if self.target(a) == w || self.target(b) == v {
+                return true;
+            }
+            a = self.next(a.twin());
+            b = self.next(b.twin());
+            if a == x || b == y {
+                return false;
+            }
+        }
+    }
+
     /// The number of edges at `v`.
     pub fn valence(&self, v: VertexId) -> usize {
         self.vertex_half_edges(v).count()

@@ -1,5 +1,6 @@
 //! Why an operation failed.
 
+use geometry::MergeError;
 use mesh::{BuildError, EditError, Element, Mesh, VertexId};
 use progress::Cancelled;
 use schemars::JsonSchema;
@@ -186,5 +187,15 @@ impl From<EditError> for OpError {
 impl From<Cancelled> for OpError {
     fn from(_: Cancelled) -> Self {
         Self::Cancelled
+    }
+}
+
+impl From<MergeError> for OpError {
+    fn from(error: MergeError) -> Self {
+        match error {
+            MergeError::Distance(_) => Self::Parameter(error.to_string()),
+            MergeError::Cancelled(cancelled) => cancelled.into(),
+            MergeError::Build(error) => error.into(),
+        }
     }
 }

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use ron::error::SpannedError;
-use ron::extensions::Extensions;
+use ron_tree::{Value, ValueKind};
 use scene::Scene;
 
 use crate::{Context, OpError, Operation, Plan, PlanContext, Problem, Report};
@@ -36,7 +35,7 @@ pub struct Entry {
     /// Whether a step of it may choose objects with `on:`.
     pub takes_on: bool,
     schema: fn() -> schemars::Schema,
-    parse: fn(&str) -> Result<Box<dyn Step>, SpannedError>,
+    parse: fn(&Value) -> Result<Box<dyn Step>, ron_tree::Error>,
 }
 
 impl fmt::Debug for Entry {
@@ -57,13 +56,7 @@ impl Entry {
             aliases: T::ALIASES,
             takes_on: T::TAKES_ON,
             schema: || schemars::schema_for!(T),
-            parse: |text| {
-                // Recipes limit the depth themselves.
-                let options = ron::Options::default()
-                    .with_default_extension(Extensions::IMPLICIT_SOME)
-                    .without_recursion_limit();
-                Ok(Box::new(options.from_str::<T>(text)?))
-            },
+            parse: |parameters| Ok(Box::new(T::deserialize(parameters)?)),
         }
     }
 
@@ -72,13 +65,18 @@ impl Entry {
         (self.schema)().to_value()
     }
 
-    /// Reads the parameters from RON: `(levels: 2)`.
+    /// Reads a step `Name(levels: 2)`, whatever the name, or only its parameters `(levels: 2)`. A name alone stands for
+    /// a name with nothing in brackets.
     ///
     /// # Errors
     ///
-    /// What the parser says, with the place in `text`.
-    pub fn parse(&self, text: &str) -> Result<Box<dyn Step>, SpannedError> {
-        (self.parse)(text)
+    /// Why the parameters are none of this operation, with the place.
+    pub fn parse(&self, step: &Value) -> Result<Box<dyn Step>, ron_tree::Error> {
+        match &step.kind {
+            ValueKind::Call(call) => (self.parse)(&call.body),
+            ValueKind::Name(_) => (self.parse)(&Value::new(step.span, ValueKind::Unit)),
+            _ => (self.parse)(step),
+        }
     }
 }
 

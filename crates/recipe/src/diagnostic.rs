@@ -1,4 +1,4 @@
-//! What is wrong with a recipe, and where: diagnostics in the manner of a compiler.
+//! Shows diagnostics in the manner of a compiler.
 //!
 //! ```text
 //! error: `levels` is 9, expected at most 5
@@ -13,211 +13,11 @@
 use codespan_reporting::diagnostic as codespan;
 use codespan_reporting::files::SimpleFiles;
 use codespan_reporting::term::{self, termcolor};
+use ron_tree::{Diagnostic, LineIndex, Severity, Span};
 use std::borrow::Cow;
 use std::fmt::Write as _;
-use std::ops::Range;
 
 use crate::source::Source;
-
-/// One problem of a recipe.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Diagnostic {
-    /// Whether the recipe can run in spite of it.
-    pub severity: Severity,
-    /// What is wrong, in one line: lower case, no full stop.
-    pub message: String,
-    /// The text that the places are in, by its place in [`Recipe::sources`](crate::Recipe::sources).
-    pub source: usize,
-    /// The place, if the problem has one.
-    pub span: Option<Span>,
-    /// Other places that matter, each with a few words on why.
-    pub labels: Vec<(Span, String)>,
-    /// What to do about it.
-    pub help: Option<String>,
-    /// The calls that led to the text, the last one first: their texts and places.
-    pub calls: Vec<(usize, Span)>,
-}
-
-impl Diagnostic {
-    /// An error at `span`.
-    pub fn error(span: Span, message: impl Into<String>) -> Self {
-        Self {
-            severity: Severity::Error,
-            message: message.into(),
-            source: 0,
-            span: Some(span),
-            labels: Vec::new(),
-            help: None,
-            calls: Vec::new(),
-        }
-    }
-
-    /// A warning at `span`.
-    pub fn warning(span: Span, message: impl Into<String>) -> Self {
-        Self {
-            severity: Severity::Warning,
-            ..Self::error(span, message)
-        }
-    }
-
-    /// An error that belongs to no place in the text.
-    pub fn without_place(message: impl Into<String>) -> Self {
-        Self {
-            span: None,
-            ..Self::error(Span::default(), message)
-        }
-    }
-
-    /// The same, with a second place.
-    #[must_use]
-    pub fn with_label(mut self, span: Span, text: impl Into<String>) -> Self {
-        self.labels.push((span, text.into()));
-        self
-    }
-
-    /// The same, with advice.
-    #[must_use]
-    pub fn with_help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
-        self
-    }
-
-    /// The diagnostic in one line, `file:line:column: error: message`.
-    ///
-    /// `lines` is the index of the text that the spans point into.
-    pub fn short(&self, path: &str, lines: &LineIndex) -> String {
-        let severity = self.severity.name();
-        let message = &self.message;
-        match self.span {
-            None => format!("{path}: {severity}: {message}"),
-            Some(span) => {
-                let (line, column) = lines.position(span.start);
-                format!("{path}:{line}:{column}: {severity}: {message}")
-            }
-        }
-    }
-}
-
-/// How bad a problem is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Severity {
-    /// The recipe is refused.
-    Error,
-    /// The recipe runs, and somebody should look at it.
-    Warning,
-}
-
-impl Severity {
-    /// `error` or `warning`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Error => "error",
-            Self::Warning => "warning",
-        }
-    }
-}
-
-/// A range of bytes in the text of a recipe; `end` is not part of it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Span {
-    /// The first byte.
-    pub start: usize,
-    /// The byte after the last one.
-    pub end: usize,
-}
-
-impl Span {
-    /// The bytes from `start` up to `end`.
-    pub fn new(start: usize, end: usize) -> Self {
-        Self { start, end }
-    }
-
-    /// The number of bytes.
-    pub fn len(self) -> usize {
-        self.end.saturating_sub(self.start)
-    }
-
-    /// Whether no byte lies in it.
-    pub fn is_empty(self) -> bool {
-        self.end <= self.start
-    }
-
-    /// From the start of this span to the end of `other`.
-    #[must_use]
-    pub fn to(self, other: Self) -> Self {
-        Self::new(self.start, other.end)
-    }
-
-    /// Whether `other` lies within this span.
-    pub fn contains(self, other: Self) -> bool {
-        self.start <= other.start && other.end <= self.end
-    }
-
-    /// The part of `source` that the span covers; empty if it does not fit the text.
-    pub fn of(self, source: &str) -> &str {
-        source.get(self.range()).unwrap_or("")
-    }
-
-    /// The span as a range.
-    pub fn range(self) -> Range<usize> {
-        self.start..self.end
-    }
-}
-
-/// Finds lines and columns in a text.
-#[derive(Clone, Debug)]
-pub struct LineIndex<'s> {
-    source: &'s str,
-    /// The byte at which each line starts.
-    starts: Vec<usize>,
-}
-
-impl<'s> LineIndex<'s> {
-    /// Indexes `source`; a line ends after its line feed.
-    pub fn new(source: &'s str) -> Self {
-        let after_feeds = source
-            .bytes()
-            .enumerate()
-            .filter(|&(_, b)| b == b'\n')
-            .map(|(i, _)| i + 1);
-        Self {
-            source,
-            starts: std::iter::once(0).chain(after_feeds).collect(),
-        }
-    }
-
-    /// Line and column of the byte at `offset`, both from 1; columns count characters.
-    ///
-    /// An offset behind the end of the text, or inside a character, gives the place before it.
-    pub fn position(&self, offset: usize) -> (usize, usize) {
-        let offset = char_start(self.source, offset);
-        let line = self.starts.partition_point(|&start| start <= offset);
-        let start = self.starts[line - 1];
-        (line, self.source[start..offset].chars().count() + 1)
-    }
-
-    /// The byte at a line and column, both from 1, columns in characters: what `ron` reports.
-    ///
-    /// A place outside of the text gives the nearest one inside.
-    pub fn offset(&self, line: usize, column: usize) -> usize {
-        let index = line.saturating_sub(1).min(self.starts.len() - 1);
-        let rest = &self.source[self.starts[index]..];
-        let within = rest
-            .char_indices()
-            .nth(column.saturating_sub(1))
-            .map_or(rest.len(), |(i, _)| i);
-        self.starts[index] + within
-    }
-
-    /// The text of a line counted from 1, with its line feed; empty if there is no such line.
-    fn line(&self, line: usize) -> &'s str {
-        let Some(&start) = self.starts.get(line - 1) else {
-            return "";
-        };
-        let end = self.starts.get(line).copied().unwrap_or(self.source.len());
-        &self.source[start..end]
-    }
-}
 
 /// Shows diagnostics with the lines they are about, sorted by place.
 ///
@@ -302,10 +102,7 @@ fn to_codespan(diagnostic: &Diagnostic, source: &str) -> codespan::Diagnostic<us
         Severity::Error => codespan::Severity::Error,
         Severity::Warning => codespan::Severity::Warning,
     };
-    let fit = |span: Span| {
-        let start = char_start(source, span.start);
-        start..char_start(source, span.end).max(start)
-    };
+    let fit = |span: Span| span.fitted(source);
     let primary = diagnostic
         .span
         .map(|span| codespan::Label::primary(file, fit(span)));
@@ -328,32 +125,12 @@ fn without_control_characters(source: &str) -> Cow<'_, str> {
     }
 }
 
-/// The start of the character at `offset`, or the end of the text.
-fn char_start(source: &str, offset: usize) -> usize {
-    let mut offset = offset.min(source.len());
-    while !source.is_char_boundary(offset) {
-        offset -= 1;
-    }
-    offset
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn render(path: &str, text: &str, diagnostics: &[Diagnostic], colours: bool) -> String {
         super::render(&[Source::new(path, text)], diagnostics, colours)
-    }
-
-    #[test]
-    fn columns_count_characters() {
-        let lines = LineIndex::new("a\näö x\n");
-
-        assert_eq!(lines.position(0), (1, 1));
-        assert_eq!(lines.position(7), (2, 4));
-        assert_eq!(lines.offset(2, 4), 7);
-        assert_eq!(lines.position(99), (3, 1));
-        assert_eq!(lines.offset(99, 99), 9);
     }
 
     #[test]

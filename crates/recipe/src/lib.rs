@@ -8,20 +8,18 @@
 //! [`check`] plans all steps without touching geometry: counts, memory, files, names. [`run`] runs them;
 //! outputs appear only when every step is done and every expectation holds.
 
-pub mod cache;
 pub mod capsule;
 pub mod compare;
-pub mod diagnostic;
 pub mod expect;
 pub mod shape;
 pub mod shrink;
 pub mod stamp;
-pub mod syntax;
 pub mod update;
 pub mod upgrade;
 
 mod check;
 mod describe;
+mod diagnostic;
 mod jobs;
 mod params;
 mod read;
@@ -30,24 +28,28 @@ mod run;
 mod schema;
 mod select;
 mod source;
-
+mod substitute;
 mod sweep;
 
-pub use cache::{Cache, CacheSize, Caching, Why};
 pub use check::{Forecast, StepForecast, check, mebibytes};
 pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
-pub use diagnostic::{Diagnostic, LineIndex, Severity, Span, render};
-pub use expect::{Expectation, Found, Measured, Metric, Other, ReadObjects};
+pub use diagnostic::render;
+pub use expect::{Expectation, Found, Measured, Metric, Other, Reader};
 pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};
-pub use params::{Move, Param};
+pub use params::{Move, Param, ParamError};
 pub use read::{MAX_STEPS, Reading, VERSION, Values, read, read_by};
 pub use recipe::{OnLoss, Origin, Parameter, Placed, Recipe, RecipeStep, Scope};
-pub use run::{Failure, Listener, Outcome, Settings, Silent, StepDone, Unmet, run, stage_prefix};
+pub use ron_tree::{Diagnostic, LineIndex, Severity, Span};
+pub use run::{
+    CachedRun, Change, Done, Failure, Finding, Listener, Outcome, Settings, Silent, StepCache,
+    StepDone, Unmet, Why, run, run_from,
+};
 pub use schema::{Schemas, schema, step_kinds};
 pub use select::{read_selection, resolve};
 pub use shape::did_you_mean;
 pub use source::Source;
 pub use stamp::Stamp;
+pub use substitute::substitute;
 pub use sweep::{Axis, Grid, MAX_CELLS, SWEEP_VERSION, Setting, Sweep, SweepReading, read_sweep};
 
 #[cfg(test)]

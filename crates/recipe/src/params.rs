@@ -4,9 +4,10 @@ use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use store::Store;
 
 use crate::source::seen_from;
-use crate::syntax::{Value, ValueKind, string_literal};
+use ron_tree::{Number, Span, Value, ValueKind};
 
 /// Two folders: a relative path is seen from the one, and is to mean the same seen from the other.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +16,8 @@ pub struct Move<'a> {
     pub from: &'a Path,
     /// Where it will be seen from.
     pub to: &'a Path,
+    /// Where the folders are.
+    pub store: &'a dyn Store,
 }
 
 /// A parameter that a recipe declares. A step takes its value with `arg("name")`.
@@ -110,54 +113,58 @@ impl Param {
         }
     }
 
-    /// The default as RON.
+    /// The default as a value of a recipe.
     ///
     /// # Errors
     ///
     /// If the parameter does not allow its own default.
-    pub fn default_literal(&self) -> Result<String, String> {
+    pub fn default_value(&self) -> Result<Value, ParamError> {
         match self {
-            Self::Int { default, .. } => self.literal(&default.to_string(), None),
-            Self::Float { default, .. } => self.literal(&float(*default), None),
-            Self::Bool { default, .. } => self.literal(&default.to_string(), None),
+            Self::Int { default, .. } => self.allowed_int(*default),
+            Self::Float { default, .. } => self.allowed_float(*default),
+            Self::Bool { default, .. } => Ok(value(ValueKind::Bool(*default))),
             Self::Text { default, .. }
             | Self::Path { default, .. }
-            | Self::Choice { default, .. } => self.literal(default, None),
+            | Self::Choice { default, .. } => self.value_of(default, None),
             Self::Vector {
                 default: (x, y, z), ..
-            } => self.literal(
-                &format!("({}, {}, {})", float(*x), float(*y), float(*z)),
-                None,
-            ),
+            } => vector([*x, *y, *z]),
         }
     }
 
-    /// The RON literal of a value of a recipe, in another form than the parameter's own declaration has.
-    /// A relative path is led from one folder to another, if they are given.
+    /// The value for the parameter that is written in a recipe, in the one form that such values have. A relative
+    /// path is led from one folder to another, if they are given.
     ///
     /// # Errors
     ///
-    /// What was expected and what was there, if it is no value of this type or not allowed.
-    pub fn literal_of(&self, value: &Value, folders: Option<Move>) -> Result<String, String> {
-        let text = match (self, &value.kind) {
-            (Self::Int { .. }, ValueKind::Number(number)) => match number.to_int() {
-                Some(int) => int.to_string(),
-                None => number.text().to_owned(),
-            },
-            (Self::Float { .. }, ValueKind::Number(number)) => number.text().to_owned(),
-            (Self::Bool { .. }, ValueKind::Bool(value)) => value.to_string(),
+    /// If it is no value of this type or not allowed.
+    pub fn value_from(&self, written: &Value, folders: Option<Move>) -> Result<Value, ParamError> {
+        match (self, &written.kind) {
+            (Self::Int { .. }, ValueKind::Number(number)) => {
+                let int = number.to_int().and_then(|int| i64::try_from(int).ok());
+                let other = || ParamError::new("a whole number", &format!("`{}`", number.text()));
+                self.allowed_int(int.ok_or_else(other)?)
+            }
+            (Self::Float { .. }, ValueKind::Number(number)) => self.value_of(number.text(), None),
+            (Self::Bool { .. }, ValueKind::Bool(is)) => Ok(value(ValueKind::Bool(*is))),
             (
                 Self::Text { .. } | Self::Path { .. } | Self::Choice { .. },
                 ValueKind::String(text),
             )
-            | (Self::Choice { .. }, ValueKind::Name(text)) => text.to_string(),
-            (Self::Vector { .. }, ValueKind::Tuple(_)) => value.to_string(),
-            _ => {
-                let (expected, found) = (self.expected(), value.describe());
-                return Err(format!("expected {expected}, found {found}"));
+            | (Self::Choice { .. }, ValueKind::Name(text)) => self.value_of(text, folders),
+            (Self::Vector { .. }, ValueKind::Tuple(parts)) => {
+                let number = |part: &Value| match &part.kind {
+                    ValueKind::Number(number) if !number.has_base() => Ok(number.to_float()),
+                    _ => Err(ParamError::new("a number", &format!("`{part}`"))),
+                };
+                let parts: Vec<f64> = parts.iter().map(number).collect::<Result<_, _>>()?;
+                let [x, y, z] = parts[..] else {
+                    return Err(ParamError::new(self.expected(), &format!("`{written}`")));
+                };
+                vector([x, y, z])
             }
-        };
-        self.literal(&text, folders)
+            _ => Err(ParamError::new(self.expected(), &written.describe())),
+        }
     }
 
     fn expected(&self) -> &'static str {
@@ -172,82 +179,147 @@ impl Param {
         }
     }
 
-    /// The RON literal of a value given as plain text, as on the command line. A relative path is led from
-    /// one folder to another, if they are given.
+    /// The value that is given as plain text, as on the command line. A relative path is led from one folder to
+    /// another, if they are given.
     ///
     /// # Errors
     ///
-    /// What was expected and what was there, if the text is no value of this type or not allowed.
-    pub fn literal(&self, text: &str, folders: Option<Move>) -> Result<String, String> {
+    /// If the text is no value of this type or not allowed.
+    pub fn value_of(&self, text: &str, folders: Option<Move>) -> Result<Value, ParamError> {
+        let wrong = || ParamError::new(self.expected(), &format!("`{text}`"));
         match self {
-            Self::Int { min, max, .. } => {
-                let plain = text.replace('_', "");
-                let value: i64 = plain
-                    .parse()
-                    .map_err(|_| format!("expected a whole number, found `{text}`"))?;
-                within(value, *min, *max)?;
-                Ok(value.to_string())
+            Self::Int { .. } => {
+                let int = text.replace('_', "").parse();
+                self.allowed_int(int.map_err(|_| wrong())?)
             }
-            Self::Float { min, max, .. } => {
-                let value = number(text)?;
-                within(value, *min, *max)?;
-                Ok(float(value))
+            Self::Float { .. } => self.allowed_float(number(text)?),
+            Self::Bool { .. } => {
+                let is = text.parse().map_err(|_| wrong())?;
+                Ok(value(ValueKind::Bool(is)))
             }
-            Self::Bool { .. } => match text {
-                "true" | "false" => Ok(text.to_owned()),
-                _ => Err(format!("expected true or false, found `{text}`")),
-            },
-            Self::Text { .. } => Ok(string_literal(text)),
+            Self::Text { .. } => Ok(value(ValueKind::String(text.into()))),
             Self::Path { .. } => {
-                let path = folders.map_or_else(|| text.into(), |f| seen_from(text, f.from, f.to));
-                Ok(string_literal(&path.to_string_lossy()))
+                let moved = |f: Move| seen_from(f.store, text, f.from, f.to);
+                let path = folders.map_or_else(|| text.into(), moved);
+                Ok(value(ValueKind::String(path.to_string_lossy().into())))
             }
             Self::Choice { of, .. } => {
                 let word = text.chars().all(|c| c.is_alphanumeric() || c == '_');
                 if of.iter().any(|choice| choice == text) && word {
-                    Ok(text.to_owned())
+                    Ok(value(ValueKind::Name(text.into())))
                 } else {
-                    Err(format!("expected one of {}, found `{text}`", of.join(", ")))
+                    let expected = format!("one of {}", of.join(", "));
+                    Err(ParamError::new(&expected, &format!("`{text}`")))
                 }
             }
             Self::Vector { .. } => {
                 let inner = text.trim().trim_start_matches('(').trim_end_matches(')');
-                let parts: Vec<f64> = inner
-                    .split(',')
-                    .map(|part| number(part.trim()))
-                    .collect::<Result<_, _>>()?;
-                match parts[..] {
-                    [x, y, z] => Ok(format!("({}, {}, {})", float(x), float(y), float(z))),
-                    _ => Err(format!(
-                        "expected three numbers `(x, y, z)`, found `{text}`"
-                    )),
-                }
+                let parts = inner.split(',').map(|part| number(part.trim()));
+                let parts: Vec<f64> = parts.collect::<Result<_, _>>()?;
+                let [x, y, z] = parts[..] else {
+                    return Err(wrong());
+                };
+                vector([x, y, z])
             }
+        }
+    }
+
+    fn allowed_int(&self, int: i64) -> Result<Value, ParamError> {
+        if let Self::Int { min, max, .. } = self {
+            within(int, *min, *max)?;
+        }
+        let number = Number::Int(int.to_string().into());
+        Ok(value(ValueKind::Number(number)))
+    }
+
+    fn allowed_float(&self, x: f64) -> Result<Value, ParamError> {
+        if let Self::Float { min, max, .. } = self {
+            within(x, *min, *max)?;
+        }
+        float(x)
+    }
+}
+
+/// Why something is no value of a parameter.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ParamError {
+    /// It is of another type.
+    #[error("expected {expected}, found {found}")]
+    Unexpected {
+        /// What the parameter takes.
+        expected: String,
+        /// What was there.
+        found: String,
+    },
+    /// It is less than the minimum.
+    #[error("{value} is below the minimum {min}")]
+    Below {
+        /// The value.
+        value: String,
+        /// The lowest that is allowed.
+        min: String,
+    },
+    /// It is more than the maximum.
+    #[error("{value} is above the maximum {max}")]
+    Above {
+        /// The value.
+        value: String,
+        /// The highest that is allowed.
+        max: String,
+    },
+}
+
+impl ParamError {
+    fn new(expected: &str, found: &str) -> Self {
+        Self::Unexpected {
+            expected: expected.to_owned(),
+            found: found.to_owned(),
         }
     }
 }
 
-fn number(text: &str) -> Result<f64, String> {
+/// A value that stands nowhere in the text.
+fn value(kind: ValueKind) -> Value {
+    Value::new(Span::default(), kind)
+}
+
+fn vector(parts: [f64; 3]) -> Result<Value, ParamError> {
+    let parts = parts.into_iter().map(float).collect::<Result<_, _>>()?;
+    Ok(value(ValueKind::Tuple(parts)))
+}
+
+/// A number with a point, which reads back the same.
+fn float(x: f64) -> Result<Value, ParamError> {
+    if !x.is_finite() {
+        return Err(ParamError::new("a number", &format!("`{x:?}`")));
+    }
+    let number = Number::Float(format!("{x:?}").into());
+    Ok(value(ValueKind::Number(number)))
+}
+
+fn number(text: &str) -> Result<f64, ParamError> {
     let value: Result<f64, _> = text.replace('_', "").parse();
     value
         .ok()
         .filter(|value| value.is_finite())
-        .ok_or_else(|| format!("expected a number, found `{text}`"))
+        .ok_or_else(|| ParamError::new("a number", &format!("`{text}`")))
 }
 
-/// A number as RON that reads back the same, and as a number with a point.
-fn float(x: f64) -> String {
-    format!("{x:?}")
-}
-
-fn within<T: PartialOrd + std::fmt::Display + Copy>(
+fn within<T: PartialOrd + ToString>(
     value: T,
     min: Option<T>,
     max: Option<T>,
-) -> Result<(), String> {
+) -> Result<(), ParamError> {
+    let text = value.to_string();
     match (min, max) {
-        (Some(min), _) if value < min => Err(format!("{value} is below the minimum {min}")),
-        (_, Some(max)) if value > max => Err(format!("{value} is above the maximum {max}")),
+        (Some(min), _) if value < min => Err(ParamError::Below {
+            value: text,
+            min: min.to_string(),
+        }),
+        (_, Some(max)) if value > max => Err(ParamError::Above {
+            value: text,
+            max: max.to_string(),
+        }),
         _ => Ok(()),
     }
 }
@@ -257,12 +329,15 @@ mod tests {
     use super::*;
 
     fn param(text: &str) -> Param {
-        crate::syntax::ron_options().from_str(text).unwrap()
+        ron_tree::from_str(text).unwrap()
     }
 
     #[test]
     fn values_of_every_type_become_literals() {
-        let literal = |p: &str, text| param(p).literal(text, None);
+        let literal = |p: &str, text| {
+            let value = param(p).value_of(text, None);
+            value.map(|value| value.to_string())
+        };
         assert_eq!(literal("Int(default: 1)", "1_000"), Ok("1000".into()));
         assert_eq!(literal("Float(default: 1)", "2"), Ok("2.0".into()));
         assert_eq!(literal("Bool(default: true)", "false"), Ok("false".into()));
@@ -282,7 +357,7 @@ mod tests {
 
     #[test]
     fn values_that_are_not_allowed_say_why() {
-        let refused = |p: &str, text| param(p).literal(text, None).unwrap_err();
+        let refused = |p: &str, text| param(p).value_of(text, None).unwrap_err().to_string();
         assert_eq!(
             refused("Int(default: 1)", "1.5"),
             "expected a whole number, found `1.5`"
@@ -303,17 +378,19 @@ mod tests {
 
     #[test]
     fn a_text_cannot_smuggle_in_another_field() {
-        let literal = param("Text(default: \"\")")
-            .literal("x\", on: [\"y", None)
-            .unwrap();
-        let back: String = ron::from_str(&literal).unwrap();
-        assert_eq!(back, "x\", on: [\"y");
+        let param = param("Text(default: \"\")");
+        let text = "x\", on: [\"y";
+        let value = param.value_of(text, None).unwrap();
+        assert_eq!(value.as_str(), Some(text));
+        assert_eq!(ron::from_str::<String>(&value.to_string()).unwrap(), text);
     }
 
     #[test]
     fn a_path_that_is_set_is_seen_from_the_working_directory() {
         let (from, to) = (Path::new("/work"), Path::new("/work/scenes"));
-        let literal = param("Path(default: \"a.obj\")").literal("b.obj", Some(Move { from, to }));
-        assert_eq!(literal, Ok("\"../b.obj\"".into()));
+        let store = &store::Disk;
+        let folders = Some(Move { from, to, store });
+        let value = param("Path(default: \"a.obj\")").value_of("b.obj", folders);
+        assert_eq!(value.unwrap().as_str(), Some("../b.obj"));
     }
 }

@@ -1,17 +1,16 @@
 //! What a recipe says, once it is read: a list of steps, whatever calls and repetitions they came from.
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::Arc;
 
 use op::{Files, Loss, Refusal, Step};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::diagnostic::{Diagnostic, Span};
 use crate::expect::Expectation;
 use crate::params::Param;
 use crate::source::Source;
-use crate::syntax::Value;
+use ron_tree::{Diagnostic, Span, Value};
 
 /// A recipe that was read, as far as it could be.
 #[derive(Debug)]
@@ -48,8 +47,8 @@ pub struct Parameter {
     pub name: String,
     /// Its declaration.
     pub param: Param,
-    /// Its value as RON.
-    pub literal: String,
+    /// Its value.
+    pub value: Value,
     /// Where the value comes from.
     pub origin: Origin,
 }
@@ -71,6 +70,12 @@ impl Parameter {
     /// Whether the value was chosen from outside the recipe.
     pub fn is_set(&self) -> bool {
         matches!(self.origin, Origin::Set | Origin::Preset(_))
+    }
+
+    /// The value as plain text, as the command line takes it: texts stand without quotes.
+    pub fn plain_text(&self) -> String {
+        let text = self.value.as_str().map(str::to_owned);
+        text.unwrap_or_else(|| self.value.to_string())
     }
 }
 
@@ -265,7 +270,7 @@ impl Scope {
         let mut texts = Vec::new();
         for parameter in &self.parameters {
             if let Param::Path { .. } = parameter.param
-                && let Ok(path) = ron::from_str::<PathBuf>(&parameter.literal)
+                && let Some(path) = parameter.value.as_str().map(Path::new)
             {
                 let text = |part: Option<&std::ffi::OsStr>| {
                     part.map(|p| p.to_string_lossy().into_owned())

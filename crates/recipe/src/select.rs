@@ -12,10 +12,9 @@ use scene::Object;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
-use crate::diagnostic::Diagnostic;
 use crate::schema;
 use crate::shape;
-use crate::syntax::{self, Value};
+use ron_tree::{Diagnostic, Value};
 
 /// Reads a selection as recipes write it: of `kind`, or else of the one kind of elements that has such
 /// selections.
@@ -28,7 +27,7 @@ pub fn read_selection(
     source: &str,
     kind: Option<ElementKind>,
 ) -> Result<Elements, Vec<Diagnostic>> {
-    let parsed = syntax::parse(source);
+    let parsed = ron_tree::parse(source);
     if !parsed.diagnostics.is_empty() {
         return Err(parsed.diagnostics);
     }
@@ -66,7 +65,8 @@ pub fn resolve(
 
 #[cfg(test)]
 mod tests {
-    use mesh::{VertexId, shapes};
+    use geometry::shapes;
+    use mesh::VertexId;
 
     use super::*;
 

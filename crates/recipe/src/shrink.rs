@@ -169,7 +169,7 @@ fn edited(scene: &Scene, name: &str, edit: impl FnOnce(&mut mesh::Mesh) -> bool)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use scene::Object;
 
     fn scene() -> Scene {

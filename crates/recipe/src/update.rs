@@ -8,11 +8,10 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use crate::diagnostic::{Diagnostic, LineIndex, Span};
 use crate::expect::Found;
 use crate::recipe::Recipe;
 use crate::run::{Outcome, Unmet};
-use crate::syntax::{self, Value, ValueKind, string_literal};
+use ron_tree::{Diagnostic, LineIndex, Span, Value, ValueKind, string_literal};
 
 /// A recipe with its recorded values renewed.
 #[derive(Clone, Debug)]
@@ -43,7 +42,7 @@ pub struct Change {
 /// Renews the recorded values in the text of the recipe itself by what its run found.
 pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
     let source: &str = recipe.sources.first().map_or("", |source| &source.text);
-    let tree = syntax::parse(source).value;
+    let tree = ron_tree::parse(source).value;
     let lines = LineIndex::new(source);
     let (mut edits, mut changes, mut mended) = (Vec::new(), Vec::new(), Vec::new());
     let mut left = outcome.failures.clone();
@@ -90,7 +89,7 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
             .is_some_and(|i| mended.binary_search(&i).is_err())
     });
     // Expectations lie apart, and so do the values in them.
-    let text = syntax::replace(source, edits).unwrap_or_else(|_| source.to_owned());
+    let text = ron_tree::replace(source, edits).unwrap_or_else(|_| source.to_owned());
     Update {
         text,
         changes,

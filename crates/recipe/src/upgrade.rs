@@ -12,13 +12,12 @@
 use op::{Entry, Registry};
 use serde_json::Value as Json;
 
-use crate::diagnostic::{Diagnostic, LineIndex, Span};
 use crate::expect::Expectation;
 use crate::params::Param;
 use crate::read::VERSION;
 use crate::schema;
 use crate::shape::{renames, step_renames};
-use crate::syntax::{self, Value, ValueKind};
+use ron_tree::{Diagnostic, LineIndex, Span, Value, ValueKind};
 
 /// An older name in a recipe.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,7 +55,7 @@ pub struct Upgraded {
 ///
 /// Everything that keeps the text from being read: slips, no version, a newer version.
 pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagnostic>> {
-    let parsed = syntax::parse(source);
+    let parsed = ron_tree::parse(source);
     let root = &parsed.value;
     if !parsed.diagnostics.is_empty() {
         return Err(parsed.diagnostics);
@@ -81,7 +80,7 @@ pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagno
     found.sort_by_key(|rename| rename.span);
     found.dedup();
     let edits = found.iter().map(|r| (r.span, r.to.clone())).collect();
-    let text = syntax::replace(source, edits).expect("names lie apart");
+    let text = ron_tree::replace(source, edits).expect("names lie apart");
     let lines = LineIndex::new(source);
     let renames = found
         .into_iter()

@@ -93,7 +93,7 @@ impl Camera {
                 up,
                 projection,
             } => {
-                let (sin, cos) = mesh::sin_cos_degrees(degrees);
+                let (sin, cos) = geometry::sin_cos_degrees(degrees);
                 let [right, upwards, front] = up.axes();
                 let d = DVec3::from(from) - DVec3::from(to);
                 let [x, y, z] = [right, upwards, front].map(|axis| d.dot(axis));
@@ -244,9 +244,9 @@ impl Side {
     fn axes(self, up: Up) -> [DVec3; 3] {
         let [right, up, front] = up.axes();
         let [azimuth, elevation] = self.angles();
-        let (sin, cos) = mesh::sin_cos_degrees(azimuth);
+        let (sin, cos) = geometry::sin_cos_degrees(azimuth);
         let (x, forth) = (right * cos - front * sin, front * cos + right * sin);
-        let (sin, cos) = mesh::sin_cos_degrees(elevation);
+        let (sin, cos) = geometry::sin_cos_degrees(elevation);
         [x, up * cos - forth * sin, forth * cos + up * sin]
     }
 }

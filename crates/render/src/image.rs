@@ -1,7 +1,8 @@
 //! Images in memory, and their PNG files.
 
-use std::io::Write;
+use std::io::{Cursor, Write};
 
+use progress::{NoProgress, Progress};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::errors::DecodeErrors;
 use zune_jpeg::zune_core::bytestream::ZCursor;
@@ -9,7 +10,8 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use crate::PictureError;
-use crate::progress::{GoOn, Work};
+use crate::blend::over;
+use crate::work::Work;
 
 /// No side of an image is longer, in pixels.
 pub const LARGEST_SIDE: u32 = 16_384;
@@ -61,9 +63,7 @@ impl Image {
     /// [`PictureError::Size`] if it is too large, [`PictureError::Decode`] if it is no PNG.
     pub fn from_png(bytes: &[u8]) -> Result<Self, PictureError> {
         let failed = |error: png::DecodingError| PictureError::Decode(error.to_string());
-        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
-        decoder.set_transformations(png::Transformations::ALPHA | png::Transformations::EXPAND);
-        let mut reader = decoder.read_info().map_err(failed)?;
+        let mut reader = decoder(bytes).read_info().map_err(failed)?;
         let (width, height) = reader.info().size();
         let n = checked_size(width, height)?;
         let size = reader.output_buffer_size().unwrap_or(usize::MAX);
@@ -72,17 +72,7 @@ impl Image {
         }
         let mut bytes = vec![0; size];
         let info = reader.next_frame(&mut bytes).map_err(failed)?;
-        if info.bit_depth == png::BitDepth::Sixteen {
-            bytes = (bytes.as_chunks().0.iter())
-                .map(|&sample| rounded(u16::from_be_bytes(sample)))
-                .collect();
-        }
-        let pixels: Vec<[u8; 4]> = match info.color_type {
-            png::ColorType::Rgba => bytes.as_chunks().0.to_vec(),
-            _ => (bytes.as_chunks().0.iter())
-                .map(|&[gray, alpha]| [gray, gray, gray, alpha])
-                .collect(),
-        };
+        let pixels = rgba(&info, bytes);
         if (info.width, info.height, pixels.len()) != (width, height, n) {
             let message = "its first image is smaller than the file says";
             return Err(PictureError::Decode(message.to_owned()));
@@ -122,6 +112,17 @@ impl Image {
         })
     }
 
+    /// Lays another image over this one, with its top left corner at `corner`, where it must have room.
+    pub fn place(&mut self, image: &Self, corner: [u64; 2]) {
+        let [x, y] = corner.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
+        let rows = self.pixels.chunks_exact_mut(self.width as usize).skip(y);
+        for (to, from) in rows.zip(image.pixels.chunks_exact(image.width as usize)) {
+            for (under, &color) in to[x..].iter_mut().zip(from) {
+                *under = over(color, *under);
+            }
+        }
+    }
+
     /// The image as a PNG file: without alpha where all is opaque. Each text is a keyword of 1 to 79
     /// Latin-1 characters and what it says, for whoever asks where the file comes from.
     ///
@@ -129,20 +130,20 @@ impl Image {
     ///
     /// [`PictureError::Encode`] if there is nothing to encode, or a keyword is none.
     pub fn to_png(&self, texts: &[(&str, &str)]) -> Result<Vec<u8>, PictureError> {
-        self.to_png_while(texts, &|_| true)
+        self.to_png_while(texts, &NoProgress)
     }
 
-    /// As [`Self::to_png`]. `go_on` is told how far it is, and stops it.
+    /// As [`Self::to_png`], with progress.
     ///
     /// # Errors
     ///
-    /// Those of [`Self::to_png`]; [`PictureError::Cancelled`] if `go_on` says so.
+    /// Those of [`Self::to_png`]; [`PictureError::Cancelled`].
     pub fn to_png_while(
         &self,
         texts: &[(&str, &str)],
-        go_on: GoOn,
+        progress: &dyn Progress,
     ) -> Result<Vec<u8>, PictureError> {
-        let work = Work::new(go_on, u64::from(self.height));
+        let work = Work::new(progress, "encode", u64::from(self.height));
         let failed = |error: png::EncodingError| PictureError::Encode(error.to_string());
         let is_opaque = self.pixels.iter().all(|p| p[3] == u8::MAX);
         let mut bytes = Vec::new();
@@ -180,13 +181,39 @@ impl Image {
     }
 }
 
+/// Decodes PNG files into pixels with alpha.
+pub(crate) fn decoder(bytes: &[u8]) -> png::Decoder<Cursor<&[u8]>> {
+    let mut decoder = png::Decoder::new(Cursor::new(bytes));
+    decoder.set_transformations(png::Transformations::ALPHA | png::Transformations::EXPAND);
+    decoder
+}
+
+/// The pixels of an image that a [`decoder`] gave.
+pub(crate) fn rgba(info: &png::OutputInfo, mut bytes: Vec<u8>) -> Vec<[u8; 4]> {
+    if info.bit_depth == png::BitDepth::Sixteen {
+        bytes = (bytes.as_chunks().0.iter())
+            .map(|&sample| rounded(u16::from_be_bytes(sample)))
+            .collect();
+    }
+    match info.color_type {
+        png::ColorType::Rgba => bytes.as_chunks().0.to_vec(),
+        _ => (bytes.as_chunks().0.iter())
+            .map(|&[gray, alpha]| [gray, gray, gray, alpha])
+            .collect(),
+    }
+}
+
 /// The byte that is nearest to a sample of 16 bits.
 fn rounded(sample: u16) -> u8 {
     u8::try_from((u32::from(sample) + 128) / 257).unwrap_or(u8::MAX)
 }
 
 /// The number of pixels of an image, if its sides are allowed.
-pub(crate) fn checked_size(width: u32, height: u32) -> Result<usize, PictureError> {
+///
+/// # Errors
+///
+/// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`].
+pub fn checked_size(width: u32, height: u32) -> Result<usize, PictureError> {
     let allowed = 1..=LARGEST_SIDE;
     if allowed.contains(&width) && allowed.contains(&height) {
         Ok(width as usize * height as usize)

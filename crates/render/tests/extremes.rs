@@ -2,7 +2,8 @@
 //!
 //! `cargo test -p meshwright-render --test extremes -- --ignored` runs what takes long or much memory.
 
-use mesh::{DVec3, Mesh, shapes};
+use geometry::shapes;
+use mesh::{DVec3, Mesh};
 use render::{
     Background, Camera, Image, Lines, Overlays, Projection, Shading, Side, Style, Up, picture,
 };

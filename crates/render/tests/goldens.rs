@@ -5,7 +5,8 @@
 
 use std::path::PathBuf;
 
-use mesh::{CREASE, DVec3, DVec4, Domain, EdgeId, FaceId, Mesh, VertexId, shapes};
+use geometry::shapes;
+use mesh::{CREASE, DVec3, DVec4, Domain, EdgeId, FaceId, Mesh, VertexId};
 use render::{
     Background, Camera, Color, ColorMap, Coloring, Elements, Highlight, Image, Lines, Overlays,
     Projection, Shading, Side, Style, Up, picture,

@@ -352,7 +352,8 @@ fn is_path(texture: &Texture) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, shapes};
+    use geometry::shapes;
+    use mesh::DVec3;
 
     fn scene(mesh: Mesh) -> Scene {
         let mut scene = Scene::new();

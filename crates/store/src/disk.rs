@@ -8,15 +8,27 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use tempfile::NamedTempFile;
 
-use crate::{Entry, Kind, NewFile, Store, StoreError, folder_of};
+use crate::{Entry, Kind, NewFile, Store, StoreError, check_place, folder_of};
 
 /// The files of the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Disk;
 
 impl Store for Disk {
+    fn is_disk(&self) -> bool {
+        true
+    }
+
     fn read_up_to(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
         read_plain(path, most).map_err(|error| StoreError::read(path, error))
+    }
+
+    fn read_stream(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
+        let mut bytes = Vec::new();
+        match File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes)) {
+            Ok(_) => Ok(bytes),
+            Err(error) => Err(StoreError::read(path, error)),
+        }
     }
 
     fn entry(&self, path: &Path) -> Option<Entry> {
@@ -73,18 +85,10 @@ impl Store for Disk {
     }
 
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError> {
-        let place = match (self.is_folder(path), self.is_folder(folder_of(path))) {
-            (true, _) => Err(io::Error::other("a folder of this name is there")),
-            (_, false) => Err(io::Error::other("there is no such folder")),
-            _ => beside(path),
-        };
-        match place {
-            Ok(file) => Ok(Box::new(Begun {
-                file,
-                path: path.to_owned(),
-            })),
-            Err(error) => Err(StoreError::write(path, error)),
-        }
+        check_place(self, path)?;
+        let file = beside(path).map_err(|error| StoreError::write(path, error))?;
+        let path = path.to_owned();
+        Ok(Box::new(Begun { file, path }))
     }
 
     fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError> {

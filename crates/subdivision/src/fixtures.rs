@@ -1,6 +1,7 @@
 //! Meshes of triangles for the tests.
 
-use mesh::{DVec3, FaceId, Mesh, VertexId, shapes};
+use geometry::shapes;
+use mesh::{DVec3, FaceId, Mesh, VertexId};
 
 /// Every kind of triangle mesh, with its name. No two neighborhoods are alike: positions are shaken.
 pub(crate) fn all() -> Vec<(&'static str, Mesh)> {

@@ -56,7 +56,7 @@
 //! use progress::NoProgress;
 //! use subdivision::{Rules, Scheme, SubdivisionError};
 //!
-//! let cube = mesh::shapes::cube();
+//! let cube = geometry::shapes::cube();
 //! let mesh = subdivision::subdivide(&cube, Rules::of(Scheme::CatmullClark), 2, &NoProgress)?;
 //! assert_eq!((mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()), (98, 192, 96));
 //!

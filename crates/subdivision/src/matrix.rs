@@ -121,7 +121,7 @@ impl SparseMatrix {
 /// ```
 /// use subdivision::{LoopWeights, Rules, Scheme};
 ///
-/// let mesh = mesh::shapes::icosahedron();
+/// let mesh = geometry::shapes::icosahedron();
 /// let rules = Rules::of(Scheme::Loop(LoopWeights::Warren));
 /// let matrix = subdivision::subdivision_matrix(&mesh, rules, 2, &progress::NoProgress)?;
 /// let heights: Vec<f64> = mesh.positions().iter().map(|p| p.z).collect();

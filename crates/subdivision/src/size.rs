@@ -274,7 +274,7 @@ impl fmt::Display for TooLarge {
 mod tests {
     use super::*;
     use crate::rules::LoopWeights;
-    use mesh::shapes;
+    use geometry::shapes;
 
     const LOOP: Scheme = Scheme::Loop(LoopWeights::Warren);
 

@@ -8,12 +8,7 @@
 //!  a ------> b          a <------ b
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report, Select,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Turns faces over, so that their other side is the outside.
 ///
@@ -57,7 +52,7 @@ impl MeshOperation for Reverse {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::Refusal;
     use op::test::{applied, try_applied};
 
@@ -85,7 +80,7 @@ mod tests {
     fn a_reversed_mesh_is_inside_out_and_twice_reversed_as_before() {
         let mesh = two();
         let reversed = applied(&Reverse::default(), mesh.clone());
-        assert_eq!(reversed.volume(), -mesh.volume());
+        assert_eq!(geometry::volume(&reversed), -geometry::volume(&mesh));
         assert_eq!(applied(&Reverse::default(), reversed), mesh);
     }
 
@@ -93,8 +88,10 @@ mod tests {
     fn one_component_may_be_chosen() {
         let mesh = two();
         let (turned, report) = try_applied(&faces(&[6, 7, 8, 9]), mesh.clone()).unwrap();
-        let small = shapes::tetrahedron().volume();
-        assert!((turned.volume() - (mesh.volume() - 2.0 * small)).abs() < 1e-12);
+        let small = geometry::volume(&shapes::tetrahedron());
+        assert!(
+            (geometry::volume(&turned) - (geometry::volume(&mesh) - 2.0 * small)).abs() < 1e-12
+        );
         assert_eq!(report.changed, 4);
         // One after the other is both at once.
         let both = applied(&faces(&[0, 1, 2, 3, 4, 5]), turned);
@@ -125,7 +122,7 @@ mod tests {
 
     #[test]
     fn a_recipe_may_choose_faces() {
-        let parse = |text| ron::from_str::<Reverse>(text);
+        let parse = |text| op::test::read::<Reverse>(text);
         assert_eq!(parse("()").unwrap().faces, FaceSelection::All);
         let tagged = FaceSelection::Tagged("lid".into());
         assert_eq!(parse(r#"(faces: Tagged("lid"))"#).unwrap().faces, tagged);

@@ -16,15 +16,10 @@
 mod assemble;
 mod doubles;
 
-use mesh::Mesh;
-use mesh::triangulate::{Cut, Cutter};
-use op::{
-    Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Refusal,
-    Report, Select,
-};
+use geometry::triangulate::{Cut, Cutter};
+use op::Refusal;
+use op::prelude::*;
 use rayon::prelude::*;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// Cuts polygons into triangles.
 ///

@@ -12,11 +12,8 @@
 //! at 0.9 times the distance always merge, wherever they lie, and two at 1.1 times only through others
 //! between them. Neither depends on the order of vertices or on the number of threads.
 
-use mesh::merge::clusters;
-use mesh::{Mesh, VERTEX_NORMAL};
-use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Report};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::VERTEX_NORMAL;
+use op::prelude::*;
 
 /// Merges vertices that lie near each other, and joins the faces at them.
 ///
@@ -34,21 +31,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Weld {
     /// How far apart linked vertices may be, in scene units; 0 links equal positions only.
-    #[schemars(range(min = 0.0))]
-    pub distance: f64,
-}
-
-impl Weld {
-    fn check(&self) -> Result<(), String> {
-        if self.distance >= 0.0 && self.distance.is_finite() {
-            Ok(())
-        } else {
-            let distance = self.distance;
-            Err(format!(
-                "`distance` must be 0 or a positive number, not {distance}"
-            ))
-        }
-    }
+    pub distance: Length,
 }
 
 impl MeshOperation for Weld {
@@ -57,9 +40,6 @@ impl MeshOperation for Weld {
     const EXAMPLE: &'static str = "Weld(distance: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = self.check() {
-            return vec![Problem::error(message).at(["distance"])];
-        }
         // Where faces are reversed, normals go.
         for attribute in &mut plan.attributes {
             attribute.certain &= attribute.name != VERTEX_NORMAL.name;
@@ -77,14 +57,10 @@ impl MeshOperation for Weld {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        self.check().map_err(OpError::Parameter)?;
-        let lowest = clusters(mesh.positions(), self.distance, &|done, total| {
-            cx.advance("weld", done, total)
-        })?;
-        if (0..).zip(&lowest).all(|(v, &low): (u32, _)| v == low) {
+        let merged = geometry::merge_vertices(mesh, self.distance.get(), cx.progress())?;
+        if merged.vertices == 0 {
             return Ok(Report::default());
         }
-        let merged = mesh.merge_clusters(&lowest)?;
         let n = merged.vertices;
         let vertices = if n == 1 { "vertex" } else { "vertices" };
         let mut report = Report::changed(n).note(format!("merged {n} {vertices}"));

@@ -8,13 +8,8 @@
 //!     /               \            /               \
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, Cuts, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext,
-    Problem, Range, Report, Select, check_fraction, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use geometry::bevel::Cuts;
+use op::prelude::*;
 
 /// Puts faces into the place of edges.
 ///
@@ -38,9 +33,8 @@ use serde::{Deserialize, Serialize};
 pub struct BevelEdges {
     /// Which edges.
     pub edges: EdgeSelection,
-    /// Where the edges around are cut, as a fraction of their lengths: between 0 and 1 and neither.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
-    pub fraction: f64,
+    /// Where the edges around are cut, as a fraction of their lengths: strictly between 0 and 1.
+    pub fraction: Fraction,
     /// What to do when an edge is refused.
     #[serde(default)]
     pub on_refusal: OnRefusal,
@@ -52,9 +46,6 @@ impl MeshOperation for BevelEdges {
     const EXAMPLE: &'static str = "BevelEdges(edges: Between(0, 2), fraction: 0.25)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = check_fraction("fraction", self.fraction) {
-            return vec![Problem::error(message).at(["fraction"])];
-        }
         let done = self.on_refusal.done(self.edges.count(plan));
         if done.max > 0 {
             // Four cuts at least. Old vertices go with the first of their edges, and all together have two
@@ -84,12 +75,11 @@ impl MeshOperation for BevelEdges {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        check_fraction("fraction", self.fraction).map_err(OpError::Parameter)?;
         let edges = self.edges.resolve(mesh, cx)?;
         let mut cuts = Cuts::default();
         let report = edit_each(mesh, &edges, self.on_refusal, "bevel", cx, |mesh, e| {
-            let f = mesh.bevel_edge_with(e, |e| cuts.fraction(e, self.fraction))?;
-            cuts.cut(mesh, f, self.fraction);
+            let f = mesh.bevel_edge_with(e, |e| cuts.fraction(e, self.fraction.get()))?;
+            cuts.cut(mesh, f, self.fraction.get());
             Ok(())
         })?;
         mesh.remove_normals();
@@ -100,12 +90,13 @@ impl MeshOperation for BevelEdges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{FaceId, shapes};
+    use geometry::shapes;
+    use mesh::FaceId;
 
     use op::test::{applied, planned, try_applied};
 
     fn parse(text: &str) -> BevelEdges {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]
@@ -114,7 +105,7 @@ mod tests {
         let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
         assert_eq!(report.changed, 1);
         assert_eq!(mesh.degree(FaceId::new(6)), 4);
-        assert!((mesh.volume() - 7.0).abs() < 1e-13);
+        assert!((geometry::volume(&mesh) - 7.0).abs() < 1e-13);
     }
 
     #[test]
@@ -130,7 +121,7 @@ mod tests {
         let counts = [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()];
         assert_eq!(counts, [16, 24, 10]);
         // A prism over an octagon: a square of side 2 without four triangles of legs 1/2.
-        assert!((mesh.volume() - 2.0 * (4.0 - 0.5)).abs() < 1e-13);
+        assert!((geometry::volume(&mesh) - 2.0 * (4.0 - 0.5)).abs() < 1e-13);
         for &p in mesh.positions() {
             let (x, y) = (p.x.abs(), p.y.abs());
             assert!((x.min(y) - 0.5).abs() < 1e-15 && (x.max(y) - 1.0).abs() < 1e-15);
@@ -146,7 +137,7 @@ mod tests {
             let (mesh, report) = try_applied(&step, shapes::cube()).unwrap();
             assert!(report.changed >= 4, "{report:?}");
             assert!(mesh.is_closed());
-            assert_eq!(mesh.genus(), 0);
+            assert_eq!(geometry::genus(&mesh), 0);
             let (plan, _) = planned(&step, &shapes::cube());
             assert!(plan.vertices.contains(mesh.n_vertices() as u64));
             assert!(plan.edges.contains(mesh.n_edges() as u64));
@@ -166,19 +157,5 @@ mod tests {
             matches!(refused, Err(OpError::Refused { .. })),
             "{refused:?}"
         );
-    }
-
-    #[test]
-    fn a_fraction_out_of_range_is_refused() {
-        for fraction in [0.0, 1.0, f64::NAN] {
-            let step = BevelEdges {
-                fraction,
-                ..parse("(edges: All, fraction: 0.5)")
-            };
-            let (_, problems) = planned(&step, &shapes::cube());
-            assert_eq!(problems[0].path, ["fraction"]);
-            let refused = try_applied(&step, shapes::cube());
-            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
-        }
     }
 }

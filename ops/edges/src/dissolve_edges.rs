@@ -6,13 +6,7 @@
 //!    +-----a-----+          +-----a-----+
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Report, Select, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Takes edges out and merges the faces beside them.
 ///
@@ -34,26 +28,6 @@ pub struct DissolveEdges {
     /// What to do at seams.
     #[serde(default)]
     pub seams: Seams,
-}
-
-/// What to do where corner values, like UVs, differ between the two sides of an edge that goes.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub enum Seams {
-    /// Refuse.
-    #[default]
-    Refuse,
-    /// Merge the faces all the same. Each corner keeps the values of one of them.
-    Drop,
-}
-
-impl From<Seams> for mesh::Seams {
-    fn from(seams: Seams) -> Self {
-        match seams {
-            Seams::Refuse => Self::Refuse,
-            Seams::Drop => Self::Drop,
-        }
-    }
 }
 
 impl MeshOperation for DissolveEdges {
@@ -87,13 +61,14 @@ impl MeshOperation for DissolveEdges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec2, UV, shapes};
+    use geometry::shapes;
+    use mesh::{DVec2, UV};
     use op::test::{applied, is_as_planned, planned, try_applied};
     use op::{Range, Refusal};
     use proptest::prelude::*;
 
     fn parse(text: &str) -> DissolveEdges {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn refused(text: &str, mesh: Mesh) -> Refusal {

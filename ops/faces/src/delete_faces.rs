@@ -8,13 +8,8 @@
 //!    +---+---+---+          +---+   +---+
 //! ```
 
-use mesh::{EditError, FaceId, Mesh, VertexId};
-use op::{
-    Context, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{EditError, FaceId, VertexId};
+use op::prelude::*;
 
 /// Takes faces away and leaves holes.
 ///
@@ -116,13 +111,13 @@ fn one_by_one(mesh: &mut Mesh, faces: Vec<FaceId>, cx: &Context) -> Result<Repor
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::Refusal;
     use op::test::{applied, is_as_planned, planned, try_applied};
     use proptest::prelude::*;
 
     fn parse(text: &str) -> DeleteFaces {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn counts(mesh: &Mesh) -> [usize; 3] {
@@ -210,7 +205,7 @@ mod tests {
 
     #[test]
     fn a_recipe_must_name_the_faces() {
-        assert!(ron::from_str::<DeleteFaces>("()").is_err());
+        assert!(op::test::read::<DeleteFaces>("()").is_err());
     }
 
     proptest! {

@@ -8,13 +8,8 @@
 //!    v-----+          v-----+
 //! ```
 
-use mesh::{Mesh, VertexId};
-use op::{
-    Context, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range, Report,
-    edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::VertexId;
+use op::prelude::*;
 
 /// Cuts faces in two by edges between their corners.
 ///
@@ -106,13 +101,13 @@ fn vertex(number: u32) -> VertexId {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::Refusal;
     use op::test::{applied, is_as_planned, planned, try_applied};
     use proptest::prelude::*;
 
     fn parse(text: &str) -> SplitFaces {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn refused(text: &str, mesh: Mesh) -> Refusal {
@@ -151,7 +146,7 @@ mod tests {
         let mesh = applied(&fan, hexagon.clone());
         assert!(mesh.faces().all(|f| mesh.is_triangle(f)));
         assert_eq!((mesh.n_faces(), mesh.valence(vertex(0))), (4, 5));
-        assert!((mesh.area() - hexagon.area()).abs() < 1e-12);
+        assert!((geometry::area(&mesh) - geometry::area(&hexagon)).abs() < 1e-12);
     }
 
     #[test]

@@ -4,13 +4,8 @@ use mesh::Domain;
 use mesh_io::{
     NonManifold, Orientation, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions, Unwanted,
 };
-use op::{
-    Context, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem, Range,
-    Report,
-};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::Operation;
+use op::prelude::*;
 
 /// Reads the objects of a file into the scene.
 ///
@@ -71,7 +66,7 @@ impl Operation for Load {
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let path = cx.files.to_read(&self.path);
         plan.inputs.push(path.clone());
-        match mesh_io::peek(&store::Disk, &path, &self.options()) {
+        match mesh_io::peek(&*cx.files.store, &path, &self.options()) {
             Ok(peek) => self.plan_objects(&peek, plan),
             Err(error) => {
                 plan.incomplete = true;
@@ -83,7 +78,7 @@ impl Operation for Load {
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("read", 0, 1)?;
         let path = cx.files().to_read(&self.path);
-        let loaded = mesh_io::read(&store::Disk, &path, &self.options())
+        let loaded = mesh_io::read(&*cx.files().store, &path, &self.options())
             .map_err(|error| OpError::File(error.to_string()))?;
         for file in loaded.files {
             if file.is_read {
@@ -180,7 +175,7 @@ mod tests {
     }
 
     fn load(text: &str) -> Load {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]

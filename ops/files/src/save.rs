@@ -1,10 +1,8 @@
 //! Save: writes objects to a file.
 
 use mesh_io::{Format, WriteOptions};
-use op::{Context, Loss, OpError, Operation, Plan, PlanContext, Problem, Report};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Loss, Operation};
 
 /// Writes objects to a file below the output folder.
 ///
@@ -55,11 +53,7 @@ impl Operation for Save {
         cx.advance("write", 0, 1)?;
         let failed = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
         let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|e| {
-                failed(&format!("cannot make the folder {}: {e}", folder.display()))
-            })?;
-        }
+        cx.files().make_folder_of(&path).map_err(|e| failed(&e))?;
         let mut chosen = Scene::new();
         for object in scene.objects() {
             if cx.on.is_none_or(|on| on.contains(&object.name)) {
@@ -70,7 +64,7 @@ impl Operation for Save {
             provenance: cx.files().provenance.clone(),
         };
         let written =
-            mesh_io::write(&store::Disk, &path, &chosen, &options).map_err(|e| failed(&e))?;
+            mesh_io::write(&*cx.files().store, &path, &chosen, &options).map_err(|e| failed(&e))?;
         let mut report = Report::changed(chosen.objects().len());
         report.losses = written
             .losses
@@ -94,12 +88,12 @@ impl Operation for Save {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::{Files, NoProgress, PlannedGeometry, Range};
     use scene::Object;
 
     fn save(path: &str) -> Save {
-        ron::from_str(&format!("(path: {path:?})")).unwrap()
+        op::test::read(&format!("(path: {path:?})")).unwrap()
     }
 
     #[test]

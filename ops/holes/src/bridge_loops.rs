@@ -10,13 +10,9 @@
 //!      '-------'               '-------'
 //! ```
 
-use mesh::{Mesh, VertexId};
-use op::{
-    Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Range, Refusal, Report,
-    Select, VertexSelection,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::VertexId;
+use op::Refusal;
+use op::prelude::*;
 
 /// Joins two holes by a band of faces.
 ///
@@ -99,11 +95,12 @@ fn boundary_vertex(mesh: &Mesh, number: u32, cx: &Context) -> Result<VertexId, O
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, FaceId, VERTEX_NORMAL, shapes};
+    use geometry::shapes;
+    use mesh::{DVec3, FaceId, VERTEX_NORMAL};
     use op::test::{applied, try_applied};
 
     fn parse(text: &str) -> BridgeLoops {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn refusal(text: &str, mesh: Mesh) -> Refusal {
@@ -135,7 +132,7 @@ mod tests {
         mesh.set(VERTEX_NORMAL, vec![DVec3::Z; 12]);
         let (joined, report) = try_applied(&parse("(first: 0, second: 3)"), mesh).unwrap();
         assert!(joined.is_closed());
-        assert_eq!((joined.genus(), report.changed), (1, 3));
+        assert_eq!((geometry::genus(&joined), report.changed), (1, 3));
         let v = VertexId::new;
         assert!(joined.find_half_edge(v(0), v(3)).is_some());
         assert!(joined.get(VERTEX_NORMAL).is_none());
@@ -153,7 +150,7 @@ mod tests {
         let far = corners.next().unwrap().index();
         let joined = applied(&parse(&format!("(first: 0, second: {far})")), mesh.clone());
         assert!(joined.is_closed());
-        assert_eq!(joined.genus(), 1);
+        assert_eq!(geometry::genus(&joined), 1);
         assert_eq!(joined.n_faces(), mesh.n_faces() + 16);
     }
 
@@ -177,8 +174,8 @@ mod tests {
 
     #[test]
     fn a_recipe_must_name_both_vertices() {
-        assert!(ron::from_str::<BridgeLoops>("(first: 3)").is_err());
-        assert!(ron::from_str::<BridgeLoops>("(first: -1, second: 2)").is_err());
+        assert!(op::test::read::<BridgeLoops>("(first: 3)").is_err());
+        assert!(op::test::read::<BridgeLoops>("(first: -1, second: 2)").is_err());
         assert_eq!(parse("(first: 3, second: 17)").second, 17);
     }
 }

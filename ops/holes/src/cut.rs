@@ -8,13 +8,8 @@
 //!    +-----+-----+          +-----+ +-----+
 //! ```
 
-use mesh::{EdgeId, EditError, Mesh};
-use op::{
-    Context, EdgeSelection, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem,
-    Range, Report, Select,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{EdgeId, EditError};
+use op::prelude::*;
 
 /// Opens the mesh along edges.
 ///
@@ -102,12 +97,12 @@ impl Cut {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::Refusal;
     use op::test::{applied, try_applied};
 
     fn parse(text: &str) -> Cut {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn refusal(text: &str, mesh: Mesh) -> Refusal {
@@ -124,7 +119,7 @@ mod tests {
         // 0 1 2
         let path = parse("(edges: Or([Between(1, 4), Between(4, 7)]))");
         let (mesh, report) = try_applied(&path, shapes::grid(2, 2)).unwrap();
-        assert_eq!((mesh.n_components(), mesh.n_vertices()), (2, 12));
+        assert_eq!((geometry::n_components(&mesh), mesh.n_vertices()), (2, 12));
         assert_eq!((mesh.n_edges(), mesh.n_faces()), (14, 4));
         assert_eq!(report.changed, 2);
         assert_eq!(report.notes, ["new vertices: 3"]);
@@ -133,8 +128,8 @@ mod tests {
     #[test]
     fn sharp_edges_take_a_cube_apart() {
         let mesh = applied(&parse("(edges: Sharp(above: 30))"), shapes::cube());
-        assert_eq!((mesh.n_components(), mesh.n_vertices()), (6, 24));
-        assert_eq!(mesh.area(), 24.0);
+        assert_eq!((geometry::n_components(&mesh), mesh.n_vertices()), (6, 24));
+        assert_eq!(geometry::area(&mesh), 24.0);
     }
 
     #[test]
@@ -147,7 +142,7 @@ mod tests {
         );
         let skip = parse("(edges: All, on_refusal: Skip)");
         let (mesh, report) = try_applied(&skip, grid()).unwrap();
-        assert_eq!(mesh.n_components(), 9);
+        assert_eq!(geometry::n_components(&mesh), 9);
         let counts: Vec<_> = report.refused.iter().map(|r| (r.reason, r.count)).collect();
         assert_eq!(counts, [(Refusal::Boundary, 12)]);
         let skip = parse("(edges: Between(5, 6), on_refusal: Skip)");
@@ -159,8 +154,8 @@ mod tests {
 
     #[test]
     fn a_recipe_must_name_the_edges() {
-        assert!(ron::from_str::<Cut>("()").is_err());
-        assert!(ron::from_str::<Cut>("(edges: All, at: 0.5)").is_err());
+        assert!(op::test::read::<Cut>("()").is_err());
+        assert!(op::test::read::<Cut>("(edges: All, at: 0.5)").is_err());
         assert_eq!(parse("(edges: All)").on_refusal, OnRefusal::Error);
     }
 }

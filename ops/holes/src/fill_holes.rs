@@ -8,13 +8,8 @@
 //!    +-----+-----+          +-----+-----+          +-----+-----+
 //! ```
 
-use mesh::{CORNER_NORMAL, Domain, HalfEdgeId, Mesh, VERTEX_NORMAL};
-use op::{
-    Context, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range, Report,
-    Select, VertexSelection, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{CORNER_NORMAL, Domain, HalfEdgeId, VERTEX_NORMAL};
+use op::prelude::*;
 
 /// Puts faces over holes.
 ///
@@ -38,8 +33,7 @@ pub struct FillHoles {
     pub around: VertexSelection,
     /// Leave holes of more edges than this open; without it, none.
     #[serde(default)]
-    #[schemars(range(min = 3))]
-    pub max_edges: Option<u32>,
+    pub max_edges: Option<Count<3>>,
     /// What to put over them.
     #[serde(default)]
     pub with: Cover,
@@ -68,7 +62,7 @@ impl MeshOperation for FillHoles {
         // Each hole has three edges or more, and no edge is on two holes.
         match self.with {
             Cover::Face => {
-                let corners = self.max_edges.map_or(u64::MAX, u64::from);
+                let corners = self.max_edges.map_or(u64::MAX, |most| most.get().into());
                 plan.faces = plan.faces.plus(Range::at_most(plan.edges.max / 3));
                 plan.degrees.max = plan.degrees.max.max(corners.min(plan.edges.max));
             }
@@ -98,7 +92,7 @@ impl MeshOperation for FillHoles {
         });
         let chosen = holes.len();
         if let Some(most) = self.max_edges {
-            holes.retain(|&h| mesh.loop_half_edges(h).count() <= most as usize);
+            holes.retain(|&h| mesh.loop_half_edges(h).count() <= most.get() as usize);
         }
         let mut report = edit_each(mesh, &holes, self.on_refusal, "fill", cx, |mesh, h| {
             self.fill(mesh, h)
@@ -118,7 +112,7 @@ impl FillHoles {
     fn fill(&self, mesh: &mut Mesh, h: HalfEdgeId) -> Result<(), mesh::EditError> {
         match self.with {
             Cover::Face => mesh.fill_hole(h).map(drop),
-            Cover::Triangles => mesh.fill_hole_triangles(h).map(drop),
+            Cover::Triangles => geometry::fill_hole_triangles(mesh, h).map(drop),
         }
     }
 }
@@ -126,11 +120,12 @@ impl FillHoles {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, FaceId, shapes};
+    use geometry::shapes;
+    use mesh::{DVec3, FaceId};
     use op::test::{applied, try_applied};
 
     fn parse(text: &str) -> FillHoles {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     /// A torus with a hole of 4 and one of 6 edges, and normals.
@@ -153,7 +148,10 @@ mod tests {
         let triangles = applied(&parse("()"), tube);
         assert!(triangles.is_closed());
         assert_eq!((triangles.n_faces(), triangles.n_edges()), (14, 24));
-        assert!((triangles.volume() - shapes::cylinder(6, true).volume()).abs() < 1e-12);
+        assert!(
+            (geometry::volume(&triangles) - geometry::volume(&shapes::cylinder(6, true))).abs()
+                < 1e-12
+        );
     }
 
     #[test]
@@ -181,10 +179,10 @@ mod tests {
     #[test]
     fn a_recipe_names_known_fields_only() {
         assert!(
-            ron::from_str::<FillHoles>("(around: Boundary, with: Face, on_refusal: Skip)").is_ok()
+            op::test::read::<FillHoles>("(around: Boundary, with: Face, on_refusal: Skip)").is_ok()
         );
-        assert!(ron::from_str::<FillHoles>("(with: Quads)").is_err());
-        assert!(ron::from_str::<FillHoles>("(max: 3)").is_err());
+        assert!(op::test::read::<FillHoles>("(with: Quads)").is_err());
+        assert!(op::test::read::<FillHoles>("(max: 3)").is_err());
         assert_eq!(parse("()").with, Cover::Triangles);
     }
 }

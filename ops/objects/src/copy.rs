@@ -4,12 +4,9 @@
 //!   "head", "body"   --->   "head", "body", "twin"
 //! ```
 
-use op::{
-    Context, OpError, Operation, Plan, PlanContext, Problem, Report, check_name, named_object,
-};
-use scene::{Object, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Operation, check_name, named_object};
+use scene::Object;
 
 /// Copies an object, with its attributes and materials, under a new name.
 ///
@@ -53,12 +50,12 @@ impl Operation for Copy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use op::{Files, MeshPlan, PlannedGeometry};
     use scene::Material;
 
     fn step(text: &str) -> Copy {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn scene() -> Scene {

@@ -4,10 +4,8 @@
 //!   "head", "body", "tail"   --->   "head", "tail"
 //! ```
 
-use op::{Context, OpError, Operation, Plan, PlanContext, Problem, Report, named_object};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Operation, named_object};
 
 /// Takes objects out of the scene.
 ///
@@ -48,11 +46,11 @@ impl Operation for Delete {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use scene::Object;
 
     fn step(text: &str) -> Delete {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn scene() -> Scene {
@@ -89,7 +87,7 @@ mod tests {
             budget: u64::MAX,
         };
         let mut plan = Plan::default();
-        assert_eq!(plan.insert("a", op::PlannedGeometry::Polylines), []);
+        assert_eq!(plan.insert("a", PlannedGeometry::Polylines), []);
         let problems = step(r#"(objects: ["a", "d"])"#).plan(&mut plan, &cx);
         assert_eq!(problems.len(), 1);
         assert_eq!(problems[0].path, ["objects", "1"]);

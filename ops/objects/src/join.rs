@@ -13,13 +13,9 @@ mod parts;
 use std::sync::Arc;
 
 use mesh::Domain;
-use op::{
-    Context, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedAttribute, PlannedGeometry,
-    Problem, Report, check_name, named_object,
-};
-use scene::{Geometry, Object, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Operation, PlannedAttribute, check_name, named_object};
+use scene::{Geometry, Object};
 
 /// Joins meshes into one.
 ///
@@ -150,7 +146,7 @@ impl Join {
 
     /// The result of parts that are meshes.
     fn joined(&self, parts: &[&Object], cx: &Context) -> Result<(Object, Report), OpError> {
-        let meshes: Vec<&mesh::Mesh> = parts
+        let meshes: Vec<&Mesh> = parts
             .iter()
             .filter_map(|o| o.as_mesh())
             .map(Arc::as_ref)

@@ -4,10 +4,8 @@
 //!   "head", "body"   --->   "skull", "body"
 //! ```
 
-use op::{Context, OpError, Operation, Plan, PlanContext, Problem, Report, named_object};
-use scene::Scene;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
+use op::{Operation, named_object};
 
 /// Gives an object another name.
 ///
@@ -55,11 +53,11 @@ impl Operation for Rename {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::shapes;
+    use geometry::shapes;
     use scene::Object;
 
     fn step(text: &str) -> Rename {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn scene() -> Scene {
@@ -100,7 +98,7 @@ mod tests {
         };
         let mut plan = Plan::default();
         for name in ["a", "b"] {
-            assert_eq!(plan.insert(name, op::PlannedGeometry::Polylines), []);
+            assert_eq!(plan.insert(name, PlannedGeometry::Polylines), []);
         }
         assert_eq!(
             step(r#"(from: "d", to: "c")"#).plan(&mut plan, &cx)[0].path,

@@ -9,14 +9,10 @@
 
 use std::sync::Arc;
 
-use mesh::{Domain, MATERIAL, Mesh};
-use op::{
-    Context, Loss, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, PlannedObject,
-    Problem, Refusal, Report, check_name, named_object,
-};
-use scene::{Geometry, Object, Scene};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{Domain, MATERIAL};
+use op::prelude::*;
+use op::{Loss, Operation, PlannedObject, Refusal, check_name, named_object};
+use scene::{Geometry, Object};
 
 /// Takes a mesh apart into several objects.
 ///
@@ -38,8 +34,7 @@ pub struct Separate {
     /// How many parts there must be; another number is refused. Without it the names of the parts are
     /// known only when the recipe runs, so that later steps are not checked against them before.
     #[serde(default)]
-    #[schemars(range(min = 1))]
-    pub count: Option<u32>,
+    pub count: Option<Count<1>>,
 }
 
 /// What belongs together.
@@ -72,7 +67,7 @@ impl Operation for Separate {
             return vec![Problem::error(self.no_faces()).at(["object"])];
         }
         let part = self.part_of(mesh);
-        let Some(count) = self.count else {
+        let Some(count) = self.count.map(Count::get) else {
             // The parts have names that cannot be known.
             plan.objects.remove(place);
             plan.incomplete = true;
@@ -112,7 +107,7 @@ impl Operation for Separate {
         if parts.is_empty() {
             return Err(OpError::refused(Refusal::Expectation, self.no_faces()));
         }
-        if let Some(count) = self.count
+        if let Some(count) = self.count.map(Count::get)
             && parts.len() != count as usize
         {
             let message = format!("expected {count} parts, found {}", parts.len());
@@ -139,7 +134,7 @@ impl By {
     /// The parts, none of them without faces.
     fn parts(&self, mesh: &Mesh) -> Result<Vec<Mesh>, OpError> {
         let part_of_face: Vec<usize> = match self {
-            Self::Components => return Ok(mesh.separated()),
+            Self::Components => return Ok(geometry::separated(mesh)),
             Self::Material => {
                 let of_face = mesh.get(MATERIAL).unwrap_or_default();
                 let material = |f: usize| of_face.get(f).copied().unwrap_or(-1);
@@ -159,7 +154,7 @@ impl By {
                     .collect()
             }
         };
-        Ok(mesh.parts(&part_of_face))
+        Ok(geometry::parts(mesh, &part_of_face))
     }
 }
 
@@ -230,7 +225,8 @@ fn not_a_mesh(name: &str, kind: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{Attribute, DVec3, FaceId, Rule, shapes};
+    use geometry::shapes;
+    use mesh::{Attribute, DVec3, FaceId, Rule};
     use op::{Files, Range};
     use scene::Material;
 
@@ -261,12 +257,8 @@ mod tests {
         scene
     }
 
-    /// As recipes are read.
     fn step(text: &str) -> Separate {
-        let options = ron::Options::default();
-        let implicit_some = ron::extensions::Extensions::IMPLICIT_SOME;
-        let options = options.with_default_extension(implicit_some);
-        options.from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn names(scene: &Scene) -> Vec<&str> {
@@ -295,11 +287,11 @@ mod tests {
         let report = op::test::run(&step(r#"(object: "pair")"#), &mut scene).unwrap();
         assert_eq!(names(&scene), ["pair 1", "other", "pair 2"]);
         for (name, volume) in [
-            ("pair 1", shapes::cube().volume()),
-            ("pair 2", shapes::tetrahedron().volume()),
+            ("pair 1", geometry::volume(&shapes::cube())),
+            ("pair 2", geometry::volume(&shapes::tetrahedron())),
         ] {
             let part = scene.object(name).unwrap();
-            assert!((part.as_mesh().unwrap().volume() - volume).abs() < 1e-12);
+            assert!((geometry::volume(&part.as_mesh().unwrap()) - volume).abs() < 1e-12);
             assert_eq!(part.materials, [Material::new("skin")]);
         }
         assert_eq!(report.changed, 2);

@@ -30,10 +30,7 @@
 //!
 //! The crate `subdivision` does the work, for this scheme and the others.
 
-use mesh::Mesh;
-use op::{Context, FaceSelection, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme};
 
 use crate::step::{Step, Until};

@@ -3,19 +3,15 @@
 use std::fmt::Debug;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-use mesh::{DVec2, DVec3, Mesh, UV, VERTEX_NORMAL, shapes};
-use op::test::{applied, applied_as_planned, counts, planned, refused, try_applied};
+use geometry::shapes;
+use mesh::{DVec2, DVec3, Mesh, UV, VERTEX_NORMAL};
+use op::test::{applied, applied_as_planned, counts, planned, read, refused, try_applied};
 use op::{
     Context, Files, MeshOperation, MeshPlan, NoProgress, OpError, PlanContext, Progress, Refusal,
 };
 use subdivision::Split;
 
 use crate::{Butterfly, CatmullClark, DooSabin, LoopSubdivide, Midpoint, Sqrt3};
-
-/// The parameters that a recipe gives.
-fn read<T: MeshOperation>(text: &str) -> Result<T, ron::error::SpannedError> {
-    ron::from_str(&format!("#![enable(implicit_some)]{text}"))
-}
 
 /// So many levels, with the defaults of everything else.
 fn levels<T: MeshOperation>(levels: u32) -> T {
@@ -85,7 +81,7 @@ fn midpoints_can_cut_a_cube_into_24_quads_of_the_same_area() {
     };
     let new = applied_as_planned(&quads, &shapes::cube());
     assert_eq!(counts(&new), [26, 48, 24]);
-    assert!((new.area() - shapes::cube().area()).abs() < 1e-14);
+    assert!((geometry::area(&new) - geometry::area(&shapes::cube())).abs() < 1e-14);
 }
 
 #[test]

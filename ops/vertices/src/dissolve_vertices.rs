@@ -8,13 +8,7 @@
 //!    +-----+-----+          +-----+-----+          +-----------+          +-----------+
 //! ```
 
-use mesh::Mesh;
-use op::{
-    Context, MeshOperation, MeshPlan, OnRefusal, OpError, PlanContext, Problem, Range, Report,
-    Select, VertexSelection, edit_each,
-};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use op::prelude::*;
 
 /// Takes vertices out and merges the faces around them.
 ///
@@ -38,26 +32,6 @@ pub struct DissolveVertices {
     /// What to do at seams.
     #[serde(default)]
     pub seams: Seams,
-}
-
-/// What to do where corner values, like UVs, differ between the two sides of an edge that goes.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub enum Seams {
-    /// Refuse.
-    #[default]
-    Refuse,
-    /// Merge the faces all the same. Each corner keeps the values of one of them.
-    Drop,
-}
-
-impl From<Seams> for mesh::Seams {
-    fn from(seams: Seams) -> Self {
-        match seams {
-            Seams::Refuse => Self::Refuse,
-            Seams::Drop => Self::Drop,
-        }
-    }
 }
 
 impl MeshOperation for DissolveVertices {
@@ -101,13 +75,14 @@ impl MeshOperation for DissolveVertices {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec2, DVec3, UV, VERTEX_NORMAL, shapes};
+    use geometry::shapes;
+    use mesh::{DVec2, DVec3, UV, VERTEX_NORMAL};
     use op::Refusal;
     use op::test::{applied, is_as_planned, try_applied};
     use proptest::prelude::*;
 
     fn parse(text: &str) -> DissolveVertices {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn refused(text: &str, mesh: Mesh) -> Refusal {
@@ -139,7 +114,7 @@ mod tests {
         let (after, report) = try_applied(&middles, mesh).unwrap();
         assert_eq!(report.changed, 4);
         assert_eq!(after.positions(), shapes::square().positions());
-        assert_eq!((after.n_edges(), after.area()), (4, 1.0));
+        assert_eq!((after.n_edges(), geometry::area(&after)), (4, 1.0));
     }
 
     #[test]

@@ -20,10 +20,8 @@
 
 mod gather;
 
-use mesh::{CORNER_NORMAL, Domain, Mesh, VERTEX_NORMAL};
-use op::{Context, MeshOperation, MeshPlan, OpError, PlanContext, Problem, Report};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use mesh::{CORNER_NORMAL, Domain, VERTEX_NORMAL};
+use op::prelude::*;
 
 pub use gather::normals;
 
@@ -84,7 +82,8 @@ impl MeshOperation for VertexNormals {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mesh::{DVec3, VertexId, shapes};
+    use geometry::shapes;
+    use mesh::{DVec3, VertexId};
     use op::test::{applied, try_applied};
     use proptest::prelude::*;
     use scene::{Object, Scene};
@@ -283,7 +282,7 @@ mod tests {
 
     #[test]
     fn a_recipe_may_choose_a_weight() {
-        let parse = |text| ron::from_str::<VertexNormals>(text);
+        let parse = |text| op::test::read::<VertexNormals>(text);
         assert_eq!(parse("()").unwrap().weight, Weight::Area);
         assert_eq!(parse("(weight: Angle)").unwrap().weight, Weight::Angle);
         assert!(parse("(weight: Volume)").is_err());

@@ -153,7 +153,7 @@ fn differences(name: &str) -> Vec<String> {
         Err(error) => return vec![error.to_string()],
     };
 
-    let [low, high] = mesh.bounds().expect("cases have vertices");
+    let [low, high] = geometry::bounds(&mesh).expect("cases have vertices");
     let tolerance = TOLERANCE * (high - low).length();
     let mut failures = compared(&fine, &expected, tolerance);
     if failures.is_empty() && case.choice("limit") == "yes" {

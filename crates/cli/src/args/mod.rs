@@ -11,12 +11,10 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
-use crate::picture_errors::PictureErrorsArgs;
-
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
 pub(crate) use many::{BatchArgs, Shard, SweepArgs, TestArgs};
-pub(crate) use picture::{DrawArgs, PictureArgs};
+pub(crate) use picture::{DrawArgs, PictureArgs, PictureErrorsArgs};
 pub(crate) use read::ReadArgs;
 pub(crate) use run::{
     CheckArgs, RecipeArgs, ReproduceArgs, RunArgs, ShrinkArgs, UpgradeArgs, ValueArgs,
@@ -97,15 +95,32 @@ pub(crate) enum Command {
     Shrink(ShrinkArgs),
     /// Print the JSON schema of recipes
     Schema,
-    /// Write a new operation crate: its folder, a working sample with a test, and its line in ops/all
+    /// Write a new operation, a working sample with its test and its picture: a crate of its own, or with `--in` a file of
+    /// a group
     NewOp {
         /// The name of the operation in camel case, such as `InflateFaces`
         name: String,
-        /// The root of the workspace
+        /// Write a file into this group of operations, such as `faces`, in place of a crate
+        #[arg(long = "in", value_name = "GROUP")]
+        group: Option<String>,
+        /// Where to write the crate; for a group the root of Meshwright's workspace
         #[arg(long, default_value = ".")]
         dir: PathBuf,
+        /// The root of Meshwright's workspace, which the crate depends on
+        #[arg(
+            long,
+            default_value = ".",
+            conflicts_with = "group",
+            value_name = "DIR"
+        )]
+        meshwright: PathBuf,
     },
 }
+
+/// An invalid combination of arguments, found after they were read: exit code 2.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub(crate) struct WrongUsage(pub(crate) String);
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {

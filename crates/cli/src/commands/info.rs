@@ -2,17 +2,18 @@
 
 use std::path::Path;
 
+use engine::BUDGET;
 use mesh::{Elements, Mesh, VertexId};
 use mesh_io::{Note, NoteKind};
 use op::Place;
 use ops_pictures::Picture;
 use scene::{Geometry, Object, Scene};
 
-use crate::args::{Format, ReadArgs};
+use crate::args::{Format, PictureErrorsArgs, ReadArgs};
 use crate::commands::picture::draw_found;
 use crate::output::{grouped, print};
-use crate::picture_errors::{PictureErrorsArgs, Pictures};
-use crate::scenes::{BUDGET, Found};
+use crate::picture_errors::Pictures;
+use crate::scenes::Found;
 use crate::terminal_picture;
 
 pub(crate) fn run(
@@ -171,17 +172,17 @@ fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
                 histogram(&degrees, "corners")
             ),
         ),
-        ("valences", histogram(&mesh.valences(), "edges")),
+        ("valences", histogram(&geometry::valences(&mesh), "edges")),
         ("closed", closed),
-        ("components", count(mesh.n_components())),
+        ("components", count(geometry::n_components(&mesh))),
         ("Euler char.", mesh.euler_characteristic().to_string()),
-        ("genus", mesh.genus().to_string()),
-        ("area", mesh.area().to_string()),
+        ("genus", geometry::genus(&mesh).to_string()),
+        ("area", geometry::area(&mesh).to_string()),
     ];
     if loops == 0 {
-        facts.push(("volume", mesh.volume().to_string()));
+        facts.push(("volume", geometry::volume(&mesh).to_string()));
     }
-    if let Some([min, max]) = mesh.bounds() {
+    if let Some([min, max]) = geometry::bounds(&mesh) {
         facts.push(("bounds", format!("{min} to {max}")));
     }
     let isolated = mesh.n_isolated_vertices();
@@ -226,20 +227,23 @@ fn object_json(object: &Object) -> serde_json::Value {
                 .iter()
                 .map(|(d, c)| format!("{d} {}", c.name))
                 .collect();
-            let bounds = mesh.bounds().map(|b| b.map(|p| p.to_array()));
+            let bounds = geometry::bounds(&mesh).map(|b| b.map(|p| p.to_array()));
             members.extend([
                 ("vertices".to_owned(), mesh.n_vertices().into()),
                 ("edges".to_owned(), mesh.n_edges().into()),
                 ("faces".to_owned(), mesh.n_faces().into()),
                 ("boundary_loops".to_owned(), mesh.n_boundary_loops().into()),
-                ("components".to_owned(), mesh.n_components().into()),
+                (
+                    "components".to_owned(),
+                    geometry::n_components(&mesh).into(),
+                ),
                 (
                     "euler_characteristic".to_owned(),
                     mesh.euler_characteristic().into(),
                 ),
-                ("genus".to_owned(), mesh.genus().into()),
-                ("area".to_owned(), mesh.area().into()),
-                ("volume".to_owned(), mesh.volume().into()),
+                ("genus".to_owned(), geometry::genus(&mesh).into()),
+                ("area".to_owned(), geometry::area(&mesh).into()),
+                ("volume".to_owned(), geometry::volume(&mesh).into()),
                 ("bounds".to_owned(), serde_json::json!(bounds)),
                 (
                     "isolated_vertices".to_owned(),

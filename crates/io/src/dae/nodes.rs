@@ -285,7 +285,7 @@ fn rotation([x, y, z, degrees]: [f64; 4]) -> DMat3 {
     if axis == DVec3::ZERO {
         return DMat3::IDENTITY;
     }
-    let (s, c) = mesh::sin_cos_degrees(degrees);
+    let (s, c) = geometry::sin_cos_degrees(degrees);
     let column = |unit: DVec3| c * unit + s * axis.cross(unit) + (1.0 - c) * axis.dot(unit) * axis;
     DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
 }

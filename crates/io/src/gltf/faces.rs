@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use mesh::triangulate::Cutter;
+use geometry::triangulate::Cutter;
 use mesh::{Domain, FaceId, Mesh};
 use scene::Object;
 

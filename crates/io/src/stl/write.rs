@@ -1,7 +1,7 @@
 //! From a scene to the bytes of a binary STL file.
 
+use geometry::triangulate::Cutter;
 use glam::{DVec3, Vec3};
-use mesh::triangulate::Cutter;
 use mesh::{Domain, FaceId, Mesh, VertexId};
 use scene::Scene;
 

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use mesh::shapes;
+use geometry::shapes;
 use mesh_io::{ReadError, ReadOptions, WriteError, WriteOptions};
 use scene::{Geometry, Object};
 

@@ -1,7 +1,8 @@
 //! COLLADA files with nodes, libraries and other things around geometry.
 
+use geometry::shapes;
 use glam::{DVec2, DVec3};
-use mesh::{FaceId, UV, VERTEX_NORMAL, shapes};
+use mesh::{FaceId, UV, VERTEX_NORMAL};
 use mesh_io::{PeekGeometry, ReadOptions};
 use scene::Object;
 

@@ -1,9 +1,8 @@
 //! COLLADA files made by hand, and what another reader makes of them.
 
+use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
-use mesh::{
-    CORNER_NORMAL, Domain, FaceId, HalfEdgeId, MATERIAL, Mesh, UV, VERTEX_NORMAL, Values, shapes,
-};
+use mesh::{CORNER_NORMAL, Domain, FaceId, HalfEdgeId, MATERIAL, Mesh, UV, VERTEX_NORMAL, Values};
 use mesh_io::Loaded;
 use scene::{AlphaMode, Object, Texture};
 

@@ -1,7 +1,8 @@
 //! Attributes of glTF files beyond the usual ones, and integers in place of floats.
 
+use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4, Vec2Swizzles};
-use mesh::{Column, Domain, Mesh, Rule, UV, Value, shapes};
+use mesh::{Column, Domain, Mesh, Rule, UV, Value};
 use mesh_io::ReadError;
 use scene::Object;
 use serde_json::json;

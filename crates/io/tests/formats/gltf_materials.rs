@@ -1,7 +1,8 @@
 //! Materials of glTF files: what is read, written and read again.
 
+use geometry::shapes;
 use glam::DVec2;
-use mesh::{Mesh, UV, shapes};
+use mesh::{Mesh, UV};
 use scene::{AlphaMode, Filter, Image, Material, Object, Sampler, Texture, TextureTransform, Wrap};
 use serde_json::{Value, json};
 

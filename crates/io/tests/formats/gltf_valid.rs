@@ -3,8 +3,9 @@
 
 use std::path::PathBuf;
 
+use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
-use mesh::{CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL, shapes};
+use mesh::{CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
 use mesh_io::WriteOptions;
 use scene::{AlphaMode, Image, Material, Object, Scene, Texture};
 

@@ -1,7 +1,8 @@
 //! Written glTF files, read by the `gltf` crate with its validation and by this one.
 
+use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
-use mesh::{CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL, shapes};
+use mesh::{CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
 use mesh_io::{PeekGeometry, ReadOptions, WriteOptions};
 use scene::{AlphaMode, Geometry, Material, Object};
 use serde_json::Value;

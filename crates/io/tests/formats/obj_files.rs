@@ -1,7 +1,8 @@
 //! OBJ files with their material libraries.
 
+use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
-use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, SMOOTHING, UV, VERTEX_NORMAL, shapes};
+use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, SMOOTHING, UV, VERTEX_NORMAL};
 use mesh_io::{
     NonManifold, NoteKind, PeekGeometry, Policies, ReadError, ReadOptions, WriteOptions,
 };

@@ -1,7 +1,8 @@
 //! OFF files, against what they say and against laws.
 
+use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
-use mesh::{COLOR, Column, Domain, Mesh, Rule, UV, VERTEX_NORMAL, Values, shapes};
+use mesh::{COLOR, Column, Domain, Mesh, Rule, UV, VERTEX_NORMAL, Values};
 use mesh_io::{PeekGeometry, Polygons, ReadError, ReadOptions, WriteOptions};
 use proptest::prelude::*;
 use scene::Object;

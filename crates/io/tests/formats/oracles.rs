@@ -1,8 +1,9 @@
 //! Written PLY, STL and OFF files, read by slow and simple readers, and OBJ files of any dialect, read by
 //! another program.
 
+use geometry::shapes;
 use glam::DVec3;
-use mesh::{Mesh, VertexId, shapes};
+use mesh::{Mesh, VertexId};
 use proptest::prelude::*;
 use scene::Object;
 

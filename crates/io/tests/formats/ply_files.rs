@@ -1,9 +1,10 @@
 //! PLY files, against laws.
 
+use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{
     COLOR, CORNER, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Mesh, Rule, TANGENT, UV,
-    VERTEX_NORMAL, Values, shapes,
+    VERTEX_NORMAL, Values,
 };
 use mesh_io::{Polygons, ReadOptions, WriteOptions};
 use scene::{Material, Object};

@@ -1,7 +1,8 @@
 //! STL files, against a slow and simple reader of this file and against laws.
 
+use geometry::shapes;
 use glam::DVec3;
-use mesh::{COLOR, Domain, Mesh, shapes};
+use mesh::{COLOR, Domain, Mesh};
 use mesh_io::{NoteKind, PeekGeometry, Polygons, ReadError, ReadOptions, WriteOptions};
 use proptest::prelude::*;
 use scene::{Material, Object};

@@ -35,7 +35,7 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let mut mesh = mesh::shapes::cube();
+    /// let mut mesh = geometry::shapes::cube();
     /// let v = mesh.vertices().next().unwrap();
     /// let f = mesh.bevel_vertex(v, 0.25)?;
     /// assert!(mesh.is_triangle(f));

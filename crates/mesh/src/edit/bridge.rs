@@ -35,14 +35,14 @@ impl Mesh {
     ///
     /// ```
     /// // A tunnel between two faces that lie opposite to each other.
-    /// let mut mesh = mesh::shapes::icosahedron();
+    /// let mut mesh = geometry::shapes::icosahedron();
     /// let faces = [mesh::FaceId::new(0), mesh::FaceId::new(13)];
     /// let [h, g] = faces.map(|f| mesh.face_half_edge(f));
     /// for f in faces {
     ///     mesh.delete_face(f)?;
     /// }
     /// let tunnel = mesh.bridge_loops(h, g)?;
-    /// assert_eq!((tunnel.len(), mesh.genus()), (3, 1));
+    /// assert_eq!((tunnel.len(), geometry::genus(&mesh)), (3, 1));
     /// # Ok::<(), mesh::EditError>(())
     /// ```
     pub fn bridge_loops(&mut self, h: HalfEdgeId, g: HalfEdgeId) -> Result<Vec<FaceId>, EditError> {

@@ -56,7 +56,7 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let mut mesh = mesh::shapes::icosahedron();
+    /// let mut mesh = geometry::shapes::icosahedron();
     /// let e = mesh.edges().next().unwrap();
     /// let v = mesh.collapse_edge(e)?;
     /// assert_eq!((mesh.n_vertices(), mesh.n_faces()), (11, 18));

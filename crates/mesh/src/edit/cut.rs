@@ -43,13 +43,13 @@ impl Mesh {
     ///
     /// ```
     /// // The ring around the middle of an octahedron: two pyramids.
-    /// let mut mesh = mesh::shapes::octahedron();
+    /// let mut mesh = geometry::shapes::octahedron();
     /// let ring: Vec<_> = mesh
     ///     .edges()
     ///     .filter(|&e| mesh.edge_vertices(e).iter().all(|&v| mesh.position(v).z == 0.0))
     ///     .collect();
     /// mesh.cut_edges(&ring)?;
-    /// assert_eq!((mesh.n_components(), mesh.n_vertices()), (2, 10));
+    /// assert_eq!((geometry::n_components(&mesh), mesh.n_vertices()), (2, 10));
     /// # Ok::<(), mesh::EditError>(())
     /// ```
     pub fn cut_edges(&mut self, edges: &[EdgeId]) -> Result<Vec<EdgeId>, EditError> {

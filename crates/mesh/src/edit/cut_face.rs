@@ -1,6 +1,6 @@
 //! Cutting a face along several diagonals at once.
 
-use crate::{EdgeId, FaceId, HalfEdgeId, Mesh};
+use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh};
 
 /// The parts of a polygon with `n` corners that diagonals leave, each as its half-edges in order. Corners
 /// are counted from 0 along the face. Half-edges below `n` are the sides, each from the corner of its
@@ -16,7 +16,7 @@ use crate::{EdgeId, FaceId, HalfEdgeId, Mesh};
 ///
 /// They come in order of their lowest half-edge, and begin with it. `None` if diagonals cross, or a part
 /// would have fewer than three sides.
-pub(super) fn parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>> {
+pub fn polygon_parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>> {
     // The half-edges that leave each corner inside the polygon, counter-clockwise from its side: those to
     // the nearest corners ahead come first.
     let mut leaving: Vec<(usize, usize, usize)> = Vec::with_capacity(2 * diagonals.len());
@@ -59,22 +59,42 @@ pub(super) fn parts(n: usize, diagonals: &[[u32; 2]]) -> Option<Vec<Vec<usize>>>
 }
 
 impl Mesh {
-    /// Cuts the face of `sides`, all its half-edges from [`Mesh::face_half_edge`] on, into [`parts`].
+    /// Cuts a face along diagonals, given as pairs of its corners: the parts are [`polygon_parts`].
     ///
     /// The diagonals become edges in their order, each from its first corner to its second. The first part
     /// keeps the face and its first corner, the others are new faces in their order with the values of the
     /// old one. Corners at diagonals have the values of the corners they come from; edges have zero values.
+    /// A diagonal may join two vertices that share an edge already.
     ///
-    /// Returns the faces. There must be room.
-    pub(super) fn cut_face(
+    /// Returns the faces.
+    ///
+    /// # Errors
+    ///
+    /// [`EditError::Pinch`] if a diagonal begins and ends at one vertex, which the face passes twice,
+    /// [`EditError::NoCut`] if diagonals cross, repeat or follow a side, [`EditError::NoSuchFace`],
+    /// [`EditError::Full`]. The mesh is unchanged.
+    ///
+    /// # Panics
+    ///
+    /// If a diagonal names a corner that the face does not have.
+    pub fn cut_face(
         &mut self,
-        sides: &[HalfEdgeId],
+        f: FaceId,
         diagonals: &[[u32; 2]],
-        parts: &[Vec<usize>],
-    ) -> Vec<FaceId> {
+    ) -> Result<Vec<FaceId>, EditError> {
+        self.check_face(f)?;
+        let sides: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
+        let ends = |diagonal: &[u32; 2]| diagonal.map(|corner| self.origin(sides[corner as usize]));
+        if let Some([v, _]) = diagonals.iter().map(ends).find(|[v, w]| v == w) {
+            return Err(EditError::Pinch(v));
+        }
+        let Some(parts) = polygon_parts(sides.len(), diagonals) else {
+            let [v, w] = ends(&diagonals[0]);
+            return Err(EditError::NoCut(v, w));
+        };
+        self.check_room(2 * diagonals.len())?;
         self.drop_columns_by_rule();
-        let f = self.face(sides[0]).expect("the sides of a face");
-        let mut half_edges = sides.to_vec();
+        let mut half_edges = sides.clone();
         for diagonal in diagonals {
             let [x, y] = diagonal.map(|corner| sides[corner as usize]);
             let e: EdgeId = self.push_edge(self.origin(x), self.origin(y));
@@ -99,7 +119,7 @@ impl Mesh {
             }
             faces.push(face);
         }
-        faces
+        Ok(faces)
     }
 }
 
@@ -109,11 +129,11 @@ mod tests {
 
     #[test]
     fn parts_come_in_order_of_their_lowest_half_edge() {
-        assert_eq!(parts(3, &[]).unwrap(), [[0, 1, 2]]);
-        assert_eq!(parts(4, &[[0, 2]]).unwrap(), [[0, 1, 5], [2, 3, 4]]);
-        assert_eq!(parts(4, &[[2, 0]]).unwrap(), [[0, 1, 4], [2, 3, 5]]);
+        assert_eq!(polygon_parts(3, &[]).unwrap(), [[0, 1, 2]]);
+        assert_eq!(polygon_parts(4, &[[0, 2]]).unwrap(), [[0, 1, 5], [2, 3, 4]]);
+        assert_eq!(polygon_parts(4, &[[2, 0]]).unwrap(), [[0, 1, 4], [2, 3, 5]]);
         // A triangle inside a hexagon has no side of it.
-        let inner = parts(6, &[[0, 2], [2, 4], [0, 4]]).unwrap();
+        let inner = polygon_parts(6, &[[0, 2], [2, 4], [0, 4]]).unwrap();
         assert_eq!(inner, [[0, 1, 7], [2, 3, 9], [4, 5, 10], [6, 8, 11]]);
     }
 
@@ -126,7 +146,7 @@ mod tests {
             vec![[4, 0]],
             vec![[1, 4], [0, 2], [2, 4]],
         ] {
-            assert_eq!(parts(5, &diagonals), None, "{diagonals:?}");
+            assert_eq!(polygon_parts(5, &diagonals), None, "{diagonals:?}");
         }
     }
 }

@@ -29,7 +29,7 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let mut mesh = mesh::shapes::cube();
+    /// let mut mesh = geometry::shapes::cube();
     /// let e = mesh.edges().next().unwrap();
     /// let f = mesh.dissolve_edge(e)?;
     /// assert_eq!((mesh.n_faces(), mesh.degree(f)), (5, 6));

@@ -45,7 +45,7 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let mut mesh = mesh::shapes::icosahedron();
+    /// let mut mesh = geometry::shapes::icosahedron();
     /// let v = mesh.vertices().next().unwrap();
     /// let f = mesh.dissolve_vertex(v)?;
     /// assert_eq!((mesh.n_faces(), mesh.degree(f)), (16, 5));

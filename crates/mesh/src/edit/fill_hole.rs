@@ -1,6 +1,5 @@
 //! Filling a hole with one face, or with triangles.
 
-mod ears;
 #[cfg(test)]
 mod tests;
 
@@ -35,7 +34,7 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let mut mesh = mesh::shapes::cylinder(6, false);
+    /// let mut mesh = geometry::shapes::cylinder(6, false);
     /// for h in mesh.boundary_loops() {
     ///     mesh.fill_hole(h)?;
     /// }
@@ -54,7 +53,9 @@ impl Mesh {
         Ok(f)
     }
 
-    /// Puts triangles over the hole of `h`, a half-edge without a face.
+    /// Covers the hole of `h`, a half-edge without a face, with triangles: each number in `ears` is the place
+    /// on the rim, counted from `h`, of a vertex that is cut off by the edge between the two beside it that
+    /// are left.
     ///
     /// ```text
     ///    +-----+-----+          +-----+-----+
@@ -64,39 +65,68 @@ impl Mesh {
     ///    +-----+--h--+          +-----+-----+
     /// ```
     ///
-    /// Up to 500 edges the triangles have the smallest total area of all that use the vertices
-    /// around the hole and no others: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron",
-    /// 1995, in time n³. Where several choices have the same area, as in a flat hole, the triangles are as
-    /// near to equilateral as they can be together: a measure of shape is added to each area, at most a
-    /// millionth of the mean square of the edges around the hole.
-    ///
-    /// Around larger holes the corner whose neighbours are nearest to each other is cut off again and again,
-    /// in time n log n; corners that are straight or turn outwards, as seen along the mean normal, come
-    /// last. In a hole that is far from convex these triangles may overlap.
-    ///
-    /// No two vertices are joined that share an edge already.
-    ///
-    /// All ids stay; the new faces and edges are numbered in the order of the triangles returned, which
-    /// depends on `h` and on the shape of the hole. Faces take the values of the one beside `h`, and edges
-    /// zero values. All corners at a vertex take those of one corner, as in [`fill_hole`](Self::fill_hole).
+    /// All ids stay; the new faces and edges are numbered in the order of `ears`. Faces take the values of the
+    /// one beside `h`, and edges zero values. All corners at a vertex take those of one corner, as in
+    /// [`fill_hole`](Self::fill_hole).
     ///
     /// Returns the triangles.
     ///
     /// # Errors
     ///
-    /// [`EditError::DuplicateEdge`] if there are no triangles without an edge that is there already (for
-    /// large holes: if none are found), [`EditError::Full`], and those of [`fill_hole`](Self::fill_hole). The
-    /// mesh is unchanged.
-    pub fn fill_hole_triangles(&mut self, h: HalfEdgeId) -> Result<Vec<FaceId>, EditError> {
+    /// [`EditError::Full`], and those of [`fill_hole`](Self::fill_hole). The mesh is unchanged.
+    ///
+    /// # Panics
+    ///
+    /// If `ears` are not as many different places as the hole has edges, less two.
+    pub fn fill_hole_by_ears(
+        &mut self,
+        h: HalfEdgeId,
+        ears: &[usize],
+    ) -> Result<Vec<FaceId>, EditError> {
         let rim = self.rim(h)?;
-        let ears = ears::ears(self, &rim)?;
-        self.check_room(2 * rim.len())?;
+        let n = rim.len();
+        self.check_room(2 * n)?;
+        let mut sorted = ears.to_vec();
+        sorted.sort_unstable();
+        sorted.dedup();
+        assert_eq!(
+            [sorted.len(), ears.len()],
+            [n - 2; 2],
+            "n - 2 different ears"
+        );
         self.drop_columns_by_rule();
-        Ok(self.cut_ears(&rim, &ears))
+        let corners: Vec<HalfEdgeId> = rim.iter().map(|&h| self.corner_beside(h)).collect();
+        let mut next: Vec<usize> = (1..n).chain([0]).collect();
+        let mut before: Vec<usize> = [n - 1].into_iter().chain(0..n - 1).collect();
+        // For each vertex that is left the half-edge to the next one, on the side of the hole.
+        let mut front = rim.clone();
+        let mut triangles = Vec::with_capacity(ears.len());
+        for &ear in ears {
+            let (p, q) = (before[ear], next[ear]);
+            let mut sides = [front[p], front[ear], front[q]];
+            if next[q] != p {
+                let e = self.push_edge(self.origin(rim[q]), self.origin(rim[p]));
+                [sides[2], front[p]] = e.half_edges();
+                (next[p], before[q]) = (q, p);
+            }
+            let f = self.push_face(sides[0]);
+            self.copy_face_beside(rim[0], f);
+            for (i, corner) in [p, ear, q].into_iter().enumerate() {
+                self.set_next(sides[i], sides[(i + 1) % 3]);
+                self.set_face(sides[i], Some(f));
+                self.copy_values(corners[corner], sides[i]);
+            }
+            triangles.push(f);
+        }
+        Ok(triangles)
     }
 
-    /// The half-edges around a hole, beginning with `h`.
-    fn rim(&self, h: HalfEdgeId) -> Result<Vec<HalfEdgeId>, EditError> {
+    /// The half-edges around the hole of `h`, beginning with it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`fill_hole`](Self::fill_hole).
+    pub fn rim(&self, h: HalfEdgeId) -> Result<Vec<HalfEdgeId>, EditError> {
         self.check_half_edge(h)?;
         if self.face(h).is_some() {
             return Err(EditError::NotBoundary(h.edge()));
@@ -123,35 +153,5 @@ impl Mesh {
         if let Some(beside) = self.face(h.twin()) {
             self.copy_values(beside, f);
         }
-    }
-
-    /// Covers a hole with triangles: each number in `ears` is the place on the rim of a vertex that is cut
-    /// off by the edge between the two beside it that are left.
-    fn cut_ears(&mut self, rim: &[HalfEdgeId], ears: &[usize]) -> Vec<FaceId> {
-        let n = rim.len();
-        let corners: Vec<HalfEdgeId> = rim.iter().map(|&h| self.corner_beside(h)).collect();
-        let mut next: Vec<usize> = (1..n).chain([0]).collect();
-        let mut before: Vec<usize> = [n - 1].into_iter().chain(0..n - 1).collect();
-        // For each vertex that is left the half-edge to the next one, on the side of the hole.
-        let mut front = rim.to_vec();
-        let mut triangles = Vec::with_capacity(ears.len());
-        for &ear in ears {
-            let (p, q) = (before[ear], next[ear]);
-            let mut sides = [front[p], front[ear], front[q]];
-            if next[q] != p {
-                let e = self.push_edge(self.origin(rim[q]), self.origin(rim[p]));
-                [sides[2], front[p]] = e.half_edges();
-                (next[p], before[q]) = (q, p);
-            }
-            let f = self.push_face(sides[0]);
-            self.copy_face_beside(rim[0], f);
-            for (i, corner) in [p, ear, q].into_iter().enumerate() {
-                self.set_next(sides[i], sides[(i + 1) % 3]);
-                self.set_face(sides[i], Some(f));
-                self.copy_values(corners[corner], sides[i]);
-            }
-            triangles.push(f);
-        }
-        triangles
     }
 }

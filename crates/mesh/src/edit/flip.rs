@@ -39,7 +39,8 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// use mesh::{EditError, shapes};
+    /// use geometry::shapes;
+    /// use mesh::EditError;
     ///
     /// let mut mesh = shapes::octahedron();
     /// let e = mesh.edges().next().unwrap();
@@ -121,24 +122,6 @@ impl Mesh {
             before = self.next(before);
         }
         before
-    }
-
-    /// Whether the origins of `x` and `y` share an edge. Walks around both at once, so that an end of
-    /// few edges answers for one of many.
-    #[inline]
-    pub(super) fn share_an_edge(&self, x: HalfEdgeId, y: HalfEdgeId) -> bool {
-        let (v, w) = (self.origin(x), self.origin(y));
-        let (mut a, mut b) = (x, y);
-        loop {
-            if self.target(a) == w || self.target(b) == v {
-                return true;
-            }
-            a = self.next(a.twin());
-            b = self.next(b.twin());
-            if a == x || b == y {
-                return false;
-            }
-        }
     }
 }
 

@@ -2,7 +2,6 @@
 //! array as it was.
 
 mod bevel;
-mod bisect;
 mod bridge;
 mod collapse;
 mod cut;
@@ -23,9 +22,8 @@ mod split_vertex;
 mod stitch;
 #[cfg(test)]
 mod testing;
-mod triangulate_face;
 
-pub use bisect::Bisection;
+pub use cut_face::polygon_parts;
 pub use flip::Seams;
 
 use crate::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};

@@ -35,7 +35,7 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let mut mesh = mesh::shapes::tetrahedron();
+    /// let mut mesh = geometry::shapes::tetrahedron();
     /// let e = mesh.edges().next().unwrap();
     /// let m = mesh.split_edge(e, 0.5)?;
     /// assert_eq!(mesh.valence(m), 4);
@@ -43,14 +43,11 @@ impl Mesh {
     /// ```
     pub fn split_edge(&mut self, e: EdgeId, t: f64) -> Result<VertexId, EditError> {
         self.check_edge(e)?;
-        if !(t > 0.0 && t < 1.0) {
-            return Err(EditError::OutsideEdge(t));
-        }
         self.check_room(6)?;
         let [am, ma] = e.half_edges();
         let cuts = [am, ma].map(|h| self.face(h).is_some_and(|f| self.is_triangle(f)));
 
-        let [mb, bm] = self.insert_vertex(e, t).half_edges();
+        let [mb, bm] = self.insert_vertex(e, t)?.half_edges();
         // The cuts to the far corners: b's part of each triangle becomes a new face.
         if cuts[0] {
             let opposite = self.next(self.next(mb));
@@ -63,9 +60,20 @@ impl Mesh {
         Ok(self.origin(mb))
     }
 
-    /// Puts a vertex m on `e`, from a to b, and lets the faces beside it gain a corner, triangles too. `e`
-    /// becomes a-m. Returns the new edge m-b, whose first half begins at m. There must be room for it.
-    pub(super) fn insert_vertex(&mut self, e: EdgeId, t: f64) -> EdgeId {
+    /// Puts a vertex m on `e`, from a to b, as [`split_edge`](Self::split_edge), but lets the faces beside it
+    /// gain a corner, triangles too.
+    ///
+    /// Returns the new edge m-b, whose first half begins at m.
+    ///
+    /// # Errors
+    ///
+    /// As [`split_edge`](Self::split_edge).
+    pub fn insert_vertex(&mut self, e: EdgeId, t: f64) -> Result<EdgeId, EditError> {
+        self.check_edge(e)?;
+        if !(t > 0.0 && t < 1.0) {
+            return Err(EditError::OutsideEdge(t));
+        }
+        self.check_room(2)?;
         let [am, ma] = e.half_edges();
         let (a, b) = (self.origin(am), self.origin(ma));
         let (after_b, before_b) = (self.next(am), self.prev(ma));
@@ -98,7 +106,7 @@ impl Mesh {
         if self.vertex_half_edge(b) == Some(ma) {
             self.set_vertex_half_edge(b, Some(bm));
         }
-        new
+        Ok(new)
     }
 
     /// Marks all isolated vertices dead and returns how many there were.

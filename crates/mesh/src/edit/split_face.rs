@@ -29,7 +29,7 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let mut mesh = mesh::shapes::square();
+    /// let mut mesh = geometry::shapes::square();
     /// let x = mesh.face_half_edge(mesh.faces().next().unwrap());
     /// let e = mesh.split_face(x, mesh.next(mesh.next(x)))?;
     /// assert_eq!(mesh.n_faces(), 2);

@@ -41,7 +41,7 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let mut mesh = mesh::shapes::octahedron();
+    /// let mut mesh = geometry::shapes::octahedron();
     /// let before = mesh.clone();
     /// let v = mesh.vertices().next().unwrap();
     /// let around: Vec<_> = mesh.vertex_half_edges(v).collect();

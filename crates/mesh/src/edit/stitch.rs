@@ -39,7 +39,7 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// let mut mesh = mesh::shapes::cube();
+    /// let mut mesh = geometry::shapes::cube();
     /// let path: Vec<_> = mesh.vertex_half_edges(mesh.vertices().next().unwrap()).collect();
     /// let path = [path[0].edge(), path[1].edge()];
     /// let cut = mesh.cut_edges(&path)?;

@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::{Files, NoProgress};
-use mesh::{EdgeId, FaceId, shapes};
+use geometry::shapes;
+use mesh::{EdgeId, FaceId};
 use proptest::prelude::*;
 
 fn edges(selection: &EdgeSelection, mesh: &Mesh) -> Vec<EdgeId> {

@@ -9,11 +9,10 @@ use std::collections::HashSet;
 use mesh::Domain;
 use op::{Loss, MeshPlan, Plan, PlannedAttribute, PlannedGeometry};
 
-use crate::diagnostic::{Diagnostic, Span};
 use crate::expect::Expectation;
 use crate::recipe::{OnLoss, Placed, RecipeStep};
 use crate::shape::did_you_mean;
-use crate::syntax::{Value, ValueKind};
+use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 /// What steps have dropped so far.
 #[derive(Debug, Default)]

@@ -6,7 +6,7 @@ use mesh::{DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use super::attributes::{AttributeDifference, differences};
 use crate::expect::same_faces;
-use mesh::distance::Distance;
+use geometry::distance::Distance;
 
 /// Two meshes side by side; pairs are of the first and the second.
 #[derive(Clone, Debug)]
@@ -105,11 +105,11 @@ impl Counts {
             vertices: mesh.n_vertices(),
             edges: mesh.n_edges(),
             faces: mesh.n_faces(),
-            components: mesh.n_components(),
+            components: geometry::n_components(&mesh),
             boundary_loops: mesh.n_boundary_loops(),
-            area: mesh.area(),
-            volume: mesh.volume(),
-            bounds: mesh.bounds(),
+            area: geometry::area(&mesh),
+            volume: geometry::volume(&mesh),
+            bounds: geometry::bounds(&mesh),
         }
     }
 }

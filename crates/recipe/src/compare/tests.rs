@@ -1,6 +1,7 @@
 //! Scenes that differ in one thing at a time.
 
-use mesh::{DVec2, DVec3, Domain, Mesh, UV, VertexId, shapes};
+use geometry::shapes;
+use mesh::{DVec2, DVec3, Domain, Mesh, UV, VertexId};
 use scene::Material;
 
 use super::*;

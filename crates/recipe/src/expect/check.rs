@@ -7,7 +7,7 @@ use scene::Object;
 use super::places::double_edges;
 use super::subject::{Failure, Found, Subject, ends, fails_unless, near, selected, within};
 use super::{Expectation, output, same, symmetry};
-use mesh::distance::{Distance, TOLERANCE, diagonal};
+use geometry::distance::{Distance, TOLERANCE, diagonal};
 
 /// An expectation that does not hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,7 +97,7 @@ impl Expectation {
             ),
             Self::Components { eq, min, max } => within(
                 "components",
-                subject.sum(|m| m.n_components() as u64)?,
+                subject.sum(|m| geometry::n_components(m) as u64)?,
                 *eq,
                 *min,
                 *max,
@@ -111,7 +111,7 @@ impl Expectation {
                 within("as Euler characteristic", found, *eq, *min, *max)
             }
             Self::Genus { eq, min, max } => {
-                within("as genus", subject.sum(Mesh::genus)?, *eq, *min, *max)
+                within("as genus", subject.sum(geometry::genus)?, *eq, *min, *max)
             }
             Self::Area {
                 eq,
@@ -120,7 +120,7 @@ impl Expectation {
                 tolerance,
             } => near(
                 "an area",
-                subject.sum(Mesh::area)?,
+                subject.sum(geometry::area)?,
                 [*eq, *min, *max],
                 *tolerance,
             ),
@@ -131,7 +131,7 @@ impl Expectation {
                 tolerance,
             } => near(
                 "a volume",
-                subject.sum(Mesh::volume)?,
+                subject.sum(geometry::volume)?,
                 [*eq, *min, *max],
                 *tolerance,
             ),

@@ -8,9 +8,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::subject::{Failure, Subject};
-use super::{Other, ReadObjects};
+use super::{Other, Reader};
 use crate::run::Outcome;
-use mesh::distance::Distance;
+use geometry::distance::Distance;
 
 /// What is kept of a run. Where it speaks of the mesh, it means all meshes at the end together.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -64,7 +64,7 @@ pub enum Measured {
 }
 
 impl Metric {
-    /// Measures a run that succeeded. `files` and `read` serve to read what it is compared with.
+    /// Measures a run that succeeded. `files` and `reader` serve to read what it is compared with.
     ///
     /// # Errors
     ///
@@ -73,14 +73,14 @@ impl Metric {
         &self,
         outcome: &Outcome,
         files: &Files,
-        read: ReadObjects,
+        reader: &dyn Reader,
     ) -> Result<Measured, String> {
         let scene = outcome.scene.as_ref();
         let subject = Subject {
             scene: scene.ok_or("the scene stayed in the cache")?,
             on: None,
             files,
-            read,
+            reader,
         };
         let whole = |n: usize| Measured::Whole(i64::try_from(n).unwrap_or(i64::MAX));
         Ok(match self {
@@ -88,12 +88,12 @@ impl Metric {
             Self::Vertices => whole(subject.points()?.len()),
             Self::Edges => whole(subject.sum(Mesh::n_edges)?),
             Self::Faces => whole(subject.sum(Mesh::n_faces)?),
-            Self::Components => whole(subject.sum(Mesh::n_components)?),
+            Self::Components => whole(subject.sum(geometry::n_components)?),
             Self::BoundaryLoops => whole(subject.sum(Mesh::n_boundary_loops)?),
             Self::EulerCharacteristic => Measured::Whole(subject.sum(Mesh::euler_characteristic)?),
-            Self::Genus => Measured::Whole(subject.sum(Mesh::genus)?),
-            Self::Area => Measured::Number(subject.sum(Mesh::area)?),
-            Self::Volume => Measured::Number(subject.sum(Mesh::volume)?),
+            Self::Genus => Measured::Whole(subject.sum(geometry::genus)?),
+            Self::Area => Measured::Number(subject.sum(geometry::area)?),
+            Self::Volume => Measured::Number(subject.sum(geometry::volume)?),
             Self::MinAngle => {
                 let smallest = subject.smallest_angle(&FaceSelection::All);
                 Measured::Number(smallest.map_err(Failure::into_message)?.0)

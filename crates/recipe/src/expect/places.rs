@@ -1,6 +1,6 @@
 //! Where an expectation does not hold: the elements that break it, for pictures.
 
-use mesh::distance::Distance;
+use geometry::distance::Distance;
 use mesh::{DVec3, EdgeId, Element, FaceId, Mesh, VertexId};
 use op::{Elements, Place, Select};
 use scene::Object;

@@ -8,11 +8,13 @@ mod same;
 
 use std::path::Path;
 
-use mesh::{DVec3, Mesh, shapes};
+use geometry::shapes;
+use mesh::{DVec3, Mesh};
 use op::Files;
 use scene::{Geometry, Object, Scene};
 
 use super::{Expectation, Subject};
+use crate::tests::objects;
 
 /// A scene with these meshes.
 fn scene(meshes: impl IntoIterator<Item = (&'static str, Mesh)>) -> Scene {
@@ -41,9 +43,7 @@ fn lines() -> Scene {
 }
 
 fn expectation(text: &str) -> Expectation {
-    crate::syntax::ron_options()
-        .from_str(text)
-        .unwrap_or_else(|error| panic!("{text}: {error}"))
+    ron_tree::from_str(text).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
 /// Holds an expectation against some objects of a scene. The file `octahedron.obj` holds one, every
@@ -53,18 +53,18 @@ fn check_on(scene: &Scene, on: Option<&[String]>, text: &str) -> Result<(), Stri
         input: "folder".into(),
         ..Files::default()
     };
-    let read = |path: &Path, _: &Files| {
+    let reader = objects(|path, _| {
         if path == Path::new("folder/octahedron.obj") {
             Ok(vec![Object::mesh("octahedron", shapes::octahedron())])
         } else {
             Err(format!("{} is broken", path.display()))
         }
-    };
+    });
     let subject = Subject {
         scene,
         on,
         files: &files,
-        read: &read,
+        reader: &reader,
     };
     expectation(text).check(subject)
 }

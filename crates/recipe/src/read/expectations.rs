@@ -5,7 +5,7 @@ use crate::expect::Expectation;
 use crate::recipe::Placed;
 use crate::schema;
 use crate::shape::{check_shape, did_you_mean};
-use crate::syntax::{Value, ValueKind};
+use ron_tree::{Value, ValueKind};
 
 impl Reader<'_, '_> {
     /// `Name(..)`, or `(after: "id", on: [..], that: Name(..) or a list of them)`. Puts it behind the steps

@@ -16,15 +16,16 @@ pub(crate) use flow::Kind;
 use std::path::{Path, PathBuf};
 
 use op::Registry;
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
+use store::{Disk, Store};
 
-use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::recipe::{OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, located};
 use crate::schema::{self, Schemas};
 use crate::shape::{self, check_shape};
 use crate::source::Source;
-use crate::syntax::{self, Value, ValueKind};
+use ron_tree::{Diagnostic, Severity, Span, Value, ValueKind};
 
 /// The version of recipes that this program reads.
 pub const VERSION: i128 = 1;
@@ -64,20 +65,21 @@ pub struct Values<'a> {
 
 /// Reads a recipe, and those that it calls.
 pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
-    read_by(&Schemas::new(registry), source, values)
+    read_by(&Schemas::new(registry), &Disk, source, values)
 }
 
-/// The same with schemas that serve several recipes.
-pub fn read_by(schemas: &Schemas, source: &Source, values: Values) -> Reading {
+/// The same with schemas that serve several recipes; recipes that are called are read from `store`.
+pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Values) -> Reading {
     let mut shared = Shared {
         schemas,
+        store,
         sources: vec![source.clone()],
         scopes: vec![Scope {
             source: 0,
             parameters: Vec::new(),
             called: None,
         }],
-        real: vec![real(&source.path)],
+        real: vec![real(store, &source.path)],
         left: MAX_STEPS,
         diagnostics: Vec::new(),
     };
@@ -118,6 +120,8 @@ pub fn read_by(schemas: &Schemas, source: &Source, values: Values) -> Reading {
 /// What the texts of one recipe share while they are read.
 struct Shared<'a> {
     schemas: &'a Schemas<'a>,
+    /// Where recipes that are called are.
+    store: &'a dyn Store,
     sources: Vec<Source>,
     /// The files of the sources, links followed.
     real: Vec<PathBuf>,
@@ -128,8 +132,8 @@ struct Shared<'a> {
 }
 
 /// A path with its links followed, if the file is there.
-fn real(path: &Path) -> PathBuf {
-    path.canonicalize().unwrap_or_else(|_| path.to_owned())
+fn real(store: &dyn Store, path: &Path) -> PathBuf {
+    store.canonical(path).unwrap_or_else(|_| path.to_owned())
 }
 
 /// A step, and what hangs on it.
@@ -186,7 +190,7 @@ impl<'s, 'a> Reader<'s, 'a> {
     /// and what must hold at the end.
     fn text(&mut self, values: impl FnOnce(&mut Self)) -> (Vec<Draft>, Vec<Placed>) {
         let text = self.source.text.clone();
-        let parsed = syntax::parse(&text);
+        let parsed = ron_tree::parse(&text);
         let root = &parsed.value;
         self.diagnostics.extend(parsed.diagnostics);
         let nothing = (Vec::new(), Vec::new());
@@ -208,9 +212,7 @@ impl<'s, 'a> Reader<'s, 'a> {
         }
         if let Some(on_loss) = root.field("on_loss") {
             // A wrong one was reported with the envelope.
-            if let Ok(on_loss) = syntax::ron_options().from_str(&on_loss.to_string()) {
-                self.on_loss = on_loss;
-            }
+            self.on_loss = OnLoss::deserialize(on_loss).unwrap_or_default();
         }
         self.declare(root.field("params"));
         self.declare_presets(root.field("presets"));

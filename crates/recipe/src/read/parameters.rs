@@ -1,19 +1,19 @@
 //! The parameters of a text: declared, given values, and filled in.
 
 use super::{Reader, Values};
-use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::params::{Move, Param};
 use crate::recipe::{Origin, Parameter};
 use crate::schema;
 use crate::shape::did_you_mean;
-use crate::syntax::{self, Value, ValueKind};
+use crate::substitute::substitute;
+use ron_tree::{Diagnostic, Severity, Span, Value, ValueKind};
 
 /// Values for some parameters, under one name.
 pub(super) struct Preset {
     /// Its name.
     pub(super) name: String,
-    /// Names of parameters and their values as RON.
-    literals: Vec<(String, String)>,
+    /// Names of parameters and their values.
+    values: Vec<(String, Value)>,
 }
 
 impl Reader<'_, '_> {
@@ -25,11 +25,11 @@ impl Reader<'_, '_> {
                 self.broken.push(name.to_owned());
                 continue;
             };
-            match param.default_literal() {
-                Ok(literal) => self.parameters.push(Parameter {
+            match param.default_value() {
+                Ok(value) => self.parameters.push(Parameter {
                     name: name.to_owned(),
                     param,
-                    literal,
+                    value,
                     origin: Origin::Default,
                 }),
                 Err(problem) => {
@@ -45,23 +45,22 @@ impl Reader<'_, '_> {
     pub(super) fn declare_presets(&mut self, presets: Option<&Value>) {
         for (key, values) in entries(presets) {
             let Some(name) = key.as_str() else { continue };
-            let literals = self.literals(values, None);
-            let (literals, wrong) = literals;
+            let (values, wrong) = self.values_of(values, None);
             self.diagnostics.extend(wrong);
             self.presets.push(Preset {
                 name: name.to_owned(),
-                literals,
+                values,
             });
         }
     }
 
-    /// The values of `{"name": value}` as RON, and what is wrong with them.
-    pub(super) fn literals(
+    /// The values of `{"name": value}`, and what is wrong with them.
+    pub(super) fn values_of(
         &self,
         values: &Value,
         folders: Option<Move>,
-    ) -> (Vec<(String, String)>, Vec<Diagnostic>) {
-        let (mut literals, mut wrong) = (Vec::new(), Vec::new());
+    ) -> (Vec<(String, Value)>, Vec<Diagnostic>) {
+        let (mut found, mut wrong) = (Vec::new(), Vec::new());
         for (key, value) in entries(Some(values)) {
             let Some(name) = key.as_str() else { continue };
             if self.broken.iter().any(|b| b == name) || value.has_errors() {
@@ -69,8 +68,8 @@ impl Reader<'_, '_> {
             }
             match self.parameters.iter().find(|p| p.name == name) {
                 None => wrong.push(self.unknown(name, key.span)),
-                Some(parameter) => match parameter.param.literal_of(value, folders) {
-                    Ok(literal) => literals.push((name.to_owned(), literal)),
+                Some(parameter) => match parameter.param.value_from(value, folders) {
+                    Ok(value) => found.push((name.to_owned(), value)),
                     Err(problem) => {
                         let message = format!("this value of `{name}` is not allowed: {problem}");
                         wrong.push(Diagnostic::error(value.span, message));
@@ -78,14 +77,14 @@ impl Reader<'_, '_> {
                 },
             }
         }
-        (literals, wrong)
+        (found, wrong)
     }
 
     /// Gives parameters values.
-    pub(super) fn assign(&mut self, literals: &[(String, String)], origin: &Origin) {
-        for (name, literal) in literals {
+    pub(super) fn assign(&mut self, values: &[(String, Value)], origin: &Origin) {
+        for (name, value) in values {
             if let Some(parameter) = self.parameters.iter_mut().find(|p| p.name == *name) {
-                (parameter.literal, parameter.origin) = (literal.clone(), origin.clone());
+                (parameter.value, parameter.origin) = (value.clone(), origin.clone());
             }
         }
     }
@@ -94,8 +93,8 @@ impl Reader<'_, '_> {
     pub(super) fn choose_preset(&mut self, name: Option<&str>) {
         let Some(name) = name else { return };
         if let Some(preset) = self.presets.iter().find(|p| p.name == name) {
-            let literals = preset.literals.clone();
-            self.assign(&literals, &Origin::Preset(name.to_owned()));
+            let values = preset.values.clone();
+            self.assign(&values, &Origin::Preset(name.to_owned()));
             return;
         }
         let help = if self.presets.is_empty() {
@@ -124,9 +123,11 @@ impl Reader<'_, '_> {
             };
             let to = self.source.folder();
             let from = values.folder.unwrap_or(to);
-            match parameter.param.literal(text, Some(Move { from, to })) {
-                Ok(literal) => {
-                    (parameter.literal, parameter.origin) = (literal, Origin::Set);
+            let store = self.shared.store;
+            let folders = Some(Move { from, to, store });
+            match parameter.param.value_of(text, folders) {
+                Ok(value) => {
+                    (parameter.value, parameter.origin) = (value, Origin::Set);
                 }
                 Err(problem) => {
                     let message = format!("the value set for `{name}` is not allowed: {problem}");
@@ -147,6 +148,7 @@ impl Reader<'_, '_> {
         let mut used = Vec::new();
         // The declarations of these were reported already.
         let mut reported = Vec::new();
+        let mut value = value.clone();
         let resolve = |name: &str, span: Span| {
             used.push(name.to_owned());
             if self.broken.iter().any(|b| b == name) {
@@ -154,19 +156,15 @@ impl Reader<'_, '_> {
             }
             let found = self.parameters.iter().find(|p| p.name == name);
             found
-                .map(|p| p.literal.clone())
+                .map(|p| p.value.clone())
                 .ok_or_else(|| Box::new(self.unknown(name, span)))
         };
-        let filled = syntax::substitute(&self.source.text, value, resolve);
+        let mut wrong = substitute(&mut value, resolve);
         self.used.extend(used);
-        match filled {
-            Ok(substituted) => Some(substituted.value),
-            Err(mut diagnostics) => {
-                diagnostics.retain(|d| d.span.is_none_or(|span| !reported.contains(&span)));
-                self.diagnostics.extend(diagnostics);
-                None
-            }
-        }
+        let is_whole = wrong.is_empty();
+        wrong.retain(|d| d.span.is_none_or(|span| !reported.contains(&span)));
+        self.diagnostics.extend(wrong);
+        is_whole.then_some(value)
     }
 
     /// Warns of parameters that neither an `arg(..)`, an `If` nor a placeholder in a path names. Says

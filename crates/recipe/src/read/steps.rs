@@ -2,15 +2,15 @@
 
 use std::sync::Arc;
 
-use op::{Entry, Step};
+use op::{Entry, Refusal, Step};
+use serde::Deserialize;
 
 use super::{Draft, Kind, MAX_STEPS, Reader, flow};
-use crate::diagnostic::Diagnostic;
-use crate::recipe::RecipeStep;
+use crate::recipe::{OnLoss, RecipeStep};
 use crate::schema;
-use crate::shape::{check_shape, check_step, did_you_mean};
-use crate::syntax::{self, Value, ValueKind};
+use crate::shape::{check_shape, check_step, did_you_mean, unread};
 use crate::upgrade::{self, Rename};
+use ron_tree::{Diagnostic, Value, ValueKind};
 
 impl Reader<'_, '_> {
     /// Reads a list of steps.
@@ -77,10 +77,8 @@ impl Reader<'_, '_> {
             self.error(on.span, format!("{} does not take `on`", entry.name), help);
         }
         // A wrong reason or a wrong name was reported with the envelope.
-        let refused = envelope("refused")
-            .and_then(|reason| syntax::ron_options().from_str(&reason.to_string()).ok());
-        let on_loss = envelope("on_loss")
-            .and_then(|on_loss| syntax::ron_options().from_str(&on_loss.to_string()).ok());
+        let refused = envelope("refused").and_then(|reason| Refusal::deserialize(reason).ok());
+        let on_loss = envelope("on_loss").and_then(|on_loss| OnLoss::deserialize(on_loss).ok());
         // The name keys random choices: an older one must not make others.
         let name = entry.as_ref().map_or(name, |entry| entry.name);
         let step = RecipeStep {
@@ -102,16 +100,12 @@ impl Reader<'_, '_> {
         }
         let renames = upgrade::in_step(run, entry, &schema);
         self.diagnostics.extend(renames.iter().map(Rename::warning));
-        // A name alone stands for a name with nothing in brackets.
-        let parameters = match &checked.in_full(run).kind {
-            ValueKind::Call(call) => call.body.to_string(),
-            _ => "()".to_owned(),
-        };
-        match entry.parse(&parameters) {
+        match entry.parse(&checked.in_full(run)) {
             Ok(step) => Some(step.into()),
             Err(error) => {
-                let message = format!("{}: {}", entry.name, error.code);
-                self.error(run.span, message, "");
+                let mut wrong = unread(run.span, error);
+                wrong.message = format!("{}: {}", entry.name, wrong.message);
+                self.diagnostics.push(wrong);
                 None
             }
         }

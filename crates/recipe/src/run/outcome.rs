@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use scene::{Digest, Scene};
 
 use super::listener::StepDone;
-use crate::diagnostic::Diagnostic;
 use crate::expect::Found;
+use ron_tree::Diagnostic;
 
 /// How a run ended.
 #[derive(Debug)]
 pub struct Outcome {
+    /// The number of the step that the run began with.
+    pub first: usize,
     /// The steps that were done.
     pub steps: Vec<StepDone>,
     /// What went wrong: one failed step, or expectations that do not hold.

@@ -2,8 +2,7 @@
 
 use super::schema::Schema;
 use super::{Checker, Place, listed, nearest};
-use crate::diagnostic::Span;
-use crate::syntax::{Field, Value, ValueKind};
+use ron_tree::{Field, Span, Value, ValueKind};
 
 impl Checker {
     /// Checks `(a: 1, b: 2)`.

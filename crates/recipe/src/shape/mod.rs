@@ -30,9 +30,8 @@ mod variants;
 pub use nearest::{did_you_mean, nearest};
 pub(crate) use shorthand::Checked;
 
-use crate::diagnostic::{Diagnostic, Span};
-use crate::syntax::{self, Value, ValueKind};
 use crate::upgrade::Rename;
+use ron_tree::{Diagnostic, Span, Value, ValueKind};
 use schema::Schema;
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
@@ -66,9 +65,13 @@ pub(crate) fn typed<T: DeserializeOwned>(
     if !checked.wrong.is_empty() || value.has_errors() {
         return Err(checked.wrong);
     }
-    let text = checked.in_full(value).to_string();
-    let read = syntax::ron_options().from_str(&text);
-    read.map_err(|error| vec![Diagnostic::error(value.span, error.code.to_string())])
+    let read = T::deserialize(&*checked.in_full(value));
+    read.map_err(|error| vec![unread(value.span, error)])
+}
+
+/// A value that fits its schema, and still not its type.
+pub(crate) fn unread(span: Span, error: ron_tree::Error) -> Diagnostic {
+    Diagnostic::error(error.span.unwrap_or(span), error.message)
 }
 
 /// The same for a step `Name(parameters)`, or `Name`, whose name the caller knows already.

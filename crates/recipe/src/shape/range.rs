@@ -2,7 +2,7 @@
 
 use super::schema::Schema;
 use super::{Checker, Place};
-use crate::syntax::{Number, Value};
+use ron_tree::{Number, Value};
 
 impl Checker {
     pub(super) fn check_integer(

@@ -11,8 +11,7 @@ use std::cmp::Reverse;
 
 use super::schema::{Choice, Schema};
 use super::{Checker, MAX_TRIALS, Place, did_you_mean};
-use crate::diagnostic::{Diagnostic, Span};
-use crate::syntax::{Call, Name, Value, ValueKind};
+use ron_tree::{Call, Diagnostic, Name, Span, Value, ValueKind};
 
 /// A value whose outer name was left out.
 #[derive(Clone, Debug)]

@@ -1,8 +1,9 @@
 //! Tests of the check against schemas that `schemars` derives, with `ron` as the judge.
 
 use super::*;
-use crate::syntax::{Lexer, parse, ron_options, substitute, to_json};
+use crate::substitute;
 use proptest::prelude::*;
+use ron_tree::{Lexer, parse, to_json};
 use schemars::{JsonSchema, schema_for};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -524,10 +525,10 @@ fn what_could_not_be_read_is_not_missed() {
 #[test]
 fn a_parameter_is_named_with_its_value() {
     let source = "Everything(levels: arg(\"n\"))";
-    let value = parse(source).value;
-    let filled = substitute(source, &value, |_, _| Ok("9".to_owned())).unwrap();
+    let mut value = parse(source).value;
+    assert_eq!(substitute(&mut value, |_, _| Ok(parse("9").value)), []);
 
-    let found = check_step(&filled.value, &schema()).wrong;
+    let found = check_step(&value, &schema()).wrong;
 
     assert_eq!(
         found[0].message,
@@ -601,6 +602,13 @@ fn deep_selections_are_read_by_ron() {
 
     assert_eq!(problems(&source), [""; 0]);
     assert!(ron_options().from_str::<Everything>(&source).is_ok());
+}
+
+/// The options with which `ron` reads recipes: `Some(..)` may be left out.
+fn ron_options() -> ron::Options {
+    ron::Options::default()
+        .with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
+        .without_recursion_limit()
 }
 
 /// Every token of [`GOOD`], and some that are always wrong somewhere.

@@ -2,8 +2,7 @@
 
 use super::schema::{Choice, Schema};
 use super::{Checker, MAX_TRIALS, Place, counted, listed, nearest};
-use crate::diagnostic::Span;
-use crate::syntax::{Call, Value, ValueKind};
+use ron_tree::{Call, Span, Value, ValueKind};
 
 impl Checker {
     pub(super) fn check_choice(

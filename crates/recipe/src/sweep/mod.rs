@@ -25,12 +25,11 @@ use std::path::Path;
 
 use serde_json::json;
 
-use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::expect::Metric;
 use crate::recipe::Parameter;
 use crate::schema;
 use crate::shape::{self, check_shape, did_you_mean};
-use crate::syntax::{self, Value, ValueKind};
+use ron_tree::{Diagnostic, Severity, Span, Value, ValueKind};
 
 /// The version of sweeps that this program reads.
 pub const SWEEP_VERSION: i128 = 1;
@@ -90,14 +89,14 @@ pub struct Setting {
     /// The value as plain text, as [`read`](crate::read()) takes it; a path is seen from where the sweep
     /// was said to be.
     pub text: String,
-    /// The value as RON, as the sweep has it.
-    pub literal: String,
+    /// The value, as the sweep has it.
+    pub value: Value,
 }
 
 impl Setting {
     /// The value as JSON.
     pub fn json(&self) -> serde_json::Value {
-        syntax::to_json(&syntax::parse(&self.literal).value)
+        ron_tree::to_json(&self.value)
     }
 }
 
@@ -112,7 +111,7 @@ pub struct SweepReading {
 
 /// Reads the text of a sweep.
 pub fn read_sweep(source: &str) -> SweepReading {
-    let parsed = syntax::parse(source);
+    let parsed = ron_tree::parse(source);
     let mut diagnostics = parsed.diagnostics;
     let root = parsed.value;
     let failed = |diagnostics| SweepReading {

@@ -3,7 +3,6 @@ use std::path::Path;
 use super::*;
 use crate::params::Param;
 use crate::recipe::Origin;
-use crate::syntax::ron_options;
 
 fn parameters() -> Vec<Parameter> {
     let declared = [
@@ -16,10 +15,10 @@ fn parameters() -> Vec<Parameter> {
         ("text", "Text(default: \"\")"),
     ];
     let parameter = |(name, text): (&str, &str)| {
-        let param: Param = ron_options().from_str(text).unwrap();
+        let param: Param = ron_tree::from_str(text).unwrap();
         Parameter {
             name: name.to_owned(),
-            literal: param.default_literal().unwrap(),
+            value: param.default_value().unwrap(),
             param,
             origin: Origin::Default,
         }
@@ -116,17 +115,17 @@ fn values_of_every_type_are_held() {
     let set: Vec<_> = grid
         .set
         .iter()
-        .map(|(n, s)| (&**n, &*s.text, &*s.literal))
+        .map(|(n, s)| [n.clone(), s.text.clone(), s.value.to_string()])
         .collect();
     assert_eq!(
         set,
         [
-            ("n", "5", "5"),
-            ("flag", "true", "true"),
-            ("kind", "B", "B"),
-            ("model", "sweeps/b.obj", "\"b.obj\""),
-            ("to", "(1.0, 2.0, 3.0)", "(1.0, 2.0, 3.0)"),
-            ("text", "a\"b", "\"a\\\"b\""),
+            ["n", "5", "5"],
+            ["flag", "true", "true"],
+            ["kind", "B", "B"],
+            ["model", "sweeps/b.obj", "\"b.obj\""],
+            ["to", "(1.0, 2.0, 3.0)", "(1.0, 2.0, 3.0)"],
+            ["text", "a\"b", "\"a\\\"b\""],
         ]
     );
 }

@@ -6,11 +6,10 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{MAX_CELLS, Setting};
-use crate::diagnostic::{Diagnostic, Span};
 use crate::params::Param;
 use crate::schema;
 use crate::shape;
-use crate::syntax::{Value, ValueKind};
+use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 /// Values that are not listed one by one.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -110,7 +109,10 @@ fn range(
         } else {
             format!("{x:?}")
         };
-        literal(param, &text, span)
+        match param.value_of(&text, None) {
+            Ok(value) => Ok(Setting { text, value }),
+            Err(error) => Err(problem(error.to_string())),
+        }
     });
     let settings = together(each);
     // The first of them says it.
@@ -118,16 +120,6 @@ fn range(
         wrong.truncate(1);
         wrong
     })
-}
-
-fn literal(param: &Param, text: &str, span: Span) -> Result<Setting, Vec<Diagnostic>> {
-    match param.literal(text, None) {
-        Ok(literal) => Ok(Setting {
-            text: text.to_owned(),
-            literal,
-        }),
-        Err(problem) => Err(vec![Diagnostic::error(span, problem)]),
-    }
 }
 
 /// One value for a parameter.
@@ -140,14 +132,14 @@ pub(super) fn setting(
         // What could not be read was reported.
         return Err(Vec::new());
     }
-    let literal = param
-        .literal_of(value, None)
-        .map_err(|problem| vec![Diagnostic::error(value.span, problem)])?;
+    let held = param
+        .value_from(value, None)
+        .map_err(|error| vec![Diagnostic::error(value.span, error.to_string())])?;
     // As plain text: what stands in quotes is without them, and all else is as RON has it.
     let text = match (param, value.as_str()) {
         (Param::Path { .. }, Some(path)) => folder.join(path).to_string_lossy().into_owned(),
         (_, Some(text)) => text.to_owned(),
-        (_, None) => literal.clone(),
+        (_, None) => held.to_string(),
     };
-    Ok(Setting { text, literal })
+    Ok(Setting { text, value: held })
 }

@@ -218,7 +218,7 @@ fn a_recipe_is_called_with_values_of_its_own() {
         after,
         [Some(1), Some(2), Some(3), Some(4), Some(4), Some(5)]
     );
-    let model = &recipe.scopes[2].parameters[1].literal;
+    let model = recipe.scopes[2].parameters[1].value.to_string();
     assert_eq!(model, "\"../cow.obj\"", "the file beside the caller");
     let called = &recipe.files(&op::Files::default())[2];
     assert_eq!(called.input, folder.path().join("lib"));
@@ -330,7 +330,7 @@ fn a_preset_goes_before_defaults_and_what_is_set_before_a_preset() {
         };
         let reading = crate::read(&Source::new("a.ron", PRESETS), &registry(), values);
         let parameters = reading.recipe.parameters().iter();
-        let literals: Vec<String> = parameters.map(|p| p.literal.clone()).collect();
+        let literals: Vec<String> = parameters.map(|p| p.value.to_string()).collect();
         (literals.join(" "), reading)
     };
     assert_eq!(with(None, &[]).0, "2 1.0");

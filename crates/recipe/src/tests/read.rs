@@ -1,7 +1,7 @@
 //! Reading: every mistake with its place.
 
 use super::{read, read_with, registry, shown, steps};
-use crate::{Severity, syntax};
+use crate::Severity;
 
 #[track_caller]
 fn one_problem(text: &str, place: &str, message: &str, help: &str) {
@@ -81,7 +81,7 @@ fn a_recipe_without_mistakes_is_read_whole() {
     assert_eq!(reading.diagnostics, []);
     let recipe = reading.recipe;
     assert_eq!(recipe.about.as_deref(), Some("two sheets"));
-    assert_eq!(recipe.parameters()[0].literal, "3");
+    assert_eq!(recipe.parameters()[0].value.to_string(), "3");
     assert_eq!(recipe.steps[0].label(), "Sheet");
     assert_eq!(recipe.steps[1].label(), "up");
     assert_eq!(recipe.steps[1].span.of(text), "Lift");
@@ -189,7 +189,7 @@ fn values_that_are_set_take_the_place_of_defaults() {
     let [n, input] = reading.recipe.parameters() else {
         panic!("two parameters")
     };
-    assert_eq!((n.literal.as_str(), n.is_set()), ("7", true));
+    assert_eq!((n.plain_text(), n.is_set()), ("7".to_owned(), true));
     assert!(!input.is_set());
     let step = reading.recipe.steps[0].step.as_ref().unwrap();
     assert_eq!(step.canonical(), "(columns:7,name:\"models/cow.obj\")");
@@ -271,7 +271,7 @@ fn placeholders_are_the_parts_of_paths() {
         owned([("input.stem", "cow"), ("input.name", "cow.obj")])
     );
     let set = read_with(WITH_PARAMETERS, &[("input", "a/pig.old.obj")]);
-    assert_eq!(set.recipe.parameters()[1].literal, "\"a/pig.old.obj\"");
+    assert_eq!(set.recipe.parameters()[1].plain_text(), "a/pig.old.obj");
     assert_eq!(
         set.recipe.placeholders(),
         owned([("input.stem", "pig.old"), ("input.name", "pig.old.obj")])
@@ -403,7 +403,7 @@ const SAMPLE: &str = r#"(
 fn the_schema_accepts_what_is_read_without_mistakes() {
     let schema = crate::schema(&registry());
     let validator = jsonschema::validator_for(&schema).unwrap();
-    let json = |text: &str| syntax::to_json(&syntax::parse(text).value);
+    let json = |text: &str| ron_tree::to_json(&ron_tree::parse(text).value);
     assert!(!read(SAMPLE).has_errors());
     let sample = json(SAMPLE);
     let errors: Vec<String> = validator

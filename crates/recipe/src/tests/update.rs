@@ -157,7 +157,7 @@ proptest! {
         );
         let outcome = run(&read(&format!("{head}])")));
         let mesh = outcome.scene.unwrap().objects()[0].as_mesh().unwrap().clone();
-        let [min, max] = mesh.bounds().unwrap();
+        let [min, max] = geometry::bounds(&mesh).unwrap();
         let vector = |p: mesh::DVec3, d: f64| format!("({:?}, {:?}, {:?})", p.x, p.y, p.z + d);
         let line = |which: usize, off: i64| {
             #[expect(clippy::cast_precision_loss, reason = "small numbers")]
@@ -166,7 +166,7 @@ proptest! {
                 0 => format!("Faces(eq: {})", int(mesh.n_faces())),
                 1 => format!("Vertices( eq: {} ) /* here */", int(mesh.n_vertices())),
                 2 => format!("(after: \"l\", that: Edges(eq: {}))", int(mesh.n_edges())),
-                3 => format!("Area(eq: {:?}, tolerance: 0.0)", mesh.area() + f),
+                3 => format!("Area(eq: {:?}, tolerance: 0.0)", geometry::area(&mesh) + f),
                 4 => format!("Bounds(min: {}, max: {})", vector(min, f), vector(max, 0.0)),
                 5 => format!("Position(of: Vertices([0]), is: {})", vector(mesh.positions()[0], f)),
                 _ if off == 0 => format!("Digest(\"{}\")", outcome.digest),

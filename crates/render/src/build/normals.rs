@@ -150,7 +150,7 @@ pub(super) fn narrowed(vectors: &[DVec3]) -> Vec<[f32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ::mesh::shapes;
+    use ::geometry::shapes;
 
     fn unit(n: [f32; 3]) -> DVec3 {
         DVec3::from(n.map(f64::from)).normalize_or_zero()
@@ -174,7 +174,7 @@ mod tests {
         let Normals::Given(Channel::Point(normals)) = smooth(&cube, 1.0, 120.0) else {
             panic!("no edge is sharp");
         };
-        let middle = 0.5 * cube.bounds().unwrap().into_iter().sum::<DVec3>();
+        let middle = 0.5 * geometry::bounds(&cube).unwrap().into_iter().sum::<DVec3>();
         for v in cube.vertices() {
             let outwards = (cube.position(v) - middle).normalize();
             assert!((unit(normals[v.index()]) - outwards).length() < 1e-6);

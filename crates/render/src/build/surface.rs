@@ -57,7 +57,8 @@ impl Builder<'_, '_> {
 
 #[cfg(test)]
 mod tests {
-    use mesh::{Attribute, DVec2, DVec3, HalfEdgeId, Mesh, Rule, shapes};
+    use geometry::shapes;
+    use mesh::{Attribute, DVec2, DVec3, HalfEdgeId, Mesh, Rule};
     use scene::{AlphaMode, Filter, Image, Material, Object, Scene};
 
     use crate::{Background, Camera, Overlays, Projection, Shading, Style, Up, picture};

@@ -1,6 +1,7 @@
 use super::*;
+use geometry::shapes;
 use glam::{DVec2, DVec4};
-use mesh::{FaceId, HalfEdgeId, VertexId, shapes};
+use mesh::{FaceId, HalfEdgeId, VertexId};
 use proptest::prelude::*;
 use std::collections::VecDeque;
 

@@ -64,7 +64,7 @@ fn normal([a, b]: &[DVec3; 2]) -> DVec3 {
 /// ```
 /// use subdivision::{Rules, Scheme};
 ///
-/// let cube = mesh::shapes::cube();
+/// let cube = geometry::shapes::cube();
 /// let rules = Rules::of(Scheme::CatmullClark);
 /// let limit = subdivision::limit(&cube, rules, &progress::NoProgress)?;
 /// // Valence 3: 3/8 of the corner, and 4/24 and 1/24 of its neighbors and the corners opposite.

@@ -1,6 +1,7 @@
 //! Butterfly subdivision.
 
-use mesh::{DVec3, EdgeId, Mesh, VertexId, shapes};
+use geometry::shapes;
+use mesh::{DVec3, EdgeId, Mesh, VertexId};
 
 use super::{is_corner, level};
 use crate::Scheme;

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use mesh::{DVec3, Mesh, shapes};
+use geometry::shapes;
+use mesh::{DVec3, Mesh};
 use progress::NoProgress;
 
 use crate::fixtures;

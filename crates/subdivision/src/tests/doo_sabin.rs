@@ -1,7 +1,8 @@
 //! Doo-Sabin subdivision.
 
+use geometry::shapes;
 use mesh::{COLOR, Column, DVec2, DVec3, Domain, FaceId, HalfEdgeId, MATERIAL, Mesh, Rule, UV};
-use mesh::{EdgeId, Values, VertexId, shapes};
+use mesh::{EdgeId, Values, VertexId};
 
 use super::{level, levels};
 use crate::Scheme;

@@ -1,6 +1,7 @@
 //! What holds for connectivity and positions of Loop subdivision whatever the mesh.
 
-use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId, shapes};
+use geometry::shapes;
+use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use super::{is_corner, kind, once};
 use crate::fixtures::{self, corners, sheet};

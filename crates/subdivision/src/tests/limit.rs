@@ -1,6 +1,7 @@
 //! The limit surface: the same from every level, and where known surfaces lie.
 
-use mesh::{CORNER, CREASE, DVec3, Mesh, VertexId, shapes};
+use geometry::shapes;
+use mesh::{CORNER, CREASE, DVec3, Mesh, VertexId};
 use progress::NoProgress;
 
 use crate::fixtures;

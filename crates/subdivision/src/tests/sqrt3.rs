@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use mesh::{DVec2, DVec3, HalfEdgeId, MATERIAL, Mesh, UV, VertexId, shapes};
+use geometry::shapes;
+use mesh::{DVec2, DVec3, HalfEdgeId, MATERIAL, Mesh, UV, VertexId};
 
 use super::{level, levels};
 use crate::Scheme;
@@ -23,7 +24,7 @@ fn an_icosahedron_gets_three_triangles_for_each() {
         (new.n_vertices(), new.n_edges(), new.n_faces()),
         (32, 90, 60)
     );
-    assert_eq!(new.valences()[5..], [12, 20]);
+    assert_eq!(geometry::valences(&new)[5..], [12, 20]);
 }
 
 #[test]

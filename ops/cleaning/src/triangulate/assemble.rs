@@ -4,7 +4,7 @@
 //! follow those of the faces before it, in the order of [`Cut::diagonals`]; the first half of each runs
 //! from its lower corner.
 
-use mesh::triangulate::Cut;
+use geometry::triangulate::Cut;
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 
 /// The mesh with its faces cut; `n_diagonals` is the number of all diagonals. Ids must fit.

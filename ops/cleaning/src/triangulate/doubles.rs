@@ -8,7 +8,7 @@
 //!
 //! A half-edge mesh can have them, but a file of triangles cannot: read again, it falls apart there.
 
-use mesh::triangulate::Cut;
+use geometry::triangulate::Cut;
 use mesh::{FaceId, Mesh, VertexId};
 use rayon::prelude::*;
 

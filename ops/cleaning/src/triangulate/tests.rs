@@ -1,7 +1,8 @@
 //! Tests of the operation.
 
 use super::*;
-use mesh::{Attribute, CREASE, DVec2, DVec3, EdgeId, FaceId, MATERIAL, UV, VertexId, shapes};
+use geometry::shapes;
+use mesh::{Attribute, CREASE, DVec2, DVec3, EdgeId, FaceId, MATERIAL, UV, VertexId};
 use op::Files;
 use op::test::{applied, try_applied};
 use proptest::prelude::*;
@@ -74,8 +75,13 @@ fn shapes_become_triangles_of_the_same_area() {
     ] {
         let (cut, report) = checked(&all(), &mesh);
         assert!(cut.faces().all(|f| cut.is_triangle(f)));
-        assert!((cut.area() - mesh.area()).abs() <= 1e-12 * mesh.area());
-        assert!((cut.volume() - mesh.volume()).abs() <= 1e-12 * mesh.area());
+        assert!(
+            (geometry::area(&cut) - geometry::area(&mesh)).abs() <= 1e-12 * geometry::area(&mesh)
+        );
+        assert!(
+            (geometry::volume(&cut) - geometry::volume(&mesh)).abs()
+                <= 1e-12 * geometry::area(&mesh)
+        );
         assert_eq!(report.notes, Vec::<String>::new());
     }
 }
@@ -234,8 +240,16 @@ fn concave_faces_are_covered_once() {
         let mesh = polygon(points);
         let (cut, report) = checked(&all(), &mesh);
         assert_eq!(report.notes, Vec::<String>::new());
-        assert!((mesh.area() - area).abs() < 1e-12 * area, "{}", mesh.area());
-        assert!((cut.area() - area).abs() < 1e-12 * area, "{}", cut.area());
+        assert!(
+            (geometry::area(&mesh) - area).abs() < 1e-12 * area,
+            "{}",
+            geometry::area(&mesh)
+        );
+        assert!(
+            (geometry::area(&cut) - area).abs() < 1e-12 * area,
+            "{}",
+            geometry::area(&cut)
+        );
     }
 }
 
@@ -255,7 +269,7 @@ fn corners_in_line_are_kept_without_empty_triangles() {
     }
     let (cut, report) = checked(&all(), &polygon(&points));
     assert_eq!((cut.n_faces(), report.notes.len()), (16, 0));
-    assert!((cut.area() - 18.0).abs() < 1e-12);
+    assert!((geometry::area(&cut) - 18.0).abs() < 1e-12);
     assert!(cut.faces().all(|f| cut.face_area(f) > 0.1));
 }
 
@@ -372,7 +386,7 @@ fn the_number_of_threads_changes_nothing() {
 
 #[test]
 fn a_recipe_may_choose_faces() {
-    let parse = |text| ron::from_str::<Triangulate>(text);
+    let parse = |text| op::test::read::<Triangulate>(text);
     assert_eq!(parse("()").unwrap().faces, FaceSelection::All);
     assert_eq!(
         parse("(faces: Degree(5))").unwrap().faces,
@@ -402,7 +416,7 @@ proptest! {
         prop_assert_eq!(report.notes, Vec::<String>::new());
         prop_assert_eq!(cut.n_faces(), n - 2);
         // Areas are not signed: overlapping or turned triangles would make the sum larger.
-        prop_assert!((cut.area() - mesh.area()).abs() < 1e-9 * mesh.area());
+        prop_assert!((geometry::area(&cut) - geometry::area(&mesh)).abs() < 1e-9 * geometry::area(&mesh));
     }
 
     #[test]

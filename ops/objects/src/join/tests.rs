@@ -1,15 +1,15 @@
 //! Tests of the operation.
 
 use super::*;
+use geometry::shapes;
 use mesh::{
     Attribute, DVec2, DVec3, FaceId, HalfEdgeId, MATERIAL, Mesh, Rule, UV, VERTEX_NORMAL, VertexId,
-    shapes,
 };
 use op::Range;
 use scene::Material;
 
 fn step(text: &str) -> Join {
-    ron::from_str(text).unwrap()
+    op::test::read(text).unwrap()
 }
 
 fn scene(objects: Vec<Object>) -> Scene {
@@ -40,7 +40,10 @@ fn counts_add_up_and_the_parts_stay_apart() {
         (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()),
         (14, 19, 8)
     );
-    assert_eq!((mesh.n_components(), mesh.n_boundary_loops()), (2, 1));
+    assert_eq!(
+        (geometry::n_components(&mesh), mesh.n_boundary_loops()),
+        (2, 1)
+    );
     assert_eq!(report.changed, 8);
     assert_eq!(mesh.positions()[8..], *shapes::grid(2, 1).positions());
     assert_eq!(

@@ -1,7 +1,8 @@
 //! The parameters of a step: conditions, some faces, the limit, and what is wrong with them; and whether what
 //! it foresees is what it makes.
 
-use mesh::{CREASE, DVec2, DVec3, Mesh, TANGENT, UV, VERTEX_NORMAL, shapes};
+use geometry::shapes;
+use mesh::{CREASE, DVec2, DVec3, Mesh, TANGENT, UV, VERTEX_NORMAL};
 use op::{Context, FaceSelection, Files, MeshPlan, NoProgress, OpError, PlanContext, Report};
 use subdivision::{LoopWeights, Rules, Scheme, Split, limit, subdivide};
 

@@ -107,7 +107,7 @@ fn area_vector(mesh: &Mesh, f: FaceId, scale: f64) -> DVec3 {
 /// The power of two that brings the extent of the mesh near 1. Multiplying by it rounds nothing, so
 /// normals do not depend on it, but products of lengths neither overflow nor vanish.
 fn scale(mesh: &Mesh) -> f64 {
-    let [min, max] = mesh.bounds().unwrap_or_default();
+    let [min, max] = geometry::bounds(&mesh).unwrap_or_default();
     // Halves first: the difference of two finite numbers may be infinite.
     let extent = (0.5 * max - 0.5 * min).max_element();
     if extent == 0.0 {
@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn the_scale_is_a_power_of_two_that_brings_the_extent_near_one() {
         for size in [f64::MIN_POSITIVE / 8.0, 1e-300, 0.3, 1.0, 1e10, f64::MAX] {
-            let mut mesh = mesh::shapes::square();
+            let mut mesh = geometry::shapes::square();
             mesh.positions_mut().iter_mut().for_each(|p| *p *= size);
             let scale = scale(&mesh);
             assert_eq!(scale.to_bits() << 12, 0, "a power of two");

@@ -3,28 +3,31 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use recipe::{Cache, Caching, Grid, JobEnd, Measured, Metric, Outcome, Schemas, Source, Span};
+use ::cache::{Cache, Caching};
+use engine::{Engine, FileReader, Loaded, Run};
+use recipe::{Grid, JobEnd, Measured, Metric, Outcome, Source, Span};
 use scene::Scene;
+use view::Extent;
 
-use super::sheet::{Seen, Sheet};
 use crate::args::SweepArgs;
-use crate::loading::{Loaded, load_text, read_objects};
-use crate::many::{all, first_error, panicked, run_quietly};
+use crate::listener::Quiet;
+use crate::loading::load_text;
+use crate::many::{all, first_error, panicked};
 
 /// All cells.
 pub(super) struct Cells<'a> {
     pub(super) args: &'a SweepArgs,
     /// Steps that cells share run once.
     pub(super) cache: Option<&'a Cache>,
-    pub(super) schemas: &'a Schemas<'a>,
+    pub(super) engine: &'a Engine<'a>,
     /// The text of the recipe.
     pub(super) source: &'a Source,
     pub(super) grid: &'a Grid,
     pub(super) keep: &'a [(Metric, Span)],
     /// Whether the recipe's expectations must hold.
     pub(super) expects: bool,
-    /// Where their scenes are drawn, if they are.
-    pub(super) sheet: Option<&'a Sheet<'a>>,
+    /// Takes in the scene of a cell that took so many bytes to make, if the scenes are drawn.
+    pub(super) see: Option<&'a (dyn Fn(Scene, u64) -> Seen + Sync)>,
 }
 
 /// A cell that is checked, or why it cannot run.
@@ -49,6 +52,16 @@ pub(super) struct CellResult {
     pub(super) seen: Option<Seen>,
     /// Whether Ctrl-C came before it was done.
     pub(super) is_not_run: bool,
+}
+
+/// What is known of a cell that succeeded.
+#[derive(Debug)]
+pub(super) struct Seen {
+    pub(super) extent: Result<Extent, String>,
+    /// The scene, if there is memory to keep it.
+    pub(super) scene: Option<Scene>,
+    /// The bytes that it takes to make it.
+    pub(super) bytes: u64,
 }
 
 impl CellResult {
@@ -103,7 +116,7 @@ impl Cells<'_> {
             None => "out".into(),
         };
         let budget = self.args.many.budget;
-        let mut loaded = load_text(self.source, &set, None, &out, budget, self.schemas)?;
+        let mut loaded = load_text(self.source, (&set, None), &out, budget, self.engine)?;
         if !self.expects {
             loaded.recipe.expectations.clear();
         }
@@ -124,30 +137,34 @@ impl Cells<'_> {
             Err(None) => return CellResult::not_run(),
         };
         let measure = |(metric, _): &(Metric, Span)| {
-            let measured = metric.measure(&outcome, &loaded.files, &read_objects);
+            let measured = metric.measure(&outcome, &loaded.files, &FileReader);
             measured.map_err(|problem| format!("{metric:?}: {problem}"))
         };
         let measures = match self.keep.iter().map(measure).collect() {
             Ok(measures) => measures,
             Err(error) => return CellResult::failed(error),
         };
-        let sheet = self.sheet.zip(outcome.scene.take());
+        let seen = self.see.zip(outcome.scene.take());
         CellResult {
             measures: Some(measures),
             outputs: outcome.written,
-            seen: sheet.map(|(sheet, scene)| sheet.see(scene, loaded.forecast.peak_bytes())),
+            seen: seen.map(|(see, scene)| see(scene, loaded.forecast.peak_bytes())),
             ..CellResult::default()
         }
     }
 
     /// How the run of a cell that is checked ended, if it succeeded; else its error, or none if Ctrl-C ended it.
     fn outcome(&self, loaded: &Loaded, keeps: bool) -> Result<Outcome, Option<String>> {
-        let caching = self.cache.map(|cache| Caching {
+        let cache = self.cache.map(|cache| Caching {
             cache,
             recipe: None,
             want_scene: true,
         });
-        let outcome = run_quietly(loaded, self.args.many.budget, keeps, caching);
+        let run = Run {
+            keep_outputs: keeps,
+            cache: cache.as_ref().map(|caching| caching as _),
+        };
+        let outcome = loaded.run(run, &Quiet);
         if outcome.cancelled {
             return Err(None);
         }

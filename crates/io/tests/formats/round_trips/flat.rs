@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use geometry::triangulate::Cutter;
 use glam::DVec3;
-use mesh::triangulate::Cutter;
 use mesh::{Column, Domain, HalfEdgeId, Mesh, Rule, Values, VertexId};
 use scene::{Geometry, Object};
 

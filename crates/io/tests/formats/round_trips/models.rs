@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use bezier::{Curve, Patch};
+use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{
     COLOR, CORNER, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Mesh, Rule, SMOOTHING, TANGENT,
-    UV, VERTEX_NORMAL, Value, Values, VertexId, shapes,
+    UV, VERTEX_NORMAL, Value, Values, VertexId,
 };
 use scene::{AlphaMode, Geometry, Image, Material, Object, Texture};
 

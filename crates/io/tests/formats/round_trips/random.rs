@@ -202,7 +202,7 @@ proptest! {
         materials in prop::collection::vec(-1..2_i32, 18),
         columns in prop::collection::vec(sketch(), 0..3),
     ) {
-        let grid = mesh::shapes::fans(&mesh::shapes::grid(3, 3));
+        let grid = geometry::shapes::fans(&geometry::shapes::grid(3, 3));
         let faces: Vec<Vec<u32>> = grid.faces().zip(&keep).filter(|&(_, &is)| is).map(|(f, _)| {
             grid.face_vertices(f).map(|v| u32::try_from(VertexId::index(v)).unwrap()).collect()
         }).collect();

@@ -60,7 +60,7 @@ fn two_faces_that_run_the_same_way_along_an_edge_are_split_if_they_are_to_stay_a
     assert_eq!(built.mesh.defects(), []);
     assert_eq!(built.report.split_edges.len(), 1);
     assert_eq!(built.mesh.n_faces(), 2);
-    assert_eq!(built.mesh.n_components(), 2);
+    assert_eq!(crate::geometry::n_components(&built.mesh), 2);
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn two_cubes_that_share_an_edge_come_apart_as_two_closed_cubes() {
     assert_eq!(report.split_edges.len(), 1);
     assert_eq!(report.split_vertices.len(), 2);
     assert!(mesh.edges().all(|e| !mesh.is_boundary_edge(e)));
-    assert_eq!(mesh.n_components(), 2);
+    assert_eq!(crate::geometry::n_components(&mesh), 2);
 }
 
 #[test]

@@ -176,7 +176,10 @@ fn an_edge_of_three_faces_joins_no_parts() {
     assert_eq!(report.reversed_faces, [3]);
     assert_eq!(report.split_edges, [[VertexId::new(0), VertexId::new(1)]]);
     assert_eq!(report.unorientable, [0_usize; 0]);
-    assert_eq!((mesh.n_components(), mesh.n_faces()), (2, 6));
+    assert_eq!(
+        (crate::geometry::n_components(&mesh), mesh.n_faces()),
+        (2, 6)
+    );
 }
 
 #[test]

@@ -46,9 +46,15 @@ fn extruded(mesh: &Mesh, numbers: &[usize]) -> (Mesh, Vec<FaceId>) {
 fn the_top_of_a_cube_moves_up_on_four_sides() {
     let (mesh, sides) = extruded(&shapes::cube(), &[1]);
     assert!(mesh.is_closed());
-    assert_eq!((mesh.genus(), mesh.n_components()), (0, 1));
-    assert_eq!(mesh.area(), 32.0);
-    assert!((mesh.volume() - 12.0).abs() < 1e-13);
+    assert_eq!(
+        (
+            crate::geometry::genus(&mesh),
+            crate::geometry::n_components(&mesh)
+        ),
+        (0, 1)
+    );
+    assert_eq!(crate::geometry::area(&mesh), 32.0);
+    assert!((crate::geometry::volume(&mesh) - 12.0).abs() < 1e-13);
     assert_eq!(sides, faces(&[6, 7, 8, 9]));
 }
 
@@ -85,7 +91,7 @@ fn the_same_face_can_be_moved_again_and_again() {
         let sides = mesh.extrude_faces(&faces(&[1]), DVec3::Z).unwrap();
         assert_eq!(sides.len(), 4);
         assert_eq!(mesh.defects(), []);
-        assert!((mesh.volume() - 8.0 - 4.0 * f64::from(level)).abs() < 1e-12);
+        assert!((crate::geometry::volume(&mesh) - 8.0 - 4.0 * f64::from(level)).abs() < 1e-12);
         assert_eq!(mesh.face_normal(FaceId::new(1)), DVec3::Z);
     }
 }
@@ -132,7 +138,10 @@ fn a_whole_sheet_becomes_a_box_that_is_open_below() {
     let sheet = shapes::grid(2, 1);
     let (mesh, sides) = extruded(&sheet, &[0, 1]);
     assert_eq!(sides.len(), 6);
-    assert_eq!((mesh.n_boundary_loops(), mesh.genus()), (1, 0));
+    assert_eq!(
+        (mesh.n_boundary_loops(), crate::geometry::genus(&mesh)),
+        (1, 0)
+    );
     // The boundary is the old one.
     for v in sheet.vertices() {
         assert!(mesh.is_boundary_vertex(v));
@@ -190,7 +199,10 @@ fn a_face_on_both_sides_of_an_edge_has_two_rims() {
     let (mesh, sides) = extruded(&slit_ring(), &[0]);
     assert_eq!(sides.len(), 8);
     assert_eq!(mesh.degree(FaceId::new(0)), 10);
-    assert_eq!((mesh.n_boundary_loops(), mesh.genus()), (2, 0));
+    assert_eq!(
+        (mesh.n_boundary_loops(), crate::geometry::genus(&mesh)),
+        (2, 0)
+    );
 }
 
 #[test]

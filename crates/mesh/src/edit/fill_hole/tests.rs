@@ -1,4 +1,3 @@
-use super::ears::EXACT;
 use super::*;
 use crate::edit::testing::{half_edge, polygons, tried, with_slit};
 use crate::{EdgeId, MATERIAL, UV, shapes};
@@ -61,7 +60,7 @@ fn every_hole_is_filled_from_each_of_its_edges() {
         let euler = mesh.euler_characteristic();
         for h in mesh.half_edges() {
             let one = tried(&mesh, |m| m.fill_hole(h));
-            let many = tried(&mesh, |m| m.fill_hole_triangles(h));
+            let many = tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, h));
             if mesh.face(h).is_some() {
                 let refused = EditError::NotBoundary(h.edge());
                 assert_eq!(one.unwrap_err(), refused);
@@ -94,7 +93,7 @@ fn a_linear_field_stays_linear_and_the_material_is_that_beside() {
         for triangles in [false, true] {
             let (filled, faces) = tried(&mesh, |m| {
                 if triangles {
-                    m.fill_hole_triangles(h)
+                    crate::geometry::fill_hole_triangles(m, h)
                 } else {
                     m.fill_hole(h).map(|f| vec![f])
                 }
@@ -125,10 +124,11 @@ fn a_flat_square_hole_gets_no_triangle_without_area() {
         .into_iter()
         .find(|&h| mesh.face(h).is_none())
         .unwrap();
-    let (filled, triangles) = tried(&mesh, |m| m.fill_hole_triangles(hole)).unwrap();
+    let (filled, triangles) =
+        tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, hole)).unwrap();
     assert_eq!(triangles.len(), 6);
     assert!(triangles.iter().all(|&f| filled.face_area(f) > 0.1));
-    assert!((filled.area() - 36.0).abs() < 1e-12);
+    assert!((crate::geometry::area(&filled) - 36.0).abs() < 1e-12);
 }
 
 #[test]
@@ -141,7 +141,7 @@ fn triangles_never_repeat_an_edge() {
     let rim: Vec<VertexId> = mesh.loop_half_edges(h).map(|h| mesh.origin(h)).collect();
     assert_eq!(rim.len(), 4);
     let kept = mesh.edges().find(|&e| !mesh.is_boundary_edge(e)).unwrap();
-    let (filled, _) = tried(&mesh, |m| m.fill_hole_triangles(h)).unwrap();
+    let (filled, _) = tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, h)).unwrap();
     assert!(filled.is_closed());
     assert_eq!(filled.n_edges(), 6);
     let [a, b] = mesh.edge_vertices(kept);
@@ -163,7 +163,7 @@ fn a_hole_whose_diagonals_are_all_there_is_refused() {
     assert!(report.is_clean());
     let h = mesh.boundary_loops()[0];
     assert_eq!(mesh.loop_half_edges(h).count(), 6);
-    let refused = tried(&mesh, |m| m.fill_hole_triangles(h)).unwrap_err();
+    let refused = tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, h)).unwrap_err();
     let EditError::DuplicateEdge(v, w) = refused else {
         panic!("{refused}");
     };
@@ -173,17 +173,17 @@ fn a_hole_whose_diagonals_are_all_there_is_refused() {
 
 #[test]
 fn a_hole_of_many_edges_is_filled_quickly() {
-    let n = u32::try_from(EXACT).unwrap() * 4;
+    let n = 2000;
     let mesh = shapes::cylinder(n, false);
     let mut filled = mesh.clone();
     for h in mesh.boundary_loops() {
-        filled.fill_hole_triangles(h).unwrap();
+        crate::geometry::fill_hole_triangles(&mut filled, h).unwrap();
     }
     assert_eq!(filled.defects(), []);
     assert!(filled.is_closed());
     let expected = shapes::cylinder(n, true);
-    assert!((filled.area() - expected.area()).abs() < 1e-9);
-    assert!((filled.volume() - expected.volume()).abs() < 1e-9);
+    assert!((crate::geometry::area(&filled) - crate::geometry::area(&expected)).abs() < 1e-9);
+    assert!((crate::geometry::volume(&filled) - crate::geometry::volume(&expected)).abs() < 1e-9);
     // Not a fan: no vertex gets more than a few edges.
     assert!(filled.vertices().all(|v| filled.valence(v) < 30));
 }
@@ -194,7 +194,7 @@ fn a_loop_of_two_edges_and_a_pinched_one_are_refused() {
     for h in mesh.half_edges().filter(|&h| mesh.face(h).is_none()) {
         let refused = EditError::ShortLoop(h);
         assert_eq!(tried(&mesh, |m| m.fill_hole(h)).unwrap_err(), refused);
-        let many = tried(&mesh, |m| m.fill_hole_triangles(h));
+        let many = tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, h));
         assert_eq!(many.unwrap_err(), refused);
     }
 
@@ -216,7 +216,10 @@ fn a_loop_of_two_edges_and_a_pinched_one_are_refused() {
         mesh.set_origin(h, v);
     }
     assert_eq!(mesh.fill_hole(a), Err(EditError::Pinch(v)));
-    assert_eq!(mesh.fill_hole_triangles(a), Err(EditError::Pinch(v)));
+    assert_eq!(
+        crate::geometry::fill_hole_triangles(&mut mesh, a),
+        Err(EditError::Pinch(v))
+    );
 }
 
 #[test]
@@ -225,7 +228,7 @@ fn a_half_edge_that_is_not_there_is_refused() {
         let refused = EditError::NoSuchHalfEdge(h);
         let mesh = shapes::square();
         assert_eq!(tried(&mesh, |m| m.fill_hole(h)).unwrap_err(), refused);
-        let many = tried(&mesh, |m| m.fill_hole_triangles(h));
+        let many = tried(&mesh, |m| crate::geometry::fill_hole_triangles(m, h));
         assert_eq!(many.unwrap_err(), refused);
     }
 }

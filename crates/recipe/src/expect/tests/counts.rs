@@ -1,7 +1,8 @@
 //! Counts of elements, and what is there or not: manifolds, boundaries, attributes.
 
 use bezier::Curve;
-use mesh::{Connectivity, DVec3, Domain, FaceId, HalfEdgeId, Mesh, Rule, Values, VertexId, shapes};
+use geometry::shapes;
+use mesh::{Connectivity, DVec3, Domain, FaceId, HalfEdgeId, Mesh, Rule, Values, VertexId};
 use scene::{Geometry, Object, Scene};
 
 use super::{check, check_on, cube, holds_and_fails, lines, scene};

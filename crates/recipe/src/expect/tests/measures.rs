@@ -1,6 +1,7 @@
 //! Areas, volumes, bounds, angles, lengths and places.
 
-use mesh::{DVec3, shapes};
+use geometry::shapes;
+use mesh::DVec3;
 use scene::Scene;
 
 use super::{check, cube, holds_and_fails, lines, of, scene};
@@ -25,7 +26,7 @@ fn area_and_volume_are_compared_within_a_tolerance() {
         "Volume(eq: 8.25, tolerance: 0.125)",
         &format!(
             "expected a volume of 8.25, found {}",
-            shapes::cube().volume()
+            geometry::volume(&shapes::cube())
         ),
     );
     holds_and_fails(
@@ -34,7 +35,7 @@ fn area_and_volume_are_compared_within_a_tolerance() {
         "Volume(max: 7.5)",
         &format!(
             "expected a volume of at most 7.5, found {}",
-            shapes::cube().volume()
+            geometry::volume(&shapes::cube())
         ),
     );
 }

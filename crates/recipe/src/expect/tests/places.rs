@@ -1,22 +1,24 @@
 //! Which elements break an expectation.
 
-use mesh::{DVec3, EdgeId, VertexId, shapes};
+use geometry::shapes;
+use mesh::{DVec3, EdgeId, VertexId};
 use op::{Files, Place};
 use scene::Scene;
 
 use super::counts::with_double_edges;
 use super::{cube, expectation, lines, of, scene};
 use crate::expect::Subject;
+use crate::tests::objects;
 
 fn places(scene: &Scene, text: &str) -> Vec<Place> {
     let files = Files::default();
     let octahedron = scene::Object::mesh("octahedron", shapes::octahedron());
-    let read = |_: &std::path::Path, _: &Files| Ok(vec![octahedron.clone()]);
+    let reader = objects(|_, _| Ok(vec![octahedron.clone()]));
     expectation(text).places(Subject {
         scene,
         on: None,
         files: &files,
-        read: &read,
+        reader: &reader,
     })
 }
 

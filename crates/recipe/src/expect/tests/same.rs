@@ -1,6 +1,7 @@
 //! Comparisons with another mesh, with a digest, and with the mesh itself after motions.
 
-use mesh::{DVec3, Mesh, shapes};
+use geometry::shapes;
+use mesh::{DVec3, Mesh};
 
 use super::{check, check_on, cube, holds_and_fails, of, scene};
 

@@ -1,6 +1,7 @@
 //! Attributes where some of the faces are refined.
 
-use mesh::{COLOR, CORNER, CREASE, DVec2, DVec3, FaceId, HalfEdgeId, MATERIAL, Mesh, UV, shapes};
+use geometry::shapes;
+use mesh::{COLOR, CORNER, CREASE, DVec2, DVec3, FaceId, HalfEdgeId, MATERIAL, Mesh, UV};
 
 use super::{LOOP, MIDPOINT, cases, dressed, refined, with_faces_numbered};
 use crate::{FaceVarying, Rules, fixtures};

@@ -124,7 +124,7 @@ proptest! {
 #[test]
 fn the_diagonals_of_squares_stay() {
     // All four corners lie on a circle: neither diagonal is better.
-    let grid = mesh::shapes::fans(&mesh::shapes::grid(9, 7));
+    let grid = geometry::shapes::fans(&geometry::shapes::grid(9, 7));
     let (flipped, report) =
         try_applied(&parse("(edges: All, until: Delaunay)"), grid.clone()).unwrap();
     assert_eq!((flipped, report.changed), (grid, 0));
@@ -132,7 +132,7 @@ fn the_diagonals_of_squares_stay() {
 
 #[test]
 fn the_diagonals_of_turned_squares_stay_too() {
-    let mut grid = mesh::shapes::fans(&mesh::shapes::grid(9, 7));
+    let mut grid = geometry::shapes::fans(&geometry::shapes::grid(9, 7));
     for p in grid.positions_mut() {
         *p = DVec3::new(0.1 * p.x - 0.3 * p.y, 0.3 * p.x + 0.1 * p.y, 0.7);
     }

@@ -1,0 +1,265 @@
+//! Where a line cuts a polygon.
+//!
+//! ```text
+//!                 +     +              corners on the line are sorted along it; of two that follow each
+//!               /   \ /   \            other what lies between is inside the polygon or outside, as both
+//!    ... ------a     b-----c---- line  tell by their sides: a sees the inside to its right, b to its left
+//!            /    inside     \         and to its right, c to its left. A chord for each inside.
+//!           +-----------------+
+//! ```
+
+use mesh::{DVec3, polygon_parts};
+
+/// A corner of a polygon, seen from a line that is not far from its plane.
+pub(super) struct Corner {
+    /// The signed distance from the line: positive to its left; 0 on it.
+    height: f64,
+    /// Where along the line.
+    place: f64,
+    position: DVec3,
+}
+
+impl Corner {
+    pub(super) fn new(height: f64, place: f64, position: DVec3) -> Self {
+        Self {
+            height,
+            place,
+            position,
+        }
+    }
+}
+
+/// The chords that cut the polygon so that each part has corners on one side of the line only. `normal` is that of the polygon, which has corners on both sides.
+///
+/// If the corners on the line do not tell the inside from the outside, the parts to the left of it are cut
+/// off one by one.
+pub(super) fn between(corners: &[Corner], normal: DVec3) -> Vec<[u32; 2]> {
+    let n = corners.len();
+    let is_good = |chords: &[[u32; 2]]| {
+        let is_one_sided = |part: &Vec<usize>| {
+            // The sides of a part begin at its corners; chords end where sides or chords begin.
+            let sides = part.iter().filter(|&&h| h < n);
+            let heights = sides.flat_map(|&i| [corners[i].height, corners[(i + 1) % n].height]);
+            let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| {
+                (low.min(h), high.max(h))
+            });
+            low == 0.0 || high == 0.0
+        };
+        polygon_parts(n, chords).is_some_and(|parts| parts.iter().all(is_one_sided))
+    };
+    if let Some(chords) = inside(corners, normal)
+        && is_good(&chords)
+    {
+        return chords;
+    }
+    left_parts(corners)
+}
+
+/// The chords inside the polygon; `None` if that is not clear.
+fn inside(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
+    let n = corners.len();
+    let mut on_line: Vec<usize> = (0..n).filter(|&i| corners[i].height == 0.0).collect();
+    if let [a, b] = on_line[..] {
+        return Some(vec![[to_u32(a), to_u32(b)]]);
+    }
+    let sees: Vec<[bool; 2]> = (0..n)
+        .map(|i| {
+            if corners[i].height == 0.0 {
+                sees(
+                    &corners[(i + n - 1) % n],
+                    &corners[i],
+                    &corners[(i + 1) % n],
+                    normal,
+                )
+            } else {
+                [false; 2]
+            }
+        })
+        .collect();
+    // Of corners in one place those that end an inside come first.
+    let rank = |i: usize| match sees[i] {
+        [true, false] => 0,
+        [false, true] => 2,
+        _ => 1,
+    };
+    on_line.sort_by(|&i, &j| {
+        let by_place = corners[i].place.total_cmp(&corners[j].place);
+        by_place.then(rank(i).cmp(&rank(j))).then(i.cmp(&j))
+    });
+    let mut chords = Vec::new();
+    let mut is_inside = false;
+    for (k, &i) in on_line.iter().enumerate() {
+        let [left, right] = sees[i];
+        if left != is_inside {
+            return None;
+        }
+        if left {
+            let before = on_line[k - 1];
+            chords.push([to_u32(before.min(i)), to_u32(before.max(i))]);
+        }
+        is_inside = right;
+    }
+    (!is_inside).then_some(chords)
+}
+
+/// Whether a corner on the line sees the inside of the polygon to its left and to its right along the
+/// line, behind and ahead.
+///
+/// The directions to the next and to the previous corner are counted in quarter turns from the line: 0
+/// ahead, 1 to its left, 2 back, 3 to its right. The inside begins at the next one, counter-clockwise, and
+/// ends at the previous one.
+fn sees(before: &Corner, corner: &Corner, after: &Corner, normal: DVec3) -> [bool; 2] {
+    let quarter = |other: &Corner| {
+        if other.height > 0.0 {
+            1
+        } else if other.height < 0.0 {
+            3
+        } else if other.place > corner.place {
+            0
+        } else {
+            2
+        }
+    };
+    let (begin, mut end) = (quarter(after), quarter(before));
+    let is_reflex = || {
+        let [to_after, to_before] = [after, before].map(|c| c.position - corner.position);
+        to_after.cross(to_before).dot(normal) < 0.0
+    };
+    if end < begin || (end == begin && begin % 2 == 1 && is_reflex()) {
+        end += 4;
+    }
+    let contains = |quarter: i32| begin < quarter && quarter < end;
+    [contains(2) || contains(6), contains(4)]
+}
+
+/// A chord for each chain of corners to the left of the line.
+fn left_parts(corners: &[Corner]) -> Vec<[u32; 2]> {
+    let n = corners.len();
+    let is_left = |i: usize| corners[i % n].height > 0.0;
+    let mut chords: Vec<[u32; 2]> = (0..n)
+        .filter(|&i| !is_left(i) && is_left(i + 1))
+        .map(|i| {
+            // There are corners to the right too, so that a chain ends.
+            let end = (i + 1..=i + n)
+                .find(|&j| !is_left(j))
+                .expect("a chain ends")
+                % n;
+            [to_u32(i.min(end)), to_u32(i.max(end))]
+        })
+        .collect();
+    chords.sort_unstable();
+    chords
+}
+
+fn to_u32(i: usize) -> u32 {
+    u32::try_from(i).expect("corners fit 32 bits")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The chords of the line y = 0, from left to right, in a polygon of the plane z = 0.
+    fn cut(points: &[(f64, f64)]) -> Vec<[u32; 2]> {
+        let corner = |&(x, y): &(f64, f64)| Corner::new(y, x, DVec3::new(x, y, 0.0));
+        let corners: Vec<Corner> = points.iter().map(corner).collect();
+        let mut chords = between(&corners, DVec3::Z);
+        assert!(polygon_parts(corners.len(), &chords).is_some());
+        chords.sort_unstable();
+        chords
+    }
+
+    #[test]
+    fn a_convex_polygon_has_one_chord() {
+        assert_eq!(cut(&[(0., 0.), (1., -1.), (2., 0.), (1., 1.)]), [[0, 2]]);
+    }
+
+    #[test]
+    fn teeth_below_the_line_have_a_chord_each() {
+        let comb = [
+            (0., 1.),
+            (0., 0.),
+            (1., -1.),
+            (2., 0.),
+            (2.5, 0.5),
+            (3., 0.),
+            (4., -1.),
+            (5., 0.),
+            (5., 1.),
+        ];
+        assert_eq!(cut(&comb), [[1, 3], [5, 7]]);
+    }
+
+    #[test]
+    fn a_reflex_corner_on_the_line_ends_two_chords() {
+        let heart = [(0., 0.), (2., -3.), (4., 0.), (3., 1.), (2., 0.), (1., 1.)];
+        assert_eq!(cut(&heart), [[0, 4], [2, 4]]);
+        let upside_down: Vec<_> = heart.iter().rev().map(|&(x, y)| (x, -y)).collect();
+        assert_eq!(cut(&upside_down), [[1, 3], [1, 5]]);
+    }
+
+    #[test]
+    fn a_corner_that_touches_from_within_and_sides_on_the_line_have_none() {
+        // The corner at (2, 0) is convex and only touches.
+        let zigzag = [
+            (0., 0.),
+            (1., 2.),
+            (2., 0.),
+            (3., 2.),
+            (4., 0.),
+            (4., 3.),
+            (-2., 3.),
+            (-2., -1.),
+            (-1., -1.),
+            (-1., 0.),
+        ];
+        // From (-2, 0), which an edge crosses: put in as the caller does.
+        let mut crossed = zigzag.to_vec();
+        crossed.insert(7, (-2., 0.));
+        assert_eq!(cut(&crossed), [[7, 10]]);
+    }
+
+    #[test]
+    fn both_ends_of_a_slit_in_one_place_are_told_apart() {
+        // A square with a square hole, joined by a slit that the line crosses.
+        let keyhole = [
+            (-4., -4.),
+            (4., -4.),
+            (4., 0.),
+            (4., 4.),
+            (3., 4.),
+            (3., 0.),
+            (3., -2.),
+            (-2., -2.),
+            (-2., 0.),
+            (-2., 2.),
+            (2., 2.),
+            (2., 0.),
+            (2., -2.),
+            (3., -2.),
+            (3., 0.),
+            (3., 4.),
+            (-4., 4.),
+            (-4., 0.),
+        ];
+        // The hole is between -2 and 2; the slit at 3 is crossed down and up.
+        let chords = cut(&keyhole);
+        assert_eq!(chords, [[2, 5], [8, 17], [11, 14]]);
+    }
+
+    #[test]
+    fn what_is_not_clear_is_cut_all_the_same() {
+        // A bow tie that crosses itself, as a face may.
+        let bow = [
+            (0., 0.),
+            (2., -2.),
+            (3., 0.),
+            (1., 3.),
+            (2., 0.),
+            (3., -3.),
+            (4., 0.),
+            (2., 1.),
+        ];
+        assert!(!cut(&bow).is_empty());
+    }
+}

@@ -1,0 +1,258 @@
+//! A surface of triangles that finds its point nearest to another one.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use mesh::{DVec3, FaceId, Mesh, VertexId};
+
+use super::triangle::nearest_on_triangle;
+
+/// The triangles of a mesh: fans of its faces, from the first corner of each.
+pub(super) struct Surface {
+    nodes: Vec<Node>,
+    /// In the order of the tree.
+    triangles: Vec<Triangle>,
+}
+
+/// A triangle of a fan.
+#[derive(Clone, Copy)]
+pub(super) struct Triangle {
+    pub(super) at: [DVec3; 3],
+    pub(super) vertices: [VertexId; 3],
+    pub(super) face: FaceId,
+}
+
+/// The nearest point of a surface.
+#[derive(Clone, Copy)]
+pub(super) struct Hit {
+    pub(super) distance: f64,
+    /// No point of the surface is nearer than this: the distance itself, unless too many are nearly as near.
+    pub(super) lower: f64,
+    pub(super) point: DVec3,
+    /// The triangle that has it, by its place in the surface.
+    pub(super) triangle: u32,
+    /// The nodes that were looked at.
+    pub(super) visits: u32,
+}
+
+/// A box around triangles `first..last`; an inner node's children are the next node and `right`.
+struct Node {
+    min: DVec3,
+    max: DVec3,
+    first: u32,
+    last: u32,
+    right: u32,
+}
+
+/// Most triangles of a node without children.
+const LEAF: usize = 4;
+
+/// Most nodes that are looked at for one point before a good answer is enough; some hundred are usual at most.
+const MOST_NODES: u32 = 1000;
+
+/// The triangles of the fan of a face.
+pub(super) fn fan(mesh: &Mesh, face: FaceId) -> impl Iterator<Item = Triangle> {
+    let mut corners = mesh.face_vertices(face);
+    let first = corners.next();
+    let mut last = corners.next();
+    corners.filter_map(move |v| {
+        let vertices = [first?, last.replace(v)?, v];
+        Some(Triangle {
+            at: vertices.map(|v| mesh.position(v)),
+            vertices,
+            face,
+        })
+    })
+}
+
+impl Surface {
+    /// The surface of a mesh; `None` if it has no faces.
+    pub(super) fn new(mesh: &Mesh) -> Option<Self> {
+        let mut surface = Self {
+            nodes: Vec::new(),
+            triangles: mesh.faces().flat_map(|f| fan(mesh, f)).collect(),
+        };
+        if surface.triangles.is_empty() {
+            return None;
+        }
+        surface.build(0, surface.triangles.len());
+        Some(surface)
+    }
+
+    pub(super) fn triangle(&self, i: u32) -> &Triangle {
+        &self.triangles[i as usize]
+    }
+
+    /// Builds the node over these triangles, cut in half across its longest side.
+    fn build(&mut self, first: usize, last: usize) {
+        let corners = self.triangles[first..last].iter().flat_map(|t| t.at);
+        let (min, max) = corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| {
+            (min.min(p), max.max(p))
+        });
+        let node = self.nodes.len();
+        self.nodes.push(Node {
+            min,
+            max,
+            first: number(first),
+            last: number(last),
+            right: 0,
+        });
+        if last - first <= LEAF {
+            return;
+        }
+        let extent = max - min;
+        let axis = if extent.x >= extent.y && extent.x >= extent.z {
+            0
+        } else if extent.y >= extent.z {
+            1
+        } else {
+            2
+        };
+        let key = |t: &Triangle| t.at[0][axis] + t.at[1][axis] + t.at[2][axis];
+        let middle = (last - first) / 2;
+        self.triangles[first..last]
+            .select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)));
+        self.build(first, first + middle);
+        self.nodes[node].right = number(self.nodes.len());
+        self.build(first + middle, last);
+    }
+
+    /// The point nearest to `p`. A triangle that is near already, `hint`, saves time.
+    ///
+    /// Around the center of a sphere all triangles are equally near, and each would have to be looked at: after
+    /// so many the best so far is taken, with a bound for the rest.
+    pub(super) fn nearest(&self, p: DVec3, hint: u32) -> Hit {
+        let mut best = Best {
+            squared: f64::INFINITY,
+            point: p,
+            triangle: hint,
+        };
+        self.try_triangle(p, hint, &mut best);
+        // The children of a node are cut in half, so that the tree is at most 32 deep.
+        let mut stack = [(0, 0.0); 64];
+        let mut height = 1;
+        stack[0] = (0, self.nodes[0].distance_squared(p));
+        let mut visits = 0;
+        while height > 0 {
+            height -= 1;
+            let (i, squared) = stack[height];
+            if squared >= best.squared {
+                continue;
+            }
+            visits += 1;
+            if visits > MOST_NODES {
+                return self.nearly_nearest(p, best);
+            }
+            let Some(children) = self.open(p, i, &mut best) else {
+                continue;
+            };
+            // The nearer one is looked at first.
+            let order = if children[0].1 <= children[1].1 {
+                [1, 0]
+            } else {
+                [0, 1]
+            };
+            for child in order {
+                if children[child].1 < best.squared {
+                    stack[height] = children[child];
+                    height += 1;
+                }
+            }
+        }
+        best.hit(None, visits)
+    }
+
+    /// The same node by node in the order of their distances, which gives the best bound when it ends early.
+    fn nearly_nearest(&self, p: DVec3, mut best: Best) -> Hit {
+        // Squares are not negative, so that their bits have their order.
+        let mut waiting = BinaryHeap::from([Reverse((0_u64, 0_usize))]);
+        let mut visits = MOST_NODES;
+        while let Some(Reverse((bits, i))) = waiting.pop() {
+            let squared = f64::from_bits(bits);
+            if squared >= best.squared {
+                break;
+            }
+            visits += 1;
+            if visits > 3 * MOST_NODES {
+                return best.hit(Some(squared), visits);
+            }
+            for (child, squared) in self.open(p, i, &mut best).into_iter().flatten() {
+                if squared < best.squared {
+                    waiting.push(Reverse((squared.to_bits(), child)));
+                }
+            }
+        }
+        best.hit(None, visits)
+    }
+
+    /// Looks at the triangles of a node, or gives its children with the squares of their distances.
+    fn open(&self, p: DVec3, i: usize, best: &mut Best) -> Option<[(usize, f64); 2]> {
+        let node = &self.nodes[i];
+        if node.right == 0 {
+            for i in node.first..node.last {
+                self.try_triangle(p, i, best);
+            }
+            return None;
+        }
+        let children = [i + 1, node.right as usize];
+        Some(children.map(|i| (i, self.nodes[i].distance_squared(p))))
+    }
+
+    fn try_triangle(&self, p: DVec3, i: u32, best: &mut Best) {
+        let point = nearest_on_triangle(p, &self.triangle(i).at);
+        let squared = p.distance_squared(point);
+        if squared < best.squared {
+            *best = Best {
+                squared,
+                point,
+                triangle: i,
+            };
+        }
+    }
+
+    /// The distance from `p` to one triangle.
+    pub(super) fn to_triangle(&self, p: DVec3, i: u32) -> f64 {
+        p.distance(nearest_on_triangle(p, &self.triangle(i).at))
+    }
+
+    /// The edge that two triangles share, if they share one and not more.
+    pub(super) fn shared_edge(&self, i: u32, j: u32) -> Option<[DVec3; 2]> {
+        let (s, t) = (self.triangle(i), self.triangle(j));
+        let mut shared = (0..3).filter(|&k| t.vertices.contains(&s.vertices[k]));
+        match (shared.next(), shared.next(), shared.next()) {
+            (Some(k), Some(l), None) => Some([s.at[k], s.at[l]]),
+            _ => None,
+        }
+    }
+}
+
+/// The nearest point so far.
+struct Best {
+    squared: f64,
+    point: DVec3,
+    triangle: u32,
+}
+
+impl Best {
+    /// `lower` is the square of a bound for what was not looked at.
+    fn hit(self, lower: Option<f64>, visits: u32) -> Hit {
+        Hit {
+            distance: self.squared.sqrt(),
+            lower: lower.unwrap_or(self.squared).sqrt(),
+            point: self.point,
+            triangle: self.triangle,
+            visits,
+        }
+    }
+}
+
+impl Node {
+    fn distance_squared(&self, p: DVec3) -> f64 {
+        p.distance_squared(p.max(self.min).min(self.max))
+    }
+}
+
+/// A place in an array. A mesh has fewer than 2³² half-edges, and the fans no more triangles.
+fn number(i: usize) -> u32 {
+    u32::try_from(i).expect("fewer than 2^32 triangles")
+}

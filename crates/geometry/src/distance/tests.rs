@@ -1,0 +1,269 @@
+//! Distances against cases that can be calculated, and against many samples.
+
+use crate::{bounds, shapes};
+
+use super::*;
+
+fn of(positions: &[DVec3], polygons: &[&[u32]]) -> Mesh {
+    Mesh::from_polygons(positions.to_vec(), polygons).unwrap().0
+}
+
+fn moved(mut mesh: Mesh, by: impl Fn(DVec3) -> DVec3) -> Mesh {
+    for p in mesh.positions_mut() {
+        *p = by(*p);
+    }
+    mesh
+}
+
+#[track_caller]
+fn between(a: &Mesh, b: &Mesh, tolerance: f64) -> Distance {
+    let found = Distance::between(a, b, Some(tolerance)).unwrap();
+    let (largest, at_most) = (found.largest(), found.at_most());
+    let most = (largest + tolerance) * (1.0 + 1e-12);
+    assert!(largest <= at_most && at_most <= most, "{found:?}");
+    assert!(found.mean() <= largest * (1.0 + 1e-12));
+    found
+}
+
+/// The largest distance from points of `a`, so many in a row of each triangle, to the triangles of `b`.
+fn brute(a: &Mesh, b: &Mesh, rows: u32) -> f64 {
+    let mut largest = 0.0_f64;
+    let triangles: Vec<[DVec3; 3]> = b.faces().flat_map(|f| fan(b, f)).map(|t| t.at).collect();
+    for t in a.faces().flat_map(|f| fan(a, f)) {
+        for i in 0..=rows {
+            for j in 0..=rows - i {
+                let (u, v) = (
+                    f64::from(i) / f64::from(rows),
+                    f64::from(j) / f64::from(rows),
+                );
+                let p = t.at[0] + u * (t.at[1] - t.at[0]) + v * (t.at[2] - t.at[0]);
+                let distance = |t| p.distance(triangle::nearest_on_triangle(p, t));
+                let nearest = triangles.iter().map(distance).fold(f64::INFINITY, f64::min);
+                largest = largest.max(nearest);
+            }
+        }
+    }
+    largest
+}
+
+#[test]
+fn a_mesh_has_no_distance_to_itself() {
+    for mesh in [
+        shapes::icosahedron(),
+        shapes::cube(),
+        shapes::torus(30, 20, 2.0, 1.0),
+    ] {
+        let found = between(&mesh, &mesh, 1e-9);
+        assert!(found.at_most() < 1e-14 && found.mean() < 1e-14, "{found:?}");
+    }
+}
+
+#[test]
+fn shifted_squares_are_as_far_apart_as_the_shift_however_they_are_divided() {
+    let plane = shapes::grid(9, 7);
+    let shifted = moved(shapes::grid(9, 7), |p| p + DVec3::new(0.0, 0.0, 0.25));
+    let found = between(&plane, &shifted, 1e-9);
+    assert_eq!(
+        (found.largest(), found.at_most(), found.mean()),
+        (0.25, 0.25, 0.25)
+    );
+    let size = bounds(&plane).unwrap()[1];
+    let other = moved(shapes::grid(31, 2), |p| {
+        let unit = p / bounds(&shapes::grid(31, 2)).unwrap()[1].max(DVec3::splat(1e-9));
+        DVec3::new(unit.x * size.x, unit.y * size.y, 1e-3)
+    });
+    let found = between(&plane, &other, 1e-9);
+    assert!((found.largest() - 1e-3).abs() < 1e-12, "{found:?}");
+    assert!((found.mean() - 1e-3).abs() < 1e-12, "{found:?}");
+}
+
+#[test]
+fn spheres_in_each_other_are_apart_by_their_radii() {
+    let sphere = |radius: f64, around| moved(shapes::uv_sphere(around, around / 2), |p| p * radius);
+    let found = between(&sphere(1.0, 64), &sphere(1.5, 48), 1e-4);
+    // The chords of the polyhedra lie below the spheres.
+    assert!(
+        found.largest() > 0.49 && found.at_most() < 0.505,
+        "{found:?}"
+    );
+    assert!(found.mean() > 0.49 && found.mean() < 0.505);
+}
+
+#[test]
+fn a_spike_between_the_vertices_is_seen_from_the_large_face_below_it() {
+    // A spike ends above the square near a place that is neither a vertex nor a middle.
+    let foot = DVec3::new(0.31, 0.17, 0.0);
+    let square = shapes::square();
+    let mut positions: Vec<DVec3> = square.vertices().map(|v| square.position(v)).collect();
+    positions.push(foot + DVec3::Z);
+    let spike = of(
+        &positions,
+        &[&[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4]],
+    );
+    let found = between(&square, &spike, 1e-6);
+    // The tip is 1 above the square.
+    assert!((found.back.largest - 1.0).abs() < 1e-6, "{found:?}");
+    assert_eq!(found.back.from.on, Element::Vertex(VertexId::new(4)));
+    assert!(found.back.to.position.distance(foot) < 1e-12);
+    // The square is furthest from the sides of the spike somewhere inside, where no vertex is.
+    let sampled = brute(&square, &spike, 400);
+    assert!(found.forth.largest >= sampled - 1e-6 && found.forth.at_most >= sampled);
+    assert!(found.forth.largest < sampled + 0.01, "{found:?} {sampled}");
+    assert!(matches!(found.forth.from.on, Element::Face(_)), "{found:?}");
+}
+
+#[test]
+fn a_ridge_that_no_vertex_middle_or_center_lies_over_is_found() {
+    // Below a long triangle a deep fold, between its vertices.
+    let flat = of(
+        &[
+            DVec3::ZERO,
+            DVec3::new(10.0, 0.0, 0.0),
+            DVec3::new(0.0, 10.0, 0.0),
+        ],
+        &[&[0, 1, 2]],
+    );
+    let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
+    let folded = of(
+        &[
+            at(0.0, 0.0, 0.0),
+            at(1.7, 0.0, 0.0),
+            at(1.9, 0.0, -3.0),
+            at(2.1, 0.0, 0.0),
+            at(10.0, 0.0, 0.0),
+            at(0.0, 10.0, 0.0),
+        ],
+        &[&[0, 1, 5], &[1, 2, 5], &[2, 3, 5], &[3, 4, 5]],
+    );
+    let found = between(&flat, &folded, 1e-5);
+    assert_eq!(found.back.largest, 3.0);
+    let sampled = brute(&flat, &folded, 500);
+    assert!(found.forth.at_most >= sampled, "{found:?} {sampled}");
+    assert!(found.forth.largest < sampled + 0.02, "{found:?} {sampled}");
+}
+
+#[test]
+fn the_bounds_hold_for_meshes_that_are_pushed_about() {
+    // A fixed sequence that looks random.
+    let mut state = 1_u64;
+    let mut next = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f64 / f64::from(1 << 24) - 0.5
+    };
+    for round in 0..12 {
+        let (a, b) = match round % 4 {
+            0 => (shapes::cube(), shapes::icosahedron()),
+            1 => (shapes::tetrahedron(), shapes::octahedron()),
+            2 => (shapes::grid(3, 2), shapes::grid(2, 4)),
+            _ => (shapes::torus(5, 4, 2.0, 1.0), shapes::cube()),
+        };
+        let mut push = |mesh: Mesh| {
+            let mut mesh = mesh;
+            for p in mesh.positions_mut() {
+                *p += DVec3::new(next(), next(), next());
+            }
+            mesh
+        };
+        let (a, b) = (push(a), push(b));
+        let found = between(&a, &b, 1e-4);
+        for (side, sampled) in [
+            (&found.forth, brute(&a, &b, 40)),
+            (&found.back, brute(&b, &a, 40)),
+        ] {
+            assert!(
+                side.at_most >= sampled - 1e-12,
+                "{round}: {side:?} {sampled}"
+            );
+            // Samples are a fortieth of a side apart.
+            assert!(
+                side.largest <= sampled + 0.12,
+                "{round}: {side:?} {sampled}"
+            );
+            let way = side.from.position.distance(side.to.position);
+            assert!((way - side.largest).abs() < 1e-12, "{side:?}");
+        }
+    }
+}
+
+#[test]
+fn the_same_bits_for_any_number_of_threads() {
+    let a = shapes::torus(90, 60, 2.0, 1.0);
+    let b = moved(shapes::torus(70, 80, 2.0, 1.0), |p| {
+        p + DVec3::new(0.01, 0.02, 0.03)
+    });
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| Distance::between(&a, &b, None).unwrap())
+    };
+    assert_eq!(with(1), with(7));
+}
+
+#[test]
+fn meshes_without_faces_have_no_distance() {
+    let points = of(&[DVec3::ZERO, DVec3::X], &[]);
+    assert_eq!(Distance::between(&points, &shapes::cube(), None), None);
+    assert_eq!(Distance::between(&shapes::cube(), &points, None), None);
+}
+
+#[test]
+fn faces_without_area_are_lines_and_points() {
+    let line = of(&[DVec3::ZERO, DVec3::X, 0.5 * DVec3::X], &[&[0, 1, 2]]);
+    let lifted = moved(line.clone(), |p| p + DVec3::Z);
+    let found = between(&line, &lifted, 1e-9);
+    assert_eq!((found.largest(), found.mean()), (1.0, 1.0));
+    let point = moved(line.clone(), |_| DVec3::Y);
+    let found = between(&line, &point, 1e-9);
+    assert!((found.largest() - 2.0_f64.sqrt()).abs() < 1e-9, "{found:?}");
+}
+
+#[test]
+fn vertices_without_faces_are_measured_too() {
+    let a = of(
+        &[DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(0.0, 0.0, 5.0)],
+        &[&[0, 1, 2]],
+    );
+    let b = of(&[DVec3::ZERO, DVec3::X, DVec3::Y], &[&[0, 1, 2]]);
+    let found = between(&a, &b, 1e-9);
+    assert_eq!(found.forth.largest, 5.0);
+    assert_eq!(found.forth.from.on, Element::Vertex(VertexId::new(3)));
+    assert!(found.back.largest < 1e-15);
+}
+
+#[test]
+fn coordinates_that_are_too_large_to_be_squared_end() {
+    let huge = moved(shapes::cube(), |p| p * 1e200);
+    let found = Distance::between(&huge, &shapes::cube(), None).unwrap();
+    assert!(found.largest() > 1e150);
+}
+
+#[test]
+fn a_surface_around_a_small_one_is_bounded_though_all_of_it_is_equally_near() {
+    let around = shapes::uv_sphere(160, 80);
+    let small = moved(shapes::uv_sphere(24, 12), |p| p * 1e-6);
+    let found = Distance::between(&small, &around, None).unwrap();
+    for side in [&found.forth, &found.back] {
+        assert!(
+            side.largest > 0.9 && side.largest <= side.at_most,
+            "{side:?}"
+        );
+        assert!(side.at_most < 1.000_01, "{side:?}");
+    }
+}
+
+#[test]
+fn each_vertex_has_its_distance() {
+    let (cube, mut moved) = (shapes::cube(), shapes::cube());
+    for p in moved.positions_mut() {
+        p.x += 0.25;
+    }
+    let distances = vertex_distances(&moved, &cube).unwrap();
+    let expected = |v: VertexId| if moved.position(v).x > 1.0 { 0.25 } else { 0.0 };
+    let is_right = |v: VertexId| (distances[v.index()] - expected(v)).abs() < 1e-12;
+    assert!(moved.vertices().all(is_right), "{distances:?}");
+    assert_eq!(vertex_distances(&cube, &Mesh::default()), None);
+}

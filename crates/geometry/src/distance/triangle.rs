@@ -1,0 +1,141 @@
+//! Nearest points of segments and triangles.
+
+use mesh::DVec3;
+
+/// The point of the segment from `a` to `b` nearest to `p`; `a` if the segment is a point.
+pub(super) fn nearest_on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
+    let along = b - a;
+    let length_squared = along.length_squared();
+    if length_squared == 0.0 {
+        return a;
+    }
+    a + along * ((p - a).dot(along) / length_squared).clamp(0.0, 1.0)
+}
+
+/// The distance between two segments.
+///
+/// The nearest points of their lines, each moved into its segment in turn: Ericson, "Real-Time Collision
+/// Detection", 2005, §5.1.9.
+pub(super) fn between_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
+    let (u, v, w) = (b - a, d - c, a - c);
+    let (uu, vv, uv) = (u.length_squared(), v.length_squared(), u.dot(v));
+    let cross = uu * vv - uv * uv;
+    let s = if cross > 0.0 {
+        ((uv * v.dot(w) - vv * u.dot(w)) / cross).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    let on_second = nearest_on_segment(a + s * u, c, d);
+    let on_first = nearest_on_segment(on_second, a, b);
+    on_first.distance(on_second)
+}
+
+/// The point of a triangle nearest to `p`, by the region that `p` lies over. A triangle without area is
+/// its three sides.
+///
+/// Ericson, "Real-Time Collision Detection", 2005, §5.1.5.
+pub(super) fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
+    let (ab, ac) = (b - a, c - a);
+    if ab.cross(ac) == DVec3::ZERO {
+        let sides = [[a, b], [b, c], [c, a]].map(|[a, b]| nearest_on_segment(p, a, b));
+        let nearer = |q: DVec3, r: DVec3| {
+            if p.distance_squared(r) < p.distance_squared(q) {
+                r
+            } else {
+                q
+            }
+        };
+        return nearer(nearer(sides[0], sides[1]), sides[2]);
+    }
+    let (d1, d2) = (ab.dot(p - a), ac.dot(p - a));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return a;
+    }
+    let (d3, d4) = (ab.dot(p - b), ac.dot(p - b));
+    if d3 >= 0.0 && d4 <= d3 {
+        return b;
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return nearest_on_segment(p, a, b);
+    }
+    let (d5, d6) = (ab.dot(p - c), ac.dot(p - c));
+    if d6 >= 0.0 && d5 <= d6 {
+        return c;
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return nearest_on_segment(p, a, c);
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        return nearest_on_segment(p, b, c);
+    }
+    let sum = va + vb + vc;
+    a + ab * (vb / sum) + ac * (vc / sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points on a lattice around the origin.
+    fn lattice() -> impl Iterator<Item = DVec3> {
+        (0..200).map(|i| {
+            DVec3::new(
+                f64::from(i % 7) - 2.0,
+                f64::from(i % 5) - 1.0,
+                f64::from(i % 3) - 1.0,
+            )
+        })
+    }
+
+    /// The least distance from `p` to samples of the triangle.
+    fn sampled(p: DVec3, t: &[DVec3; 3]) -> f64 {
+        (0..=60)
+            .flat_map(|a| (0..=60 - a).map(move |b| (f64::from(a) / 60.0, f64::from(b) / 60.0)))
+            .map(|(u, v)| p.distance(t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0])))
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn the_nearest_point_agrees_with_many_samples_of_the_triangle() {
+        let at = DVec3::new;
+        for t in [
+            [DVec3::ZERO, at(3.0, 0.5, 0.0), at(1.0, 2.0, 1.0)],
+            // A segment, a segment with a doubled end, a point.
+            [DVec3::ZERO, at(2.0, 2.0, 0.0), at(1.0, 1.0, 0.0)],
+            [DVec3::ZERO, DVec3::ZERO, at(2.0, 1.0, 1.0)],
+            [at(1.0, 0.0, 1.0); 3],
+        ] {
+            for p in lattice() {
+                let found = p.distance(nearest_on_triangle(p, &t));
+                let sampled = sampled(p, &t);
+                assert!(
+                    found <= sampled + 1e-12 && sampled < found + 0.06,
+                    "{t:?} {p}: {found} {sampled}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_distance_of_segments_agrees_with_many_samples() {
+        let at = DVec3::new;
+        let points: Vec<DVec3> = lattice().collect();
+        let mut segments: Vec<[DVec3; 2]> = points.windows(2).map(|w| [w[0], w[1]]).collect();
+        segments.push([DVec3::ZERO; 2]);
+        let fixed = [at(0.5, -1.0, 0.25), at(1.0, 1.5, 0.25)];
+        for segment in segments {
+            let found = between_segments(fixed, segment);
+            let sampled = (0..=200)
+                .map(|i| fixed[0].lerp(fixed[1], f64::from(i) / 200.0))
+                .map(|p| p.distance(nearest_on_segment(p, segment[0], segment[1])))
+                .fold(f64::INFINITY, f64::min);
+            assert!(
+                found <= sampled + 1e-12 && sampled < found + 0.02,
+                "{segment:?}: {found} {sampled}"
+            );
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Algorithms over a [`Mesh`](mesh::Mesh): what is more than one element and its neighbours.
+//!
+//! | module | what it does |
+//! | --- | --- |
+//! | [`shapes`] | simple meshes |
+//! | [`area`], [`volume`], [`bounds`], [`genus`], [`components`] | measures of whole meshes |
+//! | [`gaussian_curvatures`], [`mean_curvatures`] | discrete curvature |
+//! | [`distance`] | the distance between two surfaces |
+//! | [`merge_vertices`], [`parts`] | putting meshes together and taking them apart |
+//! | [`triangulate`], [`fill_hole_triangles`] | triangles for faces and holes |
+//! | [`bisect`], [`bevel`] | cutting |
+
+pub mod bevel;
+mod bisect;
+mod curvature;
+pub mod distance;
+mod fill_hole;
+mod measure;
+mod merge;
+mod part;
+pub mod shapes;
+pub mod triangulate;
+
+pub use bisect::{Bisection, bisect};
+pub use curvature::{gaussian_curvatures, mean_curvatures, vertex_area};
+pub use fill_hole::fill_hole_triangles;
+pub use measure::{
+    area, bounds, components, genus, n_components, sin_cos_degrees, valences, volume,
+};
+pub use merge::{MergeError, Merged, clusters, merge_clusters, merge_vertices};
+pub use part::{face_components, parts, separated};

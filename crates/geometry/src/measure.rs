@@ -1,0 +1,212 @@
+//! Measures of whole meshes: how large one is, and of what kind.
+
+use mesh::{DVec3, Domain, FaceId, Mesh, VertexId, blocks};
+
+/// The sum of the areas of all faces.
+pub fn area(mesh: &Mesh) -> f64 {
+    sum_over_faces(mesh, |f| mesh.face_area(f))
+}
+
+/// The volume inside the mesh; negative if the faces are seen from the inside. Only meaningful for
+/// a closed mesh.
+///
+/// The sum of the signed volumes of tetrahedra from a fixed point to the triangles of a fan of
+/// each face, by the divergence theorem. The point is the middle of the bounds, so that meshes far
+/// from the origin lose no digits.
+pub fn volume(mesh: &Mesh) -> f64 {
+    let middle = bounds(mesh).map_or(DVec3::ZERO, |[min, max]| 0.5 * (min + max));
+    sum_over_faces(mesh, |f| {
+        let mut corners = mesh.face_vertices(f).map(|v| mesh.position(v) - middle);
+        let (Some(first), Some(mut last)) = (corners.next(), corners.next()) else {
+            return 0.0;
+        };
+        let mut sum = 0.0;
+        for p in corners {
+            sum += first.dot(last.cross(p));
+            last = p;
+        }
+        sum / 6.0
+    })
+}
+
+fn sum_over_faces(mesh: &Mesh, term: impl Fn(FaceId) -> f64 + Sync) -> f64 {
+    blocks::sum(mesh.domain_len(Domain::Face), |i| {
+        let f = FaceId::new(i);
+        if mesh.has_face(f) { term(f) } else { 0.0 }
+    })
+}
+
+/// The smallest and the largest coordinates of all vertices; `None` for a mesh without vertices.
+pub fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
+    let bounds = |v: usize| {
+        let v = VertexId::new(v);
+        mesh.has_vertex(v).then(|| [mesh.position(v); 2])
+    };
+    blocks::fold(mesh.positions().len(), None, bounds, |a, b| match (a, b) {
+        (Some([min, max]), Some([low, high])) => Some([min.min(low), max.max(high)]),
+        (a, b) => a.or(b),
+    })
+}
+
+/// The number of handles of all components together, by χ = 2c - 2g - b: c the components with
+/// faces, b the boundary loops, χ without isolated vertices.
+pub fn genus(mesh: &Mesh) -> i64 {
+    let count = |n: usize| i64::try_from(n).expect("fewer than 2^32 elements");
+    let isolated = count(mesh.n_isolated_vertices());
+    let euler = mesh.euler_characteristic() - isolated;
+    let components = count(n_components(mesh)) - isolated;
+    (2 * components - count(mesh.n_boundary_loops()) - euler) / 2
+}
+
+/// For each vertex (by index, dead ones too) the number of its component, from 0 in order of the
+/// lowest vertex; an isolated vertex is a component of its own.
+pub fn components(mesh: &Mesh) -> Vec<usize> {
+    let mut component = vec![usize::MAX; mesh.positions().len()];
+    let mut n = 0;
+    let mut stack = Vec::new();
+    for v in mesh.vertices() {
+        if component[v.index()] != usize::MAX {
+            continue;
+        }
+        component[v.index()] = n;
+        stack.push(v);
+        while let Some(v) = stack.pop() {
+            for w in mesh.vertex_neighbors(v) {
+                if component[w.index()] == usize::MAX {
+                    component[w.index()] = n;
+                    stack.push(w);
+                }
+            }
+        }
+        n += 1;
+    }
+    component
+}
+
+/// The number of connected parts, isolated vertices counted.
+pub fn n_components(mesh: &Mesh) -> usize {
+    let components = components(mesh);
+    components
+        .iter()
+        .filter(|&&c| c != usize::MAX)
+        .max()
+        .map_or(0, |&last| last + 1)
+}
+
+/// How many vertices have each valence: entry n counts those with n edges.
+pub fn valences(mesh: &Mesh) -> Vec<usize> {
+    let mut counts = Vec::new();
+    for v in mesh.vertices() {
+        let n = mesh.valence(v);
+        counts.resize(counts.len().max(n + 1), 0);
+        counts[n] += 1;
+    }
+    counts
+}
+
+/// Sine and cosine of an angle in degrees, exact for multiples of 90, and the same bits on every platform.
+pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
+    let degrees = degrees % 360.0; // the remainder is exact
+    match degrees.abs() {
+        0.0 => (0.0, 1.0),
+        90.0 => (degrees.signum(), 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-degrees.signum(), 0.0),
+        _ => libm::sincos(degrees.to_radians()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shapes;
+
+    #[test]
+    fn quarter_turns_have_exact_sines_and_cosines() {
+        let quarters = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)];
+        for k in -9..=9 {
+            let exact = quarters[usize::try_from(i32::rem_euclid(k, 4)).unwrap()];
+            assert_eq!(sin_cos_degrees(90.0 * f64::from(k)), exact, "{k} quarters");
+        }
+    }
+
+    #[test]
+    fn other_angles_lie_on_the_circle() {
+        for degrees in [1.0, 30.0, -45.0, 89.999_999, 1e6, -1e300] {
+            let (s, c) = sin_cos_degrees(degrees);
+            assert!((s * s + c * c - 1.0).abs() < 1e-15);
+        }
+        assert!((sin_cos_degrees(30.0).0 - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_unit_cube_has_area_six_and_volume_one() {
+        let mut cube = shapes::cube();
+        for p in cube.positions_mut() {
+            *p = 0.5 * *p + DVec3::splat(1e6);
+        }
+        assert!((area(&cube) - 6.0).abs() < 1e-8);
+        assert!((volume(&cube) - 1.0).abs() < 1e-8);
+        assert_eq!(
+            bounds(&cube),
+            Some([DVec3::splat(1e6 - 0.5), DVec3::splat(1e6 + 0.5)])
+        );
+    }
+
+    #[test]
+    fn the_volume_of_a_mesh_turned_inside_out_is_negative() {
+        let cube = shapes::cube();
+        let polygons: Vec<Vec<u32>> = cube
+            .faces()
+            .map(|f| {
+                let mut corners: Vec<u32> = cube
+                    .face_vertices(f)
+                    .map(|v| u32::try_from(v.index()).unwrap())
+                    .collect();
+                corners.reverse();
+                corners
+            })
+            .collect();
+        let (inside_out, _) = Mesh::from_polygons(cube.positions().to_vec(), &polygons).unwrap();
+        assert_eq!(volume(&inside_out), -volume(&cube));
+    }
+
+    #[test]
+    fn genus_and_loops_tell_the_kinds_of_surfaces_apart() {
+        let kind = |m: &Mesh| {
+            (
+                m.euler_characteristic(),
+                genus(m),
+                m.n_boundary_loops(),
+                n_components(m),
+            )
+        };
+        assert_eq!(kind(&shapes::cube()), (2, 0, 0, 1));
+        assert_eq!(kind(&shapes::torus(6, 4, 2.0, 0.5)), (0, 1, 0, 1));
+        assert_eq!(kind(&shapes::grid(3, 2)), (1, 0, 1, 1));
+        assert_eq!(kind(&Mesh::default()), (0, 0, 0, 0));
+        let mut tube = shapes::cube();
+        tube.delete_face(FaceId::new(0)).unwrap();
+        let opposite = tube
+            .faces()
+            .find(|&f| tube.face_vertices(f).all(|v| !tube.is_boundary_vertex(v)));
+        tube.delete_face(opposite.unwrap()).unwrap();
+        assert_eq!(kind(&tube), (0, 0, 2, 1));
+    }
+
+    #[test]
+    fn isolated_vertices_change_neither_genus_nor_loops() {
+        let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        let (mesh, _) = Mesh::from_polygons(points, &[[0, 1, 2]]).unwrap();
+        assert_eq!(
+            (genus(&mesh), mesh.n_boundary_loops(), n_components(&mesh)),
+            (0, 1, 2)
+        );
+    }
+
+    #[test]
+    fn valences_are_counted() {
+        assert_eq!(valences(&shapes::icosahedron()), [0, 0, 0, 0, 0, 12]);
+        assert_eq!(valences(&shapes::grid(1, 1)), [0, 0, 4]);
+    }
+}

@@ -1,0 +1,307 @@
+//! The values of a recipe, each with its place in the text.
+
+use super::literal::Number;
+use crate::diagnostic::Span;
+use std::fmt;
+
+/// A value and where it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Value {
+    /// The place in the text, from the first to the last character of the value.
+    pub span: Span,
+    /// What it is.
+    pub kind: ValueKind,
+    /// The parameter of the recipe that this value was put in for, if it was: the span is then
+    /// that of the `arg(..)`.
+    pub parameter: Option<Box<str>>,
+}
+
+/// The forms of values that RON has.
+///
+/// `Some(x)` is a call and `None` a name: only a schema can tell an option from an enumeration.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ValueKind {
+    /// `true` or `false`.
+    Bool(bool),
+    /// `7` or `0.5`.
+    Number(Number),
+    /// `"text"`, without its quotes and escapes.
+    String(Box<str>),
+    /// `'c'`.
+    Char(char),
+    /// `Area`: a variant without parameters, or `None`.
+    Name(Box<str>),
+    /// `()`.
+    Unit,
+    /// `(a: 1, b: 2)`.
+    Struct(Struct),
+    /// `(1, 2)`.
+    Tuple(Vec<Value>),
+    /// `[1, 2]`.
+    List(Vec<Value>),
+    /// `{"a": 1}`.
+    Map(Vec<(Value, Value)>),
+    /// `Name(..)`.
+    Call(Box<Call>),
+    /// Something that could not be read; a diagnostic says why.
+    Error,
+}
+
+/// The fields between two brackets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Struct {
+    /// The fields in the order of the text.
+    pub fields: Vec<Field>,
+    /// Whether everything between the brackets could be read. If not, a field that seems to be
+    /// missing may be there.
+    pub complete: bool,
+}
+
+impl Struct {
+    /// The field with this name, the first if it was written twice.
+    pub fn field(&self, name: &str) -> Option<&Field> {
+        self.fields.iter().find(|field| &*field.name.text == name)
+    }
+}
+
+/// `name: value`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// The name.
+    pub name: Name,
+    /// The value.
+    pub value: Value,
+}
+
+/// `Name(..)`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Call {
+    /// The name.
+    pub name: Name,
+    /// What stands in brackets, with the brackets: a unit, a struct or a tuple.
+    pub body: Value,
+}
+
+/// A name and where it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// Where, with the `r#` of a raw name.
+    pub span: Span,
+    /// The name without `r#`.
+    pub text: Box<str>,
+}
+
+impl Value {
+    /// A value that stands in the text itself.
+    pub fn new(span: Span, kind: ValueKind) -> Self {
+        Self {
+            span,
+            kind,
+            parameter: None,
+        }
+    }
+
+    /// The fields, if the value is `(a: 1, ..)` or `Name(a: 1, ..)`; none for `()` and `Name()`.
+    pub fn fields(&self) -> &[Field] {
+        match &self.kind {
+            ValueKind::Struct(fields) => &fields.fields,
+            ValueKind::Call(call) => call.body.fields(),
+            _ => &[],
+        }
+    }
+
+    /// The value of the field with this name, if there is one.
+    pub fn field(&self, name: &str) -> Option<&Self> {
+        self.fields()
+            .iter()
+            .find(|field| &*field.name.text == name)
+            .map(|field| &field.value)
+    }
+
+    /// The same, to be changed.
+    pub fn field_mut(&mut self, name: &str) -> Option<&mut Self> {
+        match &mut self.kind {
+            ValueKind::Struct(body) => (body.fields.iter_mut())
+                .find(|field| &*field.name.text == name)
+                .map(|field| &mut field.value),
+            ValueKind::Call(call) => call.body.field_mut(name),
+            _ => None,
+        }
+    }
+
+    /// The name of `Name` and `Name(..)`, and where it stands.
+    pub fn name(&self) -> Option<(&str, Span)> {
+        match &self.kind {
+            ValueKind::Name(name) => Some((name, self.span)),
+            ValueKind::Call(call) => Some((&call.name.text, call.name.span)),
+            _ => None,
+        }
+    }
+
+    /// The text of a string.
+    pub fn as_str(&self) -> Option<&str> {
+        match &self.kind {
+            ValueKind::String(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The items of `[..]`.
+    pub fn items(&self) -> Option<&[Self]> {
+        match &self.kind {
+            ValueKind::List(items) => Some(items),
+            _ => None,
+        }
+    }
+
+    /// The x of `Some(x)`.
+    pub fn some(&self) -> Option<&Self> {
+        match &self.kind {
+            ValueKind::Call(call) if &*call.name.text == "Some" => call.body.single(),
+            _ => None,
+        }
+    }
+
+    /// The x of `(x)`.
+    pub fn single(&self) -> Option<&Self> {
+        match &self.kind {
+            ValueKind::Tuple(items) if items.len() == 1 => items.first(),
+            _ => None,
+        }
+    }
+
+    /// Calls `change` with each value that this one is directly made of, in the order of the text.
+    pub fn for_each_part(&mut self, mut change: impl FnMut(&mut Self)) {
+        match &mut self.kind {
+            ValueKind::Call(call) => change(&mut call.body),
+            ValueKind::Struct(body) => body.fields.iter_mut().for_each(|f| change(&mut f.value)),
+            ValueKind::Tuple(items) | ValueKind::List(items) => items.iter_mut().for_each(change),
+            ValueKind::Map(entries) => {
+                for (key, value) in entries {
+                    change(key);
+                    change(value);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The values that this one is directly made of, in the order of the text.
+    pub fn parts(&self) -> Box<dyn Iterator<Item = &Self> + '_> {
+        match &self.kind {
+            ValueKind::Call(call) => Box::new(std::iter::once(&call.body)),
+            ValueKind::Struct(body) => Box::new(body.fields.iter().map(|field| &field.value)),
+            ValueKind::Tuple(items) | ValueKind::List(items) => Box::new(items.iter()),
+            ValueKind::Map(entries) => Box::new(entries.iter().flat_map(|(k, v)| [k, v])),
+            _ => Box::new(std::iter::empty()),
+        }
+    }
+
+    /// Whether something in the value could not be read.
+    pub fn has_errors(&self) -> bool {
+        match &self.kind {
+            ValueKind::Error => true,
+            ValueKind::Struct(body) if !body.complete => true,
+            _ => self.parts().any(Self::has_errors),
+        }
+    }
+
+    /// What the value is, in a few words for a message: `1.5`, `a string`, `a list`.
+    pub fn describe(&self) -> String {
+        match &self.kind {
+            ValueKind::Bool(_) | ValueKind::Name(_) => format!("`{self}`"),
+            ValueKind::Number(number) => number.text().to_owned(),
+            ValueKind::String(text) if text.chars().count() <= 20 => format!("the string {self}"),
+            ValueKind::String(_) => "a string".to_owned(),
+            ValueKind::Char(_) => format!("the character {self}"),
+            ValueKind::Unit => "`()`".to_owned(),
+            ValueKind::Struct(_) => "named fields `(name: ..)`".to_owned(),
+            ValueKind::Tuple(items) if items.len() == 1 => "a value in brackets `(..)`".to_owned(),
+            ValueKind::Tuple(items) => format!("{} values in brackets `(.., ..)`", items.len()),
+            ValueKind::List(_) => "a list `[..]`".to_owned(),
+            ValueKind::Map(_) => "a map `{..}`".to_owned(),
+            ValueKind::Call(call) => format!("`{}(..)`", call.name.text),
+            ValueKind::Error => "something unreadable".to_owned(),
+        }
+    }
+}
+
+/// Writes the value in one line, as RON that reads back as the same value.
+///
+/// An unreadable value is written as `_`.
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.kind {
+            ValueKind::Bool(value) => write!(f, "{value}"),
+            ValueKind::Number(number) => f.write_str(number.text()),
+            ValueKind::String(text) => write_string(f, text),
+            ValueKind::Char('"') => f.write_str("'\"'"),
+            ValueKind::Char(c) => write!(f, "'{}'", c.escape_debug()),
+            ValueKind::Name(name) => write_name(f, name),
+            ValueKind::Unit => f.write_str("()"),
+            ValueKind::Struct(fields) => write_list(f, ["(", ")"], &fields.fields, |f, field| {
+                write_name(f, &field.name.text)?;
+                write!(f, ": {}", field.value)
+            }),
+            ValueKind::Tuple(items) => write_list(f, ["(", ")"], items, |f, v| write!(f, "{v}")),
+            ValueKind::List(items) => write_list(f, ["[", "]"], items, |f, v| write!(f, "{v}")),
+            ValueKind::Map(entries) => write_list(f, ["{", "}"], entries, |f, (key, value)| {
+                write!(f, "{key}: {value}")
+            }),
+            ValueKind::Call(call) => {
+                write_name(f, &call.name.text)?;
+                write!(f, "{}", call.body)
+            }
+            ValueKind::Error => f.write_str("_"),
+        }
+    }
+}
+
+/// `text` as a RON string literal.
+///
+/// ```
+/// assert_eq!(ron_tree::string_literal("a \"b\"\n"), r#""a \"b\"\n""#);
+/// ```
+pub fn string_literal(text: &str) -> String {
+    struct Literal<'t>(&'t str);
+    impl fmt::Display for Literal<'_> {
+        fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            write_string(f, self.0)
+        }
+    }
+    Literal(text).to_string()
+}
+
+fn write_string(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
+    f.write_str("\"")?;
+    for c in text.chars() {
+        match c {
+            '\'' => f.write_str("'")?,
+            c => write!(f, "{}", c.escape_debug())?,
+        }
+    }
+    f.write_str("\"")
+}
+
+fn write_name(f: &mut fmt::Formatter<'_>, name: &str) -> fmt::Result {
+    let plain = name.starts_with(|c: char| c == '_' || c.is_alphabetic())
+        && name.chars().all(|c| c == '_' || c.is_alphanumeric());
+    let reserved = matches!(name, "true" | "false" | "inf" | "NaN");
+    write!(f, "{}{name}", if plain && !reserved { "" } else { "r#" })
+}
+
+fn write_list<T>(
+    f: &mut fmt::Formatter<'_>,
+    [open, close]: [&str; 2],
+    items: &[T],
+    mut write: impl FnMut(&mut fmt::Formatter<'_>, &T) -> fmt::Result,
+) -> fmt::Result {
+    f.write_str(open)?;
+    for (i, item) in items.iter().enumerate() {
+        if i > 0 {
+            f.write_str(", ")?;
+        }
+        write(f, item)?;
+    }
+    f.write_str(close)
+}

@@ -15,7 +15,8 @@ use glam::{DVec2, DVec3};
 use scene::{Geometry, Scene};
 
 use crate::One;
-use crate::error::{Fault, Unwritable};
+use crate::error::Unwritable;
+use crate::fault::Fault;
 use crate::loss::Losses;
 use crate::text::{Cursor, Place, check_encoding, number, parsed, push_number};
 

@@ -49,7 +49,7 @@ use crate::note::{Names, Notes};
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 use crate::{Found, Polygons, Shape};
 
-use document::{Document, Node, elements, error_at, line, number_of, text};
+use document::{Document, elements, error_at, line, number_of, text};
 use geometry::{Geometries, Surface};
 use nodes::{Placed, placed};
 use tally::{Budget, Tally};

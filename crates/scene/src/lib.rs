@@ -7,7 +7,6 @@
 mod decode;
 mod digest;
 mod material;
-mod sound;
 
 use std::sync::Arc;
 

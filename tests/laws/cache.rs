@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use ::cache::{Cache, Caching};
 use op::Files;
-use recipe::{Cache, Caching, Outcome, Settings, Silent};
+use recipe::{Outcome, Settings, Silent, StepCache};
 use tempfile::TempDir;
 
 /// What a run leaves behind, without times.
@@ -39,17 +40,18 @@ fn run(path: &Path, cache: Option<&Cache>) -> (Left, Outcome) {
         }
         Ok(loaded.objects)
     };
+    let caching = cache.map(|cache| Caching {
+        cache,
+        recipe: Some(path),
+        want_scene: false,
+    });
     let settings = Settings {
         files: &files,
         budget: u64::MAX,
         read: &read,
         keep_outputs: true,
         writes: true,
-        cache: cache.map(|cache| Caching {
-            cache,
-            recipe: Some(path),
-            want_scene: false,
-        }),
+        cache: caching.as_ref().map(|caching| caching as &dyn StepCache),
     };
     let outcome = recipe::run(&reading.recipe, settings, &Silent);
     let step = |s: &recipe::StepDone| {

@@ -9,7 +9,6 @@ mod cube_diagonals;
 mod every_op;
 mod fixtures;
 mod opensubdiv;
-mod outside;
 mod random_edits;
 mod registry;
 mod renewing;

@@ -8,4 +8,4 @@ mkdir -p "$build"
 
 g++ -std=c++17 -O2 -Wall -Wextra -Werror tests/oracle/bench.cpp -losdCPU -o "$build/bench"
 "$build/bench"
-cargo bench -p meshwright-subdivision "$@"
+cargo bench -p meshwright-benches --bench levels "$@"

@@ -4,10 +4,9 @@
 //! cargo bench -p meshwright-cli --bench cache
 //! ```
 
-use std::path::Path;
-use std::process::{Command, Stdio};
+mod common;
 
-use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
+use common::{measure, run};
 
 const MAKE: &str = r#"(recipe: 1, steps: [
     Torus(name: "torus", around: 1000, across: 500), Triangulate, Save(path: "big.glb"), Save(path: "big.obj"),
@@ -21,42 +20,28 @@ fn recipe(ending: &str) -> String {
     )
 }
 
-fn run(folder: &Path, arguments: &[&str]) {
-    let status = Command::new(env!("CARGO_BIN_EXE_meshwright"))
-        .arg("run")
-        .args(arguments)
-        .current_dir(folder)
-        .stdout(Stdio::null())
-        .status();
-    assert!(status.is_ok_and(|status| status.success()), "{arguments:?}");
-}
-
-fn a_million_triangles(c: &mut Criterion) {
+fn main() {
     let temporary = tempfile::tempdir().expect("a temporary folder");
     let folder = temporary.path();
     let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).expect("a file");
     write("make.ron", MAKE);
-    run(folder, &["make.ron", "--no-cache", "--out", "."]);
+    run(folder, &["run", "make.ron", "--no-cache", "--out", "."]);
     for ending in ["glb", "obj"] {
         write("recipe.ron", &recipe(ending));
-        let mut group = c.benchmark_group(format!("1 M triangles of {ending}"));
-        group.sample_size(10);
-        group.bench_function("without a cache", |b| {
-            b.iter(|| run(folder, &["recipe.ron", "--no-cache"]));
-        });
-        let empty = || {
+        let measure = |name: &str, prepare: &dyn Fn(), arguments: &[&str]| {
+            let name = format!("1 M triangles of {ending}, {name}");
+            measure(&name, 11, prepare, || run(folder, arguments));
+        };
+        let clear = || {
             let _ = std::fs::remove_dir_all(folder.join("cache"));
         };
-        group.bench_function("first run with a cache", |b| {
-            let first = |()| run(folder, &["recipe.ron", "--cache", "cache"]);
-            b.iter_batched(empty, first, BatchSize::PerIteration);
-        });
-        group.bench_function("everything cached", |b| {
-            b.iter(|| run(folder, &["recipe.ron", "--cache", "cache"]));
-        });
-        group.finish();
+        let cached = ["run", "recipe.ron", "--cache", "cache"];
+        measure(
+            "without a cache",
+            &|| (),
+            &["run", "recipe.ron", "--no-cache"],
+        );
+        measure("first run with a cache", &clear, &cached);
+        measure("everything cached", &|| (), &cached);
     }
 }
-
-criterion_group!(benches, a_million_triangles);
-criterion_main!(benches);

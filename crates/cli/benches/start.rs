@@ -4,19 +4,9 @@
 //! cargo bench -p meshwright-cli --bench start
 //! ```
 
-use std::path::Path;
-use std::process::{Command, Stdio};
+mod common;
 
-use criterion::{Criterion, criterion_group, criterion_main};
-
-fn run(folder: &Path, arguments: &[&str]) {
-    let status = Command::new(env!("CARGO_BIN_EXE_meshwright"))
-        .args(arguments)
-        .current_dir(folder)
-        .stdout(Stdio::null())
-        .status();
-    assert!(status.is_ok_and(|status| status.success()), "{arguments:?}");
-}
+use common::{measure, run};
 
 /// Splits, flips and tags with selections, in turn.
 fn many_steps() -> String {
@@ -35,15 +25,11 @@ fn many_steps() -> String {
     format!("(recipe: 1, steps: [\n{steps}\n], expect: [Manifold])")
 }
 
-fn start(c: &mut Criterion) {
+fn main() {
     let temporary = tempfile::tempdir().expect("a temporary folder");
     let folder = temporary.path();
     std::fs::write(folder.join("many.ron"), many_steps()).expect("a file");
-    c.bench_function("--help", |b| b.iter(|| run(folder, &["--help"])));
-    c.bench_function("check of 1,000 steps", |b| {
-        b.iter(|| run(folder, &["check", "many.ron"]));
-    });
+    measure("--help", 101, || (), || run(folder, &["--help"]));
+    let check = || run(folder, &["check", "many.ron"]);
+    measure("check of 1,000 steps", 31, || (), check);
 }
-
-criterion_group!(benches, start);
-criterion_main!(benches);

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use ::cache::{Cache, Caching};
 use anyhow::Context as _;
 use etcetera::BaseStrategy as _;
-use recipe::{Cache, Caching};
 
 use crate::args::{CacheArgs, CacheFolder};
 

@@ -28,6 +28,26 @@ impl OnRefusal {
     }
 }
 
+/// What to do at a seam: an edge whose corner values, such as UVs, differ between its two sides.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub enum Seams {
+    /// Refuse the edit.
+    #[default]
+    Refuse,
+    /// Edit all the same. Each corner keeps the values of one side.
+    Drop,
+}
+
+impl From<Seams> for mesh::Seams {
+    fn from(seams: Seams) -> Self {
+        match seams {
+            Seams::Refuse => Self::Refuse,
+            Seams::Drop => Self::Drop,
+        }
+    }
+}
+
 /// What an edit is done to.
 pub trait Edited: Copy {
     /// The elements that it is.

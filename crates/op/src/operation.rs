@@ -10,7 +10,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::{
-    Context, Loss, MeshPlan, OpError, Place, Plan, PlanContext, PlannedGeometry, Problem, Report,
+    Context, Loss, MeshPlan, OpError, Plan, PlanContext, PlannedGeometry, Problem, Report,
 };
 
 /// An operation that changes one mesh. Over a scene it acts on every mesh, or on those named in `on:`.
@@ -180,9 +180,7 @@ fn apply_to<T: MeshOperation>(
     let mut report = match done {
         Ok(report) => report,
         Err(error) => {
-            let about = error.elements().iter();
-            let places = about.filter_map(|&element| Place::of(name, mesh, element));
-            cx.places = places.take(Place::MOST).collect();
+            let error = error.placed(name, mesh);
             if is_recording {
                 mesh.rollback();
             }

@@ -8,7 +8,6 @@
 //! [`check`] plans all steps without touching geometry: counts, memory, files, names. [`run`] runs them;
 //! outputs appear only when every step is done and every expectation holds.
 
-pub mod cache;
 pub mod capsule;
 pub mod compare;
 pub mod expect;
@@ -32,7 +31,6 @@ mod source;
 mod substitute;
 mod sweep;
 
-pub use cache::{Cache, CacheSize, Caching, Why};
 pub use check::{Forecast, StepForecast, check, mebibytes};
 pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
 pub use diagnostic::render;
@@ -42,7 +40,10 @@ pub use params::{Move, Param, ParamError};
 pub use read::{MAX_STEPS, Reading, VERSION, Values, read, read_by};
 pub use recipe::{OnLoss, Origin, Parameter, Placed, Recipe, RecipeStep, Scope};
 pub use ron_tree::{Diagnostic, LineIndex, Severity, Span};
-pub use run::{Failure, Listener, Outcome, Settings, Silent, StepDone, Unmet, run, stage_prefix};
+pub use run::{
+    CachedRun, Change, Done, Failure, Finding, Listener, Outcome, Settings, Silent, StepCache,
+    StepDone, Unmet, Why, run, run_from,
+};
 pub use schema::{Schemas, schema, step_kinds};
 pub use select::{read_selection, resolve};
 pub use shape::did_you_mean;

@@ -3,28 +3,31 @@
 //! Steps run one after another on a scene. If one fails, the run ends and nothing is written: outputs
 //! go to a folder of their own beside their places, and are moved there when everything has held.
 //!
-//! With a [cache](crate::cache) a step runs only if the cache does not have its result, and a scene is
+//! With a [cache](StepCache) a step runs only if the cache does not have its result, and a scene is
 //! brought back from it only where a step runs or an expectation must be held against it.
 
+mod before;
+mod cache;
 mod listener;
 mod outcome;
 mod stage;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use op::{Context, FileLog, Files, OpError, Place, Progress, Refusal, Report};
 use scene::{Digest, Geometry, Scene};
+use web_time::Instant;
 
-use crate::cache::{Before, Caching, Done, Session, Why};
 use crate::check::forbidden;
 use crate::expect::{Found, ReadObjects, Subject};
 use crate::recipe::{Recipe, RecipeStep};
+use before::Before;
 use listener::Forward;
 use ron_tree::Diagnostic;
 use stage::{deliver, listing, staging, written};
 
+pub use cache::{CachedRun, Change, Done, Finding, StepCache, Why};
 pub use listener::{Failure, Listener, Silent, StepDone};
 pub use outcome::{Outcome, Unmet};
 
@@ -42,21 +45,40 @@ pub struct Settings<'a> {
     /// Whether the recipe writes anything.
     pub writes: bool,
     /// The cache, if there is one.
-    pub cache: Option<Caching<'a>>,
+    pub cache: Option<&'a dyn StepCache>,
 }
 
 /// Runs a recipe that was read and checked without errors.
 pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outcome {
+    run_from(recipe, 0, Scene::new(), settings, listener)
+}
+
+/// Runs a recipe from the step of number `first` on: `scene` is that before it, as [`Listener::scene_after`] or an
+/// [`Outcome`] gave it. A change of a step costs no step before it.
+///
+/// Expectations after earlier steps are not held again, and what earlier steps write is not written again. There is no
+/// cache then: it knows a scene by the steps that led to it, and nobody checks that these led to `scene`.
+pub fn run_from(
+    recipe: &Recipe,
+    first: usize,
+    scene: Scene,
+    settings: Settings,
+    listener: &dyn Listener,
+) -> Outcome {
+    // The cache reads inputs and outputs from the disk by itself.
+    let is_useful = first == 0 && settings.files.store.is_disk();
+    let cache = settings.cache.filter(|_| is_useful);
     let mut runner = Runner {
         recipe,
         settings,
         files: Vec::new(),
         log: FileLog::default(),
         stage: None,
-        session: settings.cache.map(Session::new),
-        scene: Scene::new(),
-        at: 0,
-        n_done: 0,
+        session: cache.map(StepCache::begin),
+        scene,
+        at: first,
+        first,
+        n_done: first,
         steps: Vec::new(),
         failures: Vec::new(),
         unmet: Vec::new(),
@@ -64,7 +86,7 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
         checked: 0,
     };
     let mut written = Vec::new();
-    match staging(settings) {
+    match staging(&settings) {
         Ok(stage) => {
             let mut files = settings.files.clone();
             // Only what this run asks for counts.
@@ -98,10 +120,12 @@ struct Runner<'a> {
     /// What they ask for.
     log: FileLog,
     stage: Option<PathBuf>,
-    session: Option<Session<'a>>,
+    session: Option<Box<dyn CachedRun + 'a>>,
     /// The scene before the step of number `at`. Later steps than that were found in the cache.
     scene: Scene,
     at: usize,
+    /// The step that the run began with.
+    first: usize,
     /// How many steps are done: one more than are listed if the last one lost what it must not.
     n_done: usize,
     steps: Vec<StepDone>,
@@ -126,7 +150,7 @@ impl Runner<'_> {
         let _ = self.run_steps(listener);
         if self.failures.is_empty()
             && !self.cancelled
-            && self.session.as_ref().is_some_and(Session::wants_scene)
+            && self.session.as_ref().is_some_and(|s| s.wants_scene())
         {
             let _ = self.bring(self.n_done, listener);
         }
@@ -134,7 +158,7 @@ impl Runner<'_> {
 
     fn run_steps(&mut self, listener: &dyn Listener) -> Result<(), Stopped> {
         let recipe = self.recipe;
-        for (i, step) in recipe.steps.iter().enumerate() {
+        for (i, step) in recipe.steps.iter().enumerate().skip(self.first) {
             listener.step_begins(i, step.label());
             let mut done = self.found_or_run(i, step, listener)?;
             self.n_done = i + 1;
@@ -147,6 +171,10 @@ impl Runner<'_> {
             }
             listener.step_done(i, &done);
             self.steps.push(done);
+            if listener.wants_scenes() {
+                self.bring(self.n_done, listener)?;
+                listener.scene_after(i, &self.scene);
+            }
             self.expectations(Some(i), listener)?;
             if i + 1 < recipe.steps.len()
                 && let Some(session) = &mut self.session
@@ -198,7 +226,7 @@ impl Runner<'_> {
         let session = self.session.as_ref();
         let before = session.map(|_| Before::of(&self.scene));
         let stage = self.stage.as_deref().filter(|_| session.is_some());
-        let listed = stage.map(listing);
+        let listed = stage.map(|stage| listing(stage, &self.files[step.scope]));
         self.log.take();
         let begin = Instant::now();
         let (report, refused) = self.apply(step, listener)?;
@@ -207,17 +235,19 @@ impl Runner<'_> {
         let [vertices, edges, faces] = counts(&self.scene);
         if let (Some(session), Some(before)) = (&mut self.session, before) {
             let stage = self.stage.as_deref();
-            let written = stage.zip(listed.as_ref());
+            let written_now = |files| match stage.zip(listed.as_ref()) {
+                Some((stage, before)) => written(before, &listing(stage, files)),
+                None => Vec::new(),
+            };
             let done = Done {
                 report: &report,
                 refused,
                 counts: [vertices, edges, faces],
                 scene: &self.scene,
-                before,
+                same: before.is_still(&self.scene),
                 time,
                 uses: &self.log.take(),
-                written: written
-                    .map_or_else(Vec::new, |(stage, before)| written_since(stage, before)),
+                written: written_now(&self.files[step.scope]),
                 stage,
             };
             session.ran(i + 1, step.label(), &self.files[step.scope], &done);
@@ -237,7 +267,7 @@ impl Runner<'_> {
 
     /// The digest of the scene after the steps that are done.
     fn digest(&mut self, listener: &dyn Listener) -> Result<Digest, Stopped> {
-        if let Some(known) = self.session.as_ref().and_then(Session::digest) {
+        if let Some(known) = self.session.as_ref().and_then(|s| s.digest()) {
             return Ok(known);
         }
         self.bring(self.n_done, listener)?;
@@ -260,15 +290,15 @@ impl Runner<'_> {
         let recipe = self.recipe;
         while self.at < to {
             let place = self.at;
-            let is_same = |session: &Session| session.is_same(place);
-            if !self.session.as_ref().is_some_and(is_same) {
+            if !self.session.as_ref().is_some_and(|s| s.is_same(place)) {
                 let step = &recipe.steps[place];
                 let begin = Instant::now();
                 self.apply(step, listener)?;
                 let time = begin.elapsed();
                 if let Some(session) = &mut self.session {
                     let why = session.ran_again(place + 1, step.label(), &self.scene, time);
-                    if let Some(done) = self.steps.get_mut(place) {
+                    let done = place.checked_sub(self.first);
+                    if let Some(done) = done.and_then(|i| self.steps.get_mut(i)) {
                         done.time += time;
                         done.ran.get_or_insert(why);
                     }
@@ -346,7 +376,6 @@ impl Runner<'_> {
             let message = format!("{} has panicked, which is a mistake in it", step.name);
             return Err(nowhere(message));
         };
-        let places = cx.places;
         if result.is_err() || step.refused.is_some() {
             self.scene = before.unwrap_or_else(|| std::mem::take(&mut self.scene));
         }
@@ -365,12 +394,14 @@ impl Runner<'_> {
                 Report::default().note(format!("refused as expected: {message}")),
                 Some(reason),
             )),
-            (Err(error), None) => Err(Some(Fault {
-                message: error.to_string(),
-                places,
-            })),
-            (Err(error), Some(expected)) => {
-                let message = format!("expected to be refused as {expected:?}, but: {error}");
+            (Err(error), expected) => {
+                let message = match expected {
+                    None => error.to_string(),
+                    Some(expected) => {
+                        format!("expected to be refused as {expected:?}, but: {error}")
+                    }
+                };
+                let places = error.places().to_vec();
                 Err(Some(Fault { message, places }))
             }
         }
@@ -442,7 +473,7 @@ impl Runner<'_> {
 
     fn end(mut self, written: Vec<PathBuf>) -> Outcome {
         let is_whole = self.at == self.n_done;
-        let known = self.session.as_ref().and_then(Session::digest);
+        let known = self.session.as_ref().and_then(|s| s.digest());
         if known.is_none() && !is_whole && !self.cancelled {
             // A step that is run again for its scene and fails was told before.
             let _ = self.bring(self.n_done, &Silent);
@@ -457,6 +488,7 @@ impl Runner<'_> {
             (cache_problem, cache_notes) = session.finish();
         }
         Outcome {
+            first: self.first,
             steps: self.steps,
             failures: self.failures,
             unmet: self.unmet,
@@ -469,11 +501,6 @@ impl Runner<'_> {
             cache_notes,
         }
     }
-}
-
-/// The files of the stage that are new or other ones.
-fn written_since(stage: &Path, before: &stage::Listing) -> Vec<PathBuf> {
-    written(before, &listing(stage))
 }
 
 /// Vertices, edges and faces of all meshes together; points of polylines are vertices.
@@ -491,10 +518,4 @@ fn counts(scene: &Scene) -> [usize; 3] {
         }
     }
     counts
-}
-
-/// How the names of the folders begin in which the outputs of a process wait. They are there as long as
-/// a run goes on, and stay only if the process is killed.
-pub fn stage_prefix(process: u32) -> String {
-    format!(".meshwright-{process}-")
 }

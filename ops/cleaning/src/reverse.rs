@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn a_recipe_may_choose_faces() {
-        let parse = |text| ron::from_str::<Reverse>(text);
+        let parse = |text| op::test::read::<Reverse>(text);
         assert_eq!(parse("()").unwrap().faces, FaceSelection::All);
         let tagged = FaceSelection::Tagged("lid".into());
         assert_eq!(parse(r#"(faces: Tagged("lid"))"#).unwrap().faces, tagged);

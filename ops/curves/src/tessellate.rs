@@ -32,8 +32,7 @@ use scene::Geometry;
 pub struct Tessellate {
     /// How many cells along each side of a patch.
     #[serde(default = "eight")]
-    #[schemars(range(min = 1, max = 4096))]
-    pub segments: u32,
+    pub segments: Count<1, 4096>,
     /// What a cell becomes.
     #[serde(default)]
     pub faces: Faces,
@@ -67,11 +66,9 @@ impl From<Faces> for bezier::Faces {
     }
 }
 
-const fn eight() -> u32 {
-    8
+const fn eight() -> Count<1, 4096> {
+    Count::literal(8)
 }
-
-const MOST_SEGMENTS: u32 = 4096;
 
 impl Operation for Tessellate {
     const NAME: &'static str = "Tessellate";
@@ -80,9 +77,6 @@ impl Operation for Tessellate {
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = self.check() {
-            return vec![Problem::error(message).at(["segments"])];
-        }
         let mut problems = Vec::new();
         let mut n = 0;
         for object in &mut plan.objects {
@@ -106,7 +100,6 @@ impl Operation for Tessellate {
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        self.check().map_err(OpError::Parameter)?;
         cx.advance("tessellate", 0, 1)?;
         let names: Vec<String> = scene
             .objects()
@@ -135,20 +128,9 @@ impl Operation for Tessellate {
 }
 
 impl Tessellate {
-    fn check(&self) -> Result<(), String> {
-        if (1..=MOST_SEGMENTS).contains(&self.segments) {
-            Ok(())
-        } else {
-            Err(format!(
-                "`segments` must lie between 1 and {MOST_SEGMENTS}, not {}",
-                self.segments
-            ))
-        }
-    }
-
     /// What at most becomes of so many patches: collapsed sides and empty patches give fewer elements.
     fn planned(&self, patches: u64) -> MeshPlan {
-        let n = u64::from(self.segments);
+        let n = u64::from(self.segments.get());
         let at_most = |each| Range::at_most(patches.saturating_mul(each));
         let (edges, faces, degrees) = match self.faces {
             Faces::Triangles => (3 * n * n + 2 * n, 2 * n * n, Range::exactly(3)),
@@ -179,7 +161,7 @@ impl Tessellate {
         scene: &Scene,
         cx: &Context,
     ) -> Result<(), OpError> {
-        let counts = counts(patches, self.segments, self.faces.into()).map_err(too_large)?;
+        let counts = counts(patches, self.segments.get(), self.faces.into()).map_err(too_large)?;
         // Each corner may need an edge of its own.
         if counts.corners.saturating_mul(2) >= u64::from(u32::MAX) {
             let corners = counts.corners;
@@ -208,7 +190,7 @@ impl Tessellate {
         let total = patches.len() as u64;
         for (done, patch) in (0..).zip(patches) {
             cx.advance("tessellate", done, total)?;
-            tessellate_patch(patch, self.segments, self.faces.into(), &mut cut)
+            tessellate_patch(patch, self.segments.get(), self.faces.into(), &mut cut)
                 .map_err(too_large)?;
         }
         cx.advance("tessellate", total, total)?;

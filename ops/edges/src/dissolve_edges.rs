@@ -30,26 +30,6 @@ pub struct DissolveEdges {
     pub seams: Seams,
 }
 
-/// What to do where corner values, like UVs, differ between the two sides of an edge that goes.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub enum Seams {
-    /// Refuse.
-    #[default]
-    Refuse,
-    /// Merge the faces all the same. Each corner keeps the values of one of them.
-    Drop,
-}
-
-impl From<Seams> for mesh::Seams {
-    fn from(seams: Seams) -> Self {
-        match seams {
-            Seams::Refuse => Self::Refuse,
-            Seams::Drop => Self::Drop,
-        }
-    }
-}
-
 impl MeshOperation for DissolveEdges {
     const NAME: &'static str = "DissolveEdges";
     const SUMMARY: &'static str = "Take edges out and merge the faces beside them";
@@ -88,7 +68,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn parse(text: &str) -> DissolveEdges {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn refused(text: &str, mesh: Mesh) -> Refusal {

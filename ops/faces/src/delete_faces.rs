@@ -117,7 +117,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn parse(text: &str) -> DeleteFaces {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn counts(mesh: &Mesh) -> [usize; 3] {
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn a_recipe_must_name_the_faces() {
-        assert!(ron::from_str::<DeleteFaces>("()").is_err());
+        assert!(op::test::read::<DeleteFaces>("()").is_err());
     }
 
     proptest! {

@@ -107,7 +107,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn parse(text: &str) -> SplitFaces {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn refused(text: &str, mesh: Mesh) -> Refusal {

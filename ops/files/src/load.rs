@@ -175,7 +175,7 @@ mod tests {
     }
 
     fn load(text: &str) -> Load {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     #[test]

@@ -100,7 +100,7 @@ mod tests {
     use op::test::{applied, try_applied};
 
     fn parse(text: &str) -> BridgeLoops {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn refusal(text: &str, mesh: Mesh) -> Refusal {
@@ -174,8 +174,8 @@ mod tests {
 
     #[test]
     fn a_recipe_must_name_both_vertices() {
-        assert!(ron::from_str::<BridgeLoops>("(first: 3)").is_err());
-        assert!(ron::from_str::<BridgeLoops>("(first: -1, second: 2)").is_err());
+        assert!(op::test::read::<BridgeLoops>("(first: 3)").is_err());
+        assert!(op::test::read::<BridgeLoops>("(first: -1, second: 2)").is_err());
         assert_eq!(parse("(first: 3, second: 17)").second, 17);
     }
 }

@@ -102,7 +102,7 @@ mod tests {
     use op::test::{applied, try_applied};
 
     fn parse(text: &str) -> Cut {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn refusal(text: &str, mesh: Mesh) -> Refusal {
@@ -154,8 +154,8 @@ mod tests {
 
     #[test]
     fn a_recipe_must_name_the_edges() {
-        assert!(ron::from_str::<Cut>("()").is_err());
-        assert!(ron::from_str::<Cut>("(edges: All, at: 0.5)").is_err());
+        assert!(op::test::read::<Cut>("()").is_err());
+        assert!(op::test::read::<Cut>("(edges: All, at: 0.5)").is_err());
         assert_eq!(parse("(edges: All)").on_refusal, OnRefusal::Error);
     }
 }

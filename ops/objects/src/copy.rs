@@ -55,7 +55,7 @@ mod tests {
     use scene::Material;
 
     fn step(text: &str) -> Copy {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn scene() -> Scene {

@@ -50,7 +50,7 @@ mod tests {
     use scene::Object;
 
     fn step(text: &str) -> Delete {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn scene() -> Scene {
@@ -87,7 +87,7 @@ mod tests {
             budget: u64::MAX,
         };
         let mut plan = Plan::default();
-        assert_eq!(plan.insert("a", op::PlannedGeometry::Polylines), []);
+        assert_eq!(plan.insert("a", PlannedGeometry::Polylines), []);
         let problems = step(r#"(objects: ["a", "d"])"#).plan(&mut plan, &cx);
         assert_eq!(problems.len(), 1);
         assert_eq!(problems[0].path, ["objects", "1"]);

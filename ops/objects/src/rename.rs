@@ -57,7 +57,7 @@ mod tests {
     use scene::Object;
 
     fn step(text: &str) -> Rename {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn scene() -> Scene {
@@ -98,7 +98,7 @@ mod tests {
         };
         let mut plan = Plan::default();
         for name in ["a", "b"] {
-            assert_eq!(plan.insert(name, op::PlannedGeometry::Polylines), []);
+            assert_eq!(plan.insert(name, PlannedGeometry::Polylines), []);
         }
         assert_eq!(
             step(r#"(from: "d", to: "c")"#).plan(&mut plan, &cx)[0].path,

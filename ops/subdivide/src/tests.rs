@@ -5,18 +5,13 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use geometry::shapes;
 use mesh::{DVec2, DVec3, Mesh, UV, VERTEX_NORMAL};
-use op::test::{applied, applied_as_planned, counts, planned, refused, try_applied};
+use op::test::{applied, applied_as_planned, counts, planned, read, refused, try_applied};
 use op::{
     Context, Files, MeshOperation, MeshPlan, NoProgress, OpError, PlanContext, Progress, Refusal,
 };
 use subdivision::Split;
 
 use crate::{Butterfly, CatmullClark, DooSabin, LoopSubdivide, Midpoint, Sqrt3};
-
-/// The parameters that a recipe gives.
-fn read<T: MeshOperation>(text: &str) -> Result<T, ron::error::SpannedError> {
-    ron::from_str(&format!("#![enable(implicit_some)]{text}"))
-}
 
 /// So many levels, with the defaults of everything else.
 fn levels<T: MeshOperation>(levels: u32) -> T {

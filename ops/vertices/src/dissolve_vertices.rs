@@ -34,26 +34,6 @@ pub struct DissolveVertices {
     pub seams: Seams,
 }
 
-/// What to do where corner values, like UVs, differ between the two sides of an edge that goes.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub enum Seams {
-    /// Refuse.
-    #[default]
-    Refuse,
-    /// Merge the faces all the same. Each corner keeps the values of one of them.
-    Drop,
-}
-
-impl From<Seams> for mesh::Seams {
-    fn from(seams: Seams) -> Self {
-        match seams {
-            Seams::Refuse => Self::Refuse,
-            Seams::Drop => Self::Drop,
-        }
-    }
-}
-
 impl MeshOperation for DissolveVertices {
     const NAME: &'static str = "DissolveVertices";
     const SUMMARY: &'static str = "Take vertices out and merge the faces around them";
@@ -102,7 +82,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn parse(text: &str) -> DissolveVertices {
-        ron::from_str(text).unwrap()
+        op::test::read(text).unwrap()
     }
 
     fn refused(text: &str, mesh: Mesh) -> Refusal {

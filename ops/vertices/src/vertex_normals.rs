@@ -282,7 +282,7 @@ mod tests {
 
     #[test]
     fn a_recipe_may_choose_a_weight() {
-        let parse = |text| ron::from_str::<VertexNormals>(text);
+        let parse = |text| op::test::read::<VertexNormals>(text);
         assert_eq!(parse("()").unwrap().weight, Weight::Area);
         assert_eq!(parse("(weight: Angle)").unwrap().weight, Weight::Angle);
         assert!(parse("(weight: Volume)").is_err());

@@ -1,14 +1,15 @@
 //! `meshwright cache`: says what the cache holds, or empties it.
 
+use ::cache::{Cache, LIMIT};
 use anyhow::Context as _;
-use recipe::{Cache, mebibytes};
+use recipe::mebibytes;
 
 use crate::args::{CacheAction, CacheCommandArgs, Format};
 use crate::cache::folder;
 use crate::output::{grouped, print};
 
 pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
-    let cache = Cache::new(folder(&args.folder)?, recipe::cache::LIMIT, "");
+    let cache = Cache::new(folder(&args.folder)?, LIMIT, "");
     let shown = cache.folder().display().to_string();
     let (size, word) = match args.action {
         CacheAction::Info => (cache.size(), "holds"),

@@ -386,7 +386,7 @@ fn the_number_of_threads_changes_nothing() {
 
 #[test]
 fn a_recipe_may_choose_faces() {
-    let parse = |text| ron::from_str::<Triangulate>(text);
+    let parse = |text| op::test::read::<Triangulate>(text);
     assert_eq!(parse("()").unwrap().faces, FaceSelection::All);
     assert_eq!(
         parse("(faces: Degree(5))").unwrap().faces,

@@ -11,7 +11,7 @@ use op::{Files, Refusal, Region};
 use proptest::prelude::*;
 
 fn parse(text: &str) -> FlipEdges {
-    ron::from_str(text).unwrap()
+    op::test::read(text).unwrap()
 }
 
 /// A flat sheet of triangles with a seam of UVs along the edge between vertices 0 and 3.
@@ -104,12 +104,12 @@ fn a_mesh_without_triangles_is_a_problem_of_the_plan() {
 
 #[test]
 fn a_recipe_must_name_the_edges_and_only_known_fields() {
-    assert!(ron::from_str::<FlipEdges>("()").is_err());
-    assert!(ron::from_str::<FlipEdges>("(edges: All, seam: Drop)").is_err());
+    assert!(op::test::read::<FlipEdges>("()").is_err());
+    assert!(op::test::read::<FlipEdges>("(edges: All, seam: Drop)").is_err());
     let flip = parse("(edges: Random(count: 3, seed: 7))");
     assert_eq!(flip.seams, Seams::Refuse);
     assert_eq!(flip.on_refusal, OnRefusal::Error);
-    assert_eq!((flip.until, flip.passes), (Until::Once, 100));
+    assert_eq!((flip.until, flip.passes), (Until::Once, hundred()));
 }
 
 proptest! {
@@ -119,7 +119,10 @@ proptest! {
     ) {
         let edges = EdgeSelection::Or(vec![
             EdgeSelection::Random { count, of: Box::default(), seed },
-            EdgeSelection::Inside(Region::Sphere { center: op::Vector(1.0, 0.0, 0.0), radius }),
+            EdgeSelection::Inside(Region::Sphere {
+                center: Vector::literal(1.0, 0.0, 0.0),
+                radius: Length::literal(radius),
+            }),
         ]);
         let flip = FlipEdges { edges, ..parse("(edges: All, on_refusal: Skip)") };
         let before = shapes::icosahedron();

@@ -9,7 +9,7 @@ use op::Range;
 use scene::Material;
 
 fn step(text: &str) -> Join {
-    ron::from_str(text).unwrap()
+    op::test::read(text).unwrap()
 }
 
 fn scene(objects: Vec<Object>) -> Scene {

@@ -1,0 +1,256 @@
+//! The size of a cache, and keeping it below its limit.
+
+use std::fs::{self, DirEntry, Metadata, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+use crate::CacheSize;
+use crate::folder::{Folder, Kind, write_all};
+
+/// What a process leaves that was killed while it wrote is removed after this time.
+const LEFT: Duration = Duration::from_secs(3600);
+/// The file with what each run has added is written anew beyond this size, in bytes.
+const LONG: u64 = 1 << 16;
+
+struct Entry {
+    path: PathBuf,
+    kind: Kind,
+    len: u64,
+    used: SystemTime,
+}
+
+/// All files of the cache but those that are being written.
+fn entries(folder: &Folder) -> io::Result<Vec<Entry>> {
+    let mut entries = Vec::new();
+    for kind in Kind::ALL {
+        for part in list(&folder.root().join(kind.name()))? {
+            for file in list(&part.path())? {
+                // It may be gone by now.
+                if let Ok(meta) = file.metadata()
+                    && meta.is_file()
+                {
+                    entries.push(Entry {
+                        path: file.path(),
+                        kind,
+                        len: meta.len(),
+                        used: modified(&meta),
+                    });
+                }
+            }
+        }
+    }
+    Ok(entries)
+}
+
+fn modified(meta: &Metadata) -> SystemTime {
+    meta.modified().unwrap_or(SystemTime::UNIX_EPOCH)
+}
+
+/// What is in a folder; nothing if there is no such folder.
+fn list(folder: &Path) -> io::Result<Vec<DirEntry>> {
+    match fs::read_dir(folder) {
+        Ok(found) => found.collect(),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
+        Err(error) if error.kind() == io::ErrorKind::NotADirectory && folder.exists() => {
+            Ok(Vec::new())
+        }
+        Err(error) => Err(error),
+    }
+}
+
+pub(crate) fn size(folder: &Folder) -> io::Result<CacheSize> {
+    Ok(sum(&entries(folder)?))
+}
+
+fn sum(entries: &[Entry]) -> CacheSize {
+    let count = |kind| entries.iter().filter(|e| e.kind == kind).count() as u64;
+    CacheSize {
+        bytes: entries.iter().map(|e| e.len).sum(),
+        steps: count(Kind::Step),
+        blobs: count(Kind::Blob),
+    }
+}
+
+pub(crate) fn clear(folder: &Folder) -> io::Result<CacheSize> {
+    let entries = entries(folder)?;
+    for entry in &entries {
+        remove(&entry.path)?;
+    }
+    for file in list(&folder.temporary())? {
+        remove(&file.path())?;
+    }
+    remove(&sizes(folder))?;
+    // What is not ours stays, and the folders that hold it.
+    for kind in Kind::ALL {
+        let kind = folder.root().join(kind.name());
+        for part in list(&kind)? {
+            let _ = fs::remove_dir(part.path());
+        }
+        let _ = fs::remove_dir(kind);
+    }
+    let _ = fs::remove_dir(folder.temporary());
+    Ok(sum(&entries))
+}
+
+fn remove(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// The file that each run adds eight bytes to: how many bytes it has stored.
+fn sizes(folder: &Folder) -> PathBuf {
+    folder.root().join("sizes")
+}
+
+/// Keeps the cache below its limit, if something was added since the last call. Failures are left to the next run.
+pub(crate) fn after_run(folder: &Folder, limit: u64) {
+    let added = folder.take_written();
+    if added > 0 {
+        let _ = account(folder, added, limit);
+    }
+}
+
+fn account(folder: &Folder, added: u64, limit: u64) -> io::Result<()> {
+    clean(&folder.temporary())?;
+    let path = sizes(folder);
+    let is_new = !path.exists();
+    // So few bytes are appended at once or not at all.
+    let mut file = OpenOptions::new().append(true).create(true).open(&path)?;
+    file.write_all(&added.to_le_bytes())?;
+    let bytes = fs::read(&path)?;
+    let runs = bytes
+        .as_chunks::<8>()
+        .0
+        .iter()
+        .map(|n| u64::from_le_bytes(*n));
+    let total = runs.fold(0, u64::saturating_add);
+    if is_new || total > limit || bytes.len() as u64 > LONG {
+        let left = evict(folder, limit)?;
+        folder.write(&path, |file| write_all(file, &[&left.to_le_bytes()]));
+        folder.take_written();
+    }
+    Ok(())
+}
+
+/// Removes what killed processes have left.
+fn clean(temporary: &Path) -> io::Result<()> {
+    let now = SystemTime::now();
+    for file in list(temporary)? {
+        let meta = file.metadata();
+        if meta.is_ok_and(|meta| {
+            now.duration_since(modified(&meta))
+                .is_ok_and(|age| age > LEFT)
+        }) {
+            remove(&file.path())?;
+        }
+    }
+    Ok(())
+}
+
+/// If the files take more than the limit, removes those that were not used for the longest time, down to nine
+/// tenths of it. Returns how many bytes are left.
+fn evict(folder: &Folder, limit: u64) -> io::Result<u64> {
+    let mut entries = entries(folder)?;
+    let mut total: u64 = entries.iter().map(|e| e.len).sum();
+    if total > limit {
+        entries.sort_by(|a, b| a.used.cmp(&b.used).then_with(|| a.path.cmp(&b.path)));
+        for entry in &entries {
+            if total <= limit / 10 * 9 {
+                break;
+            }
+            // Another process may have removed it.
+            if fs::remove_file(&entry.path).is_ok() || !entry.path.exists() {
+                total -= entry.len;
+            }
+        }
+    }
+    Ok(total)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cache of files of 1000 bytes, the first the one that was not used for the longest time.
+    fn filled(n: u8) -> (tempfile::TempDir, Folder) {
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = Folder::new(temporary.path().join("cache"));
+        let start = SystemTime::UNIX_EPOCH + Duration::from_secs(1_000_000);
+        for i in 0..n {
+            let path = folder.path(Kind::Blob, &[i; 32]);
+            assert!(folder.write(&path, |file| write_all(file, &[&[i; 1000]])));
+            let file = fs::File::options().write(true).open(path).unwrap();
+            file.set_modified(start + Duration::from_secs(i.into()))
+                .unwrap();
+        }
+        (temporary, folder)
+    }
+
+    #[test]
+    fn over_the_limit_the_files_that_were_used_least_lately_go() {
+        let (_temporary, folder) = filled(10);
+        after_run(&folder, 10_000);
+        assert_eq!(size(&folder).unwrap().bytes, 10_000);
+        assert!(
+            folder.write(&folder.path(Kind::Step, &[77; 32]), |f| write_all(
+                f,
+                &[b"new"]
+            ))
+        );
+        after_run(&folder, 10_000);
+        let left = size(&folder).unwrap();
+        assert_eq!((left.bytes, left.steps, left.blobs), (8003, 1, 8));
+        assert!(!folder.path(Kind::Blob, &[1; 32]).exists());
+        assert!(folder.path(Kind::Blob, &[2; 32]).exists());
+    }
+
+    #[test]
+    fn files_are_listed_only_when_the_sum_is_over_the_limit() {
+        let (_temporary, folder) = filled(3);
+        after_run(&folder, 10_000);
+        assert_eq!(fs::read(sizes(&folder)).unwrap(), 3000_u64.to_le_bytes());
+        // Nobody has counted these.
+        for i in 100..120 {
+            let path = folder.path(Kind::Blob, &[i; 32]);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, [0; 1000]).unwrap();
+        }
+        folder.write(&folder.path(Kind::Blob, &[9; 32]), |f| {
+            write_all(f, &[&[0; 6000]])
+        });
+        after_run(&folder, 10_000);
+        assert_eq!(size(&folder).unwrap().bytes, 29_000);
+        folder.write(&folder.path(Kind::Blob, &[8; 32]), |f| {
+            write_all(f, &[&[0; 2000]])
+        });
+        after_run(&folder, 10_000);
+        assert!(size(&folder).unwrap().bytes <= 9000);
+    }
+
+    #[test]
+    fn what_killed_processes_left_is_removed_after_a_while() {
+        let (_temporary, folder) = filled(1);
+        let [old, new] = ["old", "new"].map(|name| folder.temporary().join(name));
+        for path in [&old, &new] {
+            fs::write(path, "half").unwrap();
+        }
+        let file = fs::File::options().write(true).open(&old).unwrap();
+        file.set_modified(SystemTime::now() - 2 * LEFT).unwrap();
+        after_run(&folder, 10_000);
+        assert!(!old.exists() && new.exists());
+    }
+
+    #[test]
+    fn clearing_removes_what_was_stored_and_nothing_else() {
+        let (_temporary, folder) = filled(4);
+        let mine = folder.root().join("blobs").join("mine");
+        fs::write(&mine, "x").unwrap();
+        assert_eq!(clear(&folder).unwrap().blobs, 4);
+        assert_eq!(size(&folder).unwrap(), CacheSize::default());
+        assert!(mine.exists());
+        assert_eq!(clear(&folder).unwrap(), CacheSize::default());
+    }
+}

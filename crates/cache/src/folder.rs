@@ -1,0 +1,264 @@
+//! The files of a cache: their names, and writing and reading them whole.
+
+use std::fs::{self, File, FileTimes};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, SystemTime};
+
+/// A BLAKE3 digest.
+pub(crate) type Hash = [u8; 32];
+
+/// From this size on several threads read, write and hash, in pieces of this size.
+const PIECE: usize = 4 << 20;
+/// A file that was used is marked so again after this time.
+const FRESH: Duration = Duration::from_secs(3600);
+
+/// Kinds of files, each with a folder of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Step,
+    Blob,
+    Recipe,
+}
+
+impl Kind {
+    pub(crate) const ALL: [Self; 3] = [Self::Step, Self::Blob, Self::Recipe];
+
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Step => "steps",
+            Self::Blob => "blobs",
+            Self::Recipe => "recipes",
+        }
+    }
+}
+
+/// Why a file of the cache cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Unusable {
+    /// It is not there.
+    Missing,
+    /// It is not what it was when it was stored, or cannot be read.
+    Damaged(String),
+}
+
+/// The folder of a cache.
+#[derive(Debug)]
+pub(crate) struct Folder {
+    root: PathBuf,
+    problem: OnceLock<String>,
+    /// The bytes that were written and not yet counted.
+    written: AtomicU64,
+}
+
+impl Folder {
+    pub(crate) fn new(root: PathBuf) -> Self {
+        Self {
+            root,
+            problem: OnceLock::new(),
+            written: AtomicU64::new(0),
+        }
+    }
+
+    pub(crate) fn root(&self) -> &Path {
+        &self.root
+    }
+
+    pub(crate) fn problem(&self) -> Option<&str> {
+        self.problem.get().map(String::as_str)
+    }
+
+    /// The bytes that were written since the last call.
+    pub(crate) fn take_written(&self) -> u64 {
+        self.written.swap(0, Ordering::Relaxed)
+    }
+
+    pub(crate) fn path(&self, kind: Kind, hash: &Hash) -> PathBuf {
+        let hex = blake3::Hash::from_bytes(*hash).to_hex();
+        let folder = self.root.join(kind.name()).join(&hex[..2]);
+        folder.join(&hex[2..])
+    }
+
+    pub(crate) fn temporary(&self) -> PathBuf {
+        self.root.join("tmp")
+    }
+
+    /// Writes a file whole or not at all, and returns whether it is there. The first failure is kept as the
+    /// problem, and nothing is written after it.
+    pub(crate) fn write(&self, path: &Path, fill: impl Fn(&mut File) -> io::Result<u64>) -> bool {
+        if self.problem.get().is_some() {
+            return false;
+        }
+        let once = || -> io::Result<u64> {
+            let temporary = self.temporary();
+            fs::create_dir_all(&temporary)?;
+            let mut file = tempfile::NamedTempFile::new_in(temporary)?;
+            let n = fill(file.as_file_mut())?;
+            if let Some(parent) = path.parent() {
+                fs::create_dir_all(parent)?;
+            }
+            file.persist(path)?;
+            Ok(n)
+        };
+        // Once more: another process may just have cleared the folder.
+        let gone = |error: io::Error| match error.kind() {
+            io::ErrorKind::NotFound => once(),
+            _ => Err(error),
+        };
+        match once().or_else(gone) {
+            Ok(n) => {
+                self.written.fetch_add(n, Ordering::Relaxed);
+                true
+            }
+            Err(error) => {
+                // Without the name of the temporary file, which tells nothing.
+                let error = error.to_string();
+                let error = error.split(" at path ").next().unwrap_or_default();
+                let root = self.root.display();
+                let problem = format!("cannot write to the cache folder {root}: {error}");
+                let _ = self.problem.set(problem);
+                false
+            }
+        }
+    }
+
+    /// Reads a file of at most `most` bytes.
+    pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, Unusable> {
+        let (file, len) = open(path)?;
+        if len > most {
+            return Err(Unusable::Damaged(format!("it has {len} bytes")));
+        }
+        let mut bytes = Vec::new();
+        file.take(most)
+            .read_to_end(&mut bytes)
+            .map_err(unreadable)?;
+        Ok(bytes)
+    }
+
+    /// Removes a file that is no good.
+    pub(crate) fn discard(path: &Path) {
+        // If it cannot be removed, it is found damaged again.
+        let _ = fs::remove_file(path);
+    }
+
+    /// Marks a file as used now. Returns whether it was long ago that it was used before.
+    pub(crate) fn touch(path: &Path) -> bool {
+        let now = SystemTime::now();
+        let Ok(file) = File::open(path) else {
+            return false;
+        };
+        let modified = file.metadata().and_then(|meta| meta.modified());
+        let is_fresh = modified.is_ok_and(|at| now.duration_since(at).is_ok_and(|d| d < FRESH));
+        if !is_fresh {
+            let _ = file.set_times(FileTimes::new().set_modified(now));
+        }
+        !is_fresh
+    }
+}
+
+/// A plain file and its length.
+pub(crate) fn open(path: &Path) -> Result<(File, u64), Unusable> {
+    let meta = fs::metadata(path).map_err(unreadable)?;
+    if !meta.is_file() {
+        return Err(Unusable::Damaged("it is no plain file".to_owned()));
+    }
+    let file = File::open(path).map_err(unreadable)?;
+    Ok((file, meta.len()))
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "for map_err")]
+pub(crate) fn unreadable(error: io::Error) -> Unusable {
+    match error.kind() {
+        io::ErrorKind::NotFound => Unusable::Missing,
+        _ => Unusable::Damaged(error.to_string()),
+    }
+}
+
+pub(crate) fn hash(bytes: &[u8]) -> Hash {
+    let mut hasher = blake3::Hasher::new();
+    update(&mut hasher, bytes);
+    *hasher.finalize().as_bytes()
+}
+
+fn update(hasher: &mut blake3::Hasher, bytes: &[u8]) {
+    // Threads help with long pieces only.
+    if bytes.len() < 1 << 17 {
+        hasher.update(bytes);
+    } else {
+        hasher.update_rayon(bytes);
+    }
+}
+
+/// Reads exactly as many bytes as `into` has, and returns their digest. While one piece is hashed, the next
+/// is read.
+pub(crate) fn read_hashed(file: &mut (impl Read + Send), into: &mut [u8]) -> io::Result<Hash> {
+    let mut hasher = blake3::Hasher::new();
+    let mut last: &[u8] = &[];
+    for piece in into.chunks_mut(PIECE) {
+        if last.is_empty() {
+            file.read_exact(piece)?;
+        } else {
+            let (read, ()) = rayon::join(|| file.read_exact(piece), || update(&mut hasher, last));
+            read?;
+        }
+        last = piece;
+    }
+    update(&mut hasher, last);
+    Ok(*hasher.finalize().as_bytes())
+}
+
+/// Copies a file to its end, or to `sink` as the case may be, and returns its digest and length. While one piece
+/// is hashed and written, the next is read.
+pub(crate) fn copy_hashed(
+    from: &mut (impl Read + Send),
+    mut sink: impl FnMut(&[u8]) -> io::Result<()> + Send,
+) -> io::Result<(Hash, u64)> {
+    let mut hasher = blake3::Hasher::new();
+    let mut n = 0;
+    let (mut full, mut spare) = (Vec::new(), Vec::new());
+    read_piece(from, &mut full)?;
+    while !full.is_empty() {
+        n += full.len() as u64;
+        if full.len() < PIECE {
+            sink(&full)?;
+            update(&mut hasher, &full);
+            full.clear();
+            // A short piece is not always the last one.
+            read_piece(from, &mut full)?;
+            continue;
+        }
+        let (read, written) = rayon::join(
+            || read_piece(from, &mut spare),
+            || {
+                let written = sink(&full);
+                update(&mut hasher, &full);
+                written
+            },
+        );
+        read.and(written)?;
+        std::mem::swap(&mut full, &mut spare);
+    }
+    Ok((*hasher.finalize().as_bytes(), n))
+}
+
+fn read_piece(from: &mut impl Read, piece: &mut Vec<u8>) -> io::Result<()> {
+    piece.clear();
+    from.take(PIECE as u64).read_to_end(piece).map(|_| ())
+}
+
+/// The digest and length of what is behind in a file.
+pub(crate) fn hash_rest(file: &mut File) -> io::Result<(Hash, u64)> {
+    copy_hashed(file, |_| Ok(()))
+}
+
+/// Writes bytes and returns how many.
+pub(crate) fn write_all(file: &mut File, pieces: &[&[u8]]) -> io::Result<u64> {
+    let mut n = 0;
+    for piece in pieces {
+        file.write_all(piece)?;
+        n += piece.len() as u64;
+    }
+    Ok(n)
+}

@@ -1,0 +1,464 @@
+//! The cache of steps: what runs again and what does not, and that nothing else is different.
+
+mod damage;
+mod law;
+#[path = "../../recipe/src/tests/operations.rs"]
+mod operations;
+
+use std::cell::Cell;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use op::{Context, FileUse, Files, OpError, Operation, Plan, PlanContext, Problem, Report};
+use scene::{Object, Scene};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tempfile::TempDir;
+
+use recipe::{Outcome, Settings, Silent, Why};
+
+use self::operations::{registry, steps};
+use crate::{Cache, Caching};
+
+/// Makes a sheet of as many squares as a file says.
+#[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
+#[serde(deny_unknown_fields)]
+struct FromFile {
+    /// The file.
+    path: String,
+    /// Whether to say that the file was read.
+    #[serde(default)]
+    tells: bool,
+}
+
+impl Operation for FromFile {
+    const NAME: &'static str = "FromFile";
+    const SUMMARY: &'static str = "Make a sheet";
+    const EXAMPLE: &'static str = r#"FromFile(path: "sheet.txt")"#;
+
+    fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
+        plan.incomplete = true;
+        Vec::new()
+    }
+
+    fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
+        let path = cx.files().to_read(&self.path);
+        if self.tells {
+            cx.files().has_read(path.as_path());
+            cx.files().has_looked_for(path.with_extension("beside"));
+        }
+        let text = fs::read_to_string(&path).unwrap_or_else(|_| "1".to_owned());
+        let n = text.trim().parse().unwrap_or(1);
+        let object = Object::mesh("file", geometry::shapes::grid(n, 1));
+        let inserted = scene.insert(object);
+        inserted.map_err(|error| OpError::Object(error.to_string()))?;
+        Ok(Report::changed(1).note(format!("read {text}")))
+    }
+}
+
+/// A folder with inputs, a cache and outputs.
+struct Place {
+    folder: TempDir,
+    cache: Cache,
+    budget: Cell<u64>,
+    recipe: Option<PathBuf>,
+    want_scene: bool,
+    keep_outputs: bool,
+}
+
+impl Place {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        Self {
+            cache: Cache::new(folder.path().join("cache"), u64::MAX, "tests 1"),
+            budget: Cell::new(u64::MAX),
+            recipe: Some(folder.path().join("recipe.ron")),
+            folder,
+            want_scene: false,
+            keep_outputs: true,
+        }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.path(name), text).unwrap();
+    }
+
+    fn caching(&self) -> Caching<'_> {
+        Caching {
+            cache: &self.cache,
+            recipe: self.recipe.as_deref(),
+            want_scene: self.want_scene,
+        }
+    }
+
+    #[track_caller]
+    fn run_with(&self, text: &str, caching: Option<Caching>, out: &str) -> Outcome {
+        let registry = registry().with::<FromFile>();
+        let source = recipe::Source::new(self.path("recipe.ron"), text);
+        let reading = recipe::read(&source, &registry, recipe::Values::default());
+        assert!(!reading.has_errors(), "{text}: {:?}", reading.diagnostics);
+        let files = Files {
+            input: self.folder.path().into(),
+            output: self.path(out),
+            placeholders: reading.recipe.placeholders(),
+            provenance: Some(reading.recipe.digest()),
+            ..Files::default()
+        };
+        let read = |path: &Path, files: &Files| {
+            files.has_read(path);
+            let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
+            let n = text.trim().parse().map_err(|_| "no number".to_owned())?;
+            Ok(vec![Object::mesh("file", geometry::shapes::grid(n, 1))])
+        };
+        let settings = Settings {
+            files: &files,
+            budget: self.budget.get(),
+            read: &read,
+            keep_outputs: self.keep_outputs,
+            writes: text.contains("Write"),
+            cache: caching
+                .as_ref()
+                .map(|caching| caching as &dyn recipe::StepCache),
+        };
+        recipe::run(&reading.recipe, settings, &Silent)
+    }
+
+    /// Runs a recipe with the cache and without it, and asks for the same outcome.
+    #[track_caller]
+    fn run(&self, text: &str) -> Outcome {
+        let plain = self.run_with(text, None, "plain");
+        let cached = self.run_with(text, Some(self.caching()), "out");
+        assert_same(&plain, &cached);
+        let files = |outcome: &Outcome, out| {
+            let of = |path: &PathBuf| {
+                let name = path.strip_prefix(self.path(out)).unwrap().to_owned();
+                (name, fs::read(path).unwrap())
+            };
+            outcome.written.iter().map(of).collect::<Vec<_>>()
+        };
+        assert_eq!(files(&plain, "plain"), files(&cached, "out"));
+        cached
+    }
+
+    /// The steps that run, counted from 1, and why.
+    #[track_caller]
+    fn ran(&self, text: &str) -> Vec<(usize, String)> {
+        let outcome = self.run(text);
+        let why =
+            |(i, step): (usize, &recipe::StepDone)| Some((i + 1, step.ran.as_ref()?.to_string()));
+        outcome.steps.iter().enumerate().filter_map(why).collect()
+    }
+
+    #[track_caller]
+    fn runs_nothing(&self, text: &str) {
+        assert_eq!(self.ran(text), Vec::new(), "{text}");
+    }
+
+    #[track_caller]
+    fn numbers(&self, text: &str) -> Vec<usize> {
+        self.ran(text).into_iter().map(|(i, _)| i).collect()
+    }
+}
+
+/// Asks for the same outcome but for times and what is told of the cache.
+#[track_caller]
+fn assert_same(a: &Outcome, b: &Outcome) {
+    let steps = |outcome: &Outcome| {
+        let of = |s: &recipe::StepDone| {
+            let counts = [s.vertices, s.edges, s.faces];
+            (s.label.clone(), s.report.clone(), s.refused, counts)
+        };
+        outcome.steps.iter().map(of).collect::<Vec<_>>()
+    };
+    assert_eq!(steps(a), steps(b));
+    assert_eq!(a.failures, b.failures);
+    assert_eq!((a.cancelled, a.checked), (b.cancelled, b.checked));
+    assert_eq!(a.digest, b.digest);
+    if let (Some(a), Some(b)) = (&a.scene, &b.scene) {
+        assert!(a == b, "the scenes differ");
+    }
+}
+
+fn ten(change: impl Fn(usize) -> f64) -> String {
+    let lift = |i| format!("(id: \"lift{i}\", run: Lift(by: {:?}))", change(i));
+    let lifts: Vec<String> = (2..=10).map(lift).collect();
+    let lifts = lifts.join(", ");
+    steps(&format!("Sheet(columns: 4), {lifts}"))
+}
+
+#[test]
+fn a_second_run_runs_nothing() {
+    let place = Place::new();
+    let text = ten(|_| 1.5);
+    assert_eq!(place.numbers(&text), (1..=10).collect::<Vec<_>>());
+    place.runs_nothing(&text);
+}
+
+#[test]
+fn only_what_comes_behind_an_edit_runs_again() {
+    let place = Place::new();
+    place.run(&ten(|_| 1.5));
+    let last = ten(|i| if i == 10 { 2.5 } else { 1.5 });
+    let why = "parameters changed: by 1.5 -> 2.5".to_owned();
+    assert_eq!(place.ran(&last), [(10, why.clone())]);
+    place.run(&ten(|_| 1.5));
+    let ninth = ten(|i| if i == 9 { 2.5 } else { 1.5 });
+    let after = "step 9 lift9 ran again".to_owned();
+    assert_eq!(place.ran(&ninth), [(9, why), (10, after)]);
+    // Both are known now.
+    place.runs_nothing(&ten(|_| 1.5));
+    place.runs_nothing(&ninth);
+}
+
+#[test]
+fn recipes_with_the_same_steps_share_their_results() {
+    let mut place = Place::new();
+    let and = |more| steps(&format!("Sheet(columns: 4), Lift(by: 1), {more}"));
+    place.run(&and(""));
+    place.recipe = Some(place.path("other.ron"));
+    let why = "it has not run before".to_owned();
+    assert_eq!(place.ran(&and("Lift(by: 3)")), [(3, why)]);
+}
+
+#[test]
+fn everything_that_a_step_is_made_of_runs_it_again() {
+    let base = "Sheet(columns: 2), Sheet(columns: 3, name: \"b\"), (id: \"x\", run: Lift(by: 1))";
+    let with = |last: &str| base.replace("(id: \"x\", run: Lift(by: 1))", last);
+    for (changed, why) in [
+        (
+            with("(id: \"x\", run: Lift(by: 2))"),
+            "parameters changed: by 1.0 -> 2.0",
+        ),
+        (
+            with("(id: \"y\", run: Lift(by: 1))"),
+            "its id changed, which keys random choices",
+        ),
+        (
+            with("(id: \"x\", run: Lift(by: 1), on: [\"b\"])"),
+            "`on` changed",
+        ),
+        (
+            with("(id: \"x\", run: Lift(by: 1, fails: Seam), refused: Seam)"),
+            "parameters changed: fails None -> Seam",
+        ),
+        (
+            base.replace("columns: 3", "columns: 4"),
+            "step 2 Sheet ran again",
+        ),
+        (
+            base.replacen("Sheet(columns: 2), ", "", 1),
+            "step 1 Sheet ran again",
+        ),
+    ] {
+        let place = Place::new();
+        place.run(&steps(base));
+        let ran = place.ran(&steps(&changed));
+        assert_eq!(
+            ran.last().map(|(_, why)| why.as_str()),
+            Some(why),
+            "{changed}"
+        );
+    }
+}
+
+#[test]
+fn another_budget_or_program_runs_all_steps_again() {
+    let mut place = Place::new();
+    let text = steps("Sheet(columns: 2), Lift(by: 1)");
+    place.run(&text);
+    place.budget.set(1 << 30);
+    let ran = place.ran(&text);
+    assert_eq!(ran[0], (1, "the memory budget changed".to_owned()));
+    assert_eq!(ran[1].0, 2);
+    place.cache = Cache::new(place.path("cache"), u64::MAX, "tests 2");
+    let another = "the program is another one".to_owned();
+    assert_eq!(place.ran(&text), [(1, another.clone()), (2, another)]);
+}
+
+#[test]
+fn a_file_that_changes_goes_or_appears_is_named() {
+    let place = Place::new();
+    let text = steps("FromFile(path: \"n.txt\", tells: true), Lift(by: 1)");
+    let n = place.path("n.txt").display().to_string();
+    let beside = place.path("n.beside").display().to_string();
+    place.write("n.txt", "3");
+    place.run(&text);
+    place.runs_nothing(&text);
+    for (change, why) in [
+        (
+            Box::new(|| place.write("n.txt", "4")) as Box<dyn Fn()>,
+            format!("the file {n} changed"),
+        ),
+        (
+            Box::new(|| fs::remove_file(place.path("n.txt")).unwrap()),
+            format!("the file {n} is gone"),
+        ),
+        (
+            Box::new(|| place.write("n.txt", "5")),
+            format!("the file {n} was not there before"),
+        ),
+        (
+            Box::new(|| place.write("n.beside", "")),
+            format!("the file {beside} was not there before"),
+        ),
+    ] {
+        change();
+        let ran = place.ran(&text);
+        assert_eq!(ran[0], (1, why));
+        place.runs_nothing(&text);
+    }
+    // As it was: that is known too.
+    fs::remove_file(place.path("n.beside")).unwrap();
+    place.write("n.txt", "4");
+    place.runs_nothing(&text);
+}
+
+#[test]
+fn a_file_that_is_only_said_to_be_wanted_is_read_in_every_run() {
+    let place = Place::new();
+    let text = steps("FromFile(path: \"n.txt\"), Lift(by: 1), Lift(by: 2)");
+    place.write("n.txt", "3");
+    place.run(&text);
+    let ran = place.ran(&text);
+    assert_eq!(ran.len(), 1);
+    assert!(
+        ran[0].1.starts_with("what it read cannot be told: "),
+        "{ran:?}"
+    );
+    place.write("n.txt", "4");
+    assert_eq!(place.numbers(&text), [1, 2, 3]);
+    // What follows depends on what was made, not on how.
+    place.write("n.txt", " 3");
+    assert_eq!(place.numbers(&text), [1]);
+}
+
+#[test]
+fn the_same_path_in_another_folder_is_another_file() {
+    let (a, mut b) = (Place::new(), Place::new());
+    b.cache = Cache::new(a.path("cache"), u64::MAX, "tests 1");
+    a.write("n.txt", "3");
+    b.write("n.txt", "4");
+    for (steps, expect) in [
+        ("FromFile(path: \"n.txt\", tells: true)", "Not(Closed)"),
+        ("Sheet(columns: 3)", "Same(as: File(\"n.txt\"))"),
+    ] {
+        let text = format!("(recipe: 1, steps: [{steps}], expect: [{expect}])");
+        for _ in 0..2 {
+            a.run(&text);
+            b.run(&text);
+        }
+        a.runs_nothing(&text);
+        b.runs_nothing(&text);
+    }
+}
+
+#[test]
+fn a_loss_that_is_not_allowed_fails_from_the_cache_too() {
+    let place = Place::new();
+    let text = "(recipe: 1, steps: [Sheet(columns: 2), (run: Lift(by: 1), on_loss: Error)])";
+    place.run(text);
+    place.runs_nothing(text);
+}
+
+#[test]
+fn outputs_come_from_the_cache_with_the_same_bytes() {
+    let mut place = Place::new();
+    let text = steps(
+        "Sheet(columns: 2), Write(path: \"deep/a.txt\"), Lift(by: 1), Write(path: \"b.txt\")",
+    );
+    place.run(&text);
+    fs::remove_dir_all(place.path("out")).unwrap();
+    place.runs_nothing(&text);
+    assert_eq!(fs::read(place.path("out/deep/a.txt")).unwrap(), b"sheet");
+    // What is written may say from which recipe it is.
+    let edited = text.replace("by: 1", "by: 2");
+    let ran = place.ran(&edited);
+    assert_eq!(ran[0], (2, Why::Provenance.to_string()));
+    assert_eq!(ran[1].0, 3);
+    place.keep_outputs = false;
+    let other = text.replace("by: 1", "by: 3");
+    place.run(&other);
+    place.runs_nothing(&other);
+}
+
+#[test]
+fn a_refused_step_is_known_and_leaves_the_scene() {
+    let place = Place::new();
+    let text =
+        steps("Sheet(columns: 2), (run: Lift(by: 1, fails: Seam), refused: Seam), Lift(by: 3)");
+    place.run(&text);
+    place.runs_nothing(&text);
+    assert_eq!(place.numbers(&text.replace("by: 3", "by: 4")), [3]);
+}
+
+#[test]
+fn a_failing_step_is_not_stored_and_fails_again() {
+    let place = Place::new();
+    let text = steps("Sheet(columns: 2), Lift(by: 1, fails: Pinch), Lift(by: 2)");
+    for _ in 0..2 {
+        let outcome = place.run(&text);
+        assert_eq!((outcome.steps.len(), outcome.failures.len()), (1, 1));
+    }
+    assert_eq!(place.numbers(&text.replace(", fails: Pinch", "")), [2, 3]);
+}
+
+#[test]
+fn expectations_that_held_are_not_asked_again() {
+    let place = Place::new();
+    place.write("n.txt", "2");
+    let text = r#"(recipe: 1, steps: [(id: "sheet", run: Sheet(columns: 2)), (id: "up", run: Lift(by: 1))],
+        expect: [(after: "sheet", that: Same(as: File("n.txt"))), Faces(eq: 2), (after: "up", that: Not(Closed))])"#;
+    place.run(text);
+    let outcome = place.run(text);
+    assert_eq!(outcome.checked, 3);
+    assert!(outcome.scene.is_none(), "nobody needed the scene");
+    // The file that is compared with counts.
+    place.write("n.txt", "3");
+    let outcome = place.run(text);
+    assert_eq!(outcome.failures.len(), 1);
+    place.write("n.txt", "2");
+    assert!(place.run(text).scene.is_none());
+    // Another expectation is asked, of the scene after its step.
+    let outcome = place.run(&text.replace("Faces(eq: 2)", "Vertices(eq: 7)"));
+    assert_eq!(outcome.failures.len(), 1);
+    assert!(outcome.steps.iter().all(|step| step.ran.is_none()));
+}
+
+#[test]
+fn the_scene_comes_if_it_is_wanted() {
+    let mut place = Place::new();
+    let text = steps("Sheet(columns: 2), Lift(by: 1)");
+    place.run(&text);
+    assert!(place.run(&text).scene.is_none());
+    place.want_scene = true;
+    let outcome = place.run(&text);
+    assert!(outcome.steps.iter().all(|step| step.ran.is_none()));
+    assert_eq!(outcome.scene.unwrap().digest(), outcome.digest);
+}
+
+#[test]
+fn a_large_scene_that_is_made_in_no_time_is_made_again() {
+    let place = Place::new();
+    let text = steps("Sheet(columns: 60000), Write(path: \"a.txt\")");
+    place.run(&text);
+    // Whether it is stored depends on the machine; the outcome does not.
+    let more = text.replace("])", ", Sheet(columns: 1, name: \"b\")])");
+    let outcome = place.run(&more);
+    assert_eq!(outcome.steps.len(), 3);
+    assert!(outcome.steps[2].ran.is_some());
+}
+
+#[test]
+fn what_a_run_asks_for_is_not_mixed_with_what_others_ask_for() {
+    let files = Files::default();
+    files.to_read("elsewhere");
+    assert_eq!(files.log.take().len(), 1);
+    files.log.note(FileUse::Read("a".into()));
+    let copy = files.clone();
+    assert_eq!(copy.log.take().len(), 1);
+    assert_eq!(files.log.take(), []);
+}

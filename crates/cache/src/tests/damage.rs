@@ -1,0 +1,159 @@
+//! Caches that are damaged, full, in the way or gone: never an error and never another result.
+
+use super::*;
+
+/// All files below a folder, sorted.
+pub(super) fn all_files(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).into_iter().flatten() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+/// Damages a file, and is given the contents of all.
+type Damage = fn(&Path, &[Vec<u8>]);
+
+/// Large enough for arrays that are files of their own.
+fn recipe() -> String {
+    r#"(recipe: 1, steps: [
+        Sheet(columns: 700), (id: "up", run: Lift(by: 1)), Write(path: "a.txt"), Lift(by: 2)],
+        expect: [Faces(eq: 700), (after: "up", that: Not(Closed))])"#
+        .to_owned()
+}
+
+#[test]
+fn every_file_that_is_damaged_in_any_way_is_noticed() {
+    let place = Place::new();
+    let text = recipe();
+    place.run(&text);
+    let n_files = all_files(&place.path("cache")).len();
+    assert!(n_files > 10, "{n_files}");
+    let damages: [Damage; 6] = [
+        |path, _| {
+            let mut bytes = fs::read(path).unwrap();
+            let middle = bytes.len() / 2;
+            if let Some(byte) = bytes.get_mut(middle) {
+                *byte ^= 4;
+            }
+            fs::write(path, bytes).unwrap();
+        },
+        |path, _| {
+            let bytes = fs::read(path).unwrap();
+            fs::write(path, &bytes[..bytes.len() / 2]).unwrap();
+        },
+        |path, _| fs::write(path, "").unwrap(),
+        |path, _| fs::remove_file(path).unwrap(),
+        // Whole files in the wrong place.
+        |path, others| fs::write(path, &others[0]).unwrap(),
+        |path, others| fs::write(path, others.last().unwrap()).unwrap(),
+    ];
+    // An edit of the last step needs the scene from before it.
+    let edited = text.replace("Lift(by: 2)", "Lift(by: 3)");
+    let plain = [&text, &edited].map(|text| place.run_with(text, None, "plain"));
+    for damage in damages {
+        for i in 0..n_files {
+            let files = all_files(&place.path("cache"));
+            let contents: Vec<Vec<u8>> = files.iter().map(|p| fs::read(p).unwrap()).collect();
+            let Some(path) = files.get(i) else { continue };
+            damage(path, &contents);
+            for (text, plain) in [&text, &edited].iter().zip(&plain) {
+                assert_same(plain, &place.run_with(text, Some(place.caching()), "out"));
+                assert_eq!(fs::read(place.path("out/a.txt")).unwrap(), b"sheet");
+            }
+        }
+    }
+    // It heals: all is there again.
+    place.run(&text);
+    place.runs_nothing(&text);
+}
+
+#[test]
+fn a_folder_in_place_of_a_file_does_no_harm() {
+    let place = Place::new();
+    place.run(&recipe());
+    for path in all_files(&place.path("cache")) {
+        fs::remove_file(&path).unwrap();
+        fs::create_dir(&path).unwrap();
+    }
+    place.run(&recipe());
+}
+
+#[test]
+fn a_scene_that_is_lost_is_made_again_and_said_so() {
+    let place = Place::new();
+    let text = recipe();
+    place.run(&text);
+    for path in all_files(&place.path("cache/blobs")) {
+        fs::remove_file(path).unwrap();
+    }
+    let outcome = place.run(&text.replace("Lift(by: 2)", "Lift(by: 3)"));
+    let whys: Vec<_> = outcome.steps.iter().map(|step| step.ran.clone()).collect();
+    assert_eq!(whys[0], Some(Why::Gone));
+    assert_eq!(whys[1], Some(Why::Gone));
+    assert!(
+        outcome
+            .cache_notes
+            .iter()
+            .any(|note| note.contains("not in the cache any more"))
+    );
+}
+
+#[test]
+fn a_cache_that_cannot_be_written_is_told_once_and_the_run_goes_on() {
+    let mut place = Place::new();
+    place.write("file", "");
+    place.cache = Cache::new(place.path("file/cache"), u64::MAX, "tests 1");
+    let outcome = place.run(&recipe());
+    assert!(outcome.succeeded());
+    let problem = outcome.cache_problem.unwrap();
+    let expected = format!(
+        "cannot write to the cache folder {}",
+        place.path("file/cache").display()
+    );
+    assert!(problem.starts_with(&expected), "{problem}");
+    assert!(!problem.contains("cache/tmp"), "{problem}");
+}
+
+#[test]
+fn a_cache_of_no_size_is_emptied_after_each_run() {
+    let mut place = Place::new();
+    place.cache = Cache::new(place.path("cache"), 0, "tests 1");
+    for _ in 0..2 {
+        assert_eq!(place.numbers(&recipe()), [1, 2, 3, 4]);
+        assert_eq!(place.cache.size().unwrap().bytes, 0);
+    }
+}
+
+#[test]
+fn a_cache_can_be_cleared() {
+    let place = Place::new();
+    assert_eq!(place.cache.clear().unwrap(), crate::CacheSize::default());
+    place.run(&recipe());
+    let size = place.cache.size().unwrap();
+    assert!(
+        size.steps == 4 && size.blobs > 0 && size.bytes > 10_000,
+        "{size:?}"
+    );
+    assert_eq!(place.cache.clear().unwrap(), size);
+    assert_eq!(place.numbers(&recipe()), [1, 2, 3, 4]);
+}
+
+#[test]
+fn a_step_that_changes_one_thing_stores_one_thing() {
+    let place = Place::new();
+    place.run(&steps("Sheet(columns: 700)"));
+    let before = place.cache.size().unwrap().blobs;
+    place.run(&steps("Sheet(columns: 700), Lift(by: 1)"));
+    // The positions.
+    assert_eq!(place.cache.size().unwrap().blobs, before + 1);
+}

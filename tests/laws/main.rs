@@ -8,6 +8,7 @@ mod cancelling;
 mod cube_diagonals;
 mod every_op;
 mod fixtures;
+mod layout;
 mod opensubdiv;
 mod random_edits;
 mod registry;

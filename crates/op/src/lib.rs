@@ -41,6 +41,7 @@
 //! assert_eq!(lifted.position(lifted.vertices().next().unwrap()), DVec3::new(0.0, 0.0, 2.0));
 //! ```
 
+mod chosen;
 mod context;
 mod edit;
 mod error;
@@ -57,6 +58,7 @@ mod source;
 mod tag;
 pub mod test;
 
+pub use chosen::{Wanted, change_curves, chosen, plan_curves};
 pub use context::Context;
 pub use edit::{Edited, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};
@@ -76,5 +78,5 @@ pub use report::{Loss, Refused, Report};
 pub use selection::{
     EdgeSelection, ElementKind, Elements, FaceSelection, Region, Select, Selected, VertexSelection,
 };
-pub use source::{Source, change_curves, check_name, named_object, plan_curves};
+pub use source::{Source, check_name, named_object};
 pub use tag::{BadTagName, TagName, tag};

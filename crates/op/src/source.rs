@@ -1,14 +1,10 @@
-//! What operations over a scene share: sources, which make an object, and the way to the objects that
-//! a step acts on.
+//! What operations over a scene share: sources, which make an object, and names.
 
-use bezier::Curve;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use mesh::Mesh;
-use scene::{Geometry, Object, Scene};
+use scene::{Object, Scene};
 
-use crate::{
-    Context, MeshPlan, OpError, Plan, PlanContext, PlannedGeometry, Problem, Range, Report, Vector,
-};
+use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
 
 /// The most edges of a mesh that is built from polygons: its faces have two corners at an edge, and
 /// each corner may need two half-edges, whose ids end at 2^32 - 2.
@@ -158,84 +154,10 @@ pub fn named_object<'s>(scene: &'s Scene, name: &str) -> Result<&'s Object, OpEr
         .ok_or_else(|| OpError::Object(format!("no object is named \"{name}\"")))
 }
 
-/// Plans an operation on curves, those in `on:` or all. `change` is called with the number of control
-/// points of each and returns what it becomes and what is wrong.
-pub fn plan_curves(
-    operation: &str,
-    plan: &mut Plan,
-    cx: &PlanContext,
-    change: impl Fn(Range) -> (PlannedGeometry, Vec<Problem>),
-) -> Vec<Problem> {
-    let mut problems = Vec::new();
-    let mut n = 0;
-    for object in &mut plan.objects {
-        if cx.on.is_some_and(|on| !on.contains(&object.name)) {
-            continue;
-        }
-        if let PlannedGeometry::Curve(points) = object.geometry {
-            n += 1;
-            let (geometry, more) = change(points);
-            object.geometry = geometry;
-            problems.extend(more);
-        } else if cx.on.is_some() {
-            problems.push(Problem::error(not_a_curve(
-                operation,
-                &object.name,
-                object.geometry.kind(),
-            )));
-        }
-    }
-    if n == 0 && problems.is_empty() && !plan.incomplete {
-        let message = format!("{operation} finds no curve to change");
-        problems.push(Problem::error(message).help("load a .bzc file in an earlier step"));
-    }
-    problems
-}
-
-/// Runs an operation on curves, those in `on:` or all. `change` returns what each becomes. The report
-/// counts them.
-///
-/// # Errors
-///
-/// [`OpError::Object`] if an object of `on:` is not there or no curve, and what `change` returns.
-pub fn change_curves(
-    operation: &str,
-    scene: &mut Scene,
-    cx: &Context,
-    change: impl Fn(&Curve<DVec2>) -> Result<Geometry, OpError>,
-) -> Result<Report, OpError> {
-    let is_curve = |o: &&Object| matches!(o.geometry, Geometry::Curve(_));
-    let names: Vec<String> = cx.on.map_or_else(
-        || {
-            scene
-                .objects()
-                .iter()
-                .filter(is_curve)
-                .map(|o| o.name.clone())
-                .collect()
-        },
-        <[String]>::to_vec,
-    );
-    cx.advance("curves", 0, names.len() as u64)?;
-    for (done, name) in (1..).zip(&names) {
-        let geometry = match &named_object(scene, name)?.geometry {
-            Geometry::Curve(curve) => change(curve)?,
-            other => return Err(OpError::Object(not_a_curve(operation, name, other.kind()))),
-        };
-        *scene.parts_mut(name).expect("found above").0 = geometry;
-        cx.advance("curves", done, names.len() as u64)?;
-    }
-    Ok(Report::changed(names.len()))
-}
-
-fn not_a_curve(operation: &str, name: &str, kind: &str) -> String {
-    format!("{operation} changes curves, but \"{name}\" is {kind}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Files, NoProgress};
+    use crate::{Files, NoProgress, Range};
     use geometry::shapes;
 
     fn square() -> MeshPlan {

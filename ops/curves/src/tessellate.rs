@@ -15,8 +15,8 @@ use std::sync::Arc;
 
 use bezier::{BezierError, Patch, Tessellation, counts, tessellate_patch};
 use mesh::{BuildReport, Built, DVec2, DVec3, Domain, NonManifold, UV, VERTEX_NORMAL};
-use op::Operation;
 use op::prelude::*;
+use op::{Operation, Wanted, chosen};
 use scene::Geometry;
 
 /// Turns Bezier patches into a mesh.
@@ -70,6 +70,13 @@ const fn eight() -> Count<1, 4096> {
     Count::literal(8)
 }
 
+const WANTED: Wanted = Wanted {
+    operation: "Tessellate",
+    does: "cuts patches",
+    none: "no patches to cut",
+    help: "load a .bez file in an earlier step",
+};
+
 impl Operation for Tessellate {
     const NAME: &'static str = "Tessellate";
     const SUMMARY: &'static str = "Turn Bezier patches into a mesh";
@@ -77,44 +84,24 @@ impl Operation for Tessellate {
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        let mut n = 0;
-        for object in &mut plan.objects {
-            let chosen = cx.on.is_none_or(|on| on.contains(&object.name));
-            match object.geometry {
-                PlannedGeometry::Patches(patches) if chosen => {
-                    n += 1;
-                    object.geometry = PlannedGeometry::Mesh(self.planned(patches.max));
-                }
-                ref other if chosen && cx.on.is_some() => {
-                    problems.push(Problem::error(wrong_kind(&object.name, other.kind())));
-                }
-                _ => {}
-            }
-        }
-        if n == 0 && problems.is_empty() && !plan.incomplete {
-            let problem = Problem::error("Tessellate finds no patches to cut");
-            problems.push(problem.help("load a .bez file in an earlier step"));
-        }
-        problems
+        WANTED.plan(plan, cx, |geometry| {
+            let PlannedGeometry::Patches(patches) = *geometry else {
+                return None;
+            };
+            *geometry = PlannedGeometry::Mesh(self.planned(patches.max));
+            Some(Vec::new())
+        })
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("tessellate", 0, 1)?;
-        let names: Vec<String> = scene
-            .objects()
-            .iter()
-            .filter(|o| match cx.on {
-                Some(on) => on.contains(&o.name),
-                None => matches!(o.geometry, Geometry::Patches(_)),
-            })
-            .map(|o| o.name.clone())
-            .collect();
+        let names = chosen(scene, cx, |g| matches!(g, Geometry::Patches(_)))?;
         let mut report = Report::default();
         for name in &names {
             let (geometry, _) = scene.parts_mut(name).expect("named above");
             let Geometry::Patches(patches) = geometry else {
-                return Err(OpError::Object(wrong_kind(name, geometry.kind())));
+                let message = WANTED.another(name, geometry.kind());
+                return Err(OpError::Object(message));
             };
             let patches = std::mem::take(patches);
             self.check_budget(name, &patches, scene, cx)?;
@@ -243,10 +230,6 @@ fn with_copies(mut values: Vec<DVec3>, built: &BuildReport) -> Vec<DVec3> {
         values.push(values[original.index()]);
     }
     values
-}
-
-fn wrong_kind(name: &str, kind: &str) -> String {
-    format!("Tessellate cuts patches, but \"{name}\" is {kind}")
 }
 
 fn too_large(error: BezierError) -> OpError {

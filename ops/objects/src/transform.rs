@@ -19,7 +19,7 @@ use bezier::{Curve, Patch};
 use glam::DVec3;
 use mesh::{Rule, Values};
 use op::prelude::*;
-use op::{Loss, Operation, named_object};
+use op::{Loss, Operation, chosen};
 use rayon::prelude::*;
 use scene::Geometry;
 
@@ -204,16 +204,12 @@ impl Operation for Transform {
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        let names: Vec<String> = cx.on.map_or_else(
-            || scene.objects().iter().map(|o| o.name.clone()).collect(),
-            <[String]>::to_vec,
-        );
+        let names = chosen(scene, cx, |_| true)?;
         let map = Map::new(self);
         let mut report = Report::default();
         cx.advance("transform", 0, names.len() as u64)?;
         for (done, name) in (1..).zip(&names) {
-            named_object(scene, name)?;
-            let (geometry, _) = scene.parts_mut(name).expect("found above");
+            let (geometry, _) = scene.parts_mut(name).expect("a name of the scene");
             report.merge(self.change(name, geometry, &map)?);
             cx.advance("transform", done, names.len() as u64)?;
         }

@@ -20,7 +20,7 @@ use scene::{Digest, Geometry, Scene};
 use web_time::Instant;
 
 use crate::check::forbidden;
-use crate::expect::{Found, ReadObjects, Subject};
+use crate::expect::{Found, Reader, Subject};
 use crate::recipe::{Recipe, RecipeStep};
 use before::Before;
 use listener::Forward;
@@ -39,7 +39,7 @@ pub struct Settings<'a> {
     /// How many bytes meshes may take.
     pub budget: u64,
     /// How files are read for expectations.
-    pub read: ReadObjects<'a>,
+    pub reader: &'a dyn Reader,
     /// Whether outputs are kept.
     pub keep_outputs: bool,
     /// Whether the recipe writes anything.
@@ -435,7 +435,7 @@ impl Runner<'_> {
                 scene: &self.scene,
                 on: placed.on.as_deref(),
                 files: &self.files[placed.scope],
-                read: self.settings.read,
+                reader: self.settings.reader,
             };
             self.checked += 1;
             match placed.that.hold(subject) {

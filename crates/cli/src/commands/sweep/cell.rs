@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use ::cache::{Cache, Caching};
-use engine::{Engine, Loaded, Run, read_objects};
+use engine::{Engine, FileReader, Loaded, Run};
 use recipe::{Grid, JobEnd, Measured, Metric, Outcome, Source, Span};
 use scene::Scene;
 use view::Extent;
@@ -137,7 +137,7 @@ impl Cells<'_> {
             Err(None) => return CellResult::not_run(),
         };
         let measure = |(metric, _): &(Metric, Span)| {
-            let measured = metric.measure(&outcome, &loaded.files, &read_objects);
+            let measured = metric.measure(&outcome, &loaded.files, &FileReader);
             measured.map_err(|problem| format!("{metric:?}: {problem}"))
         };
         let measures = match self.keep.iter().map(measure).collect() {

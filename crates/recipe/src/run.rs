@@ -376,7 +376,6 @@ impl Runner<'_> {
             let message = format!("{} has panicked, which is a mistake in it", step.name);
             return Err(nowhere(message));
         };
-        let places = cx.places;
         if result.is_err() || step.refused.is_some() {
             self.scene = before.unwrap_or_else(|| std::mem::take(&mut self.scene));
         }
@@ -395,12 +394,14 @@ impl Runner<'_> {
                 Report::default().note(format!("refused as expected: {message}")),
                 Some(reason),
             )),
-            (Err(error), None) => Err(Some(Fault {
-                message: error.to_string(),
-                places,
-            })),
-            (Err(error), Some(expected)) => {
-                let message = format!("expected to be refused as {expected:?}, but: {error}");
+            (Err(error), expected) => {
+                let message = match expected {
+                    None => error.to_string(),
+                    Some(expected) => {
+                        format!("expected to be refused as {expected:?}, but: {error}")
+                    }
+                };
+                let places = error.places().to_vec();
                 Err(Some(Fault { message, places }))
             }
         }

@@ -94,10 +94,10 @@ impl Mesh {
             self.set_face(h, None);
         }
         for h in lone {
-            self.kill_edge(h.edge());
+            self.kill(h.edge());
         }
         for f in doomed {
-            self.kill_face(f);
+            self.kill(f);
         }
         Ok(())
     }

@@ -8,7 +8,7 @@ use super::*;
 const RECIPE: &str = "(recipe: 1, steps: [
     Cube(name: \"cube\"),
     (id: \"poke\", run: PokeFaces()),
-    Repeat(times: 2, steps: [(id: \"again\", run: PokeFaces(offset: 0.1))]),
+    Repeat(times: 2, steps: [(id: \"again\", run: PokeFaces(distance: 0.1))]),
 ], expect: [Faces(eq: 216), (after: \"poke\", that: Faces(eq: 24))])";
 
 fn registry() -> Registry {

@@ -228,9 +228,7 @@ mod tests {
 
     /// The image in a PNG file, with the colors that it was made of.
     fn decoded(bytes: &[u8]) -> (u32, u32, png::ColorType, Vec<u8>) {
-        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-            .read_info()
-            .unwrap();
+        let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
         let info = reader.next_frame(&mut pixels).unwrap();
         (info.width, info.height, info.color_type, pixels)
@@ -255,9 +253,7 @@ mod tests {
     fn a_png_file_carries_texts() {
         let image = Image::filled(1, 1, [0; 4]).unwrap();
         let bytes = image.to_png(&[("Source", "teapot.ron")]).unwrap();
-        let reader = png::Decoder::new(std::io::Cursor::new(bytes))
-            .read_info()
-            .unwrap();
+        let reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
         let text = &reader.info().utf8_text[0];
         assert_eq!(text.keyword, "Source");
         assert_eq!(text.get_text().unwrap(), "teapot.ron");

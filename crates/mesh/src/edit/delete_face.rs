@@ -45,7 +45,8 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// use mesh::{FaceId, shapes};
+    /// use geometry::shapes;
+    /// use mesh::FaceId;
     ///
     /// // Of four squares around a vertex two opposite ones would be left.
     /// let mut mesh = shapes::grid(2, 2);

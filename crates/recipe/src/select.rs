@@ -1,4 +1,4 @@
-//! Selections on their own, outside of a recipe: read from a text, and asked of a mesh.
+//! Selections and steps on their own, outside of a recipe: read from a text, and asked of a mesh.
 //!
 //! ```text
 //! "Sharp(above: 30)"   only edges can be sharp           ---> edges
@@ -7,13 +7,13 @@
 //! ```
 
 use mesh::Mesh;
-use op::{Context, ElementKind, Elements, Files, NoProgress, OpError, Selected};
+use op::{Context, ElementKind, Elements, Files, NoProgress, OpError, Operation, Selected};
 use scene::Object;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use crate::schema;
-use crate::shape;
+use crate::shape::{self, check_step, unread};
 use ron_tree::{Diagnostic, Value};
 
 /// Reads a selection as recipes write it: of `kind`, or else of the one kind of elements that has such
@@ -37,6 +37,23 @@ pub fn read_selection(
         Some(ElementKind::Vertices) => typed(value).map(Elements::Vertices),
         Some(ElementKind::Edges) => typed(value).map(Elements::Edges),
         Some(ElementKind::Faces) => typed(value).map(Elements::Faces),
+    }
+}
+
+/// Reads a step of an operation, `Name(parameters)`, from a text of its own.
+///
+/// # Errors
+///
+/// Everything that is wrong with it, with places in `source`.
+pub fn read_step<T: Operation>(source: &str) -> Result<T, Vec<Diagnostic>> {
+    let parsed = ron_tree::parse(source);
+    let checked = check_step(&parsed.value, &schema::of::<T>());
+    let step = T::deserialize(&*checked.in_full(&parsed.value));
+    let wrong = [parsed.diagnostics, checked.wrong].concat();
+    match step {
+        Ok(step) if wrong.is_empty() => Ok(step),
+        Err(error) if wrong.is_empty() => Err(vec![unread(parsed.value.span, error)]),
+        _ => Err(wrong),
     }
 }
 

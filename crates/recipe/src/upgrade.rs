@@ -11,10 +11,8 @@
 
 use op::{Entry, Registry};
 
-use crate::expect::Expectation;
-use crate::params::Param;
 use crate::read::VERSION;
-use crate::schema;
+use crate::schema::{self, Schemas};
 use crate::shape::{Checked, check_step, checked};
 use ron_tree::{Diagnostic, LineIndex, Span, Value, ValueKind};
 
@@ -62,6 +60,7 @@ pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagno
     if let Some(problem) = wrong_version(root) {
         return Err(vec![problem]);
     }
+    let schemas = Schemas::new(registry);
     let mut found = Vec::new();
     if let Some(ValueKind::Map(params)) = root.field("params").map(|p| &p.kind) {
         let schema = schema::of::<Param>();
@@ -74,7 +73,7 @@ pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagno
     for list in ["steps", "expect"] {
         for item in root.field(list).and_then(Value::items).unwrap_or_default() {
             if list == "steps" {
-                step(item, registry, &mut found);
+                step(item, &schemas, &mut found);
             } else {
                 expectation(item, &mut found);
             }
@@ -116,16 +115,16 @@ fn wrong_version(root: &Value) -> Option<Diagnostic> {
 }
 
 /// `Name(..)`, or `(run: Name(..), ..)`; steps may hold lists of steps.
-fn step(written: &Value, registry: &Registry, found: &mut Vec<Rename>) {
+fn step(written: &Value, schemas: &Schemas, found: &mut Vec<Rename>) {
     let envelope = matches!(written.kind, ValueKind::Struct(_));
     let run = written.field("run").filter(|_| envelope).unwrap_or(written);
-    if let Some(entry) = run.name().and_then(|(name, _)| registry.get(name)) {
-        found.extend(in_step(run, entry, check_step(run, &entry.schema())));
+    if let Some(entry) = run.name().and_then(|(name, _)| schemas.registry.get(name)) {
+        found.extend(in_step(run, entry, check_step(run, &schemas.of(entry))));
         return;
     }
     for field in written.fields().iter().chain(run.fields()) {
         for item in field.value.items().unwrap_or_default() {
-            step(item, registry, found);
+            step(item, schemas, found);
         }
     }
 }
@@ -142,13 +141,12 @@ pub(crate) fn in_step(run: &Value, entry: &Entry, checked: Checked) -> Vec<Renam
 }
 
 fn expectation(written: &Value, found: &mut Vec<Rename>) {
-    let schema = schema::of::<Expectation>();
     let that = match written.kind {
         ValueKind::Struct(_) => written.field("that"),
         _ => Some(written),
     };
     let Some(that) = that else { return };
     for item in that.items().unwrap_or(std::slice::from_ref(that)) {
-        found.extend(checked(item, &schema).renames);
+        found.extend(checked(item, schema::expectation()).renames);
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use op::{Context, Files};
 use ops_pictures::Picture;
-use recipe::{Source, Values};
+use recipe::Source;
 use render::Image;
 use ron_tree::string_literal;
 use scene::Scene;
@@ -35,7 +35,7 @@ pub(crate) fn run(args: &PictureArgs, engine: &Engine) -> anyhow::Result<bool> {
     if !args.sheet {
         more.extend(args.columns.map(|n| format!("columns: {n}")));
     }
-    let picture = parameters(&args.draw, &out(args, &files[0]), usual, more, engine)?;
+    let picture = parameters(&args.draw, &out(args, &files[0]), usual, more)?;
     catch_interrupts();
     if args.sheet {
         return on_sheet(args, &picture, &files, engine);
@@ -77,21 +77,13 @@ pub(crate) fn parameters(
     out: &Path,
     usual: [u32; 2],
     more: Vec<String>,
-    engine: &Engine,
 ) -> anyhow::Result<Picture> {
-    let fields = fields(args, out, usual, more);
-    let text = format!("(recipe: 1, steps: [Picture({fields})])");
-    let source = Source::new("options of picture", text.as_str());
-    let reading = recipe::read(&source, engine.registry(), Values::default());
-    let step = match &reading.recipe.steps[..] {
-        [step] if !reading.has_errors() => step.step.as_ref(),
-        _ => None,
-    };
-    let Some(step) = step else {
-        complain(&recipe::render(&[source], &reading.diagnostics, false));
-        return Err(WrongUsage("the options cannot be read".to_owned()).into());
-    };
-    let mut picture: Picture = ron::from_str(&step.canonical())?;
+    let text = format!("Picture({})", fields(args, out, usual, more));
+    let mut picture: Picture = recipe::read_step(&text).map_err(|wrong| {
+        let source = Source::new("options of picture", text.as_str());
+        complain(&recipe::render(&[source], &wrong, false));
+        WrongUsage("the options cannot be read".to_owned())
+    })?;
     let quantity = picture.color_by.as_mut().map(|by| &mut by.of);
     if let Some(Quantity::DistanceTo(path)) = quantity {
         *path = from_here(path)?;

@@ -32,7 +32,7 @@ pub(crate) use shorthand::Checked;
 
 use crate::upgrade::Rename;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
-use schema::Schema;
+pub(crate) use schema::Schema;
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use shorthand::Short;

@@ -68,7 +68,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
     } else {
         cache::open(&args.cache)?
     };
-    let sheet = Sheet::new(args, &plan, engine)?;
+    let sheet = Sheet::new(args, &plan)?;
     let cells = Cells {
         args,
         cache: cache.as_ref(),

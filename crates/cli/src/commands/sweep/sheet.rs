@@ -12,7 +12,6 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::ensure;
-use engine::Engine;
 use op::{Context, Files};
 use ops_pictures::Picture;
 use recipe::{Axis, InOrder, JobEnd, Jobs, Metric};
@@ -69,11 +68,7 @@ pub(super) struct Drawn {
 
 impl<'a> Sheet<'a> {
     /// Reads the options, if a sheet is wanted.
-    pub(super) fn new(
-        args: &'a SweepArgs,
-        plan: &Plan,
-        engine: &Engine,
-    ) -> anyhow::Result<Option<Self>> {
+    pub(super) fn new(args: &'a SweepArgs, plan: &Plan) -> anyhow::Result<Option<Self>> {
         let Some(path) = &args.sheet else {
             return Ok(None);
         };
@@ -84,7 +79,7 @@ impl<'a> Sheet<'a> {
             let message = format!("{}: expected an image that ends in .png", path.display());
             return Err(WrongUsage(message).into());
         }
-        let picture = parameters(&args.draw, path, SHEET_CELL, Vec::new(), engine)?;
+        let picture = parameters(&args.draw, path, SHEET_CELL, Vec::new())?;
         if picture.turntable.is_some() {
             return Err(WrongUsage("the cells on a sheet do not move".to_owned()).into());
         }

@@ -25,7 +25,7 @@ const LEFT_OF: &[(&str, &[&str])] = &[
     ("ops-all", &["ops-*"]),
     ("recipe", &["op"]),
     ("cache", &["recipe"]),
-    ("engine", &["cache", "io"]),
+    ("engine", &["cache", "io", "render"]),
     ("cli", &["engine", "view", "ops-pictures", "ops-all"]),
     ("benches", &["ops-*", "engine"]),
     ("tests", &["cli"]),

@@ -7,8 +7,7 @@ use engine::{BUDGET, Engine, Run, Stop};
 use mesh_io::ReadOptions;
 use scene::Scene;
 
-use crate::WrongUsage;
-use crate::args::ValueArgs;
+use crate::args::{ValueArgs, WrongUsage};
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::load_recipe;
 use crate::output::{complain, show};

@@ -43,7 +43,7 @@ use op::{Files, Registry};
 use recipe::{Schemas, Stamp};
 
 pub use loaded::{Loaded, Run};
-pub use read::read_objects;
+pub use read::FileReader;
 pub use recipe::{
     Diagnostic, Failure, Listener, Outcome, Settings, Silent, Source, StepDone, Values,
 };

@@ -34,7 +34,7 @@ mod sweep;
 pub use check::{Forecast, StepForecast, check, mebibytes};
 pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
 pub use diagnostic::render;
-pub use expect::{Expectation, Found, Measured, Metric, Other, ReadObjects};
+pub use expect::{Expectation, Found, Measured, Metric, Other, Reader};
 pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};
 pub use params::{Move, Param, ParamError};
 pub use read::{MAX_STEPS, Reading, VERSION, Values, read, read_by};

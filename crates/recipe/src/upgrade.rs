@@ -63,12 +63,8 @@ pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagno
     let schemas = Schemas::new(registry);
     let mut found = Vec::new();
     if let Some(ValueKind::Map(params)) = root.field("params").map(|p| &p.kind) {
-        let schema = schema::of::<Param>();
-        found.extend(
-            params
-                .iter()
-                .flat_map(|(_, param)| checked(param, &schema).renames),
-        );
+        let renames = |(_, param): &(Value, Value)| checked(param, schema::param()).renames;
+        found.extend(params.iter().flat_map(renames));
     }
     for list in ["steps", "expect"] {
         for item in root.field(list).and_then(Value::items).unwrap_or_default() {

@@ -9,10 +9,10 @@ use op::Place;
 use ops_pictures::Picture;
 use scene::{Geometry, Object, Scene};
 
-use crate::args::{Format, ReadArgs};
+use crate::args::{Format, PictureErrorsArgs, ReadArgs};
 use crate::commands::picture::draw_found;
 use crate::output::{grouped, print};
-use crate::picture_errors::{PictureErrorsArgs, Pictures};
+use crate::picture_errors::Pictures;
 use crate::scenes::Found;
 use crate::terminal_picture;
 

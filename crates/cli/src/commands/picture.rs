@@ -12,11 +12,10 @@ use scene::Scene;
 use view::Quantity;
 use view::sheet::{Cell, SheetStyle, sheet};
 
-use crate::WrongUsage;
-use crate::args::{DrawArgs, PictureArgs};
+use crate::args::{DrawArgs, PictureArgs, WrongUsage};
 use crate::commands::batch::inputs;
 use crate::listener::{Quiet, Terminal, catch_interrupts};
-use crate::output::{complain, print, write_whole};
+use crate::output::{STAMP, complain, print, write_whole};
 use crate::scenes::{Found, find};
 use engine::{BUDGET, Engine, Stop};
 
@@ -50,9 +49,6 @@ pub(crate) fn write_images(picture: &Picture, images: &[Image], path: &Path) -> 
     let bytes = picture.encode(images, Some(STAMP), &Quiet)?;
     write(path, &bytes, &images[0])
 }
-
-/// What images say of where they come from.
-pub(crate) const STAMP: &str = concat!("meshwright ", env!("CARGO_PKG_VERSION"));
 
 /// The file to write.
 fn out(args: &PictureArgs, first: &Path) -> PathBuf {

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use anyhow::Context as _;
 use op::Registry;
 use recipe::Source;
 use recipe::upgrade::upgrade;
@@ -10,7 +9,6 @@ use recipe::upgrade::upgrade;
 use crate::args::UpgradeArgs;
 use crate::loading::recipes;
 use crate::output::{complain, print};
-use crate::replace::replace_file;
 
 pub(crate) fn run(args: &UpgradeArgs, registry: &Registry) -> anyhow::Result<bool> {
     let recipes = recipes(&args.recipes)?;
@@ -53,7 +51,7 @@ fn one(path: &Path, only_check: bool, registry: &Registry) -> anyhow::Result<boo
         ))?;
     }
     if !only_check && upgraded.text != *source.text {
-        replace_file(path, &upgraded.text).with_context(|| format!("cannot write {shown}"))?;
+        store::replace(path, upgraded.text.as_bytes())?;
     }
     Ok(!upgraded.renames.is_empty())
 }

@@ -30,7 +30,6 @@ use crate::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 /// Why an edit was refused. The mesh is unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
 pub enum EditError {
     /// The vertex does not exist, or is dead.
     #[error("{0} is not a vertex of the mesh")]

@@ -23,10 +23,9 @@ use scene::Scene;
 use view::Extent;
 use view::sheet::{Cell, Heads, SheetStyle, notice, sheet_size, sheet_with_heads};
 
-use super::cell::{CellResult, Cells};
+use super::cell::{CellResult, Cells, Seen};
 use super::{Plan, short};
-use crate::WrongUsage;
-use crate::args::SweepArgs;
+use crate::args::{SweepArgs, WrongUsage};
 use crate::commands::picture::{SHEET_CELL, check_names, parameters};
 use crate::listener::{Quiet, is_interrupted};
 use crate::many::panicked;
@@ -45,16 +44,6 @@ pub(super) struct Sheet<'a> {
     layout: Layout,
     /// The bytes of the scenes that are kept until all are there.
     kept: AtomicU64,
-}
-
-/// What is known of a cell that succeeded.
-#[derive(Debug)]
-pub(super) struct Seen {
-    extent: Result<Extent, String>,
-    /// The scene, if there is memory to keep it.
-    scene: Option<Scene>,
-    /// The bytes that it takes to make it.
-    bytes: u64,
 }
 
 /// The sheet.

@@ -57,8 +57,9 @@ pub struct TypeDoc {
 /// The types that the parameters of an operation are made of, in order of their names; not those that
 /// are written as plain numbers.
 pub fn types(schema: &Json) -> Vec<TypeDoc> {
-    let definitions = Schema::root(schema).definitions();
-    let mut types: Vec<TypeDoc> = definitions
+    let root = Schema::root(schema);
+    let mut types: Vec<TypeDoc> = root
+        .definitions()
         .map(|(name, definition)| TypeDoc {
             name: name.to_owned(),
             doc: definition.doc(),

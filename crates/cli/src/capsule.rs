@@ -29,7 +29,7 @@ pub(crate) fn write(
     let failed = || format!("cannot write the capsule {}", folder.display());
     fs::create_dir_all(folder).with_context(failed)?;
     let options = mesh_io::WriteOptions::default();
-    mesh_io::write(&folder.join(BEFORE), scene, &options).with_context(failed)?;
+    mesh_io::write(&store::Disk, &folder.join(BEFORE), scene, &options).with_context(failed)?;
     let text = capsule(
         &loaded.recipe,
         step,

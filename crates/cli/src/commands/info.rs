@@ -23,8 +23,8 @@ pub(crate) fn run(
     read: &ReadArgs,
     format: Format,
 ) -> anyhow::Result<bool> {
-    let loaded =
-        mesh_io::read(path, &read.options()).map_err(|error| anyhow::anyhow!("{error}"))?;
+    let loaded = mesh_io::read(&store::Disk, path, &read.options())
+        .map_err(|error| anyhow::anyhow!("{error}"))?;
     let scene = scene(&loaded.objects)?;
     let pictures = picture_errors.of(path, BUDGET);
     if let Some(pictures) = &pictures {

@@ -19,7 +19,7 @@ pub(crate) fn run(args: &ReproduceArgs, engine: &Engine) -> anyhow::Result<bool>
     let mut last: Option<Again> = None;
     let mut all_are_same = true;
     for file in &args.files {
-        let stamp = mesh_io::provenance(file)?.and_then(|text| Stamp::parse(&text));
+        let stamp = mesh_io::provenance(&Disk, file)?.and_then(|text| Stamp::parse(&text));
         let (source, run) = recipe_of(file, stamp.as_ref(), args, engine)?;
         // Files of one run follow each other.
         let again = match last.take() {

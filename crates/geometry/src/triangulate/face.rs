@@ -34,7 +34,7 @@ use super::Cutter;
 /// # Examples
 ///
 /// ```
-/// let mut prism = mesh::shapes::cylinder(5, true);
+/// let mut prism = geometry::shapes::cylinder(5, true);
 /// let top = prism.faces().last().unwrap();
 /// assert_eq!(geometry::triangulate::triangulate_face(&mut prism, top)?.len(), 3);
 /// assert!(prism.is_triangle(top));

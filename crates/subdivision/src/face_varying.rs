@@ -18,8 +18,9 @@
 //! their vertex are semi-sharp by different numbers, that may differ for a level.)
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
-use rayon::prelude::*;
+use progress::Cancelled;
 
+use crate::parallel::{Meter, computed};
 use crate::rules::{FaceVarying, Rules, Scheme};
 use crate::sharpness::{INFINITE, Sharpness, VertexRule, decreased, fading};
 use crate::topology::{Place, linear_value};
@@ -80,21 +81,22 @@ impl<'a> Field<'a> {
         sharpness: Sharpness<'a>,
         rules: Rules,
         values: &'a [DVec4],
-    ) -> Self {
+        meter: &Meter,
+    ) -> Result<Self, Cancelled> {
         let differ = |a: HalfEdgeId, b: HalfEdgeId| values[a.index()] != values[b.index()];
         let is_seam = |e: usize| {
             let [h, twin] = EdgeId::new(e).half_edges();
             !mesh.is_boundary_edge(h.edge())
                 && (differ(h, mesh.next(twin)) || differ(twin, mesh.next(h)))
         };
-        Self {
+        Ok(Self {
             mesh,
             sharpness,
             scheme: rules.scheme,
             choice: rules.face_varying,
             values,
-            seams: (0..mesh.n_edges()).into_par_iter().map(is_seam).collect(),
-        }
+            seams: computed(mesh.n_edges(), meter, is_seam)?,
+        })
     }
 
     /// The value of a corner of the next level.

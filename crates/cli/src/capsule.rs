@@ -7,19 +7,15 @@ use anyhow::Context as _;
 use recipe::capsule::{BEFORE, capsule};
 use scene::Scene;
 
-use crate::loading::Loaded;
-use crate::many::run_quietly;
+use crate::listener::Quiet;
 use crate::output::write_whole;
+use engine::Loaded;
 
 /// The scene before a step of a recipe, all of whose steps before it can be done.
-pub(crate) fn scene_before(loaded: &mut Loaded, step: usize, budget: u64) -> anyhow::Result<Scene> {
-    let rest = loaded.recipe.steps.split_off(step);
-    let expectations = std::mem::take(&mut loaded.recipe.expectations);
-    let outcome = run_quietly(loaded, budget, false, None);
-    loaded.recipe.steps.extend(rest);
-    loaded.recipe.expectations = expectations;
-    anyhow::ensure!(outcome.succeeded(), "the steps before it fail too now");
-    outcome.scene.context("the scene is not there")
+pub(crate) fn scene_before(loaded: &mut Loaded, step: usize) -> anyhow::Result<Scene> {
+    loaded
+        .scene_before(step, &Quiet)
+        .context("the steps before it fail too now")
 }
 
 /// Writes a capsule: the step that failed with what follows it, and the scene before it.
@@ -39,7 +35,7 @@ pub(crate) fn write(
         step,
         message,
         &loaded.forecast.inputs,
-        folder,
+        (folder, &*loaded.files.store),
     );
     write_whole(&folder.join("recipe.ron"), text.as_bytes())
 }

@@ -28,9 +28,9 @@ use op::Progress;
 use recipe::{Listener, Outcome, StepDone};
 use serde_json::{Value as Json, json};
 
-use crate::loading::Loaded;
 use crate::output::{origin, problems_json};
 use crate::picture_errors::Pictures;
+use engine::Loaded;
 
 /// The version of the events.
 const FORMAT: u32 = 1;

@@ -29,6 +29,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::Parser;
+use engine::Engine;
 use op::Registry;
 
 use args::{Args, Command};
@@ -45,14 +46,15 @@ pub fn run(registry: Registry) -> ExitCode {
         complain(&format!("error: {clash}\n"));
         return ExitCode::FAILURE;
     }
+    let engine = Engine::new(&registry);
     let mut trouble = 1;
     let done = match args.command {
-        Command::Run(args) => commands::run::run(&args, &registry),
-        Command::Watch(args) => commands::watch::run(&args, &registry),
-        Command::Check(args) => commands::check::run(&args, &registry),
-        Command::Test(args) => commands::test::run(&args, &registry),
-        Command::Batch(args) => commands::batch::run(&args, &registry),
-        Command::Sweep(args) => commands::sweep::run(&args, &registry),
+        Command::Run(args) => commands::run::run(&args, &engine),
+        Command::Watch(args) => commands::watch::run(&args, &engine),
+        Command::Check(args) => commands::check::run(&args, &engine),
+        Command::Test(args) => commands::test::run(&args, &engine),
+        Command::Batch(args) => commands::batch::run(&args, &engine),
+        Command::Sweep(args) => commands::sweep::run(&args, &engine),
         Command::Ops {
             name,
             markdown,
@@ -70,19 +72,24 @@ pub fn run(registry: Registry) -> ExitCode {
             read,
             output,
         } => commands::convert::run(&input, &read, &output),
-        Command::Reproduce(args) => commands::reproduce::run(&args, &registry),
-        Command::Picture(args) => commands::picture::run(&args, &registry),
-        Command::Select(args) => commands::select::run(&args, &registry),
+        Command::Reproduce(args) => commands::reproduce::run(&args, &engine),
+        Command::Picture(args) => commands::picture::run(&args, &engine),
+        Command::Select(args) => commands::select::run(&args, &engine),
         Command::Diff(args) => {
             // As `diff` has it: 1 says that there is a difference, and nothing else does.
             trouble = 2;
-            commands::diff::run(&args, &registry)
+            commands::diff::run(&args, &engine)
         }
         Command::Upgrade(args) => commands::upgrade::run(&args, &registry),
         Command::Cache(args) => commands::cache::run(&args),
-        Command::Shrink(args) => commands::shrink::run(&args, &registry),
+        Command::Shrink(args) => commands::shrink::run(&args, &engine),
         Command::Schema => commands::schema::run(&registry),
-        Command::NewOp { name, dir } => commands::new_op::run(&name, &dir),
+        Command::NewOp {
+            name,
+            group,
+            dir,
+            meshwright,
+        } => commands::new_op::run(&name, group.as_deref(), &dir, &meshwright),
     };
     match done.and_then(|succeeded| flushed().map(|()| succeeded)) {
         Ok(true) => ExitCode::SUCCESS,

@@ -1,60 +1,16 @@
-//! From the path of a recipe to what runs it.
+//! From the paths on the command line to recipes.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use op::{Files, Registry};
-use recipe::{Diagnostic, Forecast, Recipe, Schemas, Settings, Severity, Source, Stamp, Values};
-use scene::Object;
+use engine::{Engine, Loaded, Options, Source, Values};
 
 use crate::args::{RecipeArgs, ValueArgs};
 
-/// A recipe that was read and checked.
-pub(crate) struct Loaded {
-    pub(crate) path: String,
-    pub(crate) recipe: Recipe,
-    pub(crate) files: Files,
-    pub(crate) forecast: Forecast,
-    /// Whether every step and expectation could be read.
-    pub(crate) is_read: bool,
-    /// Everything that is wrong, from reading and from checking, in order.
-    pub(crate) diagnostics: Vec<Diagnostic>,
-}
-
-impl Loaded {
-    pub(crate) fn has_errors(&self) -> bool {
-        self.n_errors() > 0
-    }
-
-    pub(crate) fn n_errors(&self) -> usize {
-        self.diagnostics
-            .iter()
-            .filter(|d| d.severity == Severity::Error)
-            .count()
-    }
-
-    /// How to run it: nothing is kept, and nothing comes from a cache.
-    pub(crate) fn settings(&self, budget: u64) -> Settings<'_> {
-        Settings {
-            files: &self.files,
-            budget,
-            read: &read_objects,
-            keep_outputs: false,
-            writes: !self.forecast.outputs.is_empty(),
-            cache: None,
-        }
-    }
-
-    /// The diagnostics as a compiler shows them.
-    pub(crate) fn render(&self, diagnostics: &[Diagnostic], colours: bool) -> String {
-        recipe::render(&self.recipe.sources, diagnostics, colours)
-    }
-}
-
 /// Reads and checks the recipe of a command.
-pub(crate) fn load(args: &RecipeArgs, registry: &Registry) -> anyhow::Result<Loaded> {
-    load_recipe(&args.recipe, &args.values, &args.out, args.budget, registry)
+pub(crate) fn load(args: &RecipeArgs, engine: &Engine) -> anyhow::Result<Loaded> {
+    load_recipe(&args.recipe, &args.values, &args.out, args.budget, engine)
 }
 
 /// Reads and checks a recipe.
@@ -63,21 +19,25 @@ pub(crate) fn load_recipe(
     values: &ValueArgs,
     out: &Path,
     budget: u64,
-    registry: &Registry,
+    engine: &Engine,
 ) -> anyhow::Result<Loaded> {
-    let source = Source::open(path).map_err(anyhow::Error::msg)?;
-    let (set, preset) = (&values.set, values.preset.as_deref());
-    load_text(&source, set, preset, out, budget, &Schemas::new(registry))
+    let source = engine.open(path).map_err(anyhow::Error::msg)?;
+    load_text(
+        &source,
+        (&values.set, values.preset.as_deref()),
+        out,
+        budget,
+        engine,
+    )
 }
 
 /// The same for a recipe whose text is known; paths among the values are seen from the working directory.
 pub(crate) fn load_text(
     source: &Source,
-    set: &[(String, String)],
-    preset: Option<&str>,
+    (set, preset): (&[(String, String)], Option<&str>),
     out: &Path,
     budget: u64,
-    schemas: &Schemas,
+    engine: &Engine,
 ) -> anyhow::Result<Loaded> {
     let folder = std::env::current_dir().context("cannot tell the working directory")?;
     let values = Values {
@@ -85,59 +45,12 @@ pub(crate) fn load_text(
         preset,
         folder: Some(&folder),
     };
-    Ok(load_by(schemas, source, values, out, budget))
-}
-
-/// Reads and checks a recipe whose text is known, with values that say from where paths are seen.
-pub(crate) fn load_source(
-    source: &Source,
-    values: Values,
-    out: &Path,
-    budget: u64,
-    registry: &Registry,
-) -> Loaded {
-    load_by(&Schemas::new(registry), source, values, out, budget)
-}
-
-fn load_by(schemas: &Schemas, source: &Source, values: Values, out: &Path, budget: u64) -> Loaded {
-    let reading = recipe::read_by(schemas, source, values);
-    let mut files = Files {
-        input: source.folder().to_path_buf(),
-        output: out.to_path_buf(),
-        placeholders: reading.recipe.placeholders(),
-        ..Files::default()
+    let options = Options {
+        values,
+        out,
+        budget,
     };
-    let forecast = recipe::check(&reading.recipe, &files, budget);
-    if !forecast.outputs.is_empty() && !forecast.has_errors() {
-        let stamp = Stamp::new(&reading.recipe, &forecast.inputs);
-        files.provenance = Some(stamp.to_string());
-    }
-    let is_read = !reading.has_errors();
-    let mut diagnostics = reading.diagnostics;
-    diagnostics.extend(forecast.diagnostics.iter().cloned());
-    diagnostics.sort_by_key(|d| (d.source, d.span));
-    Loaded {
-        path: source.path.display().to_string(),
-        recipe: reading.recipe,
-        files,
-        forecast,
-        is_read,
-        diagnostics,
-    }
-}
-
-/// Reads the objects of a file, for expectations that compare with one.
-pub(crate) fn read_objects(path: &Path, files: &Files) -> Result<Vec<Object>, String> {
-    let loaded =
-        mesh_io::read(path, &mesh_io::ReadOptions::default()).map_err(|error| error.to_string())?;
-    for file in loaded.files {
-        if file.is_read {
-            files.has_read(file.path);
-        } else {
-            files.has_looked_for(file.path);
-        }
-    }
-    Ok(loaded.objects)
+    Ok(engine.load(source, &options))
 }
 
 /// A recipe that was found.

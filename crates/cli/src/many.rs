@@ -1,11 +1,8 @@
 //! What commands that run many recipes at once share.
 
-use ::cache::Caching;
-use recipe::{Diagnostic, JobEnd, JobLimits, Jobs, Outcome, Settings, Severity, StepCache};
+use recipe::{Diagnostic, JobEnd, JobLimits, Jobs, Severity};
 
-use crate::listener::{Quiet, is_interrupted};
-use crate::loading::Loaded;
-use crate::picture_errors::{Pictures, Picturing};
+use crate::listener::is_interrupted;
 
 /// How many runs are checked before the first of them begins: what is known of each stays in memory.
 pub(crate) const CHECKED_AHEAD: usize = 1000;
@@ -26,36 +23,6 @@ pub(crate) fn all<T: Send>(
     jobs.run(limits, |ended| ends.extend(ended))?;
     ends.sort_by_key(|(job, _)| *job);
     Ok(ends.into_iter().map(|(_, end)| end).collect())
-}
-
-/// Runs a recipe that can run, without a word, until Ctrl-C.
-pub(crate) fn run_quietly(
-    loaded: &Loaded,
-    budget: u64,
-    keep_outputs: bool,
-    cache: Option<Caching>,
-) -> Outcome {
-    run_drawing(loaded, budget, keep_outputs, cache, None)
-}
-
-/// The same, and draws what fails.
-pub(crate) fn run_drawing(
-    loaded: &Loaded,
-    budget: u64,
-    keep_outputs: bool,
-    cache: Option<Caching>,
-    pictures: Option<&Pictures>,
-) -> Outcome {
-    let settings = Settings {
-        keep_outputs,
-        cache: cache.as_ref().map(|cache| cache as &dyn StepCache),
-        ..loaded.settings(budget)
-    };
-    let listener = Picturing {
-        listener: &Quiet,
-        pictures,
-    };
-    recipe::run(&loaded.recipe, settings, &listener)
 }
 
 /// What is said of a run that panicked.

@@ -7,7 +7,7 @@ use std::path::Path;
 use anyhow::Context as _;
 use recipe::{LineIndex, Origin, Outcome, Recipe, Source, StepDone};
 
-use crate::loading::Loaded;
+use engine::Loaded;
 
 /// Writes to the standard output. An error that a broken pipe causes is told apart by the caller.
 pub(crate) fn print(text: &str) -> io::Result<()> {

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use clap::Args as ClapArgs;
-use op::{Context, Files, Place, Progress};
-use ops_pictures::draw_places;
+use op::{Place, Progress};
 use recipe::{Failure, Found, Listener, StepDone};
-use render::sheet::{Cell, SheetStyle, sheet};
 use render::{Image, difference};
 use scene::Scene;
+use view::draw_places;
+use view::sheet::{Cell, SheetStyle, sheet};
 
 use crate::commands::picture::STAMP;
 use crate::listener::Quiet;
@@ -150,10 +150,8 @@ impl Pictures {
         places: &[Place],
         caption: &str,
     ) -> anyhow::Result<Option<Image>> {
-        let files = Files::default();
-        let mut cx = Context::new(&Quiet, &files);
-        cx.budget = self.budget;
-        Ok(draw_places(scene, places, caption, &mut cx)?)
+        let image = draw_places(scene, places, caption, self.budget, &Quiet)?;
+        Ok(image)
     }
 
     /// The picture that was expected, the one that was found, and where they differ; `None` if these are no pictures of

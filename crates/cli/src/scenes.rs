@@ -3,10 +3,8 @@
 use std::path::Path;
 
 use anyhow::Context as _;
+use engine::{BUDGET, Engine, Run, Stop};
 use mesh_io::ReadOptions;
-use op::Registry;
-use recipe::RecipeStep;
-use recipe::shape::did_you_mean;
 use scene::Scene;
 
 use crate::WrongUsage;
@@ -14,15 +12,6 @@ use crate::args::ValueArgs;
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::load_recipe;
 use crate::output::{complain, show};
-
-/// Where a recipe stops.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Stop<'a> {
-    /// After the step or call of this id, or of this label; after its last turn.
-    pub(crate) after: Option<&'a str>,
-    /// Before the step or call of this id, or of this label; before its first turn.
-    pub(crate) before: Option<&'a str>,
-}
 
 /// A scene, and what it takes to ask it as a step would.
 pub(crate) struct Found {
@@ -42,10 +31,10 @@ pub(crate) fn find(
     options: &ReadOptions,
     values: &ValueArgs,
     stop: Stop,
-    registry: &Registry,
+    engine: &Engine,
 ) -> anyhow::Result<Found> {
     if is_recipe(path) {
-        return run(path, values, stop, registry);
+        return run(path, values, stop, engine);
     }
     if stop.after.is_some() || stop.before.is_some() || !values.is_empty() {
         let message = format!(
@@ -70,42 +59,16 @@ pub(crate) fn find(
     })
 }
 
-fn run(path: &Path, values: &ValueArgs, stop: Stop, registry: &Registry) -> anyhow::Result<Found> {
+fn run(path: &Path, values: &ValueArgs, stop: Stop, engine: &Engine) -> anyhow::Result<Found> {
     let shown = path.display();
-    let mut loaded = load_recipe(path, values, Path::new("out"), BUDGET, registry)?;
+    let mut loaded = load_recipe(path, values, Path::new("out"), BUDGET, engine)?;
     show(&loaded, &loaded.diagnostics);
     anyhow::ensure!(!loaded.has_errors(), "{shown} cannot run");
-    let steps = &loaded.recipe.steps;
-    let is_meant = |step: &RecipeStep, id: &str| {
-        let is_in_call = || {
-            step.label
-                .strip_prefix(id)
-                .is_some_and(|rest| rest.starts_with('/'))
-        };
-        step.label == id || (step.scope == 0 && step.id.as_deref() == Some(id)) || is_in_call()
-    };
-    let unknown = |id: &str| {
-        let known = steps.iter().filter_map(|step| step.id.as_deref());
-        let help = did_you_mean(id, known);
-        WrongUsage(format!("no step of {shown} has the id \"{id}\": {help}"))
-    };
-    let (mut n, mut stream) = (steps.len(), String::new());
-    if let Some(id) = stop.after {
-        let place = steps.iter().rposition(|step| is_meant(step, id));
-        n = place.ok_or_else(|| unknown(id))? + 1;
-    }
-    if let Some(id) = stop.before {
-        let place = steps.iter().position(|step| is_meant(step, id));
-        n = place.ok_or_else(|| unknown(id))?;
-        steps[n].label().clone_into(&mut stream);
-    }
-    loaded.recipe.steps.truncate(n);
-    loaded.recipe.expectations.clear();
+    let stream = loaded.stop(stop).map_err(|e| WrongUsage(e.to_string()))?;
 
     catch_interrupts();
     let terminal = Terminal::new();
-    let settings = loaded.settings(BUDGET);
-    let outcome = recipe::run(&loaded.recipe, settings, &terminal);
+    let outcome = loaded.run(Run::default(), &terminal);
     terminal.clear();
     show(&loaded, &outcome.failures);
     anyhow::ensure!(!outcome.cancelled, "interrupted");
@@ -115,6 +78,3 @@ fn run(path: &Path, values: &ValueArgs, stop: Stop, registry: &Registry) -> anyh
         stream,
     })
 }
-
-/// The memory that meshes may take.
-pub(crate) const BUDGET: u64 = 8 << 30;

@@ -10,6 +10,8 @@
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use store::{Disk, Store, StoreError};
+
 /// Why a path cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FileError {
@@ -29,9 +31,11 @@ pub enum FileError {
     Link(String),
 }
 
-/// The folders of a run, and the texts that stand for placeholders in output paths.
-#[derive(Clone, Debug, Default)]
+/// The files of a run: the folders, and the texts that stand for placeholders in output paths.
+#[derive(Clone, Debug)]
 pub struct Files {
+    /// Where files are read and written; the disk by default.
+    pub store: Arc<dyn Store>,
     /// The folder of the recipe.
     pub input: PathBuf,
     /// The output folder.
@@ -88,6 +92,19 @@ impl FileLog {
     }
 }
 
+impl Default for Files {
+    fn default() -> Self {
+        Self {
+            store: Arc::new(Disk),
+            input: PathBuf::new(),
+            output: PathBuf::new(),
+            placeholders: Vec::new(),
+            provenance: None,
+            log: FileLog::default(),
+        }
+    }
+}
+
 impl Files {
     /// The path of a file to read: `path` seen from the recipe's folder. Whoever reads it says so with
     /// [`has_read`](Self::has_read).
@@ -111,6 +128,15 @@ impl Files {
     /// Says that it was looked whether there is a plain file of this name, without reading it.
     pub fn has_looked_for(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::LookedFor(path.into()));
+    }
+
+    /// Makes the folders around a file to write.
+    ///
+    /// # Errors
+    ///
+    /// [`StoreError::Folder`] if that cannot be done.
+    pub fn make_folder_of(&self, path: &Path) -> Result<(), StoreError> {
+        self.store.make_folder(store::folder_of(path))
     }
 
     /// The path of a file to write: `path` below the output folder, placeholders filled in.
@@ -173,11 +199,11 @@ impl Files {
     ///
     /// [`FileError::Link`].
     pub fn check_links(&self, relative: &Path) -> Result<(), FileError> {
-        let Ok(root) = self.output.canonicalize() else {
+        let Ok(root) = self.store.canonical(&self.output) else {
             return Ok(());
         };
         for folder in relative.ancestors().skip(1) {
-            if let Ok(real) = self.output.join(folder).canonicalize() {
+            if let Ok(real) = self.store.canonical(&self.output.join(folder)) {
                 if real.starts_with(&root) {
                     return Ok(());
                 }

@@ -13,14 +13,14 @@
 //! #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 //! #[serde(deny_unknown_fields)]
 //! pub struct Lift {
-//!     /// How far, in scene units.
-//!     pub by: f64,
+//!     /// How far, in scene units; below 0 it sinks.
+//!     pub distance: Distance,
 //! }
 //!
 //! impl MeshOperation for Lift {
 //!     const NAME: &'static str = "Lift";
 //!     const SUMMARY: &'static str = "Lift every vertex";
-//!     const EXAMPLE: &'static str = "Lift(by: 0.5)";
+//!     const EXAMPLE: &'static str = "Lift(distance: 0.5)";
 //!
 //!     fn plan(&self, _: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
 //!         Vec::new() // counts and attributes stay as they are
@@ -29,7 +29,7 @@
 //!     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
 //!         cx.advance("lift", 0, 1)?;
 //!         for p in mesh.positions_mut() {
-//!             *p += DVec3::new(0.0, 0.0, self.by);
+//!             *p += DVec3::new(0.0, 0.0, self.distance.get());
 //!         }
 //!         Ok(Report::changed(mesh.n_vertices()))
 //!     }
@@ -37,10 +37,11 @@
 //!
 //! let registry = op::Registry::new().with::<Lift>();
 //! assert!(registry.get("Lift").is_some());
-//! let lifted = op::test::applied(&Lift { by: 2.0 }, geometry::shapes::square());
+//! let lifted = op::test::applied(&Lift { distance: Distance::literal(2.0) }, geometry::shapes::square());
 //! assert_eq!(lifted.position(lifted.vertices().next().unwrap()), DVec3::new(0.0, 0.0, 2.0));
 //! ```
 
+mod chosen;
 mod context;
 mod edit;
 mod error;
@@ -56,14 +57,17 @@ mod selection;
 mod source;
 mod tag;
 pub mod test;
-mod turn;
 
+pub use chosen::{Wanted, change_curves, chosen, plan_curves};
 pub use context::Context;
 pub use edit::{Edited, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};
 pub use files::{FileError, FileLog, FileUse, Files};
 pub use operation::{MeshOperation, Operation};
-pub use parameter::{Axis, Vector, check_fraction};
+pub use parameter::{
+    Angle, AngleBetween, Axis, BadVector, ClosedFraction, Count, Direction, Distance, Factors,
+    Fraction, Length, Levels, OutOfRange, PositiveFactor, PositiveLength, Sharpness, Turn, Vector,
+};
 pub use place::Place;
 pub use plan::{
     MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
@@ -74,6 +78,5 @@ pub use report::{Loss, Refused, Report};
 pub use selection::{
     EdgeSelection, ElementKind, Elements, FaceSelection, Region, Select, Selected, VertexSelection,
 };
-pub use source::{Source, change_curves, check_name, made, named_object, plan_curves};
-pub use tag::{tag, tag_problems};
-pub use turn::Turn;
+pub use source::{Source, check_name, named_object};
+pub use tag::{BadTagName, TagName, tag};

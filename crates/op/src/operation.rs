@@ -11,6 +11,7 @@ use serde::de::DeserializeOwned;
 
 use crate::{
     Context, Loss, MeshPlan, OpError, Place, Plan, PlanContext, PlannedGeometry, Problem, Report,
+    Wanted, chosen,
 };
 
 /// An operation that changes one mesh. Over a scene it acts on every mesh, or on those named in `on:`.
@@ -84,49 +85,14 @@ impl<T: MeshOperation> Operation for T {
     const ATOMIC: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        let mut n = 0;
-        for object in &mut plan.objects {
-            let chosen = cx.on.is_none_or(|on| on.contains(&object.name));
-            match &mut object.geometry {
-                PlannedGeometry::Mesh(mesh) if chosen => {
-                    n += 1;
-                    for problem in MeshOperation::plan(self, mesh, cx) {
-                        if !problems.contains(&problem) {
-                            problems.push(problem);
-                        }
-                    }
-                }
-                other if chosen && cx.on.is_some() => problems.push(Problem::error(format!(
-                    "{} changes meshes, but \"{}\" is {}",
-                    Self::NAME,
-                    object.name,
-                    other.kind()
-                ))),
-                _ => {}
-            }
-        }
-        if n == 0 && problems.is_empty() && !plan.incomplete {
-            let message = format!("{} finds no mesh to change", Self::NAME);
-            problems.push(
-                Problem::error(message).help(
-                    "load or make a mesh in an earlier step; Tessellate turns patches into one",
-                ),
-            );
-        }
-        problems
+        wanted::<T>().plan(plan, cx, |geometry| match geometry {
+            PlannedGeometry::Mesh(mesh) => Some(MeshOperation::plan(self, mesh, cx)),
+            _ => None,
+        })
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        let names: Vec<String> = scene
-            .objects()
-            .iter()
-            .filter(|o| {
-                cx.on
-                    .map_or(o.as_mesh().is_some(), |on| on.contains(&o.name))
-            })
-            .map(|o| o.name.clone())
-            .collect();
+        let names = chosen(scene, cx, |g| matches!(g, Geometry::Mesh(_)))?;
         let mut report = Report::default();
         let mut changes = Vec::new();
         for name in &names {
@@ -152,6 +118,15 @@ impl<T: MeshOperation> Operation for T {
     }
 }
 
+const fn wanted<T: MeshOperation>() -> Wanted {
+    Wanted {
+        operation: <T as MeshOperation>::NAME,
+        does: "changes meshes",
+        none: "no mesh to change",
+        help: "load or make a mesh in an earlier step; Tessellate turns patches into one",
+    }
+}
+
 /// Applies an operation to one object. After an error its mesh is as it was before.
 fn apply_to<T: MeshOperation>(
     operation: &T,
@@ -161,11 +136,7 @@ fn apply_to<T: MeshOperation>(
 ) -> Result<(Report, Change), OpError> {
     let (geometry, materials) = scene.parts_mut(name).expect("a name of the scene");
     let Geometry::Mesh(mesh) = geometry else {
-        let message = format!(
-            "{} changes meshes, but \"{name}\" is {}",
-            <T as MeshOperation>::NAME,
-            geometry.kind()
-        );
+        let message = wanted::<T>().another(name, geometry.kind());
         return Err(OpError::Object(message));
     };
     cx.materials = materials.iter().map(|m| m.name.clone()).collect();

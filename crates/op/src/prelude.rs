@@ -7,7 +7,8 @@ pub use schemars::JsonSchema;
 pub use serde::{Deserialize, Serialize};
 
 pub use crate::{
-    Context, EdgeSelection, FaceSelection, MeshOperation, MeshPlan, OnRefusal, OpError, Plan,
-    PlanContext, PlannedGeometry, Problem, Range, Report, Seams, Select, Source, Vector,
-    VertexSelection, edit_each,
+    Angle, AngleBetween, ClosedFraction, Context, Count, Direction, Distance, EdgeSelection,
+    FaceSelection, Factors, Fraction, Length, Levels, MeshOperation, MeshPlan, OnRefusal, OpError,
+    Plan, PlanContext, PlannedGeometry, PositiveFactor, PositiveLength, Problem, Range, Report,
+    Seams, Select, Sharpness, Source, TagName, Turn, Vector, VertexSelection, edit_each,
 };

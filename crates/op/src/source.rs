@@ -1,15 +1,10 @@
-//! What operations over a scene share: sources, which make an object, and the way to the objects that
-//! a step acts on.
+//! What operations over a scene share: sources, which make an object, and names.
 
-use bezier::Curve;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use mesh::Mesh;
-use scene::{Geometry, Object, Scene};
+use scene::{Object, Scene};
 
-use crate::{
-    Context, Files, MeshPlan, OpError, Operation, Plan, PlanContext, PlannedGeometry, Problem,
-    Range, Report, Vector,
-};
+use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
 
 /// The most edges of a mesh that is built from polygons: its faces have two corners at an edge, and
 /// each corner may need two half-edges, whose ids end at 2^32 - 2.
@@ -24,7 +19,7 @@ const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 /// use op::{MeshPlan, Plan, Range, Source, Vector};
 ///
 /// let counts = MeshPlan::counted(4, 6, 4, Range::exactly(3));
-/// let source = || Source::new("tetra", counts.clone()).placed([2.0; 3], Vector(0.0, 0.0, 1.0));
+/// let source = || Source::new("tetra", counts.clone()).placed([2.0; 3], Vector::literal(0.0, 0.0, 1.0));
 ///
 /// let mut plan = Plan::default();
 /// assert_eq!(source().plan(&mut plan), []);
@@ -39,21 +34,19 @@ const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 pub struct Source<'a> {
     name: &'a str,
     counts: MeshPlan,
-    scale: Vector,
-    center: Vector,
+    scale: DVec3,
+    center: DVec3,
     problems: Vec<Problem>,
 }
 
 impl<'a> Source<'a> {
     /// A mesh of these counts for a new object of this name.
     pub fn new(name: &'a str, counts: MeshPlan) -> Self {
-        let scale = Vector(1.0, 1.0, 1.0);
-        let center = Vector::default();
         let source = Self {
             name,
             counts,
-            scale,
-            center,
+            scale: DVec3::ONE,
+            center: DVec3::ZERO,
             problems: Vec::new(),
         };
         if source.counts.edges.min > MAX_EDGES {
@@ -66,35 +59,13 @@ impl<'a> Source<'a> {
         source
     }
 
-    /// The same, with a problem unless a count is high enough.
-    #[must_use]
-    pub fn at_least(self, field: &str, count: u32, min: u32) -> Self {
-        if count >= min {
-            return self;
-        }
-        self.with(Problem::error(format!("expected at least {min}, found {count}")).at([field]))
-    }
-
-    /// The same, with a problem unless a length is above zero and finite.
-    #[must_use]
-    pub fn positive(self, field: &str, length: f64) -> Self {
-        if length > 0.0 && length.is_finite() {
-            return self;
-        }
-        let message = format!("expected a finite number above 0, found {length:?}");
-        self.with(Problem::error(message).at([field]))
-    }
-
     /// The same mesh, its coordinates multiplied by a factor for each axis, above zero, and then moved
     /// from the origin to `center`, the parameter of that name.
     #[must_use]
-    pub fn placed(mut self, [x, y, z]: [f64; 3], center: Vector) -> Self {
-        self.scale = Vector(x, y, z);
-        self.center = center;
-        if DVec3::from(center).is_finite() {
-            return self;
-        }
-        self.with(Problem::error("expected finite coordinates").at(["center"]))
+    pub fn placed(mut self, scale: [f64; 3], center: Vector) -> Self {
+        self.scale = scale.into();
+        self.center = center.get();
+        self
     }
 
     /// The same, with one more problem.
@@ -141,9 +112,8 @@ impl<'a> Source<'a> {
         }
         cx.advance("make", 0, 1)?;
         let mut mesh = make();
-        let (scale, center) = (DVec3::from(self.scale), DVec3::from(self.center));
         for p in mesh.positions_mut() {
-            *p = *p * scale + center;
+            *p = *p * self.scale + self.center;
         }
         if mesh.positions().iter().any(|p| !p.is_finite()) {
             return Err(OpError::Parameter(
@@ -184,116 +154,10 @@ pub fn named_object<'s>(scene: &'s Scene, name: &str) -> Result<&'s Object, OpEr
         .ok_or_else(|| OpError::Object(format!("no object is named \"{name}\"")))
 }
 
-/// Plans an operation on curves, those in `on:` or all. `change` is called with the number of control
-/// points of each and returns what it becomes and what is wrong.
-pub fn plan_curves(
-    operation: &str,
-    plan: &mut Plan,
-    cx: &PlanContext,
-    change: impl Fn(Range) -> (PlannedGeometry, Vec<Problem>),
-) -> Vec<Problem> {
-    let mut problems = Vec::new();
-    let mut n = 0;
-    for object in &mut plan.objects {
-        if cx.on.is_some_and(|on| !on.contains(&object.name)) {
-            continue;
-        }
-        if let PlannedGeometry::Curve(points) = object.geometry {
-            n += 1;
-            let (geometry, more) = change(points);
-            object.geometry = geometry;
-            problems.extend(more);
-        } else if cx.on.is_some() {
-            problems.push(Problem::error(not_a_curve(
-                operation,
-                &object.name,
-                object.geometry.kind(),
-            )));
-        }
-    }
-    if n == 0 && problems.is_empty() && !plan.incomplete {
-        let message = format!("{operation} finds no curve to change");
-        problems.push(Problem::error(message).help("load a .bzc file in an earlier step"));
-    }
-    problems
-}
-
-/// Runs an operation on curves, those in `on:` or all. `change` returns what each becomes. The report
-/// counts them.
-///
-/// # Errors
-///
-/// [`OpError::Object`] if an object of `on:` is not there or no curve, and what `change` returns.
-pub fn change_curves(
-    operation: &str,
-    scene: &mut Scene,
-    cx: &Context,
-    change: impl Fn(&Curve<DVec2>) -> Result<Geometry, OpError>,
-) -> Result<Report, OpError> {
-    let is_curve = |o: &&Object| matches!(o.geometry, Geometry::Curve(_));
-    let names: Vec<String> = cx.on.map_or_else(
-        || {
-            scene
-                .objects()
-                .iter()
-                .filter(is_curve)
-                .map(|o| o.name.clone())
-                .collect()
-        },
-        <[String]>::to_vec,
-    );
-    cx.advance("curves", 0, names.len() as u64)?;
-    for (done, name) in (1..).zip(&names) {
-        let geometry = match &named_object(scene, name)?.geometry {
-            Geometry::Curve(curve) => change(curve)?,
-            other => return Err(OpError::Object(not_a_curve(operation, name, other.kind()))),
-        };
-        *scene.parts_mut(name).expect("found above").0 = geometry;
-        cx.advance("curves", done, names.len() as u64)?;
-    }
-    Ok(Report::changed(names.len()))
-}
-
-/// The one mesh that a source makes in an empty scene: for tests.
-///
-/// # Panics
-///
-/// If the operation fails, makes another number of objects, its plan has problems or other counts than
-/// the mesh, or the mesh breaks an invariant.
-pub fn made(operation: &impl Operation) -> Mesh {
-    let files = Files::default();
-    let mut plan = Plan::default();
-    let cx = PlanContext {
-        files: &files,
-        on: None,
-        budget: u64::MAX,
-    };
-    let problems = operation.plan(&mut plan, &cx);
-    assert!(
-        problems.iter().all(|p| p.is_warning),
-        "the plan has problems: {problems:?}"
-    );
-
-    let mut scene = Scene::new();
-    crate::test::run(operation, &mut scene).expect("the operation succeeds");
-    let ([object], [planned]) = (scene.objects(), &plan.objects[..]) else {
-        panic!("a source makes one object");
-    };
-    let mesh = object.as_mesh().expect("the object is a mesh");
-    assert_eq!(mesh.defects(), [], "the source makes a valid mesh");
-    assert_eq!(planned.name, object.name);
-    assert_eq!(planned.geometry, PlannedGeometry::Mesh(MeshPlan::of(mesh)));
-    mesh.as_ref().clone()
-}
-
-fn not_a_curve(operation: &str, name: &str, kind: &str) -> String {
-    format!("{operation} changes curves, but \"{name}\" is {kind}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::NoProgress;
+    use crate::{Files, NoProgress, Range};
     use geometry::shapes;
 
     fn square() -> MeshPlan {
@@ -338,32 +202,17 @@ mod tests {
     #[test]
     fn the_mesh_is_scaled_and_then_moved() {
         let mut scene = Scene::new();
-        let source = Source::new("a", square()).placed([2.0, 3.0, 1.0], Vector(1.0, 0.0, 5.0));
+        let source =
+            Source::new("a", square()).placed([2.0, 3.0, 1.0], Vector::literal(1.0, 0.0, 5.0));
         insert(source, &mut scene, u64::MAX).unwrap();
         let mesh = scene.object("a").unwrap().as_mesh().unwrap();
         assert_eq!(mesh.positions()[2], DVec3::new(3.0, 3.0, 5.0));
     }
 
     #[test]
-    fn bad_numbers_are_problems_at_their_field() {
-        let nan = Vector(f64::NAN, 0.0, 0.0);
-        let source = Source::new("a", square())
-            .positive("size", 0.0)
-            .placed([1.0; 3], nan)
-            .at_least("around", 2, 3);
-        let problems = source.clone().plan(&mut Plan::default());
-        let fields: Vec<_> = problems.iter().map(|p| p.path.join(".")).collect();
-        assert_eq!(fields, ["size", "center", "around"]);
-        let error = insert(source, &mut Scene::new(), u64::MAX).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "size: expected a finite number above 0, found 0.0"
-        );
-    }
-
-    #[test]
     fn coordinates_that_overflow_are_refused() {
-        let source = Source::new("a", square()).placed([f64::MAX; 3], Vector(f64::MAX, 0.0, 0.0));
+        let source =
+            Source::new("a", square()).placed([f64::MAX; 3], Vector::literal(f64::MAX, 0.0, 0.0));
         let made = insert(source, &mut Scene::new(), u64::MAX);
         assert!(matches!(made, Err(OpError::Parameter(_))));
     }

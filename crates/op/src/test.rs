@@ -4,8 +4,8 @@ use mesh::Mesh;
 use scene::{Object, Scene};
 
 use crate::{
-    Context, Files, MeshOperation, MeshPlan, NoProgress, OpError, Operation, PlanContext, Problem,
-    Refusal, Report,
+    Context, Files, MeshOperation, MeshPlan, NoProgress, OpError, Operation, Plan, PlanContext,
+    PlannedGeometry, Problem, Refusal, Report,
 };
 
 /// Reads the parameters of an operation as recipes write them: `(levels: 2)`.
@@ -58,6 +58,38 @@ pub fn run(operation: &impl Operation, scene: &mut Scene) -> Result<Report, OpEr
         ..Files::default()
     };
     operation.apply(scene, &mut Context::new(&NoProgress, &files))
+}
+
+/// The one mesh that a source makes in an empty scene.
+///
+/// # Panics
+///
+/// If the operation fails, makes another number of objects, its plan has problems or other counts than
+/// the mesh, or the mesh breaks an invariant.
+pub fn made(operation: &impl Operation) -> Mesh {
+    let files = Files::default();
+    let mut plan = Plan::default();
+    let cx = PlanContext {
+        files: &files,
+        on: None,
+        budget: u64::MAX,
+    };
+    let problems = operation.plan(&mut plan, &cx);
+    assert!(
+        problems.iter().all(|p| p.is_warning),
+        "the plan has problems: {problems:?}"
+    );
+
+    let mut scene = Scene::new();
+    run(operation, &mut scene).expect("the operation succeeds");
+    let ([object], [planned]) = (scene.objects(), &plan.objects[..]) else {
+        panic!("a source makes one object");
+    };
+    let mesh = object.as_mesh().expect("the object is a mesh");
+    assert_eq!(mesh.defects(), [], "the source makes a valid mesh");
+    assert_eq!(planned.name, object.name);
+    assert_eq!(planned.geometry, PlannedGeometry::Mesh(MeshPlan::of(mesh)));
+    mesh.as_ref().clone()
 }
 
 /// What `operation` says of a mesh before it runs: the plan after it, and the problems.

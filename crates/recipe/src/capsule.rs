@@ -8,8 +8,11 @@
 //! `recipe.ron` is a recipe like others: parameters are filled in, calls and repetitions are done. Steps keep
 //! their labels, so that random choices are the same, and files are read from where they were.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use store::Store;
+
+use crate::params::Move;
 use crate::read::VERSION;
 use crate::recipe::{Recipe, RecipeStep};
 use crate::source::seen_from;
@@ -24,8 +27,8 @@ pub fn capsule(
     recipe: &Recipe,
     from: usize,
     message: &str,
-    inputs: &[std::path::PathBuf],
-    folder: &Path,
+    inputs: &[PathBuf],
+    (folder, store): (&Path, &dyn Store),
 ) -> String {
     let path = recipe.sources.first().map(|s| s.path.display().to_string());
     let path = path.unwrap_or_default();
@@ -44,7 +47,12 @@ pub fn capsule(
     for step in &recipe.steps[from.min(recipe.steps.len())..] {
         let source = &recipe.sources[recipe.source_of(step.scope)];
         let mut value = step.value.clone();
-        lead(&mut value, source.folder(), folder, inputs);
+        let folders = Move {
+            from: source.folder(),
+            to: folder,
+            store,
+        };
+        lead(&mut value, folders, inputs);
         text += &format!("        {},\n", line(step, &value));
     }
     text + "    ],\n)\n"
@@ -76,21 +84,21 @@ fn line(step: &RecipeStep, value: &Value) -> String {
 }
 
 /// Leads the paths of files that are read from one folder to another.
-fn lead(value: &mut Value, from: &Path, to: &Path, inputs: &[std::path::PathBuf]) {
+fn lead(value: &mut Value, folders: Move, inputs: &[PathBuf]) {
     match &mut value.kind {
-        ValueKind::String(text) if inputs.contains(&from.join(&**text)) => {
-            let path = seen_from(text, from, to);
+        ValueKind::String(text) if inputs.contains(&folders.from.join(&**text)) => {
+            let path = seen_from(folders.store, text, folders.from, folders.to);
             *text = path.to_string_lossy().into();
         }
-        ValueKind::Call(call) => lead(&mut call.body, from, to, inputs),
+        ValueKind::Call(call) => lead(&mut call.body, folders, inputs),
         ValueKind::Struct(body) => {
             for field in &mut body.fields {
-                lead(&mut field.value, from, to, inputs);
+                lead(&mut field.value, folders, inputs);
             }
         }
         ValueKind::Tuple(items) | ValueKind::List(items) => {
             for item in items {
-                lead(item, from, to, inputs);
+                lead(item, folders, inputs);
             }
         }
         _ => {}

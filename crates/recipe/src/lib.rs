@@ -42,7 +42,7 @@ pub use recipe::{OnLoss, Origin, Parameter, Placed, Recipe, RecipeStep, Scope};
 pub use ron_tree::{Diagnostic, LineIndex, Severity, Span};
 pub use run::{
     CachedRun, Change, Done, Failure, Finding, Listener, Outcome, Settings, Silent, StepCache,
-    StepDone, Unmet, Why, run, stage_prefix,
+    StepDone, Unmet, Why, run, run_from,
 };
 pub use schema::{Schemas, schema, step_kinds};
 pub use select::{read_selection, resolve};

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use store::Store;
 
 use crate::source::seen_from;
 use ron_tree::{Number, Span, Value, ValueKind};
@@ -15,6 +16,8 @@ pub struct Move<'a> {
     pub from: &'a Path,
     /// Where it will be seen from.
     pub to: &'a Path,
+    /// Where the folders are.
+    pub store: &'a dyn Store,
 }
 
 /// A parameter that a recipe declares. A step takes its value with `arg("name")`.
@@ -196,7 +199,8 @@ impl Param {
             }
             Self::Text { .. } => Ok(value(ValueKind::String(text.into()))),
             Self::Path { .. } => {
-                let path = folders.map_or_else(|| text.into(), |f| seen_from(text, f.from, f.to));
+                let moved = |f: Move| seen_from(f.store, text, f.from, f.to);
+                let path = folders.map_or_else(|| text.into(), moved);
                 Ok(value(ValueKind::String(path.to_string_lossy().into())))
             }
             Self::Choice { of, .. } => {
@@ -384,7 +388,9 @@ mod tests {
     #[test]
     fn a_path_that_is_set_is_seen_from_the_working_directory() {
         let (from, to) = (Path::new("/work"), Path::new("/work/scenes"));
-        let value = param("Path(default: \"a.obj\")").value_of("b.obj", Some(Move { from, to }));
+        let store = &store::Disk;
+        let folders = Some(Move { from, to, store });
+        let value = param("Path(default: \"a.obj\")").value_of("b.obj", folders);
         assert_eq!(value.unwrap().as_str(), Some("../b.obj"));
     }
 }

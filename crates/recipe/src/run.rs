@@ -14,10 +14,10 @@ mod stage;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use op::{Context, FileLog, Files, OpError, Place, Progress, Refusal, Report};
 use scene::{Digest, Geometry, Scene};
+use web_time::Instant;
 
 use crate::check::forbidden;
 use crate::expect::{Found, ReadObjects, Subject};
@@ -50,16 +50,35 @@ pub struct Settings<'a> {
 
 /// Runs a recipe that was read and checked without errors.
 pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outcome {
+    run_from(recipe, 0, Scene::new(), settings, listener)
+}
+
+/// Runs a recipe from the step of number `first` on: `scene` is that before it, as [`Listener::scene_after`] or an
+/// [`Outcome`] gave it. A change of a step costs no step before it.
+///
+/// Expectations after earlier steps are not held again, and what earlier steps write is not written again. There is no
+/// cache then: it knows a scene by the steps that led to it, and nobody checks that these led to `scene`.
+pub fn run_from(
+    recipe: &Recipe,
+    first: usize,
+    scene: Scene,
+    settings: Settings,
+    listener: &dyn Listener,
+) -> Outcome {
+    // The cache reads inputs and outputs from the disk by itself.
+    let is_useful = first == 0 && settings.files.store.is_disk();
+    let cache = settings.cache.filter(|_| is_useful);
     let mut runner = Runner {
         recipe,
         settings,
         files: Vec::new(),
         log: FileLog::default(),
         stage: None,
-        session: settings.cache.map(StepCache::begin),
-        scene: Scene::new(),
-        at: 0,
-        n_done: 0,
+        session: cache.map(StepCache::begin),
+        scene,
+        at: first,
+        first,
+        n_done: first,
         steps: Vec::new(),
         failures: Vec::new(),
         unmet: Vec::new(),
@@ -67,7 +86,7 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
         checked: 0,
     };
     let mut written = Vec::new();
-    match staging(settings) {
+    match staging(&settings) {
         Ok(stage) => {
             let mut files = settings.files.clone();
             // Only what this run asks for counts.
@@ -105,6 +124,8 @@ struct Runner<'a> {
     /// The scene before the step of number `at`. Later steps than that were found in the cache.
     scene: Scene,
     at: usize,
+    /// The step that the run began with.
+    first: usize,
     /// How many steps are done: one more than are listed if the last one lost what it must not.
     n_done: usize,
     steps: Vec<StepDone>,
@@ -137,7 +158,7 @@ impl Runner<'_> {
 
     fn run_steps(&mut self, listener: &dyn Listener) -> Result<(), Stopped> {
         let recipe = self.recipe;
-        for (i, step) in recipe.steps.iter().enumerate() {
+        for (i, step) in recipe.steps.iter().enumerate().skip(self.first) {
             listener.step_begins(i, step.label());
             let mut done = self.found_or_run(i, step, listener)?;
             self.n_done = i + 1;
@@ -150,6 +171,10 @@ impl Runner<'_> {
             }
             listener.step_done(i, &done);
             self.steps.push(done);
+            if listener.wants_scenes() {
+                self.bring(self.n_done, listener)?;
+                listener.scene_after(i, &self.scene);
+            }
             self.expectations(Some(i), listener)?;
             if i + 1 < recipe.steps.len()
                 && let Some(session) = &mut self.session
@@ -201,7 +226,7 @@ impl Runner<'_> {
         let session = self.session.as_ref();
         let before = session.map(|_| Before::of(&self.scene));
         let stage = self.stage.as_deref().filter(|_| session.is_some());
-        let listed = stage.map(listing);
+        let listed = stage.map(|stage| listing(stage, &self.files[step.scope]));
         self.log.take();
         let begin = Instant::now();
         let (report, refused) = self.apply(step, listener)?;
@@ -210,7 +235,10 @@ impl Runner<'_> {
         let [vertices, edges, faces] = counts(&self.scene);
         if let (Some(session), Some(before)) = (&mut self.session, before) {
             let stage = self.stage.as_deref();
-            let written = stage.zip(listed.as_ref());
+            let written_now = |files| match stage.zip(listed.as_ref()) {
+                Some((stage, before)) => written(before, &listing(stage, files)),
+                None => Vec::new(),
+            };
             let done = Done {
                 report: &report,
                 refused,
@@ -219,8 +247,7 @@ impl Runner<'_> {
                 same: before.is_still(&self.scene),
                 time,
                 uses: &self.log.take(),
-                written: written
-                    .map_or_else(Vec::new, |(stage, before)| written_since(stage, before)),
+                written: written_now(&self.files[step.scope]),
                 stage,
             };
             session.ran(i + 1, step.label(), &self.files[step.scope], &done);
@@ -270,7 +297,8 @@ impl Runner<'_> {
                 let time = begin.elapsed();
                 if let Some(session) = &mut self.session {
                     let why = session.ran_again(place + 1, step.label(), &self.scene, time);
-                    if let Some(done) = self.steps.get_mut(place) {
+                    let done = place.checked_sub(self.first);
+                    if let Some(done) = done.and_then(|i| self.steps.get_mut(i)) {
                         done.time += time;
                         done.ran.get_or_insert(why);
                     }
@@ -459,6 +487,7 @@ impl Runner<'_> {
             (cache_problem, cache_notes) = session.finish();
         }
         Outcome {
+            first: self.first,
             steps: self.steps,
             failures: self.failures,
             unmet: self.unmet,
@@ -471,11 +500,6 @@ impl Runner<'_> {
             cache_notes,
         }
     }
-}
-
-/// The files of the stage that are new or other ones.
-fn written_since(stage: &Path, before: &stage::Listing) -> Vec<PathBuf> {
-    written(before, &listing(stage))
 }
 
 /// Vertices, edges and faces of all meshes together; points of polylines are vertices.
@@ -493,10 +517,4 @@ fn counts(scene: &Scene) -> [usize; 3] {
         }
     }
     counts
-}
-
-/// How the names of the folders begin in which the outputs of a process wait. They are there as long as
-/// a run goes on, and stay only if the process is killed.
-pub fn stage_prefix(process: u32) -> String {
-    format!(".meshwright-{process}-")
 }

@@ -1,10 +1,10 @@
 //! The texts of a recipe: its own, and those of the recipes that it calls.
 
-use std::io::Read as _;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use ron_tree::MAX_BYTES;
+use store::{Disk, Store};
 
 /// A text and the file that it comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,18 +24,25 @@ impl Source {
         }
     }
 
+    /// Reads a file of the disk, as [`open_in`](Self::open_in) does.
+    ///
+    /// # Errors
+    ///
+    /// As [`open_in`](Self::open_in).
+    pub fn open(path: &Path) -> Result<Self, String> {
+        Self::open_in(&Disk, path)
+    }
+
     /// Reads a file. No more of it is read than a recipe may be long.
     ///
     /// # Errors
     ///
     /// A message with the path, if the file cannot be read, is too long, or is not UTF-8 text.
-    pub fn open(path: &Path) -> Result<Self, String> {
+    pub fn open_in(store: &dyn Store, path: &Path) -> Result<Self, String> {
         let shown = path.display();
-        let failed = |error: std::io::Error| format!("cannot read {shown}: {error}");
-        let file = std::fs::File::open(path).map_err(failed)?;
-        let mut bytes = Vec::new();
-        let read = file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes);
-        if read.map_err(failed)? > MAX_BYTES {
+        let bytes = store.read_stream(path, MAX_BYTES as u64 + 1);
+        let bytes = bytes.map_err(|error| error.to_string())?;
+        if bytes.len() > MAX_BYTES {
             let mebibytes = MAX_BYTES >> 20;
             return Err(format!(
                 "{shown}: a recipe of more than {mebibytes} MiB is not read"
@@ -57,7 +64,7 @@ impl Source {
 
 /// The file that `text` names in `from`, as a path that names it in `to`: relative if `text` is, so that
 /// a recipe means the same wherever its folders stand.
-pub(crate) fn seen_from(text: &str, from: &Path, to: &Path) -> PathBuf {
+pub(crate) fn seen_from(store: &dyn Store, text: &str, from: &Path, to: &Path) -> PathBuf {
     let (Ok(target), Ok(to)) = (
         std::path::absolute(from.join(text)),
         std::path::absolute(to),
@@ -69,7 +76,10 @@ pub(crate) fn seen_from(text: &str, from: &Path, to: &Path) -> PathBuf {
     }
     // The way up from a folder that is a link leads elsewhere than its name says.
     let is_same = |relative: &PathBuf| {
-        let (there, here) = (to.join(relative).canonicalize(), target.canonicalize());
+        let (there, here) = (
+            store.canonical(&to.join(relative)),
+            store.canonical(&target),
+        );
         there.ok() == here.ok()
     };
     match pathdiff::diff_paths(without_ways_up(&target), without_ways_up(&to)) {
@@ -96,7 +106,7 @@ mod tests {
 
     #[test]
     fn a_path_is_led_from_one_folder_to_another() {
-        let seen = |text, from, to| seen_from(text, Path::new(from), Path::new(to));
+        let seen = |text, from, to| seen_from(&Disk, text, Path::new(from), Path::new(to));
         assert_eq!(seen("cow.obj", "/a/b", "/a/b"), Path::new("cow.obj"));
         assert_eq!(seen("cow.obj", "/a/b", "/a/c"), Path::new("../b/cow.obj"));
         assert_eq!(seen("../cow.obj", "a/b", "a"), Path::new("cow.obj"));
@@ -113,7 +123,7 @@ mod tests {
         std::os::unix::fs::symlink(at("far/away"), at("lib")).unwrap();
         std::fs::write(at("cow.obj"), "").unwrap();
         assert_eq!(
-            seen_from("cow.obj", root.path(), &at("lib")),
+            seen_from(&Disk, "cow.obj", root.path(), &at("lib")),
             at("cow.obj"),
             "lib/../cow.obj would be far/cow.obj"
         );

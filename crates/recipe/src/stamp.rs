@@ -11,6 +11,7 @@ use std::fmt;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use store::{Store, StoreError};
 
 use crate::recipe::{Origin, Recipe};
 
@@ -46,14 +47,14 @@ pub type Pairs = std::collections::BTreeMap<String, String>;
 
 impl Stamp {
     /// The stamp of files that a run of `recipe` writes. `inputs` are the files that it reads.
-    pub fn new(recipe: &Recipe, inputs: &[impl AsRef<Path>]) -> Self {
+    pub fn new(recipe: &Recipe, inputs: &[impl AsRef<Path>], store: &dyn Store) -> Self {
         let mut run = Run::default();
         if let Some(source) = recipe.sources.first() {
             let name = source.path.file_name().unwrap_or_default();
             run.file = name.to_string_lossy().into_owned();
             for input in inputs.iter().map(AsRef::as_ref) {
                 // What cannot be read fails the run that would write the stamp.
-                if let Ok(digest) = digest(input) {
+                if let Ok(digest) = digest(store, input) {
                     run.inputs.insert(shown(input, source.folder()), digest);
                 }
             }
@@ -104,8 +105,8 @@ impl fmt::Display for Stamp {
 /// # Errors
 ///
 /// If the file cannot be read.
-pub fn digest(path: &Path) -> std::io::Result<String> {
-    let bytes = std::fs::read(path)?;
+pub fn digest(store: &dyn Store, path: &Path) -> Result<String, StoreError> {
+    let bytes = store.read(path)?;
     let digest = blake3::Hasher::new().update_rayon(&bytes).finalize();
     Ok(digest.to_hex()[..32].to_owned())
 }
@@ -144,7 +145,7 @@ mod tests {
         let source = Source::new(folder.path().join("x.ron"), text);
         let registry = op::Registry::new();
         let recipe = crate::read(&source, &registry, values).recipe;
-        let stamp = Stamp::new(&recipe, &[input]);
+        let stamp = Stamp::new(&recipe, &[input], &store::Disk);
         let line = stamp.to_string();
         assert_eq!(Stamp::parse(&line).as_ref(), Some(&stamp), "{line}");
         assert!(!line.contains('\n') && !line.contains(&*folder.path().to_string_lossy()));

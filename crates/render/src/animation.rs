@@ -1,7 +1,9 @@
 //! Images one after another: APNG and GIF files.
 
 use crate::palette::Palette;
-use crate::progress::{GoOn, Work};
+use progress::Progress;
+
+use crate::work::Work;
 use crate::{Image, PictureError};
 
 /// How long an animation shows an image, and how often it runs.
@@ -14,17 +16,17 @@ pub struct Timing {
 }
 
 /// The images as an animated PNG file: all colors, and transparency. Each text is a keyword of 1 to 79 Latin-1
-/// characters and what it says. `go_on` is told how far it is, and stops it.
+/// characters and what it says.
 ///
 /// # Errors
 ///
 /// [`PictureError::Encode`] if there is no image, if one has another size than the first, or a keyword is none;
-/// [`PictureError::Cancelled`] if `go_on` says so.
+/// [`PictureError::Cancelled`].
 pub fn to_apng(
     frames: &[Image],
     timing: Timing,
     texts: &[(&str, &str)],
-    go_on: GoOn,
+    progress: &dyn Progress,
 ) -> Result<Vec<u8>, PictureError> {
     let (width, height) = common_size(frames)?;
     let failed = |error: png::EncodingError| PictureError::Encode(error.to_string());
@@ -51,7 +53,7 @@ pub fn to_apng(
             .map_err(failed)?;
     }
     let mut writer = encoder.write_header().map_err(failed)?;
-    let work = Work::new(go_on, frames.len() as u64);
+    let work = Work::new(progress, "encode", frames.len() as u64);
     for frame in frames {
         work.add(1)?;
         let data: Vec<u8> = if is_opaque {
@@ -70,18 +72,17 @@ pub fn to_apng(
 }
 
 /// The images as a GIF file, in the colors of one [`Palette`] for all of them. What is less than half opaque is not
-/// seen, and the rest is opaque. `comment` is a text for whoever asks where the file comes from. `go_on` is told how
-/// far it is, and stops it.
+/// seen, and the rest is opaque. `comment` is a text for whoever asks where the file comes from.
 ///
 /// # Errors
 ///
 /// [`PictureError::Encode`] if there is no image, or if one has another size than the first;
-/// [`PictureError::Cancelled`] if `go_on` says so.
+/// [`PictureError::Cancelled`].
 pub fn to_gif(
     frames: &[Image],
     timing: Timing,
     comment: Option<&str>,
-    go_on: GoOn,
+    progress: &dyn Progress,
 ) -> Result<Vec<u8>, PictureError> {
     let (width, height) = common_size(frames)?;
     let side = |side: u32| u16::try_from(side).map_err(|_| encode("the images are too large"));
@@ -105,7 +106,7 @@ pub fn to_gif(
             .write_raw_extension(gif::Extension::Comment.into(), &blocks)
             .map_err(failed)?;
     }
-    let work = Work::new(go_on, frames.len() as u64);
+    let work = Work::new(progress, "encode", frames.len() as u64);
     for frame in frames {
         work.add(1)?;
         let buffer: Vec<u8> = frame.pixels.iter().map(|&p| palette.index(p)).collect();
@@ -154,9 +155,9 @@ fn common_size(frames: &[Image]) -> Result<(u32, u32), PictureError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::work::While;
+    use progress::NoProgress;
     use std::io::Cursor;
-
-    const GO_ON: GoOn = &|_| true;
 
     const TIMING: Timing = Timing {
         delay: 45,
@@ -200,7 +201,7 @@ mod tests {
     fn an_apng_file_has_all_pixels_of_all_images() {
         for (alpha, channels) in [(255, 3), (77, 4)] {
             let frames = frames(3, true, |_, _| alpha);
-            let bytes = to_apng(&frames, TIMING, &[("Software", "test")], GO_ON).unwrap();
+            let bytes = to_apng(&frames, TIMING, &[("Software", "test")], &NoProgress).unwrap();
             let decoded = decoded_apng(&bytes);
             assert_eq!(decoded.len(), 3);
             for ((pixels, num, den), frame) in decoded.iter().zip(&frames) {
@@ -232,7 +233,7 @@ mod tests {
     #[test]
     fn a_gif_file_of_few_colors_has_all_pixels() {
         let frames = frames(4, false, |_, _| 255);
-        let decoded = decoded_gif(&to_gif(&frames, TIMING, Some("test"), GO_ON).unwrap());
+        let decoded = decoded_gif(&to_gif(&frames, TIMING, Some("test"), &NoProgress).unwrap());
         assert_eq!(decoded.len(), 4);
         for ((pixels, delay), frame) in decoded.iter().zip(&frames) {
             assert_eq!(*pixels, frame.pixels);
@@ -247,7 +248,7 @@ mod tests {
         for frame in &mut frames {
             frame.pixels[..900].fill([251, 253, 254, 255]);
         }
-        let bytes = to_gif(&frames, TIMING, None, GO_ON).unwrap();
+        let bytes = to_gif(&frames, TIMING, None, &NoProgress).unwrap();
         let decoded = decoded_gif(&bytes);
         for ((pixels, _), frame) in decoded.iter().zip(&frames) {
             assert_eq!(pixels[..900], frame.pixels[..900]);
@@ -260,14 +261,14 @@ mod tests {
             let mean = f64::from(error) / (pixels.len() * 3) as f64;
             assert!(mean < 8.0, "{mean}");
         }
-        assert_eq!(bytes, to_gif(&frames, TIMING, None, GO_ON).unwrap());
+        assert_eq!(bytes, to_gif(&frames, TIMING, None, &NoProgress).unwrap());
     }
 
     #[test]
     fn what_is_less_than_half_opaque_is_not_seen_in_a_gif_file() {
         for is_smooth in [false, true] {
             let frames = frames(2, is_smooth, |x, _| if x < 20 { 127 } else { 128 });
-            let decoded = decoded_gif(&to_gif(&frames, TIMING, None, GO_ON).unwrap());
+            let decoded = decoded_gif(&to_gif(&frames, TIMING, None, &NoProgress).unwrap());
             for (pixels, _) in decoded {
                 for (i, p) in pixels.iter().enumerate() {
                     assert_eq!(p[3], if i % 64 < 20 { 0 } else { 255 });
@@ -275,7 +276,7 @@ mod tests {
             }
         }
         let nothing = Image::filled(3, 3, [9, 9, 9, 0]).unwrap();
-        let decoded = decoded_gif(&to_gif(&[nothing], TIMING, None, GO_ON).unwrap());
+        let decoded = decoded_gif(&to_gif(&[nothing], TIMING, None, &NoProgress).unwrap());
         assert!(decoded[0].0.iter().all(|p| p[3] == 0));
     }
 
@@ -290,10 +291,10 @@ mod tests {
         {
             let frames = std::slice::from_ref(&frame);
             assert_eq!(
-                decoded_gif(&to_gif(frames, TIMING, Some(text), GO_ON).unwrap()).len(),
+                decoded_gif(&to_gif(frames, TIMING, Some(text), &NoProgress).unwrap()).len(),
                 1
             );
-            to_apng(frames, TIMING, &[("Software", text)], GO_ON).unwrap();
+            to_apng(frames, TIMING, &[("Software", text)], &NoProgress).unwrap();
         }
     }
 
@@ -302,8 +303,8 @@ mod tests {
         let image = |width| Image::filled(width, 2, [0; 4]).unwrap();
         for frames in [vec![], vec![image(2), image(3)]] {
             for made in [
-                to_apng(&frames, TIMING, &[], GO_ON),
-                to_gif(&frames, TIMING, None, GO_ON),
+                to_apng(&frames, TIMING, &[], &NoProgress),
+                to_gif(&frames, TIMING, None, &NoProgress),
             ] {
                 assert!(matches!(made, Err(PictureError::Encode(_))));
             }
@@ -314,11 +315,11 @@ mod tests {
     fn encoding_stops_when_it_is_told_to() {
         let frame = Image::filled(8, 8, [7; 4]).unwrap();
         let frames = vec![frame.clone(); 9];
-        let go_on: GoOn = &|part| part < 0.5;
+        let half = While(|part| part < 0.5);
         for made in [
-            frame.to_png_while(&[], go_on),
-            to_apng(&frames, TIMING, &[], go_on),
-            to_gif(&frames, TIMING, None, go_on),
+            frame.to_png_while(&[], &half),
+            to_apng(&frames, TIMING, &[], &half),
+            to_gif(&frames, TIMING, None, &half),
         ] {
             assert!(matches!(made, Err(PictureError::Cancelled)), "{made:?}");
         }

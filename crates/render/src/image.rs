@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use progress::{NoProgress, Progress};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::errors::DecodeErrors;
 use zune_jpeg::zune_core::bytestream::ZCursor;
@@ -9,7 +10,8 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use crate::PictureError;
-use crate::progress::{GoOn, Work};
+use crate::blend::over;
+use crate::work::Work;
 
 /// No side of an image is longer, in pixels.
 pub const LARGEST_SIDE: u32 = 16_384;
@@ -122,6 +124,17 @@ impl Image {
         })
     }
 
+    /// Lays another image over this one, with its top left corner at `corner`, where it must have room.
+    pub fn place(&mut self, image: &Self, corner: [u64; 2]) {
+        let [x, y] = corner.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
+        let rows = self.pixels.chunks_exact_mut(self.width as usize).skip(y);
+        for (to, from) in rows.zip(image.pixels.chunks_exact(image.width as usize)) {
+            for (under, &color) in to[x..].iter_mut().zip(from) {
+                *under = over(color, *under);
+            }
+        }
+    }
+
     /// The image as a PNG file: without alpha where all is opaque. Each text is a keyword of 1 to 79
     /// Latin-1 characters and what it says, for whoever asks where the file comes from.
     ///
@@ -129,20 +142,20 @@ impl Image {
     ///
     /// [`PictureError::Encode`] if there is nothing to encode, or a keyword is none.
     pub fn to_png(&self, texts: &[(&str, &str)]) -> Result<Vec<u8>, PictureError> {
-        self.to_png_while(texts, &|_| true)
+        self.to_png_while(texts, &NoProgress)
     }
 
-    /// As [`Self::to_png`]. `go_on` is told how far it is, and stops it.
+    /// As [`Self::to_png`], with progress.
     ///
     /// # Errors
     ///
-    /// Those of [`Self::to_png`]; [`PictureError::Cancelled`] if `go_on` says so.
+    /// Those of [`Self::to_png`]; [`PictureError::Cancelled`].
     pub fn to_png_while(
         &self,
         texts: &[(&str, &str)],
-        go_on: GoOn,
+        progress: &dyn Progress,
     ) -> Result<Vec<u8>, PictureError> {
-        let work = Work::new(go_on, u64::from(self.height));
+        let work = Work::new(progress, "encode", u64::from(self.height));
         let failed = |error: png::EncodingError| PictureError::Encode(error.to_string());
         let is_opaque = self.pixels.iter().all(|p| p[3] == u8::MAX);
         let mut bytes = Vec::new();
@@ -186,7 +199,11 @@ fn rounded(sample: u16) -> u8 {
 }
 
 /// The number of pixels of an image, if its sides are allowed.
-pub(crate) fn checked_size(width: u32, height: u32) -> Result<usize, PictureError> {
+///
+/// # Errors
+///
+/// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`].
+pub fn checked_size(width: u32, height: u32) -> Result<usize, PictureError> {
     let allowed = 1..=LARGEST_SIDE;
     if allowed.contains(&width) && allowed.contains(&height) {
         Ok(width as usize * height as usize)

@@ -12,8 +12,8 @@
 //! [`picture`] does it all. [`build()`] makes a [`Drawing`] of triangles, lines and points out of a scene;
 //! [`render`] finds for 16 samples a pixel what is seen, and shades it in linear light.
 //!
-//! [`figure`] draws in the plane: constructions of curves, legends and labels. [`sheet`] puts images side by side,
-//! [`animation`] one after another.
+//! [`figure`] draws in the plane: constructions of curves, legends and labels. [`animation`] puts images one after
+//! another.
 //!
 //! # Examples
 //!
@@ -51,11 +51,12 @@ mod error;
 pub mod figure;
 mod image;
 pub mod palette;
-mod progress;
 mod raster;
-pub mod sheet;
 mod style;
 mod texture;
+mod work;
+
+use progress::NoProgress;
 
 pub use build::{Coloring, Elements, Highlight, Overlays, PALETTE, Stroke, build, extent};
 pub use camera::{Camera, Projection, Seen, Side, Up, View};
@@ -64,8 +65,7 @@ pub use colormap::ColorMap;
 pub use difference::difference;
 pub use drawing::{Channel, Drawing, Label, Line, Mixed, NO_FACE, Normals, Part, Surface};
 pub use error::PictureError;
-pub use image::{Image, LARGEST_SIDE};
-pub use progress::GoOn;
+pub use image::{Image, LARGEST_SIDE, checked_size};
 pub use raster::{Look, PlacedLabel, Rendered, bytes_needed, render};
 pub use style::{Background, Ids, Lines, Shading, Style};
 pub use texture::{Alpha, Texture};
@@ -93,7 +93,7 @@ pub fn picture(
         return Err(PictureError::Budget { needed, budget });
     }
     let view = View::new(camera, &|each| drawing.each_point(each), size)?;
-    let rendered = render(&drawing, &view, size, &look, &|_| true)?;
+    let rendered = render(&drawing, &view, size, &look, &NoProgress)?;
     Ok((rendered, missing))
 }
 

@@ -1,4 +1,4 @@
-//! Small figures, legends and sheets, pixel by pixel: texts and lines are the same on every machine.
+//! Small figures and legends, pixel by pixel: texts and lines are the same on every machine.
 //!
 //! With `MESHWRIGHT_UPDATE` set in the environment, the files in `tests/goldens` are written anew; look at
 //! them before they go in.
@@ -12,7 +12,6 @@ use render::figure::construction::{Layout, Panel, construction};
 use render::figure::label::{Label, draw_labels};
 use render::figure::legend::{Corner, Legend, Scale, draw_legend};
 use render::figure::pixels;
-use render::sheet::{Cell, SheetStyle, sheet};
 
 const WHITE: [u8; 4] = [255; 4];
 const BLACK: [u8; 4] = [0, 0, 0, 255];
@@ -87,22 +86,4 @@ fn legends_and_labels() {
     let label = |x, text: &str| Label::new(DVec2::new(x, 40.0), text, 13.0, BLACK);
     draw_labels(&mut image, &[label(30.0, "17"), label(70.5, "f3")]);
     golden("legends", &image);
-}
-
-#[test]
-fn a_sheet() {
-    let image = |width, height| Image::filled(width, height, [60, 120, 180, 128]).unwrap();
-    let images = [image(60, 40), image(30, 50), image(60, 20)];
-    let captions = ["cow.obj", "a_long_name.obj", ""];
-    let cells: Vec<Cell> = images
-        .iter()
-        .zip(captions)
-        .map(|(image, caption)| Cell { image, caption })
-        .collect();
-    let style = SheetStyle {
-        columns: 2,
-        letters: 11,
-        ..SheetStyle::default()
-    };
-    golden("sheet", &sheet(&cells, &style, 1 << 20).unwrap());
 }

@@ -5,6 +5,7 @@
 use geometry::shapes;
 use mesh::DVec3;
 use peak_alloc::PeakAlloc;
+use progress::NoProgress;
 use render::{
     Camera, Drawing, Line, NO_FACE, Overlays, PictureError, Shading, Style, View, build,
     bytes_needed, picture, render,
@@ -74,7 +75,7 @@ fn check(name: &str, drawing: &Drawing, style: &Style, size: [u32; 2]) {
     let look = style.look();
     let needed = bytes_needed(drawing, size, &look);
     let view = View::new(&Camera::default(), &|each| drawing.each_point(each), size).unwrap();
-    let (drawn, taken) = peak(|| render(drawing, &view, size, &look, &|_| true));
+    let (drawn, taken) = peak(|| render(drawing, &view, size, &look, &NoProgress));
     assert_eq!(
         drawn.unwrap().image.pixels.len(),
         (size[0] * size[1]) as usize

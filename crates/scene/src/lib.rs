@@ -7,6 +7,7 @@
 mod decode;
 mod digest;
 mod material;
+mod place;
 mod sound;
 
 use std::sync::Arc;
@@ -18,6 +19,7 @@ use mesh::Mesh;
 pub use decode::{Arrays, DecodeError, NoArrays};
 pub use digest::Digest;
 pub use material::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
+pub use place::Place;
 
 /// Objects in the order in which they were made.
 #[derive(Clone, Debug, Default, PartialEq)]

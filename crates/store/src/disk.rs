@@ -15,8 +15,20 @@ use crate::{Entry, Kind, NewFile, Store, StoreError, folder_of};
 pub struct Disk;
 
 impl Store for Disk {
+    fn is_disk(&self) -> bool {
+        true
+    }
+
     fn read_up_to(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
         read_plain(path, most).map_err(|error| StoreError::read(path, error))
+    }
+
+    fn read_stream(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
+        let mut bytes = Vec::new();
+        match File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes)) {
+            Ok(_) => Ok(bytes),
+            Err(error) => Err(StoreError::read(path, error)),
+        }
     }
 
     fn entry(&self, path: &Path) -> Option<Entry> {

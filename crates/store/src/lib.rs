@@ -29,12 +29,26 @@ pub use temporary::TemporaryFolder;
 
 /// Files and folders. Paths are those of the platform; relative ones are seen from the working directory.
 pub trait Store: Debug + Send + Sync {
+    /// Whether the paths are those of the machine, so that whoever knows no store can open them too.
+    fn is_disk(&self) -> bool {
+        false
+    }
+
     /// Reads at most `most` bytes from the beginning of a plain file.
     ///
     /// # Errors
     ///
     /// [`StoreError::Read`] if there is no file, it is no plain file, or there is not enough memory for it.
     fn read_up_to(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError>;
+
+    /// The same, from a pipe or a device too: a text may come from one.
+    ///
+    /// # Errors
+    ///
+    /// [`StoreError::Read`] if that cannot be done.
+    fn read_stream(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
+        self.read_up_to(path, most)
+    }
 
     /// What there is under a path, links followed; `None` if there is nothing, or it cannot be told.
     fn entry(&self, path: &Path) -> Option<Entry>;

@@ -31,21 +31,7 @@ use op::prelude::*;
 #[serde(deny_unknown_fields)]
 pub struct Weld {
     /// How far apart linked vertices may be, in scene units; 0 links equal positions only.
-    #[schemars(range(min = 0.0))]
-    pub distance: f64,
-}
-
-impl Weld {
-    fn check(&self) -> Result<(), String> {
-        if self.distance >= 0.0 && self.distance.is_finite() {
-            Ok(())
-        } else {
-            let distance = self.distance;
-            Err(format!(
-                "`distance` must be 0 or a positive number, not {distance}"
-            ))
-        }
-    }
+    pub distance: Length,
 }
 
 impl MeshOperation for Weld {
@@ -54,9 +40,6 @@ impl MeshOperation for Weld {
     const EXAMPLE: &'static str = "Weld(distance: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = self.check() {
-            return vec![Problem::error(message).at(["distance"])];
-        }
         // Where faces are reversed, normals go.
         for attribute in &mut plan.attributes {
             attribute.certain &= attribute.name != VERTEX_NORMAL.name;
@@ -74,7 +57,7 @@ impl MeshOperation for Weld {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        let merged = geometry::merge_vertices(mesh, self.distance, cx.progress())?;
+        let merged = geometry::merge_vertices(mesh, self.distance.get(), cx.progress())?;
         if merged.vertices == 0 {
             return Ok(Report::default());
         }

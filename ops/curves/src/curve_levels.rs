@@ -12,9 +12,8 @@
 //!
 //! Source: Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, chapter 4.
 
-use op::Operation;
 use op::prelude::*;
-use op::{change_curves, plan_curves};
+use op::{Operation, change_curves, plan_curves};
 use scene::Geometry;
 
 /// Replaces curves by the levels of de Casteljau's algorithm.
@@ -25,15 +24,7 @@ use scene::Geometry;
 #[serde(deny_unknown_fields)]
 pub struct CurveLevels {
     /// The parameter of the point, from 0 (the start of the curve) to 1 (its end).
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub t: f64,
-}
-
-impl CurveLevels {
-    fn problem(&self) -> Option<Problem> {
-        let message = format!("expected a number from 0 to 1, found {:?}", self.t);
-        (!(0.0..=1.0).contains(&self.t)).then(|| Problem::error(message).at(["t"]))
-    }
+    pub t: ClosedFraction,
 }
 
 /// The bytes of all levels of a curve of n control points: n (n + 1) / 2 points of 24 bytes. A
@@ -56,23 +47,18 @@ impl Operation for CurveLevels {
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        let mut problems = plan_curves(Self::NAME, plan, cx, |points| {
+        plan_curves(Self::NAME, plan, cx, |points| {
             let problems = too_large(points.min, cx.budget).map(Problem::error);
             (PlannedGeometry::Polylines, problems.into_iter().collect())
-        });
-        problems.extend(self.problem());
-        problems
+        })
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        if let Some(problem) = self.problem() {
-            return Err(OpError::Parameter(format!("t: {}", problem.message)));
-        }
         change_curves(Self::NAME, scene, cx, |curve| {
             if let Some(message) = too_large(curve.points().len() as u64, cx.budget) {
                 return Err(OpError::Budget(message));
             }
-            let levels = curve.levels(self.t).into_iter();
+            let levels = curve.levels(self.t.get()).into_iter();
             let lines = levels.map(|level| level.iter().map(|p| p.extend(0.0)).collect());
             Ok(Geometry::Polylines(lines.collect()))
         })
@@ -104,6 +90,7 @@ mod tests {
 
     fn lines(t: f64) -> Vec<Vec<DVec3>> {
         let mut scene = arch();
+        let t = ClosedFraction::literal(t);
         op::test::run(&CurveLevels { t }, &mut scene).unwrap();
         match &scene.objects()[0].geometry {
             Geometry::Polylines(lines) => lines.clone(),
@@ -129,22 +116,10 @@ mod tests {
     }
 
     #[test]
-    fn parameters_outside_the_curve_are_refused() {
-        for text in ["(t: -0.1)", "(t: 1.5)", "(t: NaN)"] {
-            let step: CurveLevels = op::test::read(text).unwrap();
-            let mut scene = arch();
-            assert!(matches!(
-                op::test::run(&step, &mut scene),
-                Err(OpError::Parameter(_))
-            ));
-            assert_eq!(scene, arch());
-        }
-    }
-
-    #[test]
     fn levels_beyond_the_budget_are_refused_in_plan_and_scene() {
         let files = op::Files::default();
-        let step = CurveLevels { t: 0.5 };
+        let t = ClosedFraction::literal(0.5);
+        let step = CurveLevels { t };
         let mut cx = Context::new(&op::NoProgress, &files);
         cx.budget = bytes(3) - 1;
         assert!(matches!(

@@ -15,8 +15,8 @@ use std::sync::Arc;
 
 use bezier::{BezierError, Patch, Tessellation, counts, tessellate_patch};
 use mesh::{BuildReport, Built, DVec2, DVec3, Domain, NonManifold, UV, VERTEX_NORMAL};
-use op::Operation;
 use op::prelude::*;
+use op::{Operation, Wanted, chosen};
 use scene::Geometry;
 
 /// Turns Bezier patches into a mesh.
@@ -32,8 +32,7 @@ use scene::Geometry;
 pub struct Tessellate {
     /// How many cells along each side of a patch.
     #[serde(default = "eight")]
-    #[schemars(range(min = 1, max = 4096))]
-    pub segments: u32,
+    pub segments: Count<1, 4096>,
     /// What a cell becomes.
     #[serde(default)]
     pub faces: Faces,
@@ -67,11 +66,16 @@ impl From<Faces> for bezier::Faces {
     }
 }
 
-const fn eight() -> u32 {
-    8
+const fn eight() -> Count<1, 4096> {
+    Count::literal(8)
 }
 
-const MOST_SEGMENTS: u32 = 4096;
+const WANTED: Wanted = Wanted {
+    operation: "Tessellate",
+    does: "cuts patches",
+    none: "no patches to cut",
+    help: "load a .bez file in an earlier step",
+};
 
 impl Operation for Tessellate {
     const NAME: &'static str = "Tessellate";
@@ -80,48 +84,24 @@ impl Operation for Tessellate {
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = self.check() {
-            return vec![Problem::error(message).at(["segments"])];
-        }
-        let mut problems = Vec::new();
-        let mut n = 0;
-        for object in &mut plan.objects {
-            let chosen = cx.on.is_none_or(|on| on.contains(&object.name));
-            match object.geometry {
-                PlannedGeometry::Patches(patches) if chosen => {
-                    n += 1;
-                    object.geometry = PlannedGeometry::Mesh(self.planned(patches.max));
-                }
-                ref other if chosen && cx.on.is_some() => {
-                    problems.push(Problem::error(wrong_kind(&object.name, other.kind())));
-                }
-                _ => {}
-            }
-        }
-        if n == 0 && problems.is_empty() && !plan.incomplete {
-            let problem = Problem::error("Tessellate finds no patches to cut");
-            problems.push(problem.help("load a .bez file in an earlier step"));
-        }
-        problems
+        WANTED.plan(plan, cx, |geometry| {
+            let PlannedGeometry::Patches(patches) = *geometry else {
+                return None;
+            };
+            *geometry = PlannedGeometry::Mesh(self.planned(patches.max));
+            Some(Vec::new())
+        })
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        self.check().map_err(OpError::Parameter)?;
         cx.advance("tessellate", 0, 1)?;
-        let names: Vec<String> = scene
-            .objects()
-            .iter()
-            .filter(|o| match cx.on {
-                Some(on) => on.contains(&o.name),
-                None => matches!(o.geometry, Geometry::Patches(_)),
-            })
-            .map(|o| o.name.clone())
-            .collect();
+        let names = chosen(scene, cx, |g| matches!(g, Geometry::Patches(_)))?;
         let mut report = Report::default();
         for name in &names {
             let (geometry, _) = scene.parts_mut(name).expect("named above");
             let Geometry::Patches(patches) = geometry else {
-                return Err(OpError::Object(wrong_kind(name, geometry.kind())));
+                let message = WANTED.another(name, geometry.kind());
+                return Err(OpError::Object(message));
             };
             let patches = std::mem::take(patches);
             self.check_budget(name, &patches, scene, cx)?;
@@ -135,20 +115,9 @@ impl Operation for Tessellate {
 }
 
 impl Tessellate {
-    fn check(&self) -> Result<(), String> {
-        if (1..=MOST_SEGMENTS).contains(&self.segments) {
-            Ok(())
-        } else {
-            Err(format!(
-                "`segments` must lie between 1 and {MOST_SEGMENTS}, not {}",
-                self.segments
-            ))
-        }
-    }
-
     /// What at most becomes of so many patches: collapsed sides and empty patches give fewer elements.
     fn planned(&self, patches: u64) -> MeshPlan {
-        let n = u64::from(self.segments);
+        let n = u64::from(self.segments.get());
         let at_most = |each| Range::at_most(patches.saturating_mul(each));
         let (edges, faces, degrees) = match self.faces {
             Faces::Triangles => (3 * n * n + 2 * n, 2 * n * n, Range::exactly(3)),
@@ -179,7 +148,7 @@ impl Tessellate {
         scene: &Scene,
         cx: &Context,
     ) -> Result<(), OpError> {
-        let counts = counts(patches, self.segments, self.faces.into()).map_err(too_large)?;
+        let counts = counts(patches, self.segments.get(), self.faces.into()).map_err(too_large)?;
         // Each corner may need an edge of its own.
         if counts.corners.saturating_mul(2) >= u64::from(u32::MAX) {
             let corners = counts.corners;
@@ -208,7 +177,7 @@ impl Tessellate {
         let total = patches.len() as u64;
         for (done, patch) in (0..).zip(patches) {
             cx.advance("tessellate", done, total)?;
-            tessellate_patch(patch, self.segments, self.faces.into(), &mut cut)
+            tessellate_patch(patch, self.segments.get(), self.faces.into(), &mut cut)
                 .map_err(too_large)?;
         }
         cx.advance("tessellate", total, total)?;
@@ -261,10 +230,6 @@ fn with_copies(mut values: Vec<DVec3>, built: &BuildReport) -> Vec<DVec3> {
         values.push(values[original.index()]);
     }
     values
-}
-
-fn wrong_kind(name: &str, kind: &str) -> String {
-    format!("Tessellate cuts patches, but \"{name}\" is {kind}")
 }
 
 fn too_large(error: BezierError) -> OpError {

@@ -9,7 +9,6 @@
 //! ```
 
 use geometry::bevel::Cuts;
-use op::check_fraction;
 use op::prelude::*;
 
 /// Puts faces into the place of edges.
@@ -34,9 +33,8 @@ use op::prelude::*;
 pub struct BevelEdges {
     /// Which edges.
     pub edges: EdgeSelection,
-    /// Where the edges around are cut, as a fraction of their lengths: between 0 and 1 and neither.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
-    pub fraction: f64,
+    /// Where the edges around are cut, as a fraction of their lengths: strictly between 0 and 1.
+    pub fraction: Fraction,
     /// What to do when an edge is refused.
     #[serde(default)]
     pub on_refusal: OnRefusal,
@@ -48,9 +46,6 @@ impl MeshOperation for BevelEdges {
     const EXAMPLE: &'static str = "BevelEdges(edges: Between(0, 2), fraction: 0.25)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = check_fraction("fraction", self.fraction) {
-            return vec![Problem::error(message).at(["fraction"])];
-        }
         let done = self.on_refusal.done(self.edges.count(plan));
         if done.max > 0 {
             // Four cuts at least. Old vertices go with the first of their edges, and all together have two
@@ -80,12 +75,11 @@ impl MeshOperation for BevelEdges {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        check_fraction("fraction", self.fraction).map_err(OpError::Parameter)?;
         let edges = self.edges.resolve(mesh, cx)?;
         let mut cuts = Cuts::default();
         let report = edit_each(mesh, &edges, self.on_refusal, "bevel", cx, |mesh, e| {
-            let f = mesh.bevel_edge_with(e, |e| cuts.fraction(e, self.fraction))?;
-            cuts.cut(mesh, f, self.fraction);
+            let f = mesh.bevel_edge_with(e, |e| cuts.fraction(e, self.fraction.get()))?;
+            cuts.cut(mesh, f, self.fraction.get());
             Ok(())
         })?;
         mesh.remove_normals();
@@ -163,19 +157,5 @@ mod tests {
             matches!(refused, Err(OpError::Refused { .. })),
             "{refused:?}"
         );
-    }
-
-    #[test]
-    fn a_fraction_out_of_range_is_refused() {
-        for fraction in [0.0, 1.0, f64::NAN] {
-            let step = BevelEdges {
-                fraction,
-                ..parse("(edges: All, fraction: 0.5)")
-            };
-            let (_, problems) = planned(&step, &shapes::cube());
-            assert_eq!(problems[0].path, ["fraction"]);
-            let refused = try_applied(&step, shapes::cube());
-            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
-        }
     }
 }

@@ -19,9 +19,6 @@ use op::prelude::*;
 
 use goal::Goal;
 
-/// The most passes that a step may ask for.
-const MAX_PASSES: u32 = 1_000_000;
-
 /// Turns edges between triangles to their other diagonal.
 ///
 /// Edges are taken in order of their numbers, each judged as the mesh is at that moment. A flip is
@@ -48,8 +45,7 @@ pub struct FlipEdges {
     pub until: Until,
     /// The most passes over the edges; `Once` makes one.
     #[serde(default = "hundred")]
-    #[schemars(range(min = 1, max = 1_000_000))]
-    pub passes: u32,
+    pub passes: Count<1, 1_000_000>,
     /// What to do when a flip is refused; only for `Once`.
     #[serde(default)]
     pub on_refusal: OnRefusal,
@@ -73,8 +69,8 @@ pub enum Until {
     Valence,
 }
 
-const fn hundred() -> u32 {
-    100
+const fn hundred() -> Count<1, 1_000_000> {
+    Count::literal(100)
 }
 
 impl MeshOperation for FlipEdges {
@@ -84,9 +80,6 @@ impl MeshOperation for FlipEdges {
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
-        if let Err(message) = self.check() {
-            problems.push(Problem::error(message).at(["passes"]));
-        }
         // Counts, degrees and attributes stay. Without a triangle every flip is refused.
         if plan.degrees.min > 3 && self.edges.count(plan).min > 0 {
             let message = format!(
@@ -105,7 +98,6 @@ impl MeshOperation for FlipEdges {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        self.check().map_err(OpError::Parameter)?;
         let edges = self.edges.resolve(mesh, cx)?;
         let mut flips = Flips {
             seams: self.seams,
@@ -120,9 +112,11 @@ impl MeshOperation for FlipEdges {
             None => edit_each(mesh, &edges, self.on_refusal, "flip", cx, |mesh, e| {
                 flips.flip(mesh, e)
             })?,
-            Some(goal) => until::flip_until(mesh, &edges, goal, self.passes, cx, |mesh, e| {
-                flips.flip(mesh, e)
-            })?,
+            Some(goal) => {
+                until::flip_until(mesh, &edges, goal, self.passes.get(), cx, |mesh, e| {
+                    flips.flip(mesh, e)
+                })?
+            }
         };
         Ok(match flips.crossed {
             0 => report,
@@ -133,18 +127,7 @@ impl MeshOperation for FlipEdges {
     }
 }
 
-impl FlipEdges {
-    fn check(&self) -> Result<(), String> {
-        if (1..=MAX_PASSES).contains(&self.passes) {
-            Ok(())
-        } else {
-            let passes = self.passes;
-            Err(format!(
-                "`passes` must be from 1 to {MAX_PASSES}, not {passes}"
-            ))
-        }
-    }
-}
+impl FlipEdges {}
 
 /// Flips edges, and counts the seams that this crossed.
 struct Flips {

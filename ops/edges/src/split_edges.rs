@@ -8,7 +8,6 @@
 //!        d                 d
 //! ```
 
-use op::check_fraction;
 use op::prelude::*;
 
 /// Puts a vertex on edges and joins it to the far corners of their triangles.
@@ -23,20 +22,19 @@ use op::prelude::*;
 pub struct SplitEdges {
     /// Which edges.
     pub edges: EdgeSelection,
-    /// Where on the edge, between 0 and 1 and neither.
+    /// Where on the edge: strictly between 0 and 1.
     ///
     /// Runs from v to w if `edges` is `Between(v, w)`, otherwise from the end of the lower number to the
     /// other.
     #[serde(default = "half")]
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
-    pub at: f64,
+    pub at: Fraction,
     /// What to do when a split is refused.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }
 
-const fn half() -> f64 {
-    0.5
+const fn half() -> Fraction {
+    Fraction::literal(0.5)
 }
 
 impl MeshOperation for SplitEdges {
@@ -45,9 +43,6 @@ impl MeshOperation for SplitEdges {
     const EXAMPLE: &'static str = "SplitEdges(edges: All)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = check_fraction("at", self.at) {
-            return vec![Problem::error(message).at(["at"])];
-        }
         // Between this many and that many for each split: boundary edges and edges of larger faces
         // give fewer cuts.
         let n = self.edges.count(plan);
@@ -72,11 +67,10 @@ impl MeshOperation for SplitEdges {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        check_fraction("at", self.at).map_err(OpError::Parameter)?;
         let edges = self.edges.resolve(mesh, cx)?;
         edit_each(mesh, &edges, self.on_refusal, "split", cx, |mesh, e| {
             // 1 - at rounds to 1 where `at` is tiny, and 1 is no place on an edge.
-            let t = self.edges.place_on(mesh, e, self.at);
+            let t = self.edges.place_on(mesh, e, self.at.get());
             let t = t.min(1.0_f64.next_down());
             mesh.split_edge(e, t).map(drop)
         })
@@ -144,20 +138,6 @@ mod tests {
     }
 
     #[test]
-    fn a_place_outside_the_edge_is_refused_before_anything_changes() {
-        for at in [0.0, 1.0, -0.5, f64::NAN, f64::INFINITY] {
-            let split = SplitEdges {
-                at,
-                ..parse("(edges: All, on_refusal: Skip)")
-            };
-            let refused = try_applied(&split, shapes::cube());
-            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
-            let (_, problems) = planned(&split, &shapes::cube());
-            assert_eq!(problems[0].path, ["at"]);
-        }
-    }
-
-    #[test]
     fn the_plan_of_triangles_knows_the_vertices() {
         let (plan, problems) = planned(&parse("(edges: All)"), &shapes::tetrahedron());
         assert_eq!(problems, []);
@@ -169,7 +149,7 @@ mod tests {
     #[test]
     fn a_recipe_may_leave_out_all_but_the_edges() {
         let split = parse("(edges: Longest(count: 2))");
-        assert_eq!((split.at, split.on_refusal), (0.5, OnRefusal::Error));
+        assert_eq!((split.at, split.on_refusal), (half(), OnRefusal::Error));
         assert!(op::test::read::<SplitEdges>("(at: 0.5)").is_err());
     }
 
@@ -186,6 +166,7 @@ mod tests {
                 shapes::cylinder(5, true),
             ][which].clone();
             let edges = EdgeSelection::Random { count, of: Box::default(), seed };
+            let at = Fraction::literal(at);
             let split = SplitEdges { edges, at, on_refusal: OnRefusal::Error };
             let after = applied(&split, before.clone());
             let (plan, _) = planned(&split, &before);

@@ -2,11 +2,10 @@
 //!
 //! ```text
 //!                                    +------+
-//!                                  /    f    \            f is smaller by the inset and
-//!    + ------ f ------ +    -->   + ---------- +           higher by the height
+//!                                  /    f    \            f is smaller by the fraction
+//!    + ------ f ------ +    -->   + ---------- +           and higher by the distance
 //! ```
 
-use op::check_fraction;
 use op::prelude::*;
 
 /// Raises a smaller copy of faces, with a ring of faces around it.
@@ -27,41 +26,26 @@ use op::prelude::*;
 pub struct BevelFaces {
     /// Which faces.
     pub faces: FaceSelection,
-    /// How far the corners move towards the middle of the face: between 0 (not at all) and 1 (all the way)
-    /// and neither.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
-    pub inset: f64,
+    /// How far the corners move towards the middle of the face: strictly between 0 (not at all)
+    /// and 1 (all the way).
+    #[serde(alias = "inset")]
+    #[schemars(extend("aliases" = ["inset"]))]
+    pub fraction: Fraction,
     /// How far the inner face moves along its normal, in scene units; below 0 inwards.
-    pub height: f64,
+    #[serde(alias = "height")]
+    #[schemars(extend("aliases" = ["height"]))]
+    pub distance: Distance,
     /// What to do when a face is refused.
     #[serde(default)]
     pub on_refusal: OnRefusal,
 }
 
-impl BevelFaces {
-    fn problems(&self) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        if let Err(message) = check_fraction("inset", self.inset) {
-            problems.push(Problem::error(message).at(["inset"]));
-        }
-        if !self.height.is_finite() {
-            let message = format!("`height` must be finite, not {}", self.height);
-            problems.push(Problem::error(message).at(["height"]));
-        }
-        problems
-    }
-}
-
 impl MeshOperation for BevelFaces {
     const NAME: &'static str = "BevelFaces";
     const SUMMARY: &'static str = "Raise a smaller copy of faces, with a ring of faces around it";
-    const EXAMPLE: &'static str = "BevelFaces(faces: All, inset: 0.25, height: 0.5)";
+    const EXAMPLE: &'static str = "BevelFaces(faces: All, fraction: 0.25, distance: 0.5)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        let problems = self.problems();
-        if !problems.is_empty() {
-            return problems;
-        }
         let done = self.on_refusal.done(self.faces.count(plan));
         // All faces together have no more corners than there are half-edges.
         let half_edges = Range {
@@ -81,12 +65,10 @@ impl MeshOperation for BevelFaces {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        if let Some(problem) = self.problems().first() {
-            return Err(OpError::Parameter(problem.message.clone()));
-        }
         let faces = self.faces.resolve(mesh, cx)?;
         let report = edit_each(mesh, &faces, self.on_refusal, "bevel", cx, |mesh, f| {
-            mesh.bevel_face(f, self.inset, self.height).map(drop)
+            mesh.bevel_face(f, self.fraction.get(), self.distance.get())
+                .map(drop)
         })?;
         mesh.remove_normals();
         Ok(report)
@@ -107,7 +89,7 @@ mod tests {
 
     #[test]
     fn a_bevel_adds_a_frustum_to_each_face() {
-        let step = parse("(faces: All, inset: 0.5, height: 1)");
+        let step = parse("(faces: All, fraction: 0.5, distance: 1)");
         let (plan, _) = planned(&step, &shapes::cube());
         assert_eq!(plan.faces, Range::exactly(30));
         let mesh = applied(&step, shapes::cube());
@@ -119,34 +101,19 @@ mod tests {
     }
 
     #[test]
-    fn a_negative_height_goes_inwards() {
-        let step = parse("(faces: Faces([1]), inset: 0.25, height: -0.5, on_refusal: Skip)");
+    fn a_negative_distance_goes_inwards() {
+        let step = parse("(faces: Faces([1]), fraction: 0.25, distance: -0.5, on_refusal: Skip)");
         let mesh = applied(&step, shapes::cube());
         assert!(geometry::volume(&mesh) < 8.0);
         assert_eq!(mesh.face_center(FaceId::new(1)).z, 0.5);
     }
 
     #[test]
-    fn bad_numbers_are_refused() {
-        let good = parse("(faces: All, inset: 0.5, height: 1)");
-        let bad = |inset, height| BevelFaces {
-            inset,
-            height,
-            ..good.clone()
-        };
-        for (step, path) in [
-            (bad(0.0, 1.0), "inset"),
-            (bad(1.0, 1.0), "inset"),
-            (bad(0.5, f64::NAN), "height"),
-        ] {
-            let (_, problems) = planned(&step, &shapes::cube());
-            assert_eq!(problems[0].path, [path]);
-            let refused = try_applied(&step, shapes::cube());
-            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
-        }
+    fn a_face_beyond_all_numbers_is_refused() {
         let mut high = shapes::cube();
         high.positions_mut().iter_mut().for_each(|p| p.z += 1e308);
-        let refused = try_applied(&bad(0.5, 1e308), high);
+        let step = parse("(faces: All, fraction: 0.5, distance: 1e308)");
+        let refused = try_applied(&step, high);
         assert!(
             matches!(refused, Err(OpError::Refused { .. })),
             "{refused:?}"

@@ -14,7 +14,7 @@
 mod region;
 
 use glam::{DMat3, DVec3};
-use mesh::{Column, Domain, FaceId, Rule, Values};
+use mesh::{Domain, FaceId};
 use op::Turn;
 use op::prelude::*;
 
@@ -48,14 +48,14 @@ pub struct ExtrudeFaces {
     pub by: By,
     /// The factor of size of each region about its center; above 0.
     #[serde(default = "one")]
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub scale: f64,
+    pub scale: PositiveFactor,
     /// Turns of each region about its center, one after the other.
-    #[serde(default)]
-    pub turn: Vec<Turn>,
+    #[serde(default, alias = "turn")]
+    #[schemars(extend("aliases" = ["turn"]))]
+    pub rotate: Vec<Turn>,
     /// Marks the moved faces and their side faces with this tag; those that have it already keep it.
     #[serde(default)]
-    pub tag: Option<String>,
+    pub tag: Option<TagName>,
 }
 
 /// How far faces move, and where to.
@@ -64,65 +64,27 @@ pub struct ExtrudeFaces {
 pub enum By {
     /// So far along the normal of each region, in scene units; a negative distance moves inwards. The
     /// normal is the mean of the normals of its faces, weighted by area.
-    Distance(f64),
+    Distance(Distance),
     /// So far along x, y and z, in scene units.
     Offset(Vector),
 }
 
-const fn one() -> f64 {
-    1.0
+const fn one() -> PositiveFactor {
+    PositiveFactor::literal(1.0)
 }
 
 impl ExtrudeFaces {
-    fn problems(&self) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        let finite = match self.by {
-            By::Distance(d) => d.is_finite(),
-            By::Offset(offset) => DVec3::from(offset).is_finite(),
-        };
-        if !finite {
-            problems.push(Problem::error("expected a finite distance").at(["by"]));
-        }
-        if !(self.scale > 0.0 && self.scale.is_finite()) {
-            let message = format!("expected a factor above 0, found {:?}", self.scale);
-            problems.push(Problem::error(message).at(["scale"]));
-        }
-        for (i, turn) in self.turn.iter().enumerate() {
-            if !turn.degrees.is_finite() {
-                let message = format!("expected a finite angle, found {:?}", turn.degrees);
-                problems.push(Problem::error(message).at(["turn", &i.to_string(), "degrees"]));
-            }
-        }
-        problems
-    }
-
     fn offset(&self, mesh: &Mesh, region: &Region) -> Result<DVec3, OpError> {
         match self.by {
             By::Offset(offset) => Ok(offset.into()),
             By::Distance(d) => match region.normal(mesh) {
-                Some(n) => Ok(d * n),
+                Some(n) => Ok(d.get() * n),
                 None => Err(OpError::Parameter(format!(
                     "by: the faces around {} have no normal to move along: they are closed, or have no \
                      area; `Offset` moves them",
                     region.faces[0]
                 ))),
             },
-        }
-    }
-
-    /// The marks of the tag so far, if one is asked for.
-    fn marks(&self, mesh: &Mesh) -> Result<Option<Vec<bool>>, OpError> {
-        let Some(tag) = &self.tag else {
-            return Ok(None);
-        };
-        let column = mesh.attributes().column(Domain::Face, tag);
-        match column.map(|column| &column.values) {
-            None => Ok(Some(vec![false; mesh.n_faces()])),
-            Some(Values::Tag(marks)) => Ok(Some(marks.clone())),
-            Some(other) => Err(OpError::Parameter(format!(
-                "tag: the face attribute \"{tag}\" is no tag but a {}",
-                other.type_name()
-            ))),
         }
     }
 }
@@ -133,10 +95,6 @@ impl MeshOperation for ExtrudeFaces {
     const EXAMPLE: &'static str = "ExtrudeFaces(faces: Faces([0]), by: Distance(0.5))";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        let problems = self.problems();
-        if !problems.is_empty() {
-            return problems;
-        }
         // The rim has no more edges than the faces have sides, and each edge is in it once at most.
         let sides = self.faces.count(plan).times(plan.degrees);
         let rim = sides.capped(plan.edges).or_less();
@@ -151,19 +109,16 @@ impl MeshOperation for ExtrudeFaces {
         }
         plan.drop_normals();
         if let Some(tag) = &self.tag {
-            plan.provide(Domain::Face, tag);
+            plan.provide(Domain::Face, tag.as_str());
         }
         Vec::new()
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        if let Some(problem) = self.problems().first() {
-            let path = problem.path.join(".");
-            return Err(OpError::Parameter(format!("{path}: {}", problem.message)));
-        }
-        let mut marks = self.marks(mesh)?;
+        let tag = self.tag.as_ref();
+        let mut marks = tag.map(|tag| tag.marks(mesh, Domain::Face)).transpose()?;
         let regions = Region::all(mesh, &self.faces.mask(mesh, cx)?);
-        let turned_and_scaled = Turn::all(&self.turn) * self.scale;
+        let turned_and_scaled = Turn::all(&self.rotate) * self.scale.get();
         cx.advance("extrude", 0, regions.len() as u64)?;
 
         mesh.remove_normals();
@@ -182,10 +137,9 @@ impl MeshOperation for ExtrudeFaces {
                 cx.advance("extrude", done, regions.len() as u64)?;
             }
         }
-        if let (Some(mut marks), Some(tag)) = (marks, &self.tag) {
+        if let (Some(mut marks), Some(tag)) = (marks, tag) {
             marks.resize(mesh.domain_len(Domain::Face), false);
-            let (name, rule, values) = (tag.clone(), Rule::Copy, Values::Tag(marks));
-            mesh.insert_column(Domain::Face, Column { name, rule, values });
+            tag.write(mesh, Domain::Face, marks);
         }
         Ok(if n_faces == 0 {
             Report::default().note("nothing was selected")

@@ -10,7 +10,6 @@
 //!    + ------------- +              + ------------- +
 //! ```
 
-use op::check_fraction;
 use op::prelude::*;
 
 /// Puts a smaller copy into faces, with a ring of faces around it.
@@ -30,10 +29,9 @@ use op::prelude::*;
 pub struct InsetFaces {
     /// Which faces.
     pub faces: FaceSelection,
-    /// How far the corners move towards the middle of the face: between 0 (not at all) and 1 (all the way)
-    /// and neither.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
-    pub fraction: f64,
+    /// How far the corners move towards the middle of the face: strictly between 0 (not at all)
+    /// and 1 (all the way).
+    pub fraction: Fraction,
     /// What to do when a face is refused.
     #[serde(default)]
     pub on_refusal: OnRefusal,
@@ -45,9 +43,6 @@ impl MeshOperation for InsetFaces {
     const EXAMPLE: &'static str = "InsetFaces(faces: All, fraction: 0.25)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = check_fraction("fraction", self.fraction) {
-            return vec![Problem::error(message).at(["fraction"])];
-        }
         let done = self.on_refusal.done(self.faces.count(plan));
         // All faces together have no more corners than there are half-edges.
         let half_edges = Range {
@@ -67,10 +62,9 @@ impl MeshOperation for InsetFaces {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        check_fraction("fraction", self.fraction).map_err(OpError::Parameter)?;
         let faces = self.faces.resolve(mesh, cx)?;
         let report = edit_each(mesh, &faces, self.on_refusal, "inset", cx, |mesh, f| {
-            mesh.inset_face(f, self.fraction).map(drop)
+            mesh.inset_face(f, self.fraction.get()).map(drop)
         })?;
         mesh.remove_normals();
         Ok(report)
@@ -131,19 +125,5 @@ mod tests {
         let (mesh, report) = try_applied(&step, mesh).unwrap();
         assert_eq!(mesh.get(VERTEX_NORMAL), None);
         assert_eq!(report.losses.len(), 1);
-    }
-
-    #[test]
-    fn a_fraction_out_of_range_is_refused() {
-        for fraction in [0.0, 1.0, -1.0, f64::NAN] {
-            let step = InsetFaces {
-                fraction,
-                ..parse("(faces: All, fraction: 0.5)")
-            };
-            let (_, problems) = planned(&step, &shapes::cube());
-            assert_eq!(problems[0].path, ["fraction"]);
-            let refused = try_applied(&step, shapes::cube());
-            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
-        }
     }
 }

@@ -53,11 +53,7 @@ impl Operation for Save {
         cx.advance("write", 0, 1)?;
         let failed = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
         let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|e| {
-                failed(&format!("cannot make the folder {}: {e}", folder.display()))
-            })?;
-        }
+        cx.files().make_folder_of(&path).map_err(|e| failed(&e))?;
         let mut chosen = Scene::new();
         for object in scene.objects() {
             if cx.on.is_none_or(|on| on.contains(&object.name)) {

@@ -33,8 +33,7 @@ pub struct FillHoles {
     pub around: VertexSelection,
     /// Leave holes of more edges than this open; without it, none.
     #[serde(default)]
-    #[schemars(range(min = 3))]
-    pub max_edges: Option<u32>,
+    pub max_edges: Option<Count<3>>,
     /// What to put over them.
     #[serde(default)]
     pub with: Cover,
@@ -63,7 +62,7 @@ impl MeshOperation for FillHoles {
         // Each hole has three edges or more, and no edge is on two holes.
         match self.with {
             Cover::Face => {
-                let corners = self.max_edges.map_or(u64::MAX, u64::from);
+                let corners = self.max_edges.map_or(u64::MAX, |most| most.get().into());
                 plan.faces = plan.faces.plus(Range::at_most(plan.edges.max / 3));
                 plan.degrees.max = plan.degrees.max.max(corners.min(plan.edges.max));
             }
@@ -93,7 +92,7 @@ impl MeshOperation for FillHoles {
         });
         let chosen = holes.len();
         if let Some(most) = self.max_edges {
-            holes.retain(|&h| mesh.loop_half_edges(h).count() <= most as usize);
+            holes.retain(|&h| mesh.loop_half_edges(h).count() <= most.get() as usize);
         }
         let mut report = edit_each(mesh, &holes, self.on_refusal, "fill", cx, |mesh, h| {
             self.fill(mesh, h)

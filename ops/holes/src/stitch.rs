@@ -34,24 +34,10 @@ use pairs::Pairs;
 #[serde(deny_unknown_fields)]
 pub struct Stitch {
     /// How far apart the ends of the edges of a pair may be, in scene units; 0 for equal positions only.
-    #[schemars(range(min = 0.0))]
-    pub distance: f64,
+    pub distance: Length,
     /// What to do when a pair is refused, or an edge has several partners.
     #[serde(default)]
     pub on_refusal: OnRefusal,
-}
-
-impl Stitch {
-    fn check(&self) -> Result<(), String> {
-        if self.distance >= 0.0 && self.distance.is_finite() {
-            Ok(())
-        } else {
-            let distance = self.distance;
-            Err(format!(
-                "`distance` must be 0 or a positive number, not {distance}"
-            ))
-        }
-    }
 }
 
 impl MeshOperation for Stitch {
@@ -60,9 +46,6 @@ impl MeshOperation for Stitch {
     const EXAMPLE: &'static str = "Stitch(distance: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = self.check() {
-            return vec![Problem::error(message).at(["distance"])];
-        }
         plan.vertices.min = plan.vertices.min.min(1);
         // An edge is glued to one other at most.
         plan.edges = Range {
@@ -73,8 +56,7 @@ impl MeshOperation for Stitch {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        self.check().map_err(OpError::Parameter)?;
-        let Pairs { pairs, crowded } = Pairs::of(mesh, self.distance, cx)?;
+        let Pairs { pairs, crowded } = Pairs::of(mesh, self.distance.get(), cx)?;
         let mut report = Report::default();
         for h in crowded {
             let [v, w] = [mesh.origin(h), mesh.target(h)].map(mesh::VertexId::index);

@@ -34,8 +34,7 @@ pub struct Separate {
     /// How many parts there must be; another number is refused. Without it the names of the parts are
     /// known only when the recipe runs, so that later steps are not checked against them before.
     #[serde(default)]
-    #[schemars(range(min = 1))]
-    pub count: Option<u32>,
+    pub count: Option<Count<1>>,
 }
 
 /// What belongs together.
@@ -68,7 +67,7 @@ impl Operation for Separate {
             return vec![Problem::error(self.no_faces()).at(["object"])];
         }
         let part = self.part_of(mesh);
-        let Some(count) = self.count else {
+        let Some(count) = self.count.map(Count::get) else {
             // The parts have names that cannot be known.
             plan.objects.remove(place);
             plan.incomplete = true;
@@ -108,7 +107,7 @@ impl Operation for Separate {
         if parts.is_empty() {
             return Err(OpError::refused(Refusal::Expectation, self.no_faces()));
         }
-        if let Some(count) = self.count
+        if let Some(count) = self.count.map(Count::get)
             && parts.len() != count as usize
         {
             let message = format!("expected {count} parts, found {}", parts.len());

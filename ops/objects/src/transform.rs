@@ -6,7 +6,7 @@
 //!    |   |  -->  |      |  -->    |   |        -->        |   |
 //!    c---+       c------+         |   |                   |   |
 //!                             +---c                   +---c
-//!             scale: (2, 1, 1)   rotate: [(axis: Z, degrees: 90)]   move: (3, 1, 0)
+//!             scale: (2, 1, 1)   rotate: [(axis: Z, angle: 90)]   move: (3, 1, 0)
 //! ```
 //!
 //! A point p goes to R S (p - c) + c + m: S scales, R turns, m moves, c is the point of `about`.
@@ -19,7 +19,7 @@ use bezier::{Curve, Patch};
 use glam::DVec3;
 use mesh::{Rule, Values};
 use op::prelude::*;
-use op::{Loss, Operation, Turn, named_object};
+use op::{Loss, Operation, chosen};
 use rayon::prelude::*;
 use scene::Geometry;
 
@@ -39,7 +39,7 @@ use crate::transform::map::Map;
 pub struct Transform {
     /// The factors along x, y and z: not zero; a negative one mirrors.
     #[serde(default = "ones")]
-    pub scale: Vector,
+    pub scale: Factors,
     /// Turns, one after the other.
     #[serde(default)]
     pub rotate: Vec<Turn>,
@@ -51,8 +51,8 @@ pub struct Transform {
     pub about: About,
 }
 
-const fn ones() -> Vector {
-    Vector(1.0, 1.0, 1.0)
+const fn ones() -> Factors {
+    Factors::literal(1.0, 1.0, 1.0)
 }
 
 /// The point that scaling and turning leave where it is.
@@ -69,30 +69,6 @@ pub enum About {
 }
 
 impl Transform {
-    fn problems(&self) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        let scale = DVec3::from(self.scale);
-        if !scale.is_finite() || scale.min_element() == 0.0 || scale.to_array().contains(&0.0) {
-            let message = "expected finite factors that are not 0";
-            problems.push(Problem::error(message).at(["scale"]));
-        }
-        for (i, turn) in self.rotate.iter().enumerate() {
-            if !turn.degrees.is_finite() {
-                let message = format!("expected a finite angle, found {:?}", turn.degrees);
-                problems.push(Problem::error(message).at(["rotate", &i.to_string(), "degrees"]));
-            }
-        }
-        if !DVec3::from(self.translate).is_finite() {
-            problems.push(Problem::error("expected finite distances").at(["move"]));
-        }
-        if let About::Point(x, y, z) = self.about
-            && !DVec3::new(x, y, z).is_finite()
-        {
-            problems.push(Problem::error("expected finite coordinates").at(["about"]));
-        }
-        problems
-    }
-
     /// The fixed point for an object of these points.
     fn center(&self, points: impl Iterator<Item = DVec3>) -> DVec3 {
         match self.about {
@@ -213,10 +189,7 @@ impl Operation for Transform {
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        let mut problems = self.problems();
-        if !problems.is_empty() {
-            return problems;
-        }
+        let mut problems = Vec::new();
         let chosen = |name: &String| cx.on.is_none_or(|on| on.contains(name));
         let objects: Vec<_> = plan.objects.iter().filter(|o| chosen(&o.name)).collect();
         if objects.is_empty() && !plan.incomplete {
@@ -231,20 +204,12 @@ impl Operation for Transform {
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        if let Some(problem) = self.problems().first() {
-            let path = problem.path.join(".");
-            return Err(OpError::Parameter(format!("{path}: {}", problem.message)));
-        }
-        let names: Vec<String> = cx.on.map_or_else(
-            || scene.objects().iter().map(|o| o.name.clone()).collect(),
-            <[String]>::to_vec,
-        );
+        let names = chosen(scene, cx, |_| true)?;
         let map = Map::new(self);
         let mut report = Report::default();
         cx.advance("transform", 0, names.len() as u64)?;
         for (done, name) in (1..).zip(&names) {
-            named_object(scene, name)?;
-            let (geometry, _) = scene.parts_mut(name).expect("found above");
+            let (geometry, _) = scene.parts_mut(name).expect("a name of the scene");
             report.merge(self.change(name, geometry, &map)?);
             cx.advance("transform", done, names.len() as u64)?;
         }

@@ -35,24 +35,20 @@ pub struct CurveFigure {
     /// The parameters whose points are constructed, from 0 (start) to 1 (end). Without any, the curves and their
     /// control polygons are drawn alone.
     #[serde(default = "half")]
-    #[schemars(inner(range(min = 0.0, max = 1.0)))]
-    pub t: Vec<f64>,
+    pub t: Vec<ClosedFraction>,
     /// A curve that is drawn faintly behind, with arrows from its control points to those that moved: what a curve
     /// was before.
     #[serde(default)]
     pub before: Option<String>,
     /// How wide the figure is: pixels of an SVG, whose letters are 12 to 19 pixels high.
     #[serde(default = "width")]
-    #[schemars(range(min = 80, max = 8192))]
-    pub width: u32,
+    pub width: Count<80, 8192>,
     /// How many pictures stand in a row; unless told otherwise those of one curve, at most 4.
     #[serde(default)]
-    #[schemars(range(min = 1, max = 256))]
-    pub columns: Option<u32>,
+    pub columns: Option<Count<1, 256>>,
     /// How many pixels of a PNG stand for one of an SVG.
     #[serde(default = "scale")]
-    #[schemars(range(min = 1, max = 8))]
-    pub scale: u32,
+    pub scale: Count<1, 8>,
     /// Whether points have their names.
     #[serde(default = "yes")]
     pub labels: bool,
@@ -61,16 +57,16 @@ pub struct CurveFigure {
     pub legend: bool,
 }
 
-fn half() -> Vec<f64> {
-    vec![0.5]
+fn half() -> Vec<ClosedFraction> {
+    vec![ClosedFraction::literal(0.5)]
 }
 
-const fn width() -> u32 {
-    640
+const fn width() -> Count<80, 8192> {
+    Count::literal(640)
 }
 
-const fn scale() -> u32 {
-    2
+const fn scale() -> Count<1, 8> {
+    Count::literal(2)
 }
 
 const fn yes() -> bool {
@@ -102,7 +98,7 @@ impl Operation for CurveFigure {
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        let mut problems = self.problems();
+        let mut problems = Vec::new();
         match cx.files.to_write(&self.path) {
             Ok(path) => {
                 if Format::of(&path).is_none() {
@@ -124,9 +120,6 @@ impl Operation for CurveFigure {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("draw", 0, 1)?;
-        if let Some(problem) = self.problems().into_iter().next() {
-            return Err(OpError::Parameter(problem.message));
-        }
         let failed = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
         let path = cx
             .files()
@@ -142,45 +135,16 @@ impl Operation for CurveFigure {
                 return Err(OpError::Parameter(message));
             }
         };
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|error| {
-                failed(&format!(
-                    "cannot make the folder {}: {error}",
-                    folder.display()
-                ))
-            })?;
-        }
-        std::fs::write(&path, bytes)
-            .map_err(|error| failed(&format!("cannot write {}: {error}", path.display())))?;
+        cx.files()
+            .store
+            .write(&path, &bytes)
+            .map_err(|error| failed(&error))?;
         cx.advance("draw", 1, 1)?;
         Ok(Report::changed(0))
     }
 }
 
 impl CurveFigure {
-    /// What is wrong with the parameters alone.
-    fn problems(&self) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        for (i, t) in self.t.iter().enumerate() {
-            if !(0.0..=1.0).contains(t) {
-                let message = format!("expected a parameter from 0 to 1, found {t:?}");
-                problems.push(Problem::error(message).at(["t", &i.to_string()]));
-            }
-        }
-        for (field, value, range) in [
-            ("width", self.width, 80..=8192),
-            ("columns", self.columns.unwrap_or(1), 1..=256),
-            ("scale", self.scale, 1..=8),
-        ] {
-            if !range.contains(&value) {
-                let (low, high) = (range.start(), range.end());
-                let message = format!("expected {low} to {high}, found {value}");
-                problems.push(Problem::error(message).at([field]));
-            }
-        }
-        problems
-    }
-
     /// What is wrong with the objects.
     fn plan_curves(&self, plan: &Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
@@ -259,7 +223,7 @@ impl CurveFigure {
         let parameters: Vec<Option<f64>> = if self.t.is_empty() {
             vec![None]
         } else {
-            self.t.iter().copied().map(Some).collect()
+            self.t.iter().map(|t| Some(t.get())).collect()
         };
         let mut panels = Vec::new();
         for object in &chosen {
@@ -272,11 +236,11 @@ impl CurveFigure {
             }));
         }
         let columns = match self.columns {
-            Some(columns) => columns as usize,
+            Some(columns) => columns.get() as usize,
             None => parameters.len().min(4),
         };
         let layout = Layout {
-            width: f64::from(self.width),
+            width: f64::from(self.width.get()),
             columns,
             labels: self.labels,
             legend: self.legend,
@@ -285,7 +249,7 @@ impl CurveFigure {
     }
 
     fn png(&self, figure: &Svg, stamp: Option<&str>, budget: u64) -> Result<Vec<u8>, OpError> {
-        let scale = f64::from(self.scale);
+        let scale = f64::from(self.scale.get());
         let failed = |error: render::PictureError| OpError::Parameter(error.to_string());
         let (width, height) = pixel_size(figure, scale).map_err(failed)?;
         let needed = bytes_needed(width, height);
@@ -394,11 +358,6 @@ mod tests {
             refused.unwrap_err().to_string()
         };
         for (parameters, reason) in [
-            (r#"(path: "a.svg", t: [0.5, 2])"#, "from 0 to 1, found 2.0"),
-            (
-                r#"(path: "a.svg", width: 79)"#,
-                "expected 80 to 8192, found 79",
-            ),
             (r#"(path: "a.gif")"#, "no format of figures"),
             (r#"(path: "../a.svg")"#, "output folder"),
             (
@@ -443,8 +402,6 @@ mod tests {
         for parameters in [
             r#"(path: "a.svg")"#,
             r#"(path: "b.obj")"#,
-            r#"(path: "c.svg", t: [-1])"#,
-            r#"(path: "d.svg", scale: 9)"#,
             r#"(path: "e.svg", before: "none")"#,
             r#"(path: "f.svg", before: "lines")"#,
             &format!(r#"(path: "g.svg", t: {:?})"#, vec![0.5; 257]),

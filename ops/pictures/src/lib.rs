@@ -6,7 +6,7 @@ mod picture;
 use op::Registry;
 
 pub use curve_figure::CurveFigure;
-pub use picture::{ColorBy, Extent, Mark, Picture, Quantity, Turntable, draw_places};
+pub use picture::{Mark, Picture, Turntable};
 
 /// Adds the operations of this group, in the order of the reference.
 #[rustfmt::skip]

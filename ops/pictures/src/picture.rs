@@ -1,31 +1,27 @@
 //! Picture: draws the scene into an image file.
 //!
 //! ```text
-//!   scene --selections, numbers (overlays.rs, numbers.rs)--> drawing --cameras (draw.rs)--> images
-//!         --side by side, one after another (lib.rs)--> .png, .apng, .gif
+//!   selections, numbers --resolved--> view::Subject --view::Shot--> images --encode--> .png, .apng, .gif
 //! ```
 
-mod draw;
-mod numbers;
-mod overlays;
-mod places;
-mod sight;
+mod colors;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
 use std::fmt::Display;
-use std::path::Path;
+use std::path::{Component, Path};
 
-use op::prelude::*;
-use op::{Elements, Operation};
+use op::{
+    Context, Elements, Files, OpError, Operation, Plan, PlanContext, Problem, Progress, Report,
+    Selected,
+};
 use render::animation::{Timing, to_apng, to_gif};
-use render::{Camera, Color, GoOn, Image, LARGEST_SIDE, PictureError, Style};
-
-use draw::Further;
-
-pub use draw::Extent;
-pub use numbers::{ColorBy, Quantity};
-pub use places::draw_places;
+use render::{Camera, Color, Image, LARGEST_SIDE, Overlays, PictureError, Style};
+use scene::Scene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use view::{ColorBy, Extent, MARK, Shot, Subject, marked};
 
 /// Draws the scene into an image file below the output folder.
 ///
@@ -113,7 +109,7 @@ fn size() -> [u32; 2] {
 }
 
 fn orange() -> Color {
-    Color::rgb(0xe6, 0x55, 0x0d)
+    MARK
 }
 
 fn frames() -> u32 {
@@ -235,17 +231,20 @@ impl Picture {
         cx: &mut Context,
     ) -> Result<(Vec<Image>, Vec<String>), OpError> {
         self.in_order()?;
-        draw::images(self, scenes, &Further::default(), cx)
+        self.images(scenes, None, cx)
     }
 
-    /// What a scene takes of the picture, to draw it beside others that are not in memory with it: see [`Extent`].
+    /// What a scene takes up of the picture, to draw it beside others that are not in memory with it: see [`Extent`].
     ///
     /// # Errors
     ///
     /// As [`draw`](Self::draw).
     pub fn extent(&self, scene: &Scene, cx: &mut Context) -> Result<Extent, OpError> {
         self.in_order()?;
-        draw::extent(self, scene, cx)
+        let scene = chosen(scene, cx.on);
+        // Images of materials change nothing of where things are.
+        let (subject, _) = self.subject(&scene, "", &mut |_, _| None, cx)?;
+        self.shot(cx.budget).extent(subject).map_err(failed)
     }
 
     /// Draws a scene so that all of `extent` is seen by cameras that fit, and its numbers in the colors for all;
@@ -266,11 +265,98 @@ impl Picture {
             color_by.range = color_by.range.or(extent.range());
             color_by.legend = false;
         }
-        let further = Further {
-            within: Some(extent),
-            ..Further::default()
+        picture.images(&[(scene, "")], Some(extent), cx)
+    }
+
+    fn shot(&self, budget: u64) -> Shot<'_> {
+        Shot {
+            size: self.size,
+            cameras: self.cameras(),
+            columns: self.columns,
+            style: &self.style,
+            frames: self.turntable.map_or(1, |turn| turn.frames),
+            budget,
+        }
+    }
+
+    /// Draws scenes side by side. The parameters are in order.
+    fn images(
+        &self,
+        scenes: &[(&Scene, &str)],
+        within: Option<&Extent>,
+        cx: &mut Context,
+    ) -> Result<(Vec<Image>, Vec<String>), OpError> {
+        cx.advance("draw", 0, 1)?;
+        let folder = self.images.as_deref();
+        let chosen: Vec<_> = (scenes.iter())
+            .map(|(scene, caption)| (chosen(scene, cx.on), *caption))
+            .collect();
+        let (mut subjects, mut notes) = (Vec::new(), Vec::new());
+        for (scene, caption) in &chosen {
+            let mut images = |files: &Files, path: &str| read_image(files, folder, path);
+            let (subject, more) = self.subject(scene, caption, &mut images, cx)?;
+            subjects.push(subject);
+            notes.extend(more);
+        }
+        notes.dedup();
+        let shot = self.shot(cx.budget);
+        let images = shot.draw(&subjects, within, cx.progress());
+        Ok((images.map_err(failed)?, notes))
+    }
+
+    /// A scene with what is marked in it and its numbers, and notes on what is not shown.
+    fn subject<'s>(
+        &self,
+        scene: &'s Scene,
+        caption: &'s str,
+        images: &mut dyn FnMut(&Files, &str) -> Option<Vec<u8>>,
+        cx: &mut Context,
+    ) -> Result<(Subject<'s>, Vec<String>), OpError> {
+        let numbers = match &self.color_by {
+            Some(by) => {
+                let others = colors::others(by, cx)?;
+                Some(by.numbers(scene, &others).map_err(failed)?)
+            }
+            None => None,
         };
-        draw::images(&picture, &[(scene, "")], &further, cx)
+        let mut overlays = Overlays::default();
+        let first = (self.highlight.iter()).map(|of| (of, MARK, self.highlight_width));
+        let marks = self.marks.iter().map(|m| (&m.of, m.color, m.width));
+        for (of, color, width) in first.chain(marks) {
+            for object in scene.objects() {
+                let Some(mesh) = object.as_mesh() else {
+                    continue;
+                };
+                cx.materials = object.materials.iter().map(|m| m.name.clone()).collect();
+                let selected = of.resolve(mesh, cx);
+                cx.materials.clear();
+                let elements = match selected? {
+                    Selected::Vertices(list) => render::Elements::Vertices(list),
+                    Selected::Edges(list) => render::Elements::Edges(list),
+                    Selected::Faces(list) => render::Elements::Faces(list),
+                };
+                let marked = marked(&object.name, elements, color, width, self.size);
+                overlays.highlights.push(marked);
+            }
+        }
+        let mut notes: Vec<String> = self.unmarked(scene).into_iter().collect();
+        let mut images = |path: &str| images(cx.files(), path);
+        let subject = Subject::new(scene, caption, &self.style, overlays, numbers, &mut images);
+        let (subject, missing) = subject.map_err(failed)?;
+        let note = |why| format!("an image of a material is not shown: {why}");
+        notes.extend(missing.into_iter().map(note));
+        Ok((subject, notes))
+    }
+
+    /// What is said where nothing can be marked.
+    fn unmarked(&self, scene: &Scene) -> Option<String> {
+        let has_marks = self.highlight.is_some() || !self.marks.is_empty();
+        let has_mesh = scene.objects().iter().any(|o| o.as_mesh().is_some());
+        (has_marks && !has_mesh && !scene.objects().is_empty()).then(|| {
+            "nothing is marked: elements of meshes can be, and there is no mesh here; `style: (points: 8)` \
+             shows the points of polylines, and `style: (control_nets: ())` control points"
+                .to_owned()
+        })
     }
 
     fn in_order(&self) -> Result<(), OpError> {
@@ -284,26 +370,18 @@ impl Picture {
     ///
     /// # Errors
     ///
-    /// [`PictureError::Encode`] if there is no image, or the images are too large for the format.
-    pub fn encode(&self, images: &[Image], stamp: Option<&str>) -> Result<Vec<u8>, PictureError> {
-        self.encode_while(images, stamp, &|_| true)
-    }
-
-    /// As [`Self::encode`]. `go_on` is told how far it is, from 0 to 1, and stops it.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`Self::encode`]; [`PictureError::Cancelled`] if `go_on` says so.
-    pub fn encode_while(
+    /// [`PictureError::Encode`] if there is no image, or the images are too large for the format;
+    /// [`PictureError::Cancelled`].
+    pub fn encode(
         &self,
         images: &[Image],
         stamp: Option<&str>,
-        go_on: GoOn,
+        progress: &dyn Progress,
     ) -> Result<Vec<u8>, PictureError> {
         let texts: Vec<(&str, &str)> = stamp.iter().map(|stamp| ("Software", *stamp)).collect();
         let Some(turn) = self.turntable else {
             return match images {
-                [image] => image.to_png_while(&texts, go_on),
+                [image] => image.to_png_while(&texts, progress),
                 _ => Err(PictureError::Encode("there is no image".to_owned())),
             };
         };
@@ -316,8 +394,8 @@ impl Picture {
         let delay = delay.round().clamp(1.0, f64::from(u16::MAX)) as u16;
         let timing = Timing { delay, turns: 0 };
         match Format::of(Path::new(&self.path)) {
-            Some(Format::Gif) => to_gif(images, timing, stamp, go_on),
-            _ => to_apng(images, timing, &texts, go_on),
+            Some(Format::Gif) => to_gif(images, timing, stamp, progress),
+            _ => to_apng(images, timing, &texts, progress),
         }
     }
 }
@@ -342,9 +420,9 @@ impl Operation for Picture {
             Err(error) => problems.push(Problem::error(error.to_string()).at(["path"])),
         }
         if let Some(color_by) = &self.color_by {
-            problems.extend(color_by.plan(plan, cx));
+            problems.extend(colors::plan(color_by, plan, cx));
         }
-        let bytes = 4 * self.n_pixels();
+        let bytes = 4 * self.shot(cx.budget).n_pixels();
         if bytes > cx.budget {
             let message = format!("the images take {bytes} bytes, over the budget");
             problems.push(Problem::error(message).at(["size"]));
@@ -353,27 +431,58 @@ impl Operation for Picture {
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        let failed = |error: &dyn Display| OpError::File(error.to_string());
-        let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
+        let of_file = |error: &dyn Display| OpError::File(error.to_string());
+        let path = cx.files().to_write(&self.path).map_err(|e| of_file(&e))?;
         let (images, notes) = self.draw(scene, cx)?;
         let stamp = cx.files().provenance.clone();
-        let go_on = |part| {
-            let parts = draw::parts(part);
-            cx.advance("encode", parts, draw::PARTS).is_ok()
-        };
-        let bytes = self
-            .encode_while(&images, stamp.as_deref(), &go_on)
-            .map_err(draw::told)?;
-        if let Some(folder) = path.parent() {
-            std::fs::create_dir_all(folder).map_err(|e| {
-                failed(&format!("cannot make the folder {}: {e}", folder.display()))
-            })?;
-        }
-        std::fs::write(&path, bytes)
-            .map_err(|e| failed(&format!("cannot write {}: {e}", path.display())))?;
+        let bytes = self.encode(&images, stamp.as_deref(), cx.progress());
+        let bytes = bytes.map_err(failed)?;
+        let store = &cx.files().store;
+        store.write(&path, &bytes).map_err(|e| of_file(&e))?;
         Ok(Report {
             notes,
             ..Report::default()
         })
+    }
+}
+
+/// The objects that the step was told to act on.
+fn chosen<'s>(scene: &'s Scene, on: Option<&[String]>) -> Cow<'s, Scene> {
+    let Some(on) = on else {
+        return Cow::Borrowed(scene);
+    };
+    let mut chosen = Scene::new();
+    for object in scene.objects() {
+        if on.contains(&object.name) {
+            chosen.insert(object.clone()).expect("names are unique");
+        }
+    }
+    Cow::Owned(chosen)
+}
+
+/// The bytes of an image that a material names, if it is a file in the folder or in a folder in it.
+fn read_image(files: &Files, folder: Option<&str>, path: &str) -> Option<Vec<u8>> {
+    let is_inside = |c: Component| matches!(c, Component::Normal(_) | Component::CurDir);
+    if path.contains("://") || !Path::new(path).components().all(is_inside) {
+        return None;
+    }
+    let full = match folder {
+        Some(folder) => files.to_read(&format!("{folder}/{path}")),
+        None => files.to_read(path),
+    };
+    if files.store.is_file(&full) {
+        files.has_read(&full);
+        files.store.read(&full).ok()
+    } else {
+        files.has_looked_for(&full);
+        None
+    }
+}
+
+fn failed(error: PictureError) -> OpError {
+    match error {
+        PictureError::Cancelled => OpError::Cancelled,
+        PictureError::Budget { .. } => OpError::Budget(error.to_string()),
+        error => OpError::Parameter(error.to_string()),
     }
 }

@@ -23,39 +23,24 @@ pub struct Cylinder {
     /// The name of the new object.
     pub name: String,
     /// How many sides.
-    #[schemars(range(min = 3))]
-    pub around: u32,
+    pub around: Count<3>,
     /// The distance from the axis to its vertical edges, in scene units; above 0.
-    #[serde(default = "one")]
-    #[schemars(range(min = 0.0))]
-    pub radius: f64,
+    #[serde(default = "crate::one")]
+    pub radius: PositiveLength,
     /// Its height along z, in scene units; above 0.
-    #[serde(default = "two")]
-    #[schemars(range(min = 0.0))]
-    pub height: f64,
+    #[serde(default = "crate::two")]
+    pub height: PositiveLength,
     /// Whether its ends are closed.
-    #[serde(default = "yes")]
+    #[serde(default = "crate::yes")]
     pub caps: bool,
     /// Where its middle is, in scene units.
     #[serde(default)]
     pub center: Vector,
 }
 
-const fn one() -> f64 {
-    1.0
-}
-
-const fn two() -> f64 {
-    2.0
-}
-
-const fn yes() -> bool {
-    true
-}
-
 impl Cylinder {
     fn source(&self) -> Source<'_> {
-        let n = u64::from(self.around);
+        let n = u64::from(self.around.get());
         let (caps, degrees) = if self.caps {
             (
                 2,
@@ -71,10 +56,14 @@ impl Cylinder {
             &self.name,
             MeshPlan::counted(2 * n, 3 * n, n + caps, degrees),
         )
-        .at_least("around", self.around, 3)
-        .positive("radius", self.radius)
-        .positive("height", self.height)
-        .placed([self.radius, self.radius, self.height / 2.0], self.center)
+        .placed(
+            [
+                self.radius.get(),
+                self.radius.get(),
+                self.height.get() / 2.0,
+            ],
+            self.center,
+        )
     }
 }
 
@@ -90,7 +79,7 @@ impl Operation for Cylinder {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         self.source()
-            .insert(scene, cx, || shapes::cylinder(self.around, self.caps))
+            .insert(scene, cx, || shapes::cylinder(self.around.get(), self.caps))
     }
 }
 
@@ -101,7 +90,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&op::test::read::<Cylinder>(text).unwrap())
+        op::test::made(&op::test::read::<Cylinder>(text).unwrap())
     }
 
     #[test]
@@ -120,15 +109,6 @@ mod tests {
             let open = made(&format!(r#"(name: "a", around: {around}, caps: false)"#));
             assert_eq!(open.n_boundary_loops(), 2);
         }
-    }
-
-    #[test]
-    fn bad_parameters_are_refused_at_their_field() {
-        let step: Cylinder = op::test::read(r#"(name: "a", around: 2, height: -1)"#).unwrap();
-        let problems = step.source().plan(&mut Plan::default());
-        let fields: Vec<_> = problems.iter().map(|p| p.path.join(".")).collect();
-        assert_eq!(fields, ["around", "height"]);
-        assert!(op::test::run(&step, &mut Scene::new()).is_err());
     }
 
     #[test]

@@ -21,38 +21,27 @@ pub struct Grid {
     /// The name of the new object.
     pub name: String,
     /// How many squares along x.
-    #[schemars(range(min = 1))]
-    pub columns: u32,
+    pub columns: Count<1>,
     /// How many squares along y.
-    #[schemars(range(min = 1))]
-    pub rows: u32,
+    pub rows: Count<1>,
     /// The length of a side of one square, in scene units; above 0.
-    #[serde(default = "one")]
-    #[schemars(range(min = 0.0))]
-    pub size: f64,
+    #[serde(default = "crate::one")]
+    pub size: PositiveLength,
     /// Where its middle is, in scene units.
     #[serde(default)]
     pub center: Vector,
 }
 
-const fn one() -> f64 {
-    1.0
-}
-
 impl Grid {
     fn source(&self) -> Source<'_> {
-        let (columns, rows) = (u64::from(self.columns), u64::from(self.rows));
+        let (columns, rows) = (u64::from(self.columns.get()), u64::from(self.rows.get()));
         let vertices = (columns + 1).saturating_mul(rows + 1);
         let edges = columns
             .saturating_mul(rows + 1)
             .saturating_add((columns + 1).saturating_mul(rows));
         let faces = columns.saturating_mul(rows);
         let counts = MeshPlan::counted(vertices, edges, faces, Range::exactly(4));
-        Source::new(&self.name, counts)
-            .at_least("columns", self.columns, 1)
-            .at_least("rows", self.rows, 1)
-            .positive("size", self.size)
-            .placed([self.size; 3], self.center)
+        Source::new(&self.name, counts).placed([self.size.get(); 3], self.center)
     }
 }
 
@@ -66,8 +55,9 @@ impl Operation for Grid {
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        self.source()
-            .insert(scene, cx, || shapes::grid(self.columns, self.rows))
+        self.source().insert(scene, cx, || {
+            shapes::grid(self.columns.get(), self.rows.get())
+        })
     }
 }
 
@@ -78,7 +68,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&op::test::read::<Grid>(text).unwrap())
+        op::test::made(&op::test::read::<Grid>(text).unwrap())
     }
 
     #[test]
@@ -97,20 +87,12 @@ mod tests {
     }
 
     #[test]
-    fn no_columns_and_too_many_squares_are_refused() {
-        let run = |columns, rows| {
-            let (name, size, center) = ("a".into(), 1.0, Vector::default());
-            let grid = Grid {
-                name,
-                columns,
-                rows,
-                size,
-                center,
-            };
-            op::test::run(&grid, &mut Scene::new())
-        };
-        assert!(matches!(run(0, 1), Err(OpError::Parameter(_))));
-        assert!(matches!(run(u32::MAX, u32::MAX), Err(OpError::Budget(_))));
-        assert!(matches!(run(1 << 16, 1 << 16), Err(OpError::Budget(_))));
+    fn too_many_squares_are_refused() {
+        for n in [u32::MAX, 1 << 16] {
+            let text = format!(r#"(name: "a", columns: {n}, rows: {n})"#);
+            let step: Grid = op::test::read(&text).unwrap();
+            let made = op::test::run(&step, &mut Scene::new());
+            assert!(matches!(made, Err(OpError::Budget(_))));
+        }
     }
 }

@@ -10,7 +10,7 @@ mod tetrahedron;
 mod torus;
 mod uv_sphere;
 
-use op::Registry;
+use op::{PositiveLength, Registry};
 
 pub use cube::Cube;
 pub use cylinder::Cylinder;
@@ -35,4 +35,18 @@ pub fn register(registry: Registry) -> Registry {
         .with::<Torus>()
         .with::<Cylinder>()
         .with::<UvSphere>()
+}
+
+// Defaults of parameters.
+
+const fn one() -> PositiveLength {
+    PositiveLength::literal(1.0)
+}
+
+const fn two() -> PositiveLength {
+    PositiveLength::literal(2.0)
+}
+
+const fn yes() -> bool {
+    true
 }

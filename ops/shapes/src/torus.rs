@@ -23,44 +23,31 @@ pub struct Torus {
     /// The name of the new object.
     pub name: String,
     /// How many faces around the z axis.
-    #[schemars(range(min = 3))]
-    pub around: u32,
+    pub around: Count<3>,
     /// How many faces around the tube.
-    #[schemars(range(min = 3))]
-    pub across: u32,
+    pub across: Count<3>,
     /// The distance from the z axis to the middle of the tube, in scene units; above 0.
-    #[serde(default = "one")]
-    #[schemars(range(min = 0.0))]
-    pub major: f64,
+    #[serde(default = "crate::one")]
+    pub major: PositiveLength,
     /// The radius of the tube, in scene units; above 0. The tube cuts itself unless it is below `major`.
     #[serde(default = "quarter")]
-    #[schemars(range(min = 0.0))]
-    pub minor: f64,
+    pub minor: PositiveLength,
     /// Where its middle is, in scene units.
     #[serde(default)]
     pub center: Vector,
 }
 
-const fn one() -> f64 {
-    1.0
-}
-
-const fn quarter() -> f64 {
-    0.25
+const fn quarter() -> PositiveLength {
+    PositiveLength::literal(0.25)
 }
 
 impl Torus {
     fn source(&self) -> Source<'_> {
-        let faces = u64::from(self.around).saturating_mul(u64::from(self.across));
+        let faces = u64::from(self.around.get()).saturating_mul(u64::from(self.across.get()));
         let edges = faces.saturating_mul(2);
         let counts = MeshPlan::counted(faces, edges, faces, Range::exactly(4));
-        let source = Source::new(&self.name, counts)
-            .at_least("around", self.around, 3)
-            .at_least("across", self.across, 3)
-            .positive("major", self.major)
-            .positive("minor", self.minor)
-            .placed([1.0; 3], self.center);
-        if self.minor < self.major {
+        let source = Source::new(&self.name, counts).placed([1.0; 3], self.center);
+        if self.minor.get() < self.major.get() {
             return source;
         }
         let warning = Problem::warning("the tube cuts itself").at(["minor"]);
@@ -80,7 +67,12 @@ impl Operation for Torus {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         self.source().insert(scene, cx, || {
-            shapes::torus(self.around, self.across, self.major, self.minor)
+            shapes::torus(
+                self.around.get(),
+                self.across.get(),
+                self.major.get(),
+                self.minor.get(),
+            )
         })
     }
 }
@@ -92,7 +84,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&op::test::read::<Torus>(text).unwrap())
+        op::test::made(&op::test::read::<Torus>(text).unwrap())
     }
 
     #[test]
@@ -121,21 +113,10 @@ mod tests {
     }
 
     #[test]
-    fn too_few_and_too_many_faces_are_refused() {
-        let run = |around, across| {
-            let name = "a".into();
-            let (major, minor, center) = (1.0, 0.25, Vector::default());
-            let torus = Torus {
-                name,
-                around,
-                across,
-                major,
-                minor,
-                center,
-            };
-            op::test::run(&torus, &mut Scene::new())
-        };
-        assert!(matches!(run(2, 3), Err(OpError::Parameter(_))));
-        assert!(matches!(run(u32::MAX, u32::MAX), Err(OpError::Budget(_))));
+    fn too_many_faces_are_refused() {
+        let text = r#"(name: "a", around: 4294967295, across: 4294967295)"#;
+        let step: Torus = op::test::read(text).unwrap();
+        let made = op::test::run(&step, &mut Scene::new());
+        assert!(matches!(made, Err(OpError::Budget(_))));
     }
 }

@@ -23,27 +23,20 @@ pub struct UvSphere {
     /// The name of the new object.
     pub name: String,
     /// How many meridians.
-    #[schemars(range(min = 3))]
-    pub around: u32,
+    pub around: Count<3>,
     /// How many bands of faces from pole to pole.
-    #[schemars(range(min = 2))]
-    pub rings: u32,
+    pub rings: Count<2>,
     /// The distance from the middle to its vertices, in scene units; above 0.
-    #[serde(default = "one")]
-    #[schemars(range(min = 0.0))]
-    pub radius: f64,
+    #[serde(default = "crate::one")]
+    pub radius: PositiveLength,
     /// Where its middle is, in scene units.
     #[serde(default)]
     pub center: Vector,
 }
 
-const fn one() -> f64 {
-    1.0
-}
-
 impl UvSphere {
     fn source(&self) -> Source<'_> {
-        let (around, rings) = (u64::from(self.around), u64::from(self.rings));
+        let (around, rings) = (u64::from(self.around.get()), u64::from(self.rings.get()));
         // `rings - 1` circles; below 2 the count is refused anyway.
         let circles = rings.saturating_sub(1);
         let on_circles = around.saturating_mul(circles);
@@ -54,11 +47,7 @@ impl UvSphere {
             max: if rings > 2 { 4 } else { 3 },
         };
         let counts = MeshPlan::counted(on_circles.saturating_add(2), edges, faces, degrees);
-        Source::new(&self.name, counts)
-            .at_least("around", self.around, 3)
-            .at_least("rings", self.rings, 2)
-            .positive("radius", self.radius)
-            .placed([self.radius; 3], self.center)
+        Source::new(&self.name, counts).placed([self.radius.get(); 3], self.center)
     }
 }
 
@@ -72,8 +61,9 @@ impl Operation for UvSphere {
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        self.source()
-            .insert(scene, cx, || shapes::uv_sphere(self.around, self.rings))
+        self.source().insert(scene, cx, || {
+            shapes::uv_sphere(self.around.get(), self.rings.get())
+        })
     }
 }
 
@@ -84,7 +74,7 @@ mod tests {
 
     /// The mesh that the recipe text makes.
     fn made(text: &str) -> Mesh {
-        op::made(&op::test::read::<UvSphere>(text).unwrap())
+        op::test::made(&op::test::read::<UvSphere>(text).unwrap())
     }
 
     #[test]
@@ -109,19 +99,10 @@ mod tests {
     }
 
     #[test]
-    fn too_few_and_too_many_faces_are_refused() {
-        let run = |around, rings| {
-            let (name, radius, center) = ("a".into(), 1.0, Vector::default());
-            let sphere = UvSphere {
-                name,
-                around,
-                rings,
-                radius,
-                center,
-            };
-            op::test::run(&sphere, &mut Scene::new())
-        };
-        assert!(matches!(run(3, 1), Err(OpError::Parameter(_))));
-        assert!(matches!(run(u32::MAX, u32::MAX), Err(OpError::Budget(_))));
+    fn too_many_faces_are_refused() {
+        let text = r#"(name: "a", around: 4294967295, rings: 4294967295)"#;
+        let step: UvSphere = op::test::read(text).unwrap();
+        let made = op::test::run(&step, &mut Scene::new());
+        assert!(matches!(made, Err(OpError::Budget(_))));
     }
 }

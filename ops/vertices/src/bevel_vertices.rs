@@ -9,7 +9,6 @@
 //! ```
 
 use geometry::bevel::Cuts;
-use op::check_fraction;
 use op::prelude::*;
 
 /// Puts faces into the place of vertices.
@@ -32,9 +31,9 @@ use op::prelude::*;
 pub struct BevelVertices {
     /// Which vertices.
     pub vertices: VertexSelection,
-    /// Where the edges are cut, as a fraction of their lengths from the vertex: between 0 and 1 and neither.
-    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0))]
-    pub fraction: f64,
+    /// Where the edges are cut, as a fraction of their lengths from the vertex: strictly between
+    /// 0 and 1.
+    pub fraction: Fraction,
     /// What to do when a vertex is refused.
     #[serde(default)]
     pub on_refusal: OnRefusal,
@@ -46,9 +45,6 @@ impl MeshOperation for BevelVertices {
     const EXAMPLE: &'static str = "BevelVertices(vertices: All, fraction: 0.25)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        if let Err(message) = check_fraction("fraction", self.fraction) {
-            return vec![Problem::error(message).at(["fraction"])];
-        }
         let done = self.on_refusal.done(self.vertices.count(plan));
         if done.max > 0 {
             // Each edge is cut at both ends at most, and each vertex has three.
@@ -74,12 +70,11 @@ impl MeshOperation for BevelVertices {
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
-        check_fraction("fraction", self.fraction).map_err(OpError::Parameter)?;
         let vertices = self.vertices.resolve(mesh, cx)?;
         let mut cuts = Cuts::default();
         let report = edit_each(mesh, &vertices, self.on_refusal, "bevel", cx, |mesh, v| {
-            let f = mesh.bevel_vertex_with(v, |e| cuts.fraction(e, self.fraction))?;
-            cuts.cut(mesh, f, self.fraction);
+            let f = mesh.bevel_vertex_with(v, |e| cuts.fraction(e, self.fraction.get()))?;
+            cuts.cut(mesh, f, self.fraction.get());
             Ok(())
         })?;
         mesh.remove_normals();
@@ -158,19 +153,5 @@ mod tests {
             panic!("{refused:?}");
         };
         assert_eq!(reason, op::Refusal::Boundary);
-    }
-
-    #[test]
-    fn a_fraction_out_of_range_is_refused() {
-        for fraction in [0.0, 1.0, f64::NAN] {
-            let step = BevelVertices {
-                fraction,
-                ..parse("(vertices: All, fraction: 0.5)")
-            };
-            let (_, problems) = planned(&step, &shapes::cube());
-            assert_eq!(problems[0].path, ["fraction"]);
-            let refused = try_applied(&step, shapes::cube());
-            assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
-        }
     }
 }

@@ -97,13 +97,25 @@ pub(crate) enum Command {
     Shrink(ShrinkArgs),
     /// Print the JSON schema of recipes
     Schema,
-    /// Write a new operation crate: its folder, a working sample with a test, and its line in ops/all
+    /// Write a new operation, a working sample with its test and its picture: a crate of its own, or with `--in` a file of
+    /// a group
     NewOp {
         /// The name of the operation in camel case, such as `InflateFaces`
         name: String,
-        /// The root of the workspace
+        /// Write a file into this group of operations, such as `faces`, in place of a crate
+        #[arg(long = "in", value_name = "GROUP")]
+        group: Option<String>,
+        /// Where to write the crate; for a group the root of Meshwright's workspace
         #[arg(long, default_value = ".")]
         dir: PathBuf,
+        /// The root of Meshwright's workspace, which the crate depends on
+        #[arg(
+            long,
+            default_value = ".",
+            conflicts_with = "group",
+            value_name = "DIR"
+        )]
+        meshwright: PathBuf,
     },
 }
 

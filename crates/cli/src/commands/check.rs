@@ -1,6 +1,7 @@
 //! `meshwright check`: reads and plans a recipe and says what it will make.
 
-use op::{Range, Registry};
+use engine::Engine;
+use op::Range;
 use recipe::mebibytes;
 
 use super::run::refuse;
@@ -8,8 +9,8 @@ use crate::args::{CheckArgs, Format};
 use crate::loading::load;
 use crate::output::{counted, explain, grouped, print, problems_json, show, table};
 
-pub(crate) fn run(args: &CheckArgs, registry: &Registry) -> anyhow::Result<bool> {
-    let loaded = load(&args.recipe, registry)?;
+pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
+    let loaded = load(&args.recipe, engine)?;
     let json = args.recipe.format == Format::Json;
     if args.explain && !json {
         print(&explain(&loaded.recipe))?;

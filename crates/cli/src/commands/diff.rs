@@ -1,7 +1,7 @@
 //! `meshwright diff`: two files, or what two recipes make, side by side.
 
+use engine::{Engine, Stop};
 use geometry::distance::{Distance, OneSided};
-use op::Registry;
 use recipe::compare::{
     AttributeDifference, ColumnDifference, Connectivity, Counts, Difference, MeshDifference,
     ObjectDifference,
@@ -11,22 +11,14 @@ use serde_json::{Value as Json, json};
 use super::diff_runs;
 use crate::args::{DiffArgs, Format, ValueArgs};
 use crate::output::{grouped, print, table};
-use crate::scenes::{Stop, find};
+use crate::scenes::find;
 
-pub(crate) fn run(args: &DiffArgs, registry: &Registry) -> anyhow::Result<bool> {
+pub(crate) fn run(args: &DiffArgs, engine: &Engine) -> anyhow::Result<bool> {
     if args.runs {
         return diff_runs::run(&args.first, &args.second, args.format);
     }
     let values = ValueArgs::default();
-    let read = |path| {
-        find(
-            path,
-            &args.read.options(),
-            &values,
-            Stop::default(),
-            registry,
-        )
-    };
+    let read = |path| find(path, &args.read.options(), &values, Stop::default(), engine);
     let (first, second) = (read(&args.first)?.scene, read(&args.second)?.scene);
     let difference = Difference::between(&first, &second);
     let equal = difference.is_within(args.tolerance);

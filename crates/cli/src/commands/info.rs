@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use engine::BUDGET;
 use mesh::{Elements, Mesh, VertexId};
 use mesh_io::{Note, NoteKind};
 use op::Place;
@@ -12,7 +13,7 @@ use crate::args::{Format, ReadArgs};
 use crate::commands::picture::draw_found;
 use crate::output::{grouped, print};
 use crate::picture_errors::{PictureErrorsArgs, Pictures};
-use crate::scenes::{BUDGET, Found};
+use crate::scenes::Found;
 use crate::terminal_picture;
 
 pub(crate) fn run(

@@ -1,72 +1,136 @@
-//! `meshwright new-op`: writes an operation crate that works, to be changed.
+//! `meshwright new-op`: writes an operation that works, to be changed: a file in a group of the workspace, or a program
+//! of its own.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf, absolute};
 
 use anyhow::{Context as _, bail, ensure};
 
 use crate::output::print;
 
+const OPERATION: &str = include_str!("new_op/operation.rs.txt");
+const PICTURE: &str = include_str!("new_op/picture.ron.txt");
+const MAIN: &str = include_str!("new_op/main.rs.txt");
 const MANIFEST: &str = include_str!("new_op/Cargo.toml.txt");
-const SOURCE: &str = include_str!("new_op/lib.rs.txt");
 
-/// Names of crates that the sample or the list use, and words that no crate can have as its name.
-const TAKEN: &str = "abstract alloc all as async await become box break const continue core crate do \
-    dyn else enum extern false final fn for gen if impl in let loop macro match mesh mod move mut op \
-    override priv proc_macro pub ref return scene schemars self serde static std struct super test \
+/// Names of crates that the sample uses, and words that no module can have as its name.
+const TAKEN: &str = "abstract alloc as async await become box break cli const continue core crate do \
+    dyn else enum extern false final fn for gen if impl in let lib loop macro main match mesh mod move mut op \
+    ops_all override priv proc_macro pub ref return schemars self serde static std struct super test \
     trait true try type typeof unsafe unsized use virtual where while yield";
 
 /// Types that the sample uses.
-const TYPES: &str = "Context DVec3 Deserialize JsonSchema MeshOperation MeshPlan OpError PlanContext \
-    Problem Report Result Select Serialize Vec VertexSelection";
+const TYPES: &str = "Context DVec3 Deserialize JsonSchema Mesh MeshOperation MeshPlan OpError PlanContext \
+    Problem Report Result Select Serialize Vec Vector VertexSelection";
 
-pub(crate) fn run(name: &str, root: &Path) -> anyhow::Result<bool> {
+/// Files with their texts.
+type Files = Vec<(PathBuf, String)>;
+
+/// Writes the operation `name` into `group` of the workspace in `dir`, or, without one, a crate in `dir` that
+/// depends on the workspace `meshwright`.
+pub(crate) fn run(
+    name: &str,
+    group: Option<&str>,
+    dir: &Path,
+    meshwright: &Path,
+) -> anyhow::Result<bool> {
     let snake = checked(name)?;
-    let folder = root.join("ops").join(&snake);
-    let (list, manifest) = (
-        root.join("ops/all/src/lib.rs"),
-        root.join("ops/all/Cargo.toml"),
-    );
+    let fill = |text: &str| text.replace("{Name}", name).replace("{name}", &snake);
+    // Everything is prepared before anything is written.
+    let (files, next) = match group {
+        Some(group) => in_group(group, &snake, dir, fill)?,
+        None => of_its_own(&snake, dir, meshwright, fill)?,
+    };
+    let mut text = String::new();
+    for (path, content) in files {
+        let change = if path.exists() { "changed" } else { "wrote" };
+        let folder = path.parent().expect("a file is in a folder");
+        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        fs::write(&path, content).with_context(|| format!("cannot write {}", path.display()))?;
+        text += &format!("{change} {}\n", path.display());
+    }
+    print(&(text + &next))?;
+    Ok(true)
+}
+
+/// The files of an operation in a group, and what to do with them.
+fn in_group(
+    group: &str,
+    snake: &str,
+    root: &Path,
+    fill: impl Fn(&str) -> String,
+) -> anyhow::Result<(Files, String)> {
+    check_root(root)?;
+    let source = root.join("ops").join(group).join("src");
+    let (list, file) = (source.join("lib.rs"), source.join(format!("{snake}.rs")));
+    let picture = root.join(format!("ops/all/pictures/{snake}.ron"));
     ensure!(
-        list.is_file() && manifest.is_file(),
+        group != "all" && list.is_file(),
+        "there is no group `{group}` in {}",
+        root.join("ops").display()
+    );
+    for path in [&file, &picture] {
+        ensure!(!path.exists(), "{} is there already", path.display());
+    }
+    let text =
+        fs::read_to_string(&list).with_context(|| format!("cannot read {}", list.display()))?;
+    let text = insert_sorted(&text, "mod ", &fill("mod {name};"))?;
+    let text = insert_sorted(&text, "pub use ", &fill("pub use {name}::{Name};"))?;
+    let text = insert_last(
+        &text,
+        "        .with::<",
+        &fill("        .with::<{Name}>()"),
+    )?;
+    let next = format!(
+        "next: cargo test -p meshwright-ops-{group}\nits picture: cargo run -- test \
+         ops/all/pictures/{snake}.ron --out ops/all/pictures\n"
+    );
+    let files = vec![
+        (file, fill(OPERATION)),
+        (picture, fill(PICTURE)),
+        (list, text),
+    ];
+    Ok((files, next))
+}
+
+/// The files of a program with the operation, and what to do with them.
+fn of_its_own(
+    snake: &str,
+    dir: &Path,
+    meshwright: &Path,
+    fill: impl Fn(&str) -> String,
+) -> anyhow::Result<(Files, String)> {
+    check_root(meshwright).context("name the folder of Meshwright with `--meshwright`")?;
+    let folder = dir.join(snake);
+    ensure!(!folder.exists(), "{} is there already", folder.display());
+    let meshwright = absolute(meshwright)?;
+    let path = pathdiff::diff_paths(&meshwright, absolute(&folder)?).unwrap_or(meshwright);
+    let manifest = MANIFEST
+        .replace("{kebab}", &snake.replace('_', "-"))
+        .replace(
+            "{meshwright}",
+            &path.display().to_string().replace('\\', "/"),
+        );
+    let next = format!(
+        "next: cd {} && cargo test && cargo run -- run picture.ron\n",
+        folder.display()
+    );
+    let files = vec![
+        (folder.join("Cargo.toml"), fill(&manifest)),
+        (folder.join("src/main.rs"), fill(MAIN)),
+        (folder.join(format!("src/{snake}.rs")), fill(OPERATION)),
+        (folder.join("picture.ron"), fill(PICTURE)),
+    ];
+    Ok((files, next))
+}
+
+fn check_root(root: &Path) -> anyhow::Result<()> {
+    ensure!(
+        root.join("ops/all/src/lib.rs").is_file(),
         "{} is not the root of a Meshwright workspace: there is no ops/all",
         root.display()
     );
-    ensure!(!folder.exists(), "{} is there already", folder.display());
-
-    // Everything is prepared before anything is written.
-    let fill = |text: &str| {
-        text.replace("{Name}", name)
-            .replace("{name}", &snake)
-            .replace("{kebab}", &snake.replace('_', "-"))
-    };
-    let read = |path: &Path| {
-        fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))
-    };
-    let dependency = fill("{name} = { package = \"meshwright-op-{kebab}\", path = \"../{name}\" }");
-    let line = fill("        .with::<{name}::{Name}>()");
-    let new_manifest = insert_line(&read(&manifest)?, "[dependencies]", &dependency, |l| {
-        l.contains("path = \"")
-    })?;
-    let new_list = insert_line(&read(&list)?, "Registry::new()", &line, |l| {
-        l.contains(".with::<")
-    })?;
-
-    let write = |path: &Path, text: &str| {
-        fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
-    };
-    fs::create_dir_all(folder.join("src"))
-        .with_context(|| format!("cannot make {}", folder.display()))?;
-    write(&folder.join("Cargo.toml"), &fill(MANIFEST))?;
-    write(&folder.join("src/lib.rs"), &fill(SOURCE))?;
-    write(&manifest, &new_manifest)?;
-    write(&list, &new_list)?;
-    print(&format!(
-        "wrote {folder}/Cargo.toml and {folder}/src/lib.rs\nadded {name} to ops/all\nnext: cargo test -p meshwright-op-{}\n",
-        snake.replace('_', "-"),
-        folder = folder.display(),
-    ))?;
-    Ok(true)
+    Ok(())
 }
 
 /// `InflateFaces` as `inflate_faces`.
@@ -92,7 +156,7 @@ fn checked(name: &str) -> anyhow::Result<String> {
     let among = |words: &str, word: &str| words.split(' ').any(|w| w == word);
     ensure!(
         !among(TAKEN, &snake),
-        "`{name}` would be the crate `{snake}`, which is taken"
+        "`{name}` would be the module `{snake}`, which is taken"
     );
     ensure!(
         !among(TYPES, name),
@@ -101,24 +165,21 @@ fn checked(name: &str) -> anyhow::Result<String> {
     Ok(snake)
 }
 
-/// Puts a line behind the last one that `is_alike`, or behind the line with `anchor` if there is none.
-fn insert_line(
-    text: &str,
-    anchor: &str,
-    line: &str,
-    is_alike: impl Fn(&str) -> bool,
-) -> anyhow::Result<String> {
-    let mut lines: Vec<&str> = text.lines().collect();
-    ensure!(!lines.contains(&line), "`{}` is there already", line.trim());
-    let Some(place) = lines
-        .iter()
-        .rposition(|l| is_alike(l))
-        .or_else(|| lines.iter().position(|l| l.contains(anchor)))
-    else {
-        bail!("found no line with `{anchor}`");
-    };
-    lines.insert(place + 1, line);
-    Ok(lines.join("\n") + "\n")
+/// Puts a line among those that begin with `prefix`, in their order.
+fn insert_sorted(text: &str, prefix: &str, line: &str) -> anyhow::Result<String> {
+    let next = |l: &&str| l.starts_with(prefix) && *l > line;
+    match text.lines().find(next) {
+        Some(next) => Ok(text.replacen(&format!("{next}\n"), &format!("{line}\n{next}\n"), 1)),
+        None => insert_last(text, prefix, line),
+    }
+}
+
+/// Puts a line behind the last of those that begin with `prefix`.
+fn insert_last(text: &str, prefix: &str, line: &str) -> anyhow::Result<String> {
+    let last = text.lines().rfind(|l| l.starts_with(prefix));
+    let last =
+        last.with_context(|| format!("found no line that begins with `{}`", prefix.trim()))?;
+    Ok(text.replacen(&format!("{last}\n"), &format!("{last}\n{line}\n"), 1))
 }
 
 #[cfg(test)]
@@ -133,7 +194,6 @@ mod tests {
             "",
             "Inflate-Faces",
             "../Evil",
-            "All",
             "Loop",
             "Std",
             "Report",
@@ -143,11 +203,14 @@ mod tests {
     }
 
     #[test]
-    fn a_line_goes_behind_those_like_it() {
-        let text = "a\n  .with::<x>()\nb\n";
-        let new = insert_line(text, "a", "  .with::<y>()", |l| l.contains(".with")).unwrap();
-        assert_eq!(new, "a\n  .with::<x>()\n  .with::<y>()\nb\n");
-        let first = insert_line("a\nb\n", "a", "c", |_| false).unwrap();
-        assert_eq!(first, "a\nc\nb\n");
+    fn a_line_goes_among_those_like_it() {
+        let text = "mod a;\nmod c;\n\n.with::<C>()\n.with::<A>()\n";
+        let b = insert_sorted(text, "mod ", "mod b;").unwrap();
+        assert_eq!(b, "mod a;\nmod b;\nmod c;\n\n.with::<C>()\n.with::<A>()\n");
+        let d = insert_sorted(text, "mod ", "mod d;").unwrap();
+        assert_eq!(d, "mod a;\nmod c;\nmod d;\n\n.with::<C>()\n.with::<A>()\n");
+        let last = insert_last(text, ".with::<", ".with::<B>()").unwrap();
+        assert!(last.ends_with(".with::<A>()\n.with::<B>()\n"));
+        assert!(insert_last(text, "pub use ", "pub use a::A;").is_err());
     }
 }

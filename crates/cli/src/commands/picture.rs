@@ -3,22 +3,24 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use op::{Context, Files, Registry};
-use ops_pictures::{Picture, Quantity};
+use op::{Context, Files};
+use ops_pictures::Picture;
 use recipe::{Source, Values};
 use render::Image;
-use render::sheet::{Cell, SheetStyle, sheet};
 use ron_tree::string_literal;
 use scene::Scene;
+use view::Quantity;
+use view::sheet::{Cell, SheetStyle, sheet};
 
 use crate::WrongUsage;
 use crate::args::{DrawArgs, PictureArgs};
 use crate::commands::batch::inputs;
-use crate::listener::{Terminal, catch_interrupts, is_interrupted};
+use crate::listener::{Quiet, Terminal, catch_interrupts};
 use crate::output::{complain, print, write_whole};
-use crate::scenes::{BUDGET, Found, Stop, find};
+use crate::scenes::{Found, find};
+use engine::{BUDGET, Engine, Stop};
 
-pub(crate) fn run(args: &PictureArgs, registry: &Registry) -> anyhow::Result<bool> {
+pub(crate) fn run(args: &PictureArgs, engine: &Engine) -> anyhow::Result<bool> {
     let files: Vec<PathBuf> = inputs::list(&args.files)?
         .into_iter()
         .map(|input| PathBuf::from(input.path))
@@ -33,19 +35,19 @@ pub(crate) fn run(args: &PictureArgs, registry: &Registry) -> anyhow::Result<boo
     if !args.sheet {
         more.extend(args.columns.map(|n| format!("columns: {n}")));
     }
-    let picture = parameters(&args.draw, &out(args, &files[0]), usual, more, registry)?;
+    let picture = parameters(&args.draw, &out(args, &files[0]), usual, more, engine)?;
     catch_interrupts();
     if args.sheet {
-        return on_sheet(args, &picture, &files, registry);
+        return on_sheet(args, &picture, &files, engine);
     }
-    let images = draw(args, &picture, &files[0], registry)?;
+    let images = draw(args, &picture, &files[0], engine)?;
     write_images(&picture, &images, &out(args, &files[0]))?;
     Ok(true)
 }
 
 /// Writes the images of a picture to a file.
 pub(crate) fn write_images(picture: &Picture, images: &[Image], path: &Path) -> anyhow::Result<()> {
-    let bytes = picture.encode_while(images, Some(STAMP), &|_| !is_interrupted())?;
+    let bytes = picture.encode(images, Some(STAMP), &Quiet)?;
     write(path, &bytes, &images[0])
 }
 
@@ -75,12 +77,12 @@ pub(crate) fn parameters(
     out: &Path,
     usual: [u32; 2],
     more: Vec<String>,
-    registry: &Registry,
+    engine: &Engine,
 ) -> anyhow::Result<Picture> {
     let fields = fields(args, out, usual, more);
     let text = format!("(recipe: 1, steps: [Picture({fields})])");
     let source = Source::new("options of picture", text.as_str());
-    let reading = recipe::read(&source, registry, Values::default());
+    let reading = recipe::read(&source, engine.registry(), Values::default());
     let step = match &reading.recipe.steps[..] {
         [step] if !reading.has_errors() => step.step.as_ref(),
         _ => None,
@@ -156,10 +158,10 @@ fn draw(
     args: &PictureArgs,
     picture: &Picture,
     path: &Path,
-    registry: &Registry,
+    engine: &Engine,
 ) -> anyhow::Result<Vec<Image>> {
     let scene = |stop| -> anyhow::Result<Found> {
-        find(path, &args.read.options(), &args.values, stop, registry)
+        find(path, &args.read.options(), &args.values, stop, engine)
     };
     let stop = |after, before| Stop { after, before };
     let (change, before) = (args.change.as_deref(), args.before.as_deref());
@@ -222,14 +224,14 @@ fn on_sheet(
     args: &PictureArgs,
     picture: &Picture,
     files: &[PathBuf],
-    registry: &Registry,
+    engine: &Engine,
 ) -> anyhow::Result<bool> {
     if picture.turntable.is_some() {
         return Err(WrongUsage("the files on a sheet do not move".to_owned()).into());
     }
     let (mut drawn, mut all_are_there) = (Vec::new(), true);
     for path in files {
-        let image = match draw(args, picture, path, registry) {
+        let image = match draw(args, picture, path, engine) {
             Ok(mut images) => images.remove(0),
             Err(error) if error.is::<WrongUsage>() || is_cancelled(&error) => return Err(error),
             Err(error) => {
@@ -259,7 +261,7 @@ fn is_cancelled(error: &anyhow::Error) -> bool {
 
 /// Writes one image, and says so if that is wanted.
 pub(crate) fn write_png(image: &Image, path: &Path, say: bool) -> anyhow::Result<()> {
-    let bytes = image.to_png_while(&[("Software", STAMP)], &|_| !is_interrupted())?;
+    let bytes = image.to_png_while(&[("Software", STAMP)], &Quiet)?;
     if say {
         write(path, &bytes, image)
     } else {

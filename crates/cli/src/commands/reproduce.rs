@@ -4,28 +4,27 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use op::Registry;
+use engine::{Disk, Engine, Options};
 use recipe::stamp::{self, Run, Stamp};
 use recipe::{Outcome, Source, Values};
 use walkdir::{DirEntry, WalkDir};
 
 use crate::args::ReproduceArgs;
-use crate::listener::catch_interrupts;
-use crate::loading::{Loaded, load_source};
-use crate::many::run_quietly;
+use crate::listener::{Quiet, catch_interrupts};
 use crate::output::{complain, print, show};
+use engine::Loaded;
 
-pub(crate) fn run(args: &ReproduceArgs, registry: &Registry) -> anyhow::Result<bool> {
+pub(crate) fn run(args: &ReproduceArgs, engine: &Engine) -> anyhow::Result<bool> {
     catch_interrupts();
     let mut last: Option<Again> = None;
     let mut all_are_same = true;
     for file in &args.files {
         let stamp = mesh_io::provenance(file)?.and_then(|text| Stamp::parse(&text));
-        let (source, run) = recipe_of(file, stamp.as_ref(), args, registry)?;
+        let (source, run) = recipe_of(file, stamp.as_ref(), args, engine)?;
         // Files of one run follow each other.
         let again = match last.take() {
             Some(again) if again.is_of(&source, &run) => again,
-            _ => Again::run(source, run, args.budget, registry)?,
+            _ => Again::run(source, run, args.budget, engine)?,
         };
         all_are_same &= again.compare(file, stamp.as_ref())?;
         last = Some(again);
@@ -38,7 +37,7 @@ fn recipe_of(
     file: &Path,
     stamp: Option<&Stamp>,
     args: &ReproduceArgs,
-    registry: &Registry,
+    engine: &Engine,
 ) -> anyhow::Result<(Source, Run)> {
     let shown = file.display();
     let open = |path: &Path| Source::open(path).map_err(anyhow::Error::msg);
@@ -59,7 +58,7 @@ fn recipe_of(
     let run = run.clone().unwrap_or_default();
     for path in &candidates {
         if let Ok(source) = open(path)
-            && read(&source, &run, registry).recipe.digest() == stamp.recipe
+            && read(&source, &run, engine).recipe.digest() == stamp.recipe
         {
             return Ok((source, run));
         }
@@ -89,9 +88,9 @@ fn recipes_here() -> Vec<PathBuf> {
     recipes.flat_map(path).collect()
 }
 
-fn read(source: &Source, run: &Run, registry: &Registry) -> recipe::Reading {
+fn read(source: &Source, run: &Run, engine: &Engine) -> recipe::Reading {
     let set: Vec<(String, String)> = run.set.clone().into_iter().collect();
-    recipe::read(source, registry, values(&set, run))
+    recipe::read(source, engine.registry(), values(&set, run))
 }
 
 fn values<'a>(set: &'a [(String, String)], run: &'a Run) -> Values<'a> {
@@ -113,17 +112,26 @@ struct Again {
 }
 
 impl Again {
-    fn run(source: Source, run: Run, budget: u64, registry: &Registry) -> anyhow::Result<Self> {
+    fn run(source: Source, run: Run, budget: u64, engine: &Engine) -> anyhow::Result<Self> {
         let out = tempfile::tempdir().context("cannot make a folder to run in")?;
         let set: Vec<(String, String)> = run.set.clone().into_iter().collect();
-        let mut loaded = load_source(&source, values(&set, &run), out.path(), budget, registry);
+        let options = Options {
+            values: values(&set, &run),
+            out: out.path(),
+            budget,
+        };
+        let mut loaded = engine.load(&source, &options);
         if loaded.has_errors() {
             show(&loaded, &loaded.diagnostics);
             anyhow::bail!("{} cannot be run", loaded.path);
         }
         // They may be meant for other parameters; the bytes are what counts here.
         loaded.recipe.expectations.clear();
-        let outcome = run_quietly(&loaded, budget, true, None);
+        let run_again = engine::Run {
+            keep_outputs: true,
+            cache: None,
+        };
+        let outcome = loaded.run(run_again, &Quiet);
         anyhow::ensure!(!outcome.cancelled, "interrupted");
         if !outcome.succeeded() {
             show(&loaded, &outcome.failures);
@@ -151,7 +159,7 @@ impl Again {
         for path in &self.outcome.written {
             let again = fs::read(path)?;
             if again == bytes {
-                let digest = &stamp::digest(file)?;
+                let digest = &stamp::digest(&Disk, file)?;
                 print(&format!(
                     "{shown} is reproduced by {}, digest {digest}\n",
                     self.loaded.path
@@ -170,7 +178,7 @@ impl Again {
             Some((path, again)) => {
                 let at = bytes.iter().zip(&again).position(|(a, b)| a != b);
                 let at = at.unwrap_or(bytes.len().min(again.len()));
-                let (now, then) = (stamp::digest(path)?, stamp::digest(file)?);
+                let (now, then) = (stamp::digest(&Disk, path)?, stamp::digest(&Disk, file)?);
                 complain(&format!(
                     "  digest {now}, expected {then}; byte {at} is the first that differs\n"
                 ));
@@ -189,7 +197,7 @@ impl Again {
             return vec!["the file does not say where it comes from".to_owned()];
         };
         let mut reasons = Vec::new();
-        let now = Stamp::new(&self.loaded.recipe, &self.loaded.forecast.inputs);
+        let now = Stamp::new(&self.loaded.recipe, &self.loaded.forecast.inputs, &Disk);
         if now.program != stamp.program {
             reasons.push(format!(
                 "it was written by {}, this is {}",

@@ -2,23 +2,23 @@
 
 use ::cache::Cache;
 use anyhow::Context as _;
-use op::Registry;
-use recipe::{Outcome, Settings, StepCache};
+use engine::{Engine, Loaded, Run};
+use recipe::Outcome;
 
 use crate::args::{Format, RunArgs};
 use crate::cache;
 use crate::capsule;
 use crate::events::Events;
 use crate::listener::{Stopping, Terminal, catch_interrupts};
-use crate::loading::{Loaded, load};
+use crate::loading::load;
 use crate::output::{
     complain, counted, explain, explain_steps, print, problems_json, show, step_notes, step_table,
 };
 use crate::picture_errors::{Pictures, Picturing};
 
-pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
+pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
     start_threads(args.threads)?;
-    let mut loaded = load_to_run(args, registry)?;
+    let mut loaded = load_to_run(args, engine)?;
     let cache = cache::open(&args.cache)?;
     catch_interrupts();
     let pictures = args
@@ -37,7 +37,7 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
         && number < loaded.recipe.steps.len()
     {
         let message = outcome.failures.last().map(|f| f.message.clone());
-        let scene = capsule::scene_before(&mut loaded, number, args.recipe.budget)?;
+        let scene = capsule::scene_before(&mut loaded, number)?;
         capsule::write(
             &loaded,
             number,
@@ -64,8 +64,8 @@ pub(crate) fn start_threads(n: Option<u16>) -> anyhow::Result<()> {
 }
 
 /// Reads and checks the recipe of a command that runs it.
-pub(crate) fn load_to_run(args: &RunArgs, registry: &Registry) -> anyhow::Result<Loaded> {
-    let mut loaded = load(&args.recipe, registry)?;
+pub(crate) fn load_to_run(args: &RunArgs, engine: &Engine) -> anyhow::Result<Loaded> {
+    let mut loaded = load(&args.recipe, engine)?;
     if args.no_expect {
         loaded.recipe.expectations.clear();
     }
@@ -97,10 +97,9 @@ pub(crate) fn execute(
         show(loaded, &loaded.diagnostics);
     }
     let caching = cache.map(|cache| cache::using(cache, &args.recipe.recipe));
-    let settings = Settings {
+    let run = Run {
         keep_outputs: true,
-        cache: caching.as_ref().map(|caching| caching as &dyn StepCache),
-        ..loaded.settings(args.recipe.budget)
+        cache: caching.as_ref().map(|caching| caching as _),
     };
     let terminal = Terminal::new();
     let stopping = Stopping {
@@ -115,7 +114,7 @@ pub(crate) fn execute(
             listener: &events,
             pictures,
         };
-        outcome = recipe::run(&loaded.recipe, settings, &listener);
+        outcome = loaded.run(run, &listener);
         terminal.clear();
         events.end(&outcome, pictures)?;
     } else {
@@ -123,7 +122,7 @@ pub(crate) fn execute(
             listener: &stopping,
             pictures,
         };
-        outcome = recipe::run(&loaded.recipe, settings, &listener);
+        outcome = loaded.run(run, &listener);
         terminal.clear();
     }
     warn_of_cache(&outcome);

@@ -1,7 +1,7 @@
 //! `meshwright select`: shows the elements that a selection matches.
 
 use mesh::{EdgeId, Mesh, VertexId};
-use op::{ElementKind, Elements, Registry, Selected};
+use op::{ElementKind, Elements, Selected};
 use ops_pictures::Picture;
 use recipe::{Source, read_selection, resolve};
 use scene::Object;
@@ -11,9 +11,10 @@ use crate::WrongUsage;
 use crate::args::{Format, Kind, SelectArgs};
 use crate::commands::picture::{draw_found, write_images};
 use crate::output::{complain, grouped, print};
-use crate::scenes::{Stop, find};
+use crate::scenes::find;
+use engine::{Engine, Stop};
 
-pub(crate) fn run(args: &SelectArgs, registry: &Registry) -> anyhow::Result<bool> {
+pub(crate) fn run(args: &SelectArgs, engine: &Engine) -> anyhow::Result<bool> {
     let kind = args.of.map(|kind| match kind {
         Kind::Vertices => ElementKind::Vertices,
         Kind::Edges => ElementKind::Edges,
@@ -28,13 +29,7 @@ pub(crate) fn run(args: &SelectArgs, registry: &Registry) -> anyhow::Result<bool
         after: args.after.as_deref(),
         before: args.before.as_deref(),
     };
-    let found = find(
-        &args.file,
-        &args.read.options(),
-        &args.values,
-        stop,
-        registry,
-    )?;
+    let found = find(&args.file, &args.read.options(), &args.values, stop, engine)?;
     let meshes = meshes(args, found.scene.objects())?;
     let mut selected = Vec::new();
     for (object, mesh) in meshes {

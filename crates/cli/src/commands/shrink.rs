@@ -1,32 +1,32 @@
 //! `meshwright shrink`: makes the scene smaller on which a recipe fails.
 
-use op::{OpError, Registry};
+use engine::{Engine, Run};
+use op::OpError;
 use recipe::shrink::{failure, is_alike, shrink};
 use scene::Scene;
 
 use crate::args::ShrinkArgs;
 use crate::capsule;
 use crate::commands::run::refuse;
-use crate::listener::{Terminal, catch_interrupts};
+use crate::listener::{Quiet, Terminal, catch_interrupts};
 use crate::loading::load_recipe;
-use crate::many::run_quietly;
 use crate::output::{complain, print};
 
-pub(crate) fn run(args: &ShrinkArgs, registry: &Registry) -> anyhow::Result<bool> {
+pub(crate) fn run(args: &ShrinkArgs, engine: &Engine) -> anyhow::Result<bool> {
     let (path, out) = (&args.recipe, &args.out);
-    let mut loaded = load_recipe(path, &args.values, out, args.budget, registry)?;
+    let mut loaded = load_recipe(path, &args.values, out, args.budget, engine)?;
     if loaded.has_errors() {
         return refuse(&loaded, false);
     }
     catch_interrupts();
-    let outcome = run_quietly(&loaded, args.budget, false, None);
+    let outcome = loaded.run(Run::default(), &Quiet);
     anyhow::ensure!(!outcome.cancelled, "interrupted, nothing was written");
     let number = outcome.steps.len();
     if number == loaded.recipe.steps.len() {
         complain(&format!("error: no step of {} fails\n", loaded.path));
         return Ok(false);
     }
-    let scene = capsule::scene_before(&mut loaded, number, args.budget)?;
+    let scene = capsule::scene_before(&mut loaded, number)?;
 
     let step = &loaded.recipe.steps[number];
     let files = &loaded.recipe.files(&loaded.files)[step.scope];

@@ -6,9 +6,9 @@ use anyhow::Context as _;
 use recipe::Outcome;
 use recipe::update::update;
 
-use crate::loading::Loaded;
 use crate::output::{Begun, begin};
 use crate::replace::replace_file;
+use engine::Loaded;
 
 /// Renews the values that the recipe records and the run found to be others, and returns a line for each
 /// that was changed. What is mended so is no failure of the run any more.

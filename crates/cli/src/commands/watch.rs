@@ -12,15 +12,15 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use anyhow::Context as _;
+use engine::Engine;
 use notify::{RecursiveMode, Watcher as _};
-use op::Registry;
 
 use super::run::{execute, load_to_run, start_threads, tell};
 use crate::args::{Format, RunArgs};
 use crate::cache;
 use crate::listener::{catch_interrupts, is_interrupted};
-use crate::loading::Loaded;
 use crate::output::{complain, print};
+use engine::Loaded;
 
 /// How long nothing must happen before a run: editors save in several moves.
 const QUIET: Duration = Duration::from_millis(50);
@@ -28,7 +28,7 @@ const QUIET: Duration = Duration::from_millis(50);
 /// How often it is looked whether Ctrl-C was pressed.
 const TICK: Duration = Duration::from_millis(100);
 
-pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
+pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
     start_threads(args.threads)?;
     let cache = cache::open(&args.cache)?;
     catch_interrupts();
@@ -37,7 +37,7 @@ pub(crate) fn run(args: &RunArgs, registry: &Registry) -> anyhow::Result<bool> {
     changes.follow(folder_of(&args.recipe.recipe))?;
     let mut texts = None;
     while !is_interrupted() {
-        match load_to_run(args, registry) {
+        match load_to_run(args, engine) {
             Ok(loaded) => {
                 for folder in folders(&loaded) {
                     // A folder that is not there has been told as an error.

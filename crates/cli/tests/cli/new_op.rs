@@ -1,4 +1,4 @@
-//! `new-op`: the sample that it writes builds and passes its tests.
+//! `new-op`: what it writes builds, passes its tests and draws its picture.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -47,26 +47,31 @@ fn workspace() -> Folder {
 /// The least that `new-op` takes for a workspace.
 fn small_workspace() -> Folder {
     Folder::new()
-        .with(
-            "ops/all/Cargo.toml",
-            "[dependencies]\nop.workspace = true\n\n[lints]\nworkspace = true\n",
-        )
-        .with(
-            "ops/all/src/lib.rs",
-            "pub fn registry() -> Registry {\n    Registry::new()\n}\n",
-        )
+        .with("ops/all/src/lib.rs", "")
+        .with("ops/faces/src/lib.rs", GROUP)
 }
 
-/// Runs cargo in the workspace, with a target folder that stays from test to test.
+const GROUP: &str = "mod poke_faces;
+
+use op::Registry;
+
+pub use poke_faces::PokeFaces;
+
+pub fn register(registry: Registry) -> Registry {
+    registry
+        .with::<PokeFaces>()
+}
+";
+
+/// Runs cargo in a folder, with a target folder that stays from test to test.
 #[track_caller]
-fn cargo(folder: &Folder, arguments: &str) {
+fn cargo(folder: &Path, arguments: &str) {
     let output = Command::new(env!("CARGO"))
         .args(arguments.split(' '))
-        .current_dir(folder.path("."))
-        .env(
-            "CARGO_TARGET_DIR",
-            concat!(env!("CARGO_TARGET_TMPDIR"), "/new-op"),
-        )
+        .current_dir(folder)
+        .env("CARGO_TARGET_DIR", target())
+        .env("CARGO_PROFILE_DEV_DEBUG", "false")
+        .env("CARGO_PROFILE_DEV_OPT_LEVEL", "0")
         .output()
         .unwrap();
     let (out, err) = (
@@ -76,46 +81,117 @@ fn cargo(folder: &Folder, arguments: &str) {
     assert!(output.status.success(), "cargo {arguments}\n{out}{err}");
 }
 
-#[test]
-fn a_new_operation_works_as_it_is() {
-    let folder = workspace();
-    folder.run("new-op InflateFaces").with_code(0).prints(&[
-        "wrote ./ops/inflate_faces/Cargo.toml and ./ops/inflate_faces/src/lib.rs\n",
-        "added InflateFaces to ops/all\n",
-        "next: cargo test -p meshwright-op-inflate-faces\n",
-    ]);
-    let list = String::from_utf8(folder.read("ops/all/src/lib.rs")).unwrap();
-    let line = "        .with::<inflate_faces::InflateFaces>()\n";
-    assert_eq!(list.matches(line).count(), 1, "{list}");
-    let manifest = String::from_utf8(folder.read("ops/all/Cargo.toml")).unwrap();
-    let line = "inflate_faces = { package = \"meshwright-op-inflate-faces\", path = \"../inflate_faces\" }\n";
-    assert_eq!(manifest.matches(line).count(), 1, "{manifest}");
-
-    cargo(&folder, "test --offline -p meshwright-op-inflate-faces");
-    cargo(&folder, "fmt --check -p meshwright-op-inflate-faces");
-    cargo(
-        &folder,
-        "clippy --offline -p meshwright-op-inflate-faces --all-targets -- -D warnings",
-    );
-    cargo(&folder, "check --offline -p meshwright-ops-all");
+fn target() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("new-op")
 }
 
 #[test]
-fn the_first_operation_of_a_list_finds_its_place() {
-    let folder = small_workspace();
-    folder.run("new-op Twist").with_code(0);
-    assert_eq!(
-        folder.read("ops/all/src/lib.rs"),
-        b"pub fn registry() -> Registry {\n    Registry::new()\n        .with::<twist::Twist>()\n}\n"
+fn a_new_operation_of_a_group_works_as_it_is() {
+    let folder = workspace();
+    folder
+        .run("new-op --in tags InflateFaces")
+        .with_code(0)
+        .prints(&[
+            "wrote ./ops/tags/src/inflate_faces.rs\n",
+            "wrote ./ops/all/pictures/inflate_faces.ron\n",
+            "changed ./ops/tags/src/lib.rs\n",
+            "next: cargo test -p meshwright-ops-tags\n",
+        ]);
+    let list = String::from_utf8(folder.read("ops/tags/src/lib.rs")).unwrap();
+    for line in [
+        "mod inflate_faces;\n",
+        "pub use inflate_faces::InflateFaces;\n",
+        "        .with::<InflateFaces>()\n",
+    ] {
+        assert_eq!(list.matches(line).count(), 1, "{line}{list}");
+    }
+    let root = folder.path(".");
+    cargo(&root, "test --offline -p meshwright-ops-tags inflate_faces");
+    cargo(&root, "fmt --check -p meshwright-ops-tags");
+    cargo(
+        &root,
+        "clippy --offline -p meshwright-ops-tags --all-targets -- -D warnings",
     );
-    folder.run("new-op BendMore").with_code(0);
-    let manifest = String::from_utf8(folder.read("ops/all/Cargo.toml")).unwrap();
-    let twist = manifest.find("twist = {").unwrap();
-    let bend = manifest.find("bend_more = {").unwrap();
+}
+
+#[test]
+fn a_new_crate_is_a_program_with_its_operation() {
+    let folder = Folder::new();
+    let root = repository();
+    folder
+        .run_all(&[
+            "new-op",
+            "InflateFaces",
+            "--meshwright",
+            root.to_str().unwrap(),
+        ])
+        .with_code(0)
+        .prints(&[
+            "wrote ./inflate_faces/Cargo.toml\n",
+            "wrote ./inflate_faces/picture.ron\n",
+            "next: cd ./inflate_faces && cargo test && cargo run -- run picture.ron\n",
+        ]);
+    let krate = folder.path("inflate_faces");
+    // The same versions as in the workspace, so that nothing has to be fetched.
+    fs::copy(root.join("Cargo.lock"), krate.join("Cargo.lock")).unwrap();
+    cargo(&krate, "test --offline --quiet");
+    cargo(&krate, "build --offline --quiet");
+    cargo(&krate, "fmt --check");
+
+    let program = target()
+        .join("debug")
+        .join(format!("inflate-faces{}", std::env::consts::EXE_SUFFIX));
+    let run = |arguments: &str| {
+        let output = Command::new(&program)
+            .args(arguments.split(' '))
+            .current_dir(&krate)
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert!(
+            output.status.success(),
+            "{arguments}: {text}{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        text
+    };
+    let done = run("run picture.ron --no-cache --out out");
+    assert!(done.contains("expectations hold"), "{done}");
+    for picture in ["before.png", "after.png"] {
+        assert!(krate.join("out").join(picture).is_file(), "{picture}");
+    }
+    // Help and schema come from the same definition.
+    let help = run("ops InflateFaces");
     assert!(
-        twist < bend && bend < manifest.find("[lints]").unwrap(),
-        "{manifest}"
+        help.contains("How far along each axis, in scene units"),
+        "{help}"
     );
+    assert!(
+        help.contains("Example: InflateFaces(vertices: Boundary, offset: (0, 0, 0.5))\n"),
+        "{help}"
+    );
+    assert!(run("schema").contains("\"InflateFaces\""));
+}
+
+#[test]
+fn an_operation_takes_its_place_in_its_group() {
+    let folder = small_workspace();
+    for name in ["BendMore", "Twist"] {
+        folder
+            .run_all(&["new-op", "--in", "faces", name])
+            .with_code(0);
+    }
+    let list = String::from_utf8(folder.read("ops/faces/src/lib.rs")).unwrap();
+    assert!(
+        list.starts_with("mod bend_more;\nmod poke_faces;\nmod twist;\n\n"),
+        "{list}"
+    );
+    assert!(list.contains(
+        "pub use bend_more::BendMore;\npub use poke_faces::PokeFaces;\npub use twist::Twist;\n"
+    ));
+    assert!(list.ends_with(
+        "        .with::<PokeFaces>()\n        .with::<BendMore>()\n        .with::<Twist>()\n}\n"
+    ));
 }
 
 /// The path and bytes of every file.
@@ -136,22 +212,25 @@ fn content(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 #[test]
 fn a_second_operation_of_a_name_is_refused_and_changes_nothing() {
     let folder = small_workspace();
-    folder.run("new-op InflateFaces").with_code(0);
-    let before = content(&folder.path("."));
-    let again = folder.run("new-op InflateFaces").with_code(1);
-    assert_eq!(
-        again.stderr,
-        "error: ./ops/inflate_faces is there already\n"
-    );
-    assert_eq!(content(&folder.path(".")), before);
-    // In the list, but without its folder.
-    fs::remove_dir_all(folder.path("ops/inflate_faces")).unwrap();
-    let before = content(&folder.path("."));
+    for (arguments, there) in [
+        (
+            "new-op InflateFaces --in faces",
+            "./ops/faces/src/inflate_faces.rs",
+        ),
+        ("new-op InflateFaces", "./inflate_faces"),
+    ] {
+        folder.run(arguments).with_code(0);
+        let before = content(&folder.path("."));
+        let again = folder.run(arguments).with_code(1);
+        assert_eq!(again.stderr, format!("error: {there} is there already\n"));
+        assert_eq!(content(&folder.path(".")), before);
+    }
+    // In another group: the picture has its name.
+    let folder = folder.with("ops/edges/src/lib.rs", GROUP);
     folder
-        .run("new-op InflateFaces")
+        .run("new-op InflateFaces --in edges")
         .with_code(1)
-        .complains(&["is there already\n"]);
-    assert_eq!(content(&folder.path(".")), before);
+        .complains(&["error: ./ops/all/pictures/inflate_faces.ron is there already\n"]);
 }
 
 #[test]
@@ -175,13 +254,13 @@ fn bad_names_are_refused_and_change_nothing() {
                 "error: expected a name in camel case, such as InflateFaces, found `{name}`\n"
             )]);
     }
-    for (name, krate) in [
-        ("All", "all"),
+    for (name, module) in [
+        ("Lib", "lib"),
         ("Loop", "loop"),
         ("Mesh", "mesh"),
         ("Std", "std"),
     ] {
-        let message = format!("error: `{name}` would be the crate `{krate}`, which is taken\n");
+        let message = format!("error: `{name}` would be the module `{module}`, which is taken\n");
         folder
             .run_all(&["new-op", name])
             .with_code(1)
@@ -197,9 +276,18 @@ fn bad_names_are_refused_and_change_nothing() {
 #[test]
 fn another_folder_is_no_workspace() {
     let folder = Folder::new();
+    let message = ". is not the root of a Meshwright workspace: there is no ops/all";
     folder
-        .run("new-op Twist --dir .")
+        .run("new-op Twist --in faces --dir .")
         .with_code(1)
-        .complains(&["error: . is not the root of a Meshwright workspace: there is no ops/all\n"]);
+        .complains(&[&format!("error: {message}\n")]);
+    folder
+        .run("new-op Twist")
+        .with_code(1)
+        .complains(&["name the folder of Meshwright with `--meshwright`", message]);
     assert!(folder.entries(".").is_empty());
+    small_workspace()
+        .run("new-op Twist --in hair")
+        .with_code(1)
+        .complains(&["error: there is no group `hair` in ./ops\n"]);
 }

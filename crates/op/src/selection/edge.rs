@@ -1,121 +1,70 @@
 //! Selections of edges.
 
 use mesh::{EdgeId, Mesh, VertexId};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
-use super::{
-    FaceSelection, Region, Select, Shared, VertexSelection, lowest, marks, named_vertex, one,
-    shared, shared_count, shared_mask, walk,
-};
-use crate::{Context, MeshPlan, OpError, Range, Refusal, Vector};
+use super::{FaceSelection, Select, VertexSelection, lowest, marks, named_vertex, touching, walk};
+use crate::{AngleBetween, Context, Length, MeshPlan, OpError, Range, Refusal};
 
-/// Which edges.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub enum EdgeSelection {
-    /// Every edge.
-    #[default]
-    All,
-    /// Edges with a face on one side only.
-    Boundary,
-    /// The edge between two vertices, by their numbers; refused if there is none.
-    Between(u32, u32),
-    /// Edges whose faces turn by more than an angle.
-    Sharp {
-        /// In degrees, from 0 (flat) to 180. Boundary edges have no angle and are never sharp.
-        #[schemars(range(min = 0.0, max = 180.0))]
-        above: f64,
-    },
-    /// Edges whose faces turn by less than an angle.
-    Flat {
-        /// In degrees, from 0 (flat) to 180. Boundary edges have no angle and are never flat.
-        #[schemars(range(min = 0.0, max = 180.0))]
-        below: f64,
-    },
-    /// Edges longer than a length.
-    Longer {
-        /// In scene units.
-        #[schemars(range(min = 0.0))]
-        than: f64,
-    },
-    /// Edges shorter than a length.
-    Shorter {
-        /// In scene units.
-        #[schemars(range(min = 0.0))]
-        than: f64,
-    },
-    /// Edges of these faces.
-    EdgesOf(FaceSelection),
-    /// Edges with an end in these vertices.
-    EdgesAround(VertexSelection),
-    /// Edges with both ends in these vertices.
-    EdgesWithin(VertexSelection),
-    /// These, and those that go on straight from one of them: across vertices with four edges inside the mesh,
-    /// and along the boundary from an edge of it.
-    EdgeLoop(Box<Self>),
-    /// These, and those across from them in faces with four corners, and so on.
-    EdgeRing(Box<Self>),
-    /// The shortest path along edges from one vertex to another; refused if there is none.
-    Path {
-        /// The number of the vertex at its beginning.
-        from: u32,
-        /// The number of the vertex at its end.
-        to: u32,
-    },
-    /// The longest; of equal lengths the lower numbers.
-    Longest {
-        /// How many; all if there are fewer.
-        #[serde(default = "one")]
-        count: u32,
-        /// From which.
-        #[serde(default)]
-        of: Box<Self>,
-    },
-    /// Edges whose vertices all lie in a region, its surface included.
-    Inside(Region),
-    /// Edges marked by a tag of this name.
-    Tagged(String),
-    /// Edges in all of these; every one for an empty list.
-    And(Vec<Self>),
-    /// Edges in any of these; none for an empty list.
-    Or(Vec<Self>),
-    /// Edges that are not in this.
-    Not(Box<Self>),
-    /// These, and those that share a vertex with one of them.
-    Grow(Box<Self>),
-    /// Those of these that share a vertex with no other one outside.
-    Shrink(Box<Self>),
-    /// All of the connected pieces of the mesh that one of these belongs to.
-    Component(Box<Self>),
-    /// Drawn by chance, the same for the same seed and step.
-    Random {
-        /// How many; all if there are fewer.
-        count: u32,
-        /// From which.
-        #[serde(default)]
-        of: Box<Self>,
-        /// Another number gives another choice.
-        seed: u64,
-    },
-    /// Those whose middles are nearest to a point; of equal distances the lower numbers.
-    Nearest {
-        /// The point.
-        to: Vector,
-        /// How many; all if there are fewer.
-        #[serde(default = "one")]
-        count: u32,
-        /// From which.
-        #[serde(default)]
-        of: Box<Self>,
-    },
-    /// These, but refused unless they are so many.
-    Expect {
-        /// How many there must be.
-        count: u32,
-        /// Of what.
-        of: Box<Self>,
-    },
+selection! {
+    /// Which edges.
+    EdgeSelection(
+        "edges",
+        inside: "Edges whose vertices all lie in a region, its surface included.",
+        shares: "a vertex",
+        nearest: "Those whose middles are nearest to a point; of equal distances the lower numbers."
+    ) {
+        /// Edges with a face on one side only.
+        Boundary,
+        /// The edge between two vertices, by their numbers; refused if there is none.
+        Between(u32, u32),
+        /// Edges whose faces turn by more than an angle.
+        Sharp {
+            /// In degrees, from 0 (flat) to 180. Boundary edges have no angle and are never sharp.
+            above: AngleBetween,
+        },
+        /// Edges whose faces turn by less than an angle.
+        Flat {
+            /// In degrees, from 0 (flat) to 180. Boundary edges have no angle and are never flat.
+            below: AngleBetween,
+        },
+        /// Edges longer than a length.
+        Longer {
+            /// In scene units.
+            than: Length,
+        },
+        /// Edges shorter than a length.
+        Shorter {
+            /// In scene units.
+            than: Length,
+        },
+        /// Edges of these faces.
+        EdgesOf(FaceSelection),
+        /// Edges with an end in these vertices.
+        EdgesAround(VertexSelection),
+        /// Edges with both ends in these vertices.
+        EdgesWithin(VertexSelection),
+        /// These, and those that go on straight from one of them: across vertices with four edges inside the mesh,
+        /// and along the boundary from an edge of it.
+        EdgeLoop(Box<Self>),
+        /// These, and those across from them in faces with four corners, and so on.
+        EdgeRing(Box<Self>),
+        /// The shortest path along edges from one vertex to another; refused if there is none.
+        Path {
+            /// The number of the vertex at its beginning.
+            from: u32,
+            /// The number of the vertex at its end.
+            to: u32,
+        },
+        /// The longest; of equal lengths the lower numbers.
+        Longest {
+            /// How many; all if there are fewer.
+            #[serde(default = "super::one")]
+            count: u32,
+            /// From which.
+            #[serde(default)]
+            of: Box<Self>,
+        },
+    }
 }
 
 impl EdgeSelection {
@@ -133,10 +82,6 @@ impl EdgeSelection {
         };
         if start == a.index() { at } else { 1.0 - at }
     }
-
-    fn shared(&self) -> Option<Shared<'_, Self>> {
-        shared!(self)
-    }
 }
 
 impl Select for EdgeSelection {
@@ -144,9 +89,6 @@ impl Select for EdgeSelection {
     const WORD: &'static str = "edges";
 
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError> {
-        if let Some(shared) = self.shared() {
-            return shared_mask(&shared, mesh, cx);
-        }
         let angle = |e| mesh.dihedral_angle(e).map(f64::to_degrees);
         let length = |e: EdgeId| mesh.length(e.half_edge());
         Ok(match self {
@@ -159,10 +101,14 @@ impl Select for EdgeSelection {
                 };
                 marks::<Self>(mesh, |e| e == h.edge())
             }
-            Self::Sharp { above } => marks::<Self>(mesh, |e| angle(e).is_some_and(|a| a > *above)),
-            Self::Flat { below } => marks::<Self>(mesh, |e| angle(e).is_some_and(|a| a < *below)),
-            Self::Longer { than } => marks::<Self>(mesh, |e| length(e) > *than),
-            Self::Shorter { than } => marks::<Self>(mesh, |e| length(e) < *than),
+            Self::Sharp { above } => {
+                marks::<Self>(mesh, |e| angle(e).is_some_and(|a| a > above.get()))
+            }
+            Self::Flat { below } => {
+                marks::<Self>(mesh, |e| angle(e).is_some_and(|a| a < below.get()))
+            }
+            Self::Longer { than } => marks::<Self>(mesh, |e| length(e) > than.get()),
+            Self::Shorter { than } => marks::<Self>(mesh, |e| length(e) < than.get()),
             Self::EdgesOf(faces) => {
                 let faces = faces.mask(mesh, cx)?;
                 marks::<Self>(mesh, |e| {
@@ -172,12 +118,7 @@ impl Select for EdgeSelection {
                         .any(|f| faces[f.index()])
                 })
             }
-            Self::EdgesAround(vertices) => {
-                let ends = vertices.mask(mesh, cx)?;
-                marks::<Self>(mesh, |e| {
-                    mesh.edge_vertices(e).iter().any(|v| ends[v.index()])
-                })
-            }
+            Self::EdgesAround(vertices) => touching::<Self>(mesh, &vertices.mask(mesh, cx)?),
             Self::EdgesWithin(vertices) => {
                 let ends = vertices.mask(mesh, cx)?;
                 marks::<Self>(mesh, |e| {
@@ -197,7 +138,7 @@ impl Select for EdgeSelection {
             Self::Longest { count, of } => {
                 lowest::<Self, f64>(mesh, *count, &of.mask(mesh, cx)?, |e| -length(e))
             }
-            _ => unreachable!("the shared part is evaluated above"),
+            _ => self.shared().mask(mesh, cx)?,
         })
     }
 
@@ -205,17 +146,15 @@ impl Select for EdgeSelection {
         match self {
             Self::Between(..) => Range::exactly(1),
             Self::Longest { count, of } => of.count(plan).capped(Range::exactly(u64::from(*count))),
-            _ => self
-                .shared()
-                .map_or(plan.edges.or_less(), |s| shared_count(&s, plan.edges, plan)),
+            _ => self.shared().count(plan.edges, plan),
         }
     }
 
-    fn elements(mesh: &Mesh) -> Vec<EdgeId> {
-        mesh.edges().collect()
+    fn elements(mesh: &Mesh) -> impl Iterator<Item = EdgeId> {
+        mesh.edges()
     }
 
-    fn vertices(mesh: &Mesh, e: EdgeId) -> Vec<VertexId> {
-        mesh.edge_vertices(e).to_vec()
+    fn vertices(mesh: &Mesh, e: EdgeId) -> impl Iterator<Item = VertexId> {
+        mesh.edge_vertices(e).into_iter()
     }
 }

@@ -4,6 +4,93 @@
 //! `Nearest`, ...) from another selection, and `Expect`, which fails unless the number of elements is
 //! the expected one. A selection is evaluated once, before the first edit.
 
+/// Defines a type of selections: the variants that all types share, and those of its own.
+macro_rules! selection {
+    (
+        $(#[$meta:meta])*
+        $name:ident($elements:literal, inside: $inside:literal, shares: $part:literal, nearest: $nearest:literal) {
+            $($own:tt)*
+        }
+    ) => {
+        $(#[$meta])*
+        #[derive(
+            Clone, Debug, Default, serde::Deserialize, schemars::JsonSchema, PartialEq, serde::Serialize,
+        )]
+        #[serde(deny_unknown_fields)]
+        pub enum $name {
+            #[doc = concat!("All ", $elements, ".")]
+            #[default]
+            All,
+            $($own)*
+            #[doc = $inside]
+            Inside(super::Region),
+            #[doc = concat!("The ", $elements, " marked by a tag of this name.")]
+            Tagged(String),
+            #[doc = concat!("The ", $elements, " in all of these; every one for an empty list.")]
+            And(Vec<Self>),
+            #[doc = concat!("The ", $elements, " in any of these; none for an empty list.")]
+            Or(Vec<Self>),
+            #[doc = concat!("The ", $elements, " that are not in this.")]
+            Not(Box<Self>),
+            #[doc = concat!("These, and those that share ", $part, " with one of them.")]
+            Grow(Box<Self>),
+            #[doc = concat!("Those of these that share ", $part, " with none outside.")]
+            Shrink(Box<Self>),
+            /// All of the connected pieces of the mesh that one of these belongs to.
+            Component(Box<Self>),
+            /// A random choice, the same for the same seed and step.
+            Random {
+                /// How many; all if there are fewer.
+                count: u32,
+                /// From which.
+                #[serde(default)]
+                of: Box<Self>,
+                /// Another number gives another choice.
+                seed: u64,
+            },
+            #[doc = $nearest]
+            Nearest {
+                /// The point.
+                to: $crate::Vector,
+                /// How many; all if there are fewer.
+                #[serde(default = "super::one")]
+                count: u32,
+                /// From which.
+                #[serde(default)]
+                of: Box<Self>,
+            },
+            /// The same elements; refused unless there are exactly `count`.
+            Expect {
+                /// How many there must be.
+                count: u32,
+                /// Of what.
+                of: Box<Self>,
+            },
+        }
+
+        impl $name {
+            fn shared(&self) -> super::Shared<'_, Self> {
+                use super::Shared;
+                match self {
+                    Self::All => Shared::All,
+                    Self::Inside(region) => Shared::Inside(region),
+                    Self::Tagged(name) => Shared::Tagged(name),
+                    Self::And(parts) => Shared::And(parts),
+                    Self::Or(parts) => Shared::Or(parts),
+                    Self::Not(of) => Shared::Not(of),
+                    Self::Grow(of) => Shared::Grow(of),
+                    Self::Shrink(of) => Shared::Shrink(of),
+                    Self::Component(of) => Shared::Component(of),
+                    &Self::Random { count, ref of, seed } => Shared::Random { count, of, seed },
+                    &Self::Nearest { to, count, ref of } => Shared::Nearest { to, count, of },
+                    &Self::Expect { count, ref of } => Shared::Expect { count, of },
+                    _ => Shared::Own,
+                }
+            }
+        }
+    };
+}
+
 mod edge;
 mod elements;
 mod face;
@@ -22,7 +109,9 @@ pub use region::Region;
 pub use vertex::VertexSelection;
 
 /// The part of the algebra that all selections share.
-pub(crate) enum Shared<'a, S> {
+enum Shared<'a, S> {
+    /// A variant that only the type itself has.
+    Own,
     /// Every element.
     All,
     /// Elements whose vertices all lie in a region.
@@ -62,10 +151,7 @@ pub trait Select: Sized + Sync {
     /// [`Refusal::Expectation`] if an expected number is not met.
     fn resolve(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<Self::Id>, OpError> {
         let mask = self.mask(mesh, cx)?;
-        Ok(Self::elements(mesh)
-            .into_iter()
-            .filter(|id| mask[id.index()])
-            .collect())
+        Ok(Self::marked(mesh, &mask).collect())
     }
 
     /// The selection as a mark for each element, by index.
@@ -79,112 +165,96 @@ pub trait Select: Sized + Sync {
     fn count(&self, plan: &MeshPlan) -> Range;
 
     /// All elements of a mesh.
-    fn elements(mesh: &Mesh) -> Vec<Self::Id>;
+    fn elements(mesh: &Mesh) -> impl Iterator<Item = Self::Id>;
 
     /// The vertices of an element.
-    fn vertices(mesh: &Mesh, id: Self::Id) -> Vec<VertexId>;
+    fn vertices(mesh: &Mesh, id: Self::Id) -> impl Iterator<Item = VertexId>;
+
+    /// The elements that have a mark.
+    fn marked(mesh: &Mesh, mask: &[bool]) -> impl Iterator<Item = Self::Id> {
+        Self::elements(mesh).filter(|id| mask[id.index()])
+    }
 
     /// The word for the elements.
     const WORD: &'static str;
 }
 
-/// Evaluates the shared part of the algebra.
-fn shared_mask<S: Select>(
-    shared: &Shared<S>,
-    mesh: &Mesh,
-    cx: &Context,
-) -> Result<Vec<bool>, OpError> {
-    Ok(match shared {
-        Shared::All => marks::<S>(mesh, |_| true),
-        Shared::Inside(region) => marks::<S>(mesh, |id| {
-            S::vertices(mesh, id)
-                .iter()
-                .all(|&v| region.contains(mesh.position(v)))
-        }),
-        Shared::Tagged(name) => tagged::<S>(mesh, name)?,
-        Shared::And(parts) => {
-            let mut mask = marks::<S>(mesh, |_| true);
-            for part in *parts {
-                let other = part.mask(mesh, cx)?;
-                mask.iter_mut().zip(other).for_each(|(m, o)| *m &= o);
+impl<S: Select> Shared<'_, S> {
+    /// Evaluates the variant.
+    fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError> {
+        Ok(match *self {
+            Self::Own => unreachable!("the type evaluates its own variants"),
+            Self::All => marks::<S>(mesh, |_| true),
+            Self::Inside(region) => marks::<S>(mesh, |id| {
+                S::vertices(mesh, id).all(|v| region.contains(mesh.position(v)))
+            }),
+            Self::Tagged(name) => tagged::<S>(mesh, name)?,
+            Self::And(parts) => {
+                let mut mask = marks::<S>(mesh, |_| true);
+                for part in parts {
+                    let other = part.mask(mesh, cx)?;
+                    mask.iter_mut().zip(other).for_each(|(m, o)| *m &= o);
+                }
+                mask
             }
-            mask
-        }
-        Shared::Or(parts) => {
-            let mut mask = marks::<S>(mesh, |_| false);
-            for part in *parts {
-                let other = part.mask(mesh, cx)?;
-                mask.iter_mut().zip(other).for_each(|(m, o)| *m |= o);
+            Self::Or(parts) => {
+                let mut mask = marks::<S>(mesh, |_| false);
+                for part in parts {
+                    let other = part.mask(mesh, cx)?;
+                    mask.iter_mut().zip(other).for_each(|(m, o)| *m |= o);
+                }
+                mask
             }
-            mask
-        }
-        Shared::Not(of) => {
-            let mask = of.mask(mesh, cx)?;
-            marks::<S>(mesh, |id| !mask[id.index()])
-        }
-        Shared::Grow(of) => grow::<S>(mesh, &of.mask(mesh, cx)?),
-        Shared::Shrink(of) => {
-            let mask = of.mask(mesh, cx)?;
-            let outside = grow::<S>(mesh, &marks::<S>(mesh, |id| !mask[id.index()]));
-            marks::<S>(mesh, |id| !outside[id.index()])
-        }
-        Shared::Component(of) => {
-            let mut vertices = vec![false; mesh.domain_len(Domain::Vertex)];
-            for v in (of.resolve(mesh, cx)?.into_iter()).flat_map(|id| S::vertices(mesh, id)) {
-                vertices[v.index()] = true;
+            Self::Not(of) => not::<S>(mesh, &of.mask(mesh, cx)?),
+            Self::Grow(of) => grow::<S>(mesh, &of.mask(mesh, cx)?),
+            Self::Shrink(of) => {
+                let outside = not::<S>(mesh, &of.mask(mesh, cx)?);
+                not::<S>(mesh, &grow::<S>(mesh, &outside))
             }
-            let vertices = walk::connected(mesh, vertices);
-            marks::<S>(mesh, |id| {
-                S::vertices(mesh, id).iter().any(|v| vertices[v.index()])
-            })
-        }
-        Shared::Random { count, of, seed } => {
-            let stream = mix(
-                *seed,
-                cx.stream.bytes().fold(0, |h, b| mix(h, u64::from(b))),
-            );
-            lowest::<S, u64>(mesh, *count, &of.mask(mesh, cx)?, |id| {
-                mix(stream, id.index() as u64)
-            })
-        }
-        Shared::Nearest { to, count, of } => {
-            let to = DVec3::from(*to);
-            lowest::<S, f64>(mesh, *count, &of.mask(mesh, cx)?, |id| {
-                middle::<S>(mesh, id).distance_squared(to)
-            })
-        }
-        Shared::Expect { count, of } => {
-            let mask = of.mask(mesh, cx)?;
-            let found = mask.iter().filter(|&&m| m).count();
-            if found != *count as usize {
-                let message = format!("expected {count} {} to be selected, found {found}", S::WORD);
-                let selected = S::elements(mesh).into_iter().filter(|id| mask[id.index()]);
-                return Err(OpError::refused(Refusal::Expectation, message).about(selected));
+            Self::Component(of) => {
+                let vertices = touched::<S>(mesh, &of.mask(mesh, cx)?);
+                touching::<S>(mesh, &walk::connected(mesh, vertices))
             }
-            mask
-        }
-    })
-}
+            Self::Random { count, of, seed } => {
+                let step = cx.stream.bytes().fold(0, |h, b| mix(h, u64::from(b)));
+                let stream = mix(seed, step);
+                lowest::<S, u64>(mesh, count, &of.mask(mesh, cx)?, |id| {
+                    mix(stream, id.index() as u64)
+                })
+            }
+            Self::Nearest { to, count, of } => {
+                lowest::<S, f64>(mesh, count, &of.mask(mesh, cx)?, |id| {
+                    middle::<S>(mesh, id).distance_squared(to.into())
+                })
+            }
+            Self::Expect { count, of } => {
+                let mask = of.mask(mesh, cx)?;
+                let found = mask.iter().filter(|&&m| m).count();
+                if found != count as usize {
+                    let message =
+                        format!("expected {count} {} to be selected, found {found}", S::WORD);
+                    let selected = S::marked(mesh, &mask);
+                    return Err(OpError::refused(Refusal::Expectation, message).about(selected));
+                }
+                mask
+            }
+        })
+    }
 
-/// How many elements the shared part of the algebra can select, of `all` that there are.
-fn shared_count<S: Select>(shared: &Shared<S>, all: Range, plan: &MeshPlan) -> Range {
-    match shared {
-        Shared::All => all,
-        Shared::Random { count, of, .. } | Shared::Nearest { count, of, .. } => {
-            of.count(plan).capped(Range::exactly(u64::from(*count)))
+    /// How many elements the variant can select, of `all` that there are.
+    fn count(&self, all: Range, plan: &MeshPlan) -> Range {
+        match self {
+            Self::All => all,
+            Self::Random { count, of, .. } | Self::Nearest { count, of, .. } => {
+                of.count(plan).capped(Range::exactly(u64::from(*count)))
+            }
+            Self::Expect { count, .. } => Range::exactly(u64::from(*count)),
+            Self::And(parts) => parts
+                .iter()
+                .fold(all, |sum, part| sum.capped(part.count(plan).or_less()))
+                .or_less(),
+            _ => all.or_less(),
         }
-        Shared::Expect { count, .. } => Range::exactly(u64::from(*count)),
-        Shared::And(parts) => parts
-            .iter()
-            .fold(all, |sum, part| sum.capped(part.count(plan).or_less()))
-            .or_less(),
-        Shared::Inside(_)
-        | Shared::Tagged(_)
-        | Shared::Or(_)
-        | Shared::Not(_)
-        | Shared::Grow(_)
-        | Shared::Shrink(_)
-        | Shared::Component(_) => all.or_less(),
     }
 }
 
@@ -217,28 +287,47 @@ fn tagged<S: Select>(mesh: &Mesh, name: &str) -> Result<Vec<bool>, OpError> {
     Err(OpError::refused(Refusal::Missing, message))
 }
 
-/// The marked elements and all that share a vertex with one of them.
+/// The elements without a mark.
+fn not<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
+    marks::<S>(mesh, |id| !mask[id.index()])
+}
+
+/// The vertices of the marked elements.
+fn touched<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
+    let mut vertices = vec![false; mesh.domain_len(Domain::Vertex)];
+    for v in S::marked(mesh, mask).flat_map(|id| S::vertices(mesh, id)) {
+        vertices[v.index()] = true;
+    }
+    vertices
+}
+
+/// The elements that have one of the marked vertices.
+fn touching<S: Select>(mesh: &Mesh, vertices: &[bool]) -> Vec<bool> {
+    marks::<S>(mesh, |id| {
+        S::vertices(mesh, id).any(|v| vertices[v.index()])
+    })
+}
+
+/// The marked elements and all that share a vertex, or for vertices an edge, with one of them.
 fn grow<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
-    let mut touched = vec![false; mesh.domain_len(Domain::Vertex)];
-    for id in S::elements(mesh).into_iter().filter(|id| mask[id.index()]) {
-        for v in S::vertices(mesh, id) {
-            touched[v.index()] = true;
-            if S::Id::DOMAIN == Domain::Vertex {
-                // Vertices share an edge with their neighbours, not a vertex.
-                mesh.vertex_neighbors(v)
-                    .for_each(|w| touched[w.index()] = true);
-            }
+    let mut vertices = touched::<S>(mesh, mask);
+    if S::Id::DOMAIN == Domain::Vertex {
+        for v in S::marked(mesh, mask).flat_map(|id| S::vertices(mesh, id)) {
+            mesh.vertex_neighbors(v)
+                .for_each(|w| vertices[w.index()] = true);
         }
     }
-    marks::<S>(mesh, |id| {
-        S::vertices(mesh, id).iter().any(|v| touched[v.index()])
-    })
+    touching::<S>(mesh, &vertices)
 }
 
 /// The mean of the vertices of an element.
 fn middle<S: Select>(mesh: &Mesh, id: S::Id) -> DVec3 {
-    let vertices = S::vertices(mesh, id);
-    vertices.iter().map(|&v| mesh.position(v)).sum::<DVec3>() / vertices.len() as f64
+    let (mut sum, mut n) = (DVec3::ZERO, 0.0);
+    for v in S::vertices(mesh, id) {
+        sum += mesh.position(v);
+        n += 1.0;
+    }
+    sum / n
 }
 
 /// The `count` marked elements of the lowest keys; of equal keys the lower ids.
@@ -248,11 +337,7 @@ fn lowest<S: Select, K: PartialOrd>(
     mask: &[bool],
     key: impl Fn(S::Id) -> K,
 ) -> Vec<bool> {
-    let mut keyed: Vec<(K, S::Id)> = S::elements(mesh)
-        .into_iter()
-        .filter(|id| mask[id.index()])
-        .map(|id| (key(id), id))
-        .collect();
+    let mut keyed: Vec<(K, S::Id)> = S::marked(mesh, mask).map(|id| (key(id), id)).collect();
     // Positions are finite, so that keys compare.
     keyed.sort_by(|a, b| a.partial_cmp(b).expect("keys are numbers"));
     let mut chosen = vec![false; mask.len()];
@@ -284,36 +369,6 @@ fn named_vertex(mesh: &Mesh, index: u32) -> Result<VertexId, OpError> {
         format!("there is no vertex {index}, only {n} vertices"),
     ))
 }
-
-/// The arm of `shared()` that every selection has.
-macro_rules! shared {
-    ($selection:expr) => {
-        match $selection {
-            Self::All => Some(Shared::All),
-            Self::Inside(region) => Some(Shared::Inside(region)),
-            Self::Tagged(name) => Some(Shared::Tagged(name)),
-            Self::And(parts) => Some(Shared::And(parts)),
-            Self::Or(parts) => Some(Shared::Or(parts)),
-            Self::Not(of) => Some(Shared::Not(of)),
-            Self::Grow(of) => Some(Shared::Grow(of)),
-            Self::Shrink(of) => Some(Shared::Shrink(of)),
-            Self::Component(of) => Some(Shared::Component(of)),
-            Self::Random { count, of, seed } => Some(Shared::Random {
-                count: *count,
-                of,
-                seed: *seed,
-            }),
-            Self::Nearest { to, count, of } => Some(Shared::Nearest {
-                to: *to,
-                count: *count,
-                of,
-            }),
-            Self::Expect { count, of } => Some(Shared::Expect { count: *count, of }),
-            _ => None,
-        }
-    };
-}
-use shared;
 
 /// The default of `count` where one is meant.
 const fn one() -> u32 {

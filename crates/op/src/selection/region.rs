@@ -4,7 +4,7 @@ use mesh::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::Vector;
+use crate::{Length, Vector};
 
 /// A part of space, with its surface.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -22,8 +22,7 @@ pub enum Region {
         /// The middle.
         center: Vector,
         /// The radius, in scene units.
-        #[schemars(range(min = 0.0))]
-        radius: f64,
+        radius: Length,
     },
     /// All on one side of a plane: where (p - point) · normal >= 0.
     HalfSpace {
@@ -39,7 +38,9 @@ impl Region {
     pub fn contains(&self, p: DVec3) -> bool {
         match *self {
             Self::Box { min, max } => p.cmpge(min.into()).all() && p.cmple(max.into()).all(),
-            Self::Sphere { center, radius } => p.distance_squared(center.into()) <= radius * radius,
+            Self::Sphere { center, radius } => {
+                p.distance_squared(center.into()) <= radius.get() * radius.get()
+            }
             Self::HalfSpace { point, normal } => (p - DVec3::from(point)).dot(normal.into()) >= 0.0,
         }
     }

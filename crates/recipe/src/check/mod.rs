@@ -211,7 +211,7 @@ fn expected(
         Some(Other::Object(name)) => names.push(name),
         Some(Other::File(path)) => {
             let path = files[placed.scope].to_read(path);
-            found.extend(missing_file(&path, placed.span));
+            found.extend(missing_file(&files[placed.scope], &path, placed.span));
         }
         None => {}
     }
@@ -258,7 +258,7 @@ fn output(path: &str, beside: &str, plan: &Plan, files: &Files, span: Span) -> V
             let help = "hold the output against another file: `meshwright test --update` writes it";
             found.push(Diagnostic::error(span, message).with_help(help));
         }
-        Ok(full) if !full.exists() => {
+        Ok(full) if !files.store.exists(&full) => {
             // Not an error: then nothing could run that makes it.
             let message = format!("there is no file {}", full.display());
             let help = "run `meshwright test --update` to make it";
@@ -269,9 +269,9 @@ fn output(path: &str, beside: &str, plan: &Plan, files: &Files, span: Span) -> V
     found
 }
 
-fn missing_file(path: &Path, span: Span) -> Option<Diagnostic> {
+fn missing_file(files: &Files, path: &Path, span: Span) -> Option<Diagnostic> {
     let message = format!("there is no file {}", path.display());
-    (!path.is_file()).then(|| Diagnostic::error(span, message))
+    (!files.store.is_file(path)).then(|| Diagnostic::error(span, message))
 }
 
 fn totals(step: &RecipeStep, plan: &Plan) -> StepForecast {

@@ -3,11 +3,11 @@
 //! Pictures are the same if their pixels are, meshes if they are read as the same objects, and everything else if
 //! the bytes are. Where a file comes from, which it may say of itself, counts for nothing.
 
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use op::Files;
 use scene::{Digest, Object, Scene};
+use store::TemporaryFolder;
 
 use super::pixels;
 use super::subject::{Failure, Found, ReadObjects, Subject};
@@ -71,15 +71,15 @@ pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, String> {
     };
     let beside = Files {
         output: input,
-        ..Files::default()
+        ..files.clone()
     };
     beside
         .check_links(relative)
         .map_err(|_| format!("\"{path}\" leads out of the recipe's folder through a link"))?;
     let full = files.to_read(path);
-    match fs::symlink_metadata(&full) {
-        Ok(found) if found.is_symlink() => Err(format!("\"{path}\" is a link, not a file")),
-        Ok(found) if !found.is_file() => Err(format!("\"{path}\" is not a file")),
+    match files.store.entry(&full) {
+        _ if files.store.is_link(&full) => Err(format!("\"{path}\" is a link, not a file")),
+        Some(found) if !found.is_file() => Err(format!("\"{path}\" is not a file")),
         // What is not there can be made.
         _ => Ok(full),
     }
@@ -95,10 +95,10 @@ pub(super) fn check(
     let files = subject.files;
     let written = files.to_write(path).map_err(|error| error.to_string())?;
     let golden = golden(files, beside)?;
-    if !written.is_file() {
+    if !files.store.is_file(&written) {
         return Err(format!("no step has written \"{path}\" so far").into());
     }
-    if !golden.exists() {
+    if !files.store.exists(&golden) {
         let message = format!(
             "expected \"{path}\" to be as {}, which is not there: `meshwright test --update` makes it",
             golden.display()
@@ -111,7 +111,7 @@ pub(super) fn check(
         ));
     }
     let compared = if is_picture(path) {
-        pixels::compare(&written, &golden, tolerance)
+        pixels::compare(&*files.store, &written, &golden, tolerance)
     } else {
         compare(&written, &golden, subject.read, files)
     };
@@ -139,11 +139,11 @@ fn recorded(
     (tolerance, is_unknown): (u8, bool),
     subject: Subject,
 ) -> Failure {
-    let is_small = fs::metadata(written).is_ok_and(|file| file.len() <= LARGEST);
-    if !is_small {
+    let store = &subject.files.store;
+    if store.len(written).is_none_or(|len| len > LARGEST) {
         return Failure::Unmet(format!("{message}; it is too large to be recorded"));
     }
-    match fs::read(written) {
+    match store.read(written) {
         Ok(bytes) if !stands_alone(written, golden, &bytes, subject) => Failure::Unmet(format!(
             "{message}; it cannot be recorded without the files beside it: write a .glb, .ply or .mws"
         )),
@@ -159,7 +159,10 @@ fn recorded(
                 },
             )
         }
-        Err(error) => Failure::Unmet(format!("{message}; it cannot be read: {error}")),
+        Err(error) => {
+            let (_, why) = error.into_parts();
+            Failure::Unmet(format!("{message}; it cannot be read: {why}"))
+        }
     }
 }
 
@@ -170,9 +173,12 @@ fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -
         return true;
     };
     let alone = || {
-        let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
+        let store = &*subject.files.store;
+        let folder = TemporaryFolder::new(store, None).map_err(|error| error.to_string())?;
         let path = folder.path().join(golden.file_name().unwrap_or_default());
-        fs::write(&path, bytes).map_err(|error| error.to_string())?;
+        store
+            .write(&path, bytes)
+            .map_err(|error| error.to_string())?;
         let alone = (subject.read)(&path, subject.files)?;
         digests((written, objects), (&path, alone))
     };
@@ -198,7 +204,7 @@ fn compare(
         };
     }
     let bytes = |path: &Path| {
-        let bytes = fs::read(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
+        let bytes = files.store.read(path).map_err(|e| e.to_string())?;
         Ok::<_, String>(without_stamp(bytes))
     };
     let (now, then) = (bytes(written)?, bytes(golden)?);

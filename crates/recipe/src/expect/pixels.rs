@@ -1,15 +1,23 @@
 //! Comparing pictures by their pixels.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::io::Cursor;
 use std::path::Path;
 
 use super::output::Difference;
 use png::{ColorType, Decoder, Reader, Transformations};
+use store::Store;
 
 /// What differs between the pictures of two files by more than `tolerance` steps of 255.
-pub(super) fn compare(written: &Path, golden: &Path, tolerance: u8) -> Result<(), Difference> {
-    let (mut now, mut then) = (Picture::open(written)?, Picture::open(golden)?);
+pub(super) fn compare(
+    store: &dyn Store,
+    written: &Path,
+    golden: &Path,
+    tolerance: u8,
+) -> Result<(), Difference> {
+    let (mut now, mut then) = (
+        Picture::open(store, written)?,
+        Picture::open(store, golden)?,
+    );
     let [width, height] = then.size();
     if now.size() != then.size() {
         let [w, h] = now.size();
@@ -89,7 +97,7 @@ impl Found {
 /// A PNG that is read image by image.
 struct Picture<'p> {
     path: &'p Path,
-    reader: Reader<BufReader<File>>,
+    reader: Reader<Cursor<Vec<u8>>>,
 }
 
 /// One image.
@@ -102,9 +110,9 @@ struct Frame {
 }
 
 impl<'p> Picture<'p> {
-    fn open(path: &'p Path) -> Result<Self, String> {
-        let file = File::open(path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
-        let mut decoder = Decoder::new(BufReader::new(file));
+    fn open(store: &dyn Store, path: &'p Path) -> Result<Self, String> {
+        let bytes = store.read(path).map_err(|error| error.to_string())?;
+        let mut decoder = Decoder::new(Cursor::new(bytes));
         decoder.set_transformations(Transformations::normalize_to_color8());
         let reader = decoder
             .read_info()
@@ -170,7 +178,7 @@ mod tests {
 
     /// Writes a picture of 3 x 2 pixels, or several as an animation.
     fn write(path: &Path, images: &[[u8; 24]], color: ColorType) {
-        let mut encoder = png::Encoder::new(File::create(path).unwrap(), 3, 2);
+        let mut encoder = png::Encoder::new(std::fs::File::create(path).unwrap(), 3, 2);
         encoder.set_color(color);
         encoder
             .add_text_chunk("Software".to_owned(), path.display().to_string())
@@ -198,7 +206,7 @@ mod tests {
         let [a, b] = ["a.png", "b.png"].map(|name| folder.path().join(name));
         write(&a, now.0, now.1);
         write(&b, then.0, then.1);
-        compare(&a, &b, tolerance).map_err(Difference::into_message)
+        compare(&store::Disk, &a, &b, tolerance).map_err(Difference::into_message)
     }
 
     #[test]
@@ -267,21 +275,21 @@ mod tests {
             let mut broken = bytes.clone();
             broken[i] ^= 0x55;
             std::fs::write(&bad, &broken).unwrap();
-            let _ = compare(&good, &bad, 0);
+            let _ = compare(&store::Disk, &good, &bad, 0);
             std::fs::write(&bad, &bytes[..i]).unwrap();
             assert!(
-                compare(&good, &bad, 0).is_err() || i + 12 >= bytes.len(),
+                compare(&store::Disk, &good, &bad, 0).is_err() || i + 12 >= bytes.len(),
                 "{i}"
             );
         }
         std::fs::write(&bad, "no picture").unwrap();
-        let error = compare(&good, &bad, 0).unwrap_err();
+        let error = compare(&store::Disk, &good, &bad, 0).unwrap_err();
         assert!(matches!(error, Difference::Unknown(_)));
         let error = error.into_message();
         assert!(
             error.contains("bad.png cannot be read as a picture: "),
             "{error}"
         );
-        assert!(compare(&good, &folder.path().join("none.png"), 0).is_err());
+        assert!(compare(&store::Disk, &good, &folder.path().join("none.png"), 0).is_err());
     }
 }

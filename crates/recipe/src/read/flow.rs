@@ -12,6 +12,8 @@
 
 use std::path::Path;
 
+use store::Store;
+
 use super::{Draft, MAX_STEPS, Reader, real};
 use crate::params::{Move, Param};
 use crate::recipe::{Origin, Scope};
@@ -210,6 +212,7 @@ impl Reader<'_, '_> {
             let folders = Move {
                 from: from.folder(),
                 to: to.folder(),
+                store: called.shared.store,
             };
             let (values, problems) = called.values_of(with, Some(folders));
             called.assign(&values, &Origin::Call);
@@ -239,7 +242,7 @@ impl Reader<'_, '_> {
         }
         let sources = (chain.iter().rev()).map(|&scope| self.shared.scopes[scope].source);
         let chain: Vec<usize> = sources.collect();
-        let real = real(path);
+        let real = real(self.shared.store, path);
         if let Some(first) = (chain.iter()).position(|&source| self.shared.real[source] == real) {
             let names = chain[first..].iter();
             let names = names.map(|&source| self.shared.sources[source].path.as_path());
@@ -258,14 +261,14 @@ impl Reader<'_, '_> {
         if let Some(known) = self.shared.sources.iter().position(|s| s.path == path) {
             return Some(known);
         }
-        match Source::open(path) {
+        match Source::open_in(self.shared.store, path) {
             Ok(source) => {
                 self.shared.sources.push(source);
                 self.shared.real.push(real);
                 Some(self.shared.sources.len() - 1)
             }
             Err(error) => {
-                self.error(span, error, neighbours(path));
+                self.error(span, error, neighbours(self.shared.store, path));
                 None
             }
         }
@@ -273,14 +276,13 @@ impl Reader<'_, '_> {
 }
 
 /// The nearest names in the folder of a file that is not there.
-fn neighbours(path: &Path) -> String {
-    let folder = path.parent().filter(|_| !path.exists());
-    let entries = folder.and_then(|folder| std::fs::read_dir(folder).ok());
-    let mut names: Vec<String> = (entries.into_iter().flatten().flatten())
-        .filter(|entry| entry.path().extension().is_some_and(|e| e == "ron"))
-        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+fn neighbours(store: &dyn Store, path: &Path) -> String {
+    let folder = path.parent().filter(|_| !store.exists(path));
+    let beside = folder.and_then(|folder| store.list(folder).ok());
+    let names: Vec<String> = (beside.into_iter().flatten())
+        .filter(|path| path.extension().is_some_and(|e| e == "ron"))
+        .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
         .collect();
-    names.sort();
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     if names.is_empty() {
         return String::new();

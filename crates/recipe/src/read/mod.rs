@@ -19,6 +19,7 @@ use op::Registry;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
+use store::{Disk, Store};
 
 use crate::recipe::{OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, located};
 use crate::schema::{self, Schemas};
@@ -64,20 +65,21 @@ pub struct Values<'a> {
 
 /// Reads a recipe, and those that it calls.
 pub fn read(source: &Source, registry: &Registry, values: Values) -> Reading {
-    read_by(&Schemas::new(registry), source, values)
+    read_by(&Schemas::new(registry), &Disk, source, values)
 }
 
-/// The same with schemas that serve several recipes.
-pub fn read_by(schemas: &Schemas, source: &Source, values: Values) -> Reading {
+/// The same with schemas that serve several recipes; recipes that are called are read from `store`.
+pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Values) -> Reading {
     let mut shared = Shared {
         schemas,
+        store,
         sources: vec![source.clone()],
         scopes: vec![Scope {
             source: 0,
             parameters: Vec::new(),
             called: None,
         }],
-        real: vec![real(&source.path)],
+        real: vec![real(store, &source.path)],
         left: MAX_STEPS,
         diagnostics: Vec::new(),
     };
@@ -118,6 +120,8 @@ pub fn read_by(schemas: &Schemas, source: &Source, values: Values) -> Reading {
 /// What the texts of one recipe share while they are read.
 struct Shared<'a> {
     schemas: &'a Schemas<'a>,
+    /// Where recipes that are called are.
+    store: &'a dyn Store,
     sources: Vec<Source>,
     /// The files of the sources, links followed.
     real: Vec<PathBuf>,
@@ -128,8 +132,8 @@ struct Shared<'a> {
 }
 
 /// A path with its links followed, if the file is there.
-fn real(path: &Path) -> PathBuf {
-    path.canonicalize().unwrap_or_else(|_| path.to_owned())
+fn real(store: &dyn Store, path: &Path) -> PathBuf {
+    store.canonical(path).unwrap_or_else(|_| path.to_owned())
 }
 
 /// A step, and what hangs on it.

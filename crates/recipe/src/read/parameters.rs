@@ -123,7 +123,9 @@ impl Reader<'_, '_> {
             };
             let to = self.source.folder();
             let from = values.folder.unwrap_or(to);
-            match parameter.param.value_of(text, Some(Move { from, to })) {
+            let store = self.shared.store;
+            let folders = Some(Move { from, to, store });
+            match parameter.param.value_of(text, folders) {
                 Ok(value) => {
                     (parameter.value, parameter.origin) = (value, Origin::Set);
                 }

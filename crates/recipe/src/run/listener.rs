@@ -19,6 +19,13 @@ pub trait Listener: Progress {
     fn wants_digests(&self) -> bool {
         false
     }
+    /// Whether to show the scene after each step, for which scenes are brought back from the cache.
+    fn wants_scenes(&self) -> bool {
+        false
+    }
+    /// The scene after a step, if it is wanted. A copy shares the meshes; the next step that changes one of them
+    /// copies it then.
+    fn scene_after(&self, _number: usize, _scene: &Scene) {}
     /// A step or an expectation has failed.
     fn failed(&self, _: &Failure) {}
     /// Whether to find the scene and the elements that break an expectation, which takes a while.

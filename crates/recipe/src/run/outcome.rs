@@ -11,6 +11,8 @@ use ron_tree::Diagnostic;
 /// How a run ended.
 #[derive(Debug)]
 pub struct Outcome {
+    /// The number of the step that the run began with.
+    pub first: usize,
     /// The steps that were done.
     pub steps: Vec<StepDone>,
     /// What went wrong: one failed step, or expectations that do not hold.

@@ -2,51 +2,43 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 use op::Files;
+use store::{Entry, TemporaryFolder, files_below};
 
-use super::{Settings, stage_prefix};
+use super::Settings;
 
 /// A folder inside the output folder where files wait until everything has held.
-pub(super) fn staging(settings: Settings) -> Result<Option<tempfile::TempDir>, String> {
+pub(super) fn staging<'a>(settings: &Settings<'a>) -> Result<Option<TemporaryFolder<'a>>, String> {
     if !settings.writes {
         return Ok(None);
     }
     let folder = &settings.files.output;
-    let made = || -> std::io::Result<tempfile::TempDir> {
-        if settings.keep_outputs {
-            std::fs::create_dir_all(folder)?;
-            tempfile::Builder::new()
-                .prefix(&stage_prefix(std::process::id()))
-                .tempdir_in(folder)
-        } else {
-            tempfile::Builder::new().prefix("meshwright-").tempdir()
-        }
-    };
-    made().map(Some).map_err(|error| {
-        format!(
-            "cannot write to the output folder {}: {error}",
-            folder.display()
-        )
-    })
+    let inside = settings.keep_outputs.then_some(folder.as_path());
+    match TemporaryFolder::new(&*settings.files.store, inside) {
+        Ok(stage) => Ok(Some(stage)),
+        Err(error) => Err(format!(
+            "cannot write to the output folder {}: {}",
+            folder.display(),
+            error.into_parts().1
+        )),
+    }
 }
 
 /// Moves all files to their places.
 pub(super) fn deliver(stage: &Path, files: &Files) -> Result<Vec<PathBuf>, String> {
-    let mut waiting = Vec::new();
-    collect(stage, &mut waiting).map_err(|e| format!("cannot list the outputs: {e}"))?;
-    waiting.sort();
+    let store = &*files.store;
+    let told = |error: store::StoreError| error.to_string();
     let mut moves = Vec::new();
-    for from in waiting {
+    for from in files_below(store, stage).map_err(told)? {
         let relative = from.strip_prefix(stage).expect("found below the stage");
         let to = files.output.join(relative);
-        let failed = |e: std::io::Error| format!("cannot write {}: {e}", to.display());
         files.check_links(relative).map_err(|e| e.to_string())?;
-        if let Some(folder) = to.parent() {
-            std::fs::create_dir_all(folder).map_err(failed)?;
+        if let Err(error) = files.make_folder_of(&to) {
+            let (_, why) = error.into_parts();
+            return Err(format!("cannot write {}: {why}", to.display()));
         }
-        if to.is_dir() {
+        if store.is_folder(&to) {
             return Err(format!(
                 "cannot write {}: there is a folder of that name",
                 to.display()
@@ -55,34 +47,20 @@ pub(super) fn deliver(stage: &Path, files: &Files) -> Result<Vec<PathBuf>, Strin
         moves.push((from, to));
     }
     for (from, to) in &moves {
-        std::fs::rename(from, to).map_err(|e| format!("cannot write {}: {e}", to.display()))?;
+        store.rename(from, to).map_err(told)?;
     }
     Ok(moves.into_iter().map(|(_, to)| to).collect())
 }
 
-fn collect(folder: &Path, found: &mut Vec<PathBuf>) -> std::io::Result<()> {
-    for entry in std::fs::read_dir(folder)? {
-        let path = entry?.path();
-        if path.is_dir() {
-            collect(&path, found)?;
-        } else {
-            found.push(path);
-        }
-    }
-    Ok(())
-}
-
 /// The files of a stage with what changes when they are written.
-pub(super) type Listing = BTreeMap<PathBuf, (u64, Option<SystemTime>)>;
+pub(super) type Listing = BTreeMap<PathBuf, Entry>;
 
 /// Lists a stage. What cannot be listed is found out when it is delivered.
-pub(super) fn listing(stage: &Path) -> Listing {
-    let mut paths = Vec::new();
-    let _ = collect(stage, &mut paths);
+pub(super) fn listing(stage: &Path, files: &Files) -> Listing {
+    let paths = files_below(&*files.store, stage).unwrap_or_default();
     let files = paths.into_iter().filter_map(|path| {
-        let meta = std::fs::metadata(&path).ok()?;
-        let relative = path.strip_prefix(stage).ok()?.to_owned();
-        Some((relative, (meta.len(), meta.modified().ok())))
+        let entry = files.store.entry(&path)?;
+        Some((path.strip_prefix(stage).ok()?.to_owned(), entry))
     });
     files.collect()
 }

@@ -17,9 +17,9 @@ mod svg;
 pub use pixels::{bytes_needed, draw, pixel_size, pixels};
 pub use svg::{Anchor, Color, Font, Paint, Path, Run, Svg, Text};
 
-/// Texts that break programs: every one must be written and drawn without harm.
-#[cfg(test)]
-pub(crate) const ODD_TEXTS: &[&str] = &[
+/// Texts that break programs, for tests: every one must be written and drawn without harm.
+#[doc(hidden)]
+pub const ODD_TEXTS: &[&str] = &[
     "",
     " ",
     "plain",

@@ -12,7 +12,7 @@ use super::lines::{FlatLine, limits};
 use super::project::{Corner, Flat, GRID, GRID_BITS, clipped};
 use super::{Frame, LINED, SORTED, TILE};
 use crate::drawing::Drawing;
-use crate::progress::Work;
+use crate::work::Work;
 use crate::{PictureError, View};
 
 /// At most so many chunks, and one more for each part, because each has a number for every tile.

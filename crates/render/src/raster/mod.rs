@@ -25,13 +25,14 @@ mod tests;
 mod tile;
 
 use glam::DVec2;
+use progress::Progress;
 use rayon::prelude::*;
 
 use crate::color::{byte, narrow, to_srgb};
 use crate::drawing::Drawing;
 use crate::image::{Image, checked_size};
-use crate::progress::{GoOn, Work};
 use crate::style::Shading;
+use crate::work::Work;
 use crate::{PictureError, View};
 use holes::Cover;
 use project::{Corner, Flat, GRID};
@@ -134,17 +135,17 @@ const DRAWN: u64 = 60;
 const SHADED: u64 = 150;
 const MAPPED: u64 = 400;
 
-/// Draws a drawing. `go_on` is told how far it is, and stops it.
+/// Draws a drawing.
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if the picture has no pixels or too many; [`PictureError::Cancelled`] if `go_on` says so.
+/// [`PictureError::Size`] if the picture has no pixels or too many; [`PictureError::Cancelled`].
 pub fn render(
     drawing: &Drawing,
     view: &View,
     size: [u32; 2],
     look: &Look,
-    go_on: GoOn,
+    progress: &dyn Progress,
 ) -> Result<Rendered, PictureError> {
     let n_pixels = checked_size(size[0], size[1])?;
     let frame = Frame::new(size);
@@ -157,7 +158,7 @@ pub fn render(
     let n_lines = drawing.lines.len() as u64;
     let of_tiles = DRAWN * (n_triangles + n_lines) + SHADED * n_pixels as u64;
     let before = SORTED * n_triangles + LINED * n_lines;
-    let work = Work::new(go_on, before + of_maps + of_tiles);
+    let work = Work::new(progress, "draw", before + of_maps + of_tiles);
     work.add(0)?;
     let triangles = bins::Triangles::new(drawing, view, &frame, &work)?;
     let flat_lines = lines::project(drawing, view);

@@ -1,6 +1,7 @@
 //! The rasteriser against scenes whose pictures can be computed in another way.
 
 use glam::{DVec2, DVec3};
+use progress::NoProgress;
 
 use super::project::{Corner, GRID};
 use super::shade::{FILL, FILL_LIGHT, GROUND, KEY, KEY_LIGHT, SKY};
@@ -8,6 +9,7 @@ use super::tile::{NOTHING, SAMPLES, Tile};
 use super::{Look, Rendered, TILE, render};
 use crate::drawing::{Channel, Drawing, Label, Line, NO_FACE, Normals, Part, Surface};
 use crate::style::Shading;
+use crate::work::While;
 use crate::{Camera, PictureError, Projection, Side, Up, View, to_linear};
 
 const WHITE: [f32; 3] = [1.0; 3];
@@ -59,7 +61,7 @@ fn before(height: f64, size: [u32; 2]) -> View {
 }
 
 fn rendered(drawing: &Drawing, view: &View, size: [u32; 2], look: &Look) -> Rendered {
-    render(drawing, view, size, look, &|_| true).unwrap()
+    render(drawing, view, size, look, &NoProgress).unwrap()
 }
 
 /// How many pixels are covered, in parts too.
@@ -247,10 +249,10 @@ fn drawing_says_how_far_it_is_and_stops_where_it_is_told_to() {
     let told = std::sync::Mutex::new(Vec::new());
     let until = |end: f64| {
         told.lock().unwrap().clear();
-        let go_on = |part| {
+        let go_on = While(|part| {
             told.lock().unwrap().push(part);
             part < end
-        };
+        });
         render(&drawing, &view, size, &look, &go_on)
     };
     let whole = until(2.0).unwrap();

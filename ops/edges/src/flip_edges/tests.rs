@@ -109,7 +109,7 @@ fn a_recipe_must_name_the_edges_and_only_known_fields() {
     let flip = parse("(edges: Random(count: 3, seed: 7))");
     assert_eq!(flip.seams, Seams::Refuse);
     assert_eq!(flip.on_refusal, OnRefusal::Error);
-    assert_eq!((flip.until, flip.passes), (Until::Once, 100));
+    assert_eq!((flip.until, flip.passes), (Until::Once, hundred()));
 }
 
 proptest! {
@@ -119,7 +119,10 @@ proptest! {
     ) {
         let edges = EdgeSelection::Or(vec![
             EdgeSelection::Random { count, of: Box::default(), seed },
-            EdgeSelection::Inside(Region::Sphere { center: Vector(1.0, 0.0, 0.0), radius }),
+            EdgeSelection::Inside(Region::Sphere {
+                center: Vector::literal(1.0, 0.0, 0.0),
+                radius: Length::literal(radius),
+            }),
         ]);
         let flip = FlipEdges { edges, ..parse("(edges: All, on_refusal: Skip)") };
         let before = shapes::icosahedron();

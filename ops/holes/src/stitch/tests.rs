@@ -144,18 +144,6 @@ fn coordinates_far_away_and_in_one_place_do_no_harm() {
 }
 
 #[test]
-fn a_distance_that_is_none_is_refused_before_anything_runs() {
-    for distance in [-1.0, f64::NAN, f64::INFINITY] {
-        let stitch = Stitch {
-            distance,
-            on_refusal: OnRefusal::Skip,
-        };
-        let refused = try_applied(&stitch, shapes::square());
-        assert!(matches!(refused, Err(OpError::Parameter(_))), "{refused:?}");
-    }
-}
-
-#[test]
 fn a_recipe_must_give_the_distance() {
     assert!(op::test::read::<Stitch>("()").is_err());
     assert!(op::test::read::<Stitch>("(distance: 0, weld: true)").is_err());

@@ -14,9 +14,9 @@ pub(crate) struct Map {
 }
 
 impl Map {
-    /// The map of parameters that are valid.
+    /// The map of parameters.
     pub(crate) fn new(transform: &Transform) -> Self {
-        let scale = DVec3::from(transform.scale);
+        let scale = transform.scale.get();
         let turns = Turn::all(&transform.rotate);
         Self {
             linear: turns * DMat3::from_diagonal(scale),

@@ -127,7 +127,8 @@ fn the_color_of_a_distance_is_that_of_the_place() {
     let picture = picture("path: \"a.png\", color_by: (of: DistanceTo(\"cube.obj\"))");
     let numbers = picture.color_by.as_ref().unwrap();
     let cx = Context::new(&NoProgress, &files);
-    let found = numbers.numbers(&scene, &cx).unwrap();
+    let others = super::colors::others(numbers, &cx).unwrap();
+    let found = numbers.numbers(&scene, &others).unwrap();
     assert_eq!(found.colorings[0].values, [0.0; 8]);
 }
 
@@ -308,6 +309,6 @@ fn an_extent_has_the_numbers_of_all() {
     let area = both.range().unwrap()[0];
     both.join(extent(2.0, &mut cx));
     assert_eq!(both.range(), Some([area, 4.0 * area]));
-    both.join(crate::picture::Extent::default());
+    both.join(view::Extent::default());
     assert_eq!(both.range(), Some([area, 4.0 * area]));
 }

@@ -22,27 +22,27 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use op::Registry;
+use engine::Engine;
 use recipe::{InOrder, JobEnd, Jobs, Outcome};
 
 use crate::args::BatchArgs;
-use crate::listener::{catch_interrupts, is_interrupted};
-use crate::loading::Loaded;
-use crate::many::{CHECKED_AHEAD, all, first_error, panicked, run_quietly};
+use crate::listener::{Quiet, catch_interrupts, is_interrupted};
+use crate::many::{CHECKED_AHEAD, all, first_error, panicked};
 use crate::output::{print, shown};
+use engine::{Loaded, Run};
 use inputs::Input;
 use journal::{Entry, Journal};
 use plan::{Batch, Planned};
 use row::{Form, Output, Report, Row, State};
 
-pub(crate) fn run(args: &BatchArgs, registry: &Registry) -> anyhow::Result<bool> {
+pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
     if let Some(report) = &args.report {
         Form::of(report)?;
     }
     if !args.merge.is_empty() {
         return merge::run(args);
     }
-    let batch = match Batch::plan(args, registry)? {
+    let batch = match Batch::plan(args, engine)? {
         Planned::Batch(batch) => batch,
         Planned::Refused => return Ok(false),
     };
@@ -204,7 +204,11 @@ impl<'b> Chunk<'b> {
         };
         // Before the run: what changes meanwhile is done again.
         let key = self.batch.key(self.files[i], loaded);
-        let outcome = run_quietly(loaded, self.batch.args.many.budget, true, None);
+        let run = Run {
+            keep_outputs: true,
+            cache: None,
+        };
+        let outcome = loaded.run(run, &Quiet);
         let row = Row {
             seconds: begin.elapsed().as_secs_f64(),
             ..row(&self.files[i].path, loaded, &outcome)

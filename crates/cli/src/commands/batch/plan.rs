@@ -4,15 +4,16 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf, absolute};
 
 use anyhow::{bail, ensure};
-use op::Registry;
-use recipe::{Other, Param, Parameter, Schemas, Source, did_you_mean};
+use engine::Engine;
+use recipe::{Other, Param, Parameter, Source, did_you_mean};
 
 use super::inputs::{self, Input};
 use super::journal_path;
 use super::row::Header;
 use crate::args::{BatchArgs, Shard};
 use crate::commands::run::refuse;
-use crate::loading::{Loaded, load_text};
+use crate::loading::load_text;
+use engine::Loaded;
 
 /// A batch that can run.
 pub(super) struct Batch<'a> {
@@ -20,7 +21,7 @@ pub(super) struct Batch<'a> {
     pub(super) path: &'a Path,
     /// The parameter that gets the files.
     pub(super) param: String,
-    schemas: Schemas<'a>,
+    engine: &'a Engine<'a>,
     /// The text of the recipe, read once: the same for all files.
     source: Source,
     /// The digest of what the recipe does and expects.
@@ -38,20 +39,12 @@ pub(super) enum Planned<'a> {
 
 impl<'a> Batch<'a> {
     /// Reads the recipe, lists the files, and finds outputs that two files would write.
-    pub(super) fn plan(args: &'a BatchArgs, registry: &'a Registry) -> anyhow::Result<Planned<'a>> {
+    pub(super) fn plan(args: &'a BatchArgs, engine: &'a Engine<'a>) -> anyhow::Result<Planned<'a>> {
         let path = args.recipe.as_deref().unwrap_or(Path::new(""));
         let source = Source::open(path).map_err(anyhow::Error::msg)?;
-        let schemas = Schemas::new(registry);
-        let (preset, budget) = (args.values.preset.as_deref(), args.many.budget);
+        let values = (&args.values.set[..], args.values.preset.as_deref());
         // On the file that the recipe names itself, which may well be missing.
-        let loaded = load_text(
-            &source,
-            &args.values.set,
-            preset,
-            &args.out,
-            budget,
-            &schemas,
-        )?;
+        let loaded = load_text(&source, values, &args.out, args.many.budget, engine)?;
         if !loaded.is_read {
             refuse(&loaded, false)?;
             return Ok(Planned::Refused);
@@ -61,7 +54,7 @@ impl<'a> Batch<'a> {
             args,
             path,
             param,
-            schemas,
+            engine,
             source,
             digest: digest(&loaded),
             inputs: inputs::list(&args.inputs)?,
@@ -149,15 +142,8 @@ impl<'a> Batch<'a> {
         let args = self.args;
         let mut set = args.values.set.clone();
         set.push((self.param.clone(), path.to_owned()));
-        let preset = args.values.preset.as_deref();
-        load_text(
-            &self.source,
-            &set,
-            preset,
-            out,
-            args.many.budget,
-            &self.schemas,
-        )
+        let values = (&set[..], args.values.preset.as_deref());
+        load_text(&self.source, values, out, args.many.budget, self.engine)
     }
 
     /// The digest of everything that the row of a file depends on; `None` if a file that is read cannot
@@ -212,7 +198,10 @@ impl<'a> Batch<'a> {
         if processes.is_empty() {
             return;
         }
-        let stale: Vec<String> = processes.iter().map(|p| recipe::stage_prefix(*p)).collect();
+        let stale: Vec<String> = processes
+            .iter()
+            .map(|p| store::temporary_prefix(*p))
+            .collect();
         let mut folders = vec![self.args.out.clone()];
         if self.args.folders {
             folders.extend(self.mine().into_iter().map(|file| self.out(file)));

@@ -4,20 +4,22 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use ::cache::{Cache, Caching};
-use recipe::{Grid, JobEnd, Measured, Metric, Outcome, Schemas, Source, Span};
+use engine::{Engine, Loaded, Run, read_objects};
+use recipe::{Grid, JobEnd, Measured, Metric, Outcome, Source, Span};
 use scene::Scene;
 
 use super::sheet::{Seen, Sheet};
 use crate::args::SweepArgs;
-use crate::loading::{Loaded, load_text, read_objects};
-use crate::many::{all, first_error, panicked, run_quietly};
+use crate::listener::Quiet;
+use crate::loading::load_text;
+use crate::many::{all, first_error, panicked};
 
 /// All cells.
 pub(super) struct Cells<'a> {
     pub(super) args: &'a SweepArgs,
     /// Steps that cells share run once.
     pub(super) cache: Option<&'a Cache>,
-    pub(super) schemas: &'a Schemas<'a>,
+    pub(super) engine: &'a Engine<'a>,
     /// The text of the recipe.
     pub(super) source: &'a Source,
     pub(super) grid: &'a Grid,
@@ -104,7 +106,7 @@ impl Cells<'_> {
             None => "out".into(),
         };
         let budget = self.args.many.budget;
-        let mut loaded = load_text(self.source, &set, None, &out, budget, self.schemas)?;
+        let mut loaded = load_text(self.source, (&set, None), &out, budget, self.engine)?;
         if !self.expects {
             loaded.recipe.expectations.clear();
         }
@@ -143,12 +145,16 @@ impl Cells<'_> {
 
     /// How the run of a cell that is checked ended, if it succeeded; else its error, or none if Ctrl-C ended it.
     fn outcome(&self, loaded: &Loaded, keeps: bool) -> Result<Outcome, Option<String>> {
-        let caching = self.cache.map(|cache| Caching {
+        let cache = self.cache.map(|cache| Caching {
             cache,
             recipe: None,
             want_scene: true,
         });
-        let outcome = run_quietly(loaded, self.args.many.budget, keeps, caching);
+        let run = Run {
+            keep_outputs: keeps,
+            cache: cache.as_ref().map(|caching| caching as _),
+        };
+        let outcome = loaded.run(run, &Quiet);
         if outcome.cancelled {
             return Err(None);
         }

@@ -28,11 +28,11 @@ mod sheet;
 
 use std::path::Path;
 
-use anyhow::{Context as _, ensure};
-use op::Registry;
+use anyhow::ensure;
+use engine::Engine;
 use recipe::{
-    Diagnostic, Grid, InOrder, Jobs, Measured, Metric, Other, Schemas, Setting, Severity, Source,
-    Sweep, read_sweep,
+    Diagnostic, Grid, InOrder, Jobs, Measured, Metric, Other, Setting, Severity, Source, Sweep,
+    read_sweep,
 };
 use serde_json::{Map, Value as Json, json};
 
@@ -41,13 +41,14 @@ use crate::cache;
 use crate::commands::picture::write_png;
 use crate::commands::run::refuse;
 use crate::listener::{catch_interrupts, is_interrupted};
-use crate::loading::{Loaded, load_text};
+use crate::loading::load_text;
 use crate::many::{CHECKED_AHEAD, csv_line};
 use crate::output::{complain, counted, print, show_texts, shown, table, write_whole};
 use cell::{CellResult, Cells};
+use engine::Loaded;
 use sheet::{Sheet, kept_bytes};
 
-pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool> {
+pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
     if let Some(path) = &args.out {
         let ending = path.extension().and_then(|e| e.to_str());
         ensure!(
@@ -56,8 +57,7 @@ pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool>
             path.display()
         );
     }
-    let schemas = Schemas::new(registry);
-    let Some(plan) = Plan::read(args, &schemas)? else {
+    let Some(plan) = Plan::read(args, engine)? else {
         return Ok(false);
     };
     catch_interrupts();
@@ -68,11 +68,11 @@ pub(crate) fn run(args: &SweepArgs, registry: &Registry) -> anyhow::Result<bool>
     } else {
         cache::open(&args.cache)?
     };
-    let sheet = Sheet::new(args, &plan, registry)?;
+    let sheet = Sheet::new(args, &plan, engine)?;
     let cells = Cells {
         args,
         cache: cache.as_ref(),
-        schemas: &schemas,
+        engine,
         source: &plan.recipe,
         grid: &plan.grid,
         keep: &plan.sweep.keep,
@@ -155,7 +155,7 @@ struct Plan {
 impl Plan {
     /// Reads the sweep and its recipe, and holds one against the other. `None` if something is wrong,
     /// which was said.
-    fn read(args: &SweepArgs, schemas: &Schemas) -> anyhow::Result<Option<Self>> {
+    fn read(args: &SweepArgs, engine: &Engine) -> anyhow::Result<Option<Self>> {
         let source = Source::open(&args.sweep).map_err(anyhow::Error::msg)?;
         let reading = read_sweep(&source.text);
         let mut diagnostics = reading.diagnostics;
@@ -165,7 +165,7 @@ impl Plan {
             if path.is_file() {
                 let recipe = Source::open(&path).map_err(anyhow::Error::msg)?;
                 let out = args.keep_outputs.as_deref().unwrap_or(Path::new("out"));
-                let loaded = load_text(&recipe, &[], None, out, args.many.budget, schemas)?;
+                let loaded = load_text(&recipe, (&[], None), out, args.many.budget, engine)?;
                 if !loaded.is_read {
                     show_texts(&[source], &diagnostics);
                     return refuse(&loaded, args.format == Format::Json).map(|_| None);

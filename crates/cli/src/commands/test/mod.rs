@@ -31,24 +31,24 @@ use std::time::{Duration, Instant};
 
 use ::cache::Cache;
 use anyhow::ensure;
-use op::Registry;
-use recipe::{Diagnostic, InOrder, JobEnd, Jobs, Schemas, Source};
+use engine::{Engine, Loaded, Run};
+use recipe::{Diagnostic, InOrder, JobEnd, Jobs};
 use serde_json::{Value as Json, json};
 
 use super::test_update::renew;
 use crate::args::{Format, TestArgs};
 use crate::cache;
-use crate::listener::{catch_interrupts, is_interrupted};
-use crate::loading::{Found, Loaded, load_text, recipes};
-use crate::many::{all, panicked, run_drawing};
+use crate::listener::{Quiet, catch_interrupts, is_interrupted};
+use crate::loading::{Found, load_text, recipes};
+use crate::many::{all, panicked};
 use crate::output::{complain, counted, print, problems_json, show, write_whole};
-use crate::picture_errors::Pictures;
+use crate::picture_errors::{Pictures, Picturing};
 
-pub(crate) fn run(args: &TestArgs, registry: &Registry) -> anyhow::Result<bool> {
+pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     let recipes = recipes(&args.paths)?;
     ensure!(!recipes.is_empty(), "there are no recipes (*.ron) to test");
     catch_interrupts();
-    let tests = tests(&recipes, args, registry)?;
+    let tests = tests(&recipes, args, engine)?;
     let cache = cache::open(&args.cache)?;
 
     let jobs = Jobs {
@@ -121,11 +121,10 @@ pub(crate) fn run(args: &TestArgs, registry: &Registry) -> anyhow::Result<bool> 
 fn tests<'a>(
     recipes: &'a [Found],
     args: &TestArgs,
-    registry: &Registry,
+    engine: &Engine,
 ) -> anyhow::Result<Vec<Test<'a>>> {
-    let schemas = Schemas::new(registry);
     let loaded = all(recipes.len(), args.many.limits(), |i| {
-        load(&recipes[i], args, &schemas)
+        load(&recipes[i], args, engine)
     })?;
     let made = recipes.iter().zip(loaded);
     let mut tests: Vec<Test> = made.map(|(found, end)| Test::new(found, end)).collect();
@@ -162,13 +161,13 @@ fn tests<'a>(
     Ok(tests)
 }
 
-fn load(found: &Found, args: &TestArgs, schemas: &Schemas) -> anyhow::Result<Loaded> {
+fn load(found: &Found, args: &TestArgs, engine: &Engine) -> anyhow::Result<Loaded> {
     let out = match &args.out {
         Some(out) => out.join(&found.own_folder),
         None => "out".into(),
     };
-    let source = Source::open(&found.path).map_err(anyhow::Error::msg)?;
-    load_text(&source, &[], None, &out, args.many.budget, schemas)
+    let source = engine.open(&found.path).map_err(anyhow::Error::msg)?;
+    load_text(&source, (&[], None), &out, args.many.budget, engine)
 }
 
 /// A recipe to test.
@@ -226,14 +225,23 @@ impl<'a> Test<'a> {
         if loaded.has_errors() {
             return TestResult::failed(loaded.diagnostics.clone(), None);
         }
-        let keeps = args.out.is_some();
-        let caching = cache.map(|cache| cache::using(cache, &self.found.path));
-        let budget = args.many.budget;
         // What --update mends is no failure.
         let pictures = (!args.update)
-            .then(|| args.picture_errors.named(&self.found.own_folder, budget))
+            .then(|| {
+                args.picture_errors
+                    .named(&self.found.own_folder, loaded.budget)
+            })
             .flatten();
-        let mut outcome = run_drawing(loaded, budget, keeps, caching, pictures.as_ref());
+        let listener = Picturing {
+            listener: &Quiet,
+            pictures: pictures.as_ref(),
+        };
+        let caching = cache.map(|cache| cache::using(cache, &self.found.path));
+        let run = Run {
+            keep_outputs: args.out.is_some(),
+            cache: caching.as_ref().map(|caching| caching as _),
+        };
+        let mut outcome = loaded.run(run, &listener);
         let mut changes = Vec::new();
         if args.update {
             match renew(&self.found.path, loaded, &mut outcome) {

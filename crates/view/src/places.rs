@@ -5,15 +5,16 @@ use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 use mesh::{FaceId, Mesh};
-use op::{Context, OpError, Place};
-use render::sheet::{Cell, SheetStyle, sheet};
+use progress::Progress;
 use render::{
-    Camera, Color, Elements, Highlight, Image, Label, Lines, Overlays, Projection, Side, Stroke,
-    Style, Up, extent,
+    Camera, Color, Elements, Highlight, Image, Label, Lines, Overlays, PictureError, Projection,
+    Side, Stroke, Style, Up, extent,
 };
-use scene::Scene;
+use scene::{Place, Scene};
 
-use crate::picture::{Picture, draw, sight};
+use crate::sheet::{Cell, SheetStyle, sheet};
+use crate::shot::{Shot, Subject};
+use crate::sight;
 
 /// The size of each of the two views, in pixels.
 const SIZE: [u32; 2] = [720, 540];
@@ -41,13 +42,14 @@ const TANGENT: f64 = 0.221_694_662_642_939_43;
 ///
 /// # Errors
 ///
-/// As [`Picture::draw`].
+/// As [`Shot::draw`].
 pub fn draw_places(
     scene: &Scene,
     places: &[Place],
     caption: &str,
-    cx: &mut Context,
-) -> Result<Option<Image>, OpError> {
+    budget: u64,
+    progress: &dyn Progress,
+) -> Result<Option<Image>, PictureError> {
     let Some((center, radius)) = extent(scene) else {
         return Ok(None);
     };
@@ -77,8 +79,21 @@ pub fn draw_places(
     }
     let (azimuth, elevation) = angles(direction);
 
-    let mut whole = picture(around.n_faces <= MOST_EDGED);
-    whole.camera = Camera::Fit {
+    let one = |camera, has_edges, overlays| {
+        let style = style(has_edges);
+        let shot = Shot {
+            size: SIZE,
+            cameras: &[camera],
+            columns: None,
+            style: &style,
+            frames: 1,
+            budget,
+        };
+        let (subject, _) = Subject::new(scene, "", &style, overlays, None, &mut |_| None)?;
+        let mut images = shot.draw(&[subject], None, progress)?;
+        Ok::<_, PictureError>(images.remove(0))
+    };
+    let whole = Camera::Fit {
         from: Side::Angles { azimuth, elevation },
         up: Up::default(),
         projection: Projection::default(),
@@ -88,11 +103,10 @@ pub fn draw_places(
     // What is too small to be found gets a dot.
     let dots = (places.len() <= MOST_DOTS).then_some(0.05 * radius);
     let overlays = marks(places, &around, [4.0, 14.0], dots);
-    let left = one(&whole, scene, overlays, cx)?;
+    let left = one(whole, around.n_faces <= MOST_EDGED, overlays)?;
     let mut images = vec![(left, caption.to_owned())];
     if let Some((middle, distance)) = focus {
-        let mut near = picture(true);
-        near.camera = Camera::LookAt {
+        let near = Camera::LookAt {
             from: (middle + direction * distance).into(),
             to: middle.into(),
             up: Up::default(),
@@ -100,7 +114,7 @@ pub fn draw_places(
         };
         let mut overlays = marks(places, &around, [6.0, 16.0], None);
         overlays.labels = labels(places, beside(direction, distance));
-        let right = one(&near, scene, overlays, cx)?;
+        let right = one(near, true, overlays)?;
         images.push((right, names(places)));
     }
     let cells: Vec<Cell> = (images.iter())
@@ -110,38 +124,19 @@ pub fn draw_places(
         columns: 2,
         ..SheetStyle::default()
     };
-    sheet(&cells, &style, cx.budget)
-        .map(Some)
-        .map_err(draw::told)
+    sheet(&cells, &style, budget).map(Some)
 }
 
-/// A picture of a surface that marks stand out of.
-fn picture(has_edges: bool) -> Picture {
-    let mut picture = Picture::new("places.png");
-    picture.size = SIZE;
-    picture.style = Style {
+/// A surface that marks stand out of.
+fn style(has_edges: bool) -> Style {
+    Style {
         color: Some(SURFACE),
         wireframe: has_edges.then(|| Lines {
             width: 1.0,
             ..Lines::default()
         }),
         ..Style::default()
-    };
-    picture
-}
-
-fn one(
-    picture: &Picture,
-    scene: &Scene,
-    overlays: Overlays,
-    cx: &mut Context,
-) -> Result<Image, OpError> {
-    let further = draw::Further {
-        overlays,
-        ..draw::Further::default()
-    };
-    let (mut images, _) = draw::images(picture, &[(scene, "")], &further, cx)?;
-    Ok(images.remove(0))
+    }
 }
 
 /// What lies around places.

@@ -7,7 +7,7 @@ use mesh::{FaceId, Mesh};
 use rayon::prelude::*;
 use scene::Scene;
 
-use crate::picture::places::bits;
+use crate::places::bits;
 
 /// How many directions are tried.
 const DIRECTIONS: u32 = 200;

@@ -5,7 +5,7 @@ use glam::{DMat3, DVec3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::Axis;
+use super::{Angle, Axis};
 
 /// One turn around an axis.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -13,14 +13,16 @@ use crate::Axis;
 pub struct Turn {
     /// The direction of the axis.
     pub axis: Axis,
-    /// How far, counter-clockwise for someone towards whom the axis points. Multiples of 90 are exact.
-    pub degrees: f64,
+    /// In degrees, counter-clockwise seen from the tip of the axis. Multiples of 90 are exact.
+    #[serde(alias = "degrees")]
+    #[schemars(extend("aliases" = ["degrees"]))]
+    pub angle: Angle,
 }
 
 impl Turn {
     /// The matrix of the turn.
     pub fn matrix(self) -> DMat3 {
-        let (s, c) = sin_cos_degrees(self.degrees);
+        let (s, c) = sin_cos_degrees(self.angle.get());
         let [x, y, z] = match self.axis {
             Axis::X => [DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c)],
             Axis::Y => [DVec3::new(c, 0.0, -s), DVec3::Y, DVec3::new(s, 0.0, c)],
@@ -48,15 +50,8 @@ mod tests {
             (Axis::Y, DVec3::Z, DVec3::X),
             (Axis::Z, DVec3::X, DVec3::Y),
         ] {
-            assert_eq!(
-                Turn {
-                    axis,
-                    degrees: 90.0
-                }
-                .matrix()
-                    * from,
-                to
-            );
+            let angle = Angle::literal(90.0);
+            assert_eq!(Turn { axis, angle }.matrix() * from, to);
         }
     }
 }

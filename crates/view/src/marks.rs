@@ -1,11 +1,9 @@
-//! What is shown beside the surfaces: marked elements, and numbers as colors.
+//! How large and how strong elements are marked.
 
-use op::{Context, OpError, Selected};
-use render::{Color, Highlight, Overlays};
-use scene::Scene;
+use render::{Color, Elements, Highlight};
 
-use crate::picture::numbers::Numbers;
-use crate::picture::{Picture, orange};
+/// The color of marks, unless another one is asked for.
+pub const MARK: Color = Color::rgb(0xe6, 0x55, 0x0d);
 
 /// The width of marked edges and the diameter of marked vertices, in pixels of a picture that is 960 high.
 const EDGES: f64 = 4.0;
@@ -41,63 +39,22 @@ fn crowded(n: usize, [width, height]: [u32; 2]) -> f64 {
     room.sqrt().max(2.5)
 }
 
-pub(crate) fn of(
-    picture: &Picture,
-    scene: &Scene,
-    numbers: Option<&Numbers>,
-    cx: &mut Context,
-) -> Result<Overlays, OpError> {
-    let mut overlays = Overlays {
-        colorings: numbers.map(|n| n.colorings.clone()).unwrap_or_default(),
-        ..Overlays::default()
-    };
-    let width = picture.highlight_width;
-    let first = (picture.highlight.iter()).map(|of| (of, orange(), width));
-    let marks = picture.marks.iter().map(|m| (&m.of, m.color, m.width));
-    for (of, color, width) in first.chain(marks) {
-        for object in scene.objects() {
-            let Some(mesh) = object.as_mesh() else {
-                continue;
-            };
-            cx.materials = object.materials.iter().map(|m| m.name.clone()).collect();
-            let selected = of.resolve(mesh, cx);
-            cx.materials.clear();
-            let marked = highlight(&object.name, selected?, color, width, picture.size);
-            overlays.highlights.push(marked);
-        }
-    }
-    Ok(overlays)
-}
-
-/// What is said where nothing can be marked.
-pub(crate) fn unmarked(picture: &Picture, scene: &Scene) -> Option<String> {
-    let has_marks = picture.highlight.is_some() || !picture.marks.is_empty();
-    let has_mesh = scene.objects().iter().any(|o| o.as_mesh().is_some());
-    (has_marks && !has_mesh && !scene.objects().is_empty()).then(|| {
-        "nothing is marked: elements of meshes can be, and there is no mesh here; `style: (points: 8)` \
-         shows the points of polylines, and `style: (control_nets: ())` control points"
-            .to_owned()
-    })
-}
-
-fn highlight(
+/// Elements of an object in a color. `width` is the width of edges and the diameter of vertices in pixels; if omitted, it
+/// suits a picture of this size.
+pub fn marked(
     object: &str,
-    selected: Selected,
+    elements: Elements,
     color: Color,
     width: Option<f64>,
     size: [u32; 2],
 ) -> Highlight {
-    let (elements, usual, hidden) = match selected {
-        Selected::Vertices(list) => {
+    let (usual, hidden) = match &elements {
+        Elements::Vertices(list) => {
             let usual = scaled(VERTICES, OF_VERTICES, size);
-            let usual = usual.min(crowded(list.len(), size));
-            (render::Elements::Vertices(list), usual, HIDDEN_VERTICES)
+            (usual.min(crowded(list.len(), size)), HIDDEN_VERTICES)
         }
-        Selected::Edges(list) => {
-            let usual = scaled(EDGES, OF_EDGES, size);
-            (render::Elements::Edges(list), usual, HIDDEN_EDGES)
-        }
-        Selected::Faces(list) => (render::Elements::Faces(list), 0.0, 0.0),
+        Elements::Edges(_) => (scaled(EDGES, OF_EDGES, size), HIDDEN_EDGES),
+        Elements::Faces(_) => (0.0, 0.0),
     };
     Highlight {
         object: object.to_owned(),

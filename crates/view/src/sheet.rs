@@ -12,12 +12,9 @@
 //! Or as a table with [`Heads`]: of its columns above, of its rows to the left.
 
 use glam::DVec2;
-
-use crate::blend::over;
-use crate::figure::label::{Label, draw_labels, filled, shortened, text_width};
-use crate::figure::{Anchor, Color, Font, Text};
-use crate::image::checked_size;
-use crate::{Image, PictureError};
+use render::figure::label::{Label, draw_labels, filled, shortened, text_width};
+use render::figure::{Anchor, Color, Font, Text};
+use render::{Image, PictureError, checked_size};
 
 /// An image of a sheet.
 #[derive(Clone, Copy, Debug)]
@@ -135,7 +132,7 @@ impl Places {
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE), or there are no images
+/// [`PictureError::Size`] if a side is longer than [`LARGEST_SIDE`](render::LARGEST_SIDE), or there are no images
 /// and no gap.
 pub fn sheet_size(
     cells: &[Cell],
@@ -207,7 +204,7 @@ pub fn sheet_with_heads(
         for (i, cell) in cells.iter().enumerate() {
             let x = left + (places.width - u64::from(cell.image.width)) / 2;
             let y = top + (high - u64::from(cell.image.height)) / 2;
-            place(&mut sheet, cell.image, [x, y]);
+            sheet.place(cell.image, [x, y]);
             for (k, line) in cell.caption.lines().enumerate() {
                 let line_at = (top + high) as f64 + letters * (1.0 + 1.5 * k as f64);
                 labels.extend(label(line, style, DVec2::new(middle(i), line_at), room));
@@ -231,7 +228,7 @@ fn label(text: &str, style: &SheetStyle, place: DVec2, room: f64) -> Option<Labe
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE).
+/// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`](render::LARGEST_SIDE).
 pub fn notice(
     why: &str,
     [width, height]: [u32; 2],
@@ -264,18 +261,6 @@ pub fn notice(
     Ok(image)
 }
 
-/// Lays an image over another one that has room for it at `corner`.
-fn place(sheet: &mut Image, image: &Image, corner: [u64; 2]) {
-    let [x, y] = corner.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
-    let width = sheet.width as usize;
-    let rows = sheet.pixels.chunks_exact_mut(width).skip(y);
-    for (to, from) in rows.zip(image.pixels.chunks_exact(image.width as usize)) {
-        for (under, &color) in to[x..].iter_mut().zip(from) {
-            *under = over(color, *under);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -286,6 +271,31 @@ mod tests {
 
     fn at(image: &Image, x: u32, y: u32) -> Color {
         image.pixels[(y * image.width + x) as usize]
+    }
+
+    /// With `MESHWRIGHT_UPDATE` set in the environment, the file is written anew.
+    #[test]
+    fn a_sheet_is_the_same_on_every_machine() {
+        let image = |width, height| plain(width, height, [60, 120, 180, 128]);
+        let images = [image(60, 40), image(30, 50), image(60, 20)];
+        let captions = ["cow.obj", "a_long_name.obj", ""];
+        let cells: Vec<Cell> = images
+            .iter()
+            .zip(captions)
+            .map(|(image, caption)| Cell { image, caption })
+            .collect();
+        let style = SheetStyle {
+            columns: 2,
+            letters: 11,
+            ..SheetStyle::default()
+        };
+        let sheet = sheet(&cells, &style, 1 << 20).unwrap();
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/goldens/sheet.png");
+        if std::env::var_os("MESHWRIGHT_UPDATE").is_some() {
+            std::fs::write(path, sheet.to_png(&[]).unwrap()).unwrap();
+        }
+        let golden = Image::from_png(&std::fs::read(path).unwrap()).unwrap();
+        assert!(sheet == golden);
     }
 
     const RED: Color = [200, 0, 0, 255];
@@ -337,7 +347,7 @@ mod tests {
     #[test]
     fn captions_stand_below_and_stay_in_their_columns() {
         let image = plain(90, 20, RED);
-        for text in crate::figure::ODD_TEXTS
+        for text in render::figure::ODD_TEXTS
             .iter()
             .copied()
             .chain(["a_long_name_".repeat(50).as_str()])
@@ -461,7 +471,7 @@ mod tests {
         let rows: Vec<bool> = (0..60).map(|y| ink(y) > 0).collect();
         let starts = rows.windows(2).filter(|w| !w[0] && w[1]).count();
         assert!(starts >= 2 && !rows[0] && !rows[59], "{rows:?}");
-        for why in crate::figure::ODD_TEXTS.iter().copied().chain([
+        for why in render::figure::ODD_TEXTS.iter().copied().chain([
             "",
             &"long ".repeat(10_000),
             &"x".repeat(100_000),

@@ -1,12 +1,11 @@
-//! Numbers that are shown as colors.
+//! Numbers of meshes that are shown as colors.
 
 use std::path::Path;
 
 use geometry::distance;
 use mesh::{Domain, EdgeId, FaceId, Mesh, Values, VertexId};
-use op::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem};
 use render::figure::legend::{Legend, Scale};
-use render::{ColorMap, Coloring};
+use render::{ColorMap, Coloring, PictureError};
 use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -64,8 +63,9 @@ pub enum Quantity {
 }
 
 /// The numbers of a scene.
-pub(crate) struct Numbers {
-    pub(crate) colorings: Vec<Coloring>,
+pub struct Numbers {
+    /// Those of each mesh.
+    pub colorings: Vec<Coloring>,
     pub(crate) shown: Shown,
 }
 
@@ -93,52 +93,17 @@ impl ColorBy {
         }
     }
 
-    pub(crate) fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        if let Some([low, high]) = self.range
-            && !(low.is_finite() && high.is_finite() && low < high)
-        {
-            let message = format!("expected a range from less to more, found {low} to {high}");
-            problems.push(Problem::error(message).at(["color_by", "range"]));
-        }
-        match &self.of {
-            Quantity::DistanceTo(path) => {
-                let full = cx.files.to_read(path);
-                if let Err(error) = mesh_io::peek(&full, &mesh_io::ReadOptions::default()) {
-                    problems.push(Problem::error(error.to_string()).at(["color_by", "of"]));
-                }
-                plan.inputs.push(full);
-            }
-            Quantity::Attribute { name, .. } if !plan.incomplete => {
-                let mut known = Vec::new();
-                for object in &plan.objects {
-                    if let PlannedGeometry::Mesh(mesh) = &object.geometry {
-                        if mesh.others {
-                            return problems;
-                        }
-                        known.extend(mesh.attributes.iter().map(|a| a.name.as_str()));
-                    }
-                }
-                if !known.contains(&name.as_str()) {
-                    let error = Problem::error(no_attribute(name)).at(["color_by", "of"]);
-                    problems.push(error.help(there_are(known)));
-                }
-            }
-            _ => {}
-        }
-        problems
-    }
-
-    /// The numbers of all meshes of a scene, all in one range.
-    pub(crate) fn numbers(&self, scene: &Scene, cx: &Context) -> Result<Numbers, OpError> {
-        let other = match &self.of {
-            Quantity::DistanceTo(path) => Some(meshes_of(path, cx)?),
-            _ => None,
-        };
+    /// The numbers of all meshes of a scene, all in one range. `others` are the meshes that [`Quantity::DistanceTo`]
+    /// measures to.
+    ///
+    /// # Errors
+    ///
+    /// [`PictureError::Style`] if no mesh has these numbers.
+    pub fn numbers(&self, scene: &Scene, others: &[Mesh]) -> Result<Numbers, PictureError> {
         let mut found = Vec::new();
         for object in scene.objects() {
             if let Some(mesh) = object.as_mesh() {
-                let values = self.of.values(mesh, other.as_deref());
+                let values = self.of.values(mesh, others);
                 found.extend(values.map(|(domain, values)| (&object.name, domain, values)));
             }
         }
@@ -151,7 +116,7 @@ impl ColorBy {
                 }
                 _ => "there is no mesh here whose numbers could be shown".to_owned(),
             };
-            return Err(OpError::Parameter(message));
+            return Err(PictureError::Style(message));
         }
         let map = self.map.unwrap_or_else(|| self.of.map());
         let all = found.iter().flat_map(|(_, _, values)| values).copied();
@@ -181,11 +146,13 @@ impl ColorBy {
     }
 }
 
-fn no_attribute(name: &str) -> String {
+/// What is wrong if no mesh has an attribute of this name.
+pub fn no_attribute(name: &str) -> String {
     format!("no mesh has an attribute \"{name}\" here")
 }
 
-fn there_are(mut names: Vec<&str>) -> String {
+/// Which attributes there are instead.
+pub fn there_are(mut names: Vec<&str>) -> String {
     names.sort_unstable();
     names.dedup();
     if names.is_empty() {
@@ -195,33 +162,10 @@ fn there_are(mut names: Vec<&str>) -> String {
     format!("there are {}", names.join(", "))
 }
 
-/// The meshes of a file.
-fn meshes_of(path: &str, cx: &Context) -> Result<Vec<Mesh>, OpError> {
-    let full = cx.files().to_read(path);
-    let loaded = mesh_io::read(Path::new(&full), &mesh_io::ReadOptions::default())
-        .map_err(|error| OpError::File(error.to_string()))?;
-    for file in loaded.files {
-        if file.is_read {
-            cx.files().has_read(file.path);
-        } else {
-            cx.files().has_looked_for(file.path);
-        }
-    }
-    let meshes: Vec<Mesh> = (loaded.objects.iter())
-        .filter_map(|object| object.as_mesh().map(|mesh| (**mesh).clone()))
-        .filter(|mesh| mesh.n_faces() > 0)
-        .collect();
-    if meshes.is_empty() {
-        let message = format!("there is no mesh with faces in {path}");
-        return Err(OpError::File(message));
-    }
-    Ok(meshes)
-}
-
 impl Quantity {
     /// One number for each element, by its place, not a number where there is none; `None` if the mesh does
     /// not have this.
-    fn values(&self, mesh: &Mesh, other: Option<&[Mesh]>) -> Option<(Domain, Vec<f64>)> {
+    fn values(&self, mesh: &Mesh, others: &[Mesh]) -> Option<(Domain, Vec<f64>)> {
         let faces = |value: &dyn Fn(FaceId) -> f64| {
             let all = (0..mesh.domain_len(Domain::Face)).map(FaceId::new);
             let value = |f| if mesh.has_face(f) { value(f) } else { f64::NAN };
@@ -259,7 +203,7 @@ impl Quantity {
             Self::Attribute { name, component } => attribute(mesh, name, *component)?,
             Self::DistanceTo(_) => {
                 let mut least = vec![f64::NAN; mesh.domain_len(Domain::Vertex)];
-                for other in other.unwrap_or_default() {
+                for other in others {
                     let distances = distance::vertex_distances(mesh, other)?;
                     for (least, d) in least.iter_mut().zip(distances) {
                         if least.is_nan() || d < *least {

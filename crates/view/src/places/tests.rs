@@ -2,16 +2,13 @@
 
 use geometry::shapes;
 use mesh::Element;
-use op::{Files, NoProgress};
+use progress::NoProgress;
 use scene::Object;
 
 use super::*;
 
 fn drawn(scene: &Scene, places: &[Place], caption: &str) -> Option<Image> {
-    let files = Files::default();
-    let mut cx = Context::new(&NoProgress, &files);
-    cx.budget = 1 << 30;
-    draw_places(scene, places, caption, &mut cx).unwrap()
+    draw_places(scene, places, caption, 1 << 30, &NoProgress).unwrap()
 }
 
 fn scene(mesh: Mesh) -> Scene {

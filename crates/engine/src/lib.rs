@@ -1,0 +1,148 @@
+//! Reads, checks and runs recipes: one place for the program, the editor, Python and the browser.
+//!
+//! ```text
+//! Engine --open--> Source --load--> Loaded --run--> Outcome      (diagnostics and forecast are in Loaded)
+//!                                      ^ `--run_from(step, scene)--> Outcome
+//! ```
+//!
+//! A [`Listener`] hears of each step and sees the scene after it. It cancels the run when
+//! [`advance`](op::Progress::advance) returns false.
+//!
+//! # Examples
+//!
+//! A recipe in memory, run to a scene:
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use engine::{Engine, Memory, Options, Run, Silent, Store};
+//!
+//! let store = Arc::new(Memory::default());
+//! let text = r#"(recipe: 1, steps: [Cube(name: "cube"), PokeFaces()], expect: [Faces(eq: 24)])"#;
+//! store.write("cube.ron".as_ref(), text.as_bytes())?;
+//!
+//! let registry = op::Registry::new().with_group(ops_shapes::register).with_group(ops_faces::register);
+//! let engine = Engine::new(&registry).with_store(store);
+//! let recipe = engine.load(&engine.open("cube.ron".as_ref())?, &Options::default());
+//! assert!(!recipe.has_errors());
+//!
+//! let outcome = recipe.run(Run::default(), &Silent);
+//! assert!(outcome.succeeded());
+//! assert_eq!(outcome.scene.unwrap().object("cube").unwrap().as_mesh().unwrap().n_faces(), 24);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod loaded;
+mod read;
+mod stop;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use op::{Files, Registry};
+use recipe::{Schemas, Stamp};
+
+pub use loaded::{Loaded, Run};
+pub use read::read_objects;
+pub use recipe::{
+    Diagnostic, Failure, Listener, Outcome, Settings, Silent, Source, StepDone, Values,
+};
+pub use stop::{Stop, UnknownStep};
+pub use store::{Disk, Memory, Store};
+
+/// The memory that meshes may take unless another amount is given, in bytes.
+pub const BUDGET: u64 = 8 << 30;
+
+/// Reads recipes with the operations of a registry, and their files from a store.
+#[derive(Debug)]
+pub struct Engine<'r> {
+    registry: &'r Registry,
+    /// Made once for all recipes.
+    schemas: Schemas<'r>,
+    store: Arc<dyn Store>,
+}
+
+/// How a recipe is read and checked.
+#[derive(Clone, Copy, Debug)]
+pub struct Options<'a> {
+    /// The values of its parameters.
+    pub values: Values<'a>,
+    /// The folder for outputs. Defaults to `out`.
+    pub out: &'a Path,
+    /// How many bytes meshes may take. Defaults to [`BUDGET`].
+    pub budget: u64,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self {
+            values: Values::default(),
+            out: Path::new("out"),
+            budget: BUDGET,
+        }
+    }
+}
+
+impl<'r> Engine<'r> {
+    /// An engine whose files are on the disk.
+    pub fn new(registry: &'r Registry) -> Self {
+        Self {
+            registry,
+            schemas: Schemas::new(registry),
+            store: Arc::new(Disk),
+        }
+    }
+
+    /// The same with files in another place.
+    #[must_use]
+    pub fn with_store(self, store: Arc<dyn Store>) -> Self {
+        Self { store, ..self }
+    }
+
+    /// The operations.
+    pub fn registry(&self) -> &'r Registry {
+        self.registry
+    }
+
+    /// Reads the text of a recipe.
+    ///
+    /// # Errors
+    ///
+    /// A message with the path, if the file cannot be read, is too long, or is not UTF-8 text.
+    pub fn open(&self, path: &Path) -> Result<Source, String> {
+        Source::open_in(&*self.store, path)
+    }
+
+    /// Reads and checks a recipe. What is wrong with it is among its [`diagnostics`](Loaded::diagnostics).
+    pub fn load(&self, source: &Source, options: &Options) -> Loaded {
+        let reading = recipe::read_by(&self.schemas, &*self.store, source, options.values);
+        let is_read = !reading.has_errors();
+        let mut files = Files {
+            store: self.store.clone(),
+            input: source.folder().to_path_buf(),
+            output: options.out.to_path_buf(),
+            placeholders: reading.recipe.placeholders(),
+            ..Files::default()
+        };
+        let forecast = recipe::check(&reading.recipe, &files, options.budget);
+        if !forecast.outputs.is_empty() && !forecast.has_errors() {
+            let stamp = Stamp::new(&reading.recipe, &forecast.inputs, &*self.store);
+            files.provenance = Some(stamp.to_string());
+        }
+        let mut diagnostics = reading.diagnostics;
+        diagnostics.extend(forecast.diagnostics.iter().cloned());
+        diagnostics.sort_by_key(|d| (d.source, d.span));
+        Loaded {
+            path: source.path.display().to_string(),
+            recipe: reading.recipe,
+            files,
+            budget: options.budget,
+            forecast,
+            is_read,
+            diagnostics,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

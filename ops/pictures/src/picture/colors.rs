@@ -1,0 +1,75 @@
+//! What colors by quantity need before they are drawn.
+
+use std::path::Path;
+
+use mesh::Mesh;
+use op::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem};
+use view::{ColorBy, Quantity, no_attribute, there_are};
+
+/// What is wrong with them, and what they read.
+pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    if let Some([low, high]) = by.range
+        && !(low.is_finite() && high.is_finite() && low < high)
+    {
+        let message = format!("expected a range from less to more, found {low} to {high}");
+        problems.push(Problem::error(message).at(["color_by", "range"]));
+    }
+    match &by.of {
+        Quantity::DistanceTo(path) => {
+            let full = cx.files.to_read(path);
+            if let Err(error) = mesh_io::peek(&full, &mesh_io::ReadOptions::default()) {
+                problems.push(Problem::error(error.to_string()).at(["color_by", "of"]));
+            }
+            plan.inputs.push(full);
+        }
+        Quantity::Attribute { name, .. } if !plan.incomplete => {
+            let mut known = Vec::new();
+            for object in &plan.objects {
+                if let PlannedGeometry::Mesh(mesh) = &object.geometry {
+                    if mesh.others {
+                        return problems;
+                    }
+                    known.extend(mesh.attributes.iter().map(|a| a.name.as_str()));
+                }
+            }
+            if !known.contains(&name.as_str()) {
+                let error = Problem::error(no_attribute(name)).at(["color_by", "of"]);
+                problems.push(error.help(there_are(known)));
+            }
+        }
+        _ => {}
+    }
+    problems
+}
+
+/// The meshes that they measure to.
+pub(crate) fn others(by: &ColorBy, cx: &Context) -> Result<Vec<Mesh>, OpError> {
+    match &by.of {
+        Quantity::DistanceTo(path) => meshes_of(path, cx),
+        _ => Ok(Vec::new()),
+    }
+}
+
+/// The meshes of a file.
+fn meshes_of(path: &str, cx: &Context) -> Result<Vec<Mesh>, OpError> {
+    let full = cx.files().to_read(path);
+    let loaded = mesh_io::read(Path::new(&full), &mesh_io::ReadOptions::default())
+        .map_err(|error| OpError::File(error.to_string()))?;
+    for file in loaded.files {
+        if file.is_read {
+            cx.files().has_read(file.path);
+        } else {
+            cx.files().has_looked_for(file.path);
+        }
+    }
+    let meshes: Vec<Mesh> = (loaded.objects.iter())
+        .filter_map(|object| object.as_mesh().map(|mesh| (**mesh).clone()))
+        .filter(|mesh| mesh.n_faces() > 0)
+        .collect();
+    if meshes.is_empty() {
+        let message = format!("there is no mesh with faces in {path}");
+        return Err(OpError::File(message));
+    }
+    Ok(meshes)
+}

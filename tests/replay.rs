@@ -3,6 +3,7 @@
 //! ```text
 //! teapot                          all expectations hold, the digest is that in digests.txt
 //! teapot: any number of threads   1, 2 and 8 threads: the same digest and the same files
+//! teapot: from every step         a run that begins at a step with the scene before it: the same digest
 //! teapot: every step counts       without one step the recipe fails
 //! ```
 //!
@@ -12,16 +13,19 @@ use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
+use engine::{Engine, Listener, Loaded, Options, Outcome, Silent, Source, StepDone};
 use libtest_mimic::{Arguments, Failed, Trial};
-use op::Files;
-use recipe::{Outcome, Settings, Silent};
+use op::Progress;
 use ron_tree::{Lexer, Span, TokenKind, Value};
 use tempfile::TempDir;
 
 /// The bytes that meshes may take.
 const BUDGET: u64 = 4 << 30;
+
+/// Recipes whose meshes take more bytes are not run from every step.
+const SMALL: u64 = 16 << 20;
 
 /// The operations that only write: nothing in a recipe can miss them.
 const OUTPUTS: [&str; 3] = ["CurveFigure", "Picture", "Save"];
@@ -49,6 +53,9 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         let r = recipe.clone();
         let threads = format!("{name}: any number of threads");
         trials.push(Trial::test(threads, move || any_number_of_threads(&r)));
+        let r = recipe.clone();
+        let from = format!("{name}: from every step");
+        trials.push(Trial::test(from, move || from_every_step(&r)));
         let counts = format!("{name}: every step counts");
         trials.push(Trial::test(counts, move || every_step_counts(&recipe)));
     }
@@ -85,52 +92,41 @@ impl Scene {
         Ok(found)
     }
 
-    /// Reads, checks and runs `source` as if it stood in the file. Fails with everything that is wrong.
+    /// Reads and checks `source` as if it stood in the file. Fails with everything that is wrong.
+    fn load(&self, source: &str, out: &Path) -> Result<Loaded, String> {
+        let registry = ops_all::registry();
+        let options = Options {
+            out,
+            budget: BUDGET,
+            ..Options::default()
+        };
+        let text = Source::new(&self.path, source);
+        let loaded = Engine::new(&registry).load(&text, &options);
+        if loaded.has_errors() {
+            return Err(loaded.render(&loaded.diagnostics, false));
+        }
+        Ok(loaded)
+    }
+
+    /// The same, and runs it.
     fn run(&self, source: &str) -> Result<Run, String> {
         let out = tempfile::tempdir().map_err(|e| e.to_string())?;
-        let text = recipe::Source::new(&self.path, source);
-        let reading = recipe::read(&text, &ops_all::registry(), recipe::Values::default());
-        let sources = &reading.recipe.sources;
-        let render = |found: &[recipe::Diagnostic]| recipe::render(sources, found, false);
-        if reading.has_errors() {
-            return Err(render(&reading.diagnostics));
-        }
-        let files = Files {
-            input: folder(),
-            output: out.path().to_owned(),
-            placeholders: reading.recipe.placeholders(),
-            provenance: Some(format!("recipe {}", reading.recipe.digest())),
-            ..Files::default()
-        };
-        let forecast = recipe::check(&reading.recipe, &files, BUDGET);
-        if forecast.has_errors() {
-            return Err(render(&forecast.diagnostics));
-        }
-        let settings = Settings {
-            files: &files,
-            budget: BUDGET,
-            read: &read_objects,
+        let loaded = self.load(source, out.path())?;
+        let keeping = engine::Run {
             keep_outputs: true,
-            writes: !forecast.outputs.is_empty(),
             cache: None,
         };
-        let outcome = recipe::run(&reading.recipe, settings, &Silent);
+        let outcome = loaded.run(keeping, &Silent);
         if outcome.succeeded() {
             Ok(Run { outcome, out })
         } else {
-            Err(render(&outcome.failures))
+            Err(loaded.render(&outcome.failures, false))
         }
     }
 }
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
-}
-
-fn read_objects(path: &Path, _: &Files) -> Result<Vec<scene::Object>, String> {
-    mesh_io::read(path, &mesh_io::ReadOptions::default())
-        .map(|loaded| loaded.objects)
-        .map_err(|error| error.to_string())
 }
 
 fn fail<T>(message: impl Into<String>) -> Result<T, Failed> {
@@ -183,7 +179,7 @@ fn digests_name_recipes(recipes: &[Scene], digests: &Digests) -> Trial {
     })
 }
 
-// ---- The three tests of a recipe ---------------------------------------------------------------
+// ---- The tests of a recipe ---------------------------------------------------------------
 
 fn holds(recipe: &Scene, digests: &Digests) -> Result<(), Failed> {
     let outcome = recipe.run(&recipe.source)?.outcome;
@@ -220,6 +216,57 @@ fn any_number_of_threads(recipe: &Scene) -> Result<(), Failed> {
         if let Some(name) = files.keys().find(differs) {
             let name = name.display();
             return fail(format!("{n} threads write another {name} than 1"));
+        }
+    }
+    Ok(())
+}
+
+/// Keeps the scene after each step.
+#[derive(Default)]
+struct Kept(Mutex<Vec<scene::Scene>>);
+
+impl Progress for Kept {
+    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+        true
+    }
+}
+
+impl Listener for Kept {
+    fn step_begins(&self, _: usize, _: &str) {}
+    fn step_done(&self, _: usize, _: &StepDone) {}
+
+    fn wants_scenes(&self) -> bool {
+        true
+    }
+
+    fn scene_after(&self, _: usize, scene: &scene::Scene) {
+        self.0.lock().expect("nobody panics").push(scene.clone());
+    }
+}
+
+fn from_every_step(recipe: &Scene) -> Result<(), Failed> {
+    let out = tempfile::tempdir()?;
+    let mut loaded = recipe.load(&recipe.source, out.path())?;
+    if loaded.forecast.peak_bytes() > SMALL {
+        return Ok(());
+    }
+    // What earlier steps write is not there.
+    let expectations = &mut loaded.recipe.expectations;
+    expectations.retain(|placed| placed.that.output().is_none());
+    let kept = Kept::default();
+    let whole = loaded.run(engine::Run::default(), &kept).digest;
+    let kept = kept.0.into_inner()?;
+    for (i, scene) in (1..).zip(kept) {
+        let rest = loaded.run_from(i, scene, engine::Run::default(), &Silent);
+        if !rest.succeeded() {
+            return fail(loaded.render(&rest.failures, false));
+        }
+        if rest.digest != whole {
+            let found = rest.digest;
+            return fail(format!(
+                "from step {}: digest {found}, whole: {whole}",
+                i + 1
+            ));
         }
     }
     Ok(())

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use ::cache::{Cache, Caching};
+use engine::FileReader;
 use op::Files;
 use recipe::{Outcome, Settings, Silent, StepCache};
 use tempfile::TempDir;
@@ -32,14 +33,6 @@ fn run(path: &Path, cache: Option<&Cache>) -> (Left, Outcome) {
         provenance: Some(format!("recipe {}", reading.recipe.digest())),
         ..Files::default()
     };
-    let read = |path: &Path, files: &Files| {
-        let loaded = mesh_io::read(path, &mesh_io::ReadOptions::default());
-        let loaded = loaded.map_err(|error| error.to_string())?;
-        for file in loaded.files {
-            files.has_read(file.path);
-        }
-        Ok(loaded.objects)
-    };
     let caching = cache.map(|cache| Caching {
         cache,
         recipe: Some(path),
@@ -48,7 +41,7 @@ fn run(path: &Path, cache: Option<&Cache>) -> (Left, Outcome) {
     let settings = Settings {
         files: &files,
         budget: u64::MAX,
-        read: &read,
+        reader: &FileReader,
         keep_outputs: true,
         writes: true,
         cache: caching.as_ref().map(|caching| caching as &dyn StepCache),

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use engine::FileReader;
 use op::{OpError, Progress};
 use recipe::{Listener, Outcome, Settings, StepDone};
 
@@ -114,7 +115,7 @@ fn run(steps: &str, allowed: usize) -> Run {
     let settings = Settings {
         files: &files(folder.path()),
         budget: u64::MAX,
-        read: &|_, _| Err("no expectation reads a file".to_owned()),
+        reader: &FileReader,
         keep_outputs: true,
         writes: true,
         cache: None,

@@ -1,5 +1,6 @@
 //! What flipping diagonals can do for the symmetry of a subdivided cube: all 64 patterns.
 
+use engine::FileReader;
 use geometry::shapes;
 use mesh::EdgeId;
 use op::Files;
@@ -38,13 +39,12 @@ fn keeps(scene: &Scene, eq: Option<u64>, max: Option<u64>) -> bool {
         connectivity: true,
     };
     let files = Files::default();
-    let read = |_: &std::path::Path, _: &Files| Err("no file is read".to_owned());
     symmetric
         .check(Subject {
             scene,
             on: None,
             files: &files,
-            read: &read,
+            reader: &FileReader,
         })
         .is_ok()
 }

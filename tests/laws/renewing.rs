@@ -1,7 +1,7 @@
 //! Recorded numbers of the recipes in `scenes/` that are broken come back when they are renewed, and the text is
 //! what it was.
 
-use mesh_io::ReadOptions;
+use engine::FileReader;
 use op::Files;
 use recipe::update::update;
 use recipe::{Settings, Silent, Source, Span, Values};
@@ -84,14 +84,10 @@ fn renewed(source: &Source) -> Result<(String, usize), String> {
         placeholders: reading.recipe.placeholders(),
         ..Files::default()
     };
-    let read = |path: &std::path::Path, _: &Files| {
-        let loaded = mesh_io::read(path, &ReadOptions::default());
-        loaded.map(|l| l.objects).map_err(|error| error.to_string())
-    };
     let settings = Settings {
         files: &files,
         budget: 4 << 30,
-        read: &read,
+        reader: &FileReader,
         keep_outputs: true,
         writes: true,
         cache: None,

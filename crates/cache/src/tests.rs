@@ -15,10 +15,31 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
-use recipe::{Outcome, Settings, Silent, Why};
+use recipe::{Outcome, Reader, Settings, Silent, Why};
 
 use self::operations::{registry, steps};
 use crate::{Cache, Caching};
+
+/// A file of a number is a grid of so many faces.
+struct GridReader;
+
+impl Reader for GridReader {
+    fn objects(&self, path: &Path, files: &Files) -> Result<Vec<Object>, String> {
+        files.has_read(path);
+        let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
+        let n = text.trim().parse().map_err(|_| "no number".to_owned())?;
+        Ok(vec![Object::mesh("file", geometry::shapes::grid(n, 1))])
+    }
+
+    fn compare_pictures(
+        &self,
+        _: (&Path, &[u8]),
+        _: (&Path, &[u8]),
+        _: u8,
+    ) -> Result<Option<String>, String> {
+        Err("no pictures are compared here".to_owned())
+    }
+}
 
 /// Makes a sheet of as many squares as a file says.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
@@ -108,16 +129,10 @@ impl Place {
             provenance: Some(reading.recipe.digest()),
             ..Files::default()
         };
-        let read = |path: &Path, files: &Files| {
-            files.has_read(path);
-            let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
-            let n = text.trim().parse().map_err(|_| "no number".to_owned())?;
-            Ok(vec![Object::mesh("file", geometry::shapes::grid(n, 1))])
-        };
         let settings = Settings {
             files: &files,
             budget: self.budget.get(),
-            read: &read,
+            reader: &GridReader,
             keep_outputs: self.keep_outputs,
             writes: text.contains("Write"),
             cache: caching

@@ -28,7 +28,7 @@ use op::Progress;
 use recipe::{Listener, Outcome, StepDone};
 use serde_json::{Value as Json, json};
 
-use crate::output::{origin, problems_json};
+use crate::output::{STAMP, origin, problems_json};
 use crate::picture_errors::Pictures;
 use engine::Loaded;
 
@@ -74,7 +74,7 @@ impl<'a> Events<'a> {
         events.tell(&json!({
             "event": "start",
             "format": FORMAT,
-            "program": concat!("meshwright ", env!("CARGO_PKG_VERSION")),
+            "program": STAMP,
             "recipe": loaded.path,
             "recipe_digest": loaded.recipe.digest(),
             "parameters": parameters,

@@ -21,7 +21,6 @@ mod loading;
 mod many;
 mod output;
 mod picture_errors;
-mod replace;
 mod scenes;
 mod terminal_picture;
 
@@ -32,7 +31,7 @@ use clap::Parser;
 use engine::Engine;
 use op::Registry;
 
-use args::{Args, Command};
+use args::{Args, Command, WrongUsage};
 use output::complain;
 
 /// Runs the program with the operations of `registry` and returns its exit code.
@@ -101,11 +100,6 @@ pub fn run(registry: Registry) -> ExitCode {
         }
     }
 }
-
-/// Arguments that cannot be meant so, found after they were read: exit code 2.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub(crate) struct WrongUsage(pub(crate) String);
 
 fn flushed() -> anyhow::Result<()> {
     Ok(io::stdout().flush()?)

@@ -4,10 +4,13 @@ use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
-use anyhow::Context as _;
 use recipe::{LineIndex, Origin, Outcome, Recipe, Source, StepDone};
 
 use engine::Loaded;
+use store::{Disk, NewFile, Store, StoreError, folder_of};
+
+/// What files say of where they come from.
+pub(crate) const STAMP: &str = concat!("meshwright ", env!("CARGO_PKG_VERSION"));
 
 /// Writes to the standard output. An error that a broken pipe causes is told apart by the caller.
 pub(crate) fn print(text: &str) -> io::Result<()> {
@@ -220,47 +223,23 @@ pub(crate) fn quoted(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Writes a file whole or not at all: beside its place first, then renamed. Folders around it are made.
+/// Writes a file whole or not at all. Folders around it are made.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    begin(path, bytes)?.finish()
-}
-
-/// A file that stands whole beside its place.
-pub(crate) struct Begun<'p> {
-    path: &'p Path,
-    file: tempfile::NamedTempFile,
+    Ok(begin(path, bytes)?.commit()?)
 }
 
 /// Writes a file beside its place. Folders around it are made.
-pub(crate) fn begin<'p>(path: &'p Path, bytes: &[u8]) -> anyhow::Result<Begun<'p>> {
-    let write = || -> io::Result<Begun> {
-        let folder = match path.parent() {
-            Some(folder) if folder != Path::new("") => folder,
-            _ => Path::new("."),
-        };
-        std::fs::create_dir_all(folder)?;
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".meshwright-");
-        // A temporary file is private to its user; the file that it becomes is as open as any other.
-        #[cfg(unix)]
-        let mode = std::os::unix::fs::PermissionsExt::from_mode(0o666);
-        #[cfg(unix)]
-        builder.permissions(mode);
-        let mut file = builder.tempfile_in(folder)?;
+pub(crate) fn begin(path: &Path, bytes: &[u8]) -> Result<Box<dyn NewFile>, StoreError> {
+    let begin = || -> io::Result<Box<dyn NewFile>> {
+        Disk.make_folder(folder_of(path))?;
+        let mut file = Disk.create(path)?;
         file.write_all(bytes)?;
         // A full disk may only be told here.
-        file.as_file().sync_all()?;
-        Ok(Begun { path, file })
+        file.sync()?;
+        Ok(file)
     };
-    write().with_context(|| format!("cannot write {}", path.display()))
-}
-
-impl Begun<'_> {
-    /// Puts it in its place.
-    pub(crate) fn finish(self) -> anyhow::Result<()> {
-        let Self { path, file } = self;
-        let persisted = file.persist(path).map_err(|failed| failed.error);
-        persisted.with_context(|| format!("cannot write {}", path.display()))?;
-        Ok(())
-    }
+    begin().map_err(|error| StoreError::Write {
+        path: path.to_owned(),
+        error,
+    })
 }

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use clap::Args as ClapArgs;
 use op::{Place, Progress};
 use recipe::{Failure, Found, Listener, StepDone};
 use render::{Image, difference};
@@ -11,23 +10,9 @@ use scene::Scene;
 use view::draw_places;
 use view::sheet::{Cell, SheetStyle, sheet};
 
-use crate::commands::picture::STAMP;
-use crate::listener::Quiet;
-use crate::output::{complain, shown, write_whole};
-
-#[derive(Debug, ClapArgs)]
-pub(crate) struct PictureErrorsArgs {
-    /// Draw each failure into this folder, the working directory unless told otherwise: the scene, with the
-    /// elements that it is about large and marked
-    #[arg(
-        long,
-        value_name = "DIR",
-        num_args = 0..=1,
-        require_equals = true,
-        default_missing_value = "."
-    )]
-    pub(crate) picture_errors: Option<PathBuf>,
-}
+use crate::args::PictureErrorsArgs;
+use crate::listener::QUIET;
+use crate::output::{STAMP, complain, shown, write_whole};
 
 impl PictureErrorsArgs {
     /// The pictures of a file, if they are wanted: beside each other, named after it and numbered. Each may take so
@@ -150,7 +135,7 @@ impl Pictures {
         places: &[Place],
         caption: &str,
     ) -> anyhow::Result<Option<Image>> {
-        let image = draw_places(scene, places, caption, self.budget, &Quiet)?;
+        let image = draw_places(scene, places, caption, self.budget, &QUIET)?;
         Ok(image)
     }
 

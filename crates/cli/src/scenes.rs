@@ -7,8 +7,7 @@ use engine::{BUDGET, Engine, Run, Stop};
 use mesh_io::ReadOptions;
 use scene::Scene;
 
-use crate::WrongUsage;
-use crate::args::ValueArgs;
+use crate::args::{ValueArgs, WrongUsage};
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::load_recipe;
 use crate::output::{complain, show};
@@ -43,7 +42,8 @@ pub(crate) fn find(
         );
         return Err(WrongUsage(message).into());
     }
-    let loaded = mesh_io::read(path, options).map_err(|error| anyhow::anyhow!("{error}"))?;
+    let loaded =
+        mesh_io::read(&store::Disk, path, options).map_err(|error| anyhow::anyhow!("{error}"))?;
     for note in &loaded.notes {
         complain(&format!("note: {note}\n"));
     }

@@ -4,7 +4,7 @@ use op::Files;
 use recipe::{Diagnostic, Forecast, Listener, Outcome, Recipe, Settings, Severity, StepCache};
 use scene::Scene;
 
-use crate::read_objects;
+use crate::FileReader;
 
 /// A recipe that was read and checked.
 #[derive(Debug)]
@@ -62,7 +62,7 @@ impl Loaded {
         let settings = Settings {
             files: &self.files,
             budget: self.budget,
-            read: &read_objects,
+            reader: &FileReader,
             keep_outputs: run.keep_outputs,
             writes: !self.forecast.outputs.is_empty(),
             cache: run.cache,

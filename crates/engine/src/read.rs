@@ -1,24 +1,44 @@
-//! Files of objects.
+//! The files that expectations name.
 
 use std::path::Path;
 
 use op::Files;
+use recipe::Reader;
+use render::PictureError;
 use scene::Object;
 
-/// Reads the objects of a file, for expectations that compare with one.
-///
-/// # Errors
-///
-/// Why the file cannot be read, with its path.
-pub fn read_objects(path: &Path, files: &Files) -> Result<Vec<Object>, String> {
-    let options = mesh_io::ReadOptions::default();
-    let loaded = mesh_io::read(path, &options).map_err(|error| error.to_string())?;
-    for file in loaded.files {
-        if file.is_read {
-            files.has_read(file.path);
-        } else {
-            files.has_looked_for(file.path);
+/// Reads objects of every format, and compares PNG files by their pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct FileReader;
+
+impl Reader for FileReader {
+    fn objects(&self, path: &Path, files: &Files) -> Result<Vec<Object>, String> {
+        let options = mesh_io::ReadOptions::default();
+        let loaded =
+            mesh_io::read(&*files.store, path, &options).map_err(|error| error.to_string())?;
+        for file in loaded.files {
+            if file.is_read {
+                files.has_read(file.path);
+            } else {
+                files.has_looked_for(file.path);
+            }
         }
+        Ok(loaded.objects)
     }
-    Ok(loaded.objects)
+
+    fn compare_pictures(
+        &self,
+        found: (&Path, &[u8]),
+        expected: (&Path, &[u8]),
+        tolerance: u8,
+    ) -> Result<Option<String>, String> {
+        let named = |error| match error {
+            PictureError::Unreadable { file, why } => {
+                let path = [found.0, expected.0][file];
+                format!("{} cannot be read as a picture: {why}", path.display())
+            }
+            error => error.to_string(),
+        };
+        render::compare(found.1, expected.1, tolerance).map_err(named)
+    }
 }

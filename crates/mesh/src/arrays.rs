@@ -5,11 +5,11 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::attribute::{
-    Attribute, Attributes, CORNER_NORMAL, Column, Domain, VERTEX_NORMAL, Value, Values,
+    Attribute, Attributes, CORNER_NORMAL, Column, VERTEX_NORMAL, Value, Values,
 };
 use crate::journal::{Entry, Journal};
 use crate::marks::Marks;
-use crate::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
+use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, VertexId};
 
 /// The five arrays that say how the elements of a mesh hang together. The crate's front page lists
 /// what holds for them.
@@ -58,33 +58,20 @@ impl Mesh {
     /// A mesh of these arrays, without attributes, all elements living.
     ///
     /// For operations that compute a whole mesh in closed form. The invariants are the caller's duty:
-    /// [`defects`](Self::defects) checks them.
+    /// [`try_from_arrays`](Self::try_from_arrays) checks them.
     ///
     /// # Panics
     ///
-    /// If arrays that belong together differ in length, or the number of half-edges is odd.
+    /// If arrays that belong together differ in length, the number of half-edges is odd, or there are more
+    /// elements than ids.
     pub fn from_arrays(connectivity: Connectivity, positions: Vec<DVec3>) -> Self {
-        let n = connectivity.next.len();
-        assert!(
-            n.is_multiple_of(2),
-            "half-edges come in pairs, but there are {n}"
-        );
-        assert_eq!(
-            connectivity.origin.len(),
-            n,
-            "one origin for each half-edge"
-        );
-        assert_eq!(connectivity.face.len(), n, "one face for each half-edge");
-        assert_eq!(
-            connectivity.vertex_half_edge.len(),
-            positions.len(),
-            "one position for each vertex"
-        );
-        Self {
+        let mesh = Self {
             connectivity,
             positions,
             ..Self::default()
-        }
+        };
+        mesh.check_lengths(&mut |defect| panic!("{defect}"));
+        mesh
     }
 
     /// The arrays of the connectivity. Dead elements are still in them unless the mesh

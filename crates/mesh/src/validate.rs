@@ -1,45 +1,63 @@
-//! The invariants of a mesh, as a function: every broken one, with its element.
+//! The invariants of a mesh as functions: every broken one with its element, and whether there is none.
 
-use std::fmt;
+use glam::DVec3;
+use rayon::prelude::*;
 
-use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
+use crate::{Connectivity, Domain, EdgeId, Element, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
 /// A broken invariant. The words are those of the crate's front page, in the same order.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Defect {
     /// An array has not one entry for each element.
+    #[error("{0} has the wrong length")]
     Length(&'static str),
+    /// There are more elements than ids.
+    #[error("there are more elements than ids")]
+    TooMany,
     /// An entry of an array names an element that does not exist or is dead.
+    #[error("{array} of {element} names an element that is not there")]
     Dangling {
         /// The array.
         array: &'static str,
         /// The element whose entry it is.
-        element: String,
+        element: Element,
     },
     /// `next` leads here from no half-edge, or from several.
+    #[error("{0} is not the next of exactly one half-edge")]
     NextNotPermutation(HalfEdgeId),
     /// `next` leads to another face.
+    #[error("the next of {0} lies on another face")]
     NextOnOtherFace(HalfEdgeId),
     /// The origin of the next half-edge is not the target of this one.
+    #[error("the next of {0} does not begin where {0} ends")]
     NextNotConnected(HalfEdgeId),
     /// An edge begins and ends at one vertex.
+    #[error("{0} begins and ends at one vertex")]
     SelfLoop(EdgeId),
     /// An edge has no face on either side.
+    #[error("{0} has no face on either side")]
     NoFace(EdgeId),
     /// A face has fewer than three corners.
+    #[error("{0} has fewer than three corners")]
     FewCorners(FaceId),
     /// The half-edge of a face lies on another one, or the face's half-edges form several loops.
+    #[error("the half-edges of {0} are not one loop")]
     FaceHalfEdge(FaceId),
     /// The half-edge of a vertex leaves another one, or the vertex is used and has none.
+    #[error("the half-edge of {0} does not leave it")]
     VertexHalfEdge(VertexId),
     /// The half-edge of a boundary vertex is not the boundary one.
+    #[error("the half-edge of {0} is not the boundary one")]
     NotBoundaryFirst(VertexId),
     /// The half-edges that leave a vertex are not all reached by walking around it, or there is more than
     /// one gap on the way.
+    #[error("the faces around {0} are not one fan")]
     SeveralFans(VertexId),
     /// A position is infinite or not a number.
+    #[error("the position of {0} is not finite")]
     NotFinite(VertexId),
     /// A column has not one value for each element of its domain.
+    #[error("the {domain} attribute {name} has the wrong length")]
     ColumnLength {
         /// The domain.
         domain: Domain,
@@ -48,194 +66,304 @@ pub enum Defect {
     },
 }
 
-impl fmt::Display for Defect {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Length(array) => write!(f, "{array} has the wrong length"),
-            Self::Dangling { array, element } => {
-                write!(f, "{array} of {element} names an element that is not there")
-            }
-            Self::NextNotPermutation(h) => {
-                write!(f, "{h} is not the next of exactly one half-edge")
-            }
-            Self::NextOnOtherFace(h) => write!(f, "the next of {h} lies on another face"),
-            Self::NextNotConnected(h) => write!(f, "the next of {h} does not begin where {h} ends"),
-            Self::SelfLoop(e) => write!(f, "{e} begins and ends at one vertex"),
-            Self::NoFace(e) => write!(f, "{e} has no face on either side"),
-            Self::FewCorners(face) => write!(f, "{face} has fewer than three corners"),
-            Self::FaceHalfEdge(face) => write!(f, "the half-edges of {face} are not one loop"),
-            Self::VertexHalfEdge(v) => write!(f, "the half-edge of {v} does not leave it"),
-            Self::NotBoundaryFirst(v) => write!(f, "the half-edge of {v} is not the boundary one"),
-            Self::SeveralFans(v) => write!(f, "the faces around {v} are not one fan"),
-            Self::NotFinite(v) => write!(f, "the position of {v} is not finite"),
-            Self::ColumnLength { domain, name } => {
-                write!(f, "the {domain} attribute {name} has the wrong length")
-            }
-        }
-    }
-}
+/// Elements that one thread looks at in one go.
+const BLOCK: usize = 1 << 14;
+
+/// What to do with a broken invariant.
+type Found<'a> = &'a mut dyn FnMut(Defect);
 
 impl Mesh {
+    /// A mesh of arrays from outside, without attributes. Takes time in proportion to their length.
+    ///
+    /// # Errors
+    ///
+    /// The first [`Defect`], if there is one.
+    pub fn try_from_arrays(
+        connectivity: Connectivity,
+        positions: Vec<DVec3>,
+    ) -> Result<Self, Defect> {
+        let mesh = Self {
+            connectivity,
+            positions,
+            ..Self::default()
+        };
+        if mesh.is_valid() {
+            Ok(mesh)
+        } else {
+            Err(mesh.defects().swap_remove(0))
+        }
+    }
+
     /// Every broken invariant with its element; empty for a valid mesh. Never panics, whatever the
     /// arrays hold. Takes time in proportion to the size of the mesh.
     ///
     /// Where entries dangle, only these are listed: the other invariants have no meaning then.
     pub fn defects(&self) -> Vec<Defect> {
-        let mut defects = self.wrong_lengths();
+        let mut defects = Vec::new();
+        self.check_lengths(&mut |defect| defects.push(defect));
         if defects.is_empty() {
-            defects = self.dangling();
+            let found: Found = &mut |defect| defects.push(defect);
+            (self.half_edges()).for_each(|h| self.check_entries_of_half_edge(h, found));
+            (self.vertices()).for_each(|v| self.check_entry_of_vertex(v, found));
+            (self.faces()).for_each(|f| self.check_entry_of_face(f, found));
         }
         if defects.is_empty() {
-            self.check_half_edges(&mut defects);
-            self.check_faces(&mut defects);
-            self.check_vertices(&mut defects);
+            self.check_loops(&mut |defect| defects.push(defect));
         }
-        let wrong = self
-            .attributes
-            .iter()
-            .filter(|(d, c)| c.values.len() != self.domain_len(*d));
-        defects.extend(wrong.map(|(domain, c)| Defect::ColumnLength {
-            domain,
-            name: c.name.clone(),
-        }));
+        (self.vertices()).for_each(|v| self.check_position(v, &mut |d| defects.push(d)));
+        self.check_columns(&mut |defect| defects.push(defect));
         defects
     }
 
-    fn wrong_lengths(&self) -> Vec<Defect> {
+    /// Whether there are no [`defects`](Self::defects), asked by all threads.
+    pub fn is_valid(&self) -> bool {
+        let [n_half_edges, n_vertices, n_faces] =
+            [Domain::Corner, Domain::Vertex, Domain::Face].map(|d| self.domain_len(d));
+        let half_edge = |i: usize| Some(HalfEdgeId::new(i)).filter(|h| self.has_edge(h.edge()));
+        let vertex = |i: usize| Some(VertexId::new(i)).filter(|&v| self.has_vertex(v));
+        let face = |i: usize| Some(FaceId::new(i)).filter(|&f| self.has_face(f));
+
+        is_silent(|found| self.check_lengths(found))
+            && is_silent(|found| self.check_columns(found))
+            && all(n_half_edges, half_edge, |h, found| {
+                self.check_entries_of_half_edge(h, found);
+            })
+            && all(n_vertices, vertex, |v, found| {
+                self.check_entry_of_vertex(v, found);
+                self.check_position(v, found);
+            })
+            && all(n_faces, face, |f, found| self.check_entry_of_face(f, found))
+            && {
+                let (is_permutation, is_linked) = rayon::join(
+                    || self.is_permutation(),
+                    || all(n_half_edges, half_edge, |h, found| self.check_links(h, found)),
+                );
+                is_permutation && is_linked
+            }
+            // `next` is a permutation that stays on its face, so every walk comes back to where it began, walks
+            // of different faces meet nowhere, and they pass all corners if every face is one loop. The same
+            // holds for the walks around vertices.
+            && {
+                let faces = &self.connectivity.face;
+                let is_corner = |i: &usize| half_edge(*i).is_some() && faces[*i] != FaceId::NONE;
+                let n_corners = numbers(n_half_edges).filter(is_corner).count();
+                sum(n_faces, face, |f| self.loop_of_face(f, usize::MAX)) == Some(n_corners)
+            }
+            && sum(n_vertices, vertex, |v| self.fan_of_vertex(v, usize::MAX))
+                == Some(self.n_half_edges())
+    }
+
+    // ---- The invariants, in the order of the crate's front page -------------------------------
+
+    /// 1.
+    pub(crate) fn check_lengths(&self, found: Found) {
         let c = &self.connectivity;
-        [
-            ("next", c.next.len().is_multiple_of(2)),
-            ("origin", c.origin.len() == c.next.len()),
-            ("face", c.face.len() == c.next.len()),
+        let n = c.next.len();
+        for (array, is_right) in [
+            ("next", n.is_multiple_of(2)),
+            ("origin", c.origin.len() == n),
+            ("face", c.face.len() == n),
             (
                 "vertex_half_edge",
                 c.vertex_half_edge.len() == self.positions.len(),
             ),
-        ]
-        .into_iter()
-        .filter(|(_, right)| !right)
-        .map(|(array, _)| Defect::Length(array))
-        .collect()
-    }
-
-    fn dangling(&self) -> Vec<Defect> {
-        let mut defects = Vec::new();
-        let mut ask = |array, element: &dyn fmt::Display, fine: bool| {
-            if !fine {
-                defects.push(Defect::Dangling {
-                    array,
-                    element: element.to_string(),
-                });
+        ] {
+            if !is_right {
+                found(Defect::Length(array));
             }
-        };
-        let has = |h: HalfEdgeId| self.has_edge(h.edge());
-        for h in self.half_edges() {
-            ask("next", &h, has(self.next(h)));
-            ask("origin", &h, self.has_vertex(self.origin(h)));
-            ask("face", &h, self.face(h).is_none_or(|f| self.has_face(f)));
         }
-        for v in self.vertices() {
-            ask(
-                "vertex_half_edge",
-                &v,
-                self.vertex_half_edge(v).is_none_or(has),
-            );
+        if n.max(self.positions.len()).max(c.face_half_edge.len()) >= u32::MAX as usize {
+            found(Defect::TooMany);
         }
-        for f in self.faces() {
-            ask("face_half_edge", &f, has(self.face_half_edge(f)));
-        }
-        defects
     }
 
-    fn check_half_edges(&self, defects: &mut Vec<Defect>) {
-        let mut reached = vec![0_u8; self.connectivity.next.len()];
+    /// 2.
+    fn check_entries_of_half_edge(&self, h: HalfEdgeId, found: Found) {
+        let element = Element::HalfEdge(h);
+        if !self.has_edge(self.next(h).edge()) {
+            let array = "next";
+            found(Defect::Dangling { array, element });
+        }
+        if !self.has_vertex(self.origin(h)) {
+            let array = "origin";
+            found(Defect::Dangling { array, element });
+        }
+        if self.face(h).is_some_and(|f| !self.has_face(f)) {
+            let array = "face";
+            found(Defect::Dangling { array, element });
+        }
+    }
+
+    fn check_entry_of_vertex(&self, v: VertexId, found: Found) {
+        let first = self.vertex_half_edge(v);
+        if first.is_some_and(|h| !self.has_edge(h.edge())) {
+            let (array, element) = ("vertex_half_edge", v.into());
+            found(Defect::Dangling { array, element });
+        }
+    }
+
+    fn check_entry_of_face(&self, f: FaceId, found: Found) {
+        if !self.has_edge(self.face_half_edge(f).edge()) {
+            let (array, element) = ("face_half_edge", f.into());
+            found(Defect::Dangling { array, element });
+        }
+    }
+
+    /// 3 and 4, but for whether `next` is a permutation.
+    fn check_links(&self, h: HalfEdgeId, found: Found) {
+        let (next, twin) = (self.next(h), h.twin());
+        if self.face(next) != self.face(h) {
+            found(Defect::NextOnOtherFace(h));
+        }
+        if self.origin(next) != self.origin(twin) {
+            found(Defect::NextNotConnected(h));
+        }
+        // Of both halves the first one tells.
+        if h < twin && self.origin(h) == self.origin(twin) {
+            found(Defect::SelfLoop(h.edge()));
+        }
+        if h < twin && self.face(h).is_none() && self.face(twin).is_none() {
+            found(Defect::NoFace(h.edge()));
+        }
+    }
+
+    /// 3 to 7, where no entry dangles.
+    fn check_loops(&self, found: Found) {
+        let mut reached = vec![0_u8; self.domain_len(Domain::Corner)];
+        let mut corners = vec![0_usize; self.domain_len(Domain::Face)];
+        let mut leaving = vec![0_usize; self.domain_len(Domain::Vertex)];
         for h in self.half_edges() {
             let times = &mut reached[self.next(h).index()];
             *times = times.saturating_add(1);
+            leaving[self.origin(h).index()] += 1;
+            if let Some(f) = self.face(h) {
+                corners[f.index()] += 1;
+            }
         }
         for h in self.half_edges() {
             if reached[h.index()] != 1 {
-                defects.push(Defect::NextNotPermutation(h));
+                found(Defect::NextNotPermutation(h));
             }
-            if self.face(self.next(h)) != self.face(h) {
-                defects.push(Defect::NextOnOtherFace(h));
-            }
-            if self.origin(self.next(h)) != self.target(h) {
-                defects.push(Defect::NextNotConnected(h));
-            }
-        }
-        for e in self.edges() {
-            let [h, twin] = e.half_edges();
-            if self.origin(h) == self.origin(twin) {
-                defects.push(Defect::SelfLoop(e));
-            }
-            if self.face(h).is_none() && self.face(twin).is_none() {
-                defects.push(Defect::NoFace(e));
-            }
-        }
-    }
-
-    fn check_faces(&self, defects: &mut Vec<Defect>) {
-        let mut corners = vec![0_usize; self.connectivity.face_half_edge.len()];
-        for f in self.half_edges().filter_map(|h| self.face(h)) {
-            corners[f.index()] += 1;
+            self.check_links(h, found);
         }
         for f in self.faces() {
-            let first = self.face_half_edge(f);
-            let mut h = first;
-            let mut steps = 0;
-            while self.face(h) == Some(f)
-                && steps < corners[f.index()]
-                && (steps == 0 || h != first)
-            {
-                h = self.next(h);
-                steps += 1;
+            match self.loop_of_face(f, corners[f.index()]) {
+                Ok(n) if n == corners[f.index()] => {}
+                Ok(_) => found(Defect::FaceHalfEdge(f)),
+                Err(defect) => found(defect),
             }
-            if h != first || steps != corners[f.index()] {
-                defects.push(Defect::FaceHalfEdge(f));
-            } else if steps < 3 {
-                defects.push(Defect::FewCorners(f));
+        }
+        for v in self.vertices() {
+            match self.fan_of_vertex(v, leaving[v.index()]) {
+                Ok(n) if n == leaving[v.index()] => {}
+                Ok(0) => found(Defect::VertexHalfEdge(v)),
+                Ok(_) => found(Defect::SeveralFans(v)),
+                Err(defect) => found(defect),
             }
         }
     }
 
-    fn check_vertices(&self, defects: &mut Vec<Defect>) {
-        let mut leaving = vec![0_usize; self.positions.len()];
-        let mut gaps = vec![0_usize; self.positions.len()];
-        for h in self.half_edges() {
-            leaving[self.origin(h).index()] += 1;
-            gaps[self.origin(h).index()] += usize::from(self.face(h).is_none());
+    fn is_permutation(&self) -> bool {
+        let mut reached = vec![0_u64; self.domain_len(Domain::Corner).div_ceil(64)];
+        self.half_edges().all(|h| {
+            let next = self.next(h).index();
+            let (word, bit) = (&mut reached[next / 64], 1 << (next % 64));
+            let is_new = *word & bit == 0;
+            *word |= bit;
+            is_new
+        })
+    }
+
+    /// 5: the number of corners of a face, or one more than `most`.
+    fn loop_of_face(&self, f: FaceId, most: usize) -> Result<usize, Defect> {
+        let first = self.face_half_edge(f);
+        if self.face(first) != Some(f) {
+            return Err(Defect::FaceHalfEdge(f));
         }
-        for v in self.vertices() {
-            if !self.position(v).is_finite() {
-                defects.push(Defect::NotFinite(v));
+        let mut h = self.next(first);
+        let mut n = 1;
+        while h != first && n <= most {
+            h = self.next(h);
+            n += 1;
+        }
+        if n < 3 {
+            Err(Defect::FewCorners(f))
+        } else {
+            Ok(n)
+        }
+    }
+
+    /// 6 and 7: the number of half-edges that leave a vertex, or one more than `most`.
+    fn fan_of_vertex(&self, v: VertexId, most: usize) -> Result<usize, Defect> {
+        let Some(first) = self.vertex_half_edge(v) else {
+            return Ok(0);
+        };
+        if self.origin(first) != v {
+            return Err(Defect::VertexHalfEdge(v));
+        }
+        let mut h = self.next(first.twin());
+        let mut n = 1;
+        while h != first && n <= most {
+            // The one gap that there may be is where the vertex begins.
+            if self.face(h).is_none() {
+                return Err(if self.face(first).is_none() {
+                    Defect::SeveralFans(v)
+                } else {
+                    Defect::NotBoundaryFirst(v)
+                });
             }
-            let n = leaving[v.index()];
-            let Some(first) = self.vertex_half_edge(v) else {
-                if n > 0 {
-                    defects.push(Defect::VertexHalfEdge(v));
-                }
-                continue;
-            };
-            if self.origin(first) != v {
-                defects.push(Defect::VertexHalfEdge(v));
-                continue;
-            }
-            if gaps[v.index()] > 0 && self.face(first).is_some() {
-                defects.push(Defect::NotBoundaryFirst(v));
-            }
-            let mut h = first;
-            let mut steps = 0;
-            while steps < n && (steps == 0 || h != first) {
-                h = self.next(h.twin());
-                steps += 1;
-            }
-            // A walk around the vertex passes over gaps, so fans that are linked are seen by their number.
-            if h != first || steps != n || gaps[v.index()] > 1 {
-                defects.push(Defect::SeveralFans(v));
+            h = self.next(h.twin());
+            n += 1;
+        }
+        Ok(n)
+    }
+
+    /// 8.
+    fn check_position(&self, v: VertexId, found: Found) {
+        if !self.position(v).is_finite() {
+            found(Defect::NotFinite(v));
+        }
+    }
+
+    /// 9.
+    fn check_columns(&self, found: Found) {
+        for (domain, column) in self.attributes.iter() {
+            if column.values.len() != self.domain_len(domain) {
+                let name = column.name.clone();
+                found(Defect::ColumnLength { domain, name });
             }
         }
     }
+}
+
+/// Whether a check finds nothing.
+fn is_silent(check: impl FnOnce(Found)) -> bool {
+    let mut is_silent = true;
+    check(&mut |_| is_silent = false);
+    is_silent
+}
+
+fn numbers(n: usize) -> impl IndexedParallelIterator<Item = usize> {
+    (0..n).into_par_iter().with_min_len(BLOCK)
+}
+
+/// Whether a check of each living element finds nothing.
+fn all<I: Id>(
+    n: usize,
+    living: impl Fn(usize) -> Option<I> + Sync + Send,
+    check: impl Fn(I, Found) + Sync + Send,
+) -> bool {
+    numbers(n).all(|i| living(i).is_none_or(|id| is_silent(|found| check(id, found))))
+}
+
+/// The sum over the living elements, if there are all terms.
+fn sum<I: Id>(
+    n: usize,
+    living: impl Fn(usize) -> Option<I> + Sync + Send,
+    term: impl Fn(I) -> Result<usize, Defect> + Sync + Send,
+) -> Option<usize> {
+    let term = |i| living(i).map_or(Some(0), |id| term(id).ok());
+    numbers(n).map(term).sum()
 }
 
 #[cfg(test)]
@@ -274,26 +402,26 @@ mod tests {
 
     #[test]
     fn a_dangling_entry_is_named_with_its_element() {
-        let dangling = |array, element: &str| Defect::Dangling {
-            array,
-            element: element.into(),
-        };
+        let dangling = |array, element: Element| Defect::Dangling { array, element };
         assert_eq!(
             after(|m| m.set_next(h(3), h(999))),
-            [dangling("next", "h3")]
+            [dangling("next", h(3).into())]
         );
         let far = VertexId::new(99);
         assert_eq!(
             after(|m| m.set_origin(h(5), far)),
-            [dangling("origin", "h5")]
+            [dangling("origin", h(5).into())]
         );
         let far = Some(FaceId::new(99));
-        assert_eq!(after(|m| m.set_face(h(4), far)), [dangling("face", "h4")]);
+        assert_eq!(
+            after(|m| m.set_face(h(4), far)),
+            [dangling("face", h(4).into())]
+        );
         let v = VertexId::new(2);
         let found = after(|m| m.set_vertex_half_edge(v, Some(h(999))));
-        assert_eq!(found, [dangling("vertex_half_edge", "v2")]);
+        assert_eq!(found, [dangling("vertex_half_edge", v.into())]);
         let found = after(|m| m.set_face_half_edge(FaceId::new(1), h(999)));
-        assert_eq!(found, [dangling("face_half_edge", "f1")]);
+        assert_eq!(found, [dangling("face_half_edge", FaceId::new(1).into())]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use progress::Progress;
 
-use crate::{Files, OpError, Place};
+use crate::{Files, OpError};
 
 /// What an operation runs in.
 pub struct Context<'a> {
@@ -16,9 +16,6 @@ pub struct Context<'a> {
     pub budget: u64,
     /// The names of the materials of the object at work, for selections.
     pub materials: Vec<String>,
-    /// After an error: where the elements are that it is about. [`MeshOperation`](crate::MeshOperation)s leave
-    /// them to their driver.
-    pub places: Vec<Place>,
 }
 
 impl<'a> Context<'a> {
@@ -31,7 +28,6 @@ impl<'a> Context<'a> {
             stream: "",
             budget: u64::MAX,
             materials: Vec::new(),
-            places: Vec::new(),
         }
     }
 

@@ -6,6 +6,8 @@ use progress::Cancelled;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::Place;
+
 /// The reasons for which an edit or a selection is refused, as recipes name them in `refused:`.
 #[derive(
     Clone, Copy, Debug, Deserialize, Eq, JsonSchema, Ord, PartialEq, PartialOrd, Serialize,
@@ -85,7 +87,17 @@ impl From<EditError> for Refusal {
             EditError::Pinch(_) => Self::Pinch,
             EditError::PartOfComponent(_) => Self::PartOfComponent,
             EditError::Full => Self::Full,
-            _ => Self::WrongPlace,
+            EditError::NoCut(..)
+            | EditError::SeveralCuts(..)
+            | EditError::Elsewhere(_)
+            | EditError::Adjacent(..)
+            | EditError::NoPath(_)
+            | EditError::Twice(_)
+            | EditError::TwiceFace(_)
+            | EditError::ShortLoop(_)
+            | EditError::SameLoop(..)
+            | EditError::SelfLoop(_)
+            | EditError::Nothing => Self::WrongPlace,
         }
     }
 }
@@ -105,6 +117,8 @@ pub enum OpError {
         message: String,
         /// The elements that it is about, of the mesh as it was then.
         elements: Vec<Element>,
+        /// Where they were.
+        places: Vec<Place>,
     },
     /// A parameter has a value that the scene does not allow.
     #[error("{0}")]
@@ -130,6 +144,7 @@ impl OpError {
             reason,
             message: message.into(),
             elements: Vec::new(),
+            places: Vec::new(),
         }
     }
 
@@ -173,6 +188,28 @@ impl OpError {
     pub fn elements(&self) -> &[Element] {
         match self {
             Self::Refused { elements, .. } => elements,
+            _ => &[],
+        }
+    }
+
+    /// The same error with the places of its elements in an object.
+    #[must_use]
+    pub(crate) fn placed(mut self, object: &str, mesh: &Mesh) -> Self {
+        if let Self::Refused {
+            elements, places, ..
+        } = &mut self
+        {
+            let found = elements.iter();
+            let found = found.filter_map(|&element| Place::of(object, mesh, element));
+            *places = found.take(Place::MOST).collect();
+        }
+        self
+    }
+
+    /// Where the elements are that a refusal is about.
+    pub fn places(&self) -> &[Place] {
+        match self {
+            Self::Refused { places, .. } => places,
             _ => &[],
         }
     }

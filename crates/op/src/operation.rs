@@ -10,8 +10,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::{
-    Context, Loss, MeshPlan, OpError, Place, Plan, PlanContext, PlannedGeometry, Problem, Report,
-    Wanted, chosen,
+    Context, Loss, MeshPlan, OpError, Plan, PlanContext, PlannedGeometry, Problem, Report, Wanted,
+    chosen,
 };
 
 /// An operation that changes one mesh. Over a scene it acts on every mesh, or on those named in `on:`.
@@ -151,9 +151,7 @@ fn apply_to<T: MeshOperation>(
     let mut report = match done {
         Ok(report) => report,
         Err(error) => {
-            let about = error.elements().iter();
-            let places = about.filter_map(|&element| Place::of(name, mesh, element));
-            cx.places = places.take(Place::MOST).collect();
+            let error = error.placed(name, mesh);
             if is_recording {
                 mesh.rollback();
             }

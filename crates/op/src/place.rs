@@ -52,7 +52,8 @@ mod tests {
         };
         let error = Operation::apply(&operation, &mut scene, &mut cx).unwrap_err();
         assert_eq!(scene, before);
-        (error, cx.places)
+        let places = error.places().to_vec();
+        (error, places)
     }
 
     #[test]

@@ -34,7 +34,7 @@ mod sweep;
 pub use check::{Forecast, StepForecast, check, mebibytes};
 pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
 pub use diagnostic::render;
-pub use expect::{Expectation, Found, Measured, Metric, Other, ReadObjects};
+pub use expect::{Expectation, Found, Measured, Metric, Other, Reader};
 pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};
 pub use params::{Move, Param, ParamError};
 pub use read::{MAX_STEPS, Reading, VERSION, Values, read, read_by};
@@ -45,7 +45,7 @@ pub use run::{
     StepDone, Unmet, Why, run, run_from,
 };
 pub use schema::{Schemas, schema, step_kinds};
-pub use select::{read_selection, resolve};
+pub use select::{read_selection, read_step, resolve};
 pub use shape::did_you_mean;
 pub use source::Source;
 pub use stamp::Stamp;

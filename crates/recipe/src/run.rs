@@ -20,7 +20,7 @@ use scene::{Digest, Geometry, Scene};
 use web_time::Instant;
 
 use crate::check::forbidden;
-use crate::expect::{Found, ReadObjects, Subject};
+use crate::expect::{Found, Reader, Subject};
 use crate::recipe::{Recipe, RecipeStep};
 use before::Before;
 use listener::Forward;
@@ -39,7 +39,7 @@ pub struct Settings<'a> {
     /// How many bytes meshes may take.
     pub budget: u64,
     /// How files are read for expectations.
-    pub read: ReadObjects<'a>,
+    pub reader: &'a dyn Reader,
     /// Whether outputs are kept.
     pub keep_outputs: bool,
     /// Whether the recipe writes anything.
@@ -376,7 +376,6 @@ impl Runner<'_> {
             let message = format!("{} has panicked, which is a mistake in it", step.name);
             return Err(nowhere(message));
         };
-        let places = cx.places;
         if result.is_err() || step.refused.is_some() {
             self.scene = before.unwrap_or_else(|| std::mem::take(&mut self.scene));
         }
@@ -395,12 +394,14 @@ impl Runner<'_> {
                 Report::default().note(format!("refused as expected: {message}")),
                 Some(reason),
             )),
-            (Err(error), None) => Err(Some(Fault {
-                message: error.to_string(),
-                places,
-            })),
-            (Err(error), Some(expected)) => {
-                let message = format!("expected to be refused as {expected:?}, but: {error}");
+            (Err(error), expected) => {
+                let message = match expected {
+                    None => error.to_string(),
+                    Some(expected) => {
+                        format!("expected to be refused as {expected:?}, but: {error}")
+                    }
+                };
+                let places = error.places().to_vec();
                 Err(Some(Fault { message, places }))
             }
         }
@@ -434,7 +435,7 @@ impl Runner<'_> {
                 scene: &self.scene,
                 on: placed.on.as_deref(),
                 files: &self.files[placed.scope],
-                read: self.settings.read,
+                reader: self.settings.reader,
             };
             self.checked += 1;
             match placed.that.hold(subject) {

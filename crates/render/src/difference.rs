@@ -1,6 +1,11 @@
-//! Where two images differ.
+//! Where two images differ: in words, for all images of two PNG files, and as an image.
 
-use crate::Image;
+use std::io::Cursor;
+
+use png::Reader;
+
+use crate::image::{decoder, rgba};
+use crate::{Image, PictureError};
 
 /// Where pixels differ.
 const OTHER: [u8; 4] = [0xd6, 0x20, 0x28, 255];
@@ -24,6 +29,144 @@ pub fn difference(expected: &Image, found: &Image, tolerance: u8) -> Option<Imag
                 .collect(),
         }
     })
+}
+
+/// How the pixels of two PNG files, or of all images of animations, differ by more than `tolerance` steps of 255; `None`
+/// if they do not.
+///
+/// # Errors
+///
+/// [`PictureError::Unreadable`] with the number of the file, 0 for `found` and 1 for `expected`.
+pub fn compare(
+    found: &[u8],
+    expected: &[u8],
+    tolerance: u8,
+) -> Result<Option<String>, PictureError> {
+    let (mut found, mut expected) = (Frames::new(found, 0)?, Frames::new(expected, 1)?);
+    let [width, height] = expected.size();
+    if found.size() != expected.size() {
+        let [w, h] = found.size();
+        return Ok(Some(format!(
+            "expected {width} x {height} pixels, found {w} x {h}"
+        )));
+    }
+    let n = expected.count();
+    if found.count() != n {
+        return Ok(Some(format!(
+            "expected {n} images, found {}",
+            found.count()
+        )));
+    }
+    let mut differing = Differing::default();
+    for frame in 0..n {
+        let (found, expected) = (found.next()?, expected.next()?);
+        if found.control != expected.control {
+            return Ok(Some(format!(
+                "image {} is shown at another place or for another time",
+                frame + 1
+            )));
+        }
+        let width = expected.width.max(1);
+        for (i, (a, b)) in found.pixels.iter().zip(&expected.pixels).enumerate() {
+            differing.total += 1;
+            let channels = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b));
+            let most = channels.max().unwrap_or(0);
+            if most > tolerance {
+                differing.n += 1;
+                differing.most = differing.most.max(most);
+                let at = [frame as usize, i % width, i / width];
+                differing.first.get_or_insert(at);
+            }
+        }
+    }
+    Ok(differing.message(n))
+}
+
+/// Pixels that differ.
+#[derive(Default)]
+struct Differing {
+    /// How many, of how many.
+    n: u64,
+    total: u64,
+    /// By how much at most.
+    most: u8,
+    /// Image, column and row.
+    first: Option<[usize; 3]>,
+}
+
+impl Differing {
+    fn message(&self, n_frames: u32) -> Option<String> {
+        let [frame, x, y] = self.first?;
+        let (n, total, most) = (self.n, self.total, self.most);
+        let image = if n_frames > 1 {
+            format!(" of image {}", frame + 1)
+        } else {
+            String::new()
+        };
+        Some(if n == 1 {
+            format!("1 of {total} pixels differs, by {most} of 255, at ({x}, {y}){image}")
+        } else {
+            format!(
+                "{n} of {total} pixels differ, by at most {most} of 255; the first is at ({x}, {y}){image}"
+            )
+        })
+    }
+}
+
+/// The images of a PNG file, read one after another.
+struct Frames<'b> {
+    reader: Reader<Cursor<&'b [u8]>>,
+    /// Which file it is.
+    file: usize,
+}
+
+struct Frame {
+    pixels: Vec<[u8; 4]>,
+    width: usize,
+    /// Where, how long and how it is shown, in an animation.
+    control: Option<([u32; 4], [u32; 2], [u32; 2])>,
+}
+
+impl<'b> Frames<'b> {
+    fn new(bytes: &'b [u8], file: usize) -> Result<Self, PictureError> {
+        let reader = decoder(bytes).read_info();
+        let reader = reader.map_err(|error| unreadable(file, &error))?;
+        Ok(Self { reader, file })
+    }
+
+    fn size(&self) -> [u32; 2] {
+        self.reader.info().size().into()
+    }
+
+    fn count(&self) -> u32 {
+        let animation = self.reader.info().animation_control();
+        animation.map_or(1, |animation| animation.num_frames.max(1))
+    }
+
+    fn next(&mut self) -> Result<Frame, PictureError> {
+        let size = self.reader.output_buffer_size();
+        let size = size.ok_or_else(|| unreadable(self.file, &"it is too large"))?;
+        let mut bytes = vec![0; size];
+        let info = self.reader.next_frame(&mut bytes);
+        let info = info.map_err(|error| unreadable(self.file, &error))?;
+        bytes.truncate(info.buffer_size());
+        let control = self.reader.info().frame_control.map(|c| {
+            let place = [c.x_offset, c.y_offset, c.width, c.height];
+            let time = [c.delay_num, c.delay_den].map(u32::from);
+            let way = [c.dispose_op as u32, c.blend_op as u32];
+            (place, time, way)
+        });
+        Ok(Frame {
+            width: info.width as usize,
+            pixels: rgba(&info, bytes),
+            control,
+        })
+    }
+}
+
+fn unreadable(file: usize, why: &dyn std::fmt::Display) -> PictureError {
+    let why = why.to_string();
+    PictureError::Unreadable { file, why }
 }
 
 /// A light gray; lighter for light colors, and for those that are seen through.
@@ -68,5 +211,111 @@ mod tests {
             difference(&clear, &Image::filled(3, 2, [0; 4]).unwrap(), 0),
             None
         );
+    }
+
+    /// A PNG file of 3 x 2 pixels, or several as an animation.
+    fn file(images: &[[u8; 24]], color: png::ColorType) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 3, 2);
+        encoder.set_color(color);
+        encoder
+            .add_text_chunk("Software".to_owned(), format!("{images:?}"))
+            .unwrap();
+        if images.len() > 1 {
+            encoder
+                .set_animated(u32::try_from(images.len()).unwrap(), 0)
+                .unwrap();
+        }
+        let mut writer = encoder.write_header().unwrap();
+        for image in images {
+            writer
+                .write_image_data(&image[..6 * color.samples()])
+                .unwrap();
+        }
+        writer.finish().unwrap();
+        bytes
+    }
+
+    const RGBA: png::ColorType = png::ColorType::Rgba;
+
+    fn compared(found: &[u8], expected: &[u8], tolerance: u8) -> Option<String> {
+        compare(found, expected, tolerance).unwrap()
+    }
+
+    #[test]
+    fn one_pixel_that_differs_is_named_with_its_place() {
+        let expected = [100; 24];
+        let mut found = expected;
+        found[4 * 4 + 1] = 103;
+        let differs =
+            |found, tolerance| compared(&file(&[found], RGBA), &file(&[expected], RGBA), tolerance);
+        let message = "1 of 6 pixels differs, by 3 of 255, at (1, 1)";
+        assert_eq!(differs(found, 0).as_deref(), Some(message));
+        assert!(differs(found, 2).is_some());
+        assert_eq!(differs(found, 3), None);
+        found[0] = 0;
+        assert_eq!(
+            differs(found, 0).as_deref(),
+            Some("2 of 6 pixels differ, by at most 100 of 255; the first is at (0, 0)")
+        );
+    }
+
+    #[test]
+    fn colors_count_and_not_how_they_are_kept() {
+        let gray = [7; 24];
+        let mut rgba = [7; 24];
+        rgba.iter_mut()
+            .skip(3)
+            .step_by(4)
+            .for_each(|alpha| *alpha = 255);
+        let expected = file(&[gray], png::ColorType::Rgb);
+        for (image, color) in [
+            (gray, png::ColorType::Grayscale),
+            (gray, png::ColorType::Rgb),
+            (rgba, RGBA),
+        ] {
+            assert_eq!(compared(&file(&[image], color), &expected, 0), None);
+        }
+        let half = file(&[gray], png::ColorType::GrayscaleAlpha);
+        let message = compared(&half, &expected, 0).unwrap();
+        assert!(message.contains("by at most 248"), "{message}");
+    }
+
+    #[test]
+    fn every_image_of_an_animation_counts() {
+        let (a, b) = ([1; 24], [2; 24]);
+        let expected = file(&[a, b, a], RGBA);
+        let differs = |found: &[_]| compared(&file(found, RGBA), &expected, 0);
+        assert_eq!(differs(&[a, b, a]), None);
+        assert_eq!(
+            differs(&[a, b, b]).as_deref(),
+            Some("6 of 18 pixels differ, by at most 1 of 255; the first is at (0, 0) of image 3")
+        );
+        assert_eq!(
+            differs(&[a, b]).as_deref(),
+            Some("expected 3 images, found 2")
+        );
+    }
+
+    #[test]
+    fn what_is_not_a_picture_is_an_error_and_never_a_panic() {
+        let good = file(&[[9; 24]; 2], RGBA);
+        for i in 0..good.len() {
+            let mut broken = good.clone();
+            broken[i] ^= 0x55;
+            let _ = compare(&good, &broken, 0);
+            let cut = compare(&good, &good[..i], 0);
+            assert!(
+                !matches!(cut, Ok(None)) || i + 12 >= good.len(),
+                "{i}: {cut:?}"
+            );
+        }
+        for (found, expected, number) in [(&b"no picture"[..], &good[..], 0), (&good, b"", 1)] {
+            let error = compare(found, expected, 0).unwrap_err();
+            assert!(
+                matches!(error, PictureError::Unreadable { file, .. } if file == number),
+                "{error:?}"
+            );
+        }
     }
 }

@@ -37,6 +37,14 @@ pub enum PictureError {
     /// A file is no image.
     #[error("the image cannot be read: {0}")]
     Decode(String),
+    /// One of several files is no image.
+    #[error("the image of number {file} cannot be read: {why}")]
+    Unreadable {
+        /// Which of the files, from 0.
+        file: usize,
+        /// Why it cannot be read.
+        why: String,
+    },
     /// An image cannot be encoded.
     #[error("the image cannot be encoded: {0}")]
     Encode(String),

@@ -1,6 +1,6 @@
 //! Images in memory, and their PNG files.
 
-use std::io::Write;
+use std::io::{Cursor, Write};
 
 use progress::{NoProgress, Progress};
 use zune_jpeg::JpegDecoder;
@@ -63,9 +63,7 @@ impl Image {
     /// [`PictureError::Size`] if it is too large, [`PictureError::Decode`] if it is no PNG.
     pub fn from_png(bytes: &[u8]) -> Result<Self, PictureError> {
         let failed = |error: png::DecodingError| PictureError::Decode(error.to_string());
-        let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
-        decoder.set_transformations(png::Transformations::ALPHA | png::Transformations::EXPAND);
-        let mut reader = decoder.read_info().map_err(failed)?;
+        let mut reader = decoder(bytes).read_info().map_err(failed)?;
         let (width, height) = reader.info().size();
         let n = checked_size(width, height)?;
         let size = reader.output_buffer_size().unwrap_or(usize::MAX);
@@ -74,17 +72,7 @@ impl Image {
         }
         let mut bytes = vec![0; size];
         let info = reader.next_frame(&mut bytes).map_err(failed)?;
-        if info.bit_depth == png::BitDepth::Sixteen {
-            bytes = (bytes.as_chunks().0.iter())
-                .map(|&sample| rounded(u16::from_be_bytes(sample)))
-                .collect();
-        }
-        let pixels: Vec<[u8; 4]> = match info.color_type {
-            png::ColorType::Rgba => bytes.as_chunks().0.to_vec(),
-            _ => (bytes.as_chunks().0.iter())
-                .map(|&[gray, alpha]| [gray, gray, gray, alpha])
-                .collect(),
-        };
+        let pixels = rgba(&info, bytes);
         if (info.width, info.height, pixels.len()) != (width, height, n) {
             let message = "its first image is smaller than the file says";
             return Err(PictureError::Decode(message.to_owned()));
@@ -193,6 +181,28 @@ impl Image {
     }
 }
 
+/// Decodes PNG files into pixels with alpha.
+pub(crate) fn decoder(bytes: &[u8]) -> png::Decoder<Cursor<&[u8]>> {
+    let mut decoder = png::Decoder::new(Cursor::new(bytes));
+    decoder.set_transformations(png::Transformations::ALPHA | png::Transformations::EXPAND);
+    decoder
+}
+
+/// The pixels of an image that a [`decoder`] gave.
+pub(crate) fn rgba(info: &png::OutputInfo, mut bytes: Vec<u8>) -> Vec<[u8; 4]> {
+    if info.bit_depth == png::BitDepth::Sixteen {
+        bytes = (bytes.as_chunks().0.iter())
+            .map(|&sample| rounded(u16::from_be_bytes(sample)))
+            .collect();
+    }
+    match info.color_type {
+        png::ColorType::Rgba => bytes.as_chunks().0.to_vec(),
+        _ => (bytes.as_chunks().0.iter())
+            .map(|&[gray, alpha]| [gray, gray, gray, alpha])
+            .collect(),
+    }
+}
+
 /// The byte that is nearest to a sample of 16 bits.
 fn rounded(sample: u16) -> u8 {
     u8::try_from((u32::from(sample) + 128) / 257).unwrap_or(u8::MAX)
@@ -218,9 +228,7 @@ mod tests {
 
     /// The image in a PNG file, with the colors that it was made of.
     fn decoded(bytes: &[u8]) -> (u32, u32, png::ColorType, Vec<u8>) {
-        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-            .read_info()
-            .unwrap();
+        let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
         let info = reader.next_frame(&mut pixels).unwrap();
         (info.width, info.height, info.color_type, pixels)
@@ -245,9 +253,7 @@ mod tests {
     fn a_png_file_carries_texts() {
         let image = Image::filled(1, 1, [0; 4]).unwrap();
         let bytes = image.to_png(&[("Source", "teapot.ron")]).unwrap();
-        let reader = png::Decoder::new(std::io::Cursor::new(bytes))
-            .read_info()
-            .unwrap();
+        let reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
         let text = &reader.info().utf8_text[0];
         assert_eq!(text.keyword, "Source");
         assert_eq!(text.get_text().unwrap(), "teapot.ron");

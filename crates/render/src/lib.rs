@@ -62,7 +62,7 @@ pub use build::{Coloring, Elements, Highlight, Overlays, PALETTE, Stroke, build,
 pub use camera::{Camera, Projection, Seen, Side, Up, View};
 pub use color::{Color, NAMES, NoColor, to_linear, to_srgb};
 pub use colormap::ColorMap;
-pub use difference::difference;
+pub use difference::{compare, difference};
 pub use drawing::{Channel, Drawing, Label, Line, Mixed, NO_FACE, Normals, Part, Surface};
 pub use error::PictureError;
 pub use image::{Image, LARGEST_SIDE, checked_size};

@@ -1,6 +1,6 @@
 //! How much memory pictures take: never more than they say before.
 //!
-//! One test, because what others allocate at the same time would be counted too.
+//! One test in a program of its own: what others allocate at the same time would be counted too.
 
 use geometry::shapes;
 use mesh::DVec3;

@@ -80,6 +80,11 @@ impl Value {
         })
     }
 
+    /// Reads the value into the type of `seed`.
+    fn read<'de, T: DeserializeSeed<'de>>(&'de self, seed: T) -> Result<T::Value> {
+        self.locate(seed.deserialize(self))
+    }
+
     /// What stands in the brackets after the name of a struct, or the value itself.
     fn without_name(&self, name: &str) -> &Self {
         match &self.kind {
@@ -315,7 +320,7 @@ impl<'de> SeqAccess<'de> for &mut Items<'de> {
     type Error = Error;
 
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>> {
-        self.0.next().map(|item| seed.deserialize(item)).transpose()
+        self.0.next().map(|item| item.read(seed)).transpose()
     }
 
     fn size_hint(&self) -> Option<usize> {
@@ -345,7 +350,7 @@ impl<'de> MapAccess<'de> for Fields<'de> {
     }
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value> {
-        seed.deserialize(self.value.expect("a value follows its key"))
+        self.value.expect("a value follows its key").read(seed)
     }
 }
 
@@ -363,11 +368,11 @@ impl<'de> MapAccess<'de> for Entries<'de> {
             return Ok(None);
         };
         self.value = Some(value);
-        seed.deserialize(key).map(Some)
+        key.read(seed).map(Some)
     }
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value> {
-        seed.deserialize(self.value.expect("a value follows its key"))
+        self.value.expect("a value follows its key").read(seed)
     }
 
     fn size_hint(&self) -> Option<usize> {
@@ -418,7 +423,7 @@ impl<'de> VariantAccess<'de> for Variant<'de> {
     fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value> {
         let body = self.body()?;
         match body.single() {
-            Some(inner) => seed.deserialize(inner),
+            Some(inner) => inner.read(seed),
             None => body.expected("one value in brackets `(..)`"),
         }
     }

@@ -6,10 +6,9 @@ use std::sync::Arc;
 use bezier::{BezierError, Curve, Patch};
 use bytemuck::{AnyBitPattern, NoUninit};
 use glam::DVec3;
-use mesh::{Column, Connectivity, Domain, Mesh, Rule, Values};
+use mesh::{Column, Connectivity, Defect, Domain, Mesh, Rule, Values};
 
 use crate::digest::{FORM, MORE};
-use crate::sound::unsound;
 use crate::{
     AlphaMode, DuplicateName, Filter, Geometry, Image, Material, Object, Sampler, Scene, Texture,
     TextureTransform, Wrap,
@@ -59,7 +58,7 @@ pub enum DecodeError {
     Array(String),
     /// The arrays of a mesh do not form one.
     #[error("the arrays form no mesh: {0}")]
-    Mesh(&'static str),
+    Mesh(#[from] Defect),
     /// Two objects have one name.
     #[error(transparent)]
     Name(#[from] DuplicateName),
@@ -298,14 +297,12 @@ impl<'a> Decoder<'a> {
             face_half_edge: self.array(4)?,
         };
         let positions = self.array(8)?;
-        if let Some(why) = unsound(&connectivity, &positions) {
-            return Err(DecodeError::Mesh(why));
-        }
-        let mut mesh = Mesh::from_arrays(connectivity, positions);
+        let mut mesh = Mesh::try_from_arrays(connectivity, positions)?;
         for _ in 0..self.len()? {
             let (domain, column) = self.column()?;
             if column.values.len() != mesh.domain_len(domain) {
-                return Err(DecodeError::Mesh("an attribute has the wrong length"));
+                let name = column.name;
+                return Err(Defect::ColumnLength { domain, name }.into());
             }
             mesh.insert_column(domain, column);
         }

@@ -8,7 +8,6 @@ mod decode;
 mod digest;
 mod material;
 mod place;
-mod sound;
 
 use std::sync::Arc;
 

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use tempfile::NamedTempFile;
 
-use crate::{Entry, Kind, NewFile, Store, StoreError, folder_of};
+use crate::{Entry, Kind, NewFile, Store, StoreError, check_place, folder_of};
 
 /// The files of the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -85,18 +85,10 @@ impl Store for Disk {
     }
 
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError> {
-        let place = match (self.is_folder(path), self.is_folder(folder_of(path))) {
-            (true, _) => Err(io::Error::other("a folder of this name is there")),
-            (_, false) => Err(io::Error::other("there is no such folder")),
-            _ => beside(path),
-        };
-        match place {
-            Ok(file) => Ok(Box::new(Begun {
-                file,
-                path: path.to_owned(),
-            })),
-            Err(error) => Err(StoreError::write(path, error)),
-        }
+        check_place(self, path)?;
+        let file = beside(path).map_err(|error| StoreError::write(path, error))?;
+        let path = path.to_owned();
+        Ok(Box::new(Begun { file, path }))
     }
 
     fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError> {

@@ -282,6 +282,16 @@ pub fn folder_of(path: &Path) -> &Path {
     }
 }
 
+/// Whether a file of this name can be there.
+fn check_place(store: &dyn Store, path: &Path) -> Result<(), StoreError> {
+    let problem = match (store.is_folder(path), store.is_folder(folder_of(path))) {
+        (true, _) => "a folder of this name is there",
+        (_, false) => "there is no such folder",
+        _ => return Ok(()),
+    };
+    Err(StoreError::write(path, io::Error::other(problem)))
+}
+
 /// All plain files below a folder, sorted.
 ///
 /// # Errors

@@ -3,51 +3,39 @@
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::path::{Component, Path, PathBuf};
-use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, SystemTime};
 
-use crate::{Entry, Kind, NewFile, Store, StoreError, folder_of};
+use crate::{Entry, Kind, NewFile, Store, StoreError, check_place};
 
 /// Files that exist as long as this does. The working directory is the root, `..` leads up by name, and there are no
 /// links.
 #[derive(Debug, Default)]
-pub struct Memory(RwLock<Content>);
+pub struct Memory(Mutex<Content>);
 
 #[derive(Debug, Default)]
 struct Content {
-    entries: BTreeMap<PathBuf, Stored>,
+    entries: BTreeMap<PathBuf, (Entry, Arc<[u8]>)>,
     /// How many files and folders were written so far.
     n_written: u64,
 }
 
-#[derive(Clone, Debug)]
-struct Stored {
-    /// `None` for a folder.
-    bytes: Option<Arc<[u8]>>,
-    /// The number of its writing.
-    written: u64,
-}
-
 impl Memory {
-    fn content(&self) -> RwLockReadGuard<'_, Content> {
+    fn content(&self) -> MutexGuard<'_, Content> {
         // Each change is one insertion or removal, so the map is whole even after a panic.
-        self.0.read().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn change(&self) -> RwLockWriteGuard<'_, Content> {
-        self.0.write().unwrap_or_else(PoisonError::into_inner)
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 impl Content {
-    fn get(&self, path: &Path) -> Option<&Stored> {
-        self.entries.get(&plain(path))
-    }
-
-    fn insert(&mut self, path: &Path, bytes: Option<Arc<[u8]>>) {
+    fn insert(&mut self, path: PathBuf, kind: Kind, bytes: Arc<[u8]>) {
         self.n_written += 1;
-        let written = self.n_written;
-        self.entries.insert(plain(path), Stored { bytes, written });
+        let entry = Entry {
+            kind,
+            len: bytes.len() as u64,
+            modified: Some(SystemTime::UNIX_EPOCH + Duration::from_nanos(self.n_written)),
+        };
+        self.entries.insert(path, (entry, bytes));
     }
 }
 
@@ -70,41 +58,29 @@ fn missing() -> io::Error {
 
 impl Store for Memory {
     fn read_up_to(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
-        let read = match self.content().get(path) {
-            Some(Stored { bytes: None, .. }) => Err(io::Error::new(
-                io::ErrorKind::IsADirectory,
-                "expected a file, found a folder",
-            )),
-            Some(Stored {
-                bytes: Some(bytes), ..
-            }) => {
+        let read = match self.content().entries.get(&plain(path)) {
+            Some((entry, bytes)) if entry.is_file() => {
                 let n = usize::try_from(most).map_or(bytes.len(), |most| most.min(bytes.len()));
                 Ok(bytes[..n].to_vec())
             }
+            Some(_) => Err(io::Error::new(
+                io::ErrorKind::IsADirectory,
+                "expected a file, found a folder",
+            )),
             None => Err(missing()),
         };
         read.map_err(|error| StoreError::read(path, error))
     }
 
     fn entry(&self, path: &Path) -> Option<Entry> {
-        let content = self.content();
-        let folder = Entry {
+        let path = plain(path);
+        let root = Entry {
             kind: Kind::Folder,
             len: 0,
             modified: None,
         };
-        let Some(stored) = content.get(path) else {
-            return plain(path).as_os_str().is_empty().then_some(folder);
-        };
-        let modified = SystemTime::UNIX_EPOCH + Duration::from_nanos(stored.written);
-        Some(match &stored.bytes {
-            None => folder,
-            Some(bytes) => Entry {
-                kind: Kind::File,
-                len: bytes.len() as u64,
-                modified: Some(modified),
-            },
-        })
+        let found = self.content().entries.get(&path).map(|(entry, _)| *entry);
+        found.or(path.as_os_str().is_empty().then_some(root))
     }
 
     fn is_link(&self, _: &Path) -> bool {
@@ -132,16 +108,15 @@ impl Store for Memory {
     }
 
     fn make_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        let mut content = self.change();
-        for folder in plain(folder).ancestors() {
-            match content.get(folder) {
-                _ if folder.as_os_str().is_empty() => {}
-                Some(Stored { bytes: None, .. }) => {}
+        let plain = plain(folder);
+        for folder in plain.ancestors() {
+            match self.entry(folder).map(|entry| entry.kind) {
+                Some(Kind::Folder) => {}
                 Some(_) => {
                     let error = io::Error::other("a file of this name is there");
                     return Err(StoreError::folder(folder, error));
                 }
-                None => content.insert(folder, None),
+                None => (self.content()).insert(folder.to_owned(), Kind::Folder, Arc::default()),
             }
         }
         Ok(())
@@ -151,7 +126,7 @@ impl Store for Memory {
         let folder = folder.unwrap_or(Path::new(""));
         let path = loop {
             let n = {
-                let mut content = self.change();
+                let mut content = self.content();
                 content.n_written += 1;
                 content.n_written
             };
@@ -166,33 +141,26 @@ impl Store for Memory {
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
         let folder = plain(folder);
-        let entries = &mut self.change().entries;
-        entries.retain(|path, _| !path.starts_with(&folder));
+        self.content()
+            .entries
+            .retain(|path, _| !path.starts_with(&folder));
         Ok(())
     }
 
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError> {
-        let problem = match (self.is_folder(path), self.is_folder(folder_of(path))) {
-            (true, _) => "a folder of this name is there",
-            (_, false) => "there is no such folder",
-            _ => {
-                return Ok(Box::new(Begun {
-                    store: self,
-                    path: path.to_owned(),
-                    bytes: Vec::new(),
-                }));
-            }
-        };
-        Err(StoreError::write(path, io::Error::other(problem)))
+        check_place(self, path)?;
+        Ok(Box::new(Begun {
+            store: self,
+            path: path.to_owned(),
+            bytes: Vec::new(),
+        }))
     }
 
     fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError> {
-        let mut content = self.change();
-        let (from, new) = (plain(from), plain(to));
-        match content.entries.remove(&from) {
-            Some(stored) => _ = content.entries.insert(new, stored),
-            None => return Err(StoreError::write(to, missing())),
-        }
+        let mut content = self.content();
+        let stored = content.entries.remove(&plain(from));
+        let stored = stored.ok_or_else(|| StoreError::write(to, missing()))?;
+        content.entries.insert(plain(to), stored);
         Ok(())
     }
 }
@@ -217,7 +185,8 @@ impl Write for Begun<'_> {
 impl NewFile for Begun<'_> {
     fn commit(self: Box<Self>) -> Result<(), StoreError> {
         let bytes = self.bytes.into();
-        self.store.change().insert(&self.path, Some(bytes));
+        let mut content = self.store.content();
+        content.insert(plain(&self.path), Kind::File, bytes);
         Ok(())
     }
 }

@@ -7,8 +7,7 @@ use std::str::FromStr;
 use clap::Args as ClapArgs;
 use serde::{Deserialize, Serialize};
 
-use super::{CacheArgs, DrawArgs, Format, ValueArgs, size};
-use crate::picture_errors::PictureErrorsArgs;
+use super::{CacheArgs, DrawArgs, Format, PictureErrorsArgs, ValueArgs, size};
 
 /// What commands that run many recipes at once share.
 #[derive(Debug, ClapArgs)]

@@ -11,12 +11,10 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
-use crate::picture_errors::PictureErrorsArgs;
-
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
 pub(crate) use many::{BatchArgs, Shard, SweepArgs, TestArgs};
-pub(crate) use picture::{DrawArgs, PictureArgs};
+pub(crate) use picture::{DrawArgs, PictureArgs, PictureErrorsArgs};
 pub(crate) use read::ReadArgs;
 pub(crate) use run::{
     CheckArgs, RecipeArgs, ReproduceArgs, RunArgs, ShrinkArgs, UpgradeArgs, ValueArgs,
@@ -118,6 +116,11 @@ pub(crate) enum Command {
         meshwright: PathBuf,
     },
 }
+
+/// An invalid combination of arguments, found after they were read: exit code 2.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub(crate) struct WrongUsage(pub(crate) String);
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {

@@ -53,6 +53,21 @@ pub(crate) struct DrawArgs {
     pub(crate) on: Vec<String>,
 }
 
+/// Whether failures are drawn.
+#[derive(Debug, ClapArgs)]
+pub(crate) struct PictureErrorsArgs {
+    /// Draw each failure into this folder, the working directory unless told otherwise: the scene, with the
+    /// elements that it is about large and marked
+    #[arg(
+        long,
+        value_name = "DIR",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "."
+    )]
+    pub(crate) picture_errors: Option<PathBuf>,
+}
+
 #[derive(Debug, ClapArgs)]
 #[command(after_help = "Examples:
   meshwright picture cow.obj --wireframe --out cow.png

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
 
-use super::{CacheArgs, Format, assignment, size};
-use crate::picture_errors::PictureErrorsArgs;
+use super::{CacheArgs, Format, PictureErrorsArgs, assignment, size};
 
 /// The values of a recipe's parameters.
 #[derive(Debug, Default, ClapArgs)]

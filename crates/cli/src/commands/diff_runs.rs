@@ -5,8 +5,7 @@ use std::path::Path;
 use anyhow::Context as _;
 use serde_json::{Map, Value as Json, json};
 
-use crate::WrongUsage;
-use crate::args::Format;
+use crate::args::{Format, WrongUsage};
 use crate::output::print;
 
 /// What may differ between runs of one recipe: times, what was taken from earlier runs, where it ran.

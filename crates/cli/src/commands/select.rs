@@ -7,8 +7,7 @@ use recipe::{Source, read_selection, resolve};
 use scene::Object;
 use serde_json::{Value as Json, json};
 
-use crate::WrongUsage;
-use crate::args::{Format, Kind, SelectArgs};
+use crate::args::{Format, Kind, SelectArgs, WrongUsage};
 use crate::commands::picture::{draw_found, write_images};
 use crate::output::{complain, grouped, print};
 use crate::scenes::find;

@@ -2,12 +2,10 @@
 
 use std::path::Path;
 
-use anyhow::Context as _;
 use recipe::Outcome;
 use recipe::update::update;
 
-use crate::output::{Begun, begin};
-use crate::replace::replace_file;
+use crate::output::begin;
 use engine::Loaded;
 
 /// Renews the values that the recipe records and the run found to be others, and returns a line for each
@@ -20,14 +18,13 @@ pub(crate) fn renew(
     let update = update(&loaded.recipe, outcome);
     // All files first: if one cannot be written, the recipe says nothing new.
     let files = update.files.iter().map(|(path, bytes)| begin(path, bytes));
-    let files: Vec<Begun> = files.collect::<Result<_, _>>()?;
+    let files: Vec<_> = files.collect::<Result<_, _>>()?;
     for file in files {
-        file.finish()?;
+        file.commit()?;
     }
     let is_other = update.text != loaded.recipe.sources.first().map_or("", |s| &s.text);
     if is_other {
-        replace_file(path, &update.text)
-            .with_context(|| format!("cannot write {}", path.display()))?;
+        store::replace(path, update.text.as_bytes())?;
     }
     outcome.failures = update.left;
     let lines = update.changes.iter().map(|change| {

@@ -2,15 +2,13 @@
 
 use std::path::Path;
 
-use anyhow::Context as _;
 use op::Registry;
 use recipe::Source;
 use recipe::upgrade::upgrade;
 
 use crate::args::UpgradeArgs;
 use crate::loading::recipes;
-use crate::output::{complain, print};
-use crate::replace::replace_file;
+use crate::output::{complain, counted, print};
 
 pub(crate) fn run(args: &UpgradeArgs, registry: &Registry) -> anyhow::Result<bool> {
     let recipes = recipes(&args.recipes)?;
@@ -25,12 +23,11 @@ pub(crate) fn run(args: &UpgradeArgs, registry: &Registry) -> anyhow::Result<boo
             }
         }
     }
-    let n = recipes.len();
-    let s = if n == 1 { "" } else { "s" };
+    let n = counted(recipes.len(), "recipe");
     print(&match (old, args.check) {
-        (0, _) => format!("{n} recipe{s}, nothing to rewrite\n"),
-        (_, true) => format!("{n} recipe{s}, {old} to rewrite\n"),
-        (_, false) => format!("{n} recipe{s}, {old} rewritten\n"),
+        (0, _) => format!("{n}, nothing to rewrite\n"),
+        (_, true) => format!("{n}, {old} to rewrite\n"),
+        (_, false) => format!("{n}, {old} rewritten\n"),
     })?;
     Ok(failed == 0 && !(args.check && old > 0))
 }
@@ -53,7 +50,7 @@ fn one(path: &Path, only_check: bool, registry: &Registry) -> anyhow::Result<boo
         ))?;
     }
     if !only_check && upgraded.text != *source.text {
-        replace_file(path, &upgraded.text).with_context(|| format!("cannot write {shown}"))?;
+        store::replace(path, upgraded.text.as_bytes())?;
     }
     Ok(!upgraded.renames.is_empty())
 }

@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::subject::{Failure, Subject};
-use super::{Other, ReadObjects};
+use super::{Other, Reader};
 use crate::run::Outcome;
 use geometry::distance::Distance;
 
@@ -64,7 +64,7 @@ pub enum Measured {
 }
 
 impl Metric {
-    /// Measures a run that succeeded. `files` and `read` serve to read what it is compared with.
+    /// Measures a run that succeeded. `files` and `reader` serve to read what it is compared with.
     ///
     /// # Errors
     ///
@@ -73,14 +73,14 @@ impl Metric {
         &self,
         outcome: &Outcome,
         files: &Files,
-        read: ReadObjects,
+        reader: &dyn Reader,
     ) -> Result<Measured, String> {
         let scene = outcome.scene.as_ref();
         let subject = Subject {
             scene: scene.ok_or("the scene stayed in the cache")?,
             on: None,
             files,
-            read,
+            reader,
         };
         let whole = |n: usize| Measured::Whole(i64::try_from(n).unwrap_or(i64::MAX));
         Ok(match self {

@@ -3,7 +3,6 @@
 mod check;
 mod metric;
 mod output;
-mod pixels;
 mod places;
 mod same;
 mod subject;
@@ -20,7 +19,7 @@ pub use check::Broken;
 pub use metric::{Measured, Metric};
 pub(crate) use output::golden;
 pub(crate) use same::same_faces;
-pub use subject::{Found, ReadObjects, Subject};
+pub use subject::{Found, Reader, Subject};
 pub use symmetry::Group;
 
 /// What must hold for a scene. Where it speaks of the mesh, it means all meshes together, or those of

@@ -9,8 +9,7 @@ use op::Files;
 use scene::{Digest, Object, Scene};
 use store::TemporaryFolder;
 
-use super::pixels;
-use super::subject::{Failure, Found, ReadObjects, Subject};
+use super::subject::{Failure, Found, Subject};
 
 /// The bytes of a larger file are not kept to renew what it is held against.
 const LARGEST: u64 = 64 << 20;
@@ -111,9 +110,9 @@ pub(super) fn check(
         ));
     }
     let compared = if is_picture(path) {
-        pixels::compare(&*files.store, &written, &golden, tolerance)
+        compare_pictures(&written, &golden, tolerance, subject)
     } else {
-        compare(&written, &golden, subject.read, files)
+        compare(&written, &golden, subject)
     };
     let Err(difference) = compared else {
         return Ok(());
@@ -169,7 +168,7 @@ fn recorded(
 /// Whether a file says the same without those beside it, such as the materials of an OBJ file, under the name of
 /// the file beside the recipe.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
-    let Ok(objects) = (subject.read)(written, subject.files) else {
+    let Ok(objects) = subject.reader.objects(written, subject.files) else {
         return true;
     };
     let alone = || {
@@ -179,22 +178,36 @@ fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -
         store
             .write(&path, bytes)
             .map_err(|error| error.to_string())?;
-        let alone = (subject.read)(&path, subject.files)?;
+        let alone = subject.reader.objects(&path, subject.files)?;
         digests((written, objects), (&path, alone))
     };
     alone().is_ok_and(|[then, now]| then == now)
 }
 
-/// What is other in files that are no pictures.
-fn compare(
+/// How the pixels of pictures differ.
+fn compare_pictures(
     written: &Path,
     golden: &Path,
-    read: ReadObjects,
-    files: &Files,
+    tolerance: u8,
+    subject: Subject,
 ) -> Result<(), Difference> {
+    let bytes = |path| {
+        let bytes = subject.files.store.read(path);
+        bytes.map_err(|error| error.to_string())
+    };
+    let (now, then) = (bytes(written)?, bytes(golden)?);
+    let differs = subject
+        .reader
+        .compare_pictures((written, &now), (golden, &then), tolerance)?;
+    differs.map_or(Ok(()), |message| Err(Difference::Told(message)))
+}
+
+/// What is other in files that are no pictures.
+fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Difference> {
+    let (reader, files) = (subject.reader, subject.files);
     // What is no file of objects is a file of bytes.
-    if let Ok(now) = read(written, files) {
-        let then = read(golden, files)?;
+    if let Ok(now) = reader.objects(written, files) {
+        let then = reader.objects(golden, files)?;
         let [now, then] = digests((written, now), (golden, then))?;
         let message = format!("expected objects of the digest {then}, found {now}");
         return if now == then {

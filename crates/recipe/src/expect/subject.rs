@@ -14,8 +14,28 @@ use scene::{Geometry, Object, Scene};
 
 use super::Other;
 
-/// Reads the objects of a file, and tells [`Files::has_read`] what was read.
-pub type ReadObjects<'a> = &'a (dyn Fn(&Path, &Files) -> Result<Vec<Object>, String> + Sync);
+/// Reads the files that expectations name.
+pub trait Reader: Sync {
+    /// Reads the objects of a file, and tells [`Files::has_read`] what was read.
+    ///
+    /// # Errors
+    ///
+    /// Why the file cannot be read, with its path.
+    fn objects(&self, path: &Path, files: &Files) -> Result<Vec<Object>, String>;
+
+    /// How the pixels of two PNG files, each with its path, differ by more than `tolerance` steps of 255; `None` if they
+    /// do not.
+    ///
+    /// # Errors
+    ///
+    /// Why one of them cannot be read, with its path.
+    fn compare_pictures(
+        &self,
+        found: (&Path, &[u8]),
+        expected: (&Path, &[u8]),
+        tolerance: u8,
+    ) -> Result<Option<String>, String>;
+}
 
 /// Why an expectation does not hold.
 pub(super) enum Failure {
@@ -90,7 +110,7 @@ pub struct Subject<'a> {
     /// Where files are.
     pub files: &'a Files,
     /// How files are read.
-    pub read: ReadObjects<'a>,
+    pub reader: &'a dyn Reader,
 }
 
 impl<'a> Subject<'a> {
@@ -173,7 +193,9 @@ impl<'a> Subject<'a> {
                     .cloned()
                     .ok_or(format!("\"{name}\" is not a mesh"))
             }
-            Other::File(path) => (self.read)(&self.files.to_read(path), self.files)?
+            Other::File(path) => self
+                .reader
+                .objects(&self.files.to_read(path), self.files)?
                 .iter()
                 .find_map(Object::as_mesh)
                 .cloned()

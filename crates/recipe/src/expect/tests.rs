@@ -14,6 +14,7 @@ use op::Files;
 use scene::{Geometry, Object, Scene};
 
 use super::{Expectation, Subject};
+use crate::tests::objects;
 
 /// A scene with these meshes.
 fn scene(meshes: impl IntoIterator<Item = (&'static str, Mesh)>) -> Scene {
@@ -52,18 +53,18 @@ fn check_on(scene: &Scene, on: Option<&[String]>, text: &str) -> Result<(), Stri
         input: "folder".into(),
         ..Files::default()
     };
-    let read = |path: &Path, _: &Files| {
+    let reader = objects(|path, _| {
         if path == Path::new("folder/octahedron.obj") {
             Ok(vec![Object::mesh("octahedron", shapes::octahedron())])
         } else {
             Err(format!("{} is broken", path.display()))
         }
-    };
+    });
     let subject = Subject {
         scene,
         on,
         files: &files,
-        read: &read,
+        reader: &reader,
     };
     expectation(text).check(subject)
 }

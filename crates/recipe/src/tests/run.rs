@@ -10,7 +10,7 @@ use op::{Files, Place, Progress};
 use scene::{Digest, Scene};
 use tempfile::TempDir;
 
-use super::{files, read, read_with, shown, steps};
+use super::{files, objects, read, read_with, shown, steps};
 use crate::{Failure, Listener, Outcome, Reading, Settings, Silent, StepDone, run};
 
 /// Runs a recipe that is read without mistakes.
@@ -32,7 +32,7 @@ fn run_reading(
     let settings = Settings {
         files: &files,
         budget: u64::MAX,
-        read: &|path, _| Err(format!("{} is not read here", path.display())),
+        reader: &objects(|path, _| Err(format!("{} is not read here", path.display()))),
         keep_outputs,
         writes: !forecast.outputs.is_empty(),
         cache: None,
@@ -256,7 +256,7 @@ fn a_mesh_over_the_budget_is_not_made() {
     let settings = Settings {
         files: &files,
         budget: 1000,
-        read: &|_, _| Err(String::new()),
+        reader: &objects(|_, _| Err(String::new())),
         keep_outputs: true,
         writes: false,
         cache: None,
@@ -337,7 +337,7 @@ fn a_link_does_not_lead_outputs_out_of_the_folder() {
     let settings = Settings {
         files: &files,
         budget: u64::MAX,
-        read: &|_, _| Err(String::new()),
+        reader: &objects(|_, _| Err(String::new())),
         keep_outputs: true,
         writes: true,
         cache: None,

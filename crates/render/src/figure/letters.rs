@@ -177,7 +177,7 @@ fn is_invisible(c: char) -> bool {
     clippy::cast_possible_truncation,
     reason = "the rasterizer has 32-bit numbers"
 )]
-fn narrow(x: f64) -> f32 {
+pub(super) fn narrow(x: f64) -> f32 {
     x as f32
 }
 

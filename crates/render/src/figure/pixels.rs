@@ -10,8 +10,8 @@ use tiny_skia::{
     Transform,
 };
 
-use super::letters;
-use super::svg::{Color, Element, Part, Shape, Svg};
+use super::letters::{self, narrow};
+use super::svg::{Color, Element, Shape, Svg};
 use crate::blend::blended;
 use crate::image::checked_size;
 use crate::{Image, PictureError};
@@ -241,25 +241,14 @@ fn outline(shape: &Shape) -> Option<Path> {
             }
         }
         Shape::Path(shape) => {
-            for part in &shape.parts {
-                match *part {
-                    Part::Move(p) => {
-                        let [x, y] = point(p);
-                        path.move_to(x, y);
-                    }
-                    Part::Line(p) => {
-                        let [x, y] = point(p);
-                        path.line_to(x, y);
-                    }
-                    Part::Quadratic(points) => {
-                        let [[x1, y1], [x, y]] = points.map(point);
-                        path.quad_to(x1, y1, x, y);
-                    }
-                    Part::Cubic(points) => {
-                        let [[x1, y1], [x2, y2], [x, y]] = points.map(point);
-                        path.cubic_to(x1, y1, x2, y2, x, y);
-                    }
-                    Part::Close => path.close(),
+            for (letter, points) in &shape.parts {
+                let points: Vec<[f32; 2]> = points.iter().copied().map(point).collect();
+                match (letter, &points[..]) {
+                    ('M', &[[x, y]]) => path.move_to(x, y),
+                    ('L', &[[x, y]]) => path.line_to(x, y),
+                    ('Q', &[[x1, y1], [x, y]]) => path.quad_to(x1, y1, x, y),
+                    ('C', &[[x1, y1], [x2, y2], [x, y]]) => path.cubic_to(x1, y1, x2, y2, x, y),
+                    _ => path.close(),
                 }
             }
         }
@@ -269,14 +258,6 @@ fn outline(shape: &Shape) -> Option<Path> {
 
 fn point(p: DVec2) -> [f32; 2] {
     [p.x, p.y].map(narrow)
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the rasterizer has 32-bit numbers"
-)]
-fn narrow(x: f64) -> f32 {
-    x as f32
 }
 
 #[cfg(test)]

@@ -3,8 +3,6 @@
 //! Only what every program shows alike is used, and what becomes the same pixels on every processor: no
 //! gradients, no arcs, no filters, no style sheets. Coordinates have three decimals.
 
-use std::fmt::Write;
-
 use glam::DVec2;
 
 /// A color: red, green and blue (sRGB) and alpha, from 0 to 255.
@@ -191,17 +189,8 @@ impl Text {
 /// A path of lines and Bezier curves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
-    pub(super) parts: Vec<Part>,
-}
-
-/// A command of a path, with the points that lead to the next.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Part {
-    Move(DVec2),
-    Line(DVec2),
-    Quadratic([DVec2; 2]),
-    Cubic([DVec2; 3]),
-    Close,
+    /// The commands of SVG, with their points.
+    pub(super) parts: Vec<(char, Vec<DVec2>)>,
 }
 
 impl Path {
@@ -212,52 +201,43 @@ impl Path {
 
     /// Begins a new part at `p`.
     pub fn move_to(&mut self, p: DVec2) {
-        self.parts.push(Part::Move(rounded(p)));
+        self.command('M', &[p]);
     }
 
     /// A straight line to `p`.
     pub fn line_to(&mut self, p: DVec2) {
-        self.parts.push(Part::Line(rounded(p)));
+        self.command('L', &[p]);
     }
 
     /// A quadratic Bezier curve with the inner control point `b`, to `p`.
     pub fn quadratic_to(&mut self, b: DVec2, p: DVec2) {
-        self.parts.push(Part::Quadratic([b, p].map(rounded)));
+        self.command('Q', &[b, p]);
     }
 
     /// A cubic Bezier curve with the inner control points `b` and `c`, to `p`.
     pub fn cubic_to(&mut self, b: DVec2, c: DVec2, p: DVec2) {
-        self.parts.push(Part::Cubic([b, c, p].map(rounded)));
+        self.command('C', &[b, c, p]);
     }
 
     /// Joins the end of the part to its beginning.
     pub fn close(&mut self) {
-        self.parts.push(Part::Close);
+        self.command('Z', &[]);
+    }
+
+    fn command(&mut self, letter: char, points: &[DVec2]) {
+        let points = points.iter().copied().map(rounded).collect();
+        self.parts.push((letter, points));
     }
 
     /// The path as SVG writes it.
     fn data(&self) -> String {
-        let mut data = String::new();
-        for part in &self.parts {
-            let (letter, points) = match part {
-                Part::Move(p) => ('M', std::slice::from_ref(p)),
-                Part::Line(p) => ('L', std::slice::from_ref(p)),
-                Part::Quadratic(points) => ('Q', points.as_slice()),
-                Part::Cubic(points) => ('C', points.as_slice()),
-                Part::Close => ('Z', [].as_slice()),
-            };
-            data.push(letter);
-            for (i, p) in points.iter().enumerate() {
-                let gap = if i == 0 { "" } else { " " };
-                write!(data, "{gap}{} {}", p.x, p.y).expect(WRITTEN);
-            }
-        }
-        data
+        let part = |(letter, points): &(char, Vec<DVec2>)| {
+            let points: Vec<String> = points.iter().map(|p| format!("{} {}", p.x, p.y)).collect();
+            format!("{letter}{}", points.join(" "))
+        };
+        self.parts.iter().map(part).collect()
     }
 }
-
-/// Strings take everything.
-const WRITTEN: &str = "a string can be written to";
 
 /// What a document is made of. All numbers are rounded as they are written.
 #[derive(Clone, Debug, PartialEq)]

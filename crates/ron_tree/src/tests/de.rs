@@ -222,6 +222,28 @@ proptest! {
     }
 }
 
+#[derive(Debug, Deserialize)]
+#[serde(try_from = "f64")]
+struct Positive;
+
+impl TryFrom<f64> for Positive {
+    type Error = &'static str;
+
+    fn try_from(value: f64) -> Result<Self, Self::Error> {
+        (value > 0.0).then_some(Self).ok_or("expected more than 0")
+    }
+}
+
+#[test]
+fn what_a_type_refuses_itself_has_the_place_of_its_value() {
+    for text in [r#"{"a": [1, 2], "b": [3, -1]}"#, r#"{"a": [-1, -2]}"#] {
+        let read = from_str::<BTreeMap<String, Vec<Positive>>>(text);
+        let error = read.unwrap_err();
+        assert_eq!(error.span.unwrap().of(text), "-1");
+        assert_eq!(error.message, "expected more than 0");
+    }
+}
+
 #[test]
 fn an_error_has_the_place_of_the_innermost_value() {
     let place = |text: &'static str| {

@@ -123,7 +123,13 @@ fn the_color_of_a_distance_is_that_of_the_place() {
     let mut scene = Scene::new();
     scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
     let path = folder.path().join("cube.obj");
-    mesh_io::write(&path, &scene, &mesh_io::WriteOptions::default()).unwrap();
+    mesh_io::write(
+        &store::Disk,
+        &path,
+        &scene,
+        &mesh_io::WriteOptions::default(),
+    )
+    .unwrap();
     let picture = picture("path: \"a.png\", color_by: (of: DistanceTo(\"cube.obj\"))");
     let numbers = picture.color_by.as_ref().unwrap();
     let cx = Context::new(&NoProgress, &files);

@@ -26,7 +26,7 @@ use engine::Engine;
 use recipe::{InOrder, JobEnd, Jobs, Outcome};
 
 use crate::args::BatchArgs;
-use crate::listener::{Quiet, catch_interrupts, is_interrupted};
+use crate::listener::{QUIET, catch_interrupts, is_interrupted};
 use crate::many::{CHECKED_AHEAD, all, first_error, panicked};
 use crate::output::{print, shown};
 use engine::{Loaded, Run};
@@ -91,23 +91,28 @@ enum Task {
     /// It can run, and takes so many bytes.
     Run(Box<Loaded>, u64),
     /// It cannot run.
-    Fail(Failure),
-}
-
-/// A file that failed: its row, and the whole of what is to be said.
-struct Failure {
-    row: Row,
-    text: String,
-    key: Option<String>,
+    Fail(Done),
 }
 
 /// What came of a file.
+#[derive(Clone)]
 struct Done {
     row: Row,
     /// What the row depends on; `None` if it is not to be noted.
     key: Option<String>,
     /// The whole of what is to be said of a failure.
     text: String,
+}
+
+impl Done {
+    /// A row that is not noted.
+    fn silent(row: Row) -> Self {
+        Self {
+            row,
+            key: None,
+            text: String::new(),
+        }
+    }
 }
 
 /// Files that are checked and then run.
@@ -187,20 +192,8 @@ impl<'b> Chunk<'b> {
     fn work(&self, i: usize) -> Done {
         let (loaded, begin) = match &self.tasks[i] {
             Task::Run(loaded, _) => (loaded, Instant::now()),
-            Task::Keep(row) => {
-                return Done {
-                    row: row.clone(),
-                    key: None,
-                    text: String::new(),
-                };
-            }
-            Task::Fail(failure) => {
-                return Done {
-                    row: failure.row.clone(),
-                    key: failure.key.clone(),
-                    text: failure.text.clone(),
-                };
-            }
+            Task::Keep(row) => return Done::silent(row.clone()),
+            Task::Fail(failed) => return failed.clone(),
         };
         // Before the run: what changes meanwhile is done again.
         let key = self.batch.key(self.files[i], loaded);
@@ -208,7 +201,7 @@ impl<'b> Chunk<'b> {
             keep_outputs: true,
             cache: None,
         };
-        let outcome = loaded.run(run, &Quiet);
+        let outcome = loaded.run(run, &QUIET);
         let row = Row {
             seconds: begin.elapsed().as_secs_f64(),
             ..row(&self.files[i].path, loaded, &outcome)
@@ -225,26 +218,11 @@ impl<'b> Chunk<'b> {
     fn done(&self, i: usize, end: JobEnd<Done>) -> Done {
         match end {
             JobEnd::Done(done) => done,
-            JobEnd::Panicked(message) => {
-                let failure = failure(self.files[i], panicked(&message));
-                Done {
-                    row: failure.row,
-                    key: None,
-                    text: failure.text,
-                }
-            }
-            JobEnd::NotRun => {
-                let path = &self.files[i].path;
-                let row = match &self.tasks[i] {
-                    Task::Keep(row) => row.clone(),
-                    _ => Row::not_done(path, State::Skipped, None),
-                };
-                Done {
-                    row,
-                    key: None,
-                    text: String::new(),
-                }
-            }
+            JobEnd::Panicked(message) => failure(self.files[i], panicked(&message)),
+            JobEnd::NotRun => Done::silent(match &self.tasks[i] {
+                Task::Keep(row) => row.clone(),
+                _ => Row::not_done(&self.files[i].path, State::Skipped, None),
+            }),
         }
     }
 
@@ -305,8 +283,8 @@ fn noted(key: String, row: &Row, batch: &Batch) -> String {
     }
 }
 
-fn failure(file: &Input, message: String) -> Failure {
-    Failure {
+fn failure(file: &Input, message: String) -> Done {
+    Done {
         text: format!("error: {message}\n"),
         row: Row::not_done(&file.path, State::Failed, Some(message)),
         key: None,

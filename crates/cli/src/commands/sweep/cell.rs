@@ -4,13 +4,13 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use ::cache::{Cache, Caching};
-use engine::{Engine, Loaded, Run, read_objects};
+use engine::{Engine, FileReader, Loaded, Run};
 use recipe::{Grid, JobEnd, Measured, Metric, Outcome, Source, Span};
 use scene::Scene;
+use view::Extent;
 
-use super::sheet::{Seen, Sheet};
 use crate::args::SweepArgs;
-use crate::listener::Quiet;
+use crate::listener::QUIET;
 use crate::loading::load_text;
 use crate::many::{all, first_error, panicked};
 
@@ -26,8 +26,8 @@ pub(super) struct Cells<'a> {
     pub(super) keep: &'a [(Metric, Span)],
     /// Whether the recipe's expectations must hold.
     pub(super) expects: bool,
-    /// Where their scenes are drawn, if they are.
-    pub(super) sheet: Option<&'a Sheet<'a>>,
+    /// Takes in the scene of a cell that took so many bytes to make, if the scenes are drawn.
+    pub(super) see: Option<&'a (dyn Fn(Scene, u64) -> Seen + Sync)>,
 }
 
 /// A cell that is checked, or why it cannot run.
@@ -52,6 +52,16 @@ pub(super) struct CellResult {
     pub(super) seen: Option<Seen>,
     /// Whether Ctrl-C came before it was done.
     pub(super) is_not_run: bool,
+}
+
+/// What is known of a cell that succeeded.
+#[derive(Debug)]
+pub(super) struct Seen {
+    pub(super) extent: Result<Extent, String>,
+    /// The scene, if there is memory to keep it.
+    pub(super) scene: Option<Scene>,
+    /// The bytes that it takes to make it.
+    pub(super) bytes: u64,
 }
 
 impl CellResult {
@@ -127,18 +137,18 @@ impl Cells<'_> {
             Err(None) => return CellResult::not_run(),
         };
         let measure = |(metric, _): &(Metric, Span)| {
-            let measured = metric.measure(&outcome, &loaded.files, &read_objects);
+            let measured = metric.measure(&outcome, &loaded.files, &FileReader);
             measured.map_err(|problem| format!("{metric:?}: {problem}"))
         };
         let measures = match self.keep.iter().map(measure).collect() {
             Ok(measures) => measures,
             Err(error) => return CellResult::failed(error),
         };
-        let sheet = self.sheet.zip(outcome.scene.take());
+        let seen = self.see.zip(outcome.scene.take());
         CellResult {
             measures: Some(measures),
             outputs: outcome.written,
-            seen: sheet.map(|(sheet, scene)| sheet.see(scene, loaded.forecast.peak_bytes())),
+            seen: seen.map(|(see, scene)| see(scene, loaded.forecast.peak_bytes())),
             ..CellResult::default()
         }
     }
@@ -154,7 +164,7 @@ impl Cells<'_> {
             keep_outputs: keeps,
             cache: cache.as_ref().map(|caching| caching as _),
         };
-        let outcome = loaded.run(run, &Quiet);
+        let outcome = loaded.run(run, &QUIET);
         if outcome.cancelled {
             return Err(None);
         }

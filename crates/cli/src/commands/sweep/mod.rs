@@ -34,6 +34,7 @@ use recipe::{
     Diagnostic, Grid, InOrder, Jobs, Measured, Metric, Other, Setting, Severity, Source, Sweep,
     read_sweep,
 };
+use scene::Scene;
 use serde_json::{Map, Value as Json, json};
 
 use crate::args::{Format, SweepArgs};
@@ -68,7 +69,8 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
     } else {
         cache::open(&args.cache)?
     };
-    let sheet = Sheet::new(args, &plan, engine)?;
+    let sheet = Sheet::new(args, &plan)?;
+    let see = (sheet.as_ref()).map(|sheet| |scene: Scene, bytes: u64| sheet.see(scene, bytes));
     let cells = Cells {
         args,
         cache: cache.as_ref(),
@@ -77,7 +79,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
         grid: &plan.grid,
         keep: &plan.sweep.keep,
         expects: plan.sweep.expects,
-        sheet: sheet.as_ref(),
+        see: see.as_ref().map(|see| see as _),
     };
     let mut limits = args.many.limits();
     if sheet.is_some() {
@@ -193,8 +195,7 @@ impl Plan {
                 grid,
             })),
             _ => {
-                let errors = if n == 1 { "error" } else { "errors" };
-                complain(&format!("{n} {errors}, nothing was run\n"));
+                complain(&format!("{}, nothing was run\n", counted(n, "error")));
                 Ok(None)
             }
         }

@@ -8,16 +8,17 @@ use scene::Scene;
 use super::counts::with_double_edges;
 use super::{cube, expectation, lines, of, scene};
 use crate::expect::Subject;
+use crate::tests::objects;
 
 fn places(scene: &Scene, text: &str) -> Vec<Place> {
     let files = Files::default();
     let octahedron = scene::Object::mesh("octahedron", shapes::octahedron());
-    let read = |_: &std::path::Path, _: &Files| Ok(vec![octahedron.clone()]);
+    let reader = objects(|_, _| Ok(vec![octahedron.clone()]));
     expectation(text).places(Subject {
         scene,
         on: None,
         files: &files,
-        read: &read,
+        reader: &reader,
     })
 }
 

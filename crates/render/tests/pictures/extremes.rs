@@ -1,6 +1,6 @@
 //! Very many triangles, very large pictures, very large and very small coordinates.
 //!
-//! `cargo test -p meshwright-render --test extremes -- --ignored` runs what takes long or much memory.
+//! `cargo test -p meshwright-render --test pictures -- --ignored` runs what takes long or much memory.
 
 use geometry::shapes;
 use mesh::{DVec3, Mesh};

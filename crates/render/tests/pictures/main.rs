@@ -1,0 +1,5 @@
+//! Pictures and figures from outside.
+
+mod extremes;
+mod figures;
+mod goldens;

@@ -67,6 +67,15 @@ fn a_run_from_any_step_ends_as_the_whole_run() {
 }
 
 #[test]
+fn a_run_is_cancelled_from_outside() {
+    let cancel = Cancel::new();
+    assert!(loaded(RECIPE).run(Run::default(), &cancel).succeeded());
+    assert!(!cancel.set() && cancel.set());
+    let outcome = loaded(RECIPE).run(Run::default(), &cancel);
+    assert!(outcome.cancelled && outcome.steps.is_empty());
+}
+
+#[test]
 fn a_recipe_stops_where_it_is_told() {
     let faces = |stop: Stop| {
         let mut recipe = loaded(RECIPE);

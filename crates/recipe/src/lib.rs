@@ -45,7 +45,7 @@ pub use run::{
     StepDone, Unmet, Why, run, run_from,
 };
 pub use schema::{Schemas, schema, step_kinds};
-pub use select::{read_selection, resolve};
+pub use select::{read_selection, read_step, resolve};
 pub use shape::did_you_mean;
 pub use source::Source;
 pub use stamp::Stamp;

@@ -14,7 +14,7 @@ use serde::de::DeserializeOwned;
 
 use crate::schema;
 use crate::shape;
-use ron_tree::{Diagnostic, Value};
+use ron_tree::{Diagnostic, Value, ValueKind};
 
 /// Reads a selection as recipes write it: of `kind`, or else of the one kind of elements that has such
 /// selections.
@@ -38,6 +38,27 @@ pub fn read_selection(
         Some(ElementKind::Edges) => typed(value).map(Elements::Edges),
         Some(ElementKind::Faces) => typed(value).map(Elements::Faces),
     }
+}
+
+/// Reads the parameters of a step `Name(parameters)`, whatever the name.
+///
+/// # Errors
+///
+/// Everything that is wrong with them, with places in `source`.
+pub fn read_step<T: DeserializeOwned + JsonSchema>(source: &str) -> Result<T, Vec<Diagnostic>> {
+    let parsed = ron_tree::parse(source);
+    let step = &parsed.value;
+    let checked = shape::check_step(step, &schema::of::<T>());
+    let wrong = [parsed.diagnostics, checked.wrong.clone()].concat();
+    if !wrong.is_empty() {
+        return Err(wrong);
+    }
+    let full = checked.in_full(step);
+    let parameters = match &full.kind {
+        ValueKind::Call(call) => &call.body,
+        _ => &*full,
+    };
+    T::deserialize(parameters).map_err(|error| vec![shape::unread(step.span, error)])
 }
 
 fn typed<T: DeserializeOwned + JsonSchema>(value: &Value) -> Result<T, Vec<Diagnostic>> {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use op::{Context, Files};
 use ops_pictures::Picture;
-use recipe::{Source, Values};
+use recipe::Source;
 use render::Image;
 use ron_tree::string_literal;
 use scene::Scene;
@@ -14,7 +14,7 @@ use view::sheet::{Cell, SheetStyle, sheet};
 
 use crate::args::{DrawArgs, PictureArgs, WrongUsage};
 use crate::commands::batch::inputs;
-use crate::listener::{Quiet, Terminal, catch_interrupts};
+use crate::listener::{QUIET, Terminal, catch_interrupts};
 use crate::output::{STAMP, complain, print, write_whole};
 use crate::scenes::{Found, find};
 use engine::{BUDGET, Engine, Stop};
@@ -34,7 +34,7 @@ pub(crate) fn run(args: &PictureArgs, engine: &Engine) -> anyhow::Result<bool> {
     if !args.sheet {
         more.extend(args.columns.map(|n| format!("columns: {n}")));
     }
-    let picture = parameters(&args.draw, &out(args, &files[0]), usual, more, engine)?;
+    let picture = parameters(&args.draw, &out(args, &files[0]), usual, more)?;
     catch_interrupts();
     if args.sheet {
         return on_sheet(args, &picture, &files, engine);
@@ -46,7 +46,7 @@ pub(crate) fn run(args: &PictureArgs, engine: &Engine) -> anyhow::Result<bool> {
 
 /// Writes the images of a picture to a file.
 pub(crate) fn write_images(picture: &Picture, images: &[Image], path: &Path) -> anyhow::Result<()> {
-    let bytes = picture.encode(images, Some(STAMP), &Quiet)?;
+    let bytes = picture.encode(images, Some(STAMP), &QUIET)?;
     write(path, &bytes, &images[0])
 }
 
@@ -73,21 +73,13 @@ pub(crate) fn parameters(
     out: &Path,
     usual: [u32; 2],
     more: Vec<String>,
-    engine: &Engine,
 ) -> anyhow::Result<Picture> {
-    let fields = fields(args, out, usual, more);
-    let text = format!("(recipe: 1, steps: [Picture({fields})])");
-    let source = Source::new("options of picture", text.as_str());
-    let reading = recipe::read(&source, engine.registry(), Values::default());
-    let step = match &reading.recipe.steps[..] {
-        [step] if !reading.has_errors() => step.step.as_ref(),
-        _ => None,
-    };
-    let Some(step) = step else {
-        complain(&recipe::render(&[source], &reading.diagnostics, false));
-        return Err(WrongUsage("the options cannot be read".to_owned()).into());
-    };
-    let mut picture: Picture = ron::from_str(&step.canonical())?;
+    let text = format!("Picture({})", fields(args, out, usual, more));
+    let mut picture: Picture = recipe::read_step(&text).map_err(|wrong| {
+        let source = Source::new("options of picture", text.as_str());
+        complain(&recipe::render(&[source], &wrong, false));
+        WrongUsage("the options cannot be read".to_owned())
+    })?;
     let quantity = picture.color_by.as_mut().map(|by| &mut by.of);
     if let Some(Quantity::DistanceTo(path)) = quantity {
         *path = from_here(path)?;
@@ -260,7 +252,7 @@ fn is_cancelled(error: &anyhow::Error) -> bool {
 
 /// Writes one image, and says so if that is wanted.
 pub(crate) fn write_png(image: &Image, path: &Path, say: bool) -> anyhow::Result<()> {
-    let bytes = image.to_png_while(&[("Software", STAMP)], &Quiet)?;
+    let bytes = image.to_png_while(&[("Software", STAMP)], &QUIET)?;
     if say {
         write(path, &bytes, image)
     } else {

@@ -183,6 +183,9 @@ pub struct Count<const MIN: u32, const MAX: u32 = { u32::MAX }>(u32);
 pub type Levels = Count<0, 16>;
 
 impl<const MIN: u32, const MAX: u32> Count<MIN, MAX> {
+    /// The highest value.
+    pub const HIGHEST: Self = Self(MAX);
+
     const LIMITS: Limits = Limits {
         min: Included(MIN as f64),
         max: Included(MAX as f64),

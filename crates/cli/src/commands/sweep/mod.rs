@@ -69,7 +69,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
     } else {
         cache::open(&args.cache)?
     };
-    let sheet = Sheet::new(args, &plan, engine)?;
+    let sheet = Sheet::new(args, &plan)?;
     let see = (sheet.as_ref()).map(|sheet| |scene: Scene, bytes: u64| sheet.see(scene, bytes));
     let cells = Cells {
         args,
@@ -195,8 +195,7 @@ impl Plan {
                 grid,
             })),
             _ => {
-                let errors = if n == 1 { "error" } else { "errors" };
-                complain(&format!("{n} {errors}, nothing was run\n"));
+                complain(&format!("{}, nothing was run\n", counted(n, "error")));
                 Ok(None)
             }
         }

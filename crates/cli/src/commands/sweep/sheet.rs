@@ -12,7 +12,6 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use anyhow::ensure;
-use engine::Engine;
 use op::{Context, Files};
 use ops_pictures::Picture;
 use recipe::{Axis, InOrder, JobEnd, Jobs, Metric};
@@ -28,7 +27,7 @@ use super::cell::{CellResult, Cells, Seen};
 use super::{Plan, short};
 use crate::args::{SweepArgs, WrongUsage};
 use crate::commands::picture::{SHEET_CELL, check_names, parameters};
-use crate::listener::{Quiet, is_interrupted};
+use crate::listener::{QUIET, is_interrupted};
 use crate::many::panicked;
 
 /// Most lines below a cell: its values, and what is kept of it.
@@ -58,11 +57,7 @@ pub(super) struct Drawn {
 
 impl<'a> Sheet<'a> {
     /// Reads the options, if a sheet is wanted.
-    pub(super) fn new(
-        args: &'a SweepArgs,
-        plan: &Plan,
-        engine: &Engine,
-    ) -> anyhow::Result<Option<Self>> {
+    pub(super) fn new(args: &'a SweepArgs, plan: &Plan) -> anyhow::Result<Option<Self>> {
         let Some(path) = &args.sheet else {
             return Ok(None);
         };
@@ -73,7 +68,7 @@ impl<'a> Sheet<'a> {
             let message = format!("{}: expected an image that ends in .png", path.display());
             return Err(WrongUsage(message).into());
         }
-        let picture = parameters(&args.draw, path, SHEET_CELL, Vec::new(), engine)?;
+        let picture = parameters(&args.draw, path, SHEET_CELL, Vec::new())?;
         if picture.turntable.is_some() {
             return Err(WrongUsage("the cells on a sheet do not move".to_owned()).into());
         }
@@ -147,7 +142,7 @@ impl<'a> Sheet<'a> {
     }
 
     fn context(&self) -> Context<'_> {
-        let mut cx = Context::new(&Quiet, &self.files);
+        let mut cx = Context::new(&QUIET, &self.files);
         cx.budget = self.args.many.budget;
         let on = &self.args.draw.on;
         cx.on = (!on.is_empty()).then_some(on);

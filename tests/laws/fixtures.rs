@@ -139,7 +139,8 @@ fn dressed_as(name: &str, mesh: Mesh) -> Object {
 
 fn teapot() -> Geometry {
     let path = crate::root().join("scenes/assets/teapot.bez");
-    let loaded = mesh_io::read(&path, &mesh_io::ReadOptions::default()).expect("the teapot");
+    let loaded =
+        mesh_io::read(&store::Disk, &path, &mesh_io::ReadOptions::default()).expect("the teapot");
     let [object] = &loaded.objects[..] else {
         panic!("the teapot is one object");
     };

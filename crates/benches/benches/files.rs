@@ -21,6 +21,7 @@ use geometry::shapes;
 use mesh::Mesh;
 use mesh_io::{ReadOptions, WriteOptions, read, read_polygons, write};
 use scene::{Object, Scene};
+use store::Disk;
 
 type Group<'a> = BenchmarkGroup<'a, WallTime>;
 
@@ -41,10 +42,10 @@ fn million_triangles(c: &mut Criterion) {
             .throughput(Throughput::Bytes(bytes.len() as u64));
         measure(&mut group, "read the bytes alone", || fs::read(&path));
         measure(&mut group, "read to arrays", || {
-            read_polygons(&path, &ReadOptions::default()).expect("it was written")
+            read_polygons(&Disk, &path, &ReadOptions::default()).expect("it was written")
         });
         measure(&mut group, "read to a connected mesh", || {
-            read(&path, &ReadOptions::default()).expect("it was written")
+            read(&Disk, &path, &ReadOptions::default()).expect("it was written")
         });
         match ending {
             "obj" => obj_peers(&mut group, &path),
@@ -121,7 +122,7 @@ fn measure<T>(group: &mut Group, name: &str, mut call: impl FnMut() -> T) {
 }
 
 fn save(path: &Path, scene: &Scene) {
-    write(path, scene, &WriteOptions::default()).expect("the folder can be written");
+    write(&Disk, path, scene, &WriteOptions::default()).expect("the folder can be written");
 }
 
 fn scene(mesh: Mesh) -> Scene {

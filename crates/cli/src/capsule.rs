@@ -7,14 +7,14 @@ use anyhow::Context as _;
 use recipe::capsule::{BEFORE, capsule};
 use scene::Scene;
 
-use crate::listener::Quiet;
+use crate::listener::QUIET;
 use crate::output::write_whole;
 use engine::Loaded;
 
 /// The scene before a step of a recipe, all of whose steps before it can be done.
 pub(crate) fn scene_before(loaded: &mut Loaded, step: usize) -> anyhow::Result<Scene> {
     loaded
-        .scene_before(step, &Quiet)
+        .scene_before(step, &QUIET)
         .context("the steps before it fail too now")
 }
 
@@ -29,7 +29,7 @@ pub(crate) fn write(
     let failed = || format!("cannot write the capsule {}", folder.display());
     fs::create_dir_all(folder).with_context(failed)?;
     let options = mesh_io::WriteOptions::default();
-    mesh_io::write(&folder.join(BEFORE), scene, &options).with_context(failed)?;
+    mesh_io::write(&store::Disk, &folder.join(BEFORE), scene, &options).with_context(failed)?;
     let text = capsule(
         &loaded.recipe,
         step,

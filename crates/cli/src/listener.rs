@@ -1,24 +1,20 @@
 //! Progress on a terminal, and Ctrl-C.
 
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use engine::Cancel;
 use indicatif::{ProgressBar, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
-/// Set by Ctrl-C; every long loop asks for it.
-fn interrupted() -> &'static AtomicBool {
-    static INTERRUPTED: OnceLock<AtomicBool> = OnceLock::new();
-    INTERRUPTED.get_or_init(|| AtomicBool::new(false))
-}
+/// Set by Ctrl-C; every long loop asks for it. As a listener it shows nothing: for many runs at once.
+pub(crate) static QUIET: Cancel = Cancel::new();
 
 /// Lets Ctrl-C end the run in an orderly way. The second one ends the program at once.
 pub(crate) fn catch_interrupts() {
     // Without a handler Ctrl-C ends the program, which is fine too.
     let _ = ctrlc::set_handler(|| {
-        if interrupted().swap(true, Ordering::Relaxed) {
+        if QUIET.set() {
             std::process::exit(1);
         }
     });
@@ -26,21 +22,7 @@ pub(crate) fn catch_interrupts() {
 
 /// Whether Ctrl-C was pressed.
 pub(crate) fn is_interrupted() -> bool {
-    interrupted().load(Ordering::Relaxed)
-}
-
-/// Shows nothing, and stops for Ctrl-C: for many runs at once.
-pub(crate) struct Quiet;
-
-impl Progress for Quiet {
-    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
-        !is_interrupted()
-    }
-}
-
-impl Listener for Quiet {
-    fn step_begins(&self, _: usize, _: &str) {}
-    fn step_done(&self, _: usize, _: &StepDone) {}
+    QUIET.is_set()
 }
 
 /// Shows the step at work on a terminal, and nothing in a pipe.

@@ -11,7 +11,7 @@ use view::draw_places;
 use view::sheet::{Cell, SheetStyle, sheet};
 
 use crate::args::PictureErrorsArgs;
-use crate::listener::Quiet;
+use crate::listener::QUIET;
 use crate::output::{STAMP, complain, shown, write_whole};
 
 impl PictureErrorsArgs {
@@ -135,7 +135,7 @@ impl Pictures {
         places: &[Place],
         caption: &str,
     ) -> anyhow::Result<Option<Image>> {
-        let image = draw_places(scene, places, caption, self.budget, &Quiet)?;
+        let image = draw_places(scene, places, caption, self.budget, &QUIET)?;
         Ok(image)
     }
 

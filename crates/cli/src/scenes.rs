@@ -42,7 +42,8 @@ pub(crate) fn find(
         );
         return Err(WrongUsage(message).into());
     }
-    let loaded = mesh_io::read(path, options).map_err(|error| anyhow::anyhow!("{error}"))?;
+    let loaded =
+        mesh_io::read(&store::Disk, path, options).map_err(|error| anyhow::anyhow!("{error}"))?;
     for note in &loaded.notes {
         complain(&format!("note: {note}\n"));
     }

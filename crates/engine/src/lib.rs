@@ -6,7 +6,7 @@
 //! ```
 //!
 //! A [`Listener`] hears of each step and sees the scene after it. It cancels the run when
-//! [`advance`](op::Progress::advance) returns false.
+//! [`advance`](op::Progress::advance) returns false, as [`Cancel`] does from another thread.
 //!
 //! # Examples
 //!
@@ -32,6 +32,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod cancel;
 mod loaded;
 mod read;
 mod stop;
@@ -42,6 +43,7 @@ use std::sync::Arc;
 use op::{Files, Registry};
 use recipe::{Schemas, Stamp};
 
+pub use cancel::Cancel;
 pub use loaded::{Loaded, Run};
 pub use read::FileReader;
 pub use recipe::{

@@ -14,7 +14,8 @@ pub struct FileReader;
 impl Reader for FileReader {
     fn objects(&self, path: &Path, files: &Files) -> Result<Vec<Object>, String> {
         let options = mesh_io::ReadOptions::default();
-        let loaded = mesh_io::read(path, &options).map_err(|error| error.to_string())?;
+        let loaded =
+            mesh_io::read(&*files.store, path, &options).map_err(|error| error.to_string())?;
         for file in loaded.files {
             if file.is_read {
                 files.has_read(file.path);

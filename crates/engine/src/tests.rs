@@ -8,7 +8,7 @@ use super::*;
 const RECIPE: &str = "(recipe: 1, steps: [
     Cube(name: \"cube\"),
     (id: \"poke\", run: PokeFaces()),
-    Repeat(times: 2, steps: [(id: \"again\", run: PokeFaces(offset: 0.1))]),
+    Repeat(times: 2, steps: [(id: \"again\", run: PokeFaces(distance: 0.1))]),
 ], expect: [Faces(eq: 216), (after: \"poke\", that: Faces(eq: 24))])";
 
 fn registry() -> Registry {
@@ -64,6 +64,15 @@ fn a_run_from_any_step_ends_as_the_whole_run() {
         assert_eq!((rest.digest, rest.first), (whole.digest, i + 1));
         assert_eq!(rest.steps.len(), whole.steps.len() - i - 1);
     }
+}
+
+#[test]
+fn a_run_is_cancelled_from_outside() {
+    let cancel = Cancel::new();
+    assert!(loaded(RECIPE).run(Run::default(), &cancel).succeeded());
+    assert!(!cancel.set() && cancel.set());
+    let outcome = loaded(RECIPE).run(Run::default(), &cancel);
+    assert!(outcome.cancelled && outcome.steps.is_empty());
 }
 
 #[test]

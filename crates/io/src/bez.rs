@@ -10,23 +10,26 @@
 //! A `.bzc` file is the number of control points and then `x y` of each. Numbers are separated by
 //! blanks and line ends in any number. There are no comments.
 
-use std::path::Path;
-
 use bezier::{Curve, Patch};
 use glam::{DVec2, DVec3};
 use scene::{Geometry, Scene};
 
-use crate::Written;
-use crate::error::{TextError, Unwritable};
+use crate::One;
+use crate::error::Unwritable;
+use crate::fault::Fault;
 use crate::loss::Losses;
-use crate::text::{Cursor, check_encoding, number, push_number, quoted};
+use crate::text::{Cursor, Place, check_encoding, number, parsed, push_number};
 
 /// Reads the patches of a `.bez` file.
 ///
 /// # Errors
 ///
 /// The place of the first thing that is not what it should be.
-pub(crate) fn read_patches(bytes: &[u8]) -> Result<Vec<Patch>, TextError> {
+pub(crate) fn read_patches(bytes: &[u8]) -> Result<Geometry, Fault> {
+    patches(bytes).map(Geometry::Patches)
+}
+
+fn patches(bytes: &[u8]) -> Result<Vec<Patch>, Fault> {
     check_encoding(bytes)?;
     let mut cursor = Cursor::new(bytes);
     let n = count(&mut cursor, "patches", 16 * 3)?;
@@ -36,16 +39,11 @@ pub(crate) fn read_patches(bytes: &[u8]) -> Result<Vec<Patch>, TextError> {
         let place = cursor.place();
         let mut points = [[DVec3::ZERO; 4]; 4];
         for (k, point) in points.as_flattened_mut().iter_mut().enumerate() {
-            let what = |axis| {
-                format!(
-                    "{axis} of control point {} of 16 of patch {} of {n}",
-                    k + 1,
-                    i + 1
-                )
-            };
-            point.x = coordinate(&mut cursor, || what('x'))?;
-            point.y = coordinate(&mut cursor, || what('y'))?;
-            point.z = coordinate(&mut cursor, || what('z'))?;
+            let (k, i) = (k + 1, i + 1);
+            for (axis, x) in ['x', 'y', 'z'].into_iter().zip(point.as_mut()) {
+                let what = || format!("{axis} of control point {k} of 16 of patch {i} of {n}");
+                *x = coordinate(&mut cursor, what)?;
+            }
         }
         let patch = Patch::new(points);
         patches.push(patch.map_err(|e| place.error(format!("patch {} of {n}: {e}", i + 1)))?);
@@ -59,7 +57,11 @@ pub(crate) fn read_patches(bytes: &[u8]) -> Result<Vec<Patch>, TextError> {
 /// # Errors
 ///
 /// The place of the first thing that is not what it should be.
-pub(crate) fn read_curve(bytes: &[u8]) -> Result<Curve<DVec2>, TextError> {
+pub(crate) fn read_curve(bytes: &[u8]) -> Result<Geometry, Fault> {
+    curve(bytes).map(Geometry::Curve)
+}
+
+fn curve(bytes: &[u8]) -> Result<Curve<DVec2>, Fault> {
     check_encoding(bytes)?;
     let mut cursor = Cursor::new(bytes);
     cursor.skip_white();
@@ -81,37 +83,22 @@ pub(crate) fn read_curve(bytes: &[u8]) -> Result<Curve<DVec2>, TextError> {
 /// # Errors
 ///
 /// If an object has none.
-pub(crate) fn write_bez(path: &Path, scene: &Scene) -> Result<Written, Unwritable> {
+pub(crate) fn write_bez(scene: &Scene) -> Result<One, Unwritable> {
     let mut all = Vec::new();
     let mut losses = Vec::new();
     for object in scene.objects() {
         let Geometry::Patches(patches) = &object.geometry else {
-            let message = format!(
-                "a .bez file holds Bezier patches, found {}",
-                object.geometry.kind()
-            );
-            return Err(Unwritable::object(&object.name, message));
+            return Err(Unwritable::kind("a .bez file holds Bezier patches", object));
         };
         all.extend_from_slice(patches);
         let mut losses = Losses::of(&object.name, &mut losses);
-        losses.add(
-            None,
-            "materials",
-            object.materials.len(),
-            "a .bez file has no materials",
-        );
-        let others = scene.objects().len() - 1;
-        losses.add(
-            None,
-            "name",
-            others.min(1),
-            "the patches of all objects are written as one list",
-        );
+        let reason = "a .bez file has no materials";
+        losses.add(None, "materials", object.materials.len(), reason);
+        let several = usize::from(scene.objects().len() > 1);
+        let reason = "the patches of all objects are written as one list";
+        losses.add(None, "name", several, reason);
     }
-    Ok(Written {
-        files: vec![(path.to_path_buf(), write_patches(&all))],
-        losses,
-    })
+    Ok((write_patches(&all), losses))
 }
 
 /// The file that holds the curve of `scene`, and what it does not hold.
@@ -119,33 +106,20 @@ pub(crate) fn write_bez(path: &Path, scene: &Scene) -> Result<Written, Unwritabl
 /// # Errors
 ///
 /// If the scene is not one curve.
-pub(crate) fn write_bzc(path: &Path, scene: &Scene) -> Result<Written, Unwritable> {
+pub(crate) fn write_bzc(scene: &Scene) -> Result<One, Unwritable> {
     let [object] = scene.objects() else {
-        let message = format!(
-            "a .bzc file holds one curve, found {} objects",
-            scene.objects().len()
-        );
+        let n = scene.objects().len();
+        let message = format!("a .bzc file holds one curve, found {n} objects");
         return Err(Unwritable::Scene { message });
     };
     let Geometry::Curve(curve) = &object.geometry else {
-        let message = format!(
-            "a .bzc file holds a curve, found {}",
-            object.geometry.kind()
-        );
-        return Err(Unwritable::object(&object.name, message));
+        return Err(Unwritable::kind("a .bzc file holds a curve", object));
     };
     let mut losses = Vec::new();
-    let count = object.materials.len();
-    Losses::of(&object.name, &mut losses).add(
-        None,
-        "materials",
-        count,
-        "a .bzc file has no materials",
-    );
-    Ok(Written {
-        files: vec![(path.to_path_buf(), write_curve(curve))],
-        losses,
-    })
+    let reason = "a .bzc file has no materials";
+    let mut of_object = Losses::of(&object.name, &mut losses);
+    of_object.add(None, "materials", object.materials.len(), reason);
+    Ok((write_curve(curve), losses))
 }
 
 /// The text of a `.bez` file with these patches.
@@ -181,25 +155,11 @@ fn push_line(out: &mut Vec<u8>, numbers: &[f64]) {
 }
 
 /// The whole number at the start of a file, checked against what the rest of the file can hold.
-fn count(cursor: &mut Cursor, what: &str, numbers_each: usize) -> Result<usize, TextError> {
-    cursor.skip_white();
-    let place = cursor.place();
-    let word = cursor.word();
-    let parsed = std::str::from_utf8(word)
-        .ok()
-        .and_then(|text| text.parse::<usize>().ok());
-    let Some(n) = parsed else {
-        return Err(place.error(format!(
-            "expected the number of {what}, a whole number, found {}{}",
-            quoted(word),
-            comment_hint(word)
-        )));
-    };
-    // A number takes at least one digit and one separator.
-    let room = cursor.remaining() / 2;
-    if n.checked_mul(numbers_each)
-        .is_none_or(|numbers| numbers > room)
-    {
+fn count(cursor: &mut Cursor, what: &str, numbers_each: usize) -> Result<usize, Fault> {
+    let (place, word) = cursor.next_word();
+    let n = parsed(word)
+        .ok_or_else(|| expected(place, format!("the number of {what}, a whole number"), word))?;
+    if !cursor.has_room(n, numbers_each) {
         return Err(place.error(format!(
             "the file says {n} {what}, but is too short for them: {} bytes follow",
             cursor.remaining()
@@ -208,35 +168,31 @@ fn count(cursor: &mut Cursor, what: &str, numbers_each: usize) -> Result<usize, 
     Ok(n)
 }
 
-fn coordinate(cursor: &mut Cursor, what: impl Fn() -> String) -> Result<f64, TextError> {
-    cursor.skip_white();
-    let place = cursor.place();
-    if cursor.is_at_end() {
+fn coordinate(cursor: &mut Cursor, what: impl Fn() -> String) -> Result<f64, Fault> {
+    let (place, word) = cursor.next_word();
+    if word.is_empty() {
         return Err(place.error(format!("expected {}, found the end of the file", what())));
     }
-    let word = cursor.word();
-    number(place, word).map_err(|error| {
-        place.error(format!(
-            "{}: {}{}",
-            what(),
-            error.message,
-            comment_hint(word)
-        ))
+    number(place, word).map_err(|Fault { message, .. }| {
+        place.error(format!("{}: {message}{}", what(), comment_hint(word)))
     })
 }
 
-fn expect_end(cursor: &mut Cursor, last: &str) -> Result<(), TextError> {
-    cursor.skip_white();
-    if cursor.is_at_end() {
-        return Ok(());
+fn expect_end(cursor: &mut Cursor, last: &str) -> Result<(), Fault> {
+    match cursor.next_word() {
+        (_, b"") => Ok(()),
+        (place, word) => Err(expected(
+            place,
+            format!("the end of the file after {last}"),
+            word,
+        )),
     }
-    let place = cursor.place();
-    let word = cursor.word();
-    Err(place.error(format!(
-        "expected the end of the file after {last}, found {}{}",
-        quoted(word),
-        comment_hint(word)
-    )))
+}
+
+fn expected(place: Place, what: String, found: &[u8]) -> Fault {
+    let mut fault = place.expected(what, found);
+    fault.message += comment_hint(found);
+    fault
 }
 
 fn comment_hint(word: &[u8]) -> &'static str {
@@ -261,8 +217,7 @@ mod tests {
 
     #[test]
     fn patches_are_rows_of_points() {
-        let patches =
-            read_patches(format!("\u{feff}1\r\n\r\n{}", patch_text()).as_bytes()).unwrap();
+        let patches = patches(format!("\u{feff}1\r\n\r\n{}", patch_text()).as_bytes()).unwrap();
 
         assert_eq!(patches.len(), 1);
         assert_eq!(patches[0].points()[1][2], DVec3::new(6.0, 12.5, -1e-3));
@@ -270,7 +225,7 @@ mod tests {
 
     #[test]
     fn a_curve_is_a_count_and_its_points() {
-        let curve = read_curve(b"3\n0 0   0.5 1\n1 0").unwrap();
+        let curve = curve(b"3\n0 0   0.5 1\n1 0").unwrap();
         assert_eq!(
             curve.points(),
             [DVec2::ZERO, DVec2::new(0.5, 1.0), DVec2::X]
@@ -315,13 +270,9 @@ mod tests {
                 "found `1e999`",
             ),
         ] {
-            let error = read_patches(text.as_bytes()).unwrap_err();
+            let error = patches(text.as_bytes()).unwrap_err();
             assert!(error.message.contains(words), "{text:?}: {error:?}");
-            assert_eq!(
-                (error.line, error.column),
-                (line, column),
-                "{text:?}: {error:?}"
-            );
+            assert_eq!(error.place(), (line, column), "{text:?}: {error:?}");
         }
     }
 
@@ -335,9 +286,9 @@ mod tests {
             ("1\n0 0\n1 1", 3, "expected the end of the file"),
             ("4000000000\n0 0", 1, "too short"),
         ] {
-            let error = read_curve(text.as_bytes()).unwrap_err();
+            let error = curve(text.as_bytes()).unwrap_err();
             assert!(error.message.contains(words), "{text:?}: {error:?}");
-            assert_eq!(error.line, line, "{text:?}: {error:?}");
+            assert_eq!(error.place().0, line, "{text:?}: {error:?}");
         }
     }
 
@@ -349,21 +300,21 @@ mod tests {
                 DVec3::new(numbers[2 * k], numbers[2 * k + 1], -0.0)
             }));
             let patches = vec![Patch::new(points).unwrap(); 2];
-            prop_assert_eq!(read_patches(&write_patches(&patches)), Ok(patches));
+            prop_assert_eq!(super::patches(&write_patches(&patches)), Ok(patches));
         }
 
         #[test]
         fn written_curves_read_back_the_same(numbers in prop::collection::vec(-1e9..1e9_f64, 1..20)) {
             let points = numbers.iter().map(|&x| DVec2::new(x, 1e-7 * x)).collect();
             let curve = Curve::new(points).unwrap();
-            prop_assert_eq!(read_curve(&write_curve(&curve)), Ok(curve));
+            prop_assert_eq!(super::curve(&write_curve(&curve)), Ok(curve));
         }
 
         #[test]
         fn any_bytes_are_read_or_refused(bytes: Vec<u8>, text in "[0-9 #.\\-e\n]{0,300}") {
             for input in [&bytes[..], text.as_bytes()] {
-                let _ = read_patches(input);
-                let _ = read_curve(input);
+                let _ = patches(input);
+                let _ = curve(input);
             }
         }
     }

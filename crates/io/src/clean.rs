@@ -2,14 +2,16 @@
 
 use glam::DVec3;
 use mesh::{Attributes, Domain, Elements, VertexId};
-use rayon::prelude::*;
 
-use crate::note::{Given, NoteKind, Notes};
-use crate::{Policies, Polygons, Unwanted};
+use crate::note::{NoteKind, Notes};
+use crate::{Policies, Polygons, Unwanted, parallel};
 
 /// A face is degenerate if its area is below this share of the square of its longest side: what rounding
 /// leaves of an area of zero.
 const NO_AREA: f64 = 1e-14;
+
+/// Faces are compared in so many shares, by their hashes.
+const SHARES: usize = 16;
 
 /// Which polygon of the file each polygon is; `None` if each is its own.
 pub(crate) type Kept = Option<Vec<u32>>;
@@ -27,7 +29,7 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
         }
         let what = if faces.len() == 1 { one } else { several };
         let faces = Elements::Faces(faces);
-        let places = given(polygons).places(&faces);
+        let places = polygons.given().places(&faces);
         notes.elements(NoteKind::Changed, what, faces, places);
     };
     if policies.degenerate == Unwanted::Drop {
@@ -46,7 +48,7 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
     if !repeated.is_empty() {
         let what = "faces that repeat a corner: taken once";
         let faces = Elements::Faces(repeated);
-        let places = given(polygons).places(&faces);
+        let places = polygons.given().places(&faces);
         notes.elements(NoteKind::Changed, what, faces, places);
     }
     let kept = keep(polygons, &is_dropped, &is_corner_kept);
@@ -57,14 +59,6 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
 }
 
 // ---- Repeated corners --------------------------------------------------------------------------
-
-fn given(polygons: &Polygons) -> Given<'_> {
-    Given {
-        positions: &polygons.positions,
-        offsets: &polygons.offsets,
-        corners: &polygons.corners,
-    }
-}
 
 /// The corners of polygon `f`.
 fn corners(polygons: &Polygons, f: usize) -> &[u32] {
@@ -79,12 +73,12 @@ fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> 
         let pairs = corners.iter().zip(before);
         pairs.filter(|(v, before)| v != before).count()
     };
-    let is_repaired = |&f: &usize| {
+    let is_repaired = |f: usize| {
         let corners = corners(polygons, f);
         let n = kept_in(corners);
         n >= 3 && n < corners.len()
     };
-    let repaired: Vec<usize> = all(polygons).filter(is_repaired).collect();
+    let repaired = parallel::filter(polygons.n_faces(), is_repaired);
     if !repaired.is_empty() {
         is_kept.resize(polygons.corners.len(), true);
     }
@@ -99,14 +93,10 @@ fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> 
     repaired
 }
 
-fn all(polygons: &Polygons) -> impl IndexedParallelIterator<Item = usize> {
-    (0..polygons.n_faces()).into_par_iter().with_min_len(4096)
-}
-
 // ---- Degenerate faces --------------------------------------------------------------------------
 
 fn degenerate(polygons: &Polygons) -> Vec<usize> {
-    let has_no_area = |&f: &usize| {
+    let has_no_area = |f: usize| {
         let points = corners(polygons, f).iter();
         let points: Option<Vec<DVec3>> = points
             .map(|&v| polygons.positions.get(v as usize).copied())
@@ -114,7 +104,7 @@ fn degenerate(polygons: &Polygons) -> Vec<usize> {
         // What is out of range is reported where the mesh is built.
         points.is_some_and(|points| is_degenerate(&points))
     };
-    all(polygons).filter(has_no_area).collect()
+    parallel::filter(polygons.n_faces(), has_no_area)
 }
 
 fn is_degenerate(points: &[DVec3]) -> bool {
@@ -138,24 +128,31 @@ fn is_degenerate(points: &[DVec3]) -> bool {
 /// The polygons that have the vertices of one before them, in the same circular order or in the
 /// opposite one.
 fn duplicates(polygons: &Polygons) -> Vec<usize> {
-    let mut keys: Vec<(u64, u32)> = all(polygons)
-        .map(|f| (sum_of_hashes(corners(polygons, f)), id(f)))
-        .collect();
-    keys.par_sort_unstable();
-    let mut duplicates = Vec::new();
-    for same in keys
-        .chunk_by(|a, b| a.0 == b.0)
-        .filter(|same| same.len() > 1)
-    {
-        let mut cycles: Vec<(Vec<u32>, u32)> = same
+    let hashes = parallel::collect(polygons.n_faces(), |f| sum_of_hashes(corners(polygons, f)));
+    // Each thread sorts the faces of one share of the hashes.
+    let shares = parallel::map(SHARES, |share| {
+        let own = hashes
             .iter()
-            .map(|&(_, f)| (canonical(corners(polygons, f as usize)), f))
-            .collect();
-        cycles.sort_unstable();
-        for equal in cycles.chunk_by(|a, b| a.0 == b.0) {
-            duplicates.extend(equal[1..].iter().map(|&(_, f)| f as usize));
+            .zip(0..)
+            .filter(|(hash, _)| **hash as usize % SHARES == share);
+        let mut keys: Vec<(u64, u32)> = own.map(|(&hash, f)| (hash, f)).collect();
+        keys.sort_unstable();
+        let mut duplicates = Vec::new();
+        for same in keys
+            .chunk_by(|a, b| a.0 == b.0)
+            .filter(|same| same.len() > 1)
+        {
+            let cycle =
+                |&(_, f): &(u64, u32)| (canonical(corners(polygons, f as usize)), f as usize);
+            let mut cycles: Vec<(Vec<u32>, usize)> = same.iter().map(cycle).collect();
+            cycles.sort_unstable();
+            for equal in cycles.chunk_by(|a, b| a.0 == b.0) {
+                duplicates.extend(equal[1..].iter().map(|&(_, f)| f));
+            }
         }
-    }
+        duplicates
+    });
+    let mut duplicates = shares.concat();
     duplicates.sort_unstable();
     duplicates
 }
@@ -191,7 +188,7 @@ fn id(n: usize) -> u32 {
 
 /// Keeps the polygons that are not dropped and in them the corners that are kept; empty lists of marks
 /// stand for all.
-fn keep(polygons: &mut Polygons, is_dropped: &[bool], is_corner_kept: &[bool]) -> Kept {
+pub(crate) fn keep(polygons: &mut Polygons, is_dropped: &[bool], is_corner_kept: &[bool]) -> Kept {
     if is_dropped.is_empty() && is_corner_kept.is_empty() {
         return None;
     }
@@ -238,34 +235,26 @@ fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
     } else {
         "isolated vertices dropped"
     };
-    let places = given(polygons).places(&vertices);
+    let places = polygons.given().places(&vertices);
     notes.elements(NoteKind::Changed, what, vertices, places);
     let mut new = vec![u32::MAX; is_used.len()];
     for (i, &v) in (0..).zip(&kept) {
         new[v as usize] = i;
     }
-    polygons.corners.par_iter_mut().for_each(|v| {
-        *v = new.get(*v as usize).copied().unwrap_or(u32::MAX);
-    });
+    let moved = |v: &mut u32| *v = new.get(*v as usize).copied().unwrap_or(u32::MAX);
+    parallel::change(&mut polygons.corners, moved);
     let positions = &polygons.positions;
     polygons.positions = kept.iter().map(|&v| positions[v as usize]).collect();
     gather(&mut polygons.attributes, Domain::Vertex, &kept);
 }
 
 /// The columns of a domain with the values at `sources`.
-fn gather(attributes: &mut Attributes, domain: Domain, sources: &[u32]) {
-    let names: Vec<String> = attributes
-        .of(domain)
-        .iter()
-        .map(|c| c.name.clone())
-        .collect();
-    for name in names {
-        if let Some(mut column) = attributes.remove(domain, &name) {
-            column.values = column
-                .values
-                .gather(sources.len(), |i| Some(sources[i] as usize));
-            attributes.insert(domain, column);
+pub(crate) fn gather(attributes: &mut Attributes, domain: Domain, sources: &[u32]) {
+    for (of, mut column) in std::mem::take(attributes) {
+        if of == domain {
+            column.values = (column.values).gather(sources.len(), |i| Some(sources[i] as usize));
         }
+        attributes.insert(of, column);
     }
 }
 

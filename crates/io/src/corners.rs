@@ -3,8 +3,8 @@
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::parallel;
 use mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
-use rayon::prelude::*;
 
 /// Of more different values than this at a vertex only the latest are compared.
 const LOOKED_AT: usize = 64;
@@ -28,46 +28,38 @@ impl CornerNumbers {
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
         // Each half-edge is written by the task of the one vertex that it leaves, or the one face that it
         // lies at.
-        let unset = || -> Vec<AtomicU32> {
-            let all = (0..mesh.n_half_edges()).into_par_iter();
-            all.map(|_| AtomicU32::new(0)).collect()
-        };
+        let unset = || -> Vec<AtomicU32> { mesh::zeroed(mesh.n_half_edges()) };
         let (same, numbers) = (unset(), unset());
         let number_of = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
-        let scratch = || (Vec::new(), Vec::new());
-        let vertices = (0..mesh.n_vertices())
-            .into_par_iter()
-            .with_min_len(MIN_TASK);
-        vertices.for_each_init(scratch, |(corners, different), v| {
-            let around = mesh.vertex_half_edges(VertexId::new(v));
-            corners.clear();
-            corners.extend(around.filter_map(|h| mesh.face(h).map(|f| (f, h))));
-            corners.sort_unstable();
-            different.clear();
-            for &(_, h) in &*corners {
-                let looked_at = different.iter().rev().take(LOOKED_AT);
-                let known = looked_at.copied().find(|&known| equal(known, h));
-                if known.is_none() {
-                    different.push(h);
+        parallel::blocks(mesh.n_vertices(), |vertices| {
+            let (mut corners, mut different) = (Vec::new(), Vec::new());
+            for v in vertices {
+                let around = mesh.vertex_half_edges(VertexId::new(v));
+                corners.clear();
+                corners.extend(around.filter_map(|h| mesh.face(h).map(|f| (f, h))));
+                corners.sort_unstable();
+                different.clear();
+                for &(_, h) in &corners {
+                    let mut looked_at = different.iter().rev().take(LOOKED_AT);
+                    let known = looked_at.find(|&&known| equal(known, h)).copied();
+                    if known.is_none() {
+                        different.push(h);
+                    }
+                    let first = known.unwrap_or(h);
+                    same[h.index()].store(number_of(first.index()), Relaxed);
                 }
-                let first = known.unwrap_or(h);
-                same[h.index()].store(number_of(first.index()), Relaxed);
             }
         });
-        let blocks: Vec<usize> = (0..mesh.n_faces()).step_by(MIN_TASK).collect();
-        let firsts_from = |&start: &usize| -> Vec<HalfEdgeId> {
-            let end = mesh.n_faces().min(start + MIN_TASK);
-            let corners = (start..end).flat_map(|f| mesh.face_half_edges(FaceId::new(f)));
+        let firsts = parallel::blocks(mesh.n_faces(), |faces| {
+            let corners = faces.flat_map(|f| mesh.face_half_edges(FaceId::new(f)));
             let is_first = |h: &HalfEdgeId| same[h.index()].load(Relaxed) as usize == h.index();
-            corners.filter(is_first).collect()
-        };
-        let firsts = blocks
-            .par_iter()
-            .map(firsts_from)
-            .collect::<Vec<_>>()
-            .concat();
-        firsts.par_iter().enumerate().for_each(|(number, h)| {
-            numbers[h.index()].store(number_of(number), Relaxed);
+            corners.filter(is_first).collect::<Vec<_>>()
+        });
+        let firsts = firsts.concat();
+        parallel::blocks(firsts.len(), |block| {
+            for number in block {
+                numbers[firsts[number].index()].store(number_of(number), Relaxed);
+            }
         });
         Self {
             same,
@@ -89,9 +81,6 @@ impl CornerNumbers {
     }
 }
 
-/// Smaller pieces are not worth the trouble of dividing them among threads.
-const MIN_TASK: usize = 4096;
-
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeMap;
@@ -112,7 +101,7 @@ mod tests {
             });
             assert_eq!(numbers.number(h), number);
         }
-        assert!(mesh.n_faces() > 2 * MIN_TASK);
+        assert!(mesh.n_faces() > 2 * parallel::BLOCK);
         assert_eq!(numbers.firsts(), firsts);
     }
 

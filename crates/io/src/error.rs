@@ -3,6 +3,9 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use scene::Object;
+use store::StoreError;
+
 /// Why a file could not be read. Nothing of it was taken.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -74,14 +77,14 @@ pub enum ReadError {
     },
 }
 
-impl ReadError {
-    pub(crate) fn io(path: &Path, source: io::Error) -> Self {
-        Self::Io {
-            path: path.to_path_buf(),
-            source,
-        }
+impl From<StoreError> for ReadError {
+    fn from(error: StoreError) -> Self {
+        let (path, source) = error.into_parts();
+        Self::Io { path, source }
     }
+}
 
+impl ReadError {
     /// The file that could not be read: the one that was asked for, or one that it refers to.
     pub fn path(&self) -> &Path {
         match self {
@@ -92,30 +95,6 @@ impl ReadError {
             | Self::Text { path, .. }
             | Self::Json { path, .. }
             | Self::Binary { path, .. } => path,
-        }
-    }
-}
-
-/// What is wrong at one place of a text, before the name of the file is known.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct TextError {
-    pub(crate) line: usize,
-    pub(crate) column: usize,
-    pub(crate) message: String,
-}
-
-impl TextError {
-    pub(crate) fn in_file(self, path: &Path) -> ReadError {
-        let Self {
-            line,
-            column,
-            message,
-        } = self;
-        ReadError::Text {
-            path: path.to_path_buf(),
-            line,
-            column,
-            message,
         }
     }
 }
@@ -160,12 +139,10 @@ pub enum WriteError {
     },
 }
 
-impl WriteError {
-    pub(crate) fn io(path: &Path, source: io::Error) -> Self {
-        Self::Io {
-            path: path.to_path_buf(),
-            source,
-        }
+impl From<StoreError> for WriteError {
+    fn from(error: StoreError) -> Self {
+        let (path, source) = error.into_parts();
+        Self::Io { path, source }
     }
 }
 
@@ -182,6 +159,12 @@ impl Unwritable {
             object: object.to_owned(),
             message: message.into(),
         }
+    }
+
+    /// An object of another kind than the format `holds`.
+    pub(crate) fn kind(holds: &str, object: &Object) -> Self {
+        let kind = object.geometry.kind();
+        Self::object(&object.name, format!("{holds}, found {kind}"))
     }
 
     pub(crate) fn in_file(self, path: &Path) -> WriteError {

@@ -2,16 +2,13 @@
 
 use std::borrow::Cow;
 
-use mesh::{Attributes, Column, Connectivity, Domain, HalfEdgeId, Id, Mesh, Rule, Value, Values};
+use mesh::{Attributes, Column, Connectivity, Domain, Id, Mesh, Rule, Value, Values};
 use scene::{Geometry, Object, Scene};
 
-use crate::dense::dense;
 use crate::error::Unwritable;
-use crate::loss::Losses;
-use crate::note::Loss;
-
-/// What the tag of an object's faces begins with.
-const OBJECT_TAG: &str = "o:";
+use crate::loss::{Loss, Losses};
+use crate::polygons::OBJECT_TAG;
+use crate::writing::dense;
 
 /// The one mesh of a scene.
 #[derive(Debug)]
@@ -38,21 +35,18 @@ pub(crate) fn joined<'a>(
     let mut losses = Vec::new();
     for object in scene.objects() {
         let Geometry::Mesh(mesh) = &object.geometry else {
-            let message = format!(
-                "{format} files hold meshes, found {}",
-                object.geometry.kind()
-            );
-            return Err(Unwritable::object(&object.name, message));
+            return Err(Unwritable::kind(
+                &format!("{format} files hold meshes"),
+                object,
+            ));
         };
         meshes.push(dense(mesh));
         let reason = format!("{format} has no place for materials");
         let count = object.materials.len();
         Losses::of(&object.name, &mut losses).add(None, "materials", count, reason);
     }
-    let name = scene
-        .objects()
-        .first()
-        .map_or_else(String::new, |object| object.name.clone());
+    let first = scene.objects().first();
+    let name = first.map(|object| object.name.clone()).unwrap_or_default();
     if meshes.len() == 1 {
         return Ok(Joined {
             mesh: meshes.remove(0),
@@ -91,13 +85,14 @@ pub(crate) fn joined<'a>(
 /// The meshes one behind the other, without attributes.
 fn connected(meshes: &[Cow<Mesh>]) -> Mesh {
     fn shift<I: Id + PartialEq>(ids: &[I], by: usize) -> impl Iterator<Item = I> + '_ {
-        ids.iter().map(move |&id| {
+        let shifted = move |&id: &I| {
             if id == I::NONE {
                 id
             } else {
                 I::new(id.index() + by)
             }
-        })
+        };
+        ids.iter().map(shifted)
     }
     let mut all = Connectivity::default();
     let mut positions = Vec::new();
@@ -107,10 +102,8 @@ fn connected(meshes: &[Cow<Mesh>]) -> Mesh {
         all.next.extend(shift(&c.next, h));
         all.origin.extend(shift(&c.origin, v));
         all.face.extend(shift(&c.face, f));
-        all.vertex_half_edge
-            .extend(shift::<HalfEdgeId>(&c.vertex_half_edge, h));
-        all.face_half_edge
-            .extend(shift::<HalfEdgeId>(&c.face_half_edge, h));
+        all.vertex_half_edge.extend(shift(&c.vertex_half_edge, h));
+        all.face_half_edge.extend(shift(&c.face_half_edge, h));
         positions.extend_from_slice(mesh.positions());
     }
     Mesh::from_arrays(all, positions)
@@ -128,22 +121,22 @@ fn appended(objects: &[Object], meshes: &[Cow<Mesh>], losses: &mut Losses) -> At
     for (object, mesh) in objects.iter().zip(meshes) {
         let mut attributes = mesh.attributes().clone();
         if let Some(materials) = mesh.get(mesh::MATERIAL) {
-            let shifted = materials.iter().map(|&m| {
+            let shift = |&m: &i32| {
                 if m < 0 {
                     m
                 } else {
                     m.saturating_add(n_materials)
                 }
-            });
+            };
             let column = Column {
                 name: mesh::MATERIAL.name.to_owned(),
                 rule: mesh::MATERIAL.rule,
-                values: i32::wrap(shifted.collect()),
+                values: i32::wrap(materials.iter().map(shift).collect()),
             };
             attributes.insert(Domain::Face, column);
         }
-        n_materials =
-            n_materials.saturating_add(i32::try_from(object.materials.len()).unwrap_or(i32::MAX));
+        let own = i32::try_from(object.materials.len()).unwrap_or(i32::MAX);
+        n_materials = n_materials.saturating_add(own);
         let part = lens(mesh);
         for (domain, name) in all.append(len, &attributes, part) {
             let reason = format!("object `{}` has it with another type", object.name);

@@ -18,46 +18,57 @@
 //! file cannot hold is a [`Loss`]. Errors say where: the line and column of a text, the JSON pointer
 //! of a glTF file. Paths inside a file stay inside its folder. Files are written whole or not at all.
 //!
+//! The folder of a format has `read` (from bytes to polygons), `write` and `peek`, and its `mod.rs` says what becomes
+//! of what: faces of OBJ are read in `obj/statement.rs`, those of glTF in `gltf/primitives.rs`. All formats share:
+//!
+//! | module | |
+//! | --- | --- |
+//! | `text` | words and numbers of a text with their lines; `decimal` is how numbers are read and written |
+//! | `fault` | what is wrong with a file, and where |
+//! | `note`, `loss` | what a reader left out or changed, what a file does not hold |
+//! | `polygons`, `clean`, `weld` | from polygons with attributes to a mesh |
+//! | `joined`, `corners`, `writing` | from a scene to what a file has room for |
+//! | `assets`, `save` | the files beside the one that is read; writing files whole |
+//! | `parallel` | work on all threads |
+//!
 //! # Examples
 //!
 //! ```
 //! use scene::{Object, Scene};
+//! use store::Disk;
 //!
 //! let folder = tempfile::tempdir()?;
 //! let path = folder.path().join("cube.obj");
 //! let mut scene = Scene::new();
 //! scene.insert(Object::mesh("cube", geometry::shapes::cube()))?;
 //!
-//! let report = mesh_io::write(&path, &scene, &mesh_io::WriteOptions::default())?;
+//! let report = mesh_io::write(&Disk, &path, &scene, &mesh_io::WriteOptions::default())?;
 //! assert!(report.losses.is_empty());
 //!
-//! let loaded = mesh_io::read(&path, &mesh_io::ReadOptions::default())?;
+//! let loaded = mesh_io::read(&Disk, &path, &mesh_io::ReadOptions::default())?;
 //! assert!(loaded.notes.is_empty());
 //! assert_eq!(loaded.objects[0].as_mesh().unwrap().n_faces(), 6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![doc = include_str!("kept.md")]
 
-mod asset_path;
+mod assets;
 mod bez;
-mod build;
 mod clean;
-mod color;
 mod corners;
 mod dae;
 mod decimal;
-mod dense;
 mod error;
+mod fault;
 mod format;
 mod gltf;
 mod joined;
-mod lines;
 mod loss;
 mod mws;
-mod names;
 mod note;
 mod obj;
 mod off;
+mod parallel;
 mod peek;
 mod ply;
 mod policy;
@@ -66,22 +77,27 @@ mod provenance;
 mod save;
 mod stl;
 mod text;
-mod vertex_uvs;
 mod weld;
+mod writing;
 
 use std::path::{Path, PathBuf};
 
 use scene::{Geometry, Object, Scene};
+use store::{Memory, Store, folder_of};
 
+pub use assets::FileSeen;
 pub use error::{ReadError, WriteError};
 pub use format::Format;
-pub use note::{Loss, Note, NoteKind};
+pub use loss::Loss;
+pub use note::{Note, NoteKind};
 pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject};
 pub use policy::{NonManifold, Orientation, Policies, Unwanted};
 pub use polygons::Polygons;
 pub use provenance::provenance;
 
+use assets::Assets;
 use note::Notes;
+use save::{Content, save};
 
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -105,15 +121,6 @@ pub struct Loaded {
     pub notes: Vec<Note>,
     /// The files that this depends on, each once, sorted by path.
     pub files: Vec<FileSeen>,
-}
-
-/// A file that a reader has looked at.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct FileSeen {
-    /// Its path.
-    pub path: PathBuf,
-    /// Whether its content was wanted, be it there or not; otherwise only whether there is such a file.
-    pub is_read: bool,
 }
 
 /// How to write a file.
@@ -140,9 +147,9 @@ pub struct WriteReport {
 /// # Errors
 ///
 /// [`ReadError`] if the file cannot be read or breaks the rules of its format, with the place.
-pub fn read(path: &Path, options: &ReadOptions) -> Result<Loaded, ReadError> {
+pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loaded, ReadError> {
     known_format(path)?;
-    let mut loaded = read_bytes(path, read_whole(path)?, options)?;
+    let mut loaded = read_bytes(store, path, store.read(path)?, options)?;
     let seen = FileSeen {
         path: path.to_path_buf(),
         is_read: true,
@@ -159,10 +166,16 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Loaded, ReadError> {
 /// # Errors
 ///
 /// As [`read()`].
-pub fn read_bytes(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<Loaded, ReadError> {
+pub fn read_bytes(
+    store: &dyn Store,
+    path: &Path,
+    bytes: Vec<u8>,
+    options: &ReadOptions,
+) -> Result<Loaded, ReadError> {
     let mut notes = Notes::of(path);
+    let mut assets = Assets::of(store, path);
     let mut objects = Vec::new();
-    for Found { name, shape } in find(path, bytes, options, &mut notes)? {
+    for Found { name, shape } in find(bytes, options, &mut assets, &mut notes)? {
         objects.push(match shape {
             Shape::Polygons(polygons) => {
                 let (mesh, materials) = polygons.into_mesh(path, options, &mut notes)?;
@@ -175,7 +188,6 @@ pub fn read_bytes(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<
             Shape::Whole(object) => *object,
         });
     }
-    let files = notes.take_files();
     let notes = notes.into_vec();
     if options.strict {
         refuse_left_out(path, &notes)?;
@@ -183,7 +195,7 @@ pub fn read_bytes(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<
     Ok(Loaded {
         objects,
         notes,
-        files,
+        files: assets.into_files(),
     })
 }
 
@@ -194,11 +206,18 @@ pub fn read_bytes(path: &Path, bytes: Vec<u8>, options: &ReadOptions) -> Result<
 ///
 /// As [`read()`], but for what only building finds.
 pub fn read_polygons(
+    store: &dyn Store,
     path: &Path,
     options: &ReadOptions,
 ) -> Result<Vec<(String, Polygons)>, ReadError> {
     known_format(path)?;
-    let found = find(path, read_whole(path)?, options, &mut Notes::of(path))?;
+    let mut assets = Assets::of(store, path);
+    let found = find(
+        store.read(path)?,
+        options,
+        &mut assets,
+        &mut Notes::of(path),
+    )?;
     let polygons = found.into_iter().filter_map(|found| match found.shape {
         Shape::Polygons(polygons) => Some((found.name, polygons)),
         Shape::Other(_) | Shape::Whole(_) => None,
@@ -219,54 +238,30 @@ enum Shape {
     Whole(Box<Object>),
 }
 
-impl Found {
-    fn polygons(name: impl Into<String>, polygons: Polygons) -> Self {
-        Self {
-            name: name.into(),
-            shape: Shape::Polygons(polygons),
-        }
-    }
-
-    fn other(name: impl Into<String>, geometry: Geometry) -> Self {
-        Self {
-            name: name.into(),
-            shape: Shape::Other(geometry),
-        }
-    }
-}
-
 fn find(
-    path: &Path,
     bytes: Vec<u8>,
     options: &ReadOptions,
+    assets: &mut Assets,
     notes: &mut Notes,
 ) -> Result<Vec<Found>, ReadError> {
-    let name = options.name.clone().unwrap_or_else(|| name_of(path));
-    let found = match known_format(path)? {
-        Format::Obj => obj::read(path, &bytes, name, notes)?,
-        Format::Gltf | Format::Glb => return gltf::read(path, bytes, &name, notes),
-        Format::Ply => ply::read(path, &bytes, name, notes)?,
-        Format::Stl => stl::read(path, &bytes, name, notes)?,
-        Format::Off => off::read(path, &bytes, name, notes)?,
-        Format::Dae => return dae::read(path, &bytes, &name, notes),
-        Format::Mws => {
-            let objects = mws::read(path, &bytes, options.name.as_deref())?;
-            let found = objects.into_iter().map(|object| Found {
-                name: object.name.clone(),
-                shape: Shape::Whole(object.into()),
-            });
-            return Ok(found.collect());
-        }
-        Format::Bez => {
-            let patches = bez::read_patches(&bytes).map_err(|error| error.in_file(path))?;
-            Found::other(name, Geometry::Patches(patches))
-        }
-        Format::Bzc => {
-            let curve = bez::read_curve(&bytes).map_err(|error| error.in_file(path))?;
-            Found::other(name, Geometry::Curve(curve))
-        }
+    let path = assets.path;
+    let name = options.name_in(path);
+    let one = |shape| {
+        let name = name.clone();
+        vec![Found { name, shape }]
     };
-    Ok(vec![found])
+    let found = match known_format(path)? {
+        Format::Obj => obj::read(&bytes, assets, notes).map(one),
+        Format::Gltf | Format::Glb => gltf::read(bytes, &name, assets, notes),
+        Format::Ply => ply::read(&bytes, notes).map(Shape::Polygons).map(one),
+        Format::Stl => stl::read(&bytes, notes).map(Shape::Polygons).map(one),
+        Format::Off => off::read(&bytes, notes).map(Shape::Polygons).map(one),
+        Format::Dae => dae::read(&bytes, &name, notes),
+        Format::Mws => mws::read(&bytes, options.name.as_deref()),
+        Format::Bez => bez::read_patches(&bytes).map(Shape::Other).map(one),
+        Format::Bzc => bez::read_curve(&bytes).map(Shape::Other).map(one),
+    };
+    found.map_err(|fault| fault.in_file(path))
 }
 
 fn refuse_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
@@ -289,49 +284,31 @@ fn refuse_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
 /// # Errors
 ///
 /// [`ReadError`] if the file cannot be read, or breaks the rules of its format where they were checked.
-pub fn peek(path: &Path, options: &ReadOptions) -> Result<Peek, ReadError> {
+pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Peek, ReadError> {
     let format = known_format(path)?;
-    let name = options.name.clone().unwrap_or_else(|| name_of(path));
-    let geometry = match format {
-        Format::Obj => obj::peek(&read_whole(path)?),
-        Format::Gltf | Format::Glb => {
-            return Ok(Peek {
-                format,
-                objects: gltf::peek(path, &name)?,
-            });
-        }
-        Format::Ply => ply::peek(path, &read_whole(path)?)?,
-        Format::Stl => stl::peek(path, &read_whole(path)?)?,
-        Format::Off => off::peek(path, &read_whole(path)?)?,
-        Format::Dae => {
-            return Ok(Peek {
-                format,
-                objects: dae::peek(path, &read_whole(path)?, &name)?,
-            });
-        }
-        Format::Mws => {
-            return Ok(Peek {
-                format,
-                objects: mws::peek(path, &read_whole(path)?, options.name.as_deref())?,
-            });
-        }
-        Format::Bez => {
-            let patches = bez::read_patches(&read_whole(path)?).map_err(|e| e.in_file(path))?;
-            PeekGeometry::Patches {
-                patches: patches.len() as u64,
-            }
-        }
-        Format::Bzc => {
-            let curve = bez::read_curve(&read_whole(path)?).map_err(|e| e.in_file(path))?;
-            PeekGeometry::Curve {
-                points: curve.points().len() as u64,
-            }
-        }
+    let bytes = match format {
+        Format::Gltf | Format::Glb => gltf::document_of(store, path)?,
+        _ => store.read(path)?,
     };
-    Ok(Peek {
-        format,
-        objects: vec![PeekObject { name, geometry }],
-    })
+    let name = options.name_in(path);
+    let one = |geometry| {
+        let name = name.clone();
+        vec![PeekObject { name, geometry }]
+    };
+    let of = |geometry: Geometry| one(PeekGeometry::of(&geometry));
+    let objects = match format {
+        Format::Obj => Ok(one(obj::peek(&bytes))),
+        Format::Gltf | Format::Glb => gltf::peek(&bytes, &name),
+        Format::Ply => ply::peek(&bytes).map(PeekGeometry::Mesh).map(one),
+        Format::Stl => stl::peek(&bytes).map(PeekGeometry::Mesh).map(one),
+        Format::Off => off::peek(&bytes).map(PeekGeometry::Mesh).map(one),
+        Format::Dae => dae::peek(&bytes, &name),
+        Format::Mws => mws::peek(&bytes, options.name.as_deref()),
+        Format::Bez => bez::read_patches(&bytes).map(of),
+        Format::Bzc => bez::read_curve(&bytes).map(of),
+    };
+    let objects = objects.map_err(|fault| fault.in_file(path))?;
+    Ok(Peek { format, objects })
 }
 
 /// Writes a scene to a file and, where the format needs them, to files beside it: `a.obj` comes with
@@ -342,6 +319,7 @@ pub fn peek(path: &Path, options: &ReadOptions) -> Result<Peek, ReadError> {
 /// [`WriteError`] if the format cannot hold the scene or the files cannot be written. Files of these
 /// names are then as they were.
 pub fn write(
+    store: &dyn Store,
     path: &Path,
     scene: &Scene,
     options: &WriteOptions,
@@ -350,25 +328,53 @@ pub fn write(
         path: path.to_path_buf(),
         known: Format::known_to_write(),
     };
+    let one = |(bytes, losses)| Written {
+        files: vec![(path.to_path_buf(), bytes)],
+        losses,
+    };
     let written = match Format::from_path(path).ok_or_else(unknown)? {
-        Format::Obj => return obj::write(path, scene, options),
+        Format::Obj => return obj::write(store, path, scene, options),
         Format::Gltf => gltf::write(path, false, scene, options),
         Format::Glb => gltf::write(path, true, scene, options),
-        Format::Ply => ply::write(path, scene, options),
-        Format::Stl => stl::write(path, scene, options),
-        Format::Off => off::write(path, scene, options),
+        Format::Ply => ply::write(scene, options).map(one),
+        Format::Stl => stl::write(scene, options).map(one),
+        Format::Off => off::write(scene, options).map(one),
         Format::Dae => return Err(unknown()),
-        Format::Mws => Ok(mws::write(path, scene, options)),
-        Format::Bez => bez::write_bez(path, scene),
-        Format::Bzc => bez::write_bzc(path, scene),
+        Format::Mws => Ok(one(mws::write(scene, options))),
+        Format::Bez => bez::write_bez(scene).map(one),
+        Format::Bzc => bez::write_bzc(scene).map(one),
     };
     let Written { files, losses } = written.map_err(|why| why.in_file(path))?;
-    let bytes = files.iter().map(|(_, bytes)| bytes.len() as u64).sum();
+    let files = files
+        .into_iter()
+        .map(|(path, bytes)| (path, Content::Bytes(bytes)));
+    let (files, bytes) = save(store, files.collect())?;
     Ok(WriteReport {
-        files: save::save_all(files)?,
+        files,
         bytes,
         losses,
     })
+}
+
+/// As [`write()`], but gives the bytes of the files, in their order.
+///
+/// # Errors
+///
+/// As [`write()`].
+pub fn write_bytes(
+    path: &Path,
+    scene: &Scene,
+    options: &WriteOptions,
+) -> Result<(Vec<(PathBuf, Vec<u8>)>, Vec<Loss>), WriteError> {
+    let memory = Memory::default();
+    memory.make_folder(folder_of(path))?;
+    let WriteReport { files, losses, .. } = write(&memory, path, scene, options)?;
+    let mut all = Vec::with_capacity(files.len());
+    for path in files {
+        let bytes = memory.read(&path)?;
+        all.push((path, bytes));
+    }
+    Ok((all, losses))
 }
 
 /// The bytes of files before they are saved, and what they do not hold.
@@ -378,6 +384,9 @@ struct Written {
     losses: Vec<Loss>,
 }
 
+/// The bytes of one file, and what it does not hold.
+type One = (Vec<u8>, Vec<Loss>);
+
 fn known_format(path: &Path) -> Result<Format, ReadError> {
     Format::from_path(path).ok_or_else(|| ReadError::UnknownFormat {
         path: path.to_path_buf(),
@@ -385,14 +394,14 @@ fn known_format(path: &Path) -> Result<Format, ReadError> {
     })
 }
 
-fn read_whole(path: &Path) -> Result<Vec<u8>, ReadError> {
-    asset_path::read_plain(path, u64::MAX).map_err(|source| ReadError::io(path, source))
-}
-
-/// The name of a file without its extension.
-fn name_of(path: &Path) -> String {
-    path.file_stem().map_or_else(
-        || "object".to_owned(),
-        |stem| stem.to_string_lossy().into_owned(),
-    )
+impl ReadOptions {
+    /// The name of an object without one.
+    fn name_in(&self, path: &Path) -> String {
+        let given = self.name.clone();
+        let stem = || {
+            path.file_stem()
+                .map(|stem| stem.to_string_lossy().into_owned())
+        };
+        given.or_else(stem).unwrap_or_else(|| "object".to_owned())
+    }
 }

@@ -1,8 +1,33 @@
 //! What a written file does not hold.
 
+use std::fmt;
+
 use mesh::{Column, Domain, Mesh};
 
-use crate::note::Loss;
+/// Something of the scene that a written file does not hold.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Loss {
+    /// The name of the object.
+    pub object: String,
+    /// What the lost values belong to; `None` if they belong to the object as a whole.
+    pub domain: Option<Domain>,
+    /// The name of the attribute, or what else it is.
+    pub attribute: String,
+    /// How many values or elements it concerns.
+    pub count: usize,
+    /// Why the file does not hold them.
+    pub reason: String,
+}
+
+impl fmt::Display for Loss {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "object `{}`: ", self.object)?;
+        if let Some(domain) = self.domain {
+            write!(f, "{domain} ")?;
+        }
+        write!(f, "`{}` ({}): {}", self.attribute, self.count, self.reason)
+    }
+}
 
 /// The losses of one object.
 #[derive(Debug)]

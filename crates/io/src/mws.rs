@@ -10,27 +10,37 @@
 //! Everything comes back as it was: the order of all elements, every attribute with its rule, names,
 //! materials with what they hold. For what another program is to read, take another format.
 
-use std::path::Path;
+use scene::{NoArrays, Object, Scene};
 
-use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
-use scene::{Geometry, NoArrays, Object, Scene};
-
-use crate::{PeekGeometry, PeekMesh, PeekObject, ReadError, WriteOptions, Written};
+use crate::fault::Fault;
+use crate::{Found, One, PeekGeometry, PeekObject, Shape, WriteOptions};
 
 const MAGIC: &[u8; 4] = b"MWS1";
 const HEADER: usize = MAGIC.len() + size_of::<u64>();
 
 /// Reads the objects of a file. One object alone may be given another name.
-pub(crate) fn read(
-    path: &Path,
-    bytes: &[u8],
-    name: Option<&str>,
-) -> Result<Vec<Object>, ReadError> {
-    let (offset, form) = split(bytes)
-        .map(|(provenance, form)| (HEADER + provenance.len(), form))
-        .ok_or_else(|| error(path, 0, "expected a Meshwright scene (MWS1)"))?;
+pub(crate) fn read(bytes: &[u8], name: Option<&str>) -> Result<Vec<Found>, Fault> {
+    let objects = objects(bytes, name)?.into_iter().map(|object| Found {
+        name: object.name.clone(),
+        shape: Shape::Whole(object.into()),
+    });
+    Ok(objects.collect())
+}
+
+/// What reading will give: the file is read whole, since all of it must be sound.
+pub(crate) fn peek(bytes: &[u8], name: Option<&str>) -> Result<Vec<PeekObject>, Fault> {
+    let objects = objects(bytes, name)?.into_iter().map(|object| PeekObject {
+        geometry: PeekGeometry::of(&object.geometry),
+        name: object.name,
+    });
+    Ok(objects.collect())
+}
+
+fn objects(bytes: &[u8], name: Option<&str>) -> Result<Vec<Object>, Fault> {
+    let (provenance, form) =
+        split(bytes).ok_or_else(|| Fault::byte(0, "expected a Meshwright scene (MWS1)"))?;
     let scene = Scene::decode(form, usize::MAX, &mut NoArrays)
-        .map_err(|why| error(path, offset, why.to_string()))?;
+        .map_err(|why| Fault::byte(HEADER + provenance.len(), why.to_string()))?;
     let mut objects: Vec<Object> = scene.objects().to_vec();
     if let (Some(name), [object]) = (name, &mut objects[..]) {
         name.clone_into(&mut object.name);
@@ -38,59 +48,14 @@ pub(crate) fn read(
     Ok(objects)
 }
 
-/// What reading will give: the file is read whole, since all of it must be sound.
-pub(crate) fn peek(
-    path: &Path,
-    bytes: &[u8],
-    name: Option<&str>,
-) -> Result<Vec<PeekObject>, ReadError> {
-    let objects = read(path, bytes, name)?;
-    let peeked = objects.into_iter().map(|object| PeekObject {
-        name: object.name,
-        geometry: match &object.geometry {
-            Geometry::Mesh(mesh) => PeekGeometry::Mesh(peek_mesh(mesh)),
-            Geometry::Patches(patches) => PeekGeometry::Patches {
-                patches: patches.len() as u64,
-            },
-            Geometry::Curve(curve) => PeekGeometry::Curve {
-                points: curve.points().len() as u64,
-            },
-            Geometry::Polylines(lines) => PeekGeometry::Polylines {
-                lines: lines.len() as u64,
-                points: lines.iter().map(|line| line.len() as u64).sum(),
-            },
-        },
-    });
-    Ok(peeked.collect())
-}
-
-fn peek_mesh(mesh: &Mesh) -> PeekMesh {
-    let has = |domain, name| mesh.attributes().column(domain, name).is_some();
-    let mut peek = PeekMesh {
-        vertices: mesh.n_vertices() as u64,
-        uvs: has(Domain::Corner, UV.name),
-        normals: has(Domain::Vertex, VERTEX_NORMAL.name) || has(Domain::Corner, CORNER_NORMAL.name),
-        colors: has(Domain::Vertex, COLOR.name),
-        materials: has(Domain::Face, MATERIAL.name),
-        ..PeekMesh::default()
-    };
-    for f in mesh.faces() {
-        peek.add_faces(1, mesh.degree(f) as u64);
-    }
-    peek
-}
-
 /// The file of a scene. Nothing is lost.
-pub(crate) fn write(path: &Path, scene: &Scene, options: &WriteOptions) -> Written {
+pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> One {
     let provenance = options.provenance.as_deref().unwrap_or_default();
     let mut bytes = MAGIC.to_vec();
     bytes.extend_from_slice(&(provenance.len() as u64).to_le_bytes());
     bytes.extend_from_slice(provenance.as_bytes());
     scene.encode(&mut |piece| bytes.extend_from_slice(piece));
-    Written {
-        files: vec![(path.to_path_buf(), bytes)],
-        losses: Vec::new(),
-    }
+    (bytes, Vec::new())
 }
 
 /// The provenance of a file, if its beginning is that of a scene.
@@ -108,21 +73,14 @@ fn split(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     rest.split_at_checked(length)
 }
 
-fn error(path: &Path, offset: usize, message: impl Into<String>) -> ReadError {
-    ReadError::Binary {
-        path: path.to_path_buf(),
-        offset,
-        message: message.into(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::{ReadOptions, peek as peek_file, read as read_file, write as write_file};
     use geometry::shapes;
-    use mesh::{Column, DVec3, Rule, Values};
-    use scene::Material;
+    use mesh::{Column, DVec3, Domain, Rule, Values};
+    use scene::{Geometry, Material};
+    use store::Memory;
 
     fn scene() -> Scene {
         let mut mesh = shapes::torus(5, 4, 2.0, 0.5);
@@ -147,16 +105,18 @@ mod tests {
 
     #[test]
     fn a_scene_comes_back_bit_for_bit() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.mws");
-        let report = write_file(&path, &scene(), &WriteOptions::default()).unwrap();
+        let (store, path) = (Memory::default(), "a.mws".as_ref());
+        let report = write_file(&store, path, &scene(), &WriteOptions::default()).unwrap();
         assert_eq!(report.losses, []);
         let mut back = Scene::new();
-        for object in read_file(&path, &ReadOptions::default()).unwrap().objects {
+        for object in read_file(&store, path, &ReadOptions::default())
+            .unwrap()
+            .objects
+        {
             back.insert(object).unwrap();
         }
         assert_eq!(back.digest(), scene().digest());
-        let peek = peek_file(&path, &ReadOptions::default()).unwrap();
+        let peek = peek_file(&store, path, &ReadOptions::default()).unwrap();
         let [ring, line] = &peek.objects[..] else {
             panic!("two objects")
         };
@@ -173,17 +133,15 @@ mod tests {
 
     #[test]
     fn every_shortened_and_every_changed_file_is_read_or_refused() {
-        let path = Path::new("a.mws");
-        let written = write(path, &scene(), &WriteOptions::default());
-        let whole = &written.files[0].1;
+        let (whole, _) = write(&scene(), &WriteOptions::default());
         for n in 0..whole.len() {
-            assert!(read(path, &whole[..n], None).is_err(), "{n} bytes");
+            assert!(objects(&whole[..n], None).is_err(), "{n} bytes");
         }
         for i in 0..whole.len() {
             let mut changed = whole.clone();
             changed[i] ^= 1 << (i % 8);
             // What is still a scene is a sound one.
-            for object in read(path, &changed, None).into_iter().flatten() {
+            for object in objects(&changed, None).into_iter().flatten() {
                 if let Some(mesh) = object.as_mesh() {
                     assert_eq!(mesh.defects(), [], "byte {i}");
                 }

@@ -1,13 +1,11 @@
-//! What reading changed or left out, and what writing lost: nothing is dropped silently.
+//! What reading changed or left out: nothing is dropped silently.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use mesh::{Domain, Elements, VertexId};
-
-use crate::FileSeen;
+use mesh::{Elements, VertexId};
 
 /// Something that a reader did not take as it stands in the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,16 +54,15 @@ impl Given<'_> {
             corners.map(|&v| at(v as usize)).collect()
         };
         let most = Note::MOST_PLACES;
-        let places: Vec<Option<Vec<DVec3>>> = match elements {
-            Elements::Vertices(list) => (list.iter().take(most))
-                .map(|&v| Some(vec![vertex(v)?]))
-                .collect(),
-            Elements::Edges(list) => (list.iter().take(most))
-                .map(|ends| ends.iter().map(|&v| vertex(v)).collect())
-                .collect(),
-            Elements::Faces(list) => list.iter().take(most).map(|&f| face(f)).collect(),
-        };
-        places.into_iter().flatten().collect()
+        let edge = |ends: &[VertexId; 2]| ends.iter().map(|&v| vertex(v)).collect();
+        match elements {
+            Elements::Vertices(list) => {
+                let vertices = list.iter().take(most);
+                vertices.filter_map(|&v| Some(vec![vertex(v)?])).collect()
+            }
+            Elements::Edges(list) => list.iter().take(most).filter_map(edge).collect(),
+            Elements::Faces(list) => list.iter().take(most).filter_map(|&f| face(f)).collect(),
+        }
     }
 }
 
@@ -102,8 +99,6 @@ pub(crate) struct Notes {
     list: Vec<Note>,
     /// How many there are behind those of the list.
     further: BTreeMap<NoteKind, usize>,
-    /// The files beside it that were looked at.
-    files: BTreeSet<FileSeen>,
 }
 
 impl Notes {
@@ -112,29 +107,7 @@ impl Notes {
             path: path.to_path_buf(),
             list: Vec::new(),
             further: BTreeMap::new(),
-            files: BTreeSet::new(),
         }
-    }
-
-    /// Notes that the content of a file was wanted.
-    pub(crate) fn has_read(&mut self, path: PathBuf) {
-        self.files.insert(FileSeen {
-            path,
-            is_read: true,
-        });
-    }
-
-    /// Notes that it was looked whether there is such a file.
-    pub(crate) fn has_looked_for(&mut self, path: PathBuf) {
-        self.files.insert(FileSeen {
-            path,
-            is_read: false,
-        });
-    }
-
-    /// The files beside the one that was read, sorted.
-    pub(crate) fn take_files(&mut self) -> Vec<FileSeen> {
-        std::mem::take(&mut self.files).into_iter().collect()
     }
 
     /// Adds a note unless `count` is 0.
@@ -165,36 +138,36 @@ impl Notes {
         elements: Elements,
         places: Vec<Vec<DVec3>>,
     ) {
-        if elements.len() > 0 {
-            let note = Note {
-                kind,
-                path: self.path.clone(),
-                line: None,
-                count: elements.len(),
-                what: what.into(),
-                elements: Some(elements),
-                places,
-            };
-            self.push(note);
-        }
+        let note = self.note(kind, elements.len(), None, what.into());
+        self.push(Note {
+            elements: Some(elements),
+            places,
+            ..note
+        });
     }
 
-    fn add(&mut self, kind: NoteKind, count: usize, line: Option<usize>, what: String) {
-        if count > 0 {
-            let path = self.path.clone();
-            self.push(Note {
-                kind,
-                path,
-                line,
-                count,
-                what,
-                elements: None,
-                places: Vec::new(),
-            });
+    /// Adds a note unless `count` is 0.
+    pub(crate) fn add(&mut self, kind: NoteKind, count: usize, line: Option<usize>, what: String) {
+        let note = self.note(kind, count, line, what);
+        self.push(note);
+    }
+
+    fn note(&self, kind: NoteKind, count: usize, line: Option<usize>, what: String) -> Note {
+        Note {
+            kind,
+            path: self.path.clone(),
+            line,
+            count,
+            what,
+            elements: None,
+            places: Vec::new(),
         }
     }
 
     fn push(&mut self, note: Note) {
+        if note.count == 0 {
+            return;
+        }
         if self.list.len() < MOST {
             self.list.push(note);
         } else {
@@ -204,7 +177,6 @@ impl Notes {
 
     /// Adds the notes about another file.
     pub(crate) fn append(&mut self, other: Self) {
-        self.files.extend(other.files);
         for note in other.list {
             self.push(note);
         }
@@ -213,54 +185,39 @@ impl Notes {
         }
     }
 
-    pub(crate) fn into_vec(self) -> Vec<Note> {
-        let Self {
-            path,
-            mut list,
-            further,
-            ..
-        } = self;
-        list.extend(further.into_iter().map(|(kind, count)| {
+    pub(crate) fn into_vec(mut self) -> Vec<Note> {
+        for (kind, count) in std::mem::take(&mut self.further) {
             let what = match kind {
                 NoteKind::LeftOut => "further notes of what is left out",
                 NoteKind::Changed => "further notes of what is changed",
             };
-            Note {
-                kind,
-                path: path.clone(),
-                line: None,
-                count,
-                what: what.to_owned(),
-                elements: None,
-                places: Vec::new(),
-            }
-        }));
-        list
+            let note = self.note(kind, count, None, what.to_owned());
+            self.list.push(note);
+        }
+        self.list
     }
 }
 
-/// Something of the scene that a written file does not hold.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Loss {
-    /// The name of the object.
-    pub object: String,
-    /// What the lost values belong to; `None` if they belong to the object as a whole.
-    pub domain: Option<Domain>,
-    /// The name of the attribute, or what else it is.
-    pub attribute: String,
-    /// How many values or elements it concerns.
-    pub count: usize,
-    /// Why the file does not hold them.
-    pub reason: String,
+/// Makes names different from each other.
+#[derive(Default)]
+pub(crate) struct Names {
+    taken: BTreeSet<String>,
+    /// The number that was last put behind a name.
+    last: BTreeMap<String, usize>,
 }
 
-impl fmt::Display for Loss {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "object `{}`: ", self.object)?;
-        if let Some(domain) = self.domain {
-            write!(f, "{domain} ")?;
+impl Names {
+    /// `name`, or `name.2`, `name.3` and so on if that is taken, with a note.
+    pub(crate) fn unique(&mut self, name: &str, notes: &mut Notes) -> String {
+        let mut new = name.to_owned();
+        while !self.taken.insert(new.clone()) {
+            let last = self.last.entry(name.to_owned()).or_insert(1);
+            *last += 1;
+            new = format!("{name}.{last}");
         }
-        write!(f, "`{}` ({}): {}", self.attribute, self.count, self.reason)
+        let what = format!("node named `{name}` is now called `{new}`: the name is taken");
+        notes.changed(usize::from(new != name), None, what);
+        new
     }
 }
 

@@ -1,5 +1,8 @@
 //! What a file holds, found out without building it: for a forecast before anything runs.
 
+use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
+use scene::Geometry;
+
 use crate::Format;
 
 /// What a file holds.
@@ -44,6 +47,24 @@ pub enum PeekGeometry {
     },
 }
 
+impl PeekGeometry {
+    pub(crate) fn of(geometry: &Geometry) -> Self {
+        match geometry {
+            Geometry::Mesh(mesh) => Self::Mesh(PeekMesh::of(mesh)),
+            Geometry::Patches(patches) => Self::Patches {
+                patches: patches.len() as u64,
+            },
+            Geometry::Curve(curve) => Self::Curve {
+                points: curve.points().len() as u64,
+            },
+            Geometry::Polylines(lines) => Self::Polylines {
+                lines: lines.len() as u64,
+                points: lines.iter().map(|line| line.len() as u64).sum(),
+            },
+        }
+    }
+}
+
 /// The counts and attributes of a mesh as its file states them.
 ///
 /// The mesh that is read has no more faces and corners. It may have more vertices where the faces are
@@ -75,16 +96,34 @@ pub struct PeekMesh {
 }
 
 impl PeekMesh {
+    fn of(mesh: &Mesh) -> Self {
+        let has = |domain, name| mesh.attributes().column(domain, name).is_some();
+        let mut peek = Self {
+            vertices: mesh.n_vertices() as u64,
+            uvs: has(Domain::Corner, UV.name),
+            normals: has(Domain::Vertex, VERTEX_NORMAL.name)
+                || has(Domain::Corner, CORNER_NORMAL.name),
+            colors: has(Domain::Vertex, COLOR.name),
+            materials: has(Domain::Face, MATERIAL.name),
+            ..Self::default()
+        };
+        for f in mesh.faces() {
+            peek.add_faces(1, mesh.degree(f) as u64);
+        }
+        peek
+    }
+
     /// Adds the faces of another.
     pub(crate) fn add(&mut self, other: &Self) {
         if other.faces == 0 {
             return;
         }
-        self.min_degree = if self.faces == 0 {
-            other.min_degree
+        let least = if self.faces == 0 {
+            u64::MAX
         } else {
-            self.min_degree.min(other.min_degree)
+            self.min_degree
         };
+        self.min_degree = least.min(other.min_degree);
         self.max_degree = self.max_degree.max(other.max_degree);
         self.faces = self.faces.saturating_add(other.faces);
         self.corners = self.corners.saturating_add(other.corners);

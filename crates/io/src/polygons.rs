@@ -5,17 +5,15 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::DVec3;
 use mesh::{
-    Attribute, Attributes, Built, Column, Domain, FaceId, HalfEdgeId, Mesh, Rule, Value, Values,
-    VertexId,
+    Attribute, Attributes, BuildError, Built, Column, Domain, Elements, FaceId, HalfEdgeId, Mesh,
+    Rule, Value, Values, VertexId,
 };
-use rayon::prelude::*;
 use scene::Material;
 
-use crate::ReadOptions;
-use crate::build::build_mesh;
-use crate::clean::clean;
+use crate::clean::{Kept, clean};
 use crate::error::ReadError;
-use crate::note::Notes;
+use crate::note::{Given, NoteKind, Notes};
+use crate::{NonManifold, Orientation, Policies, ReadOptions, parallel};
 
 /// Polygons as flat arrays in the order of a file: nothing merged, split or left out.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +28,16 @@ pub struct Polygons {
     pub attributes: Attributes,
     /// What the face attribute `material` refers to.
     pub materials: Vec<Material>,
+}
+
+/// What the tag of an object's faces begins with.
+pub(crate) const OBJECT_TAG: &str = "o:";
+
+/// How many groups, objects or solids of a file become tags of so many faces. A tag takes a byte for each face.
+pub(crate) fn most_tags(n_faces: usize) -> usize {
+    const MOST: usize = 4096;
+    const MOST_BYTES: usize = 1 << 28;
+    MOST.min(MOST_BYTES / n_faces.max(1))
 }
 
 impl Default for Polygons {
@@ -48,6 +56,20 @@ impl Polygons {
     /// How many polygons there are.
     pub fn n_faces(&self) -> usize {
         self.offsets.len() - 1
+    }
+
+    /// What stands where, for notes.
+    pub(crate) fn given(&self) -> Given<'_> {
+        Given {
+            positions: &self.positions,
+            offsets: &self.offsets,
+            corners: &self.corners,
+        }
+    }
+
+    /// Where each of `n` polygons of the same degree begins, and where the last one ends; the total fits 32 bits.
+    pub(crate) fn even_offsets(n: usize, degree: usize) -> Vec<u32> {
+        parallel::collect(n + 1, |f| u32::try_from(f * degree).unwrap_or(u32::MAX))
     }
 
     /// Adds a column of values.
@@ -139,6 +161,57 @@ impl Polygons {
     }
 }
 
+/// Builds a mesh of polygons; see [`mesh::build()`]. `kept` says which polygons of the file they are.
+///
+/// # Errors
+///
+/// If there are too many, or they are no manifold and the policies refuse that.
+fn build_mesh(
+    path: &Path,
+    positions: Vec<DVec3>,
+    offsets: &[u32],
+    corners: &[u32],
+    policies: Policies,
+    kept: &Kept,
+    notes: &mut Notes,
+) -> Result<Built, ReadError> {
+    let policy = match (policies.non_manifold, policies.orientation) {
+        (NonManifold::Split, Orientation::Orient) => mesh::NonManifold::Split,
+        (NonManifold::Split, Orientation::Keep) => mesh::NonManifold::SplitAsGiven,
+        (NonManifold::Refuse, Orientation::Orient) => mesh::NonManifold::Refuse,
+        (NonManifold::Refuse, Orientation::Keep) => mesh::NonManifold::RefuseAsGiven,
+    };
+    let in_file = |f: usize| kept.as_ref().map_or(f, |kept| kept[f] as usize);
+    let built = mesh::build(positions, offsets, corners, policy).map_err(|mut source| {
+        if let BuildError::NoSuchVertex { face, .. } = &mut source {
+            *face = in_file(*face);
+        }
+        ReadError::Mesh {
+            path: path.to_path_buf(),
+            source,
+        }
+    })?;
+    // Copies of vertices come behind the vertices that were given.
+    let given = Given {
+        positions: built.mesh.positions(),
+        offsets,
+        corners,
+    };
+    let dropped = built.report.dropped();
+    let changed = built.report.repairs().into_iter();
+    for (repair, kind) in (changed.map(|repair| (repair, NoteKind::Changed)))
+        .chain(dropped.map(|dropped| (dropped, NoteKind::LeftOut)))
+    {
+        let places = given.places(&repair.elements);
+        let elements = match repair.elements {
+            Elements::Faces(faces) => Elements::Faces(faces.into_iter().map(in_file).collect()),
+            others => others,
+        };
+        notes.elements(kind, repair.what, elements, places);
+    }
+    Ok(built)
+}
+
 /// For each element that was built the one of the input that it takes its values from.
 struct Sources {
     n_positions: usize,
@@ -153,10 +226,11 @@ struct Sources {
 impl Sources {
     fn of(built: &Built, n_positions: usize) -> Self {
         let corners: Vec<AtomicU32> = mesh::zeroed(built.mesh.n_half_edges());
-        let half_edges = built.half_edge_of_corner.par_iter().enumerate();
-        half_edges.with_min_len(4096).for_each(|(c, h)| {
-            if let Some(h) = h.some() {
-                corners[h.index()].store(u32::try_from(c + 1).unwrap_or(0), Relaxed);
+        parallel::blocks(built.half_edge_of_corner.len(), |block| {
+            for c in block {
+                if let Some(h) = built.half_edge_of_corner[c].some() {
+                    corners[h.index()].store(u32::try_from(c + 1).unwrap_or(0), Relaxed);
+                }
             }
         });
         let mut copies = vec![0; built.mesh.n_vertices() - n_positions];
@@ -204,8 +278,7 @@ fn agreed(mesh: &Mesh, values: &Values) -> Option<Values> {
             .filter(|&h| mesh.face(h).is_some())
             .map(HalfEdgeId::index)
     };
-    let all = (0..mesh.n_vertices()).into_par_iter().with_min_len(4096);
-    let same = all.all(|v| {
+    let same = parallel::all(mesh.n_vertices(), |v| {
         let mut corners = corners(v);
         let first = corners.next();
         first.is_none_or(|first| corners.all(|h| values.same(first, h)))

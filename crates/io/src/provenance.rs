@@ -1,19 +1,15 @@
 //! What a file says of where it comes from: the counterpart of
 //! [`WriteOptions::provenance`](crate::WriteOptions::provenance).
 
-use std::fs::File;
-use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 use serde::Deserialize;
+use store::Store;
 
-use crate::{Format, ReadError};
+use crate::{Format, ReadError, gltf, mws};
 
 /// As much of the beginning of a file is looked at.
 const HEAD: u64 = 1 << 20;
-
-/// The most bytes of a glTF document that are looked at.
-const DOCUMENT: u64 = 1 << 30;
 
 /// The text that a file carries about where it comes from; `None` if it carries none, or is of a format
 /// without a place for it. MTL files and glTF's buffers are known by their endings too.
@@ -23,68 +19,35 @@ const DOCUMENT: u64 = 1 << 30;
 /// # Errors
 ///
 /// [`ReadError`] if the file cannot be read.
-pub fn provenance(path: &Path) -> Result<Option<String>, ReadError> {
-    let failed = |error: std::io::Error| ReadError::io(path, error);
-    let mut file = File::open(path).map_err(failed)?;
+pub fn provenance(store: &dyn Store, path: &Path) -> Result<Option<String>, ReadError> {
+    let head = |most| store.read_up_to(path, most);
     let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
-    if ending == "png" || ending == "svg" {
-        let bytes = head(&mut file, HEAD).map_err(failed)?;
-        let text = if ending == "png" {
-            of_png(&bytes)
-        } else {
-            of_svg(&bytes)
-        };
-        return Ok(text.filter(|text| text.starts_with("meshwright ")));
-    }
-    match Format::from_path(path) {
-        Some(Format::Gltf) => {
-            let text = head(&mut file, DOCUMENT).map_err(failed)?;
-            Ok(of_document(&text))
-        }
-        Some(Format::Glb) => {
-            let mut header = [0; 20];
-            if file.read_exact(&mut header).is_err() || &header[16..] != b"JSON" {
-                return Ok(None);
-            }
-            let length = u32::from_le_bytes([header[12], header[13], header[14], header[15]]);
-            let text = head(&mut file, u64::from(length)).map_err(failed)?;
-            Ok(of_document(&text))
-        }
+    let is_ours = |text: &String| text.starts_with("meshwright ");
+    Ok(match Format::from_path(path) {
+        None if ending == "png" => of_png(&head(HEAD)?).filter(is_ours),
+        None if ending == "svg" => of_svg(&head(HEAD)?).filter(is_ours),
+        Some(Format::Gltf | Format::Glb) => of_document(&gltf::document_of(store, path)?),
         Some(Format::Stl) => {
-            let text = head(&mut file, 80).map_err(failed)?;
-            let text = String::from_utf8_lossy(&text);
+            let head = head(80)?;
             // The name of the program stands before it.
+            let text = String::from_utf8_lossy(&head);
             let rest = text
                 .strip_prefix("meshwright ")
                 .and_then(|t| t.split_once(' '));
             let text = rest.map(|(_, text)| text.trim_end_matches(['\0', ' ']));
-            Ok(text.filter(|t| !t.is_empty()).map(str::to_owned))
+            text.filter(|text| !text.is_empty()).map(str::to_owned)
         }
-        Some(Format::Mws) => {
-            let text = head(&mut file, HEAD).map_err(failed)?;
-            Ok(crate::mws::provenance(&text))
-        }
+        Some(Format::Mws) => mws::provenance(&head(HEAD)?),
         _ => {
-            file.seek(SeekFrom::Start(0)).map_err(failed)?;
-            let text = head(&mut file, HEAD).map_err(failed)?;
-            let lines = text.split(|&b| b == b'\n');
-            let comments = lines.filter_map(|line| {
+            let head = head(HEAD)?;
+            let mut comments = head.split(|&b| b == b'\n').filter_map(|line| {
                 let line = std::str::from_utf8(line).ok()?.trim_end_matches('\r');
-                let text = line
-                    .strip_prefix("# ")
-                    .or_else(|| line.strip_prefix("comment "))?;
-                text.starts_with("meshwright ").then(|| text.to_owned())
+                let comment = line.strip_prefix("# ").or(line.strip_prefix("comment "));
+                comment.map(str::to_owned).filter(is_ours)
             });
-            Ok(comments.into_iter().next())
+            comments.next()
         }
-    }
-}
-
-/// The first bytes of what is left of a file.
-fn head(file: &mut File, most: u64) -> std::io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    file.take(most).read_to_end(&mut bytes)?;
-    Ok(bytes)
+    })
 }
 
 /// `asset.extras.meshwright` of a glTF document.
@@ -149,6 +112,7 @@ mod tests {
     use crate::{WriteOptions, write};
     use geometry::shapes;
     use scene::{Object, Scene};
+    use store::Disk;
 
     #[test]
     fn every_format_gives_back_what_it_was_given() {
@@ -163,10 +127,10 @@ mod tests {
             .unwrap();
         for format in Format::ALL.into_iter().filter(|f| f.is_written()) {
             let path = folder.path().join(format!("a.{}", format.extension()));
-            if write(&path, &scene, &options).is_err() {
+            if write(&Disk, &path, &scene, &options).is_err() {
                 continue;
             }
-            let found = provenance(&path).unwrap().unwrap();
+            let found = provenance(&Disk, &path).unwrap().unwrap();
             let room = if format == Format::Stl {
                 60
             } else {
@@ -232,7 +196,7 @@ mod tests {
         ] {
             std::fs::write(path(name), bytes).unwrap();
             let expected = found.then(|| stamp.to_owned());
-            assert_eq!(provenance(&path(name)).unwrap(), expected, "{name}");
+            assert_eq!(provenance(&Disk, &path(name)).unwrap(), expected, "{name}");
         }
     }
 
@@ -254,8 +218,8 @@ mod tests {
             ("a.bin", b""),
         ] {
             std::fs::write(path(name), bytes).unwrap();
-            assert_eq!(provenance(&path(name)).unwrap(), None, "{name}");
+            assert_eq!(provenance(&Disk, &path(name)).unwrap(), None, "{name}");
         }
-        assert!(provenance(&path("missing.obj")).is_err());
+        assert!(provenance(&Disk, &path("missing.obj")).is_err());
     }
 }

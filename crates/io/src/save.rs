@@ -1,13 +1,12 @@
-//! Writing files whole or not at all.
+//! Writing files whole or not at all, blocks of them on all threads.
 
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::PathBuf;
 
-use rayon::prelude::*;
-use tempfile::NamedTempFile;
+use store::{NewFile, Store};
 
-use crate::asset_path::folder_of;
 use crate::error::WriteError;
+use crate::parallel::consume;
 
 /// What a file will hold.
 pub(crate) enum Content<'a> {
@@ -21,72 +20,53 @@ pub(crate) enum Content<'a> {
 /// Appends a block of a file, of some hundred kilobytes.
 pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 
-/// As [`save`], for files whose bytes are there. Returns their paths.
-///
-/// # Errors
-///
-/// As [`save`].
-pub(crate) fn save_all(files: Vec<(PathBuf, Vec<u8>)>) -> Result<Vec<PathBuf>, WriteError> {
-    let content = |(path, bytes)| (path, Content::Bytes(bytes));
-    save(files.into_iter().map(content).collect()).map(|(paths, _)| paths)
-}
-
-/// Writes all files to temporary ones in their folders first, and renames them only when every
-/// one is complete, in the given order. Returns their paths, and how many bytes they have together.
+/// Writes all files beside their places first, and puts them there only when every one is complete, in the
+/// given order. Returns their paths, and how many bytes they have together.
 ///
 /// # Errors
 ///
 /// [`WriteError::Io`] with the file that could not be written. The files of the same names are then
 /// as they were, unless the system refused one of the last renamings.
-pub(crate) fn save(files: Vec<(PathBuf, Content)>) -> Result<(Vec<PathBuf>, u64), WriteError> {
+pub(crate) fn save(
+    store: &dyn Store,
+    files: Vec<(PathBuf, Content)>,
+) -> Result<(Vec<PathBuf>, u64), WriteError> {
     let mut complete = Vec::with_capacity(files.len());
     let mut n_bytes = 0;
     for (path, content) in files {
-        if path.is_dir() {
-            let source = io::Error::other("a folder of this name is there");
-            return Err(WriteError::io(&path, source));
+        let mut file = store.create(&path)?;
+        match content.write(&mut *file) {
+            Ok(n) => n_bytes += n,
+            Err(source) => return Err(WriteError::Io { path, source }),
         }
-        if !folder_of(&path).is_dir() {
-            let source = io::Error::other("there is no such folder");
-            return Err(WriteError::io(&path, source));
-        }
-        let (file, n) = temporary(&path, &content)
-            .map_err(|source| WriteError::io(&path, without_temporary_name(source)))?;
-        n_bytes += n;
         complete.push((path, file));
     }
     let mut paths = Vec::with_capacity(complete.len());
     for (path, file) in complete {
-        file.persist(&path)
-            .map_err(|failed| WriteError::io(&path, failed.error))?;
+        file.commit()?;
         paths.push(path);
     }
     Ok((paths, n_bytes))
 }
 
-fn temporary(path: &Path, content: &Content) -> io::Result<(NamedTempFile, u64)> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".meshwright-");
-    // A temporary file is private to its user; the file that it becomes is as open as any other.
-    #[cfg(unix)]
-    let mode = std::os::unix::fs::PermissionsExt::from_mode(0o666);
-    #[cfg(unix)]
-    builder.permissions(mode);
-    let mut file = builder.tempfile_in(folder_of(path))?;
-    let n_bytes = match content {
-        Content::Bytes(bytes) => {
-            file.write_all(bytes)?;
-            bytes.len() as u64
-        }
-        Content::Blocks(blocks) => write_blocks(&mut file, blocks)?,
-    };
-    file.flush()?;
-    Ok((file, n_bytes))
+impl Content<'_> {
+    /// Returns how many bytes it has.
+    fn write(&self, out: &mut dyn NewFile) -> io::Result<u64> {
+        let n_bytes = match self {
+            Content::Bytes(bytes) => {
+                out.write_all(bytes)?;
+                bytes.len() as u64
+            }
+            Content::Blocks(blocks) => write_blocks(out, blocks)?,
+        };
+        out.flush()?;
+        Ok(n_bytes)
+    }
 }
 
 /// Writes what the blocks append and returns how many bytes that is. While one thread writes a group of
 /// blocks, the others make the next.
-fn write_blocks(out: &mut (impl Write + Send), blocks: &[Block]) -> io::Result<u64> {
+fn write_blocks(out: &mut dyn NewFile, blocks: &[Block]) -> io::Result<u64> {
     let in_group = 4 * rayon::current_num_threads();
     let mut made: Vec<Vec<u8>> = Vec::new();
     let mut spare: Vec<Vec<u8>> = Vec::new();
@@ -96,7 +76,12 @@ fn write_blocks(out: &mut (impl Write + Send), blocks: &[Block]) -> io::Result<u
         spare.resize_with(group.len(), Vec::new);
         let (written, ()) = rayon::join(
             || made.iter().try_for_each(|bytes| out.write_all(bytes)),
-            || make(group, &mut spare),
+            || {
+                consume(&mut spare, |i, bytes: &mut Vec<u8>| {
+                    bytes.clear();
+                    group[i](bytes);
+                });
+            },
         );
         written?;
         n_bytes += made.iter().map(|bytes| bytes.len() as u64).sum::<u64>();
@@ -105,31 +90,20 @@ fn write_blocks(out: &mut (impl Write + Send), blocks: &[Block]) -> io::Result<u
     Ok(n_bytes)
 }
 
-fn make(blocks: &[Block], room: &mut [Vec<u8>]) {
-    blocks
-        .par_iter()
-        .zip(room)
-        .with_max_len(1)
-        .for_each(|(block, bytes)| {
-            bytes.clear();
-            block(bytes);
-        });
-}
-
-/// The error without the path that tempfile puts behind it: the name of a file that is gone tells a
-/// person nothing.
-fn without_temporary_name(error: io::Error) -> io::Error {
-    match error.to_string().split_once(" at path ") {
-        Some((what, _)) => io::Error::new(error.kind(), what),
-        None => error,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::fs;
+    use std::path::Path;
+
+    use store::Disk;
 
     use super::*;
+
+    fn save_all(files: &[(&Path, &[u8])]) -> Result<(), WriteError> {
+        let content =
+            |&(path, bytes): &(&Path, &[u8])| (path.to_owned(), Content::Bytes(bytes.to_vec()));
+        save(&Disk, files.iter().map(content).collect()).map(|_| ())
+    }
 
     #[test]
     fn files_are_replaced_and_nothing_else_is_left() {
@@ -137,11 +111,7 @@ mod tests {
         let [a, b] = ["a", "b"].map(|name| folder.path().join(name));
         fs::write(&a, "old").unwrap();
 
-        save_all(vec![
-            (a.clone(), b"new".to_vec()),
-            (b.clone(), b"b".to_vec()),
-        ])
-        .unwrap();
+        save_all(&[(&a, b"new"), (&b, b"b")]).unwrap();
 
         assert_eq!(fs::read(a).unwrap(), b"new");
         assert_eq!(fs::read(b).unwrap(), b"b");
@@ -164,7 +134,7 @@ mod tests {
                 block(i)(&mut expected);
             }
             let blocks = Content::Blocks((0..n).map(block).collect());
-            let (_, n_bytes) = save(vec![(path.clone(), blocks)]).unwrap();
+            let (_, n_bytes) = save(&Disk, vec![(path.clone(), blocks)]).unwrap();
             assert_eq!(fs::read(path).unwrap(), expected);
             assert_eq!(n_bytes, expected.len() as u64);
         }
@@ -176,7 +146,7 @@ mod tests {
         let a = folder.path().join("a");
         let missing = folder.path().join("no/such/b");
 
-        let error = save_all(vec![(a.clone(), vec![]), (missing.clone(), vec![])]).unwrap_err();
+        let error = save_all(&[(&a, b""), (&missing, b"")]).unwrap_err();
 
         let expected = format!(
             "cannot write {}: there is no such folder",
@@ -186,21 +156,9 @@ mod tests {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 
-    #[cfg(target_os = "linux")]
-    #[test]
-    fn a_folder_that_takes_no_files_is_named_without_the_temporary_file() {
-        // Not even the administrator makes files here.
-        let error = save_all(vec![(PathBuf::from("/proc/a.obj"), vec![])]).unwrap_err();
-        let text = error.to_string();
-        assert!(
-            text.starts_with("cannot write /proc/a.obj: ") && !text.contains("meshwright-"),
-            "{text}"
-        );
-    }
-
     #[test]
     fn a_folder_in_the_way_is_an_error() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(save_all(vec![(folder.path().to_path_buf(), vec![])]).is_err());
+        assert!(save_all(&[(folder.path(), b"")]).is_err());
     }
 }

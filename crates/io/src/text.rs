@@ -1,27 +1,14 @@
 //! Reads words and numbers from the bytes of a text, and knows the line and the column.
 
+use std::str::FromStr;
+
 use crate::decimal::leading_number;
 pub(crate) use crate::decimal::push_number;
-use crate::error::TextError;
+use crate::fault::Fault;
+pub(crate) use crate::fault::{Place, name, quoted};
 
-/// A place in a text.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Place {
-    /// The line, from 1.
-    pub(crate) line: usize,
-    /// The byte in the line, from 1.
-    pub(crate) column: usize,
-}
-
-impl Place {
-    pub(crate) fn error(self, message: impl Into<String>) -> TextError {
-        TextError {
-            line: self.line,
-            column: self.column,
-            message: message.into(),
-        }
-    }
-}
+/// The byte order mark of UTF-8.
+pub(crate) const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// Walks over the bytes of a text. Lines end in LF, CR LF or CR.
 #[derive(Clone, Debug)]
@@ -35,16 +22,15 @@ pub(crate) struct Cursor<'a> {
 impl<'a> Cursor<'a> {
     /// Stands on the first byte of `bytes`, behind a byte order mark.
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
-        let start = if bytes.starts_with(b"\xef\xbb\xbf") {
-            3
+        let start = if bytes.starts_with(MARK) {
+            MARK.len()
         } else {
             0
         };
         Self {
-            bytes,
             at: start,
-            line: 1,
             line_start: start,
+            ..Self::inside(bytes)
         }
     }
 
@@ -80,6 +66,13 @@ impl<'a> Cursor<'a> {
     /// How many bytes are left.
     pub(crate) fn remaining(&self) -> usize {
         self.bytes.len() - self.at
+    }
+
+    /// Whether so many words may follow: each takes a byte and what parts it from the next; the last line may
+    /// have no end.
+    pub(crate) fn has_room(&self, n: usize, words_each: usize) -> bool {
+        let least = n.checked_mul(2 * words_each);
+        least.is_some_and(|least| least <= self.remaining() + 1)
     }
 
     pub(crate) fn is_at_end(&self) -> bool {
@@ -133,6 +126,55 @@ impl<'a> Cursor<'a> {
             None | Some(b'\n' | b'\r' | b'#') => None,
             Some(_) => Some((place, self.word())),
         }
+    }
+
+    /// The next word of the line, empty at its end and before a comment.
+    pub(crate) fn argument_or_nothing(&mut self) -> (Place, &'a [u8]) {
+        self.argument().unwrap_or((self.place(), b""))
+    }
+
+    /// Refuses further words in the line. `why` may say more.
+    ///
+    /// # Errors
+    ///
+    /// If there is one.
+    pub(crate) fn end_of_line(&mut self, why: &str) -> Result<(), Fault> {
+        match self.argument() {
+            None => Ok(()),
+            Some((place, word)) => {
+                Err(place.expected(format_args!("the end of the line{why}"), word))
+            }
+        }
+    }
+
+    /// The next word of any line, empty at the end of the text.
+    pub(crate) fn next_word(&mut self) -> (Place, &'a [u8]) {
+        self.skip_white();
+        (self.place(), self.word())
+    }
+
+    /// Stands on the first line that has a word, or at the end.
+    pub(crate) fn skip_empty_lines(&mut self) {
+        loop {
+            self.skip_white();
+            if self.is_at_end() || self.clone().argument().is_some() {
+                return;
+            }
+            self.skip_line();
+        }
+    }
+
+    /// Passes over all lines that are left, and says how many have words and which is the first.
+    pub(crate) fn count_rest(&mut self) -> (usize, usize) {
+        self.skip_empty_lines();
+        let first = self.place().line;
+        let mut lines = 0;
+        while !self.is_at_end() {
+            lines += 1;
+            self.skip_line();
+            self.skip_empty_lines();
+        }
+        (lines, first)
     }
 
     /// The rest of the line without the blanks around it. Continued lines are joined by a space.
@@ -213,7 +255,7 @@ fn is_line_end(byte: u8) -> bool {
 /// # Errors
 ///
 /// If the word is no decimal number, or one that is not finite.
-pub(crate) fn number(place: Place, word: &[u8]) -> Result<f64, TextError> {
+pub(crate) fn number(place: Place, word: &[u8]) -> Result<f64, Fault> {
     if let Some((x, length)) = leading_number(word)
         && length == word.len()
     {
@@ -228,26 +270,29 @@ pub(crate) fn number(place: Place, word: &[u8]) -> Result<f64, TextError> {
     match parsed {
         Ok(x) if x.is_finite() => Ok(x),
         Err(_) if !is_not_finite(word) => {
-            let hint = if word.contains(&b',') {
-                " (numbers have a point and no commas)"
-            } else {
-                ""
-            };
-            Err(place.error(format!("expected a number, found {}{hint}", quoted(word))))
+            let mut error = place.expected("a number", word);
+            if word.contains(&b',') {
+                error.message += " (numbers have a point and no commas)";
+            }
+            Err(error)
         }
-        _ => Err(place.error(format!("expected a finite number, found {}", quoted(word)))),
+        _ => Err(place.expected("a finite number", word)),
     }
+}
+
+/// What a word spells, as the standard library reads it.
+pub(crate) fn parsed<T: FromStr>(word: &[u8]) -> Option<T> {
+    std::str::from_utf8(word).ok()?.parse().ok()
 }
 
 /// Whether a word is what programs write for a number that is infinite or none: `nan`, `-inf`, `1.#IND`.
 pub(crate) fn is_not_finite(word: &[u8]) -> bool {
-    let word = word.strip_prefix(b"-").unwrap_or(word);
-    let word = word.strip_prefix(b"+").unwrap_or(word);
-    let begins = |with: &[u8]| {
-        let start = word.get(..with.len());
-        start.is_some_and(|start| start.eq_ignore_ascii_case(with))
-    };
-    [&b"nan"[..], b"inf", b"1.#"].into_iter().any(begins)
+    let unsigned = word.strip_prefix(b"-").unwrap_or(word);
+    let unsigned = unsigned.strip_prefix(b"+").unwrap_or(unsigned);
+    let start = unsigned.get(..3).unwrap_or_default();
+    ["nan", "inf", "1.#"]
+        .iter()
+        .any(|with| start.eq_ignore_ascii_case(with.as_bytes()))
 }
 
 /// Refuses text in which a character takes two or four bytes.
@@ -255,7 +300,7 @@ pub(crate) fn is_not_finite(word: &[u8]) -> bool {
 /// # Errors
 ///
 /// At the beginning, with the name of the encoding.
-pub(crate) fn check_encoding(bytes: &[u8]) -> Result<(), TextError> {
+pub(crate) fn check_encoding(bytes: &[u8]) -> Result<(), Fault> {
     let is_wide = |first: usize| {
         let mut pairs = bytes.chunks_exact(2).take(16);
         bytes.len() >= 8 && pairs.all(|pair| pair[first] != 0 && pair[1 - first] == 0)
@@ -267,26 +312,7 @@ pub(crate) fn check_encoding(bytes: &[u8]) -> Result<(), TextError> {
         _ => return Ok(()),
     };
     let message = format!("expected text in UTF-8 or ASCII, found {encoding}");
-    Err(Place { line: 1, column: 1 }.error(message))
-}
-
-/// A word of a file for a message: between backticks, cut if it is long.
-pub(crate) fn quoted(word: &[u8]) -> String {
-    const LONGEST: usize = 40;
-    if word.is_empty() {
-        return "nothing".to_owned();
-    }
-    let text = name(&word[..word.len().min(LONGEST)]);
-    let dots = if word.len() > LONGEST { "..." } else { "" };
-    format!("`{}{dots}`", text.escape_debug())
-}
-
-/// A name in a file: UTF-8 if it is that, and otherwise Latin-1, in which any bytes are text.
-pub(crate) fn name(bytes: &[u8]) -> String {
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|&byte| char::from(byte)).collect(),
-    }
+    Err(Place::START.error(message))
 }
 
 #[cfg(test)]

@@ -9,7 +9,8 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::DVec3;
 use mesh::{Mesh, VertexId};
-use rayon::prelude::*;
+
+use crate::parallel;
 
 /// How many positions are hashed and numbered at a time.
 const CHUNK: usize = 1 << 15;
@@ -20,15 +21,13 @@ const MOST_BUCKETS: usize = 1 << 10;
 /// How many vertices with faces are at the place of an earlier one, when positions have 32 bits: formats that
 /// know vertices by their places have one for them.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
-    let used = (0..mesh.n_vertices())
-        .into_par_iter()
-        .map(VertexId::new)
-        .filter(|&v| mesh.vertex_half_edge(v).is_some());
-    let places: Vec<DVec3> = used
-        .map(|v| mesh.position(v).as_vec3().as_dvec3())
-        .collect();
-    let n = places.len();
-    n - weld(places).0.len()
+    let used = parallel::filter(mesh.n_vertices(), |v| {
+        mesh.vertex_half_edge(VertexId::new(v)).is_some()
+    });
+    let places = parallel::collect(used.len(), |i| {
+        mesh.position(VertexId::new(used[i])).as_vec3().as_dvec3()
+    });
+    used.len() - weld(places).0.len()
 }
 
 /// The different positions in the order in which each comes first, and for each position its place among
@@ -39,47 +38,38 @@ pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     let mut vertex_of = firsts(&positions);
     let is_first = |i: usize, first: u32| i == first as usize;
     // How many different positions come before each chunk.
-    let counts: Vec<usize> = vertex_of
-        .par_chunks(CHUNK)
-        .enumerate()
-        .map(|(chunk, firsts)| {
-            let base = chunk * CHUNK;
-            let own = firsts.iter().enumerate();
-            own.filter(|&(i, &first)| is_first(base + i, first)).count()
-        })
-        .collect();
+    let counts = parallel::consume(vertex_of.chunks(CHUNK), |chunk, firsts| {
+        let own = (chunk * CHUNK..).zip(firsts);
+        own.filter(|&(i, &first)| is_first(i, first)).count()
+    });
     let n_unique = counts.iter().sum();
     if n_unique == positions.len() {
         return (positions, vertex_of);
     }
     let mut unique = mesh::zeroed::<DVec3>(n_unique);
     let mut numbers = mesh::zeroed::<u32>(positions.len());
-    let mut rest = unique.as_mut_slice();
     let mut before = 0;
-    let mut parts = Vec::with_capacity(counts.len());
-    for (chunk, &count) in counts.iter().enumerate() {
-        let (own, others) = rest.split_at_mut(count);
-        rest = others;
-        parts.push((chunk * CHUNK, before, own));
+    let ends = counts.iter().map(|count| {
         before += count;
-    }
-    parts
-        .into_par_iter()
-        .zip(numbers.par_chunks_mut(CHUNK))
-        .for_each(|((base, before, unique), numbers)| {
+        before
+    });
+    let ends: Vec<usize> = ends.collect();
+    let parts = parallel::parts(&mut unique, ends.iter().copied());
+    parallel::consume(
+        parts.into_iter().zip(numbers.chunks_mut(CHUNK)),
+        |chunk, (unique, numbers)| {
+            let before = ends[chunk] - unique.len();
             let mut k = 0;
-            for (i, number) in numbers.iter_mut().enumerate() {
-                if is_first(base + i, vertex_of[base + i]) {
-                    unique[k] = positions[base + i];
+            for (i, number) in (chunk * CHUNK..).zip(numbers) {
+                if is_first(i, vertex_of[i]) {
+                    unique[k] = positions[i];
                     *number = index(before + k);
                     k += 1;
                 }
             }
-        });
-    vertex_of
-        .par_iter_mut()
-        .with_min_len(CHUNK)
-        .for_each(|first| *first = numbers[*first as usize]);
+        },
+    );
+    parallel::change(&mut vertex_of, |first| *first = numbers[*first as usize]);
     (unique, vertex_of)
 }
 
@@ -91,32 +81,28 @@ fn firsts(positions: &[DVec3]) -> Vec<u32> {
     let keys = Keys::new();
     // Within each chunk the positions of each bucket follow each other, as hash and number.
     let mut sorted = mesh::zeroed::<u64>(positions.len());
-    let starts: Vec<Vec<usize>> = sorted
-        .par_chunks_mut(CHUNK)
-        .zip(positions.par_chunks(CHUNK))
-        .enumerate()
-        .map(|(chunk, (sorted, positions))| {
-            let hashes: Vec<u64> = positions.iter().map(|&p| keys.hash(p)).collect();
-            let bucket = |hash: u64| low(hash) as usize & (buckets - 1);
-            let mut starts = vec![0; buckets + 1];
-            for &hash in &hashes {
-                starts[bucket(hash) + 1] += 1;
-            }
-            for b in 0..buckets {
-                starts[b + 1] += starts[b];
-            }
-            let mut next = starts.clone();
-            for (i, &hash) in hashes.iter().enumerate() {
-                let place = &mut next[bucket(hash)];
-                let number = index(chunk * CHUNK + i);
-                sorted[*place] = hash & HIGH | u64::from(number);
-                *place += 1;
-            }
-            starts
-        })
-        .collect();
-    let first: Vec<AtomicU32> = (0..positions.len()).map(|_| AtomicU32::new(0)).collect();
-    (0..buckets).into_par_iter().for_each(|b| {
+    let chunks = sorted.chunks_mut(CHUNK).zip(positions.chunks(CHUNK));
+    let starts: Vec<Vec<usize>> = parallel::consume(chunks, |chunk, (sorted, positions)| {
+        let hashes: Vec<u64> = positions.iter().map(|&p| keys.hash(p)).collect();
+        let bucket = |hash: u64| low(hash) as usize & (buckets - 1);
+        let mut starts = vec![0; buckets + 1];
+        for &hash in &hashes {
+            starts[bucket(hash) + 1] += 1;
+        }
+        for b in 0..buckets {
+            starts[b + 1] += starts[b];
+        }
+        let mut next = starts.clone();
+        for (i, &hash) in hashes.iter().enumerate() {
+            let place = &mut next[bucket(hash)];
+            let number = index(chunk * CHUNK + i);
+            sorted[*place] = hash & HIGH | u64::from(number);
+            *place += 1;
+        }
+        starts
+    });
+    let first: Vec<AtomicU32> = mesh::zeroed(positions.len());
+    parallel::map(buckets, |b| {
         let parts = || {
             let chunks = sorted.chunks(CHUNK).zip(&starts);
             chunks.flat_map(|(chunk, starts)| &chunk[starts[b]..starts[b + 1]])
@@ -127,7 +113,7 @@ fn firsts(positions: &[DVec3]) -> Vec<u32> {
             first[low(entry) as usize].store(table.first(entry, positions), Relaxed);
         }
     });
-    first.into_par_iter().map(AtomicU32::into_inner).collect()
+    first.into_iter().map(AtomicU32::into_inner).collect()
 }
 
 /// The half of an entry that is a part of the hash; the other half is a number.

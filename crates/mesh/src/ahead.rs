@@ -55,17 +55,6 @@ impl Mesh {
         }
     }
 
-    /// Makes room for so many more elements, so that edits that add them need not move the arrays.
-    pub fn reserve(&mut self, vertices: usize, edges: usize, faces: usize) {
-        self.positions.reserve(vertices);
-        let c = &mut self.connectivity;
-        c.vertex_half_edge.reserve(vertices);
-        c.next.reserve(2 * edges);
-        c.origin.reserve(2 * edges);
-        c.face.reserve(2 * edges);
-        c.face_half_edge.reserve(faces);
-    }
-
     #[inline]
     fn fetch(&self, h: HalfEdgeId) {
         let c = &self.connectivity;
@@ -114,7 +103,6 @@ mod tests {
         for i in 0..=edges.len() {
             mesh.fetch_ahead(&edges, i);
         }
-        mesh.reserve(10, 20, 30);
         assert_eq!(mesh, before);
     }
 }

@@ -5,11 +5,11 @@ use std::ops::Range;
 use glam::DVec3;
 
 use crate::attribute::{
-    Attribute, Attributes, CORNER_NORMAL, Column, Domain, VERTEX_NORMAL, Value, Values,
+    Attribute, Attributes, CORNER_NORMAL, Column, VERTEX_NORMAL, Value, Values,
 };
 use crate::journal::{Entry, Journal};
 use crate::marks::Marks;
-use crate::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
+use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, VertexId};
 
 /// The five arrays that say how the elements of a mesh hang together. The crate's front page lists
 /// what holds for them.

@@ -10,7 +10,6 @@
 mod columns;
 mod values;
 
-use std::fmt;
 use std::marker::PhantomData;
 
 use glam::{DVec2, DVec3, DVec4};
@@ -38,35 +37,6 @@ pub const SMOOTHING: Attribute<FaceId, i32> = Attribute::new("smoothing", Rule::
 pub const CREASE: Attribute<EdgeId, f64> = Attribute::new("crease", Rule::Copy);
 /// The sharpness of a vertex, from 0 (smooth) to 10 (infinitely sharp).
 pub const CORNER: Attribute<VertexId, f64> = Attribute::new("corner", Rule::Copy);
-
-/// What the values of a column belong to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Domain {
-    /// One value for each vertex.
-    Vertex,
-    /// One value for each half-edge: the corner of its face at its origin.
-    Corner,
-    /// One value for each edge.
-    Edge,
-    /// One value for each face.
-    Face,
-}
-
-impl Domain {
-    /// All four domains.
-    pub const ALL: [Self; 4] = [Self::Vertex, Self::Corner, Self::Edge, Self::Face];
-}
-
-impl fmt::Display for Domain {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Vertex => "vertex",
-            Self::Corner => "corner",
-            Self::Edge => "edge",
-            Self::Face => "face",
-        })
-    }
-}
 
 /// What an edit does with the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,6 @@ use std::fmt;
 
 use bytemuck::{Pod, Zeroable};
 
-use crate::{Domain, Element};
-
 /// What the four kinds of ids have in common.
 pub trait Id:
     Copy + Ord + fmt::Display + fmt::Debug + Pod + Send + Sync + Into<Element> + 'static
@@ -146,6 +144,72 @@ impl EdgeId {
         [HalfEdgeId(self.0 << 1), HalfEdgeId(self.0 << 1 | 1)]
     }
 }
+
+/// What the values of a column belong to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Domain {
+    /// One value for each vertex.
+    Vertex,
+    /// One value for each half-edge: the corner of its face at its origin.
+    Corner,
+    /// One value for each edge.
+    Edge,
+    /// One value for each face.
+    Face,
+}
+
+impl Domain {
+    /// All four domains.
+    pub const ALL: [Self; 4] = [Self::Vertex, Self::Corner, Self::Edge, Self::Face];
+}
+
+impl fmt::Display for Domain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Vertex => "vertex",
+            Self::Corner => "corner",
+            Self::Edge => "edge",
+            Self::Face => "face",
+        })
+    }
+}
+
+/// One element of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Element {
+    /// A vertex.
+    Vertex(VertexId),
+    /// A half-edge, or the corner at its origin.
+    HalfEdge(HalfEdgeId),
+    /// An edge.
+    Edge(EdgeId),
+    /// A face.
+    Face(FaceId),
+}
+
+/// The id, as in `e7`.
+impl fmt::Display for Element {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Vertex(v) => v.fmt(f),
+            Self::HalfEdge(h) => h.fmt(f),
+            Self::Edge(e) => e.fmt(f),
+            Self::Face(face) => face.fmt(f),
+        }
+    }
+}
+
+macro_rules! from_ids {
+    ($($id:ident => $kind:ident),*) => {
+        $(impl From<$id> for Element {
+            fn from(id: $id) -> Self {
+                Self::$kind(id)
+            }
+        })*
+    };
+}
+
+from_ids!(VertexId => Vertex, HalfEdgeId => HalfEdge, EdgeId => Edge, FaceId => Face);
 
 #[cfg(test)]
 mod tests {

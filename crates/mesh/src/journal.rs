@@ -386,11 +386,7 @@ impl Mesh {
                 return None;
             }
             Entry::Mark(domain, i) => {
-                let marks = match domain {
-                    Domain::Vertex => &mut self.dead_vertices,
-                    Domain::Edge | Domain::Corner => &mut self.dead_edges,
-                    Domain::Face => &mut self.dead_faces,
-                };
+                let marks = self.dead_mut(domain);
                 if marks.has(i) {
                     marks.remove(i);
                 } else {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::{FaceId, HalfEdgeId, Mesh};
+use crate::{Element, FaceId, HalfEdgeId, Mesh};
 
 /// The angle between two directions, from 0 to π; 0 if one of them is zero.
 ///
@@ -110,11 +110,28 @@ impl Mesh {
     pub fn n_boundary_loops(&self) -> usize {
         self.boundary_loops().len()
     }
+
+    /// Where an element is: the position of a vertex, of both ends of an edge or half-edge, of all corners of a
+    /// face in their order. Empty if the mesh has no such element.
+    pub fn element_points(&self, element: Element) -> Vec<DVec3> {
+        match element {
+            Element::Vertex(v) if self.has_vertex(v) => vec![self.position(v)],
+            Element::HalfEdge(h) if self.has_edge(h.edge()) => [self.origin(h), self.target(h)]
+                .map(|v| self.position(v))
+                .to_vec(),
+            Element::Edge(e) => self.element_points(e.half_edge().into()),
+            Element::Face(f) if self.has_face(f) => {
+                self.face_vertices(f).map(|v| self.position(v)).collect()
+            }
+            Element::Vertex(_) | Element::HalfEdge(_) | Element::Face(_) => Vec::new(),
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::shapes;
+    use super::*;
+    use crate::{EdgeId, VertexId, shapes};
 
     #[test]
     fn angle_defects_of_a_closed_mesh_sum_to_two_pi_times_the_euler_characteristic() {
@@ -136,5 +153,34 @@ mod tests {
             cube.edges()
                 .all(|e| (cube.dihedral_angle(e).unwrap() - right).abs() < 1e-15)
         );
+    }
+
+    #[test]
+    fn elements_are_where_their_vertices_are() {
+        let mesh = shapes::square();
+        let f = mesh.faces().next().expect("a face");
+        let corners: Vec<DVec3> = mesh.face_vertices(f).map(|v| mesh.position(v)).collect();
+
+        assert_eq!(mesh.element_points(f.into()), corners);
+        for h in mesh.face_half_edges(f) {
+            let ends = [mesh.origin(h), mesh.target(h)].map(|v| mesh.position(v));
+            assert_eq!(mesh.element_points(h.into()), ends);
+            assert_eq!(mesh.element_points(h.edge().into()).len(), 2);
+            assert_eq!(mesh.element_points(mesh.origin(h).into()), ends[..1]);
+        }
+    }
+
+    #[test]
+    fn what_is_not_there_is_nowhere() {
+        let mesh = shapes::square();
+
+        for element in [
+            VertexId::new(99).into(),
+            EdgeId::new(99).into(),
+            HalfEdgeId::new(99).into(),
+            FaceId::new(99).into(),
+        ] {
+            assert!(mesh.element_points(element).is_empty(), "{element}");
+        }
     }
 }

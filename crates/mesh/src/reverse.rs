@@ -13,8 +13,8 @@
 //! boundary, so is prev(h)), for the first corner of a face, and for the values of a corner.
 //! Reversed twice, every array is as it was.
 
-use crate::attribute::{Attributes, Column, Domain};
-use crate::{Connectivity, HalfEdgeId, Mesh};
+use crate::attribute::{Attributes, Column};
+use crate::{Connectivity, Domain, HalfEdgeId, Mesh};
 
 impl Mesh {
     /// The mesh with every face turned over, so that its other side is the outside.

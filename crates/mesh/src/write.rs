@@ -4,6 +4,7 @@
 use glam::DVec3;
 
 use crate::journal::Entry;
+use crate::marks::Marks;
 use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
 impl Mesh {
@@ -77,33 +78,23 @@ impl Mesh {
         f
     }
 
-    pub(crate) fn kill_vertex(&mut self, v: VertexId) {
-        if self.dead_vertices.has(v.index()) {
-            return;
-        }
-        self.dead_vertices.add(v.index());
-        if let Some(journal) = &mut self.journal {
-            journal.note(|| Entry::Mark(Domain::Vertex, v.index()));
-        }
-    }
-
-    pub(crate) fn kill_edge(&mut self, e: EdgeId) {
-        if self.dead_edges.has(e.index()) {
-            return;
-        }
-        self.dead_edges.add(e.index());
-        if let Some(journal) = &mut self.journal {
-            journal.note(|| Entry::Mark(Domain::Edge, e.index()));
+    /// Marks a vertex, an edge or a face dead.
+    pub(crate) fn kill<I: Id>(&mut self, id: I) {
+        let dead = self.dead_mut(I::DOMAIN);
+        if !dead.has(id.index()) {
+            dead.add(id.index());
+            if let Some(journal) = &mut self.journal {
+                journal.note(|| Entry::Mark(I::DOMAIN, id.index()));
+            }
         }
     }
 
-    pub(crate) fn kill_face(&mut self, f: FaceId) {
-        if self.dead_faces.has(f.index()) {
-            return;
-        }
-        self.dead_faces.add(f.index());
-        if let Some(journal) = &mut self.journal {
-            journal.note(|| Entry::Mark(Domain::Face, f.index()));
+    /// The dead elements of a domain. A corner lives with its edge.
+    pub(crate) fn dead_mut(&mut self, domain: Domain) -> &mut Marks {
+        match domain {
+            Domain::Vertex => &mut self.dead_vertices,
+            Domain::Edge | Domain::Corner => &mut self.dead_edges,
+            Domain::Face => &mut self.dead_faces,
         }
     }
 

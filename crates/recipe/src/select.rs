@@ -1,4 +1,4 @@
-//! Selections and steps on their own, outside of a recipe: read from a text, and asked of a mesh.
+//! Selections on their own, outside of a recipe: read from a text, and asked of a mesh.
 //!
 //! ```text
 //! "Sharp(above: 30)"   only edges can be sharp           ---> edges
@@ -7,14 +7,14 @@
 //! ```
 
 use mesh::Mesh;
-use op::{Context, ElementKind, Elements, Files, NoProgress, OpError, Operation, Selected};
+use op::{Context, ElementKind, Elements, Files, NoProgress, OpError, Selected};
 use scene::Object;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use crate::schema;
-use crate::shape::{self, check_step, unread};
-use ron_tree::{Diagnostic, Value};
+use crate::shape;
+use ron_tree::{Diagnostic, Value, ValueKind};
 
 /// Reads a selection as recipes write it: of `kind`, or else of the one kind of elements that has such
 /// selections.
@@ -40,21 +40,25 @@ pub fn read_selection(
     }
 }
 
-/// Reads a step of an operation, `Name(parameters)`, from a text of its own.
+/// Reads the parameters of a step `Name(parameters)`, whatever the name.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with it, with places in `source`.
-pub fn read_step<T: Operation>(source: &str) -> Result<T, Vec<Diagnostic>> {
+/// Everything that is wrong with them, with places in `source`.
+pub fn read_step<T: DeserializeOwned + JsonSchema>(source: &str) -> Result<T, Vec<Diagnostic>> {
     let parsed = ron_tree::parse(source);
-    let checked = check_step(&parsed.value, &schema::of::<T>());
-    let step = T::deserialize(&*checked.in_full(&parsed.value));
-    let wrong = [parsed.diagnostics, checked.wrong].concat();
-    match step {
-        Ok(step) if wrong.is_empty() => Ok(step),
-        Err(error) if wrong.is_empty() => Err(vec![unread(parsed.value.span, error)]),
-        _ => Err(wrong),
+    let step = &parsed.value;
+    let checked = shape::check_step(step, &schema::of::<T>());
+    let wrong = [parsed.diagnostics, checked.wrong.clone()].concat();
+    if !wrong.is_empty() {
+        return Err(wrong);
     }
+    let full = checked.in_full(step);
+    let parameters = match &full.kind {
+        ValueKind::Call(call) => &call.body,
+        _ => &*full,
+    };
+    T::deserialize(parameters).map_err(|error| vec![shape::unread(step.span, error)])
 }
 
 fn typed<T: DeserializeOwned + JsonSchema>(value: &Value) -> Result<T, Vec<Diagnostic>> {

@@ -66,7 +66,7 @@ impl Operation for Load {
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let path = cx.files.to_read(&self.path);
         plan.inputs.push(path.clone());
-        match mesh_io::peek(&path, &self.options()) {
+        match mesh_io::peek(&*cx.files.store, &path, &self.options()) {
             Ok(peek) => self.plan_objects(&peek, plan),
             Err(error) => {
                 plan.incomplete = true;
@@ -78,7 +78,7 @@ impl Operation for Load {
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("read", 0, 1)?;
         let path = cx.files().to_read(&self.path);
-        let loaded = mesh_io::read(&path, &self.options())
+        let loaded = mesh_io::read(&*cx.files().store, &path, &self.options())
             .map_err(|error| OpError::File(error.to_string()))?;
         for file in loaded.files {
             if file.is_read {

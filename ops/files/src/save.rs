@@ -63,7 +63,8 @@ impl Operation for Save {
         let options = WriteOptions {
             provenance: cx.files().provenance.clone(),
         };
-        let written = mesh_io::write(&path, &chosen, &options).map_err(|e| failed(&e))?;
+        let written =
+            mesh_io::write(&*cx.files().store, &path, &chosen, &options).map_err(|e| failed(&e))?;
         let mut report = Report::changed(chosen.objects().len());
         report.losses = written
             .losses
@@ -107,7 +108,7 @@ mod tests {
         let mut cx = Context::new(&NoProgress, &files);
         save("a/cube.obj").apply(&mut scene, &mut cx).unwrap();
         let path = folder.path().join("a/cube.obj");
-        let back = mesh_io::read(&path, &mesh_io::ReadOptions::default()).unwrap();
+        let back = mesh_io::read(&store::Disk, &path, &mesh_io::ReadOptions::default()).unwrap();
         let mesh = back.objects[0].as_mesh().unwrap();
         assert_eq!((mesh.n_vertices(), mesh.n_faces()), (8, 6));
         assert_eq!(mesh.positions(), shapes::cube().positions());
@@ -130,7 +131,7 @@ mod tests {
         cx.on = Some(&on);
         save("cube.obj").apply(&mut scene, &mut cx).unwrap();
         let path = folder.path().join("cube.obj");
-        let back = mesh_io::read(&path, &mesh_io::ReadOptions::default()).unwrap();
+        let back = mesh_io::read(&store::Disk, &path, &mesh_io::ReadOptions::default()).unwrap();
         assert_eq!(back.objects[0].as_mesh().unwrap().n_faces(), 6);
     }
 

@@ -9,8 +9,8 @@ use crate::args::ReadArgs;
 use crate::output::print;
 
 pub(crate) fn run(input: &Path, read: &ReadArgs, output: &Path) -> anyhow::Result<bool> {
-    let loaded =
-        mesh_io::read(input, &read.options()).map_err(|error| anyhow::anyhow!("{error}"))?;
+    let loaded = mesh_io::read(&store::Disk, input, &read.options())
+        .map_err(|error| anyhow::anyhow!("{error}"))?;
     for note in &loaded.notes {
         print(&format!("{note}\n"))?;
     }
@@ -24,8 +24,8 @@ pub(crate) fn run(input: &Path, read: &ReadArgs, output: &Path) -> anyhow::Resul
     let options = mesh_io::WriteOptions {
         provenance: Some(provenance),
     };
-    let report =
-        mesh_io::write(output, &scene, &options).map_err(|error| anyhow::anyhow!("{error}"))?;
+    let report = mesh_io::write(&store::Disk, output, &scene, &options)
+        .map_err(|error| anyhow::anyhow!("{error}"))?;
     for loss in &report.losses {
         print(&format!("{loss}\n"))?;
     }

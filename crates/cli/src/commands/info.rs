@@ -11,7 +11,7 @@ use scene::{Geometry, Object, Scene};
 
 use crate::args::{Format, PictureErrorsArgs, ReadArgs};
 use crate::commands::picture::draw_found;
-use crate::output::{grouped, print};
+use crate::output::{counted, grouped, print};
 use crate::picture_errors::Pictures;
 use crate::scenes::Found;
 use crate::terminal_picture;
@@ -23,8 +23,8 @@ pub(crate) fn run(
     read: &ReadArgs,
     format: Format,
 ) -> anyhow::Result<bool> {
-    let loaded =
-        mesh_io::read(path, &read.options()).map_err(|error| anyhow::anyhow!("{error}"))?;
+    let loaded = mesh_io::read(&store::Disk, path, &read.options())
+        .map_err(|error| anyhow::anyhow!("{error}"))?;
     let scene = scene(&loaded.objects)?;
     let pictures = picture_errors.of(path, BUDGET);
     if let Some(pictures) = &pictures {
@@ -97,7 +97,7 @@ fn places(note: &Note) -> Vec<Place> {
 fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
     let stream = String::new();
     let mut picture = Picture::new("info.png");
-    picture.size = [640, 480];
+    picture.size = [640, 480].map(op::Count::literal);
     let images = draw_found(&picture, path, &[(Found { scene, stream }, "")], &[])?;
     terminal_picture::show(&images[0])?;
     Ok(())
@@ -147,8 +147,7 @@ fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
     let closed = if loops == 0 {
         "yes".to_owned()
     } else {
-        let s = if loops == 1 { "" } else { "s" };
-        format!("no, {loops} boundary loop{s}")
+        format!("no, {}", counted(loops, "boundary loop"))
     };
     let mut degrees: Vec<usize> = Vec::new();
     for f in mesh.faces() {
@@ -219,44 +218,32 @@ fn histogram(counts: &[usize], what: &str) -> String {
 
 fn object_json(object: &Object) -> serde_json::Value {
     let mut json = serde_json::json!({ "name": object.name, "kind": object.geometry.kind() });
-    let members = json.as_object_mut().expect("made as an object");
-    match &object.geometry {
+    let more = match &object.geometry {
         Geometry::Mesh(mesh) => {
             let attributes: Vec<String> = mesh
                 .attributes()
                 .iter()
                 .map(|(d, c)| format!("{d} {}", c.name))
                 .collect();
-            let bounds = geometry::bounds(&mesh).map(|b| b.map(|p| p.to_array()));
-            members.extend([
-                ("vertices".to_owned(), mesh.n_vertices().into()),
-                ("edges".to_owned(), mesh.n_edges().into()),
-                ("faces".to_owned(), mesh.n_faces().into()),
-                ("boundary_loops".to_owned(), mesh.n_boundary_loops().into()),
-                (
-                    "components".to_owned(),
-                    geometry::n_components(&mesh).into(),
-                ),
-                (
-                    "euler_characteristic".to_owned(),
-                    mesh.euler_characteristic().into(),
-                ),
-                ("genus".to_owned(), geometry::genus(&mesh).into()),
-                ("area".to_owned(), geometry::area(&mesh).into()),
-                ("volume".to_owned(), geometry::volume(&mesh).into()),
-                ("bounds".to_owned(), serde_json::json!(bounds)),
-                (
-                    "isolated_vertices".to_owned(),
-                    mesh.n_isolated_vertices().into(),
-                ),
-                ("attributes".to_owned(), attributes.into()),
-            ]);
+            serde_json::json!({
+                "vertices": mesh.n_vertices(),
+                "edges": mesh.n_edges(),
+                "faces": mesh.n_faces(),
+                "boundary_loops": mesh.n_boundary_loops(),
+                "components": geometry::n_components(mesh),
+                "euler_characteristic": mesh.euler_characteristic(),
+                "genus": geometry::genus(mesh),
+                "area": geometry::area(mesh),
+                "volume": geometry::volume(mesh),
+                "bounds": geometry::bounds(mesh).map(|b| b.map(|p| p.to_array())),
+                "isolated_vertices": mesh.n_isolated_vertices(),
+                "attributes": attributes,
+            })
         }
-        _ => members.extend(
-            facts(object)
-                .into_iter()
-                .map(|(what, value)| (what.to_owned(), value.into())),
-        ),
+        _ => facts(object).into_iter().collect(),
+    };
+    if let (Some(json), serde_json::Value::Object(more)) = (json.as_object_mut(), more) {
+        json.extend(more);
     }
     json
 }

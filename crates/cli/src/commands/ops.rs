@@ -174,15 +174,15 @@ fn reference(registry: &Registry, pictures: Option<&Path>) -> String {
 fn shown(operation: &str, folder: &Path) -> String {
     let name = snake_case(operation);
     let recipe = format!("{}/{name}", folder.display());
-    let images: String = ["before", "after"]
+    let images: Vec<String> = ["before", "after"]
         .iter()
         .filter(|image| folder.join(format!("{name}/{image}.png")).is_file())
-        .map(|image| format!("![{image}]({recipe}/{image}.png) "))
+        .map(|image| format!("![{image}]({recipe}/{image}.png)"))
         .collect();
     if images.is_empty() {
-        return images;
+        return String::new();
     }
-    format!("{images}[drawn by]({recipe}.ron)\n\n")
+    format!("{} [drawn by]({recipe}.ron)\n\n", images.join(" "))
 }
 
 fn fields_table(fields: &[FieldDoc]) -> String {

@@ -14,7 +14,7 @@ use view::sheet::{Cell, SheetStyle, sheet};
 
 use crate::args::{DrawArgs, PictureArgs, WrongUsage};
 use crate::commands::batch::inputs;
-use crate::listener::{Quiet, Terminal, catch_interrupts};
+use crate::listener::{QUIET, Terminal, catch_interrupts};
 use crate::output::{STAMP, complain, print, write_whole};
 use crate::scenes::{Found, find};
 use engine::{BUDGET, Engine, Stop};
@@ -46,7 +46,7 @@ pub(crate) fn run(args: &PictureArgs, engine: &Engine) -> anyhow::Result<bool> {
 
 /// Writes the images of a picture to a file.
 pub(crate) fn write_images(picture: &Picture, images: &[Image], path: &Path) -> anyhow::Result<()> {
-    let bytes = picture.encode(images, Some(STAMP), &Quiet)?;
+    let bytes = picture.encode(images, Some(STAMP), &QUIET)?;
     write(path, &bytes, &images[0])
 }
 
@@ -225,7 +225,10 @@ fn on_sheet(
             Err(error) => {
                 complain(&format!("error: {error:#}\n"));
                 all_are_there = false;
-                Image::filled(picture.size[0], picture.size[1], [0; 4])?
+                {
+                    let [width, height] = picture.size.map(op::Count::get);
+                    Image::filled(width, height, [0; 4])?
+                }
             }
         };
         drawn.push((image, path.display().to_string()));
@@ -249,7 +252,7 @@ fn is_cancelled(error: &anyhow::Error) -> bool {
 
 /// Writes one image, and says so if that is wanted.
 pub(crate) fn write_png(image: &Image, path: &Path, say: bool) -> anyhow::Result<()> {
-    let bytes = image.to_png_while(&[("Software", STAMP)], &Quiet)?;
+    let bytes = image.to_png_while(&[("Software", STAMP)], &QUIET)?;
     if say {
         write(path, &bytes, image)
     } else {

@@ -7,10 +7,11 @@ use anyhow::Context as _;
 use engine::{Disk, Engine, Options};
 use recipe::stamp::{self, Run, Stamp};
 use recipe::{Outcome, Source, Values};
+use store::TemporaryFolder;
 use walkdir::{DirEntry, WalkDir};
 
 use crate::args::ReproduceArgs;
-use crate::listener::{Quiet, catch_interrupts};
+use crate::listener::{QUIET, catch_interrupts};
 use crate::output::{complain, print, show};
 use engine::Loaded;
 
@@ -19,7 +20,7 @@ pub(crate) fn run(args: &ReproduceArgs, engine: &Engine) -> anyhow::Result<bool>
     let mut last: Option<Again> = None;
     let mut all_are_same = true;
     for file in &args.files {
-        let stamp = mesh_io::provenance(file)?.and_then(|text| Stamp::parse(&text));
+        let stamp = mesh_io::provenance(&Disk, file)?.and_then(|text| Stamp::parse(&text));
         let (source, run) = recipe_of(file, stamp.as_ref(), args, engine)?;
         // Files of one run follow each other.
         let again = match last.take() {
@@ -108,12 +109,12 @@ struct Again {
     loaded: Loaded,
     outcome: Outcome,
     /// What was written is there until this goes.
-    _out: tempfile::TempDir,
+    _out: TemporaryFolder<'static>,
 }
 
 impl Again {
     fn run(source: Source, run: Run, budget: u64, engine: &Engine) -> anyhow::Result<Self> {
-        let out = tempfile::tempdir().context("cannot make a folder to run in")?;
+        let out = TemporaryFolder::new(&Disk, None).context("cannot make a folder to run in")?;
         let set: Vec<(String, String)> = run.set.clone().into_iter().collect();
         let options = Options {
             values: values(&set, &run),
@@ -131,7 +132,7 @@ impl Again {
             keep_outputs: true,
             cache: None,
         };
-        let outcome = loaded.run(run_again, &Quiet);
+        let outcome = loaded.run(run_again, &QUIET);
         anyhow::ensure!(!outcome.cancelled, "interrupted");
         if !outcome.succeeded() {
             show(&loaded, &outcome.failures);

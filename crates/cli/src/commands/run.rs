@@ -189,12 +189,7 @@ pub(crate) fn refuse(loaded: &Loaded, json: bool) -> anyhow::Result<bool> {
         return Ok(false);
     }
     show(loaded, &loaded.diagnostics);
-    let n = loaded.n_errors();
-    let errors = if n == 1 {
-        "1 error".to_owned()
-    } else {
-        format!("{n} errors")
-    };
+    let errors = counted(loaded.n_errors(), "error");
     complain(&format!("{errors}, nothing was run\n"));
     Ok(false)
 }

@@ -8,7 +8,7 @@ use scene::Scene;
 use crate::args::ShrinkArgs;
 use crate::capsule;
 use crate::commands::run::refuse;
-use crate::listener::{Quiet, Terminal, catch_interrupts};
+use crate::listener::{QUIET, Terminal, catch_interrupts};
 use crate::loading::load_recipe;
 use crate::output::{complain, print};
 
@@ -19,7 +19,7 @@ pub(crate) fn run(args: &ShrinkArgs, engine: &Engine) -> anyhow::Result<bool> {
         return refuse(&loaded, false);
     }
     catch_interrupts();
-    let outcome = loaded.run(Run::default(), &Quiet);
+    let outcome = loaded.run(Run::default(), &QUIET);
     anyhow::ensure!(!outcome.cancelled, "interrupted, nothing was written");
     let number = outcome.steps.len();
     if number == loaded.recipe.steps.len() {

@@ -8,7 +8,7 @@ use recipe::upgrade::upgrade;
 
 use crate::args::UpgradeArgs;
 use crate::loading::recipes;
-use crate::output::{complain, print};
+use crate::output::{complain, counted, print};
 
 pub(crate) fn run(args: &UpgradeArgs, registry: &Registry) -> anyhow::Result<bool> {
     let recipes = recipes(&args.recipes)?;
@@ -23,12 +23,11 @@ pub(crate) fn run(args: &UpgradeArgs, registry: &Registry) -> anyhow::Result<boo
             }
         }
     }
-    let n = recipes.len();
-    let s = if n == 1 { "" } else { "s" };
+    let n = counted(recipes.len(), "recipe");
     print(&match (old, args.check) {
-        (0, _) => format!("{n} recipe{s}, nothing to rewrite\n"),
-        (_, true) => format!("{n} recipe{s}, {old} to rewrite\n"),
-        (_, false) => format!("{n} recipe{s}, {old} rewritten\n"),
+        (0, _) => format!("{n}, nothing to rewrite\n"),
+        (_, true) => format!("{n}, {old} to rewrite\n"),
+        (_, false) => format!("{n}, {old} rewritten\n"),
     })?;
     Ok(failed == 0 && !(args.check && old > 0))
 }

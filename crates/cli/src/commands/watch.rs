@@ -14,6 +14,7 @@ use std::time::Duration;
 use anyhow::Context as _;
 use engine::Engine;
 use notify::{RecursiveMode, Watcher as _};
+use store::folder_of;
 
 use super::run::{execute, load_to_run, start_threads, tell};
 use crate::args::{Format, RunArgs};
@@ -96,13 +97,6 @@ fn folders(loaded: &Loaded) -> BTreeSet<PathBuf> {
     let sources = loaded.recipe.sources.iter().map(|source| &source.path);
     let files = sources.chain(&loaded.forecast.inputs);
     files.map(|file| folder_of(file).to_path_buf()).collect()
-}
-
-fn folder_of(file: &Path) -> &Path {
-    match file.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
 }
 
 /// Tells of files that change in some folders.

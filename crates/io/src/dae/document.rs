@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::{Document as Xml, Error, ParsingOptions};
 
-use crate::error::TextError;
-use crate::text::{Place, name, number, quoted};
+use crate::fault::Fault;
+use crate::text::{MARK, Place, name, number, quoted};
 
 pub(super) type Node<'a> = roxmltree::Node<'a, 'a>;
 
@@ -15,12 +15,11 @@ pub(super) type Node<'a> = roxmltree::Node<'a, 'a>;
 /// # Errors
 ///
 /// If the text begins like UTF-16.
-pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, TextError> {
+pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-        let start = Place { line: 1, column: 1 };
-        return Err(start.error("expected text in UTF-8, found UTF-16"));
+        return Err(Place::START.error("expected text in UTF-8, found UTF-16"));
     }
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let bytes = bytes.strip_prefix(MARK).unwrap_or(bytes);
     Ok(match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
         Err(_) => Cow::Owned(name(bytes)),
@@ -33,7 +32,7 @@ pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, TextError> {
 /// # Errors
 ///
 /// If the text is no XML, or could take far more time or memory than its size pays for.
-pub(super) fn parsed(text: &str) -> Result<Xml<'_>, TextError> {
+pub(super) fn parsed(text: &str) -> Result<Xml<'_>, Fault> {
     check_size(text)?;
     let options = ParsingOptions {
         allow_dtd: false,
@@ -50,13 +49,15 @@ pub(super) fn parsed(text: &str) -> Result<Xml<'_>, TextError> {
                 message[..end].to_owned()
             }
         };
-        place_of(error.pos()).error(message)
+        let pos = error.pos();
+        let (line, column) = (pos.row as usize, pos.col as usize);
+        Place { line, column }.error(message)
     })
 }
 
 /// Refuses what would make the parser slow or large: its tables have a place for each `<` and `=`, it compares
 /// the attributes of an element with each other, and each element with a namespace lists all of them.
-fn check_size(text: &str) -> Result<(), TextError> {
+fn check_size(text: &str) -> Result<(), Fault> {
     const MOST_ATTRIBUTES: usize = 200;
     const MOST_NAMESPACES: usize = 50;
     const SMALL: usize = 8192;
@@ -80,12 +81,9 @@ fn check_size(text: &str) -> Result<(), TextError> {
                 }
             }
             b':' if bytes[..at].ends_with(b"xmlns") => {
-                let rest = &bytes[at + 1..];
-                let end = rest
-                    .iter()
-                    .take(256)
-                    .position(|b| matches!(b, b'=' | b' ' | b'\t' | b'\r' | b'\n'));
-                prefixes.insert(&rest[..end.unwrap_or(rest.len().min(256))]);
+                let rest = &bytes[at + 1..bytes.len().min(at + 257)];
+                let is_end = |b: &u8| matches!(b, b'=' | b' ' | b'\t' | b'\r' | b'\n');
+                prefixes.insert(rest.split(is_end).next());
                 if prefixes.len() > MOST_NAMESPACES {
                     let message = format!("expected at most {MOST_NAMESPACES} namespaces");
                     return Err(place_at(text, at).error(message));
@@ -95,28 +93,18 @@ fn check_size(text: &str) -> Result<(), TextError> {
         }
     }
     if bytes.len() > SMALL && (tags > bytes.len() / 3 || equals > bytes.len() / 4) {
-        return Err(Place { line: 1, column: 1 }.error("expected XML"));
+        return Err(Place::START.error("expected XML"));
     }
     Ok(())
-}
-
-fn place_of(pos: roxmltree::TextPos) -> Place {
-    Place {
-        line: pos.row as usize,
-        column: pos.col as usize,
-    }
 }
 
 /// The place of a byte. Lines end in LF.
 fn place_at(text: &str, at: usize) -> Place {
     let before = &text.as_bytes()[..at.min(text.len())];
-    let start = before
-        .iter()
-        .rposition(|&b| b == b'\n')
-        .map_or(0, |i| i + 1);
+    let lines = before.split(|&b| b == b'\n');
     Place {
-        line: before.split(|&b| b == b'\n').count(),
-        column: before.len() - start + 1,
+        line: lines.clone().count(),
+        column: lines.last().map_or(0, <[u8]>::len) + 1,
     }
 }
 
@@ -132,7 +120,7 @@ impl<'a> Document<'a> {
     /// # Errors
     ///
     /// If the root is not that of a COLLADA file.
-    pub(super) fn new(xml: &'a Xml<'a>) -> Result<Self, TextError> {
+    pub(super) fn new(xml: &'a Xml<'a>) -> Result<Self, Fault> {
         let root = xml.root_element();
         if root.tag_name().name() != "COLLADA" {
             let found = quoted(root.tag_name().name().as_bytes());
@@ -163,17 +151,15 @@ impl<'a> Document<'a> {
         node: Node<'a>,
         key: &str,
         kind: &[&str],
-    ) -> Result<Option<Node<'a>>, TextError> {
+    ) -> Result<Option<Node<'a>>, Fault> {
         let url = required(node, key)?;
         let Some(id) = url.trim().strip_prefix('#') else {
             if url.contains('#') || url.contains('/') {
                 return Ok(None);
             }
             let found = quoted(url.as_bytes());
-            return Err(error_at(
-                node,
-                format!("expected {key}=\"#id\", found {found}"),
-            ));
+            let message = format!("expected {key}=\"#id\", found {found}");
+            return Err(error_at(node, message));
         };
         self.find(node, id, kind).map(Some)
     }
@@ -183,28 +169,16 @@ impl<'a> Document<'a> {
     /// # Errors
     ///
     /// If there is none.
-    pub(super) fn find(
-        &self,
-        node: Node<'a>,
-        id: &str,
-        kind: &[&str],
-    ) -> Result<Node<'a>, TextError> {
+    pub(super) fn find(&self, node: Node<'a>, id: &str, kind: &[&str]) -> Result<Node<'a>, Fault> {
         let found = self.ids.get(id).copied();
-        found
-            .filter(|found| kind.iter().any(|k| is(*found, k)))
-            .ok_or_else(|| {
-                let kinds = kind
-                    .iter()
-                    .map(|kind| format!("<{kind}>"))
-                    .collect::<Vec<_>>()
-                    .join(" or ");
-                let there = found.map_or("nothing", |found| found.tag_name().name());
-                let message = format!(
-                    "{} refers to {there}, expected {kinds}",
-                    quoted(id.as_bytes())
-                );
-                error_at(node, message)
-            })
+        let is_wanted = |found: &Node| kind.iter().any(|kind| is(*found, kind));
+        found.filter(is_wanted).ok_or_else(|| {
+            let kinds: Vec<String> = kind.iter().map(|kind| format!("<{kind}>")).collect();
+            let kinds = kinds.join(" or ");
+            let there = found.map_or("nothing", |found| found.tag_name().name());
+            let id = quoted(id.as_bytes());
+            error_at(node, format!("{id} refers to {there}, expected {kinds}"))
+        })
     }
 }
 
@@ -248,7 +222,7 @@ fn place(node: Node) -> Place {
 }
 
 /// An error at the beginning of an element.
-pub(super) fn error_at(node: Node, message: impl Into<String>) -> TextError {
+pub(super) fn error_at(node: Node, message: impl Into<String>) -> Fault {
     let what = format!("<{}>: {}", node.tag_name().name(), message.into());
     place(node).error(what)
 }
@@ -256,7 +230,7 @@ pub(super) fn error_at(node: Node, message: impl Into<String>) -> TextError {
 /// # Errors
 ///
 /// If the attribute is missing.
-pub(super) fn required<'a>(node: Node<'a>, key: &str) -> Result<&'a str, TextError> {
+pub(super) fn required<'a>(node: Node<'a>, key: &str) -> Result<&'a str, Fault> {
     node.attribute(key)
         .ok_or_else(|| error_at(node, format!("expected an attribute {key}")))
 }
@@ -266,7 +240,7 @@ pub(super) fn required<'a>(node: Node<'a>, key: &str) -> Result<&'a str, TextErr
 /// # Errors
 ///
 /// If it is something else.
-pub(super) fn natural(node: Node, key: &str) -> Result<Option<usize>, TextError> {
+pub(super) fn natural(node: Node, key: &str) -> Result<Option<usize>, Fault> {
     let Some(value) = node.attribute(key) else {
         return Ok(None);
     };
@@ -296,11 +270,10 @@ fn words(node: Node<'_>) -> impl Iterator<Item = &str> {
 /// # Errors
 ///
 /// The first word that is none.
-pub(super) fn numbers(node: Node) -> Result<Vec<f64>, TextError> {
-    let somewhere = Place { line: 0, column: 0 };
+pub(super) fn numbers(node: Node) -> Result<Vec<f64>, Fault> {
     let parse = |word: &str| {
-        number(somewhere, word.as_bytes())
-            .map_err(|error| word_place(node, word).error(error.message))
+        let number = number(Place::START, word.as_bytes());
+        number.map_err(|error| word_place(node, word).error(error.message))
     };
     words(node).map(parse).collect()
 }
@@ -310,7 +283,7 @@ pub(super) fn numbers(node: Node) -> Result<Vec<f64>, TextError> {
 /// # Errors
 ///
 /// The first word that is no number, or how many there are.
-pub(super) fn exactly<const N: usize>(node: Node) -> Result<[f64; N], TextError> {
+pub(super) fn exactly<const N: usize>(node: Node) -> Result<[f64; N], Fault> {
     numbers(node)?.try_into().map_err(|found: Vec<f64>| {
         error_at(node, format!("expected {N} numbers, found {}", found.len()))
     })
@@ -321,12 +294,10 @@ pub(super) fn exactly<const N: usize>(node: Node) -> Result<[f64; N], TextError>
 /// # Errors
 ///
 /// The first word that is none, or is too large.
-pub(super) fn push_indices(node: Node, list: &mut Vec<u32>) -> Result<(), TextError> {
+pub(super) fn push_indices(node: Node, list: &mut Vec<u32>) -> Result<(), Fault> {
     for word in words(node) {
-        list.push(word.parse().map_err(|_| {
-            let found = quoted(word.as_bytes());
-            word_place(node, word).error(format!("expected an index, found {found}"))
-        })?);
+        let expected = |_| word_place(node, word).expected("an index", word.as_bytes());
+        list.push(word.parse().map_err(expected)?);
     }
     Ok(())
 }
@@ -343,7 +314,7 @@ fn word_place(node: Node, word: &str) -> Place {
 }
 
 /// An error at the k-th word of the texts of `lists`.
-pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> TextError {
+pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> Fault {
     for &list in lists {
         for word in words(list) {
             if k == 0 {
@@ -352,5 +323,5 @@ pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> TextE
             k -= 1;
         }
     }
-    Place { line: 1, column: 1 }.error(message)
+    Place::START.error(message)
 }

@@ -11,9 +11,9 @@ use super::document::{
 };
 use super::outline::{Outline, shape};
 use super::sources::{Vectors, vectors};
-use super::{Budget, Tally};
+use super::tally::{Budget, Tally};
 use crate::Polygons;
-use crate::error::TextError;
+use crate::fault::Fault;
 
 /// Further sets of texture coordinates are left out.
 const MOST_UV_SETS: usize = 8;
@@ -27,6 +27,19 @@ pub(super) struct Surface<'a> {
     pub(super) symbols: Vec<&'a str>,
     /// For each polygon the place of its symbol, -1 without one.
     pub(super) symbol_of: Vec<i32>,
+}
+
+impl Surface<'_> {
+    /// The bytes that it takes, about.
+    pub(super) fn cost(&self) -> usize {
+        let polygons = &self.polygons;
+        let columns = polygons.attributes.of(Domain::Corner).len();
+        let names: usize = self.symbols.iter().map(|name| name.len()).sum();
+        Budget::VERTEX * polygons.positions.len()
+            + (Budget::CORNER + Budget::VALUE * columns) * polygons.corners.len()
+            + Budget::MATERIAL * self.symbols.len()
+            + names
+    }
 }
 
 /// Reads geometries; vectors that several of them use are read once.
@@ -88,7 +101,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
         &mut self,
         geometry: Node<'a>,
         tally: &mut Tally,
-    ) -> Result<Option<Surface<'a>>, TextError> {
+    ) -> Result<Option<Surface<'a>>, Fault> {
         let Some(mesh) = child(geometry, "mesh") else {
             return Ok(None);
         };
@@ -111,8 +124,8 @@ impl<'a, 'd> Geometries<'a, 'd> {
                 return Err(error_at(list, message));
             }
             let outline = shape.read(list, inputs.stride, tally)?;
-            self.budget
-                .take(list, outline.order.len() * Budget::CORNER)?;
+            let n_corners = outline.order.len();
+            self.budget.take(list, n_corners * Budget::CORNER)?;
             self.add(list, &inputs, &outline, &mut surface.polygons, &mut columns)?;
             let mut new = 0;
             let symbol = list.attribute("material").map_or(-1, |symbol| {
@@ -132,22 +145,21 @@ impl<'a, 'd> Geometries<'a, 'd> {
         let positions = self.positions(vertices)?;
         self.budget
             .take(vertices, positions.len() * Budget::VERTEX)?;
-        surface.polygons.positions = (0..positions.len())
-            .map(|i| DVec3::from_array(positions.get(i, [0.0; 3])))
-            .collect();
+        let position = |i| DVec3::from_array(positions.get(i, [0.0; 3]));
+        surface.polygons.positions = (0..positions.len()).map(position).collect();
         columns.finish(&mut surface.polygons);
         Ok(Some(surface))
     }
 
-    fn positions(&mut self, vertices: Node<'a>) -> Result<Rc<Vectors>, TextError> {
-        let position = named(vertices, "input")
-            .find(|input| input.attribute("semantic") == Some("POSITION"))
-            .ok_or_else(|| error_at(vertices, "expected an input POSITION"))?;
+    fn positions(&mut self, vertices: Node<'a>) -> Result<Rc<Vectors>, Fault> {
+        let is_it = |input: &Node| input.attribute("semantic") == Some("POSITION");
+        let position = named(vertices, "input").find(is_it);
+        let position = position.ok_or_else(|| error_at(vertices, "expected an input POSITION"))?;
         let source = self.source_of(position)?;
         self.vectors(source, &["X", "Y", "Z"], 3)
     }
 
-    fn source_of(&self, input: Node<'a>) -> Result<Node<'a>, TextError> {
+    fn source_of(&self, input: Node<'a>) -> Result<Node<'a>, Fault> {
         let source = self.document.follow(input, "source", &["source"])?;
         source.ok_or_else(|| error_at(input, "a source in another file is not read here"))
     }
@@ -157,25 +169,25 @@ impl<'a, 'd> Geometries<'a, 'd> {
         source: Node<'a>,
         names: &[&str],
         least: usize,
-    ) -> Result<Rc<Vectors>, TextError> {
+    ) -> Result<Rc<Vectors>, Fault> {
         let key = (number_of(source), names.len());
         if let Some(known) = self.sources.get(&key) {
             return Ok(Rc::clone(known));
         }
         let (read, n_numbers) = vectors(self.document, source, names, least)?;
-        self.budget
-            .take(source, 8 * read.values.len() + Budget::NUMBER * n_numbers)?;
+        let bytes = 8 * read.values.len() + Budget::NUMBER * n_numbers;
+        self.budget.take(source, bytes)?;
         let read = Rc::new(read);
         self.sources.insert(key, Rc::clone(&read));
         Ok(read)
     }
 
     /// The inputs of a list of polygons; those of its vertices stand behind its own.
-    fn inputs(&mut self, list: Node<'a>, tally: &mut Tally) -> Result<Inputs<'a>, TextError> {
+    fn inputs(&mut self, list: Node<'a>, tally: &mut Tally) -> Result<Inputs<'a>, Fault> {
         let mut stride = 0;
         let mut vertex = None;
         let mut others: Vec<Input> = Vec::new();
-        let mut add = |input: Node<'a>, offset: usize| -> Result<(), TextError> {
+        let mut add = |input: Node<'a>, offset: usize| -> Result<(), Fault> {
             let kind = match required(input, "semantic")? {
                 "VERTEX" | "POSITION" => return Ok(()),
                 "NORMAL" => Some(Kind::Normal),
@@ -200,10 +212,8 @@ impl<'a, 'd> Geometries<'a, 'd> {
             let offset = natural(input, "offset")?
                 .ok_or_else(|| error_at(input, "expected an attribute offset"))?;
             if offset > 1000 {
-                return Err(error_at(
-                    input,
-                    format!("expected an offset below 1000, found {offset}"),
-                ));
+                let message = format!("expected an offset below 1000, found {offset}");
+                return Err(error_at(input, message));
             }
             stride = stride.max(offset + 1);
             if input.attribute("semantic") == Some("VERTEX") && vertex.is_none() {
@@ -237,7 +247,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
         outline: &Outline<'a>,
         polygons: &mut Polygons,
         columns: &mut Columns,
-    ) -> Result<(), TextError> {
+    ) -> Result<(), Fault> {
         let check = |offset: usize, there: usize, what: &str| {
             let of_input = outline.indices.iter().skip(offset).step_by(inputs.stride);
             match of_input.enumerate().find(|(_, i)| **i as usize >= there) {
@@ -276,25 +286,24 @@ impl<'a, 'd> Geometries<'a, 'd> {
             let index = index(input.offset).map(|i| i as usize);
             match input.kind {
                 Kind::Normal => {
+                    let normal = |i| DVec3::from_array(vectors.get(i, [0.0; 3]));
                     columns.normals.resize(before, DVec3::ZERO);
-                    let values = index.map(|i| DVec3::from_array(vectors.get(i, [0.0; 3])));
-                    columns.normals.extend(values);
+                    columns.normals.extend(index.map(normal));
                 }
                 Kind::Color => {
+                    let color = |i| DVec4::from_array(vectors.get(i, [1.0; 4]));
                     columns.colors.resize(before, DVec4::ONE);
-                    let values = index.map(|i| DVec4::from_array(vectors.get(i, [1.0; 4])));
-                    columns.colors.extend(values);
+                    columns.colors.extend(index.map(color));
                 }
                 Kind::Uv(set) => {
                     if !columns.uvs.contains_key(&set) && columns.uvs.len() == MOST_UV_SETS {
-                        return Err(error_at(
-                            list,
-                            "expected at most 8 sets of texture coordinates",
-                        ));
+                        let message = "expected at most 8 sets of texture coordinates";
+                        return Err(error_at(list, message));
                     }
+                    let uv = |i| DVec2::from_array(vectors.get(i, [0.0; 2]));
                     let column = columns.uvs.entry(set).or_default();
                     column.resize(before, DVec2::ZERO);
-                    column.extend(index.map(|i| DVec2::from_array(vectors.get(i, [0.0; 2]))));
+                    column.extend(index.map(uv));
                 }
             }
         }

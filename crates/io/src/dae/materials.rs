@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use scene::{AlphaMode, Material, Texture};
 
-use super::Tally;
 use super::document::{
     Document, Node, below, child, elements, error_at, exactly, is, named, number_of, numbers, text,
 };
-use crate::asset_path::inside_uri;
-use crate::error::TextError;
+use super::tally::Tally;
+use crate::assets::inside_uri;
+use crate::fault::Fault;
 
 /// What a channel of a shader shows.
 enum Paint {
@@ -29,7 +29,7 @@ pub(super) fn material<'a>(
     node: Node<'a>,
     known: &mut BTreeMap<u32, Material>,
     tally: &mut Tally,
-) -> Result<Material, TextError> {
+) -> Result<Material, Fault> {
     if let Some(material) = known.get(&number_of(node)) {
         return Ok(material.clone());
     }
@@ -61,26 +61,20 @@ fn look_of<'a>(
     document: &Document<'a>,
     effect: Node<'a>,
     tally: &mut Tally,
-) -> Result<Material, TextError> {
+) -> Result<Material, Fault> {
     let mut material = Material::new("");
     let others = elements(effect).filter(|profile| {
         let name = profile.tag_name().name();
         name.starts_with("profile_") && name != "profile_COMMON"
     });
-    tally.left_out(
-        others.count(),
-        effect,
-        "profiles of effects left out that are not common",
-    );
+    let what = "profiles of effects left out that are not common";
+    tally.left_out(others.count(), effect, what);
     let Some(profile) = child(effect, "profile_COMMON") else {
         return Ok(material);
     };
     let shader = child(profile, "technique").and_then(|technique| {
-        elements(technique).find(|node| {
-            ["constant", "lambert", "phong", "blinn"]
-                .iter()
-                .any(|name| is(*node, name))
-        })
+        let shaders = ["constant", "lambert", "phong", "blinn"];
+        elements(technique).find(|node| shaders.iter().any(|name| is(*node, name)))
     });
     let Some(shader) = shader else {
         return Ok(material);
@@ -123,7 +117,7 @@ fn look_of<'a>(
 ///
 /// COLLADA 1.4.1, "Determining transparency": `A_ONE` takes the alpha of the transparent color, `RGB_ZERO` its
 /// luminance the other way round, both times the transparency.
-fn opacity(look: &Look, shader: Node, tally: &mut Tally) -> Result<Option<f64>, TextError> {
+fn opacity(look: &Look, shader: Node, tally: &mut Tally) -> Result<Option<f64>, Fault> {
     let transparent = child(shader, "transparent");
     let transparency = match child(shader, "transparency") {
         Some(node) => look.float(node)?,
@@ -152,11 +146,8 @@ fn opacity(look: &Look, shader: Node, tally: &mut Tally) -> Result<Option<f64>, 
     };
     // Programs disagree about which end is which, and nobody means a surface that cannot be seen.
     if opacity <= 0.0 {
-        tally.changed(
-            1,
-            shader,
-            "materials made opaque: the file makes them invisible",
-        );
+        let what = "materials made opaque: the file makes them invisible";
+        tally.changed(1, shader, what);
         return Ok(None);
     }
     Ok(Some(opacity))
@@ -169,7 +160,7 @@ struct Look<'a, 'd> {
 }
 
 impl<'a> Look<'a, '_> {
-    fn paint(&self, channel: Option<Node>, tally: &mut Tally) -> Result<Option<Paint>, TextError> {
+    fn paint(&self, channel: Option<Node>, tally: &mut Tally) -> Result<Option<Paint>, Fault> {
         let Some(channel) = channel else {
             return Ok(None);
         };
@@ -177,38 +168,34 @@ impl<'a> Look<'a, '_> {
             return color4(color).map(|color| Some(Paint::Color(color)));
         }
         if let Some(texture) = child(channel, "texture") {
-            let path = texture
-                .attribute("texture")
-                .and_then(|sid| self.picture(sid));
-            tally.left_out(
-                usize::from(path.is_none()),
-                texture,
-                "textures left out that have no picture file",
-            );
+            let sid = texture.attribute("texture");
+            let path = sid.and_then(|sid| self.picture(sid));
+            let what = "textures left out that have no picture file";
+            tally.left_out(usize::from(path.is_none()), texture, what);
             return Ok(path.map(Paint::Picture));
         }
-        let parameter =
-            child(channel, "param").and_then(|param| self.parameter(param.attribute("ref")?));
+        let parameter = self.parameter_of(channel);
         let color = parameter.and_then(|p| child(p, "float4").or(child(p, "float3")));
         color
             .map(|color| color4(color).map(Paint::Color))
             .transpose()
     }
 
-    fn float(&self, node: Node) -> Result<Option<f64>, TextError> {
-        let parameter =
-            child(node, "param").and_then(|param| self.parameter(param.attribute("ref")?));
+    fn float(&self, node: Node) -> Result<Option<f64>, Fault> {
+        let parameter = self.parameter_of(node);
         let value = child(node, "float").or(parameter.and_then(|p| child(p, "float")));
         value
             .map(|value| exactly::<1>(value).map(|[x]| x))
             .transpose()
     }
 
+    fn parameter_of(&self, node: Node) -> Option<Node<'a>> {
+        self.parameter(child(node, "param")?.attribute("ref")?)
+    }
+
     fn parameter(&self, sid: &str) -> Option<Node<'a>> {
-        let mut parameters = self
-            .scopes
-            .into_iter()
-            .flat_map(|scope| named(scope, "newparam"));
+        let scopes = self.scopes.into_iter();
+        let mut parameters = scopes.flat_map(|scope| named(scope, "newparam"));
         parameters.find(|parameter| parameter.attribute("sid") == Some(sid))
     }
 
@@ -223,22 +210,18 @@ impl<'a> Look<'a, '_> {
                 image = text(below(surface, &["surface", "init_from"])?);
             }
         }
-        let image = self
-            .document
-            .ids
-            .get(image)
-            .filter(|node| is(**node, "image"))?;
-        let from = child(*image, "init_from")?;
+        let image = self.document.ids.get(image)?;
+        let from = Some(*image).filter(|node| is(*node, "image"));
+        let from = child(from?, "init_from")?;
         let path = text(child(from, "ref").unwrap_or(from));
-        let inside = inside_uri(path)
-            .ok()
-            .and_then(|path| Some(path.to_str()?.replace('\\', "/")));
+        let inside = inside_uri(path).ok();
+        let inside = inside.and_then(|path| Some(path.to_str()?.replace('\\', "/")));
         inside.or_else(|| (!path.is_empty()).then(|| path.to_owned()))
     }
 }
 
 /// A color of three or four numbers.
-fn color4(node: Node) -> Result<[f64; 4], TextError> {
+fn color4(node: Node) -> Result<[f64; 4], Fault> {
     match numbers(node)?[..] {
         [red, green, blue] => Ok([red, green, blue, 1.0]),
         [red, green, blue, alpha] => Ok([red, green, blue, alpha]),

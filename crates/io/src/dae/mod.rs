@@ -35,40 +35,35 @@ mod materials;
 mod nodes;
 mod outline;
 mod sources;
+mod tally;
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
-use glam::{DAffine3, DMat3};
-use mesh::{CORNER_NORMAL, Domain, MATERIAL, UV, Values};
+use glam::{DAffine3, DVec3};
+use mesh::{CORNER_NORMAL, Domain, MATERIAL, UV, Value};
 use scene::{Material, Texture};
 
-use crate::error::{ReadError, TextError};
-use crate::names::Names;
-use crate::note::Notes;
+use crate::clean::gather;
+use crate::fault::Fault;
+use crate::note::{Names, Notes};
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
-use crate::{Found, Polygons};
+use crate::{Found, Polygons, Shape};
 
-use document::{Document, Node, elements, error_at, line, number_of, text};
+use document::{Document, elements, error_at, line, number_of, text};
 use geometry::{Geometries, Surface};
 use nodes::{Placed, placed};
+use tally::{Budget, Tally};
 
 /// Reads the objects of a file from its bytes.
 ///
 /// # Errors
 ///
 /// The first thing that breaks the rules of the format.
-pub(crate) fn read(
-    path: &Path,
-    bytes: &[u8],
-    name: &str,
-    notes: &mut Notes,
-) -> Result<Vec<Found>, ReadError> {
+pub(crate) fn read(bytes: &[u8], name: &str, notes: &mut Notes) -> Result<Vec<Found>, Fault> {
     each_object(bytes, name, notes, |name, object| {
-        let polygons = object.polygons()?;
-        Ok(Found::polygons(name, polygons))
+        let shape = Shape::Polygons(object.polygons()?);
+        Ok(Found { name, shape })
     })
-    .map_err(|error| error.in_file(path))
 }
 
 /// What reading will give.
@@ -76,12 +71,11 @@ pub(crate) fn read(
 /// # Errors
 ///
 /// As [`read`].
-pub(crate) fn peek(path: &Path, bytes: &[u8], name: &str) -> Result<Vec<PeekObject>, ReadError> {
-    each_object(bytes, name, &mut Notes::of(path), |name, object| {
+pub(crate) fn peek(bytes: &[u8], name: &str) -> Result<Vec<PeekObject>, Fault> {
+    each_object(bytes, name, &mut Notes::of("".as_ref()), |name, object| {
         let geometry = PeekGeometry::Mesh(object.counts());
         Ok(PeekObject { name, geometry })
     })
-    .map_err(|error| error.in_file(path))
 }
 
 /// Reads the file and makes something of each object.
@@ -89,8 +83,8 @@ fn each_object<T>(
     bytes: &[u8],
     name: &str,
     notes: &mut Notes,
-    mut make: impl FnMut(String, Object) -> Result<T, TextError>,
-) -> Result<Vec<T>, TextError> {
+    mut make: impl FnMut(String, Object) -> Result<T, Fault>,
+) -> Result<Vec<T>, Fault> {
     let text = document::decoded(bytes)?;
     let xml = document::parsed(&text)?;
     let document = Document::new(&xml)?;
@@ -112,15 +106,12 @@ fn each_object<T>(
             surfaces.insert(id, surface);
         }
         let Some(Some(surface)) = surfaces.get(&id) else {
-            tally.left_out(
-                1,
-                placed.geometry,
-                "geometries left out that have no polygons",
-            );
+            let what = "geometries left out that have no polygons";
+            tally.left_out(1, placed.geometry, what);
             continue;
         };
         if known && let Some(instance) = placed.instance {
-            geometries.budget.take(instance, Budget::cost_of(surface))?;
+            geometries.budget.take(instance, surface.cost())?;
         }
         let object = Object {
             document: &document,
@@ -167,14 +158,10 @@ impl Object<'_, '_> {
     }
 
     /// The polygons in the scene's coordinates, with their materials.
-    fn polygons(self) -> Result<Polygons, TextError> {
-        let mut polygons = moved(
-            &self.surface.polygons,
-            &self.placed.to_scene,
-            |count, what| {
-                self.tally.left_out(count, self.placed.geometry, what);
-            },
-        );
+    fn polygons(self) -> Result<Polygons, Fault> {
+        let (mut polygons, lost) = moved(&self.surface.polygons, &self.placed.to_scene);
+        let what = "normals left out: the placement is flat";
+        self.tally.left_out(lost, self.placed.geometry, what);
         if self.surface.symbols.is_empty() {
             return Ok(polygons);
         }
@@ -183,18 +170,12 @@ impl Object<'_, '_> {
         for symbol in &self.surface.symbols {
             let next = i32::try_from(polygons.materials.len()).unwrap_or(i32::MAX);
             // Without a binding, some programs mean the material of this id.
-            let same_id = self
-                .document
-                .ids
-                .get(symbol)
-                .filter(|node| document::is(**node, "material"));
+            let same_id = self.document.ids.get(symbol);
+            let same_id = same_id.filter(|node| document::is(**node, "material"));
             let node = self.placed.materials.get(symbol).or(same_id);
             let Some(&node) = node else {
-                self.tally.changed(
-                    1,
-                    self.placed.geometry,
-                    "names of materials that the file does not define: they are white",
-                );
+                let what = "names of materials that the file does not define: they are white";
+                self.tally.changed(1, self.placed.geometry, what);
                 place_of_symbol.push(next);
                 polygons.materials.push(Material::new(*symbol));
                 continue;
@@ -221,100 +202,47 @@ impl Object<'_, '_> {
     }
 }
 
-/// The polygons moved by `to_scene`. A mirror turns them inside out: their corners are taken the other way
-/// round. `left_out` hears of normals that a flat placement leaves without a direction.
-fn moved(
-    polygons: &Polygons,
-    to_scene: &DAffine3,
-    left_out: impl FnOnce(usize, &'static str),
-) -> Polygons {
+/// The polygons moved by `to_scene`, and how many normals are lost because a flat placement leaves them without a
+/// direction. A mirror turns polygons inside out: their corners are taken the other way round.
+fn moved(polygons: &Polygons, to_scene: &DAffine3) -> (Polygons, usize) {
     let mut moved = polygons.clone();
+    let mut lost = 0;
     if *to_scene == DAffine3::IDENTITY {
-        return moved;
+        return (moved, lost);
     }
     for position in &mut moved.positions {
         *position = to_scene.transform_point3(*position);
     }
     let turn = to_scene.matrix3.inverse().transpose();
-    if turn.is_finite() {
-        turn_normals(&mut moved, turn);
-    } else if let Some(column) = moved.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
-        left_out(
-            column.values.len(),
-            "normals left out: the placement is flat",
-        );
+    if let Some(mut column) = moved.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
+        if !turn.is_finite() {
+            lost = column.values.len();
+        } else {
+            for normal in DVec3::of_mut(&mut column.values).into_iter().flatten() {
+                *normal = (turn * *normal).normalize_or_zero();
+            }
+            moved.attributes.insert(Domain::Corner, column);
+        }
     }
     if to_scene.matrix3.determinant() < 0.0 {
-        let mut order: Vec<usize> = (0..moved.corners.len()).collect();
+        let mut order: Vec<u32> = (0..).take(moved.corners.len()).collect();
         for ends in moved.offsets.windows(2) {
             // The first corner stays the first.
             order[ends[0] as usize + 1..ends[1] as usize].reverse();
         }
-        moved.corners = order.iter().map(|&c| polygons.corners[c]).collect();
-        for column in polygons.attributes.of(Domain::Corner) {
-            let column = moved.attributes.remove(Domain::Corner, &column.name);
-            if let Some(mut column) = column {
-                column.values = column.values.gather(order.len(), |c| Some(order[c]));
-                moved.attributes.insert(Domain::Corner, column);
-            }
-        }
+        moved.corners = order
+            .iter()
+            .map(|&c| polygons.corners[c as usize])
+            .collect();
+        gather(&mut moved.attributes, Domain::Corner, &order);
     }
-    moved
-}
-
-fn turn_normals(polygons: &mut Polygons, turn: DMat3) {
-    let column = polygons
-        .attributes
-        .remove(Domain::Corner, CORNER_NORMAL.name);
-    if let Some(mut column) = column {
-        if let Values::Vec3(normals) = &mut column.values {
-            for normal in normals {
-                *normal = (turn * *normal).normalize_or_zero();
-            }
-        }
-        polygons.attributes.insert(Domain::Corner, column);
-    }
+    (moved, lost)
 }
 
 // ---- Notes -------------------------------------------------------------------------------------
 
-/// What was left out or changed, added up by what it is.
-#[derive(Default)]
-struct Tally(BTreeMap<(bool, &'static str), (usize, usize)>);
-
-impl Tally {
-    fn left_out(&mut self, count: usize, node: Node, what: &'static str) {
-        self.add(false, count, node, what);
-    }
-
-    fn changed(&mut self, count: usize, node: Node, what: &'static str) {
-        self.add(true, count, node, what);
-    }
-
-    fn add(&mut self, changed: bool, count: usize, node: Node, what: &'static str) {
-        if count > 0 {
-            // The line is looked for only once: that takes time.
-            let (sum, _) = self
-                .0
-                .entry((changed, what))
-                .or_insert_with(|| (0, line(node)));
-            *sum = sum.saturating_add(count);
-        }
-    }
-
-    fn into_notes(self, notes: &mut Notes) {
-        for ((changed, what), (count, line)) in self.0 {
-            if changed {
-                notes.changed(count, line, what);
-            } else {
-                notes.left_out(count, line, what);
-            }
-        }
-    }
-}
-
 /// Notes the unit and the direction upwards, if they are not the usual ones.
-fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), TextError> {
+fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
     let asset = document::child(document.root, "asset");
     let unit = asset.and_then(|asset| document::child(asset, "unit"));
     let axis = asset.and_then(|asset| document::child(asset, "up_axis"));
@@ -354,49 +282,5 @@ fn note_libraries(document: &Document, tally: &mut Tally) {
         };
         let parts = elements(library).filter(|part| !document::is(*part, "asset"));
         tally.left_out(parts.count(), library, what);
-    }
-}
-
-/// How much memory may still be taken. A file may repeat its geometries by instances, but not without end.
-struct Budget(usize);
-
-impl Budget {
-    /// A file may become this many times its size in memory, ...
-    const TIMES: usize = 64;
-    /// ... and this many bytes in any case.
-    const FREE: usize = 1 << 24;
-    /// How many bytes an object without faces takes, a material of it and what binds it, a vertex, a corner and a
-    /// further value of a corner, about.
-    const OBJECT: usize = 1000;
-    const MATERIAL: usize = 1000;
-    const BOUND: usize = 50;
-    const VERTEX: usize = 64;
-    const CORNER: usize = 48;
-    const VALUE: usize = 24;
-    /// What reading a number costs each time that it is read: time rather than memory.
-    const NUMBER: usize = 20;
-
-    fn of(size: usize) -> Self {
-        Self(size.saturating_mul(Self::TIMES).max(Self::FREE))
-    }
-
-    fn cost_of(surface: &Surface) -> usize {
-        let polygons = &surface.polygons;
-        let columns = polygons.attributes.of(Domain::Corner).len();
-        let names: usize = surface.symbols.iter().map(|name| name.len()).sum();
-        Self::VERTEX * polygons.positions.len()
-            + (Self::CORNER + Self::VALUE * columns) * polygons.corners.len()
-            + Self::MATERIAL * surface.symbols.len()
-            + names
-    }
-
-    fn take(&mut self, node: Node, bytes: usize) -> Result<(), TextError> {
-        self.0 = self.0.checked_sub(bytes).ok_or_else(|| {
-            error_at(
-                node,
-                "the file repeats its polygons far more often than usual for its size",
-            )
-        })?;
-        Ok(())
     }
 }

@@ -7,8 +7,8 @@ use glam::{DAffine3, DMat3, DVec3};
 use super::document::{
     Document, Node, below, child, elements, error_at, exactly, is, line, named, number_of, required,
 };
-use super::{Budget, Tally};
-use crate::error::TextError;
+use super::tally::{Budget, Tally};
+use crate::fault::Fault;
 use crate::note::Notes;
 
 /// A geometry at its place.
@@ -26,10 +26,8 @@ pub(super) struct Placed<'a> {
 impl<'a> Placed<'a> {
     pub(super) fn name(&self, otherwise: &'a str) -> &'a str {
         let names = [self.node_name, name(self.geometry)];
-        names
-            .into_iter()
-            .find(|name| !name.is_empty())
-            .unwrap_or(otherwise)
+        let named = names.into_iter().find(|name| !name.is_empty());
+        named.unwrap_or(otherwise)
     }
 }
 
@@ -49,7 +47,7 @@ pub(super) fn placed<'a>(
     budget: &mut Budget,
     notes: &mut Notes,
     tally: &mut Tally,
-) -> Result<Vec<Placed<'a>>, TextError> {
+) -> Result<Vec<Placed<'a>>, Fault> {
     let geometries = || {
         let libraries = named(document.root, "library_geometries");
         libraries.flat_map(|library| named(library, "geometry"))
@@ -72,18 +70,12 @@ pub(super) fn placed<'a>(
         });
         return Ok(alone.collect());
     };
-    let first = scenes.iter().find(|other| **other != scene);
-    let others = scenes.iter().filter(|other| **other != scene).count();
-    notes.left_out(
-        others,
-        first.map(|scene| line(*scene)),
-        "other scenes left out",
-    );
+    let others: Vec<&Node> = scenes.iter().filter(|other| **other != scene).collect();
+    let first = others.first().map(|scene| line(**scene));
+    notes.left_out(others.len(), first, "other scenes left out");
     let placed = Walk::of(document, budget).run(scene, tally)?;
-    let used: BTreeSet<u32> = placed
-        .iter()
-        .map(|placed| number_of(placed.geometry))
-        .collect();
+    let used = placed.iter().map(|placed| number_of(placed.geometry));
+    let used: BTreeSet<u32> = used.collect();
     let mut unused = geometries().filter(|geometry| !used.contains(&number_of(*geometry)));
     if let Some(first) = unused.next() {
         let what = "geometries left out: no node of the scene shows them";
@@ -121,7 +113,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    fn run(mut self, scene: Node<'a>, tally: &mut Tally) -> Result<Vec<Placed<'a>>, TextError> {
+    fn run(mut self, scene: Node<'a>, tally: &mut Tally) -> Result<Vec<Placed<'a>>, Fault> {
         let mut open = Vec::new();
         self.open_children(scene, DAffine3::IDENTITY, &mut open, tally)?;
         while let Some(step) = open.pop() {
@@ -146,7 +138,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(self.placed)
     }
 
-    fn step(&mut self, node: Node) -> Result<(), TextError> {
+    fn step(&mut self, node: Node) -> Result<(), Fault> {
         let message = "the nodes are repeated far more often than usual for a file of its size";
         let left = self.steps.checked_sub(1);
         self.steps = left.ok_or_else(|| error_at(node, message))?;
@@ -160,7 +152,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         to_scene: DAffine3,
         open: &mut Vec<Step<'a>>,
         tally: &mut Tally,
-    ) -> Result<(), TextError> {
+    ) -> Result<(), Fault> {
         let start = open.len();
         for part in elements(node) {
             self.step(part)?;
@@ -182,7 +174,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         node: Node<'a>,
         to_scene: DAffine3,
         tally: &mut Tally,
-    ) -> Result<(), TextError> {
+    ) -> Result<(), Fault> {
         for instance in elements(node) {
             let geometry = match instance.tag_name().name() {
                 "instance_geometry" => self.document.follow(instance, "url", &["geometry"])?,
@@ -209,7 +201,7 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 
     /// The geometry that a skin or a morph moves, as it is at rest.
-    fn geometry_of_controller(&self, instance: Node<'a>) -> Result<Option<Node<'a>>, TextError> {
+    fn geometry_of_controller(&self, instance: Node<'a>) -> Result<Option<Node<'a>>, Fault> {
         const MOST: usize = 16;
         let mut controller = self.document.follow(instance, "url", &["controller"])?;
         for _ in 0..MOST {
@@ -218,25 +210,21 @@ impl<'a, 'd> Walk<'a, 'd> {
             };
             let moved = child(node, "skin").or(child(node, "morph"));
             let moved = moved.ok_or_else(|| error_at(node, "expected <skin> or <morph>"))?;
-            let source = self
-                .document
-                .follow(moved, "source", &["geometry", "controller"])?;
-            match source {
+            let kinds = ["geometry", "controller"];
+            match self.document.follow(moved, "source", &kinds)? {
                 Some(source) if is(source, "controller") => controller = Some(source),
                 geometry => return Ok(geometry),
             }
         }
-        Err(error_at(
-            instance,
-            format!("expected at most {MOST} controllers in a chain"),
-        ))
+        let message = format!("expected at most {MOST} controllers in a chain");
+        Err(error_at(instance, message))
     }
 
     fn bound_materials(
         &mut self,
         instance: Node<'a>,
         tally: &mut Tally,
-    ) -> Result<BTreeMap<&'a str, Node<'a>>, TextError> {
+    ) -> Result<BTreeMap<&'a str, Node<'a>>, Fault> {
         let mut materials = BTreeMap::new();
         let Some(list) = below(instance, &["bind_material", "technique_common"]) else {
             return Ok(materials);
@@ -256,7 +244,7 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 
     /// The placement of a node in the node above: its transforms, the first of the file outermost.
-    fn placement(&mut self, node: Node<'a>, tally: &mut Tally) -> Result<DAffine3, TextError> {
+    fn placement(&mut self, node: Node<'a>, tally: &mut Tally) -> Result<DAffine3, Fault> {
         if let Some(known) = self.placements.get(&number_of(node)) {
             return Ok(*known);
         }
@@ -280,18 +268,14 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 }
 
-fn matrix(node: Node) -> Result<DAffine3, TextError> {
+fn matrix(node: Node) -> Result<DAffine3, Fault> {
     let rows: [f64; 16] = exactly(node)?;
     if rows[12..] != [0.0, 0.0, 0.0, 1.0] {
         return Err(error_at(node, "expected 0 0 0 1 as the last row"));
     }
     let column = |i: usize| DVec3::new(rows[i], rows[4 + i], rows[8 + i]);
-    Ok(DAffine3::from_cols(
-        column(0),
-        column(1),
-        column(2),
-        column(3),
-    ))
+    let [x, y, z, w] = [0, 1, 2, 3].map(column);
+    Ok(DAffine3::from_cols(x, y, z, w))
 }
 
 /// Rodrigues' formula: R = c I + s \[n\] + (1 - c) n n^T. The angle is in degrees; without an axis there is no
@@ -307,16 +291,14 @@ fn rotation([x, y, z, degrees]: [f64; 4]) -> DMat3 {
 }
 
 /// The frame of an eye that looks along its -z.
-fn look_at(node: Node) -> Result<DAffine3, TextError> {
+fn look_at(node: Node) -> Result<DAffine3, Fault> {
     let [a, b, c, d, e, f, g, h, i] = exactly(node)?;
     let eye = DVec3::new(a, b, c);
     let z = (eye - DVec3::new(d, e, f)).normalize_or_zero();
     let x = DVec3::new(g, h, i).cross(z).normalize_or_zero();
     if x == DVec3::ZERO {
-        return Err(error_at(
-            node,
-            "expected a direction to look at, and another one upwards",
-        ));
+        let message = "expected a direction to look at, and another one upwards";
+        return Err(error_at(node, message));
     }
     Ok(DAffine3::from_cols(x, z.cross(x), z, eye))
 }

@@ -1,10 +1,10 @@
 //! How the indices of a list make polygons: triangles, polygons with counted corners, strips and fans.
 
-use super::Tally;
 use super::document::{
     Node, child, elements, error_at, is, named, natural, push_indices, required,
 };
-use crate::error::TextError;
+use super::tally::Tally;
+use crate::fault::Fault;
 
 /// How the indices of a list make polygons.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub(super) enum Shape {
 }
 
 /// What kind of polygons a list has; `None` if it has none.
-pub(super) fn shape(list: Node, tally: &mut Tally) -> Result<Option<Shape>, TextError> {
+pub(super) fn shape(list: Node, tally: &mut Tally) -> Result<Option<Shape>, Fault> {
     let shape = match list.tag_name().name() {
         "triangles" => Shape::Triangles,
         "polylist" => Shape::Counted,
@@ -55,7 +55,7 @@ impl Shape {
         list: Node<'a>,
         stride: usize,
         tally: &mut Tally,
-    ) -> Result<Outline<'a>, TextError> {
+    ) -> Result<Outline<'a>, Fault> {
         let mut outline = Outline::default();
         let mut holes = 0;
         // Where the corners of each list of indices begin.
@@ -72,10 +72,9 @@ impl Shape {
             push_indices(indices, &mut outline.indices)?;
             outline.lists.push(indices);
             if !outline.indices.len().is_multiple_of(stride) {
-                let message = format!(
-                    "expected {stride} indices for each corner, found {} in all",
-                    outline.indices.len()
-                );
+                let n = outline.indices.len();
+                let message =
+                    format!("expected {stride} indices for each corner, found {n} in all");
                 return Err(error_at(indices, message));
             }
             starts.push(outline.indices.len() / stride);
@@ -132,16 +131,11 @@ impl Shape {
                 outline.lists.len()
             }
         };
-        tally.left_out(
-            small,
-            list,
-            "polygons left out that have fewer than 3 corners",
-        );
+        let what = "polygons left out that have fewer than 3 corners";
+        tally.left_out(small, list, what);
         if count.is_some_and(|count| count != found) {
-            let message = format!(
-                "expected {} of them, found {found}",
-                required(list, "count")?
-            );
+            let count = required(list, "count")?;
+            let message = format!("expected {count} of them, found {found}");
             return Err(error_at(list, message));
         }
         Ok(outline)

@@ -9,7 +9,7 @@
 //! ```
 
 use super::document::{Document, Node, below, error_at, named, natural, numbers, required};
-use crate::error::TextError;
+use crate::fault::Fault;
 use crate::text::quoted;
 
 /// Vectors of 1 to 4 numbers.
@@ -45,7 +45,7 @@ pub(super) fn vectors(
     source: Node,
     names: &[&str],
     least: usize,
-) -> Result<(Vectors, usize), TextError> {
+) -> Result<(Vectors, usize), Fault> {
     let accessor = below(source, &["technique_common", "accessor"])
         .ok_or_else(|| error_at(source, "expected an accessor in technique_common"))?;
     let components = components(accessor, names)?;
@@ -77,16 +77,14 @@ pub(super) fn vectors(
     }
     let end = match count.checked_sub(1) {
         None => Some(0),
-        Some(before) => before
-            .checked_mul(stride)
-            .and_then(|start| start.checked_add(offset)?.checked_add(last)),
+        Some(before) => {
+            let start = before.checked_mul(stride);
+            start.and_then(|start| start.checked_add(offset)?.checked_add(last))
+        }
     };
-    if end.is_none_or(|end| end > values.len()) {
-        let message = format!(
-            "{count} vectors reach beyond the {} numbers of {}",
-            values.len(),
-            quoted(required(accessor, "source")?.as_bytes())
-        );
+    if end.is_none_or(|end| end > n_numbers) {
+        let source = quoted(required(accessor, "source")?.as_bytes());
+        let message = format!("{count} vectors reach beyond the {n_numbers} numbers of {source}");
         return Err(error_at(accessor, message));
     }
     let width = components.len();
@@ -102,13 +100,12 @@ pub(super) fn vectors(
 }
 
 /// Where the components of a vector stand behind its first number; at most four.
-fn components(accessor: Node, names: &[&str]) -> Result<Vec<usize>, TextError> {
-    let params: Vec<_> = named(accessor, "param")
-        .map(|param| param.attribute("name").unwrap_or_default())
-        .collect();
+fn components(accessor: Node, names: &[&str]) -> Result<Vec<usize>, Fault> {
+    let params = named(accessor, "param").map(|param| param.attribute("name"));
+    let params: Vec<&str> = params.map(Option::unwrap_or_default).collect();
     let place = |name: &&str| params.iter().position(|param| param == name);
     let ordered: Option<Vec<usize>> = names.iter().map(place).collect();
-    let mut components = match ordered {
+    let mut components: Vec<usize> = match ordered {
         _ if params.iter().all(|name| name.is_empty()) => {
             let stride = natural(accessor, "stride")?.unwrap_or(1);
             (0..stride.min(4)).collect()
@@ -121,7 +118,7 @@ fn components(accessor: Node, names: &[&str]) -> Result<Vec<usize>, TextError> {
         }
         None => (0..params.len())
             .filter(|&i| !params[i].is_empty())
-            .collect::<Vec<_>>(),
+            .collect(),
     };
     components.truncate(4);
     Ok(components)

@@ -1,7 +1,5 @@
 //! Accessors: typed arrays in the buffers, with strides, normalized integers and sparse parts.
 
-use std::borrow::Cow;
-use std::cell::OnceCell;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use bytemuck::Zeroable;
@@ -9,47 +7,22 @@ use gltf_json::Accessor;
 use gltf_json::accessor::{ComponentType, IndexComponentType, Type};
 use gltf_json::validation::Checked;
 use mesh::Value;
-use rayon::prelude::*;
 
-use super::JsonError;
-use super::budget::Budget;
-use super::document::{Document, get};
+use super::document::get;
 use super::numbers::{kinds, number, one_of, type_name, whole};
+use super::views::Reader;
+use crate::fault::Fault;
+use crate::parallel;
 
 /// An accessor without a buffer view is all zeros. It may have this many elements even in a tiny file.
 const FREE_ZEROS: u64 = 1 << 16;
-/// How many elements are converted by one task at least.
-const BLOCK: usize = 1 << 13;
-
-/// Reads arrays out of the buffers of a document.
-pub(super) struct Reader<'a> {
-    pub(super) document: &'a Document,
-    pub(super) buffers: &'a [Cow<'a, [u8]>],
-    pub(super) budget: &'a Budget,
-    /// The bytes of compressed views, as far as they have been needed.
-    pub(super) decoded: Vec<OnceCell<Vec<u8>>>,
-}
-
-impl<'a> Reader<'a> {
-    pub(super) fn new(
-        document: &'a Document,
-        buffers: &'a [Cow<'a, [u8]>],
-        budget: &'a Budget,
-    ) -> Self {
-        Self {
-            document,
-            buffers,
-            budget,
-            decoded: document.views.iter().map(|_| OnceCell::new()).collect(),
-        }
-    }
-
+impl Reader<'_> {
     /// How many elements an accessor has.
     ///
     /// # Errors
     ///
     /// If there is no such accessor; `pointer` is the place that refers to it.
-    pub(super) fn count(&self, index: usize, pointer: &str) -> Result<u64, JsonError> {
+    pub(super) fn count(&self, index: usize, pointer: &str) -> Result<u64, Fault> {
         Ok(self.accessor(index, pointer)?.count.0)
     }
 
@@ -58,14 +31,13 @@ impl<'a> Reader<'a> {
     /// # Errors
     ///
     /// As [`count`](Self::count), or if the type is unknown.
-    pub(super) fn kind(&self, index: usize, pointer: &str) -> Result<Type, JsonError> {
+    pub(super) fn kind(&self, index: usize, pointer: &str) -> Result<Type, Fault> {
         let accessor = self.accessor(index, pointer)?;
         Ok(kinds(accessor, &format!("/accessors/{index}"))?.0)
     }
 
-    fn accessor(&self, index: usize, pointer: &str) -> Result<&Accessor, JsonError> {
-        let accessors = &self.document.accessors;
-        get(accessors, index, || pointer.to_owned(), "accessor")
+    fn accessor(&self, index: usize, pointer: &str) -> Result<&Accessor, Fault> {
+        get(&self.document.accessors, index, pointer, "accessor")
     }
 
     /// The elements of an accessor, each converted from N numbers. Components that its type does not
@@ -82,15 +54,13 @@ impl<'a> Reader<'a> {
         types: &[Type],
         fill: f64,
         convert: impl Fn([f64; N]) -> T + Sync,
-    ) -> Result<Vec<T>, JsonError> {
+    ) -> Result<Vec<T>, Fault> {
         let accessor = self.accessor(index, pointer)?;
         let here = format!("/accessors/{index}");
         let (kind, component) = kinds(accessor, &here)?;
         if !types.contains(&kind) {
-            return Err(JsonError::new(
-                format!("{here}/type"),
-                format!("expected {}, found {}", one_of(types), type_name(kind)),
-            ));
+            let message = format!("expected {}, found {}", one_of(types), type_name(kind));
+            return Err(Fault::json(format!("{here}/type"), message));
         }
         let used = kind.multiplicity().min(N);
         let size = component.size();
@@ -132,7 +102,7 @@ impl<'a> Reader<'a> {
             // A sparse part may have replaced it.
             if let Some(i) = finite.iter().position(|&is| is == 0) {
                 let message = format!("element {i} is not a finite number");
-                return Err(JsonError::new(here, message));
+                return Err(Fault::json(here, message));
             }
         }
         Ok(values)
@@ -143,13 +113,13 @@ impl<'a> Reader<'a> {
     /// # Errors
     ///
     /// As [`vectors`](Self::vectors).
-    pub(super) fn indices(&self, index: usize, pointer: &str) -> Result<Vec<u32>, JsonError> {
+    pub(super) fn indices(&self, index: usize, pointer: &str) -> Result<Vec<u32>, Fault> {
         let accessor = self.accessor(index, pointer)?;
         let here = format!("/accessors/{index}");
         let (kind, component) = kinds(accessor, &here)?;
         if kind != Type::Scalar {
             let message = format!("expected SCALAR for indices, found {}", type_name(kind));
-            return Err(JsonError::new(format!("{here}/type"), message));
+            return Err(Fault::json(format!("{here}/type"), message));
         }
         match component {
             ComponentType::U8 | ComponentType::U16 => {
@@ -161,7 +131,7 @@ impl<'a> Reader<'a> {
             }),
             _ => {
                 let message = "expected unsigned integers for indices";
-                Err(JsonError::new(format!("{here}/componentType"), message))
+                Err(Fault::json(format!("{here}/componentType"), message))
             }
         }
     }
@@ -174,7 +144,7 @@ impl<'a> Reader<'a> {
         component: ComponentType,
         zero: T,
         value: impl Fn(&[u8]) -> T + Sync,
-    ) -> Result<Vec<T>, JsonError> {
+    ) -> Result<Vec<T>, Fault> {
         let accessor = &self.document.accessors[index];
         let here = format!("/accessors/{index}");
         let size = components * component.size();
@@ -185,9 +155,8 @@ impl<'a> Reader<'a> {
             let rows = self.rows(view.value(), offset, count, size, &here)?;
             self.budget.spend(bytes, &here)?;
             let mut elements = mesh::zeroed::<T>(rows.count);
-            let blocks = elements.par_chunks_mut(BLOCK).enumerate();
-            blocks.for_each(|(block, elements)| {
-                let rows = rows.block(block * BLOCK, elements.len());
+            parallel::fill(&mut elements, |first, elements| {
+                let rows = rows.block(first, elements.len());
                 if rows.stride == size {
                     for (slot, bytes) in elements.iter_mut().zip(rows.bytes.chunks_exact(size)) {
                         *slot = value(bytes);
@@ -209,37 +178,25 @@ impl<'a> Reader<'a> {
         };
         let here = format!("{here}/sparse");
         let Checked::Valid(IndexComponentType(index_type)) = sparse.indices.component_type else {
-            let message = "expected unsigned integers for indices";
-            return Err(JsonError::new(
-                format!("{here}/indices/componentType"),
-                message,
+            let pointer = format!("{here}/indices/componentType");
+            return Err(Fault::json(
+                pointer,
+                "expected unsigned integers for indices",
             ));
         };
         let n = sparse.count.0;
         // Not made, but looked at each time that the accessor is used.
         self.budget.spend(n.saturating_mul(size as u64), &here)?;
         let (indices, values) = (&sparse.indices, &sparse.values);
-        let at = format!("{here}/indices");
-        let places = self.rows(
-            indices.buffer_view.value(),
-            indices.byte_offset.0,
-            n,
-            index_type.size(),
-            &at,
-        )?;
-        let at = format!("{here}/values");
-        let values = self.rows(
-            values.buffer_view.value(),
-            values.byte_offset.0,
-            n,
-            size,
-            &at,
-        )?;
+        let (at, view) = (format!("{here}/indices"), indices.buffer_view.value());
+        let places = self.rows(view, indices.byte_offset.0, n, index_type.size(), &at)?;
+        let (at, view) = (format!("{here}/values"), values.buffer_view.value());
+        let values = self.rows(view, values.byte_offset.0, n, size, &at)?;
         for (place, bytes) in places.iter().zip(values.iter()) {
             let place = whole(place, index_type);
             let slot = elements.get_mut(place as usize).ok_or_else(|| {
                 let message = format!("refers to element {place}, but there are {count}");
-                JsonError::new(format!("{here}/indices"), message)
+                Fault::json(format!("{here}/indices"), message)
             })?;
             *slot = value(bytes);
         }
@@ -247,15 +204,16 @@ impl<'a> Reader<'a> {
     }
 
     /// Checks how many zeros an accessor without data says it has.
-    fn zeros(&self, count: u64, here: &str) -> Result<usize, JsonError> {
+    fn zeros(&self, count: u64, here: &str) -> Result<usize, Fault> {
         let all: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
         let limit = all.max(FREE_ZEROS);
-        usize::try_from(count).ok().filter(|_| count <= limit).ok_or_else(|| {
+        let allowed = usize::try_from(count).ok().filter(|_| count <= limit);
+        allowed.ok_or_else(|| {
             let message = format!(
                 "the accessor has no buffer view and says {count} elements; a file of this size \
                  may have {limit}"
             );
-            JsonError::new(format!("{here}/count"), message)
+            Fault::json(format!("{here}/count"), message)
         })
     }
 }

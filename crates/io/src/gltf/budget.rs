@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::JsonError;
+use crate::fault::Fault;
 
 /// A file may become this many times its size in memory, ...
 const TIMES: u64 = 64;
@@ -52,13 +52,13 @@ impl Budget {
     /// # Errors
     ///
     /// If the file has used up its share; `pointer` is the place that wants more.
-    pub(super) fn spend(&self, bytes: u64, pointer: &str) -> Result<(), JsonError> {
+    pub(super) fn spend(&self, bytes: u64, pointer: &str) -> Result<(), Fault> {
         let left = self.left.get().checked_sub(bytes).ok_or_else(|| {
             let message = format!(
                 "the file refers to the same data so often that it needs more than {TIMES} times its \
                  size in memory"
             );
-            JsonError::new(pointer, message)
+            Fault::json(pointer, message)
         })?;
         self.left.set(left);
         Ok(())
@@ -70,7 +70,7 @@ impl Budget {
     /// # Errors
     ///
     /// If the file has used up its share; `pointer` is the place that wants more.
-    pub(super) fn inflate(&self, bytes: u64, pointer: &str) -> Result<usize, JsonError> {
+    pub(super) fn inflate(&self, bytes: u64, pointer: &str) -> Result<usize, Fault> {
         self.spend(bytes, pointer)?;
         let left = self.inflation.get().checked_sub(bytes);
         let length = usize::try_from(bytes).ok();
@@ -79,7 +79,7 @@ impl Budget {
                 "compressed views become {bytes} bytes more here, and together more than {TIMES} times \
                  the size of the file"
             );
-            return Err(JsonError::new(pointer, message));
+            return Err(Fault::json(pointer, message));
         };
         self.inflation.set(left);
         Ok(length)

@@ -3,19 +3,25 @@
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use base64::Engine as _;
+use base64::alphabet::STANDARD;
+use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use gltf_json::Buffer;
+use store::Store;
 
-use super::JsonError;
 use super::budget::Budget;
-use crate::asset_path::{folder_of, inside_uri, read_beside};
-use crate::error::ReadError;
-use crate::note::Notes;
+use crate::ReadError;
+use crate::assets::{Assets, inside_uri};
+use crate::fault::Fault;
 
 const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: &[u8] = b"JSON";
 const BIN_CHUNK: &[u8] = b"BIN\0";
+
+/// The bytes before the JSON of a GLB file: its header, and the length and the kind of the first chunk.
+const HEAD: usize = 20;
 
 /// Where the parts of a GLB file lie in its bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,44 +30,55 @@ pub(super) struct Container {
     pub(super) binary: Option<Range<usize>>,
 }
 
+/// The largest JSON chunk of a GLB file that is looked at, in bytes.
+const LARGEST_JSON: u64 = 1 << 30;
+
+/// The JSON of a file, without the bytes that follow it in a GLB file.
+///
+/// # Errors
+///
+/// If the file cannot be read.
+pub(crate) fn document_of(store: &dyn Store, path: &Path) -> Result<Vec<u8>, ReadError> {
+    // The header, the length of the first chunk, and no more.
+    let head = store.read_up_to(path, HEAD as u64)?;
+    let length = match head.as_slice() {
+        [b'g', b'l', b'T', b'F', .., a, b, c, d, _, _, _, _] if head.len() == HEAD => {
+            u32::from_le_bytes([*a, *b, *c, *d])
+        }
+        _ => return Ok(store.read(path)?),
+    };
+    let mut bytes = store.read_up_to(path, HEAD as u64 + u64::from(length).min(LARGEST_JSON))?;
+    Ok(bytes.split_off(HEAD.min(bytes.len())))
+}
+
 /// Finds the chunks of a GLB file; a file that does not begin as one is JSON as a whole.
 ///
 /// # Errors
 ///
-/// [`ReadError::Binary`] if the header or the lengths are wrong.
-pub(super) fn container(path: &Path, bytes: &[u8]) -> Result<Container, ReadError> {
+/// If the header or the lengths are wrong.
+pub(super) fn container(bytes: &[u8]) -> Result<Container, Fault> {
     if !bytes.starts_with(MAGIC) {
         return Ok(Container {
             json: 0..bytes.len(),
             binary: None,
         });
     }
-    let error = |offset, message: String| ReadError::Binary {
-        path: path.to_path_buf(),
-        offset,
-        message,
-    };
     let word = |at: usize| {
-        let four = bytes.get(at..at + 4).and_then(|four| four.try_into().ok());
-        four.map(|four| u32::from_le_bytes(four) as usize)
-            .ok_or_else(|| {
-                error(
-                    at,
-                    "expected 4 more bytes, found the end of the file".to_owned(),
-                )
-            })
+        let four = bytes.get(at..).and_then(|rest| rest.first_chunk());
+        let message = "expected 4 more bytes, found the end of the file";
+        let four = four.ok_or_else(|| Fault::byte(at, message))?;
+        Ok(u32::from_le_bytes(*four) as usize)
     };
     let version = word(4)?;
     if version != 2 {
-        return Err(error(4, format!("expected GLB version 2, found {version}")));
+        let message = format!("expected GLB version 2, found {version}");
+        return Err(Fault::byte(4, message));
     }
     let length = word(8)?;
     if length > bytes.len() {
-        let message = format!(
-            "the header says {length} bytes, but the file has {}",
-            bytes.len()
-        );
-        return Err(error(8, message));
+        let n = bytes.len();
+        let message = format!("the header says {length} bytes, but the file has {n}");
+        return Err(Fault::byte(8, message));
     }
     let mut chunks = Vec::new();
     let mut at = 12;
@@ -72,7 +89,7 @@ pub(super) fn container(path: &Path, bytes: &[u8]) -> Result<Container, ReadErro
         let end = start.checked_add(size).filter(|&end| end <= length);
         let end = end.ok_or_else(|| {
             let rest = length.saturating_sub(start);
-            error(at, format!("a chunk says {size} bytes, but {rest} follow"))
+            Fault::byte(at, format!("a chunk says {size} bytes, but {rest} follow"))
         })?;
         chunks.push((at, &bytes[at + 4..start], start..end));
         at = end;
@@ -85,7 +102,7 @@ pub(super) fn container(path: &Path, bytes: &[u8]) -> Result<Container, ReadErro
                 binary: binary.map(|(_, _, range)| range.clone()),
             })
         }
-        _ => Err(error(12, "expected a chunk of JSON first".to_owned())),
+        _ => Err(Fault::byte(12, "expected a chunk of JSON first")),
     }
 }
 
@@ -95,16 +112,15 @@ pub(super) fn container(path: &Path, bytes: &[u8]) -> Result<Container, ReadErro
 ///
 /// # Errors
 ///
-/// If a URI leaves the folder of `path` or its file cannot be read, or there are fewer bytes than a
+/// If a URI leaves the folder of the file or its file cannot be read, or there are fewer bytes than a
 /// buffer says.
 pub(super) fn load<'a>(
-    path: &Path,
     buffers: &[Buffer],
     fallbacks: &[bool],
     mut binary: Option<&'a [u8]>,
     budget: &Budget,
-    notes: &mut Notes,
-) -> Result<Vec<Cow<'a, [u8]>>, JsonError> {
+    assets: &mut Assets,
+) -> Result<Vec<Cow<'a, [u8]>>, Fault> {
     let mut loaded = Vec::new();
     let mut files = BTreeSet::new();
     for (i, buffer) in buffers.iter().enumerate() {
@@ -121,17 +137,20 @@ pub(super) fn load<'a>(
             }
             Some(uri) => {
                 let pointer = format!("/buffers/{i}/uri");
-                let error = |message| JsonError::new(&pointer, message);
+                let error = |message: String| Fault::json(&pointer, message);
                 Cow::Owned(if let Some(data) = uri.strip_prefix("data:") {
-                    data_uri(data).map_err(error)?.1
+                    data_uri(data, &pointer)?.1
                 } else {
-                    let name = file_of(uri).map_err(error)?;
+                    // The beginning of a text that may be long.
+                    let shown: String = uri.chars().take(80).collect();
+                    let name =
+                        inside_uri(uri).map_err(|why| error(format!("the URI {shown:?} {why}")))?;
                     if files.contains(&name) {
                         budget.spend(length, &pointer)?;
                     }
-                    notes.has_read(folder_of(path).join(&name));
-                    let bytes = read_beside(path, &name, length)
-                        .map_err(|cause| error(format!("cannot read {:?}: {cause}", shown(uri))))?;
+                    let bytes = assets.read(&name, length);
+                    let bytes =
+                        bytes.map_err(|cause| error(format!("cannot read {shown:?}: {cause}")))?;
                     if files.insert(name) {
                         budget.grant(bytes.len() as u64);
                     }
@@ -140,10 +159,8 @@ pub(super) fn load<'a>(
             }
         };
         if (bytes.len() as u64) < length {
-            return Err(JsonError::new(
-                format!("/buffers/{i}/byteLength"),
-                format!("the buffer says {length} bytes, but has {}", bytes.len()),
-            ));
+            let message = format!("the buffer says {length} bytes, but has {}", bytes.len());
+            return Err(Fault::json(format!("/buffers/{i}/byteLength"), message));
         }
         let length = usize::try_from(length).unwrap_or(usize::MAX);
         match &mut bytes {
@@ -155,73 +172,40 @@ pub(super) fn load<'a>(
     Ok(loaded)
 }
 
-fn file_of(uri: &str) -> Result<PathBuf, String> {
-    inside_uri(uri).map_err(|why| format!("the URI {:?} {why}", shown(uri)))
-}
-
-/// The beginning of a text that may be long.
-fn shown(uri: &str) -> String {
-    uri.chars().take(80).collect()
-}
-
-/// The type and the bytes of a data URI (RFC 2397) behind its `data:`.
+/// The type and the bytes of a data URI (RFC 2397) behind its `data:`; `pointer` is its place.
 ///
 /// # Errors
 ///
 /// If it is not in base64.
-pub(super) fn data_uri(data: &str) -> Result<(&str, Vec<u8>), String> {
+pub(super) fn data_uri<'a>(data: &'a str, pointer: &str) -> Result<(&'a str, Vec<u8>), Fault> {
     let (kind, encoded) = data
         .split_once(";base64,")
-        .ok_or("expected data in base64")?;
+        .ok_or_else(|| Fault::json(pointer, "expected data in base64"))?;
     let mime = kind.split(';').next().unwrap_or_default();
-    let bytes =
-        base64(encoded.as_bytes()).ok_or_else(|| "the data is not valid base64".to_owned())?;
+    let bytes = base64(encoded);
+    let bytes = bytes.ok_or_else(|| Fault::json(pointer, "the data is not valid base64"))?;
     Ok((mime, bytes))
 }
 
-/// Decodes base64 (RFC 4648), with or without its padding. White space in it means nothing.
-fn base64(encoded: &[u8]) -> Option<Vec<u8>> {
-    let joined: Vec<u8>;
-    let encoded = if encoded.iter().any(u8::is_ascii_whitespace) {
-        let digits = encoded.iter().filter(|byte| !byte.is_ascii_whitespace());
-        joined = digits.copied().collect();
-        &joined
-    } else {
-        encoded
+/// Decodes base64 (RFC 4648) in either alphabet, with or without its padding. White space in it means nothing.
+fn base64(encoded: &str) -> Option<Vec<u8>> {
+    const CONFIG: GeneralPurposeConfig = GeneralPurposeConfig::new()
+        .with_decode_allow_trailing_bits(true)
+        .with_decode_padding_mode(DecodePaddingMode::Indifferent);
+    const ENGINE: GeneralPurpose = GeneralPurpose::new(&STANDARD, CONFIG);
+    let plain = |byte: u8| match byte {
+        b'-' => b'+',
+        b'_' => b'/',
+        byte => byte,
     };
-    let padding = encoded
-        .iter()
-        .rev()
-        .take_while(|&&byte| byte == b'=')
-        .count();
-    let digits = &encoded[..encoded.len() - padding];
-    if padding > 2 || digits.len() % 4 == 1 {
-        return None;
-    }
-    let mut bytes = Vec::with_capacity(digits.len() / 4 * 3 + 2);
-    let (mut bits, mut n_bits) = (0_u32, 0);
-    for &digit in digits {
-        let value = match digit {
-            b'A'..=b'Z' => digit - b'A',
-            b'a'..=b'z' => digit - b'a' + 26,
-            b'0'..=b'9' => digit - b'0' + 52,
-            b'+' | b'-' => 62,
-            b'/' | b'_' => 63,
-            _ => return None,
-        };
-        bits = (bits << 6 | u32::from(value)) & 0xfff;
-        n_bits += 6;
-        if n_bits >= 8 {
-            n_bits -= 8;
-            bytes.push((bits >> n_bits & 0xff) as u8);
-        }
-    }
-    Some(bytes)
+    let digits = encoded.bytes().filter(|byte| !byte.is_ascii_whitespace());
+    ENGINE.decode(digits.map(plain).collect::<Vec<_>>()).ok()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fault::At;
 
     fn glb(chunks: &[(&[u8], &[u8])]) -> Vec<u8> {
         let mut body = Vec::new();
@@ -247,17 +231,17 @@ mod tests {
             ("Zm9vYmFy", b"foobar"),
             (" Zm9v\r\n\tYg == \n", b"foob"),
         ] {
-            assert_eq!(base64(text.as_bytes()).as_deref(), Some(bytes), "{text}");
+            assert_eq!(base64(text).as_deref(), Some(bytes), "{text}");
         }
         for text in ["Z", "Zm9v!", "====", "Zm=v"] {
-            assert_eq!(base64(text.as_bytes()), None, "{text}");
+            assert_eq!(base64(text), None, "{text}");
         }
     }
 
     #[test]
     fn chunks_are_found() {
         let bytes = glb(&[(JSON_CHUNK, b"{}  "), (BIN_CHUNK, b"abcd"), (b"XXXX", b"")]);
-        let container = container(Path::new("a"), &bytes).unwrap();
+        let container = container(&bytes).unwrap();
         assert_eq!(&bytes[container.json], b"{}  ");
         assert_eq!(&bytes[container.binary.unwrap()], b"abcd");
     }
@@ -280,10 +264,7 @@ mod tests {
             (changed(16, b'X'), 12),
             (changed(8, 12), 12),
         ] {
-            match container(Path::new("a"), &bytes) {
-                Err(ReadError::Binary { offset, .. }) => assert_eq!(offset, place),
-                other => panic!("{other:?}"),
-            }
+            assert_eq!(container(&bytes).unwrap_err().at, At::Byte(place));
         }
     }
 }

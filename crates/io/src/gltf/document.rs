@@ -2,17 +2,18 @@
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
+use std::fmt;
 
 use gltf_json::{Accessor, Buffer, Mesh, Node, buffer::View};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::JsonError;
 use super::budget::Budget;
 use super::meshopt::{self, Compressed, MESHOPT};
 use super::surface::{
     ImageJson, MaterialJson, STRENGTH, SamplerJson, TRANSFORM, TextureJson, UNLIT,
 };
+use crate::fault::Fault;
 use crate::note::Notes;
 
 /// Extensions that the reader knows. With the first, positions and texture coordinates may be integers.
@@ -55,7 +56,7 @@ impl Document {
     /// # Errors
     ///
     /// The first piece that is not what it should be.
-    pub(super) fn new(json: &Value, budget: &Budget, notes: &mut Notes) -> Result<Self, JsonError> {
+    pub(super) fn new(json: &Value, budget: &Budget, notes: &mut Notes) -> Result<Self, Fault> {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
@@ -96,49 +97,42 @@ impl Document {
 pub(super) fn get<'a, T>(
     pieces: &'a [T],
     index: usize,
-    pointer: impl Fn() -> String,
+    pointer: impl fmt::Display,
     what: &str,
-) -> Result<&'a T, JsonError> {
+) -> Result<&'a T, Fault> {
     pieces.get(index).ok_or_else(|| {
-        JsonError::new(
-            pointer(),
-            format!("refers to {what} {index}, but there are {}", pieces.len()),
-        )
+        let n = pieces.len();
+        let message = format!("refers to {what} {index}, but there are {n}");
+        Fault::json(pointer.to_string(), message)
     })
 }
 
-fn check_version(json: &Value) -> Result<(), JsonError> {
+fn check_version(json: &Value) -> Result<(), Fault> {
     if !json.is_object() {
-        return Err(JsonError::new("/", "expected an object"));
+        return Err(Fault::json("/", "expected an object"));
     }
     let version = json.pointer("/asset/version").and_then(Value::as_str);
     let minimum = json.pointer("/asset/minVersion").and_then(Value::as_str);
-    match (version, minimum) {
-        (None, _) => Err(JsonError::new(
-            "/asset/version",
-            "expected \"2.0\", found nothing",
-        )),
-        (Some(version), _) if !version.starts_with("2.") => Err(JsonError::new(
-            "/asset/version",
-            format!("expected \"2.0\", found {version:?}"),
-        )),
-        (_, Some(minimum)) if minimum != "2.0" => Err(JsonError::new(
-            "/asset/minVersion",
-            format!("expected \"2.0\", found {minimum:?}"),
-        )),
-        _ => Ok(()),
-    }
+    let found = match (version, minimum) {
+        (None, _) => "nothing",
+        (Some(version), _) if !version.starts_with("2.") => &format!("{version:?}"),
+        (_, Some(minimum)) if minimum != "2.0" => {
+            let message = format!("expected \"2.0\", found {minimum:?}");
+            return Err(Fault::json("/asset/minVersion", message));
+        }
+        _ => return Ok(()),
+    };
+    let message = format!("expected \"2.0\", found {found}");
+    Err(Fault::json("/asset/version", message))
 }
 
-fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), JsonError> {
+fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
     let known = |name: &str| KNOWN_EXTENSIONS.contains(&name);
     for (i, name) in list(json, "extensionsRequired")?.iter().enumerate() {
         let pointer = format!("/extensionsRequired/{i}");
         let Some(name) = name.as_str() else {
-            return Err(JsonError::new(
-                pointer,
-                format!("expected the name of an extension, found {name}"),
-            ));
+            let message = format!("expected the name of an extension, found {name}");
+            return Err(Fault::json(pointer, message));
         };
         if known(name) {
             continue;
@@ -153,7 +147,7 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), JsonError> {
                 "the file cannot be read without the extension \"{name}\", which is not known here"
             )
         };
-        return Err(JsonError::new(pointer, message));
+        return Err(Fault::json(pointer, message));
     }
     let mut uses = BTreeMap::new();
     for name in list(json, "extensionsUsed")? {
@@ -177,9 +171,11 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), JsonError> {
 /// Counts where extensions say something. As deep as the JSON, which has a limit.
 fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
     match json {
-        Value::Array(values) => values
-            .iter()
-            .for_each(|value| count_extensions(value, uses)),
+        Value::Array(values) => {
+            values
+                .iter()
+                .for_each(|value| count_extensions(value, uses));
+        }
         Value::Object(members) => {
             for (key, value) in members {
                 match value {
@@ -198,19 +194,15 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
     }
 }
 
-fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, JsonError> {
+fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, Fault> {
     let scenes = list(json, "scenes")?;
     if scenes.is_empty() {
         // A library of nodes: those that no other node holds.
         let nodes = list(json, "nodes")?;
         let mut is_child = vec![false; nodes.len()];
         for node in nodes {
-            for child in node
-                .get("children")
-                .and_then(Value::as_array)
-                .into_iter()
-                .flatten()
-            {
+            let children = node.get("children").and_then(Value::as_array);
+            for child in children.into_iter().flatten() {
                 let child = child.as_u64().and_then(|child| usize::try_from(child).ok());
                 if let Some(flag) = child.and_then(|child| is_child.get_mut(child)) {
                     *flag = true;
@@ -223,47 +215,41 @@ fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, JsonError> {
         None => 0,
         Some(scene) => index(scene, "/scene")?,
     };
-    let scene = get(scenes, which, || "/scene".to_owned(), "scene")?;
+    let scene = get(scenes, which, "/scene", "scene")?;
     notes.left_out(scenes.len() - 1, None, "other scenes left out");
     let pointer = format!("/scenes/{which}/nodes");
     let nodes = match scene.get("nodes") {
         None => return Ok(Vec::new()),
         Some(Value::Array(nodes)) => nodes,
-        Some(_) => return Err(JsonError::new(pointer, "expected a list")),
+        Some(_) => return Err(Fault::json(pointer, "expected a list")),
     };
+    let nodes = nodes.iter().enumerate();
     nodes
-        .iter()
-        .enumerate()
         .map(|(i, node)| index(node, &format!("{pointer}/{i}")))
         .collect()
 }
 
-fn index(value: &Value, pointer: &str) -> Result<usize, JsonError> {
-    value
-        .as_u64()
-        .and_then(|index| usize::try_from(index).ok())
-        .ok_or_else(|| JsonError::new(pointer, format!("expected an index, found {value}")))
+fn index(value: &Value, pointer: &str) -> Result<usize, Fault> {
+    let index = value.as_u64().and_then(|index| usize::try_from(index).ok());
+    index.ok_or_else(|| Fault::json(pointer, format!("expected an index, found {value}")))
 }
 
-fn list<'a>(json: &'a Value, key: &str) -> Result<&'a [Value], JsonError> {
+fn list<'a>(json: &'a Value, key: &str) -> Result<&'a [Value], Fault> {
     match json.get(key) {
         None => Ok(&[]),
         Some(Value::Array(values)) => Ok(values),
-        Some(_) => Err(JsonError::new(format!("/{key}"), "expected a list")),
+        Some(_) => Err(Fault::json(format!("/{key}"), "expected a list")),
     }
 }
 
 /// The pieces of a list. Without their members they are far smaller in the text than in memory.
-fn pieces<T: DeserializeOwned>(
-    json: &Value,
-    key: &str,
-    budget: &Budget,
-) -> Result<Vec<T>, JsonError> {
+fn pieces<T: DeserializeOwned>(json: &Value, key: &str, budget: &Budget) -> Result<Vec<T>, Fault> {
     let piece = |(i, value): (usize, &Value)| {
-        T::deserialize(value).map_err(|e| JsonError::new(format!("/{key}/{i}"), e.to_string()))
+        T::deserialize(value).map_err(|e| Fault::json(format!("/{key}/{i}"), e.to_string()))
     };
     let list = list(json, key)?;
     budget.spend((list.len() * size_of::<T>()) as u64, &format!("/{key}"))?;
+    // With exactly the room that is paid for.
     let mut pieces = Vec::with_capacity(list.len());
     for numbered in list.iter().enumerate() {
         pieces.push(piece(numbered)?);

@@ -4,14 +4,11 @@ use std::collections::BTreeMap;
 
 use geometry::triangulate::Cutter;
 use mesh::{Domain, FaceId, Mesh};
-use rayon::prelude::*;
 use scene::Object;
 
 use super::split::Split;
 use crate::loss::Losses;
-
-/// How many polygons are cut by one task.
-const BLOCK: usize = 1 << 12;
+use crate::parallel;
 
 /// Triangles in the order of the faces.
 pub(super) enum Faces {
@@ -50,12 +47,10 @@ pub(super) fn faces_by_material(
     };
     let mut lists: BTreeMap<i32, Vec<u32>> = BTreeMap::new();
     match materials {
-        None if !has_polygons && mesh.n_faces() > 0 => {}
+        None if !has_polygons || mesh.n_faces() == 0 => {}
         None => {
             let all = (0..mesh.n_faces()).map(|f| u32::try_from(f).unwrap_or(u32::MAX));
-            if mesh.n_faces() > 0 {
-                lists.insert(-1, all.collect());
-            }
+            lists.insert(-1, all.collect());
         }
         Some(materials) => {
             for (f, &material) in (0..).zip(materials) {
@@ -63,37 +58,33 @@ pub(super) fn faces_by_material(
             }
         }
     }
-    losses.add(
-        Domain::Face,
-        "material",
-        unknown,
-        "the object has no such material",
-    );
+    let reason = "the object has no such material";
+    losses.add(Domain::Face, "material", unknown, reason);
     for (i, material) in object.materials.iter().enumerate() {
         let used = i32::try_from(i).is_ok_and(|i| lists.contains_key(&i));
-        losses.add(
-            None,
-            &material.name,
-            usize::from(!used),
-            "no face has this material",
-        );
+        let reason = "no face has this material";
+        losses.add(None, &material.name, usize::from(!used), reason);
     }
     if lists.is_empty() && mesh.n_faces() > 0 {
         return BTreeMap::from([(-1, Faces::All(mesh.n_faces()))]);
     }
     let faces = lists.into_iter().map(|(material, list)| {
-        let faces = if has_polygons {
-            Faces::Cut(cut(mesh, split, &list))
-        } else {
-            Faces::Triangles(list)
-        };
-        (material, faces)
+        let cut = || Faces::Cut(cut(mesh, split, &list));
+        (
+            material,
+            if has_polygons {
+                cut()
+            } else {
+                Faces::Triangles(list)
+            },
+        )
     });
     faces.collect()
 }
 
 fn cut(mesh: &Mesh, split: &Split, faces: &[u32]) -> Vec<u32> {
-    let blocks = faces.par_chunks(BLOCK).map(|faces| {
+    let blocks = parallel::blocks(faces.len(), |block| {
+        let faces = &faces[block];
         let mut cutter = Cutter::default();
         let mut corners = Vec::with_capacity(6);
         let mut indices = Vec::with_capacity(6 * faces.len());
@@ -110,5 +101,5 @@ fn cut(mesh: &Mesh, split: &Split, faces: &[u32]) -> Vec<u32> {
         }
         indices
     });
-    blocks.collect::<Vec<_>>().concat()
+    blocks.concat()
 }

@@ -1,24 +1,20 @@
 //! Writing arrays to where they lie in the buffer, in parallel.
 
+use glam::Vec3;
 use mesh::{FaceId, Mesh, VertexId};
-use rayon::prelude::*;
 
 use super::faces::Faces;
 use super::split::Split;
 use super::streams::Stream;
-
-/// How many elements are written by one task.
-const BLOCK: usize = 1 << 13;
+use crate::parallel::{self, BLOCK};
 
 /// Writes elements of N bytes each.
 fn fill<const N: usize>(out: &mut [u8], value: impl Fn(usize) -> [u8; N] + Sync) {
-    out.par_chunks_mut(N * BLOCK)
-        .enumerate()
-        .for_each(|(block, out)| {
-            for (i, slot) in out.as_chunks_mut().0.iter_mut().enumerate() {
-                *slot = value(block * BLOCK + i);
-            }
-        });
+    parallel::consume(out.chunks_mut(N * BLOCK), |block, out| {
+        for (i, slot) in (block * BLOCK..).zip(out.as_chunks_mut().0) {
+            *slot = value(i);
+        }
+    });
 }
 
 pub(super) fn fill_positions(out: &mut [u8], mesh: &Mesh, split: &Split) {
@@ -30,17 +26,15 @@ pub(super) fn fill_positions(out: &mut [u8], mesh: &Mesh, split: &Split) {
 
 pub(super) fn fill_stream(out: &mut [u8], mesh: &Mesh, split: &Split, stream: &Stream) {
     let size = stream.kind.multiplicity() * size_of::<f32>();
-    out.par_chunks_mut(size * BLOCK)
-        .enumerate()
-        .for_each(|(block, out)| {
-            for (i, slot) in out.chunks_exact_mut(size).enumerate() {
-                let (v, h) = split.corner(mesh, block * BLOCK + i);
-                let (value, _) = stream.at(mesh, v, h);
-                for (slot, x) in slot.as_chunks_mut().0.iter_mut().zip(value) {
-                    *slot = x.to_le_bytes();
-                }
+    parallel::consume(out.chunks_mut(size * BLOCK), |block, out| {
+        for (i, slot) in (block * BLOCK..).zip(out.chunks_exact_mut(size)) {
+            let (v, h) = split.corner(mesh, i);
+            let (value, _) = stream.at(mesh, v, h);
+            for (slot, x) in slot.as_chunks_mut().0.iter_mut().zip(value) {
+                *slot = x.to_le_bytes();
             }
-        });
+        }
+    });
 }
 
 pub(super) fn fill_indices(out: &mut [u8], mesh: &Mesh, split: &Split, faces: &Faces, short: bool) {
@@ -83,21 +77,19 @@ pub(super) struct Bounds {
 /// The first vertex whose position is not finite with 32 bits.
 pub(super) fn bounds(mesh: &Mesh, split: &Split) -> Result<Bounds, VertexId> {
     let position = |i| mesh.position(split.vertex(mesh, i)).as_vec3();
-    let none = (glam::Vec3::INFINITY, glam::Vec3::NEG_INFINITY, true);
-    let join = |a: (glam::Vec3, glam::Vec3, bool), b: (glam::Vec3, glam::Vec3, bool)| {
-        (a.0.min(b.0), a.1.max(b.1), a.2 && b.2)
-    };
-    let (min, max, finite) = (0..split.n)
-        .into_par_iter()
-        .with_min_len(BLOCK)
-        .fold(
-            || none,
-            |all, i| {
-                let p = position(i);
-                join(all, (p, p, p.is_finite()))
-            },
-        )
-        .reduce(|| none, join);
+    let blocks = parallel::blocks(split.n, |vertices| {
+        let all = (Vec3::INFINITY, Vec3::NEG_INFINITY, true);
+        vertices.map(position).fold(all, |(min, max, finite), p| {
+            (min.min(p), max.max(p), finite && p.is_finite())
+        })
+    });
+    let min = blocks
+        .iter()
+        .fold(Vec3::INFINITY, |min, block| min.min(block.0));
+    let max = blocks
+        .iter()
+        .fold(Vec3::NEG_INFINITY, |max, block| max.max(block.1));
+    let finite = blocks.iter().all(|block| block.2);
     if !finite {
         let broken = (0..split.n).find(|&i| !position(i).is_finite());
         return Err(broken.map_or(VertexId::new(0), |i| split.vertex(mesh, i)));

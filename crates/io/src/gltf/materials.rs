@@ -5,15 +5,16 @@ use std::sync::Arc;
 
 use scene::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
 use serde::Deserialize;
+use serde_json::Value;
 
-use super::JsonError;
-use super::accessor::Reader;
 use super::buffers::data_uri;
-use super::decimal;
+use super::document::get;
 use super::surface::{
     AlphaJson, Extensions, ImageJson, InfoJson, STRENGTH, SamplerJson, TRANSFORM, TransformJson,
     UNLIT,
 };
+use super::views::Reader;
+use crate::fault::Fault;
 use crate::note::Notes;
 
 /// Makes materials, each picture once.
@@ -46,7 +47,7 @@ impl<'a> Materials<'a> {
     /// # Errors
     ///
     /// If it refers to a texture or its bytes that are not there.
-    pub(super) fn get(&mut self, i: usize) -> Result<Material, JsonError> {
+    pub(super) fn get(&mut self, i: usize) -> Result<Material, Fault> {
         if let Some(known) = self.known.get(&i) {
             return Ok(known.clone());
         }
@@ -63,14 +64,10 @@ impl<'a> Materials<'a> {
             None => Ok(None),
             Some(info) => self.texture(info, &format!("{here}/{name}")),
         };
-        to.base_color_texture = texture(
-            &pbr.base_color_texture,
-            "pbrMetallicRoughness/baseColorTexture",
-        )?;
-        to.metallic_roughness_texture = texture(
-            &pbr.metallic_roughness_texture,
-            "pbrMetallicRoughness/metallicRoughnessTexture",
-        )?;
+        let at = "pbrMetallicRoughness/baseColorTexture";
+        to.base_color_texture = texture(&pbr.base_color_texture, at)?;
+        let at = "pbrMetallicRoughness/metallicRoughnessTexture";
+        to.metallic_roughness_texture = texture(&pbr.metallic_roughness_texture, at)?;
         to.normal_texture = texture(&from.normal_texture, "normalTexture")?;
         to.occlusion_texture = texture(&from.occlusion_texture, "occlusionTexture")?;
         to.emissive_texture = texture(&from.emissive_texture, "emissiveTexture")?;
@@ -83,9 +80,7 @@ impl<'a> Materials<'a> {
         }
         to.emissive = from.emissive_factor.unwrap_or([0.0; 3]).map(unit);
         if let Some(strength) = from.extensions.get(STRENGTH) {
-            let strength = strength
-                .get("emissiveStrength")
-                .and_then(serde_json::Value::as_f64);
+            let strength = strength.get("emissiveStrength").and_then(Value::as_f64);
             to.emissive_strength = rounded(strength.unwrap_or(1.0).max(0.0));
         }
         to.alpha = match from.alpha_mode {
@@ -101,16 +96,16 @@ impl<'a> Materials<'a> {
         Ok(to)
     }
 
-    fn texture(&mut self, info: &InfoJson, here: &str) -> Result<Option<Texture>, JsonError> {
+    fn texture(&mut self, info: &InfoJson, here: &str) -> Result<Option<Texture>, Fault> {
         let document = self.reader.document;
-        let pointer = || format!("{here}/index");
-        let texture = super::document::get(&document.textures, info.index, pointer, "texture")?;
+        let pointer = format_args!("{here}/index");
+        let texture = get(&document.textures, info.index, pointer, "texture")?;
         let at = format!("/textures/{}", info.index);
         let image = match texture.source {
             None => None,
             Some(source) => {
-                let pointer = || format!("{at}/source");
-                let image = super::document::get(&document.images, source, pointer, "image")?;
+                let pointer = format_args!("{at}/source");
+                let image = get(&document.images, source, pointer, "image")?;
                 if !self.images.contains_key(&source) {
                     let loaded = self.image(image, &format!("/images/{source}"))?;
                     self.images.insert(source, loaded);
@@ -125,8 +120,8 @@ impl<'a> Materials<'a> {
         let sampler = match texture.sampler {
             None => Sampler::default(),
             Some(sampler) => {
-                let pointer = || format!("{at}/sampler");
-                let from = super::document::get(&document.samplers, sampler, pointer, "sampler")?;
+                let pointer = format_args!("{at}/sampler");
+                let from = get(&document.samplers, sampler, pointer, "sampler")?;
                 to_sampler(from, &format!("/samplers/{sampler}"))?
             }
         };
@@ -139,28 +134,24 @@ impl<'a> Materials<'a> {
         }))
     }
 
-    fn image(&self, from: &ImageJson, here: &str) -> Result<Option<Image>, JsonError> {
+    fn image(&self, from: &ImageJson, here: &str) -> Result<Option<Image>, Fault> {
         let (given, bytes): (Option<&str>, Arc<[u8]>) = match (&from.uri, from.buffer_view) {
             (Some(uri), _) => match uri.strip_prefix("data:") {
                 None => return Ok(Some(Image::File(decoded(uri)))),
                 Some(data) => {
-                    let (mime, bytes) =
-                        data_uri(data).map_err(|why| JsonError::new(format!("{here}/uri"), why))?;
+                    let (mime, bytes) = data_uri(data, &format!("{here}/uri"))?;
                     (Some(mime), bytes.into())
                 }
             },
             (None, Some(view)) => {
-                let bytes = self.reader.view(view, || format!("{here}/bufferView"))?;
+                let bytes = self.reader.view(view, format_args!("{here}/bufferView"))?;
                 self.reader.budget.spend(bytes.len() as u64, here)?;
                 (None, bytes.into())
             }
             (None, None) => return Ok(None),
         };
-        let mime = from
-            .mime_type
-            .as_deref()
-            .or(given)
-            .filter(|mime| !mime.is_empty());
+        let mime = from.mime_type.as_deref().or(given);
+        let mime = mime.filter(|mime| !mime.is_empty());
         let mime = mime.unwrap_or_else(|| sniffed(&bytes)).to_owned();
         Ok(Some(Image::Embedded { mime, bytes }))
     }
@@ -180,25 +171,23 @@ fn decoded(uri: &str) -> String {
     if has_scheme(uri) {
         return uri.to_owned();
     }
-    crate::asset_path::percent_decoded(uri).unwrap_or_else(|| uri.to_owned())
+    crate::assets::percent_decoded(uri).unwrap_or_else(|| uri.to_owned())
 }
 
 /// Whether a text begins with the scheme of a URI; one letter is a drive.
 pub(super) fn has_scheme(uri: &str) -> bool {
     uri.split_once(':').is_some_and(|(scheme, _)| {
-        scheme.len() > 1
-            && scheme.starts_with(|c: char| c.is_ascii_alphabetic())
-            && scheme
-                .chars()
-                .all(|c| c.is_ascii_alphanumeric() || "+-.".contains(c))
+        let is_fine = |c: char| c.is_ascii_alphanumeric() || "+-.".contains(c);
+        let begins = scheme.starts_with(|c: char| c.is_ascii_alphabetic());
+        scheme.len() > 1 && begins && scheme.chars().all(is_fine)
     })
 }
 
-fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, JsonError> {
+fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, Fault> {
     use Filter::{Linear, Nearest};
     let error = |name: &str, found: u32| {
         let what = format!("found {found}, which is none of the numbers for it");
-        JsonError::new(format!("{here}/{name}"), what)
+        Fault::json(format!("{here}/{name}"), what)
     };
     let wrap = |name: &str, number: Option<u32>| match number.unwrap_or(10497) {
         10497 => Ok(Wrap::Repeat),
@@ -234,12 +223,12 @@ fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, JsonError> {
 fn transform(
     extensions: &Extensions,
     here: &str,
-) -> Result<(TextureTransform, Option<u32>), JsonError> {
+) -> Result<(TextureTransform, Option<u32>), Fault> {
     let Some(json) = extensions.get(TRANSFORM) else {
         return Ok((TextureTransform::default(), None));
     };
     let json = TransformJson::deserialize(json)
-        .map_err(|e| JsonError::new(format!("{here}/extensions/{TRANSFORM}"), e.to_string()))?;
+        .map_err(|e| Fault::json(format!("{here}/extensions/{TRANSFORM}"), e.to_string()))?;
     let transform = TextureTransform {
         offset: json.offset.unwrap_or([0.0; 2]).map(rounded),
         rotation: rounded(json.rotation.unwrap_or(0.0)),
@@ -255,5 +244,7 @@ fn unit(x: f64) -> f64 {
 /// The shortest decimal number that is this one with 32 bits, and no larger than 32 bits hold.
 #[expect(clippy::cast_possible_truncation, reason = "that is the purpose")]
 pub(super) fn rounded(x: f64) -> f64 {
-    decimal((x as f32).clamp(f32::MIN, f32::MAX))
+    let x = (x as f32).clamp(f32::MIN, f32::MAX);
+    // 0.8 stays 0.8.
+    x.to_string().parse().unwrap_or(f64::from(x))
 }

@@ -84,37 +84,7 @@ mod write;
 mod write_document;
 mod write_materials;
 
+pub(crate) use buffers::document_of;
 pub(crate) use peek::peek;
 pub(crate) use read::read;
 pub(crate) use write::write;
-
-/// The shortest decimal number that is this one with 32 bits: 0.8 is written as 0.8.
-fn decimal(x: f32) -> f64 {
-    x.to_string().parse().unwrap_or(f64::from(x))
-}
-
-/// What is wrong at one place of the document, before the name of the file is known.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct JsonError {
-    /// A JSON pointer.
-    pointer: String,
-    message: String,
-}
-
-impl JsonError {
-    fn new(pointer: impl Into<String>, message: impl Into<String>) -> Self {
-        Self {
-            pointer: pointer.into(),
-            message: message.into(),
-        }
-    }
-
-    fn in_file(self, path: &std::path::Path) -> crate::ReadError {
-        let Self { pointer, message } = self;
-        crate::ReadError::Json {
-            path: path.to_path_buf(),
-            pointer,
-            message,
-        }
-    }
-}

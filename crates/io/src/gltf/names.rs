@@ -33,17 +33,8 @@ fn custom_name(name: &str) -> String {
 
 /// Whether a name means something in a mesh, so that no other attribute may have it.
 fn is_reserved(name: &str) -> bool {
-    let known = [
-        "",
-        "normal",
-        "color",
-        "tangent",
-        "material",
-        "smoothing",
-        "crease",
-        "position",
-    ];
-    known.contains(&name) || uv_set(name).is_some()
+    let known = "normal color tangent material smoothing crease position";
+    name.is_empty() || known.split(' ').any(|one| one == name) || uv_set(name).is_some()
 }
 
 /// The number of texture coordinates of this name: 0 for `uv`, n for `uvn`.

@@ -3,9 +3,9 @@
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf_json::Node;
 
-use super::JsonError;
 use super::budget::Budget;
 use super::document::{Document, get};
+use crate::fault::Fault;
 use crate::note::Notes;
 
 /// A node with a mesh.
@@ -21,7 +21,7 @@ impl Placed {
     /// # Errors
     ///
     /// If the file does not pay for it.
-    pub(super) fn spend(&self, name: &str, budget: &Budget) -> Result<(), JsonError> {
+    pub(super) fn spend(&self, name: &str, budget: &Budget) -> Result<(), Fault> {
         let bytes = Budget::OBJECT + 8 * name.len() as u64;
         budget.spend(bytes, &format!("/nodes/{}", self.node))
     }
@@ -29,11 +29,8 @@ impl Placed {
     pub(super) fn name<'a>(&self, document: &'a Document, otherwise: &'a str) -> &'a str {
         let node = document.nodes[self.node].name.as_deref();
         let mesh = document.meshes[self.mesh].name.as_deref();
-        [node, mesh]
-            .into_iter()
-            .flatten()
-            .find(|name| !name.is_empty())
-            .unwrap_or(otherwise)
+        let mut names = [node, mesh].into_iter().flatten();
+        names.find(|name| !name.is_empty()).unwrap_or(otherwise)
     }
 }
 
@@ -42,10 +39,7 @@ impl Placed {
 /// # Errors
 ///
 /// If a node is not what it should be, or in the scene twice.
-pub(super) fn placed_meshes(
-    document: &Document,
-    notes: &mut Notes,
-) -> Result<Vec<Placed>, JsonError> {
+pub(super) fn placed_meshes(document: &Document, notes: &mut Notes) -> Result<Vec<Placed>, Fault> {
     let mut skinned = 0;
     let mut seen = vec![false; document.nodes.len()];
     let mut placed = Vec::new();
@@ -55,44 +49,29 @@ pub(super) fn placed_meshes(
         open.push((root, DAffine3::IDENTITY));
     }
     while let Some((i, above)) = open.pop() {
-        let node = get(&document.nodes, i, || "/scenes".to_owned(), "node")?;
+        let node = get(&document.nodes, i, "/scenes", "node")?;
         let here = format!("/nodes/{i}");
         if std::mem::replace(&mut seen[i], true) {
-            return Err(JsonError::new(
-                here,
-                "the node is in the scene twice, or below itself",
-            ));
+            let message = "the node is in the scene twice, or below itself";
+            return Err(Fault::json(here, message));
         }
         let to_scene = above * placement(node, &here)?;
         if !to_scene.is_finite() {
-            return Err(JsonError::new(
-                here,
-                "the placement of the node is not finite",
-            ));
+            return Err(Fault::json(here, "the placement of the node is not finite"));
         }
         if let Some(mesh) = node.mesh {
             skinned += usize::from(node.skin.is_some());
-            get(
-                &document.meshes,
-                mesh.value(),
-                || format!("{here}/mesh"),
-                "mesh",
-            )?;
+            let mesh = mesh.value();
+            get(&document.meshes, mesh, format_args!("{here}/mesh"), "mesh")?;
             placed.push(Placed {
                 node: i,
-                mesh: mesh.value(),
+                mesh,
                 to_scene,
             });
         }
-        for (k, child) in node
-            .children
-            .as_deref()
-            .unwrap_or(&[])
-            .iter()
-            .enumerate()
-            .rev()
-        {
-            let pointer = || format!("{here}/children/{k}");
+        let children = node.children.as_deref().unwrap_or(&[]);
+        for (k, child) in children.iter().enumerate().rev() {
+            let pointer = format_args!("{here}/children/{k}");
             get(&document.nodes, child.value(), pointer, "node")?;
             open.push((child.value(), to_scene));
         }
@@ -102,35 +81,28 @@ pub(super) fn placed_meshes(
     Ok(placed)
 }
 
-fn placement(node: &Node, here: &str) -> Result<DAffine3, JsonError> {
+fn placement(node: &Node, here: &str) -> Result<DAffine3, Fault> {
     if let Some(matrix) = node.matrix {
         let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
         if matrix.row(3).to_array().map(f64::to_bits) != [0.0, 0.0, 0.0, 1.0].map(f64::to_bits) {
-            return Err(JsonError::new(
-                format!("{here}/matrix"),
-                "expected 0, 0, 0, 1 as the last row",
-            ));
+            let message = "expected 0, 0, 0, 1 as the last row";
+            return Err(Fault::json(format!("{here}/matrix"), message));
         }
         return Ok(DAffine3::from_mat4(matrix));
     }
-    let scale = node
-        .scale
-        .map_or(DVec3::ONE, |scale| DVec3::from_array(scale.map(f64::from)));
-    let translation = node.translation.unwrap_or_default().map(f64::from);
-    let rotation = node.rotation.unwrap_or_default().0.map(f64::from);
-    let rotation = DQuat::from_array(rotation);
+    let scale = DVec3::from_array(node.scale.unwrap_or([1.0; 3]).map(f64::from));
+    let translation = DVec3::from_array(node.translation.unwrap_or_default().map(f64::from));
+    let rotation = DQuat::from_array(node.rotation.unwrap_or_default().0.map(f64::from));
     // Written with 32 bits, its length is only nearly 1.
     let length = rotation.length();
     if length == 0.0 || !length.is_finite() {
-        return Err(JsonError::new(
-            format!("{here}/rotation"),
-            "expected a unit quaternion",
-        ));
+        let pointer = format!("{here}/rotation");
+        return Err(Fault::json(pointer, "expected a unit quaternion"));
     }
     let rotation = DQuat::from_array(rotation.to_array().map(|x| x / length));
     Ok(DAffine3::from_scale_rotation_translation(
         scale,
         rotation,
-        DVec3::from_array(translation),
+        translation,
     ))
 }

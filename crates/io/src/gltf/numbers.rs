@@ -4,18 +4,16 @@ use gltf_json::Accessor;
 use gltf_json::accessor::{ComponentType, Type};
 use gltf_json::validation::Checked;
 
-use super::JsonError;
+use crate::fault::Fault;
 
-pub(super) fn kinds(accessor: &Accessor, here: &str) -> Result<(Type, ComponentType), JsonError> {
+pub(super) fn kinds(accessor: &Accessor, here: &str) -> Result<(Type, ComponentType), Fault> {
     let Checked::Valid(kind) = accessor.type_ else {
-        return Err(JsonError::new(
-            format!("{here}/type"),
-            "expected SCALAR, VEC2, VEC3, ...",
-        ));
+        let message = "expected SCALAR, VEC2, VEC3, ...";
+        return Err(Fault::json(format!("{here}/type"), message));
     };
     let Checked::Valid(component) = accessor.component_type else {
         let message = "expected one of 5120, 5121, 5122, 5123, 5125, 5126";
-        return Err(JsonError::new(format!("{here}/componentType"), message));
+        return Err(Fault::json(format!("{here}/componentType"), message));
     };
     Ok((kind, component.0))
 }
@@ -63,9 +61,6 @@ pub(super) fn type_name(kind: Type) -> &'static str {
 }
 
 pub(super) fn one_of(types: &[Type]) -> String {
-    types
-        .iter()
-        .map(|&kind| type_name(kind))
-        .collect::<Vec<_>>()
-        .join(" or ")
+    let names: Vec<&str> = types.iter().map(|&kind| type_name(kind)).collect();
+    names.join(" or ")
 }

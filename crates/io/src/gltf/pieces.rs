@@ -41,7 +41,7 @@ pub(super) fn container(
     let length = if binary > 0 {
         start + binary.next_multiple_of(4)
     } else {
-        20 + padded
+        start - 8
     };
     let word = |n: usize| u32::try_from(n).map(u32::to_le_bytes).ok();
     let (Some(all), Some(json_length), Some(binary_length)) =

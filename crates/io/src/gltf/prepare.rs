@@ -8,7 +8,7 @@ use scene::Object;
 
 use super::faces::{Faces, faces_by_material};
 use super::fill::{Bounds, bounds};
-use super::split::{Split, split};
+use super::split::{Split, note_changed, split};
 use super::streams::{Stream, streams};
 use crate::error::Unwritable;
 use crate::loss::Losses;
@@ -38,44 +38,25 @@ impl<'a> Prepared<'a> {
         let streams = streams(mesh, losses);
         let split = split(mesh, &streams);
         if split.n >= u32::MAX as usize {
-            let message = format!(
-                "expected fewer than {} vertices, found {}",
-                u32::MAX,
-                split.n
-            );
+            let (most, n) = (u32::MAX, split.n);
+            let message = format!("expected fewer than {most} vertices, found {n}");
             return Err(Unwritable::object(&object.name, message));
         }
         for stream in &streams {
-            stream.count_broken(mesh, &split, losses);
+            note_changed(stream, mesh, &split, losses);
         }
         let isolated = mesh.n_isolated_vertices();
-        losses.add(
-            Domain::Vertex,
-            "position",
-            isolated,
-            "isolated vertices: glTF holds triangles",
-        );
-        losses.add(
-            Domain::Vertex,
-            "position",
-            n_merged(mesh),
-            "vertices at the place of another: glTF knows vertices of a mesh by their places",
-        );
+        let reason = "isolated vertices: glTF holds triangles";
+        losses.add(Domain::Vertex, "position", isolated, reason);
+        let reason =
+            "vertices at the place of another: glTF knows vertices of a mesh by their places";
+        losses.add(Domain::Vertex, "position", n_merged(mesh), reason);
         let polygons = mesh.faces().filter(|&f| !mesh.is_triangle(f)).count();
-        losses.add(
-            Domain::Face,
-            "polygon",
-            polygons,
-            "glTF holds triangles: the polygons are cut",
-        );
-        if mesh.n_faces() == 0 {
-            losses.add(
-                None,
-                "mesh",
-                1,
-                "glTF has no meshes without faces: the object is not written",
-            );
-        }
+        let reason = "glTF holds triangles: the polygons are cut";
+        losses.add(Domain::Face, "polygon", polygons, reason);
+        let is_empty = usize::from(mesh.n_faces() == 0);
+        let reason = "glTF has no meshes without faces: the object is not written";
+        losses.add(None, "mesh", is_empty, reason);
         let bounds = bounds(mesh, &split).map_err(|v| {
             let message = format!(
                 "the position of {v}, {}, is too large for the 32 bits of glTF",

@@ -8,16 +8,14 @@ use gltf_json::accessor::Type;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use mesh::{Value, Values};
-use rayon::prelude::*;
 
-use super::JsonError;
-use super::accessor::Reader;
 use super::document::get;
 use super::names::attribute_name;
+use super::views::Reader;
+use crate::fault::Fault;
 use crate::note::Notes;
+use crate::parallel;
 
-/// How many corners are looked at by one task at least.
-const BLOCK: usize = 1 << 14;
 /// What looking at an attribute that a primitive does not have costs, in bytes: time rather than memory.
 const SMALL: u64 = 16;
 
@@ -42,7 +40,7 @@ pub(super) fn triangles(
     reader: &Reader,
     index: usize,
     notes: &mut Notes,
-) -> Result<Triangles, JsonError> {
+) -> Result<Triangles, Fault> {
     let mut all = Triangles::default();
     // Primitives that share all their attributes, as parts of one model do, share their vertices.
     let mut known = BTreeMap::new();
@@ -52,10 +50,8 @@ pub(super) fn triangles(
         let here = format!("/meshes/{index}/primitives/{i}");
         seen.morphs += primitive.targets.as_ref().map_or(0, Vec::len);
         let Checked::Valid(mode) = primitive.mode else {
-            return Err(JsonError::new(
-                format!("{here}/mode"),
-                "expected a number from 0 to 6",
-            ));
+            let message = "expected a number from 0 to 6";
+            return Err(Fault::json(format!("{here}/mode"), message));
         };
         match mode {
             Mode::Points => {
@@ -68,40 +64,26 @@ pub(super) fn triangles(
             }
             Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {}
         }
-        let attributes: Vec<_> = primitive
-            .attributes
-            .iter()
-            .map(|(k, a)| (k.clone(), a.value()))
-            .collect();
-        let (base, count) = if let Some(&part) = known.get(&attributes) {
-            part
-        } else {
-            let part = all.push_vertices(reader, primitive, &here, &mut seen)?;
-            known.insert(attributes, part);
-            part
+        let (base, count) = match known.entry(attributes(primitive)) {
+            Entry::Occupied(part) => *part.get(),
+            Entry::Vacant(new) => {
+                *new.insert(all.push_vertices(reader, primitive, &here, &mut seen)?)
+            }
         };
         let mut corners = corners(reader, primitive, mode, count, &here)?;
-        if let Some(material) = primitive.material {
-            let pointer = || format!("{here}/material");
-            get(
-                &reader.document.materials,
-                material.value(),
-                pointer,
-                "material",
-            )?;
-        }
         let material = primitive.material.map(|material| material.value());
+        if let Some(material) = material {
+            let pointer = format_args!("{here}/material");
+            get(&reader.document.materials, material, pointer, "material")?;
+        }
         has_materials |= material.is_some() && !corners.is_empty();
         if has_materials {
-            all.materials.resize(all.corners.len() / 3, None);
-            all.materials
-                .resize((all.corners.len() + corners.len()) / 3, material);
+            let n = all.corners.len();
+            all.materials.resize(n / 3, None);
+            all.materials.resize((n + corners.len()) / 3, material);
         }
         if base > 0 {
-            corners
-                .par_iter_mut()
-                .with_min_len(BLOCK)
-                .for_each(|v| *v += base);
+            parallel::change(&mut corners, |v| *v += base);
         }
         if all.corners.is_empty() {
             all.corners = corners;
@@ -111,6 +93,14 @@ pub(super) fn triangles(
     }
     seen.note(notes);
     Ok(all)
+}
+
+/// The accessors of a primitive's attributes.
+pub(super) fn attributes(primitive: &Primitive) -> Vec<(Checked<Semantic>, usize)> {
+    let attributes = primitive.attributes.iter();
+    attributes
+        .map(|(semantic, accessor)| (semantic.clone(), accessor.value()))
+        .collect()
 }
 
 impl Triangles {
@@ -129,32 +119,22 @@ impl Triangles {
         primitive: &Primitive,
         here: &str,
         seen: &mut Seen,
-    ) -> Result<(u32, u32), JsonError> {
+    ) -> Result<(u32, u32), Fault> {
         let pointer = |name: &str| format!("{here}/attributes/{name}");
-        let Some(positions) = primitive
-            .attributes
-            .get(&Checked::Valid(Semantic::Positions))
-        else {
+        let semantic = Checked::Valid(Semantic::Positions);
+        let Some(positions) = primitive.attributes.get(&semantic) else {
             // Legal, and nothing to draw without an extension.
             seen.empty += 1;
             return Ok((0, 0));
         };
-        let mut positions = reader.vectors(
-            positions.value(),
-            &pointer("POSITION"),
-            &[Type::Vec3],
-            0.0,
-            DVec3::from_array,
-        )?;
+        let (accessor, at) = (positions.value(), pointer("POSITION"));
+        let mut positions = reader.vectors(accessor, &at, &[Type::Vec3], 0.0, DVec3::from_array)?;
         let n = positions.len();
         let base = self.positions.len();
-        let total = base
-            .checked_add(n)
-            .and_then(|total| u32::try_from(total).ok())
-            .filter(|&total| total < u32::MAX);
-        let (Some(_), Ok(first), Ok(count)) = (total, u32::try_from(base), u32::try_from(n)) else {
+        let fits = base.saturating_add(n) < u32::MAX as usize;
+        let (true, Ok(first), Ok(count)) = (fits, u32::try_from(base), u32::try_from(n)) else {
             let message = format!("expected fewer than {} vertices in a mesh", u32::MAX);
-            return Err(JsonError::new(pointer("POSITION"), message));
+            return Err(Fault::json(at, message));
         };
         if base == 0 {
             self.positions = positions;
@@ -180,7 +160,7 @@ impl Triangles {
                 let found = values.len();
                 let message =
                     format!("expected {n} elements, one for each position, found {found}");
-                return Err(JsonError::new(at, message));
+                return Err(Fault::json(at, message));
             }
             if found.contains(&name) {
                 seen.attribute(&(column.to_string() + " of a name that is taken"));
@@ -201,7 +181,8 @@ impl Triangles {
             if !found.contains(name) {
                 let more = (base + n - values.len()) * size_of_value(values);
                 reader.budget.spend(SMALL + more as u64, here)?;
-                grow(values, base + n);
+                let before = values.len();
+                *values = values.gather(base + n, |i| (i < before).then_some(i));
                 seen.partial += 1;
             }
         }
@@ -233,37 +214,35 @@ fn read_column(
     semantic: &Semantic,
     accessor: usize,
     at: &str,
-) -> Result<Option<(String, Values)>, JsonError> {
+) -> Result<Option<(String, Values)>, Fault> {
     let Some(name) = attribute_name(semantic) else {
         return Ok(None);
     };
-    let values = match semantic {
-        Semantic::Normals => {
-            DVec3::wrap(reader.vectors(accessor, at, &[Type::Vec3], 0.0, DVec3::from_array)?)
-        }
-        Semantic::TexCoords(_) => {
+    let kinds: &[Type] = match semantic {
+        Semantic::Normals => &[Type::Vec3],
+        Semantic::TexCoords(_) => &[Type::Vec2],
+        Semantic::Colors(_) => &[Type::Vec3, Type::Vec4],
+        _ => &[reader.kind(accessor, at)?],
+    };
+    let values = match (semantic, kinds[kinds.len() - 1]) {
+        (Semantic::TexCoords(_), _) => {
             let up = |[u, v]: [f64; 2]| DVec2::new(u, 1.0 - v);
-            DVec2::wrap(reader.vectors(accessor, at, &[Type::Vec2], 0.0, up)?)
+            DVec2::wrap(reader.vectors(accessor, at, kinds, 0.0, up)?)
         }
-        Semantic::Colors(_) => {
-            let types = [Type::Vec3, Type::Vec4];
-            DVec4::wrap(reader.vectors(accessor, at, &types, 1.0, DVec4::from_array)?)
+        (_, Type::Scalar) => {
+            f64::wrap(reader.vectors(accessor, at, kinds, 0.0, |[x]: [f64; 1]| x)?)
         }
-        _ => match reader.kind(accessor, at)? {
-            kind @ Type::Scalar => {
-                f64::wrap(reader.vectors(accessor, at, &[kind], 0.0, |[x]: [f64; 1]| x)?)
-            }
-            kind @ Type::Vec2 => {
-                DVec2::wrap(reader.vectors(accessor, at, &[kind], 0.0, DVec2::from_array)?)
-            }
-            kind @ Type::Vec3 => {
-                DVec3::wrap(reader.vectors(accessor, at, &[kind], 0.0, DVec3::from_array)?)
-            }
-            kind @ Type::Vec4 => {
-                DVec4::wrap(reader.vectors(accessor, at, &[kind], 0.0, DVec4::from_array)?)
-            }
-            Type::Mat2 | Type::Mat3 | Type::Mat4 => return Ok(None),
-        },
+        (_, Type::Vec2) => {
+            DVec2::wrap(reader.vectors(accessor, at, kinds, 0.0, DVec2::from_array)?)
+        }
+        (_, Type::Vec3) => {
+            DVec3::wrap(reader.vectors(accessor, at, kinds, 0.0, DVec3::from_array)?)
+        }
+        // A color without alpha is opaque.
+        (_, Type::Vec4) => {
+            DVec4::wrap(reader.vectors(accessor, at, kinds, 1.0, DVec4::from_array)?)
+        }
+        (_, Type::Mat2 | Type::Mat3 | Type::Mat4) => return Ok(None),
     };
     Ok(Some((name, values)))
 }
@@ -282,26 +261,7 @@ fn append(all: &mut Values, more: Values) -> bool {
 
 /// The bytes of one of the values.
 fn size_of_value(values: &Values) -> usize {
-    match values {
-        Values::Float(_) => size_of::<f64>(),
-        Values::Vec2(_) => size_of::<DVec2>(),
-        Values::Vec3(_) => size_of::<DVec3>(),
-        Values::Vec4(_) => size_of::<DVec4>(),
-        Values::Int(_) => size_of::<i32>(),
-        Values::Tag(_) => size_of::<bool>(),
-    }
-}
-
-/// Fills values up with zeros.
-fn grow(values: &mut Values, n: usize) {
-    match values {
-        Values::Float(values) => values.resize(n, 0.0),
-        Values::Vec2(values) => values.resize(n, DVec2::ZERO),
-        Values::Vec3(values) => values.resize(n, DVec3::ZERO),
-        Values::Vec4(values) => values.resize(n, DVec4::ZERO),
-        Values::Int(values) => values.resize(n, 0),
-        Values::Tag(values) => values.resize(n, false),
-    }
+    values.gather(1, |_| None).bytes()
 }
 
 /// The triangles of a primitive whose vertices are counted from 0.
@@ -311,7 +271,7 @@ fn corners(
     mode: Mode,
     count: u32,
     here: &str,
-) -> Result<Vec<u32>, JsonError> {
+) -> Result<Vec<u32>, Fault> {
     let order = match primitive.indices {
         None => {
             let pointer = format!("{here}/attributes/POSITION");
@@ -321,34 +281,29 @@ fn corners(
         Some(indices) => {
             let pointer = format!("{here}/indices");
             let order = reader.indices(indices.value(), &pointer)?;
-            let wrong = |&v: &u32| v >= count;
-            if order.par_iter().with_min_len(BLOCK).any(wrong) {
-                let i = order.iter().position(wrong).unwrap_or(0);
+            if !parallel::all(order.len(), |i| order[i] < count) {
+                let mut indices = order.iter().enumerate();
+                let (i, v) = indices.find(|(_, v)| **v >= count).unwrap_or((0, &0));
                 let message = format!(
-                    "index {i} refers to vertex {}, but the primitive has {count} vertices",
-                    order[i]
+                    "index {i} refers to vertex {v}, but the primitive has {count} vertices"
                 );
-                return Err(JsonError::new(pointer, message));
+                return Err(Fault::json(pointer, message));
             }
             order
         }
     };
     let corners = match mode {
-        Mode::TriangleStrip => order
-            .windows(3)
-            .enumerate()
+        Mode::TriangleStrip => {
             // Every second triangle is turned, so that all face the same way.
-            .map(|(i, w)| {
-                if i % 2 == 0 {
-                    [w[0], w[1], w[2]]
-                } else {
-                    [w[0], w[2], w[1]]
-                }
-            })
+            let triangle = |(i, w): (usize, &[u32])| match i % 2 {
+                0 => [w[0], w[1], w[2]],
+                _ => [w[0], w[2], w[1]],
+            };
             // Strips jump by triangles without area.
-            .filter(|[a, b, c]| a != b && b != c && c != a)
-            .flatten()
-            .collect(),
+            let has_area = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+            let triangles = order.windows(3).enumerate().map(triangle);
+            triangles.filter(has_area).flatten().collect()
+        }
         Mode::TriangleFan => match order.split_first() {
             None => Vec::new(),
             Some((&center, rest)) => rest.windows(2).flat_map(|w| [w[0], w[1], center]).collect(),
@@ -356,7 +311,7 @@ fn corners(
         _ => {
             if order.len() % 3 != 0 {
                 let message = format!("expected a multiple of 3 corners, found {}", order.len());
-                return Err(JsonError::new(here, message));
+                return Err(Fault::json(here, message));
             }
             order
         }

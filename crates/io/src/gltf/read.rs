@@ -1,61 +1,54 @@
 //! From a glTF document to objects.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 use glam::{DAffine3, DMat3, DVec3};
 use mesh::{CORNER_NORMAL, Column, Domain, Rule, Values};
-use rayon::prelude::*;
 use scene::{Material, Texture};
 use serde_json::Value;
 
-use super::accessor::Reader;
 use super::budget::Budget;
+use super::buffers;
 use super::document::Document;
 use super::materials::Materials;
 use super::nodes::placed_meshes;
 use super::primitives::{Triangles, triangles};
-use super::{JsonError, buffers};
-use crate::error::{ReadError, TextError};
-use crate::names::Names;
-use crate::note::Notes;
-use crate::{Found, Polygons, weld};
+use super::views::Reader;
+use crate::assets::Assets;
+use crate::fault::Fault;
+use crate::note::{Names, Notes};
+use crate::text::{MARK, Place};
+use crate::{Found, Polygons, Shape, parallel, weld};
 
-/// How many values are looked at by one task at least.
-const BLOCK: usize = 1 << 14;
-
-/// Reads the objects of a glTF file from its bytes; `path` is where its buffers are looked for.
+/// Reads the objects of a glTF file from its bytes, and the buffers beside it.
 ///
 /// # Errors
 ///
 /// The first thing that breaks the rules of the format.
 pub(crate) fn read(
-    path: &Path,
     bytes: Vec<u8>,
     name: &str,
+    assets: &mut Assets,
     notes: &mut Notes,
-) -> Result<Vec<Found>, ReadError> {
+) -> Result<Vec<Found>, Fault> {
     // Dropped at the end: the accessors read from it as it is.
     let bytes = bytes.into_boxed_slice();
-    let in_file = |error: JsonError| error.in_file(path);
-    let container = buffers::container(path, &bytes)?;
-    let json = parse(path, &bytes[container.json])?;
+    let container = buffers::container(&bytes)?;
+    let json = parse(&bytes[container.json])?;
     let budget = Budget::of(bytes.len());
-    let document = Document::new(&json, &budget, notes).map_err(in_file)?;
+    let document = Document::new(&json, &budget, notes)?;
     drop(json);
     let binary = container.binary.map(|range| &bytes[range]);
     let (buffers, fallbacks) = (&document.buffers, &document.fallbacks);
-    let loaded =
-        buffers::load(path, buffers, fallbacks, binary, &budget, notes).map_err(in_file)?;
+    let loaded = buffers::load(buffers, fallbacks, binary, &budget, assets)?;
     if document.compressed.iter().any(Option::is_some) {
         budget.grant_compressed(loaded.iter().map(|buffer| buffer.len() as u64).sum());
     }
-    let reader = Reader::new(&document, &loaded, &budget);
-    objects(&reader, name, notes).map_err(in_file)
+    objects(&Reader::new(&document, &loaded, &budget), name, notes)
 }
 
-fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<Found>, JsonError> {
+fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<Found>, Fault> {
     let document = reader.document;
     let placed = placed_meshes(document, notes)?;
     // How often each mesh is still needed: the last object takes its arrays.
@@ -63,11 +56,9 @@ fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<Found>,
     for placed in &placed {
         *uses.entry(placed.mesh).or_insert(0) += 1;
     }
-    notes.left_out(
-        document.meshes.len() - uses.len(),
-        None,
-        "meshes left out: no node of the scene shows them",
-    );
+    let unused = document.meshes.len() - uses.len();
+    let what = "meshes left out: no node of the scene shows them";
+    notes.left_out(unused, None, what);
     let mut meshes = BTreeMap::new();
     let mut materials = Materials::new(reader);
     let mut names = Names::default();
@@ -86,7 +77,7 @@ fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<Found>,
         }
         if triangles.corners.len() >= u32::MAX as usize {
             let message = format!("expected fewer than {} corners in a mesh", u32::MAX);
-            return Err(JsonError::new(here, message));
+            return Err(Fault::json(here, message));
         }
         let name = placed.name(document, name);
         placed.spend(name, reader.budget)?;
@@ -98,25 +89,22 @@ fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<Found>,
             materials,
             ..polygons(triangles, &places, &placed.to_scene, notes)
         };
-        objects.push(Found::polygons(name, polygons));
+        let shape = Shape::Polygons(polygons);
+        objects.push(Found { name, shape });
     }
     materials.note(notes);
     Ok(objects)
 }
 
-pub(super) fn parse(path: &Path, json: &[u8]) -> Result<Value, ReadError> {
-    let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
+pub(super) fn parse(json: &[u8]) -> Result<Value, Fault> {
+    let json = json.strip_prefix(MARK).unwrap_or(json);
     serde_json::from_slice(json).map_err(|error| {
+        let (line, column) = (error.line(), error.column());
         let message = error.to_string();
-        let message = message
+        let what = message
             .rsplit_once(" at line ")
             .map_or(message.as_str(), |(what, _)| what);
-        TextError {
-            line: error.line(),
-            column: error.column(),
-            message: message.to_owned(),
-        }
-        .in_file(path)
+        Place { line, column }.error(what)
     })
 }
 
@@ -125,7 +113,7 @@ pub(super) fn parse(path: &Path, json: &[u8]) -> Result<Value, ReadError> {
 fn used_materials(
     materials: &mut Materials,
     triangles: &Triangles,
-) -> Result<(Vec<Material>, BTreeMap<usize, i32>), JsonError> {
+) -> Result<(Vec<Material>, BTreeMap<usize, i32>), Fault> {
     let mut used: Vec<usize> = triangles.materials.iter().copied().flatten().collect();
     used.dedup();
     let used: BTreeSet<usize> = used.into_iter().collect();
@@ -168,32 +156,28 @@ fn polygons(
     notes.left_out(unused, None, "vertices left out: no triangle uses them");
     let moved = *to_scene != DAffine3::IDENTITY;
     if moved {
-        positions
-            .par_iter_mut()
-            .with_min_len(BLOCK)
-            .for_each(|position| *position = to_scene.transform_point3(*position));
+        parallel::change(&mut positions, |p| *p = to_scene.transform_point3(*p));
     }
     // A mirror turns triangles inside out: their corners are taken the other way round.
     if to_scene.matrix3.determinant() < 0.0 {
-        order
-            .par_chunks_exact_mut(3)
-            .with_min_len(BLOCK)
-            .for_each(|triangle| triangle.swap(1, 2));
+        let (triangles, _) = order.as_chunks_mut::<3>();
+        parallel::change(triangles, |triangle| triangle.swap(1, 2));
     }
-    let n_triangles = order.len() / 3;
     let mut polygons = Polygons {
         positions,
-        offsets: offsets(n_triangles),
+        offsets: Polygons::even_offsets(order.len() / 3, 3),
         ..Polygons::default()
     };
     for (name, values) in columns {
         let values = values.gather(order.len(), |c| Some(order[c] as usize));
         let (rule, values) = match (name.as_str(), values) {
-            (_, Values::Vec3(normals)) if name == CORNER_NORMAL.name => {
-                if !moved {
+            (_, Values::Vec3(mut normals)) if name == CORNER_NORMAL.name => {
+                if let Some(turn) = normal_matrix(to_scene) {
+                    if moved {
+                        let turned = |normal: DVec3| (turn * normal).normalize_or_zero();
+                        parallel::change(&mut normals, |normal| *normal = turned(*normal));
+                    }
                     (Rule::Normal, Values::Vec3(normals))
-                } else if let Some(turn) = normal_matrix(to_scene) {
-                    (Rule::Normal, Values::Vec3(turned(normals, turn)))
                 } else {
                     let what = "normals left out: the placement is flat";
                     notes.left_out(normals.len(), None, what);
@@ -207,37 +191,15 @@ fn polygons(
         polygons.attributes.insert(Domain::Corner, column);
     }
     if !materials.is_empty() {
-        let place = |material: &Option<usize>| material.map_or(-1, |m| places[&m]);
-        let values = materials.par_iter().with_min_len(BLOCK).map(place);
-        polygons.insert_faces(mesh::MATERIAL, values.collect());
+        let place = |f: usize| materials[f].map_or(-1, |m| places[&m]);
+        let values = parallel::collect(materials.len(), place);
+        polygons.insert_faces(mesh::MATERIAL, values);
     }
     if let Some(vertex_of) = vertex_of {
-        order
-            .par_iter_mut()
-            .with_min_len(BLOCK)
-            .for_each(|v| *v = vertex_of[*v as usize]);
+        parallel::change(&mut order, |v| *v = vertex_of[*v as usize]);
     }
     polygons.corners = order;
     polygons
-}
-
-/// Where each of `n` triangles begins, and where the last one ends.
-fn offsets(n: usize) -> Vec<u32> {
-    let mut offsets = mesh::zeroed::<u32>(n + 1);
-    offsets
-        .par_iter_mut()
-        .with_min_len(BLOCK)
-        .enumerate()
-        .for_each(|(f, offset)| *offset = u32::try_from(3 * f).unwrap_or(u32::MAX));
-    offsets
-}
-
-fn turned(mut normals: Vec<DVec3>, turn: DMat3) -> Vec<DVec3> {
-    normals
-        .par_iter_mut()
-        .with_min_len(BLOCK)
-        .for_each(|normal| *normal = (turn * *normal).normalize_or_zero());
-    normals
 }
 
 /// The matrix that turns normals: the transposed inverse.
@@ -258,17 +220,13 @@ struct Welded {
 fn weld(positions: Vec<DVec3>, corners: &[u32]) -> Welded {
     let n = positions.len();
     let used: Vec<AtomicBool> = (0..n).map(|_| AtomicBool::new(false)).collect();
-    corners
-        .par_iter()
-        .with_min_len(BLOCK)
-        .for_each(|&v| used[v as usize].store(true, Relaxed));
-    let is_used = |&v: &usize| used[v].load(Relaxed);
-    let unused = n
-        - (0..n)
-            .into_par_iter()
-            .with_min_len(BLOCK)
-            .filter(is_used)
-            .count();
+    parallel::blocks(corners.len(), |block| {
+        for &v in &corners[block] {
+            used[v as usize].store(true, Relaxed);
+        }
+    });
+    let kept = parallel::filter(n, |v| used[v].load(Relaxed));
+    let unused = n - kept.len();
     if unused == 0 {
         let (positions, vertex_of) = weld::weld(positions);
         return Welded {
@@ -277,7 +235,6 @@ fn weld(positions: Vec<DVec3>, corners: &[u32]) -> Welded {
             unused,
         };
     }
-    let kept: Vec<usize> = (0..n).filter(is_used).collect();
     let (positions, places) = weld::weld(kept.iter().map(|&v| positions[v]).collect());
     let mut vertex_of = vec![0; n];
     for (&v, place) in kept.iter().zip(places) {

@@ -4,12 +4,11 @@
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use mesh::{Domain, HalfEdgeId, Mesh, VertexId};
-use rayon::prelude::*;
 
 use super::streams::Stream;
+use crate::loss::Losses;
+use crate::parallel::{self, BLOCK};
 
-/// How many vertices of the mesh are split by one task.
-const BLOCK: usize = 1 << 12;
 /// Of a crowd of different corners around a vertex only the latest are compared, so that a vertex with a
 /// million corners costs no more than others; equal corners may then become two vertices.
 const LOOKED_AT: usize = 64;
@@ -37,9 +36,8 @@ impl Split {
             return (mesh.origin(h), h);
         }
         let v = VertexId::new(i);
-        let mut corners = mesh
-            .vertex_half_edges(v)
-            .filter(|&h| mesh.face(h).is_some());
+        let around = mesh.vertex_half_edges(v);
+        let mut corners = around.filter(|&h| mesh.face(h).is_some());
         (v, corners.next().unwrap_or(HalfEdgeId::new(0)))
     }
 
@@ -60,61 +58,66 @@ impl Split {
     }
 }
 
+/// Says how many values of the written vertices are not what the mesh has.
+pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: &mut Losses) {
+    let broken = parallel::count(split.n, |i| {
+        let (v, h) = split.corner(mesh, i);
+        !stream.at(mesh, v, h).1
+    });
+    losses.add(
+        stream.domain,
+        &stream.column.name,
+        broken,
+        stream.otherwise(),
+    );
+}
+
 /// Splits the vertices of a dense mesh. Isolated vertices become none.
 pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
-    let seams: Vec<&Stream> = streams
-        .iter()
-        .filter(|stream| stream.domain == Domain::Corner)
-        .collect();
+    let is_seam = |stream: &&Stream| stream.domain == Domain::Corner;
+    let seams: Vec<&Stream> = streams.iter().filter(is_seam).collect();
     let n = mesh.n_vertices();
     if seams.is_empty() && mesh.n_isolated_vertices() == 0 {
         return Split { n, seams: None };
     }
-    let vertex_of: Vec<AtomicU32> = (0..mesh.n_half_edges())
-        .map(|_| AtomicU32::new(0))
-        .collect();
+    let vertex_of: Vec<AtomicU32> = mesh::zeroed(mesh.n_half_edges());
+    let m = seams.len();
     // The vertices of each block are numbered from 0 first.
-    let blocks: Vec<Vec<u32>> = (0..n.div_ceil(BLOCK))
-        .into_par_iter()
-        .map(|block| {
-            let mut corners = Vec::with_capacity(BLOCK);
-            let (mut values, mut own) = (Vec::new(), Vec::new());
-            let m = seams.len();
-            for v in (block * BLOCK..n.min((block + 1) * BLOCK)).map(VertexId::new) {
-                let first = corners.len();
-                values.clear();
-                for h in mesh
-                    .vertex_half_edges(v)
-                    .filter(|&h| mesh.face(h).is_some())
-                {
-                    own.clear();
-                    own.extend(seams.iter().map(|stream| stream.at(mesh, v, h).0));
-                    let count = corners.len() - first;
-                    let known = (count.saturating_sub(LOOKED_AT)..count)
-                        .find(|&k| same(&values[k * m..(k + 1) * m], &own));
-                    if known.is_none() {
-                        values.extend_from_slice(&own);
-                        corners.push(number(h.index()));
-                    }
-                    let k = first + known.unwrap_or(count);
-                    vertex_of[h.index()].store(number(k), Relaxed);
+    let blocks = parallel::blocks(n, |vertices| {
+        let mut corners = Vec::with_capacity(BLOCK);
+        let (mut values, mut own) = (Vec::new(), Vec::new());
+        for v in vertices.map(VertexId::new) {
+            let first = corners.len();
+            values.clear();
+            for h in mesh
+                .vertex_half_edges(v)
+                .filter(|&h| mesh.face(h).is_some())
+            {
+                own.clear();
+                own.extend(seams.iter().map(|stream| stream.at(mesh, v, h).0));
+                let count = corners.len() - first;
+                let known = (count.saturating_sub(LOOKED_AT)..count)
+                    .find(|&k| same(&values[k * m..(k + 1) * m], &own));
+                if known.is_none() {
+                    values.extend_from_slice(&own);
+                    corners.push(number(h.index()));
                 }
+                let k = first + known.unwrap_or(count);
+                vertex_of[h.index()].store(number(k), Relaxed);
             }
-            corners
-        })
-        .collect();
+        }
+        corners
+    });
     let mut starts = Vec::with_capacity(blocks.len());
     let mut corners = Vec::new();
     for block in blocks {
         starts.push(number(corners.len()));
         corners.extend(block);
     }
-    let vertex_of = vertex_of.into_par_iter().with_min_len(BLOCK).enumerate();
-    let vertex_of = vertex_of.map(|(h, place)| {
+    let vertex_of = parallel::collect(mesh.n_half_edges(), |h| {
         let block = mesh.origin(HalfEdgeId::new(h)).index() / BLOCK;
-        place.into_inner().saturating_add(starts[block])
+        vertex_of[h].load(Relaxed).saturating_add(starts[block])
     });
-    let vertex_of = vertex_of.collect();
     Split {
         n: corners.len(),
         seams: Some(Seams { corners, vertex_of }),

@@ -4,10 +4,8 @@ use glam::DVec3;
 use gltf_json::accessor::Type;
 use gltf_json::mesh::Semantic;
 use mesh::{Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId};
-use rayon::prelude::*;
 
 use super::names::{custom_semantic, uv_set};
-use super::split::Split;
 use crate::loss::Losses;
 
 /// An attribute of a mesh as glTF has it: 32 bits, normals of length 1, v downwards, colors from 0 to 1.
@@ -32,23 +30,20 @@ pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>
     let mut streams: Vec<Stream> = Vec::new();
     // Texture coordinates are counted from 0, without gaps.
     let is_uv = |set: u32| {
-        let columns = mesh.attributes().of(Domain::Corner).iter();
-        columns
-            .filter(|column| uv_set(&column.name) == Some(set))
-            .any(|column| matches!(column.values, Values::Vec2(_)))
+        let mut columns = mesh.attributes().of(Domain::Corner).iter();
+        let is_it =
+            |c: &Column| uv_set(&c.name) == Some(set) && matches!(c.values, Values::Vec2(_));
+        columns.any(is_it)
     };
     let n_uvs = (0..u32::MAX).take_while(|&set| is_uv(set)).count();
     let n_uvs = u32::try_from(n_uvs).unwrap_or(u32::MAX);
     for domain in [Domain::Corner, Domain::Vertex] {
         for column in mesh.attributes().of(domain) {
-            if let Some(stream) = stream(domain, column, n_uvs) {
+            if let Some(stream) = stream(domain, column, n_uvs)
                 // What corners have goes before what vertices have.
-                if streams
-                    .iter()
-                    .all(|other| other.semantic != stream.semantic)
-                {
-                    streams.push(stream);
-                }
+                && streams.iter().all(|other| other.semantic != stream.semantic)
+            {
+                streams.push(stream);
             }
         }
     }
@@ -107,10 +102,8 @@ impl Stream<'_> {
         match self.meaning {
             Meaning::Normal => {
                 let unit = unit(DVec3::new(x, y, z));
-                let [x, y, z] = unit
-                    .unwrap_or_else(|| face_normal(mesh, mesh.face(h)))
-                    .to_array();
-                narrow([x, y, z, 0.0], unit.is_some())
+                let normal = unit.unwrap_or_else(|| face_normal(mesh, mesh.face(h)));
+                narrow([normal.x, normal.y, normal.z, 0.0], unit.is_some())
             }
             Meaning::Uv => narrow([x, 1.0 - y, 0.0, 0.0], true),
             Meaning::Color => {
@@ -122,22 +115,13 @@ impl Stream<'_> {
         }
     }
 
-    /// Says how many values of the written vertices are not what the mesh has.
-    pub(super) fn count_broken(&self, mesh: &Mesh, split: &Split, losses: &mut Losses) {
-        let broken = (0..split.n)
-            .into_par_iter()
-            .with_min_len(1 << 12)
-            .filter(|&i| {
-                let (v, h) = split.corner(mesh, i);
-                !self.at(mesh, v, h).1
-            })
-            .count();
-        let reason = match self.meaning {
+    /// What becomes of a value that glTF cannot have.
+    pub(super) fn otherwise(&self) -> &'static str {
+        match self.meaning {
             Meaning::Normal => "without a direction: written as that of the face",
             Meaning::Color => "outside of 0 to 1: written as the nearest inside",
             Meaning::Uv | Meaning::Other => "not finite with 32 bits: written as 0",
-        };
-        losses.add(self.domain, &self.column.name, broken, reason);
+        }
     }
 }
 

@@ -1,9 +1,37 @@
 //! Buffer views: parts of the buffers, as they are or compressed, and the elements in them.
 
-use super::JsonError;
-use super::accessor::Reader;
-use super::document::get;
+use std::borrow::Cow;
+use std::cell::OnceCell;
+use std::fmt;
+
+use super::budget::Budget;
+use super::document::{Document, get};
 use super::meshopt::{self, Compressed};
+use crate::fault::Fault;
+
+/// Reads arrays out of the buffers of a document.
+pub(super) struct Reader<'a> {
+    pub(super) document: &'a Document,
+    pub(super) buffers: &'a [Cow<'a, [u8]>],
+    pub(super) budget: &'a Budget,
+    /// The bytes of compressed views, as far as they have been needed.
+    pub(super) decoded: Vec<OnceCell<Vec<u8>>>,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(
+        document: &'a Document,
+        buffers: &'a [Cow<'a, [u8]>],
+        budget: &'a Budget,
+    ) -> Self {
+        Self {
+            document,
+            buffers,
+            budget,
+            decoded: document.views.iter().map(|_| OnceCell::new()).collect(),
+        }
+    }
+}
 
 impl Reader<'_> {
     /// The bytes of a view.
@@ -11,11 +39,7 @@ impl Reader<'_> {
     /// # Errors
     ///
     /// If there is no such view or its buffer is too short; `pointer` is the place that refers to it.
-    pub(super) fn view(
-        &self,
-        index: usize,
-        pointer: impl Fn() -> String,
-    ) -> Result<&[u8], JsonError> {
+    pub(super) fn view(&self, index: usize, pointer: impl fmt::Display) -> Result<&[u8], Fault> {
         let at = format!("/bufferViews/{index}");
         let view = get(&self.document.views, index, pointer, "buffer view")?;
         if let Some(Some(compressed)) = self.document.compressed.get(index) {
@@ -26,43 +50,32 @@ impl Reader<'_> {
     }
 
     /// The bytes of a compressed view, which are decoded when they are first needed.
-    fn decoded(&self, index: usize, compressed: &Compressed) -> Result<&[u8], JsonError> {
+    fn decoded(&self, index: usize, compressed: &Compressed) -> Result<&[u8], Fault> {
         let slot = &self.decoded[index];
         if let Some(decoded) = slot.get() {
             return Ok(decoded);
         }
         let at = meshopt::pointer(index, compressed.extension);
-        let error = |message| JsonError::new(&at, message);
-        let length = compressed
-            .decoded_length(&self.document.views[index])
-            .map_err(error)?;
-        let Compressed {
-            buffer,
-            byte_offset,
-            byte_length,
-            ..
-        } = *compressed;
-        let stream = self.part(buffer, byte_offset, byte_length, &at)?;
-        let decoded = compressed
-            .decode(stream, self.budget.inflate(length, &at)?)
-            .map_err(error)?;
+        let length = compressed.decoded_length(&self.document.views[index], &at)?;
+        let (start, n) = (compressed.byte_offset, compressed.byte_length);
+        let stream = self.part(compressed.buffer, start, n, &at)?;
+        let length = self.budget.inflate(length, &at)?;
+        let decoded = compressed.decode(stream, length, &at)?;
         Ok(slot.get_or_init(|| decoded))
     }
 
     /// `length` bytes of a buffer from `start`, as the object at `at` says.
-    fn part(&self, buffer: usize, start: u64, length: u64, at: &str) -> Result<&[u8], JsonError> {
-        let bytes = get(self.buffers, buffer, || format!("{at}/buffer"), "buffer")?;
-        let end = start
-            .checked_add(length)
-            .filter(|&end| end <= bytes.len() as u64);
-        let range =
-            end.and_then(|end| Some(usize::try_from(start).ok()?..usize::try_from(end).ok()?));
-        range.map(|range| &bytes[range]).ok_or_else(|| {
-            let message = format!(
-                "the view says {length} bytes from {start}, but buffer {buffer} has {}",
-                bytes.len()
-            );
-            JsonError::new(format!("{at}/byteLength"), message)
+    fn part(&self, buffer: usize, start: u64, length: u64, at: &str) -> Result<&[u8], Fault> {
+        let bytes = get(self.buffers, buffer, format_args!("{at}/buffer"), "buffer")?;
+        let range = || {
+            let end = usize::try_from(start.checked_add(length)?).ok()?;
+            bytes.get(usize::try_from(start).ok()?..end)
+        };
+        range().ok_or_else(|| {
+            let n = bytes.len();
+            let message =
+                format!("the view says {length} bytes from {start}, but buffer {buffer} has {n}");
+            Fault::json(format!("{at}/byteLength"), message)
         })
     }
 
@@ -74,23 +87,23 @@ impl Reader<'_> {
         count: u64,
         size: usize,
         here: &str,
-    ) -> Result<Rows<'_>, JsonError> {
-        let bytes = self.view(index, || format!("{here}/bufferView"))?;
+    ) -> Result<Rows<'_>, Fault> {
+        let bytes = self.view(index, format_args!("{here}/bufferView"))?;
         let (view, at) = (&self.document.views[index], format!("/bufferViews/{index}"));
         let stride = view.byte_stride.map_or(0, |stride| stride.0);
         let stride = if stride == 0 { size } else { stride };
         if stride < size {
             let message =
                 format!("expected at least {size}, the size of an element, found {stride}");
-            return Err(JsonError::new(format!("{at}/byteStride"), message));
+            return Err(Fault::json(format!("{at}/byteStride"), message));
         }
         // The last element needs no room for the rest of its stride.
         let needed = match count {
             0 => Some(0),
-            _ => (count - 1)
-                .checked_mul(stride as u64)
-                .and_then(|bytes| bytes.checked_add(size as u64))
-                .and_then(|bytes| bytes.checked_add(offset)),
+            _ => {
+                let before = (count - 1).checked_mul(stride as u64);
+                before.and_then(|n| n.checked_add(size as u64)?.checked_add(offset))
+            }
         };
         if needed.is_none_or(|needed| needed > bytes.len() as u64) {
             let message = format!(
@@ -98,7 +111,7 @@ impl Reader<'_> {
                  {} bytes of the view",
                 bytes.len()
             );
-            return Err(JsonError::new(format!("{here}/count"), message));
+            return Err(Fault::json(format!("{here}/count"), message));
         }
         // Both fit: they are no more than the length of the view.
         let [count, offset] = [count, offset].map(|n| usize::try_from(n).unwrap_or(0));

@@ -6,8 +6,9 @@ use gltf_json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf_json::buffer::{Target, View};
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
-use gltf_json::{Accessor, Asset, Index, Node, Root};
-use serde_json::json;
+use gltf_json::{Accessor, Index, Mesh, Node};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
 
 use super::faces::Faces;
 use super::fill::{Bounds, fill_indices, fill_positions, fill_stream};
@@ -15,42 +16,65 @@ use super::pieces::Piece;
 use super::prepare::Prepared;
 use super::write_materials::MaterialWriter;
 use crate::WriteOptions;
+use crate::error::Unwritable;
 use crate::loss::Losses;
 
 /// Makes the document, and knows what writes the bytes that it refers to.
+#[derive(Default)]
 pub(super) struct Writer<'a> {
-    pub(super) root: Root,
+    accessors: Vec<Accessor>,
+    views: Vec<View>,
+    meshes: Vec<Mesh>,
+    nodes: Vec<Node>,
     pub(super) pieces: Vec<Piece<'a>>,
-    pub(super) materials: MaterialWriter,
+    materials: MaterialWriter,
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(options: &WriteOptions) -> Self {
-        let extras = options
-            .provenance
-            .as_ref()
-            .and_then(|text| serde_json::value::to_raw_value(&json!({ "meshwright": text })).ok());
-        let generator = Some(concat!("meshwright ", env!("CARGO_PKG_VERSION")).to_owned());
-        let root = Root {
-            asset: Asset {
-                generator,
-                extras,
-                ..Asset::default()
-            },
-            scene: Some(Index::new(0)),
-            scenes: vec![gltf_json::Scene {
-                extensions: None,
-                extras: None,
-                name: None,
-                nodes: Vec::new(),
-            }],
-            ..Root::default()
-        };
-        Self {
-            root,
-            pieces: Vec::new(),
-            materials: MaterialWriter::default(),
+    /// The document, whose bytes are in the file of this name or behind it, and what writes these.
+    ///
+    /// # Errors
+    ///
+    /// If something of it cannot be written as JSON.
+    pub(super) fn into_json(
+        self,
+        options: &WriteOptions,
+        uri: Option<String>,
+    ) -> Result<(Vec<u8>, Vec<Piece<'a>>), Unwritable> {
+        let mut asset = json!({});
+        if let Some(text) = &options.provenance {
+            asset["extras"] = json!({ "meshwright": text });
         }
+        asset["generator"] = concat!("meshwright ", env!("CARGO_PKG_VERSION")).into();
+        asset["version"] = "2.0".into();
+        let length = self.pieces.last().map_or(0, Piece::end);
+        let mut buffer = json!({ "byteLength": length });
+        if let Some(uri) = uri {
+            buffer["uri"] = uri.into();
+        }
+        let n_nodes = self.nodes.len();
+        let mut document = Map::new();
+        insert(&mut document, "accessors", self.accessors)?;
+        document.insert("asset".to_owned(), asset);
+        insert(
+            &mut document,
+            "buffers",
+            [buffer].into_iter().filter(|_| length > 0).collect(),
+        )?;
+        insert(&mut document, "bufferViews", self.views)?;
+        // A scene without nodes says nothing.
+        if n_nodes > 0 {
+            document.insert("scene".to_owned(), 0.into());
+        }
+        insert(&mut document, "meshes", self.meshes)?;
+        insert(&mut document, "nodes", self.nodes)?;
+        if n_nodes > 0 {
+            let nodes: Vec<usize> = (0..n_nodes).collect();
+            document.insert("scenes".to_owned(), json!([{ "nodes": nodes }]));
+        }
+        self.materials.insert_into(&mut document);
+        let json = serde_json::to_vec(&document).map_err(no_json)?;
+        Ok((json, self.pieces))
     }
 
     /// Adds a node with the mesh of an object, if it has faces.
@@ -60,19 +84,18 @@ impl<'a> Writer<'a> {
             return;
         }
         let name = Some(prepared.object.name.clone());
-        let mesh = self.root.push(gltf_json::Mesh {
+        let mesh = Mesh {
             extensions: None,
             extras: None,
             name: name.clone(),
             primitives,
             weights: None,
-        });
-        let node = self.root.push(Node {
-            mesh: Some(mesh),
+        };
+        self.nodes.push(Node {
+            mesh: Some(Index::push(&mut self.meshes, mesh)),
             name,
             ..Node::default()
         });
-        self.root.scenes[0].nodes.push(node);
     }
 
     /// One primitive for each material, in the order of the object's materials; they share their
@@ -103,10 +126,8 @@ impl<'a> Writer<'a> {
         }
         // Pictures lie behind what the first object needs of them.
         for (place, bytes) in self.materials.take_pictures() {
-            let fill_bytes = bytes.clone();
-            let view = self.view(bytes.len(), None, move |out| {
-                out.copy_from_slice(&fill_bytes);
-            });
+            let length = bytes.len();
+            let view = self.view(length, None, move |out| out.copy_from_slice(&bytes));
             self.materials.set_view(place, view.value());
         }
         primitives
@@ -118,17 +139,15 @@ impl<'a> Writer<'a> {
     ) -> BTreeMap<Checked<Semantic>, Index<Accessor>> {
         let Prepared { mesh, split, .. } = prepared;
         let mut attributes = BTreeMap::new();
-        let positions = self.floats(split.n, Type::Vec3, move |out| {
-            fill_positions(out, mesh, split);
-        });
-        let with_bounds = &mut self.root.accessors[positions.value()];
+        let fill = move |out: &mut [u8]| fill_positions(out, mesh, split);
+        let positions = self.floats(split.n, Type::Vec3, fill);
+        let with_bounds = &mut self.accessors[positions.value()];
         let Bounds { min, max } = prepared.bounds;
         (with_bounds.min, with_bounds.max) = (Some(json!(min)), Some(json!(max)));
         attributes.insert(Checked::Valid(Semantic::Positions), positions);
         for stream in &prepared.streams {
-            let accessor = self.floats(split.n, stream.kind, move |out| {
-                fill_stream(out, mesh, split, stream);
-            });
+            let fill = move |out: &mut [u8]| fill_stream(out, mesh, split, stream);
+            let accessor = self.floats(split.n, stream.kind, fill);
             attributes.insert(Checked::Valid(stream.semantic.clone()), accessor);
         }
         attributes
@@ -156,9 +175,8 @@ impl<'a> Writer<'a> {
         };
         let count = 3 * faces.n_triangles();
         let length = count * component.size();
-        let view = self.view(length, Some(Target::ElementArrayBuffer), move |out| {
-            fill_indices(out, mesh, split, faces, short);
-        });
+        let fill = move |out: &mut [u8]| fill_indices(out, mesh, split, faces, short);
+        let view = self.view(length, Some(Target::ElementArrayBuffer), fill);
         self.accessor(view, count, component, Type::Scalar)
     }
 
@@ -175,7 +193,7 @@ impl<'a> Writer<'a> {
             length,
             fill: Box::new(fill),
         });
-        self.root.push(View {
+        let view = View {
             buffer: Index::new(0),
             byte_length: length.into(),
             byte_offset: Some(start.into()),
@@ -184,7 +202,8 @@ impl<'a> Writer<'a> {
             target: target.map(Checked::Valid),
             extensions: None,
             extras: None,
-        })
+        };
+        Index::push(&mut self.views, view)
     }
 
     fn accessor(
@@ -194,7 +213,7 @@ impl<'a> Writer<'a> {
         component: ComponentType,
         kind: Type,
     ) -> Index<Accessor> {
-        self.root.push(Accessor {
+        let accessor = Accessor {
             buffer_view: Some(view),
             byte_offset: None,
             count: count.into(),
@@ -207,6 +226,29 @@ impl<'a> Writer<'a> {
             name: None,
             normalized: false,
             sparse: None,
-        })
+        };
+        Index::push(&mut self.accessors, accessor)
+    }
+}
+
+/// Adds a list to a document, if it has something in it.
+fn insert<T: Serialize>(
+    document: &mut Map<String, Value>,
+    key: &str,
+    list: Vec<T>,
+) -> Result<(), Unwritable> {
+    let values = list
+        .iter()
+        .map(|one| serde_json::to_value(one).map_err(no_json));
+    let values = values.collect::<Result<Vec<_>, _>>()?;
+    if !values.is_empty() {
+        document.insert(key.to_owned(), values.into());
+    }
+    Ok(())
+}
+
+fn no_json(error: serde_json::Error) -> Unwritable {
+    Unwritable::Scene {
+        message: error.to_string(),
     }
 }

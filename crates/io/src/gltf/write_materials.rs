@@ -3,15 +3,11 @@
 use std::sync::Arc;
 
 use scene::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
-use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::materials::{has_scheme, rounded};
-use super::surface::{
-    AlphaJson, Extensions, ImageJson, InfoJson, MaterialJson, PbrJson, STRENGTH, SamplerJson,
-    TRANSFORM, TextureJson, TransformJson, UNLIT,
-};
-use super::write::percent_encoded;
+use super::surface::{STRENGTH, TRANSFORM, UNLIT};
+use crate::assets::percent_encoded;
 use crate::loss::Losses;
 
 /// The materials, textures, samplers and images of a document, each once.
@@ -20,11 +16,11 @@ pub(super) struct MaterialWriter {
     /// The scene's materials that `materials` stand for, with how many texture coordinates they need not
     /// more than.
     known: Vec<Material>,
-    materials: Vec<MaterialJson>,
-    textures: Vec<TextureJson>,
-    samplers: Vec<SamplerJson>,
+    materials: Vec<Value>,
+    textures: Vec<Value>,
+    samplers: Vec<Value>,
     known_images: Vec<Image>,
-    images: Vec<ImageJson>,
+    images: Vec<Value>,
     /// Pictures whose bytes have no view yet.
     pictures: Vec<(usize, Arc<[u8]>)>,
     extensions: [bool; 3],
@@ -68,7 +64,7 @@ impl MaterialWriter {
 
     /// Says where the bytes of a picture lie.
     pub(super) fn set_view(&mut self, image: usize, view: usize) {
-        self.images[image].buffer_view = Some(view);
+        self.images[image]["bufferView"] = view.into();
     }
 
     /// Adds everything to the document.
@@ -84,15 +80,15 @@ impl MaterialWriter {
             "extensionsUsed",
             used.map(|(name, _)| json!(name)).collect(),
         );
-        insert("materials", values(&self.materials));
-        insert("textures", values(&self.textures));
-        insert("samplers", values(&self.samplers));
-        insert("images", values(&self.images));
+        insert("materials", self.materials);
+        insert("textures", self.textures);
+        insert("samplers", self.samplers);
+        insert("images", self.images);
     }
 
-    fn json(&mut self, material: &Material, changed: &mut usize) -> MaterialJson {
+    fn json(&mut self, material: &Material, changed: &mut usize) -> Value {
         let plain = Material::new("");
-        let mut extensions = Extensions::new();
+        let mut extensions = Map::new();
         let strength = within(material.emissive_strength, 0.0, f64::MAX, changed);
         if strength != plain.emissive_strength {
             extensions.insert(STRENGTH.to_owned(), json!({ "emissiveStrength": strength }));
@@ -106,104 +102,132 @@ impl MaterialWriter {
         let base_color = material.base_color.map(&mut unit);
         let emissive = material.emissive.map(&mut unit);
         let [metallic, roughness] = [material.metallic, material.roughness].map(&mut unit);
-        let occlusion_strength = unit(material.occlusion_strength);
-        let normal_scale = within(material.normal_scale, f64::MIN, f64::MAX, changed);
+        let strength = unit(material.occlusion_strength);
+        let scale = within(material.normal_scale, f64::MIN, f64::MAX, changed);
         let (alpha_mode, alpha_cutoff) = match material.alpha {
             AlphaMode::Opaque => (None, None),
-            AlphaMode::Mask(cutoff) => {
-                let cutoff = within(cutoff, 0.0, f64::MAX, changed);
-                (Some(AlphaJson::Mask), Some(cutoff))
-            }
-            AlphaMode::Blend => (Some(AlphaJson::Blend), None),
+            AlphaMode::Mask(cutoff) => (Some("MASK"), Some(within(cutoff, 0.0, f64::MAX, changed))),
+            AlphaMode::Blend => (Some("BLEND"), None),
         };
-        MaterialJson {
-            name: Some(material.name.clone()),
-            pbr_metallic_roughness: Some(PbrJson {
-                base_color_factor: (base_color != plain.base_color).then_some(base_color),
-                base_color_texture: self.info(material.base_color_texture.as_ref()),
-                // The default of glTF is metal.
-                metallic_factor: Some(metallic),
-                roughness_factor: Some(roughness),
-                metallic_roughness_texture: self.info(material.metallic_roughness_texture.as_ref()),
-            }),
-            normal_texture: self
-                .info(material.normal_texture.as_ref())
-                .map(|info| InfoJson {
-                    scale: (normal_scale != 1.0).then_some(normal_scale),
-                    ..info
-                }),
-            occlusion_texture: self.info(material.occlusion_texture.as_ref()).map(|info| {
-                InfoJson {
-                    strength: (occlusion_strength != 1.0).then_some(occlusion_strength),
-                    ..info
-                }
-            }),
-            emissive_texture: self.info(material.emissive_texture.as_ref()),
-            emissive_factor: (emissive != plain.emissive).then_some(emissive),
-            alpha_mode,
-            alpha_cutoff,
-            double_sided: material.double_sided,
-            extensions,
-        }
+        let mut texture = |texture: &Option<Texture>, number: &str, value: f64| {
+            let number = (number, (value != 1.0).then(|| value.into()));
+            texture.as_ref().map(|texture| self.info(texture, number))
+        };
+        let pbr = object([
+            (
+                "baseColorFactor",
+                (base_color != plain.base_color).then(|| json!(base_color)),
+            ),
+            (
+                "baseColorTexture",
+                texture(&material.base_color_texture, "", 1.0),
+            ),
+            // The default of glTF is metal.
+            ("metallicFactor", Some(metallic.into())),
+            ("roughnessFactor", Some(roughness.into())),
+            (
+                "metallicRoughnessTexture",
+                texture(&material.metallic_roughness_texture, "", 1.0),
+            ),
+        ]);
+        object([
+            ("name", Some(json!(material.name))),
+            ("pbrMetallicRoughness", Some(pbr)),
+            (
+                "normalTexture",
+                texture(&material.normal_texture, "scale", scale),
+            ),
+            (
+                "occlusionTexture",
+                texture(&material.occlusion_texture, "strength", strength),
+            ),
+            (
+                "emissiveTexture",
+                texture(&material.emissive_texture, "", 1.0),
+            ),
+            (
+                "emissiveFactor",
+                (emissive != plain.emissive).then(|| json!(emissive)),
+            ),
+            ("alphaMode", alpha_mode.map(Value::from)),
+            ("alphaCutoff", alpha_cutoff.map(Value::from)),
+            ("doubleSided", material.double_sided.then_some(true.into())),
+            (
+                "extensions",
+                (!extensions.is_empty()).then_some(extensions.into()),
+            ),
+        ])
     }
 
-    fn info(&mut self, texture: Option<&Texture>) -> Option<InfoJson> {
-        let texture = texture?;
-        let mut extensions = Extensions::new();
-        if texture.transform != TextureTransform::default() {
+    /// What a material says of a texture, with a number of its own.
+    fn info(&mut self, texture: &Texture, number: (&str, Option<Value>)) -> Value {
+        let transform = texture.transform;
+        let extensions = (transform != TextureTransform::default()).then(|| {
             let TextureTransform {
                 offset,
                 rotation,
                 scale,
-            } = texture.transform;
+            } = transform;
             let finite = |x: f64| if x.is_nan() { 0.0 } else { rounded(x) };
-            let json = TransformJson {
-                offset: (offset != [0.0; 2]).then_some(offset.map(finite)),
-                rotation: (rotation != 0.0).then_some(finite(rotation)),
-                scale: (scale != [1.0; 2]).then_some(scale.map(finite)),
-                tex_coord: None,
-            };
-            extensions.insert(TRANSFORM.to_owned(), value(&json));
             self.extensions[0] = true;
-        }
-        let sampler = (texture.sampler != Sampler::default()).then(|| {
-            let json = sampler(texture.sampler);
-            place_of(&mut self.samplers, json)
+            let json = object([
+                (
+                    "offset",
+                    (offset != [0.0; 2]).then(|| json!(offset.map(finite))),
+                ),
+                (
+                    "rotation",
+                    (rotation != 0.0).then(|| finite(rotation).into()),
+                ),
+                (
+                    "scale",
+                    (scale != [1.0; 2]).then(|| json!(scale.map(finite))),
+                ),
+            ]);
+            json!({ TRANSFORM: json })
         });
-        let source = Some(self.image(&texture.image));
-        Some(InfoJson {
-            index: place_of(&mut self.textures, TextureJson { sampler, source }),
-            tex_coord: texture.uv_set,
-            extensions,
-            ..InfoJson::default()
-        })
+        let sampler = (texture.sampler != Sampler::default())
+            .then(|| place_of(&mut self.samplers, sampler(texture.sampler)));
+        let source = self.image(&texture.image);
+        let json = object([
+            ("sampler", sampler.map(Value::from)),
+            ("source", Some(source.into())),
+        ]);
+        object([
+            ("index", Some(place_of(&mut self.textures, json).into())),
+            (
+                "texCoord",
+                (texture.uv_set != 0).then(|| texture.uv_set.into()),
+            ),
+            number,
+            ("extensions", extensions),
+        ])
     }
 
     fn image(&mut self, image: &Image) -> usize {
-        if let Some(place) = self
-            .known_images
-            .iter()
-            .position(|known| same(known, image))
-        {
+        let mut known = self.known_images.iter();
+        if let Some(place) = known.position(|known| same(known, image)) {
             return place;
         }
         let place = self.images.len();
         self.known_images.push(image.clone());
         self.images.push(match image {
-            Image::File(path) => ImageJson {
-                uri: Some(uri(path)),
-                ..ImageJson::default()
-            },
+            Image::File(path) => json!({ "uri": uri(path) }),
             Image::Embedded { mime, bytes } => {
                 self.pictures.push((place, bytes.clone()));
-                ImageJson {
-                    mime_type: Some(mime.clone()),
-                    ..ImageJson::default()
-                }
+                json!({ "mimeType": mime })
             }
         });
         place
     }
+}
+
+/// A JSON object with the members that have a value.
+fn object<const N: usize>(members: [(&str, Option<Value>); N]) -> Value {
+    let there = members
+        .into_iter()
+        .filter_map(|(key, value)| Some((key.to_owned(), value?)));
+    Value::Object(there.collect())
 }
 
 /// Takes away the textures that are not to be kept; returns how many.
@@ -235,31 +259,33 @@ fn same(a: &Image, b: &Image) -> bool {
     }
 }
 
-fn sampler(sampler: Sampler) -> SamplerJson {
+fn sampler(sampler: Sampler) -> Value {
     use Filter::{Linear, Nearest};
     let wrap = |wrap| match wrap {
         Wrap::Repeat => None,
-        Wrap::Mirror => Some(33648),
-        Wrap::Clamp => Some(33071),
+        Wrap::Mirror => Some(33648.into()),
+        Wrap::Clamp => Some(33071.into()),
     };
     let [wrap_s, wrap_t] = sampler.wrap.map(wrap);
-    SamplerJson {
-        mag_filter: sampler.magnify.map(|filter| match filter {
-            Nearest => 9728,
-            Linear => 9729,
-        }),
-        min_filter: match (sampler.minify, sampler.mipmap) {
-            (None, None) => None,
-            (Some(Nearest), None) => Some(9728),
-            (Some(Linear), None) => Some(9729),
-            (Some(Nearest), Some(Nearest)) => Some(9984),
-            (Some(Linear) | None, Some(Nearest)) => Some(9985),
-            (Some(Nearest), Some(Linear)) => Some(9986),
-            (Some(Linear) | None, Some(Linear)) => Some(9987),
-        },
-        wrap_s,
-        wrap_t,
-    }
+    let magnify = sampler.magnify.map(|filter| match filter {
+        Nearest => 9728,
+        Linear => 9729,
+    });
+    let minify = match (sampler.minify, sampler.mipmap) {
+        (None, None) => None,
+        (Some(Nearest), None) => Some(9728),
+        (Some(Linear), None) => Some(9729),
+        (Some(Nearest), Some(Nearest)) => Some(9984),
+        (Some(Linear) | None, Some(Nearest)) => Some(9985),
+        (Some(Nearest), Some(Linear)) => Some(9986),
+        (Some(Linear) | None, Some(Linear)) => Some(9987),
+    };
+    object([
+        ("magFilter", magnify.map(Value::from)),
+        ("minFilter", minify.map(Value::from)),
+        ("wrapS", wrap_s),
+        ("wrapT", wrap_t),
+    ])
 }
 
 /// The URI of a picture; one with a scheme is one already.
@@ -282,19 +308,11 @@ fn within(x: f64, low: f64, high: f64, changed: &mut usize) -> f64 {
     rounded(inside)
 }
 
-fn place_of<T: PartialEq>(all: &mut Vec<T>, one: T) -> usize {
+fn place_of(all: &mut Vec<Value>, one: Value) -> usize {
     all.iter()
         .position(|known| *known == one)
         .unwrap_or_else(|| {
             all.push(one);
             all.len() - 1
         })
-}
-
-fn values<T: Serialize>(all: &[T]) -> Vec<Value> {
-    all.iter().map(value).collect()
-}
-
-fn value<T: Serialize>(x: &T) -> Value {
-    serde_json::to_value(x).unwrap_or_default()
 }

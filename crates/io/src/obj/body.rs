@@ -5,15 +5,14 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{CORNER_NORMAL, Domain, FaceId, HalfEdgeId, Mesh, UV, VERTEX_NORMAL, Values, VertexId};
-use rayon::prelude::*;
 
 use super::file::NO_MATERIAL;
-use super::library::push_values;
-use super::states::{FaceStates, Library, State, one_word};
-use super::write::{Before, push_name};
+use super::library::{Library, push_name, push_values};
+use super::states::{Before, FaceStates, State, one_word};
 use crate::corners::CornerNumbers;
 use crate::decimal::push_whole;
 use crate::loss::Losses;
+use crate::parallel;
 use crate::save::Block;
 
 /// The vertices, values or faces of a block.
@@ -85,15 +84,11 @@ impl<'a> MeshBody<'a> {
             (normals, numbers(mesh, value, "normal", losses))
         });
         if let Some((Normals::Vertices(normals), _)) = normals {
-            let isolated = (0..mesh.n_vertices()).into_par_iter().filter(|&v| {
+            let isolated = parallel::count(mesh.n_vertices(), |v| {
                 mesh.vertex_half_edge(VertexId::new(v)).is_none() && normals[v] != DVec3::ZERO
             });
-            losses.add(
-                Domain::Vertex,
-                "normal",
-                isolated.count(),
-                "OBJ gives normals to face corners, and isolated vertices have none",
-            );
+            let reason = "OBJ gives normals to face corners, and isolated vertices have none";
+            losses.add(Domain::Vertex, "normal", isolated, reason);
         }
         let states = FaceStates::new(mesh, places, several, losses);
         Self {
@@ -111,8 +106,8 @@ impl<'a> MeshBody<'a> {
     pub(super) fn after(&self) -> Before {
         let mut after = self.before;
         after.counts.positions += self.mesh.n_vertices();
-        after.counts.uvs += self.uvs.as_ref().map_or(0, |(_, n)| n.firsts().len());
-        after.counts.normals += self.normals.as_ref().map_or(0, |(_, n)| n.firsts().len());
+        after.counts.uvs += count(self.uvs.as_ref());
+        after.counts.normals += count(self.normals.as_ref());
         if let Some(last) = self.last_face() {
             let state = self.states.of(last);
             (after.material, after.smoothing) = (state.material, state.smoothing);
@@ -126,9 +121,7 @@ impl<'a> MeshBody<'a> {
 
     /// Adds the text of the mesh.
     pub(super) fn add_blocks(self, blocks: &mut Vec<Block<'a>>) {
-        let count = |numbers: Option<&CornerNumbers>| numbers.map_or(0, |n| n.firsts().len());
-        let n_uvs = count(self.uvs.as_ref().map(|(_, numbers)| numbers));
-        let n_normals = count(self.normals.as_ref().map(|(_, numbers)| numbers));
+        let (n_uvs, n_normals) = (count(self.uvs.as_ref()), count(self.normals.as_ref()));
         let (n_vertices, n_faces) = (self.mesh.n_vertices(), self.mesh.n_faces());
         let body = Arc::new(self);
         let mut add = |n: usize, push: fn(&Self, &mut Vec<u8>, Range<usize>)| {
@@ -142,10 +135,8 @@ impl<'a> MeshBody<'a> {
         add(n_uvs, Self::push_uvs);
         add(n_normals, Self::push_normals);
         add(n_faces, Self::push_faces);
-        if body
-            .last_face()
-            .is_some_and(|last| body.states.is_grouped(last))
-        {
+        let last = body.last_face();
+        if last.is_some_and(|last| body.states.is_grouped(last)) {
             blocks.push(Box::new(|out| out.extend_from_slice(b"g\n")));
         }
     }
@@ -231,9 +222,7 @@ fn push_change(out: &mut Vec<u8>, from: &State, to: &State, library: &Library) {
         out.push(b'\n');
     }
     if to.material != from.material {
-        let name = to
-            .material
-            .map(|place| library.materials[place].name.as_bytes());
+        let name = to.material.map(|m| library.materials[m].name.as_bytes());
         out.extend_from_slice(b"usemtl ");
         out.extend_from_slice(name.unwrap_or(NO_MATERIAL));
         out.push(b'\n');
@@ -246,13 +235,17 @@ fn push_change(out: &mut Vec<u8>, from: &State, to: &State, library: &Library) {
 }
 
 fn lost_colors(colors: &[DVec4], losses: &mut Losses) {
-    let colors = colors.par_iter().with_min_len(BLOCK);
-    let translucent = colors.clone().filter(|color| (color.w - 1.0).abs() > 0.0);
-    let translucent = translucent.count();
-    let broken = colors.filter(|color| !color.truncate().is_finite()).count();
+    let n = colors.len();
+    let translucent = parallel::count(n, |v| (colors[v].w - 1.0).abs() > 0.0);
+    let broken = parallel::count(n, |v| !colors[v].truncate().is_finite());
     let domain = Domain::Vertex;
     losses.add(domain, "color", translucent, "OBJ has no place for alpha");
     losses.add(domain, "color", broken, "not finite: written as 0");
+}
+
+/// How many different values there are.
+fn count<T>(values: Option<&(T, CornerNumbers)>) -> usize {
+    values.map_or(0, |(_, numbers)| numbers.firsts().len())
 }
 
 /// Numbers each different value of a vertex's corners.
@@ -262,26 +255,18 @@ fn numbers<const N: usize>(
     attribute: &str,
     losses: &mut Losses,
 ) -> CornerNumbers {
-    let half_edges = (0..mesh.n_half_edges()).into_par_iter().with_min_len(BLOCK);
-    let broken = half_edges
-        .map(HalfEdgeId::new)
-        .filter(|&h| mesh.face(h).is_some() && value(h).iter().any(|x| !x.is_finite()));
-    let broken = broken.count();
-    losses.add(
-        Domain::Corner,
-        attribute,
-        broken,
-        "not finite: written as 0",
-    );
+    let broken = parallel::count(mesh.n_half_edges(), |h| {
+        let h = HalfEdgeId::new(h);
+        mesh.face(h).is_some() && value(h).iter().any(|x| !x.is_finite())
+    });
+    let reason = "not finite: written as 0";
+    losses.add(Domain::Corner, attribute, broken, reason);
     let bits = |h| finite(value(h)).map(f64::to_bits);
     CornerNumbers::new(mesh, |a, b| bits(a) == bits(b))
 }
 
 /// The values, zero in place of all if one is not finite.
 fn finite<const N: usize>(values: [f64; N]) -> [f64; N] {
-    if values.iter().all(|x| x.is_finite()) {
-        values
-    } else {
-        [0.0; N]
-    }
+    let all = values.iter().all(|x| x.is_finite());
+    if all { values } else { [0.0; N] }
 }

@@ -1,7 +1,7 @@
 //! The corners of faces, lines and points: indices from 1, or back from the last.
 
 use super::file::NONE;
-use crate::error::TextError;
+use crate::fault::Fault;
 use crate::text::{Place, quoted};
 
 /// The number of one kind of thing, of which corners name one.
@@ -49,7 +49,7 @@ pub(super) fn corner(
     word: &[u8],
     now: Counts,
     limits: Limits,
-) -> Result<(Index, Option<Index>, Option<Index>), TextError> {
+) -> Result<(Index, Option<Index>, Option<Index>), Fault> {
     let mut fields = word.splitn(3, |&byte| byte == b'/');
     let [v, vt, vn] = [(); 3].map(|()| fields.next().unwrap_or(b""));
     let read = |field: &[u8], of: fn(Counts) -> usize, noun| {
@@ -61,11 +61,8 @@ pub(super) fn corner(
         index(place, word, field, of(now), limit, noun)
     };
     let optional = |field: &[u8], of, noun| {
-        if field.is_empty() {
-            Ok(None)
-        } else {
-            read(field, of, noun).map(Some)
-        }
+        let given = Some(field).filter(|field| !field.is_empty());
+        given.map(|field| read(field, of, noun)).transpose()
     };
     let position = read(v, |counts| counts.positions, VERTEX)?;
     let uv = optional(vt, |counts| counts.uvs, UV)?;
@@ -82,39 +79,39 @@ fn index(
     count: usize,
     limit: Option<usize>,
     (one, many): Noun,
-) -> Result<Index, TextError> {
+) -> Result<Index, Fault> {
     let Some(written) = integer(field) else {
-        return Err(place.error(format!(
-            "expected a corner such as 1, 1/2, 1//3 or 1/2/3, found {}",
-            quoted(word)
-        )));
+        return Err(place.expected("a corner such as 1, 1/2, 1//3 or 1/2/3", word));
     };
     if written == 0 {
-        return Err(place.error(format!(
-            "indices count from 1, but the corner {} has 0",
-            quoted(word)
-        )));
+        let word = quoted(word);
+        let message = format!("indices count from 1, but the corner {word} has 0");
+        return Err(place.error(message));
     }
     if written < 0 {
         let relative = written + signed(count);
         if relative < 0 && limit.is_some() {
-            return Err(place.error(format!(
+            let message = format!(
                 "the corner refers to {one} {written}, but {count} {many} are defined so far"
-            )));
+            );
+            return Err(place.error(message));
         }
         return Ok(Index::Relative(relative));
     }
     let limit = limit.unwrap_or(NONE as usize);
     match u32::try_from(written - 1) {
         Ok(index) if (index as usize) < limit => Ok(Index::Absolute(index)),
-        _ => Err(place.error(format!(
-            "the corner refers to {one} {written}, but {limit} {many} are defined {}",
-            if limit == NONE as usize {
+        _ => {
+            let so = if limit == NONE as usize {
                 "at most"
             } else {
                 "in the file"
-            }
-        ))),
+            };
+            let message = format!(
+                "the corner refers to {one} {written}, but {limit} {many} are defined {so}"
+            );
+            Err(place.error(message))
+        }
     }
 }
 
@@ -128,13 +125,10 @@ fn integer(field: &[u8]) -> Option<i64> {
     if digits.is_empty() || digits.len() > 18 {
         return None;
     }
-    let mut value = 0_i64;
-    for &byte in digits {
-        if !byte.is_ascii_digit() {
-            return None;
-        }
-        value = 10 * value + i64::from(byte - b'0');
-    }
+    let value = digits.iter().try_fold(0_i64, |value, byte| {
+        let digit = byte.is_ascii_digit().then(|| i64::from(byte - b'0'));
+        digit.map(|digit| 10 * value + digit)
+    })?;
     Some(if negative { -value } else { value })
 }
 

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use bytemuck::Zeroable;
 use glam::DVec4;
-use rayon::prelude::*;
 
 use super::corner::Counts;
-use super::file::{Faces, LeftOut, NONE, ObjFile, Run};
+use super::file::{LeftOut, NONE, ObjFile, Run};
 use super::part::{Indices, Names, Part, PartRun, to_u32};
 use super::statement::LISTED;
+use crate::parallel;
 use crate::text::Place;
 
 /// Whether every index refers to something, and there is not too much of anything.
@@ -57,24 +57,14 @@ pub(super) fn join(mut parts: Vec<Part>) -> ObjFile {
     let corners = before(|part| part.corners.len());
     let line_corners = before(|part| part.line_corners.len());
 
-    file.faces = Faces {
-        offsets: ends(parts.iter_mut().map(|part| &mut part.face_ends), &corners),
-        positions: column(
-            parts.iter_mut().map(|part| &mut part.corners),
-            &positions,
-            &corners,
-        ),
-        uvs: column(
-            parts.iter_mut().map(|part| &mut part.corner_uvs),
-            &uvs,
-            &corners,
-        ),
-        normals: column(
-            parts.iter_mut().map(|part| &mut part.corner_normals),
-            &normals,
-            &corners,
-        ),
-    };
+    let of_faces = parts.iter_mut().map(|part| &mut part.face_ends);
+    file.faces.offsets = ends(of_faces, &corners);
+    let of_corners = parts.iter_mut().map(|part| &mut part.corners);
+    file.faces.positions = column(of_corners, &positions, &corners);
+    let of_corners = parts.iter_mut().map(|part| &mut part.corner_uvs);
+    file.faces.uvs = column(of_corners, &uvs, &corners);
+    let of_corners = parts.iter_mut().map(|part| &mut part.corner_normals);
+    file.faces.normals = column(of_corners, &normals, &corners);
     let ends_of_lines = parts.iter_mut().map(|part| &mut part.line_ends);
     file.line_offsets = ends(ends_of_lines, &line_corners);
     let of_lines = parts.iter_mut().map(|part| &mut part.line_corners);
@@ -117,16 +107,9 @@ where
     P: Send,
 {
     let mut all = mesh::zeroed(starts.last().copied().unwrap_or(0));
-    let mut rest = &mut all[..];
-    let mut tasks = Vec::with_capacity(pieces.len());
-    for (i, piece) in pieces.into_iter().enumerate() {
-        let (room, behind) = rest.split_at_mut(starts[i + 1] - starts[i]);
-        tasks.push((i, room, piece));
-        rest = behind;
-    }
-    tasks
-        .into_par_iter()
-        .for_each(|(i, room, piece)| fill(i, room, piece));
+    let rooms = parallel::parts(&mut all, starts[1..].iter().copied());
+    let tasks = pieces.into_iter().zip(rooms);
+    parallel::consume(tasks, |i, (piece, room)| fill(i, room, piece));
     all
 }
 
@@ -200,10 +183,9 @@ fn states(parts: &[Part], file: &mut ObjFile) {
         let materials = places(&part.materials, &mut materials);
         let mut set_places = Vec::with_capacity(part.group_sets.len());
         for set in &part.group_sets {
-            let mut set: Vec<u32> = set
-                .iter()
-                .filter_map(|&group| groups[group as usize].map(to_u32))
-                .collect();
+            let set = set.iter();
+            let set = set.filter_map(|&group| groups[group as usize].map(to_u32));
+            let mut set: Vec<u32> = set.collect();
             set.sort_unstable();
             let next = file.group_sets.len();
             let place = *sets.entry(set.clone()).or_insert(next);
@@ -216,9 +198,7 @@ fn states(parts: &[Part], file: &mut ObjFile) {
             first_face: first_face + run.first_face,
             groups: run.groups.map_or(before.groups, |set| set_places[set]),
             object: run.object.map_or(before.object, |object| objects[object]),
-            material: run
-                .material
-                .map_or(before.material, |material| materials[material]),
+            material: run.material.map_or(before.material, |m| materials[m]),
             smoothing: run.smoothing.unwrap_or(before.smoothing),
         };
         for run in &part.runs {

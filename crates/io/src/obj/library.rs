@@ -1,19 +1,18 @@
 //! The text of material libraries, and what of a material they have no place for.
 
-use scene::{AlphaMode, Material, Sampler, Texture, TextureTransform};
+use scene::{AlphaMode, Material, Object, Sampler, Texture, TextureTransform};
 
+use super::file::NO_MATERIAL;
 use super::material::alpha_mode;
 use super::states::fit_line;
-use super::write::push_comment;
 use crate::decimal::push_number;
 use crate::loss::Losses;
+use crate::writing::push_comment;
 
 /// The text of a library with these materials. Their names must fit a line.
 pub(super) fn write_library(materials: &[Material], comment: Option<&str>) -> Vec<u8> {
     let mut out = Vec::new();
-    if let Some(comment) = comment {
-        push_comment(&mut out, comment);
-    }
+    push_comment(&mut out, "#", comment);
     for material in materials {
         out.extend_from_slice(format!("newmtl {}\n", material.name).as_bytes());
         let [red, green, blue, alpha] = material.base_color;
@@ -58,7 +57,7 @@ pub(super) fn push_values(out: &mut Vec<u8>, keyword: &str, values: &[f64]) {
 }
 
 /// Says what [`write_library`] does not write of a material.
-pub(super) fn note_losses(material: &Material, losses: &mut Losses) {
+fn note_losses(material: &Material, losses: &mut Losses) {
     let mut lose = |count: bool, what: &str| {
         let reason = format!("MTL has no place for {what} of materials");
         losses.add(None, &material.name, usize::from(count), reason);
@@ -66,22 +65,18 @@ pub(super) fn note_losses(material: &Material, losses: &mut Losses) {
     let is_implied = material.alpha == alpha_mode(material.base_color[3]);
     let cuts = matches!(material.alpha, AlphaMode::Mask(_));
     lose(cuts, "the alpha that cuts away");
-    lose(
-        !cuts && !is_implied,
-        "whether what is behind shines through",
-    );
+    let what = "whether what is behind shines through";
+    lose(!cuts && !is_implied, what);
     lose(material.double_sided, "whether the back is seen");
     lose(material.unlit, "whether light matters");
     lose(material.occlusion_texture.is_some(), "the occlusion");
-    for texture in [
+    let textures = [
         &material.base_color_texture,
         &material.metallic_roughness_texture,
         &material.emissive_texture,
         &material.normal_texture,
-    ]
-    .into_iter()
-    .flatten()
-    {
+    ];
+    for texture in textures.into_iter().flatten() {
         lose(texture.path().is_none(), "embedded pictures");
         let is_renamed = texture.path().is_some_and(|path| fit_line(path) != path);
         lose(is_renamed, "the characters in the name of a picture");
@@ -89,5 +84,54 @@ pub(super) fn note_losses(material: &Material, losses: &mut Losses) {
             && texture.transform == TextureTransform::default()
             && texture.uv_set == 0;
         lose(!is_plain, "how a picture is sampled");
+    }
+}
+
+/// Appends a line of a keyword and a name.
+pub(super) fn push_name(out: &mut Vec<u8>, keyword: &str, name: &str) {
+    out.extend_from_slice(format!("{keyword} {name}\n").as_bytes());
+}
+
+/// The materials of all objects. Their names are different and fit a line.
+#[derive(Default)]
+pub(super) struct Library {
+    pub(super) materials: Vec<Material>,
+    /// For each object, for each of its materials, its place in `materials`.
+    pub(super) places: Vec<Vec<usize>>,
+}
+
+impl Library {
+    pub(super) fn add(&mut self, object: &Object, losses: &mut Losses) {
+        let materials = object.materials.iter();
+        let places = materials
+            .map(|material| self.place(material, losses))
+            .collect();
+        self.places.push(places);
+    }
+
+    /// Objects share a material if all of it is the same; a second one of a name gets another name.
+    fn place(&mut self, material: &Material, losses: &mut Losses) -> usize {
+        let mut base = fit_line(&material.name).into_owned();
+        if base.is_empty() || base.as_bytes() == NO_MATERIAL {
+            "unnamed".clone_into(&mut base);
+        }
+        let mut new = Material {
+            name: base.clone(),
+            ..material.clone()
+        };
+        for suffix in 2.. {
+            let is_it = |known: &Material| known.name == new.name;
+            match self.materials.iter().position(is_it) {
+                None => break,
+                Some(place) if self.materials[place] == new => return place,
+                Some(_) => new.name = format!("{base}_{suffix}"),
+            }
+        }
+        let renamed = usize::from(new.name != material.name);
+        let reason = format!("material is written as `{}`", new.name);
+        losses.add(None, &material.name, renamed, reason);
+        note_losses(material, losses);
+        self.materials.push(new);
+        self.materials.len() - 1
     }
 }

@@ -1,15 +1,14 @@
 //! MTL, the material libraries of OBJ files. `tobj` reads the statements.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use scene::{AlphaMode, Material, Texture};
 use tobj::LoadError;
 
 use super::file::ObjFile;
 use super::picture::Picture;
-use crate::asset_path::{folder_of, inside, read_beside};
-use crate::error::ReadError;
+use crate::assets::{Assets, inside};
+use crate::fault::Fault;
 use crate::note::Notes;
 use crate::text::{check_encoding, name, quoted};
 
@@ -25,12 +24,12 @@ const LONGEST_PATH: usize = 1024;
 ///
 /// # Errors
 ///
-/// If a library's path leaves the folder of `path`. A missing library is a note.
+/// If a library's path leaves the folder of the file. A missing library is a note.
 pub(super) fn read_libraries(
-    path: &Path,
+    assets: &mut Assets,
     file: &ObjFile,
     notes: &mut Notes,
-) -> Result<Vec<Material>, ReadError> {
+) -> Result<Vec<Material>, Fault> {
     let mut materials: Vec<Material> = Vec::new();
     let mut known = BTreeSet::new();
     let mut libraries = BTreeSet::new();
@@ -38,22 +37,21 @@ pub(super) fn read_libraries(
     let mut room = LARGEST;
     for (place, words) in &file.libraries {
         let most = MOST_NAMES - n_names;
-        let (names, rest) = library_names(words, folder_of(path), most, notes);
+        let (names, rest) = library_names(words, most, assets);
         n_names += names.len();
         further += rest;
         for library in &names {
             let relative = inside(library).map_err(|why| {
                 let message = format!("the material library {} {why}", quoted(library.as_bytes()));
-                place.error(message).in_file(path)
+                place.error(message)
             })?;
             if !libraries.insert(relative.clone()) {
                 continue;
             }
-            notes.has_read(folder_of(path).join(&relative));
-            match read_beside(path, &relative, room) {
+            match assets.read(&relative, room) {
                 Ok(bytes) => {
                     room -= bytes.len() as u64;
-                    let mut library_notes = Notes::of(&folder_of(path).join(&relative));
+                    let mut library_notes = Notes::of(&assets.place(&relative));
                     for material in read_library(&bytes, &mut library_notes) {
                         if known.insert(material.name.clone()) {
                             materials.push(material);
@@ -64,19 +62,15 @@ pub(super) fn read_libraries(
                     }
                     notes.append(library_notes);
                 }
-                Err(error) => notes.left_out(
-                    1,
-                    place.line,
-                    format!("material library `{library}` left out: {error}"),
-                ),
+                Err(error) => {
+                    let what = format!("material library `{library}` left out: {error}");
+                    notes.left_out(1, place.line, what);
+                }
             }
         }
     }
-    notes.left_out(
-        further,
-        None,
-        "names of further material libraries left out",
-    );
+    let what = "names of further material libraries left out";
+    notes.left_out(further, None, what);
     for wanted in &file.material_names {
         if known.insert(wanted.clone()) {
             let what = format!("material `{wanted}` is in no library: taken as plain white");
@@ -89,20 +83,11 @@ pub(super) fn read_libraries(
 
 /// The names on an `mtllib` line: in quotes, or several words that are one file, or single words. At most so many,
 /// and how many words are behind them.
-fn library_names(
-    words: &str,
-    folder: &Path,
-    most: usize,
-    notes: &mut Notes,
-) -> (Vec<String>, usize) {
+fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>, usize) {
     let mut is_file = |name: &str| {
         let short = Some(name).filter(|name| name.len() <= LONGEST_PATH);
-        let path = short.and_then(|name| Some(folder.join(inside(name).ok()?)));
-        path.is_some_and(|path| {
-            let is_there = path.is_file();
-            notes.has_looked_for(path);
-            is_there
-        })
+        let inside = short.and_then(|name| inside(name).ok());
+        inside.is_some_and(|name| assets.has(&name))
     };
     let mut names = Vec::new();
     let mut rest = words.trim();
@@ -142,10 +127,8 @@ fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
     }
     let materials = statements(&without_broken_lines(&text, notes)).unwrap_or_default();
     let mut ignored = Ignored::default();
-    let materials = materials
-        .into_iter()
-        .map(|m| converted(m, &mut ignored))
-        .collect();
+    let materials = materials.into_iter().map(|m| converted(m, &mut ignored));
+    let materials = materials.collect();
     notes.left_out(ignored.0, None, "values of materials left out: only color (Kd), alpha (d, Tr), roughness (Pr), metalness (Pm), light (Ke) and the pictures of color, light, both Pr and Pm, and normals (norm) are kept");
     materials
 }
@@ -241,9 +224,8 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     let [red, green, blue] = from.diffuse.unwrap_or([1.0; 3]).map(|x| unit(x, 1.0));
     let alpha = from.dissolve.or(transparency.map(|t| 1.0 - t));
     let alpha = unit(alpha.unwrap_or(1.0), 1.0);
-    let lit = from
-        .emissive
-        .or(emissive_texture.is_some().then_some([1.0; 3]));
+    let default = emissive_texture.is_some().then_some([1.0; 3]);
+    let lit = from.emissive.or(default);
     let (emissive, emissive_strength) = light(lit.unwrap_or_default());
     Material {
         base_color: [red, green, blue, alpha],
@@ -294,7 +276,7 @@ mod tests {
     use super::*;
 
     fn read(bytes: &[u8]) -> (Vec<Material>, Vec<crate::Note>) {
-        let mut notes = Notes::of(Path::new("a.mtl"));
+        let mut notes = Notes::of("a.mtl".as_ref());
         let materials = read_library(bytes, &mut notes);
         (materials, notes.into_vec())
     }

@@ -17,6 +17,20 @@
 //!
 //! The writer takes the same table from right to left, so that what was read is written and what was
 //! written is read.
+//!
+//! Where what is done:
+//!
+//! | | |
+//! | --- | --- |
+//! | `read` | from a file to polygons, with their attributes |
+//! | `parse` | cuts the text into parts, which all threads read |
+//! | `statement` | reads a statement: `face` for `f`, `vertex` for `v`, `group` for `g` ... |
+//! | `usual` | reads the usual `v`, `vt`, `vn`, `f` faster |
+//! | `corner` | reads a corner such as `1/2/3` |
+//! | `part`, `join`, `file` | what a part holds, and all parts as one |
+//! | `material`, `picture` | reads material libraries |
+//! | `peek` | counts |
+//! | `write`, `body`, `states`, `library` | writes: the file, a mesh, groups and materials of faces, the library |
 
 mod body;
 mod corner;
@@ -25,6 +39,7 @@ mod join;
 mod library;
 mod material;
 mod parse;
+mod parser;
 mod part;
 mod peek;
 mod picture;
@@ -37,6 +52,3 @@ mod write;
 pub(crate) use peek::peek;
 pub(crate) use read::read;
 pub(crate) use write::write;
-
-/// What the tag of an object's name begins with.
-const OBJECT_TAG: &str = "o:";

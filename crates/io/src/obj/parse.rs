@@ -1,14 +1,13 @@
 //! Reading an OBJ file in parts, at the same time.
 
-use rayon::prelude::*;
-
 use super::corner::{Counts, Limits};
 use super::file::{LeftOut, ObjFile};
 use super::join::{fits, join};
 use super::part::Part;
 use super::statement::{read_part, read_whole};
-use crate::error::TextError;
-use crate::text::{check_encoding, quoted};
+use crate::fault::Fault;
+use crate::parallel;
+use crate::text::{Place, check_encoding, quoted};
 
 /// How many bytes a part has, as nearly as lines allow. Its arrays stay in the cache of a core.
 pub(super) const PART: usize = 256 << 10;
@@ -19,17 +18,14 @@ pub(super) const PART: usize = 256 << 10;
 ///
 /// The first line that breaks the rules of the format. If there is none: the first index that refers to
 /// nothing.
-pub(super) fn parse(bytes: &[u8]) -> Result<ObjFile, TextError> {
+pub(super) fn parse(bytes: &[u8]) -> Result<ObjFile, Fault> {
     check_encoding(bytes)?;
     parse_in_parts(bytes, PART)
 }
 
-fn parse_in_parts(bytes: &[u8], size: usize) -> Result<ObjFile, TextError> {
-    let parts: Option<Vec<Part>> = cut(bytes, size)
-        .into_par_iter()
-        .enumerate()
-        .map(|(i, part)| read_part(part, i == 0).ok())
-        .collect();
+fn parse_in_parts(bytes: &[u8], size: usize) -> Result<ObjFile, Fault> {
+    let parts = parallel::consume(cut(bytes, size), |i, part| read_part(part, i == 0).ok());
+    let parts: Option<Vec<Part>> = parts.into_iter().collect();
     let parts = match parts.filter(|parts| fits(parts)) {
         Some(parts) => parts,
         None => vec![parse_whole(bytes)?],
@@ -42,7 +38,7 @@ fn parse_in_parts(bytes: &[u8], size: usize) -> Result<ObjFile, TextError> {
 }
 
 /// Reads a file that is not to be read in parts: to say what is wrong with it, as a rule.
-fn parse_whole(bytes: &[u8]) -> Result<Part, TextError> {
+fn parse_whole(bytes: &[u8]) -> Result<Part, Fault> {
     let part = read_whole(bytes, Limits::Start)?;
     if fits(std::slice::from_ref(&part)) {
         return Ok(part);
@@ -55,21 +51,17 @@ fn parse_whole(bytes: &[u8]) -> Result<Part, TextError> {
 }
 
 /// Why the file is none of this format, if no vertex is defined.
-fn first_unknown(file: &ObjFile) -> Option<TextError> {
+fn first_unknown(file: &ObjFile) -> Option<Fault> {
     let unknown = |(what, &(_, line)): (&LeftOut, &(usize, usize))| match what {
         LeftOut::Unknown(word) => Some((line, word.clone())),
         _ => None,
     };
     let (line, word) = file.left_out.iter().filter_map(unknown).min()?;
+    let word = quoted(word.as_bytes());
     let message = format!(
-        "expected a statement of an OBJ file, found {}, and the file defines no vertex",
-        quoted(word.as_bytes())
+        "expected a statement of an OBJ file, found {word}, and the file defines no vertex"
     );
-    Some(TextError {
-        line,
-        column: 1,
-        message,
-    })
+    Some(Place { line, column: 1 }.error(message))
 }
 
 /// Cuts a text into parts of about `size` bytes: each but the last ends with a line that is not continued.

@@ -1,9 +1,8 @@
 //! Counting the statements of an OBJ file without keeping them.
 
-use rayon::prelude::*;
-
 use super::file::NO_MATERIAL;
 use super::parse::{PART, cut};
+use crate::parallel;
 use crate::peek::{PeekGeometry, PeekMesh};
 use crate::text::Cursor;
 
@@ -13,9 +12,7 @@ pub(crate) fn peek(bytes: &[u8]) -> PeekGeometry {
 }
 
 fn peek_in_parts(bytes: &[u8], size: usize) -> PeekGeometry {
-    let parts: Vec<Counts> = (cut(bytes, size).into_par_iter())
-        .map(Counts::of_part)
-        .collect();
+    let parts = parallel::consume(cut(bytes, size), |_, part| Counts::of_part(part));
     let mut all = Counts::default();
     for part in parts {
         all.add(&part);

@@ -21,11 +21,8 @@ impl Picture {
         let (mut multiplier, mut n_options) = (None, 0);
         while let Some((option, behind)) = cut_option(rest) {
             if option == "-bm" {
-                multiplier = cut_word(behind)
-                    .0
-                    .parse()
-                    .ok()
-                    .filter(|m: &f64| m.is_finite());
+                let number = cut_word(behind).0.parse().ok();
+                multiplier = number.filter(|m: &f64| m.is_finite());
             } else {
                 n_options += 1;
             }

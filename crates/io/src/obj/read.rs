@@ -2,55 +2,41 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
 
 use bytemuck::Zeroable;
 use glam::DVec3;
 use mesh::{CORNER_NORMAL, Column, Domain, Rule, UV, Values};
-use rayon::prelude::*;
 use scene::{Geometry, Material};
 
-use super::OBJECT_TAG;
 use super::file::{LeftOut, NONE, ObjFile, Run};
 use super::material::read_libraries;
 use super::parse::parse;
-use crate::error::ReadError;
+use crate::assets::Assets;
+use crate::fault::Fault;
 use crate::note::Notes;
-use crate::{Found, Polygons};
+use crate::polygons::{OBJECT_TAG, most_tags};
+use crate::{Polygons, Shape, parallel};
 
-/// Tags take a byte for each face. Groups and objects beyond this many bytes are left out.
-const MOST_TAG_BYTES: usize = 1 << 28;
-/// Groups and objects beyond this number are left out.
-const MOST_TAGS: usize = 4096;
-
-/// Reads an OBJ file from its bytes; `path` is where its material libraries are looked for.
+/// Reads an OBJ file from its bytes, and the material libraries beside it.
 ///
 /// # Errors
 ///
 /// The first line that breaks the rules of the format.
-pub(crate) fn read(
-    path: &Path,
-    bytes: &[u8],
-    name: String,
-    notes: &mut Notes,
-) -> Result<Found, ReadError> {
-    let mut file = parse(bytes).map_err(|error| error.in_file(path))?;
+pub(crate) fn read(bytes: &[u8], assets: &mut Assets, notes: &mut Notes) -> Result<Shape, Fault> {
+    let mut file = parse(bytes)?;
     note_left_out(&file, notes);
     take_paint(&mut file, notes);
     let n_lines = file.line_offsets.len() - 1;
     if file.faces.len() == 0 && n_lines > 0 {
         let lines = polylines(&file, notes);
-        return Ok(Found::other(name, Geometry::Polylines(lines)));
+        return Ok(Shape::Other(Geometry::Polylines(lines)));
     }
-    notes.left_out(
-        n_lines,
-        None,
-        "polylines (`l`) left out: the object is a mesh",
-    );
-    let materials = read_libraries(path, &file, notes)?;
-    Ok(Found::polygons(name, polygons(file, materials, notes)))
+    let what = "polylines (`l`) left out: the object is a mesh";
+    notes.left_out(n_lines, None, what);
+    let materials = read_libraries(assets, &file, notes)?;
+    Ok(Shape::Polygons(polygons(file, materials, notes)))
 }
 
 /// Makes colors of vertices of what comments of `ZBrush` say.
@@ -101,31 +87,19 @@ fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> P
         polygons.insert_vertices(mesh::COLOR, std::mem::take(&mut file.colors));
     }
     let faces = &file.faces;
-    notes.left_out(
-        unused(file.uvs.len(), &faces.uvs),
-        None,
-        "texture coordinates (`vt`) left out: no face uses them",
-    );
-    notes.left_out(
-        unused(file.normals.len(), &faces.normals),
-        None,
-        "normals (`vn`) left out: no face uses them",
-    );
+    let what = "texture coordinates (`vt`) left out: no face uses them";
+    notes.left_out(unused(file.uvs.len(), &faces.uvs), None, what);
+    let what = "normals (`vn`) left out: no face uses them";
+    notes.left_out(unused(file.normals.len(), &faces.normals), None, what);
     if !faces.uvs.is_empty() {
         polygons.insert_corners(UV, values(&file.uvs, &faces.uvs));
-        notes.changed(
-            missing(&faces.uvs),
-            None,
-            "face corners without texture coordinate: taken as 0 0",
-        );
+        let what = "face corners without texture coordinate: taken as 0 0";
+        notes.changed(missing(&faces.uvs), None, what);
     }
     if !faces.normals.is_empty() {
         polygons.insert_corners(CORNER_NORMAL, values(&file.normals, &faces.normals));
-        notes.changed(
-            missing(&faces.normals),
-            None,
-            "face corners without normal: taken as 0 0 0",
-        );
+        let what = "face corners without normal: taken as 0 0 0";
+        notes.changed(missing(&faces.normals), None, what);
     }
     set_materials(&mut polygons, &file, &materials);
     if file.runs.iter().any(|run| run.smoothing != 0) {
@@ -137,32 +111,26 @@ fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> P
     polygons
 }
 
-/// Smaller pieces are not worth the trouble of dividing them among threads.
-const MIN_TASK: usize = 1 << 14;
-
 /// The value of each index, zero for [`NONE`].
 fn values<T: Copy + Send + Sync + Zeroable>(values: &[T], indices: &[u32]) -> Vec<T> {
-    let mut all = mesh::zeroed(indices.len());
-    let places = all.par_iter_mut().zip(indices).with_min_len(MIN_TASK);
-    places.for_each(|(value, &index)| {
-        if index != NONE {
-            *value = values[index as usize];
-        }
-    });
-    all
+    parallel::collect(indices.len(), |i| match indices[i] {
+        NONE => T::zeroed(),
+        index => values[index as usize],
+    })
 }
 
 fn missing(indices: &[u32]) -> usize {
-    let indices = indices.par_iter().with_min_len(MIN_TASK);
-    indices.filter(|&&index| index == NONE).count()
+    parallel::count(indices.len(), |i| indices[i] == NONE)
 }
 
 /// How many of `n` no index names.
 fn unused(n: usize, indices: &[u32]) -> usize {
     let used: Vec<AtomicBool> = (0..n).map(|_| AtomicBool::new(false)).collect();
-    let indices = indices.par_iter().with_min_len(MIN_TASK);
-    let named = indices.filter(|&&index| index != NONE);
-    named.for_each(|&index| used[index as usize].store(true, Relaxed));
+    parallel::blocks(indices.len(), |block| {
+        for &index in indices[block].iter().filter(|&&index| index != NONE) {
+            used[index as usize].store(true, Relaxed);
+        }
+    });
     used.iter().filter(|used| !used.load(Relaxed)).count()
 }
 
@@ -192,11 +160,8 @@ fn set_materials(polygons: &mut Polygons, file: &ObjFile, materials: &[Material]
     if file.runs.iter().all(|run| run.material.is_none()) {
         return;
     }
-    let by_name: BTreeMap<&str, i32> = materials
-        .iter()
-        .zip(0..)
-        .map(|(material, place)| (material.name.as_str(), place))
-        .collect();
+    let names = materials.iter().map(|material| material.name.as_str());
+    let by_name: BTreeMap<&str, i32> = names.zip(0..).collect();
     let place_of = |name: &String| by_name.get(name.as_str()).copied().unwrap_or(-1);
     let places: Vec<i32> = file.material_names.iter().map(place_of).collect();
     let of_run = |run: &Run| run.material.map_or(-1, |m| places[m]);
@@ -206,23 +171,16 @@ fn set_materials(polygons: &mut Polygons, file: &ObjFile, materials: &[Material]
 
 fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     let n_faces = polygons.n_faces();
-    let room = MOST_TAGS.min(MOST_TAG_BYTES / n_faces.max(1));
-    let too_many = |n: usize| n.saturating_sub(room);
     let objects = file.object_names.len();
-    let groups = file.group_names.len();
-    let left_out = too_many(objects + groups);
-    notes.left_out(
-        left_out,
-        None,
-        "groups and objects left out: too many for a mesh of this size",
-    );
-    let n_columns = objects + groups - left_out;
+    let n = objects + file.group_names.len();
+    let n_columns = n.min(most_tags(n_faces));
+    let what = "groups and objects left out: too many for a mesh of this size";
+    notes.left_out(n - n_columns, None, what);
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];
     // Objects come first: they matter more where not all fit.
     for (i, run) in file.runs.iter().enumerate() {
-        let of_groups = file.group_sets[run.groups]
-            .iter()
-            .map(|&g| objects + g as usize);
+        let groups = file.group_sets[run.groups].iter();
+        let of_groups = groups.map(|&g| objects + g as usize);
         // Sets are in order: nothing is looked at behind the first group that is left out.
         let of_groups = of_groups.take_while(|&column| column < n_columns);
         for column in run.object.into_iter().chain(of_groups) {
@@ -231,10 +189,8 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
             }
         }
     }
-    let object_tags = file
-        .object_names
-        .iter()
-        .map(|name| format!("{OBJECT_TAG}{name}"));
+    let tag = |name: &String| format!("{OBJECT_TAG}{name}");
+    let object_tags = file.object_names.iter().map(tag);
     let names = object_tags.chain(file.group_names.iter().cloned());
     let mut without_faces = 0;
     for (name, mut marks) in names.zip(columns) {
@@ -255,44 +211,39 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
                 name
             }
             Some(_) => {
-                notes.changed(
-                    1,
-                    None,
-                    format!("group `{name}` is now called `{name} group`: the name is taken"),
-                );
+                let what =
+                    format!("group `{name}` is now called `{name} group`: the name is taken");
+                notes.changed(1, None, what);
                 format!("{name} group")
             }
         };
         polygons.insert(Domain::Face, name, Rule::Copy, marks);
     }
-    notes.left_out(
-        without_faces,
-        None,
-        "groups and objects left out: they have no faces",
-    );
+    let what = "groups and objects left out: they have no faces";
+    notes.left_out(without_faces, None, what);
 }
 
 fn note_left_out(file: &ObjFile, notes: &mut Notes) {
     for (what, &(count, line)) in &file.left_out {
         let text = match what {
-            LeftOut::Statement(keyword) => format!("statements `{keyword}` left out: not polygons"),
-            LeftOut::Unknown(word) => {
-                format!(
-                    "lines left out: `{}` is no known statement",
-                    word.escape_debug()
-                )
+            LeftOut::Statement(keyword) => {
+                &format!("statements `{keyword}` left out: not polygons")
             }
-            LeftOut::OtherUnknown => "lines with other unknown statements left out".to_owned(),
-            LeftOut::Points => "points (`p`) left out".to_owned(),
-            LeftOut::SmallFaces => "faces with fewer than 3 corners left out".to_owned(),
-            LeftOut::Weights => "weights of vertices other than 1 left out".to_owned(),
+            LeftOut::Unknown(word) => {
+                let word = word.escape_debug();
+                &format!("lines left out: `{word}` is no known statement")
+            }
+            LeftOut::OtherUnknown => "lines with other unknown statements left out",
+            LeftOut::Points => "points (`p`) left out",
+            LeftOut::SmallFaces => "faces with fewer than 3 corners left out",
+            LeftOut::Weights => "weights of vertices other than 1 left out",
+            LeftOut::Depths => "third texture coordinates other than 0 left out",
             LeftOut::NotFinite => {
                 let what =
                     "numbers of texture coordinates and normals that are not finite: taken as 0";
                 notes.changed(count, line, what);
                 continue;
             }
-            LeftOut::Depths => "third texture coordinates other than 0 left out".to_owned(),
         };
         notes.left_out(count, line, text);
     }

@@ -1,14 +1,13 @@
 //! Reading the statements of an OBJ file, or of a part of it.
 
-use std::collections::BTreeMap;
-
 use glam::{DVec2, DVec3, DVec4};
 
 use super::corner::{Index, Limits, corner};
 use super::file::{LeftOut, NO_MATERIAL, NONE};
-use super::part::{Part, PartRun, to_u32};
-use crate::error::TextError;
-use crate::text::{Cursor, Place, is_not_finite, name, number, quoted};
+use super::parser::Parser;
+use super::part::{Part, to_u32};
+use crate::fault::Fault;
+use crate::text::{Cursor, Place, is_not_finite, name, number, parsed};
 
 /// What comments with colors of vertices begin with.
 const PAINT: &[u8] = b"#MRGB ";
@@ -21,7 +20,7 @@ pub(super) const LISTED: usize = 8;
 /// # Errors
 ///
 /// The first line that breaks the rules of the format, or has one unknown word too many to list them.
-pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, TextError> {
+pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, Fault> {
     let cursor = if is_first {
         Cursor::new(bytes)
     } else {
@@ -35,32 +34,12 @@ pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, TextError>
 /// # Errors
 ///
 /// The first line that breaks the rules of the format.
-pub(super) fn read_whole(bytes: &[u8], limits: Limits) -> Result<Part, TextError> {
+pub(super) fn read_whole(bytes: &[u8], limits: Limits) -> Result<Part, Fault> {
     Parser::new(Cursor::new(bytes), limits).run()
 }
 
-/// Reads statements one after the other.
-pub(super) struct Parser<'a> {
-    pub(super) cursor: Cursor<'a>,
-    pub(super) part: Part,
-    pub(super) limits: Limits,
-    /// What was said last, for the faces that follow.
-    now: PartRun,
-    sets: BTreeMap<Vec<u32>, usize>,
-}
-
-impl<'a> Parser<'a> {
-    fn new(cursor: Cursor<'a>, limits: Limits) -> Self {
-        Self {
-            cursor,
-            part: Part::default(),
-            limits,
-            now: PartRun::default(),
-            sets: BTreeMap::new(),
-        }
-    }
-
-    fn run(mut self) -> Result<Part, TextError> {
+impl Parser<'_> {
+    fn run(mut self) -> Result<Part, Fault> {
         let is_part = matches!(self.limits, Limits::Part);
         while !self.cursor.is_at_end() {
             if is_part && self.usual_line() {
@@ -78,7 +57,7 @@ impl<'a> Parser<'a> {
         Ok(self.part)
     }
 
-    fn statement(&mut self, place: Place, keyword: &[u8]) -> Result<(), TextError> {
+    fn statement(&mut self, place: Place, keyword: &[u8]) -> Result<(), Fault> {
         match keyword {
             b"v" => self.vertex(place)?,
             b"vt" => self.uv(place)?,
@@ -105,7 +84,8 @@ impl<'a> Parser<'a> {
             b"s" => return self.smoothing(place),
             _ => {
                 let word = name(&keyword[..keyword.len().min(40)]);
-                let what = if OTHER_STATEMENTS.contains(&word.as_str()) {
+                let is_it = |statement: &str| statement == word;
+                let what = if OTHER_STATEMENTS.split(' ').any(is_it) {
                     LeftOut::Statement(word)
                 } else {
                     self.unknown(place, word)?
@@ -118,12 +98,11 @@ impl<'a> Parser<'a> {
 
     /// Binary data may hold any number of different words: only a few are listed by name, the first of
     /// the file, and which these are a part cannot know.
-    fn unknown(&self, place: Place, word: String) -> Result<LeftOut, TextError> {
+    fn unknown(&self, place: Place, word: String) -> Result<LeftOut, Fault> {
         let key = LeftOut::Unknown(word);
         let known = &self.part.left_out;
-        let listed = known
-            .keys()
-            .filter(|key| matches!(key, LeftOut::Unknown(_)));
+        let unknown = |key: &&LeftOut| matches!(key, LeftOut::Unknown(_));
+        let listed = known.keys().filter(unknown);
         if known.contains_key(&key) || listed.count() < LISTED {
             Ok(key)
         } else if let Limits::Part = self.limits {
@@ -141,7 +120,7 @@ impl<'a> Parser<'a> {
 
     // ---- Vertices, texture coordinates, normals ------------------------------------------------
 
-    fn vertex(&mut self, place: Place) -> Result<(), TextError> {
+    fn vertex(&mut self, place: Place) -> Result<(), Fault> {
         let (values, n) = self.numbers::<7>("v", place)?;
         let [x, y, z, rest @ ..] = values;
         let color = match n {
@@ -154,10 +133,11 @@ impl<'a> Parser<'a> {
             6 => Some(DVec4::new(rest[0], rest[1], rest[2], 1.0)),
             7 => Some(DVec4::from_array(rest)),
             _ => {
-                return Err(place.error(format!(
+                let message = format!(
                     "expected a vertex as 3 coordinates, or with a weight (4), a color (6) or a \
                      color and alpha (7), found {n} numbers"
-                )));
+                );
+                return Err(place.error(message));
             }
         };
         below_none(place, self.part.positions.len(), "vertices")?;
@@ -165,7 +145,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn uv(&mut self, place: Place) -> Result<(), TextError> {
+    fn uv(&mut self, place: Place) -> Result<(), Fault> {
         let ([u, v, w], n) = self.numbers::<3>("vt", place)?;
         if n == 0 {
             return Err(place.error("expected 1 to 3 texture coordinates, found none"));
@@ -176,7 +156,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn normal(&mut self, place: Place) -> Result<(), TextError> {
+    fn normal(&mut self, place: Place) -> Result<(), Fault> {
         let (values, n) = self.numbers::<3>("vn", place)?;
         if n != 3 {
             return Err(place.error(format!("expected 3 coordinates of a normal, found {n}")));
@@ -191,14 +171,13 @@ impl<'a> Parser<'a> {
         &mut self,
         keyword: &str,
         start: Place,
-    ) -> Result<([f64; N], usize), TextError> {
+    ) -> Result<([f64; N], usize), Fault> {
         let mut values = [0.0; N];
         let mut n = 0;
         while let Some((place, word)) = self.cursor.argument() {
             let Some(value) = values.get_mut(n) else {
-                return Err(start.error(format!(
-                    "expected at most {N} numbers after `{keyword}`, found more"
-                )));
+                let message = format!("expected at most {N} numbers after `{keyword}`, found more");
+                return Err(start.error(message));
             };
             *value = if keyword != "v" && is_not_finite(word) {
                 self.leave_out(place, 1, LeftOut::NotFinite);
@@ -215,17 +194,17 @@ impl<'a> Parser<'a> {
     fn paint(&mut self) {
         let digits = self.cursor.ahead()[PAINT.len()..].trim_ascii_start();
         for digits in digits.chunks_exact(8) {
-            let value = std::str::from_utf8(digits)
-                .ok()
-                .and_then(|digits| u32::from_str_radix(digits, 16).ok());
-            let Some(value) = value else { break };
+            let digits = std::str::from_utf8(digits).unwrap_or_default();
+            let Ok(value) = u32::from_str_radix(digits, 16) else {
+                break;
+            };
             self.part.painted.push(value);
         }
     }
 
     // ---- Faces, lines, points ------------------------------------------------------------------
 
-    fn face(&mut self, start: Place) -> Result<(), TextError> {
+    fn face(&mut self, start: Place) -> Result<(), Fault> {
         let before = self.part.corners.len();
         let had = self.columns();
         while let Some((place, word)) = self.cursor.argument() {
@@ -245,30 +224,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// Whether any corner so far has texture coordinates, and a normal.
-    pub(super) fn columns(&self) -> [bool; 2] {
-        [&self.part.corner_uvs, &self.part.corner_normals].map(|column| column.len() > 0)
-    }
-
-    /// Makes a face of the last corners.
-    pub(super) fn end_face(&mut self) {
-        let run = PartRun {
-            first_face: self.part.face_ends.len(),
-            ..self.now
-        };
-        self.part.face_ends.push(to_u32(self.part.corners.len()));
-        let differs = |last: &PartRun| {
-            run != PartRun {
-                first_face: run.first_face,
-                ..*last
-            }
-        };
-        if self.part.runs.last().is_none_or(differs) {
-            self.part.runs.push(run);
-        }
-    }
-
-    fn line(&mut self, start: Place) -> Result<(), TextError> {
+    fn line(&mut self, start: Place) -> Result<(), Fault> {
         let before = self.part.line_corners.len();
         while let Some((place, word)) = self.cursor.argument() {
             let (position, ..) = self.corner(place, word)?;
@@ -276,17 +232,16 @@ impl<'a> Parser<'a> {
             self.part.line_corners.push(position);
         }
         let end = self.part.line_corners.len();
-        if end - before < 2 {
-            return Err(start.error(format!(
-                "expected a line of at least 2 vertices, found {}",
-                end - before
-            )));
+        let n = end - before;
+        if n < 2 {
+            let message = format!("expected a line of at least 2 vertices, found {n}");
+            return Err(start.error(message));
         }
         self.part.line_ends.push(to_u32(end));
         Ok(())
     }
 
-    fn points(&mut self, start: Place) -> Result<(), TextError> {
+    fn points(&mut self, start: Place) -> Result<(), Fault> {
         let mut n = 0;
         while let Some((place, word)) = self.cursor.argument() {
             self.corner(place, word)?;
@@ -300,7 +255,7 @@ impl<'a> Parser<'a> {
         &mut self,
         place: Place,
         word: &[u8],
-    ) -> Result<(Index, Option<Index>, Option<Index>), TextError> {
+    ) -> Result<(Index, Option<Index>, Option<Index>), Fault> {
         let corner = corner(place, word, self.part.counts(), self.limits)?;
         self.part.look_at(corner.0, corner.1, corner.2);
         Ok(corner)
@@ -323,21 +278,15 @@ impl<'a> Parser<'a> {
         self.now.groups = Some(place);
     }
 
-    fn smoothing(&mut self, start: Place) -> Result<(), TextError> {
+    fn smoothing(&mut self, start: Place) -> Result<(), Fault> {
         let (place, word) = self.cursor.argument().unwrap_or((start, b""));
         let group = match word {
             b"off" => 0,
             b"on" => 1,
             _ => {
-                let parsed = std::str::from_utf8(word)
-                    .ok()
-                    .and_then(|text| text.parse().ok());
-                parsed.filter(|&group: &i32| group >= 0).ok_or_else(|| {
-                    place.error(format!(
-                        "expected a smoothing group, a whole number or `off`, found {}",
-                        quoted(word)
-                    ))
-                })?
+                let group = parsed(word).filter(|&group: &i32| group >= 0);
+                let what = "a smoothing group, a whole number or `off`";
+                group.ok_or_else(|| place.expected(what, word))?
             }
         };
         self.now.smoothing = Some(group);
@@ -345,7 +294,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-fn below_none(place: Place, count: usize, what: &str) -> Result<(), TextError> {
+fn below_none(place: Place, count: usize, what: &str) -> Result<(), Fault> {
     if count >= NONE as usize {
         return Err(place.error(format!("expected fewer than {NONE} {what}")));
     }
@@ -358,38 +307,5 @@ fn is_exactly(x: f64, value: f64) -> bool {
 
 /// Statements of the format that say nothing about polygons: free-form curves and surfaces, display
 /// attributes, and calls of other files.
-const OTHER_STATEMENTS: [&str; 33] = [
-    "vp",
-    "deg",
-    "bmat",
-    "step",
-    "cstype",
-    "curv",
-    "curv2",
-    "surf",
-    "parm",
-    "trim",
-    "hole",
-    "scrv",
-    "sp",
-    "end",
-    "con",
-    "mg",
-    "bevel",
-    "c_interp",
-    "d_interp",
-    "lod",
-    "shadow_obj",
-    "trace_obj",
-    "ctech",
-    "stech",
-    "usemap",
-    "maplib",
-    "call",
-    "csh",
-    "bsp",
-    "bzp",
-    "cdc",
-    "cdp",
-    "res",
-];
+const OTHER_STATEMENTS: &str = "vp deg bmat step cstype curv curv2 surf parm trim hole scrv sp end con \
+    mg bevel c_interp d_interp lod shadow_obj trace_obj ctech stech usemap maplib call csh bsp bzp cdc cdp res";

@@ -3,19 +3,25 @@
 use std::borrow::Cow;
 
 use mesh::{Column, Domain, FaceId, Mesh, Values};
-use rayon::prelude::*;
-use scene::{Material, Object};
 
-use super::OBJECT_TAG;
-use super::file::NO_MATERIAL;
-use super::library::note_losses;
+use super::corner::Counts;
 use crate::loss::Losses;
+use crate::parallel;
+use crate::polygons::OBJECT_TAG;
 
 /// What the statements so far say of the faces that follow.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct State<'a> {
     pub(super) object: Option<&'a str>,
     pub(super) groups: Vec<&'a str>,
+    pub(super) material: Option<usize>,
+    pub(super) smoothing: i32,
+}
+
+/// What the text so far defines, and what is in force at its end; groups are closed there.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Before {
+    pub(super) counts: Counts,
     pub(super) material: Option<usize>,
     pub(super) smoothing: i32,
 }
@@ -50,15 +56,12 @@ impl<'a> FaceStates<'a> {
             name.strip_prefix(OBJECT_TAG)
                 .is_some_and(|rest| !rest.is_empty() && fit_line(rest) == rest)
         };
-        let one_object_each = |f: FaceId| {
-            let of_face = groups
-                .iter()
-                .filter(|(name, marks)| is_object(name) && marks[f.index()]);
-            of_face.count() == 1
+        let one_object_each = |f: usize| {
+            let is_of = |(name, marks): &&(&str, &[bool])| is_object(name) && marks[f];
+            groups.iter().filter(is_of).count() == 1
         };
         // `o` can be written only if it says the whole truth; otherwise the tags are groups like any other.
-        let faces = (0..mesh.n_faces()).into_par_iter().map(FaceId::new);
-        let objects = if !several && faces.all(one_object_each) {
+        let objects = if !several && parallel::all(mesh.n_faces(), one_object_each) {
             groups.extract_if(.., |(name, _)| is_object(name)).collect()
         } else {
             Vec::new()
@@ -67,32 +70,19 @@ impl<'a> FaceStates<'a> {
             let word = one_word(name);
             let count = marks.iter().filter(|&&is| is).count();
             let renamed = if word == *name { 0 } else { count };
-            losses.add(
-                Domain::Face,
-                name,
-                renamed,
-                format!("the tag is written as group `{word}`"),
-            );
+            let reason = format!("the tag is written as group `{word}`");
+            losses.add(Domain::Face, name, renamed, reason);
         }
         let materials = mesh.get(mesh::MATERIAL);
-        let unknown = materials
-            .into_iter()
-            .flatten()
-            .filter(|&&m| m < -1 || m >= 0 && !exists(m, places));
-        losses.add(
-            Domain::Face,
-            "material",
-            unknown.count(),
-            "the object has no such material",
-        );
+        let exists = |m: i32| usize::try_from(m).is_ok_and(|m| m < places.len());
+        let unknown = materials.into_iter().flatten();
+        let unknown = unknown.filter(|&&m| m != -1 && !exists(m)).count();
+        let reason = "the object has no such material";
+        losses.add(Domain::Face, "material", unknown, reason);
         let smoothing = mesh.get(mesh::SMOOTHING);
         let negative = smoothing.into_iter().flatten().filter(|&&group| group < 0);
-        losses.add(
-            Domain::Face,
-            "smoothing",
-            negative.count(),
-            "OBJ has no negative groups: written as off",
-        );
+        let reason = "OBJ has no negative groups: written as off";
+        losses.add(Domain::Face, "smoothing", negative.count(), reason);
         Self {
             objects,
             groups,
@@ -130,10 +120,6 @@ impl<'a> FaceStates<'a> {
     }
 }
 
-fn exists(material: i32, places: &[usize]) -> bool {
-    usize::try_from(material).is_ok_and(|m| m < places.len())
-}
-
 /// A name as the rest of a line: without line ends and blanks around it.
 pub(super) fn fit_line(name: &str) -> Cow<'_, str> {
     let trimmed = name.trim_matches(|c: char| c.is_whitespace());
@@ -150,63 +136,8 @@ pub(super) fn one_word(name: &str) -> Cow<'_, str> {
     if name.is_empty() || name.contains(blank) || name.starts_with('#') || name.ends_with('\\') {
         let word = name.replace(blank, "_");
         let word = word.trim_start_matches('#').trim_end_matches('\\');
-        return Cow::Owned(if word.is_empty() {
-            "unnamed".to_owned()
-        } else {
-            word.to_owned()
-        });
+        let word = if word.is_empty() { "unnamed" } else { word };
+        return Cow::Owned(word.to_owned());
     }
     Cow::Borrowed(name)
-}
-
-/// The materials of all objects. Their names are different and fit a line.
-#[derive(Default)]
-pub(super) struct Library {
-    pub(super) materials: Vec<Material>,
-    /// For each object, for each of its materials, its place in `materials`.
-    pub(super) places: Vec<Vec<usize>>,
-}
-
-impl Library {
-    pub(super) fn add(&mut self, object: &Object, losses: &mut Losses) {
-        let places = object
-            .materials
-            .iter()
-            .map(|material| self.place(material, losses))
-            .collect();
-        self.places.push(places);
-    }
-
-    /// Objects share a material if all of it is the same; a second one of a name gets another name.
-    fn place(&mut self, material: &Material, losses: &mut Losses) -> usize {
-        let mut base = fit_line(&material.name).into_owned();
-        if base.is_empty() || base.as_bytes() == NO_MATERIAL {
-            "unnamed".clone_into(&mut base);
-        }
-        let mut new = Material {
-            name: base.clone(),
-            ..material.clone()
-        };
-        for suffix in 2.. {
-            match self
-                .materials
-                .iter()
-                .position(|known| known.name == new.name)
-            {
-                None => break,
-                Some(place) if self.materials[place] == new => return place,
-                Some(_) => new.name = format!("{base}_{suffix}"),
-            }
-        }
-        let renamed = usize::from(new.name != material.name);
-        losses.add(
-            None,
-            &material.name,
-            renamed,
-            format!("material is written as `{}`", new.name),
-        );
-        note_losses(material, losses);
-        self.materials.push(new);
-        self.materials.len() - 1
-    }
 }

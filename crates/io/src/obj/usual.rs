@@ -6,7 +6,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::corner::Index;
-use super::statement::Parser;
+use super::parser::Parser;
 use crate::decimal::{leading_number, up_to_eight_digits};
 use crate::text::is_blank;
 

@@ -5,17 +5,17 @@ use std::path::Path;
 
 use glam::DVec3;
 use mesh::Mesh;
-use scene::{Geometry, Scene};
+use scene::{Geometry, Object, Scene};
+use store::Store;
 
 use super::body::MeshBody;
-use super::corner::Counts;
-use super::library::{push_values, write_library};
-use super::states::{Library, fit_line};
+use super::library::{Library, push_name, push_values, write_library};
+use super::states::{Before, fit_line};
 use crate::decimal::push_whole;
-use crate::dense::dense;
 use crate::error::{Unwritable, WriteError};
 use crate::loss::Losses;
 use crate::save::{Block, Content, save};
+use crate::writing::{dense, push_comment};
 use crate::{WriteOptions, WriteReport};
 
 /// Writes `scene`: the material library, if there are materials, and the OBJ file.
@@ -24,25 +24,21 @@ use crate::{WriteOptions, WriteReport};
 ///
 /// If an object is neither a mesh nor polylines, or the files cannot be written.
 pub(crate) fn write(
+    store: &dyn Store,
     path: &Path,
     scene: &Scene,
     options: &WriteOptions,
 ) -> Result<WriteReport, WriteError> {
-    let shapes: Vec<Shape> = scene
-        .objects()
-        .iter()
-        .map(|object| Shape::of(&object.name, &object.geometry))
-        .collect::<Result<_, _>>()
-        .map_err(|why| why.in_file(path))?;
+    let shapes = scene.objects().iter().map(Shape::of);
+    let shapes: Result<Vec<Shape>, _> = shapes.collect();
+    let shapes = shapes.map_err(|why| why.in_file(path))?;
     let mut losses = Vec::new();
     let mut library = Library::default();
     for object in scene.objects() {
         library.add(object, &mut Losses::of(&object.name, &mut losses));
     }
     let mut head = Vec::new();
-    if let Some(comment) = &options.provenance {
-        push_comment(&mut head, comment);
-    }
+    push_comment(&mut head, "#", options.provenance.as_deref());
     let library_path = path.with_extension("mtl");
     if let (false, Some(file_name)) = (library.materials.is_empty(), library_path.file_name()) {
         push_name(&mut head, "mtllib", &file_name.to_string_lossy());
@@ -76,7 +72,7 @@ pub(crate) fn write(
         files.push((library_path, Content::Bytes(bytes)));
     }
     files.push((path.to_path_buf(), Content::Blocks(text.blocks)));
-    let (files, bytes) = save(files)?;
+    let (files, bytes) = save(store, files)?;
     Ok(WriteReport {
         files,
         bytes,
@@ -92,16 +88,13 @@ enum Shape<'a> {
 }
 
 impl<'a> Shape<'a> {
-    fn of(object: &str, geometry: &'a Geometry) -> Result<Self, Unwritable> {
-        match geometry {
+    fn of(object: &'a Object) -> Result<Self, Unwritable> {
+        match &object.geometry {
             Geometry::Mesh(mesh) => Ok(Self::Mesh(Box::new(dense(mesh)))),
             Geometry::Polylines(lines) => Ok(Self::Polylines(lines)),
-            Geometry::Patches(_) | Geometry::Curve(_) => Err(Unwritable::object(
+            Geometry::Patches(_) | Geometry::Curve(_) => Err(Unwritable::kind(
+                "OBJ files hold meshes and polylines",
                 object,
-                format!(
-                    "OBJ files hold meshes and polylines, found {}",
-                    geometry.kind()
-                ),
             )),
         }
     }
@@ -116,24 +109,10 @@ struct Text<'a> {
     before: Before,
 }
 
-/// What the text so far defines, and what is in force at its end; groups are closed there.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Before {
-    pub(super) counts: Counts,
-    pub(super) material: Option<usize>,
-    pub(super) smoothing: i32,
-}
-
 impl<'a> Text<'a> {
     fn mesh(&mut self, mesh: &'a Mesh, places: &'a [usize], losses: &mut Losses) {
-        let body = MeshBody::new(
-            mesh,
-            places,
-            self.several,
-            self.library,
-            self.before,
-            losses,
-        );
+        let (several, library, before) = (self.several, self.library, self.before);
+        let body = MeshBody::new(mesh, places, several, library, before, losses);
         self.before = body.after();
         body.add_blocks(&mut self.blocks);
     }
@@ -165,15 +144,4 @@ impl<'a> Text<'a> {
             }));
         }
     }
-}
-
-/// Appends a comment, each of its lines behind a `#`.
-pub(super) fn push_comment(out: &mut Vec<u8>, comment: &str) {
-    for line in comment.split(['\n', '\r']) {
-        out.extend_from_slice(format!("# {line}\n").as_bytes());
-    }
-}
-
-pub(super) fn push_name(out: &mut Vec<u8>, keyword: &str, name: &str) {
-    out.extend_from_slice(format!("{keyword} {name}\n").as_bytes());
 }

@@ -21,13 +21,8 @@
 //! The writer takes the same table from right to left. Texture coordinates are written if they agree around
 //! each vertex.
 
-mod colors;
-mod header;
 mod read;
 mod write;
 
 pub(crate) use read::{peek, read};
 pub(crate) use write::write;
-
-/// The face attribute for places in a map of colors.
-const COLOR_INDEX: &str = "color_index";

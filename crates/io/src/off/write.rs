@@ -1,39 +1,30 @@
 //! From a scene to the text of an OFF file.
 
 use std::borrow::Cow;
-use std::path::Path;
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{COLOR, Domain, Mesh, Rule, UV, VERTEX_NORMAL, Value};
 use scene::Scene;
 
-use super::COLOR_INDEX;
-use crate::color::{is_byte, to_byte};
+use super::read::COLOR_INDEX;
 use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
-use crate::vertex_uvs::uvs_of_vertices;
-use crate::{WriteOptions, Written};
+use crate::writing::{is_byte, push_comment, to_byte, uvs_of_vertices};
+use crate::{One, WriteOptions};
 
 /// The file that holds `scene`, and what it does not hold.
 ///
 /// # Errors
 ///
 /// If an object is no mesh.
-pub(crate) fn write(
-    path: &Path,
-    scene: &Scene,
-    options: &WriteOptions,
-) -> Result<Written, Unwritable> {
+pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwritable> {
     let mut joined = joined(scene, "OFF", false)?;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
     let mut out = Vec::new();
     Content::of(&joined.mesh, &mut losses).push(&mut out, options);
-    Ok(Written {
-        files: vec![(path.to_path_buf(), out)],
-        losses: joined.losses,
-    })
+    Ok((out, joined.losses))
 }
 
 /// What of a mesh a file holds besides positions and corners.
@@ -76,17 +67,17 @@ impl<'a> Content<'a> {
                 _ => false,
             }
         });
+        let [normal, color, uv] = ["normal", "color", "uv"];
+        let [of_vertex, of_face] = [Domain::Vertex, Domain::Face];
         Self {
             mesh,
-            normals: normals
-                .map(|n| finite(losses, (Domain::Vertex, "normal"), n, |n| n.is_finite())),
-            colors: colors.map(|c| finite(losses, (Domain::Vertex, "color"), c, |c| c.is_finite())),
+            normals: normals.map(|n| finite(losses, of_vertex, normal, n, |n| n.is_finite())),
+            colors: colors.map(|c| finite(losses, of_vertex, color, c, |c| c.is_finite())),
             uvs: uvs.map(|uvs| {
-                let uvs = finite(losses, (Domain::Corner, "uv"), &uvs, |uv| uv.is_finite());
+                let uvs = finite(losses, Domain::Corner, uv, &uvs, |uv| uv.is_finite());
                 Cow::Owned(uvs.into_owned())
             }),
-            face_colors: face_colors
-                .map(|c| finite(losses, (Domain::Face, "color"), c, |c| c.is_finite())),
+            face_colors: face_colors.map(|c| finite(losses, of_face, color, c, |c| c.is_finite())),
             face_indices,
         }
     }
@@ -102,14 +93,10 @@ impl<'a> Content<'a> {
             }
         }
         out.extend_from_slice(b"OFF\n");
-        let provenance = options.provenance.iter();
-        for line in provenance.flat_map(|text| text.split(['\n', '\r'])) {
-            out.extend_from_slice(format!("# {line}\n").as_bytes());
-        }
-        let mesh = self.mesh;
-        let counts = [mesh.n_vertices(), mesh.n_faces(), mesh.n_edges()];
-        let [vertices, faces, edges] = counts;
-        out.extend_from_slice(format!("{vertices} {faces} {edges}\n").as_bytes());
+        push_comment(out, "#", options.provenance.as_deref());
+        let (n_vertices, n_faces) = (self.mesh.n_vertices(), self.mesh.n_faces());
+        let counts = format!("{n_vertices} {n_faces} {}\n", self.mesh.n_edges());
+        out.extend_from_slice(counts.as_bytes());
         self.push_vertices(out);
         self.push_faces(out);
     }
@@ -117,16 +104,15 @@ impl<'a> Content<'a> {
     fn push_vertices(&self, out: &mut Vec<u8>) {
         let as_bytes = self.colors.as_deref().is_some_and(are_bytes);
         for (v, position) in self.mesh.positions().iter().enumerate() {
-            push_numbers(out, &position.to_array());
+            push_number(out, position.x);
+            push_numbers(out, &[position.y, position.z]);
             if let Some(normals) = &self.normals {
-                out.push(b' ');
                 push_numbers(out, &normals[v].to_array());
             }
             if let Some(colors) = &self.colors {
                 push_color(out, colors[v], as_bytes);
             }
             if let Some(uvs) = &self.uvs {
-                out.push(b' ');
                 push_numbers(out, &uvs[v].to_array());
             }
             out.push(b'\n');
@@ -157,7 +143,8 @@ impl<'a> Content<'a> {
 /// The values with zero in place of those that are not finite, which is a loss.
 fn finite<'a, T: Value>(
     losses: &mut Losses,
-    (domain, name): (Domain, &str),
+    domain: Domain,
+    name: &str,
     values: &'a [T],
     is_finite: impl Fn(&T) -> bool,
 ) -> Cow<'a, [T]> {
@@ -166,21 +153,20 @@ fn finite<'a, T: Value>(
         return Cow::Borrowed(values);
     }
     losses.add(domain, name, broken, "not finite: written as 0");
-    let mended = values.iter().map(|value| {
+    let mended = |value: &T| {
         if is_finite(value) {
             *value
         } else {
             T::default()
         }
-    });
-    Cow::Owned(mended.collect())
+    };
+    Cow::Owned(values.iter().map(mended).collect())
 }
 
+/// Appends numbers, a blank before each.
 fn push_numbers(out: &mut Vec<u8>, numbers: &[f64]) {
-    for (i, &x) in numbers.iter().enumerate() {
-        if i > 0 {
-            out.push(b' ');
-        }
+    for &x in numbers {
+        out.push(b' ');
         push_number(out, x);
     }
 }
@@ -200,11 +186,9 @@ fn push_color(out: &mut Vec<u8>, color: DVec4, as_bytes: bool) {
         }
         let start = out.len();
         push_number(out, x);
+        let is_whole = |byte: &u8| byte.is_ascii_digit() || *byte == b'-';
         // A point says that this is no whole number of 255ths.
-        if out[start..]
-            .iter()
-            .all(|byte| byte.is_ascii_digit() || *byte == b'-')
-        {
+        if out[start..].iter().all(is_whole) {
             out.extend_from_slice(b".0");
         }
     }

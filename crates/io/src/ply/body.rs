@@ -4,20 +4,17 @@
 //! all that follows knows one form only.
 
 use std::borrow::Cow;
-use std::path::Path;
 
 use super::header::{Element, Encoding, Header, Property};
 use super::table::Table;
 use super::types::Type;
-use crate::error::{ReadError, TextError};
-use crate::lines::{count_rest, skip_empty_lines};
+use crate::fault::{At, Fault};
 use crate::note::Notes;
-use crate::text::{Cursor, Place, number, quoted};
+use crate::text::{Cursor, Place, is_not_finite, number, parsed};
 
 /// The bytes of a file's values.
 #[derive(Debug)]
 pub(super) struct Body<'a> {
-    path: &'a Path,
     file: &'a [u8],
     header: &'a Header,
     /// The elements with the types that [`bytes`](Self::bytes) has.
@@ -34,14 +31,12 @@ impl<'a> Body<'a> {
     ///
     /// In a text, the first place that breaks the rules of the format.
     pub(super) fn new(
-        path: &'a Path,
         file: &'a [u8],
         header: &'a Header,
         wanted: impl Fn(&Element) -> bool,
         notes: &mut Notes,
-    ) -> Result<Self, ReadError> {
+    ) -> Result<Self, Fault> {
         let mut body = Self {
-            path,
             file,
             header,
             elements: header.elements.clone(),
@@ -70,18 +65,12 @@ impl<'a> Body<'a> {
     /// # Errors
     ///
     /// If the file is too short or a list has a negative count. Bytes that are left are noted.
-    pub(super) fn tables(&self, notes: &mut Notes) -> Result<Vec<Table<'_>>, ReadError> {
+    pub(super) fn tables(&self, notes: &mut Notes) -> Result<Vec<Table<'_>>, Fault> {
         let mut at = self.start;
         let big = self.header.encoding == Encoding::BigEndian;
         let mut tables = Vec::with_capacity(self.elements.len());
         for element in &self.elements {
-            let (table, end) = Table::locate(element, &self.bytes, at, big).map_err(|broken| {
-                ReadError::Binary {
-                    path: self.path.to_path_buf(),
-                    offset: broken.offset,
-                    message: broken.message,
-                }
-            })?;
+            let (table, end) = Table::locate(element, &self.bytes, at, big)?;
             tables.push(table);
             at = end;
         }
@@ -96,15 +85,12 @@ impl<'a> Body<'a> {
         tables: &[Table],
         (element, property, row, item): (usize, usize, usize, usize),
         message: String,
-    ) -> ReadError {
+    ) -> Fault {
         let table = &tables[element];
         if self.header.encoding != Encoding::Text {
             let size = table.properties[property].value.size();
-            return ReadError::Binary {
-                path: self.path.to_path_buf(),
-                offset: table.start + table.at(property, row) + item * size,
-                message,
-            };
+            let offset = table.start + table.at(property, row) + item * size;
+            return Fault::byte(offset, message);
         }
         let rows: usize = self.header.elements[..element]
             .iter()
@@ -119,10 +105,10 @@ impl<'a> Body<'a> {
         let word = words.sum::<usize>() + own + item;
         let mut cursor = Cursor::new(&self.file[self.header.length..]);
         for _ in 0..rows + row {
-            skip_empty_lines(&mut cursor);
+            cursor.skip_empty_lines();
             cursor.skip_line();
         }
-        skip_empty_lines(&mut cursor);
+        cursor.skip_empty_lines();
         for _ in 0..word {
             cursor.argument();
         }
@@ -130,9 +116,11 @@ impl<'a> Body<'a> {
         self.text_error(cursor.place().error(message))
     }
 
-    fn text_error(&self, mut error: TextError) -> ReadError {
-        error.line += self.header.lines;
-        error.in_file(self.path)
+    fn text_error(&self, mut error: Fault) -> Fault {
+        if let At::Text(place) = &mut error.at {
+            place.line += self.header.lines;
+        }
+        error
     }
 }
 
@@ -147,33 +135,24 @@ fn transcoded(
     header: &Header,
     wanted: impl Fn(&Element) -> bool,
     notes: &mut Notes,
-) -> Result<Vec<u8>, TextError> {
+) -> Result<Vec<u8>, Fault> {
     let mut out = Vec::new();
     let mut cursor = Cursor::new(text);
     for element in &header.elements {
         if element.properties.is_empty() {
             continue;
         }
-        // A value takes a digit and what parts it from the next; the last line may have no end.
-        let least = element.rows.checked_mul(2 * element.properties.len());
-        if least.is_none_or(|least| least > cursor.remaining() + 1) {
-            let message = format!(
-                "expected {} lines of element `{}`, found {} bytes",
-                element.rows,
-                element.name.escape_debug(),
-                cursor.remaining()
-            );
+        let rows = element.rows;
+        if !cursor.has_room(rows, element.properties.len()) {
+            let rest = cursor.remaining();
+            let message = format!("expected {rows} lines of {element}, found {rest} bytes");
             return Err(cursor.place().error(message));
         }
         let wanted = wanted(element);
-        for row in 0..element.rows {
-            skip_empty_lines(&mut cursor);
+        for row in 0..rows {
+            cursor.skip_empty_lines();
             if cursor.is_at_end() {
-                let message = format!(
-                    "expected {} lines of element `{}`, found {row}",
-                    element.rows,
-                    element.name.escape_debug()
-                );
+                let message = format!("expected {rows} lines of {element}, found {row}");
                 return Err(cursor.place().error(message));
             }
             if wanted {
@@ -182,13 +161,13 @@ fn transcoded(
             cursor.skip_line();
         }
     }
-    let (lines, first) = count_rest(&mut cursor);
+    let (lines, first) = cursor.count_rest();
     let first = first + header.lines;
     notes.left_out(lines, first, "lines behind the last element left out");
     Ok(out)
 }
 
-fn push_row(out: &mut Vec<u8>, cursor: &mut Cursor, element: &Element) -> Result<(), TextError> {
+fn push_row(out: &mut Vec<u8>, cursor: &mut Cursor, element: &Element) -> Result<(), Fault> {
     for property in &element.properties {
         let n = match property.count {
             None => 1,
@@ -198,10 +177,7 @@ fn push_row(out: &mut Vec<u8>, cursor: &mut Cursor, element: &Element) -> Result
                 let room = cursor.remaining() / 2 + 1;
                 match usize::try_from(count) {
                     Ok(n) if n <= room => n,
-                    _ => {
-                        let message = format!("expected a count, found {}", quoted(word));
-                        return Err(place.error(message));
-                    }
+                    _ => return Err(place.expected("a count", word)),
                 }
             }
         };
@@ -210,30 +186,17 @@ fn push_row(out: &mut Vec<u8>, cursor: &mut Cursor, element: &Element) -> Result
             push_value(out, property.value, place, word)?;
         }
     }
-    match cursor.argument() {
-        None => Ok(()),
-        Some((place, word)) => {
-            let message = format!(
-                "expected the end of the line: element `{}` has no more properties, found {}",
-                element.name.escape_debug(),
-                quoted(word)
-            );
-            Err(place.error(message))
-        }
-    }
+    cursor.end_of_line(&format!(": {element} has no more properties"))
 }
 
 fn next<'a>(
     cursor: &mut Cursor<'a>,
     element: &Element,
     property: &Property,
-) -> Result<(Place, &'a [u8]), TextError> {
+) -> Result<(Place, &'a [u8]), Fault> {
     cursor.argument().ok_or_else(|| {
-        let message = format!(
-            "expected a value of `{}` of element `{}`, found the end of the line",
-            property.name.escape_debug(),
-            element.name.escape_debug()
-        );
+        let message =
+            format!("expected a value of {property} of {element}, found the end of the line");
         cursor.place().error(message)
     })
 }
@@ -244,11 +207,13 @@ fn next<'a>(
     clippy::cast_sign_loss,
     reason = "the range is checked"
 )]
-fn push_value(out: &mut Vec<u8>, kind: Type, place: Place, word: &[u8]) -> Result<i64, TextError> {
+fn push_value(out: &mut Vec<u8>, kind: Type, place: Place, word: &[u8]) -> Result<i64, Fault> {
     if kind.is_float() {
-        let x = match number(place, word) {
-            Ok(x) => x,
-            Err(error) => not_finite(word).ok_or(error)?,
+        // What it means is decided where it is used.
+        let x = if is_not_finite(word) {
+            f64::NAN
+        } else {
+            number(place, word)?
         };
         out.extend_from_slice(&x.to_le_bytes());
         return Ok(0);
@@ -256,12 +221,9 @@ fn push_value(out: &mut Vec<u8>, kind: Type, place: Place, word: &[u8]) -> Resul
     let (least, most) = kind.range();
     let value = whole(word).filter(|value| (least..=most).contains(value));
     let Some(value) = value else {
-        let message = format!(
-            "expected a whole number from {least} to {most} ({}), found {}",
-            kind.name(),
-            quoted(word)
-        );
-        return Err(place.error(message));
+        let name = kind.name();
+        let what = format_args!("a whole number from {least} to {most} ({name})");
+        return Err(place.expected(what, word));
     };
     match kind.size() {
         1 => out.push(value as u8),
@@ -281,18 +243,5 @@ fn whole(word: &[u8]) -> Option<i64> {
                 .then(|| value * 10 + i64::from(byte - b'0'))
         });
     }
-    std::str::from_utf8(word).ok()?.parse().ok()
-}
-
-/// The number that is none, for the spellings of C libraries; what it means is decided where it is used.
-fn not_finite(word: &[u8]) -> Option<f64> {
-    let word = word
-        .strip_prefix(b"-")
-        .or(word.strip_prefix(b"+"))
-        .unwrap_or(word);
-    let starts = |with: &str| {
-        word.get(..3)
-            .is_some_and(|start| start.eq_ignore_ascii_case(with.as_bytes()))
-    };
-    (starts("nan") || starts("inf")).then_some(f64::NAN)
+    parsed(word)
 }

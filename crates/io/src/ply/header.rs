@@ -1,10 +1,11 @@
 //! The header of a PLY file: which elements it has, how many and with which properties.
 
 use std::collections::BTreeSet;
+use std::fmt;
 
 use super::types::Type;
-use crate::error::TextError;
-use crate::text::{Place, name, quoted};
+use crate::fault::Fault;
+use crate::text::{MARK, Place, name, parsed, quoted};
 
 /// More properties than any program writes; it bounds the passes over the data.
 pub(super) const MOST_PROPERTIES: usize = 4096;
@@ -61,6 +62,18 @@ impl Header {
     }
 }
 
+impl fmt::Display for Element {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "element `{}`", self.name.escape_debug())
+    }
+}
+
+impl fmt::Display for Property {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}`", self.name.escape_debug())
+    }
+}
+
 impl Element {
     /// The place of the scalar property of this name.
     pub(super) fn scalar(&self, name: &str) -> Option<usize> {
@@ -80,11 +93,11 @@ impl Element {
 /// # Errors
 ///
 /// The first line that breaks the rules of the format.
-pub(super) fn parse(bytes: &[u8]) -> Result<Header, TextError> {
+pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
     let mut lines = Lines::new(bytes);
     let (place, first) = lines.next().unwrap_or_default().next();
     if first != b"ply" {
-        return Err(place.error(format!("expected `ply`, found {}", quoted(first))));
+        return Err(place.expected("`ply`", first));
     }
     let mut encoding = None;
     let mut header = Header {
@@ -111,10 +124,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, TextError> {
             b"property" => names.property(&mut header, &mut words, place)?,
             b"end_header" => break,
             b"" | b"obj_info" => {}
-            other => {
-                let message = format!("expected a line of a PLY header, found {}", quoted(other));
-                return Err(place.error(message));
-            }
+            other => return Err(place.expected("a line of a PLY header", other)),
         }
     }
     let Some(encoding) = encoding else {
@@ -127,24 +137,19 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, TextError> {
     Ok(header)
 }
 
-fn format(words: &mut Words) -> Result<Encoding, TextError> {
+fn format(words: &mut Words) -> Result<Encoding, Fault> {
     let encoding = match words.next() {
         (_, b"ascii") => Encoding::Text,
         (_, b"binary_little_endian") => Encoding::LittleEndian,
         (_, b"binary_big_endian") => Encoding::BigEndian,
         (place, other) => {
-            let message = format!(
-                "expected ascii, binary_little_endian or binary_big_endian, found {}",
-                quoted(other)
-            );
-            return Err(place.error(message));
+            let names = "ascii, binary_little_endian or binary_big_endian";
+            return Err(place.expected(names, other));
         }
     };
     match words.next() {
         (_, b"1.0") => Ok(encoding),
-        (place, other) => {
-            Err(place.error(format!("expected version 1.0, found {}", quoted(other))))
-        }
+        (place, other) => Err(place.expected("version 1.0", other)),
     }
 }
 
@@ -157,14 +162,11 @@ struct Names {
 }
 
 impl Names {
-    fn element(&mut self, header: &mut Header, words: &mut Words) -> Result<(), TextError> {
+    fn element(&mut self, header: &mut Header, words: &mut Words) -> Result<(), Fault> {
         let (place, word) = words.named("the name of an element")?;
         let (count_place, count) = words.next();
-        let digits = std::str::from_utf8(count).ok();
-        let Some(rows) = digits.and_then(|digits| digits.parse().ok()) else {
-            let message = format!("expected how many there are, found {}", quoted(count));
-            return Err(count_place.error(message));
-        };
+        let rows =
+            parsed(count).ok_or_else(|| count_place.expected("how many there are", count))?;
         words.end()?;
         if !self.elements.insert(name(word)) {
             return Err(place.error(format!("element {} is there already", quoted(word))));
@@ -188,19 +190,17 @@ impl Names {
         header: &mut Header,
         words: &mut Words,
         keyword: Place,
-    ) -> Result<(), TextError> {
+    ) -> Result<(), Fault> {
         let Some(element) = header.elements.last_mut() else {
-            return Err(
-                keyword.error("expected an element before its properties, found a property")
-            );
+            let message = "expected an element before its properties, found a property";
+            return Err(keyword.error(message));
         };
         let first = words.next();
         let (count, value) = if first.1 == b"list" {
             let count = words.next();
             let count_type = scalar_type(count)?;
             if count_type.is_float() {
-                let message = format!("expected a whole-number type, found {}", quoted(count.1));
-                return Err(count.0.error(message));
+                return Err(count.0.expected("a whole-number type", count.1));
             }
             (Some(count_type), scalar_type(words.next())?)
         } else {
@@ -228,11 +228,8 @@ impl Names {
     }
 }
 
-fn scalar_type((place, word): (Place, &[u8])) -> Result<Type, TextError> {
-    Type::parse(word).ok_or_else(|| {
-        let expected = "expected a type such as float, uchar or int32";
-        place.error(format!("{expected}, found {}", quoted(word)))
-    })
+fn scalar_type((place, word): (Place, &[u8])) -> Result<Type, Fault> {
+    Type::parse(word).ok_or_else(|| place.expected("a type such as float, uchar or int32", word))
 }
 
 /// The lines of a header. The end of the first line shows how the others end: bytes of the data behind the
@@ -249,16 +246,15 @@ struct Lines<'a> {
 
 impl<'a> Lines<'a> {
     fn new(bytes: &'a [u8]) -> Self {
-        let next = if bytes.starts_with(b"\xef\xbb\xbf") {
-            3
-        } else {
-            0
-        };
         let end = bytes.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
         let is_return = |end: usize| bytes[end] == b'\r' && bytes.get(end + 1) != Some(&b'\n');
         Self {
             bytes,
-            next,
+            next: if bytes.starts_with(MARK) {
+                MARK.len()
+            } else {
+                0
+            },
             number: 0,
             end: if end.is_some_and(is_return) {
                 b'\r'
@@ -275,11 +271,13 @@ impl<'a> Lines<'a> {
         if rest.is_empty() {
             return None;
         }
-        let length = rest.iter().position(|&byte| byte == self.end);
-        let length = length.unwrap_or(rest.len());
-        self.next = self.bytes.len().min(self.next + length + 1);
+        let line = rest
+            .split(|&byte| byte == self.end)
+            .next()
+            .unwrap_or_default();
+        self.next = self.bytes.len().min(self.next + line.len() + 1);
         Some(Words {
-            line: &rest[..length],
+            line,
             number: self.number,
             at: 0,
         })
@@ -303,37 +301,36 @@ struct Words<'a> {
 impl<'a> Words<'a> {
     /// The next word, empty at the end of the line.
     fn next(&mut self) -> (Place, &'a [u8]) {
-        let is_blank = |byte: &&u8| byte.is_ascii_whitespace();
-        let blanks = self.line[self.at..].iter().take_while(is_blank).count();
-        let start = self.at + blanks;
-        let letters = self.line[start..].iter().take_while(|byte| !is_blank(byte));
-        self.at = start + letters.count();
+        let rest = self.line[self.at..].trim_ascii_start();
+        let word = rest
+            .split(u8::is_ascii_whitespace)
+            .next()
+            .unwrap_or_default();
+        let start = self.line.len() - rest.len();
+        self.at = start + word.len();
         let place = Place {
             line: self.number.max(1),
             column: start + 1,
         };
-        (place, &self.line[start..self.at])
+        (place, word)
     }
 
     fn rest(&self) -> &'a [u8] {
         self.line[self.at..].trim_ascii()
     }
 
-    fn named(&mut self, what: &str) -> Result<(Place, &'a [u8]), TextError> {
+    fn named(&mut self, what: &str) -> Result<(Place, &'a [u8]), Fault> {
         let (place, word) = self.next();
         if word.is_empty() {
-            return Err(place.error(format!("expected {what}, found nothing")));
+            return Err(place.expected(what, word));
         }
         Ok((place, word))
     }
 
-    fn end(&mut self) -> Result<(), TextError> {
+    fn end(&mut self) -> Result<(), Fault> {
         match self.next() {
             (_, b"") => Ok(()),
-            (place, word) => {
-                let message = format!("expected the end of the line, found {}", quoted(word));
-                Err(place.error(message))
-            }
+            (place, word) => Err(place.expected("the end of the line", word)),
         }
     }
 }

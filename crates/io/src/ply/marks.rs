@@ -41,10 +41,7 @@ impl Mark {
         let kind = Kind::parse(words.next()?)?;
         let rule = words.next()?;
         let (rule, _) = RULES.into_iter().find(|(_, word)| *word == rule)?;
-        let fits = match rule {
-            Rule::Normal => kind == Kind::Vec3,
-            _ => true,
-        };
+        let fits = rule != Rule::Normal || kind == Kind::Vec3;
         let property = words.next()?.to_owned();
         let name = serde_json::from_str(words.next()?).ok()?;
         fits.then_some(Self {

@@ -1,29 +1,27 @@
 //! What a PLY file holds, from its header and the counts of its lists.
 
-use std::path::Path;
-
 use super::body::Body;
 use super::header::{Element, parse};
 use super::roles::{self, Roles};
 use super::strips::triangles_of_strips;
-use crate::error::ReadError;
+use crate::fault::Fault;
 use crate::note::Notes;
-use crate::peek::{PeekGeometry, PeekMesh};
+use crate::peek::PeekMesh;
 
 /// The counts of a PLY file. Positions and the vertices of faces are not looked at.
 ///
 /// # Errors
 ///
 /// If the header breaks the rules of the format, or the file is too short for what it says.
-pub(crate) fn peek(path: &Path, bytes: &[u8]) -> Result<PeekGeometry, ReadError> {
-    let header = parse(bytes).map_err(|error| error.in_file(path))?;
-    let roles = Roles::of(&header).map_err(|error| error.in_file(path))?;
+pub(crate) fn peek(bytes: &[u8]) -> Result<PeekMesh, Fault> {
+    let header = parse(bytes)?;
+    let roles = Roles::of(&header)?;
     let lists = roles.face.or(roles.strips);
     let wanted = |element: &Element| {
         lists.is_some_and(|(place, _)| header.elements[place].name == element.name)
     };
-    let mut notes = Notes::of(path);
-    let body = Body::new(path, bytes, &header, wanted, &mut notes)?;
+    let mut notes = Notes::of("".as_ref());
+    let body = Body::new(bytes, &header, wanted, &mut notes)?;
     let tables = body.tables(&mut notes)?;
     let vertices = &header.elements[roles.vertex];
     let mut mesh = PeekMesh {
@@ -55,5 +53,5 @@ pub(crate) fn peek(path: &Path, bytes: &[u8]) -> Result<PeekGeometry, ReadError>
         mesh.add_faces(corners.len() as u64 / 3, 3);
         mesh.uvs = mesh.faces > 0 && roles::uv(vertices).is_some();
     }
-    Ok(PeekGeometry::Mesh(mesh))
+    Ok(mesh)
 }

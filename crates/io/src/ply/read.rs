@@ -1,23 +1,23 @@
 //! From the tables of a PLY file to polygons.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{COLOR, Column, Domain, Rule, UV, VERTEX_NORMAL, Values};
-use rayon::prelude::*;
 
 use super::body::Body;
-use super::columns::{Kind, corner_values, indices, item_at, mend, numbers, values};
+use super::columns::{Kind, Source, indices, item_at, numbers, values};
 use super::header::{Element, Header, parse};
 use super::marks::Mark;
 use super::roles::{self, Roles};
 use super::strips::triangles_of_strips;
-use super::table::{BLOCK, Table};
+use super::table::Table;
 use super::types::Type;
-use crate::error::ReadError;
+use crate::clean::keep;
+use crate::fault::Fault;
 use crate::note::Notes;
-use crate::{Found, Polygons};
+use crate::writing::mend;
+use crate::{Polygons, parallel};
 
 /// Reads a PLY file from its bytes.
 ///
@@ -25,23 +25,18 @@ use crate::{Found, Polygons};
 ///
 /// The first place that breaks the rules of the format: line and column of a text and of the header, the byte
 /// of binary values.
-pub(crate) fn read(
-    path: &Path,
-    bytes: &[u8],
-    name: String,
-    notes: &mut Notes,
-) -> Result<Found, ReadError> {
-    let header = parse(bytes).map_err(|error| error.in_file(path))?;
-    let roles = Roles::of(&header).map_err(|error| error.in_file(path))?;
+pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
+    let header = parse(bytes)?;
+    let roles = Roles::of(&header)?;
     let wanted = |element: &Element| {
         let place = header.elements.iter().position(|e| e.name == element.name);
         place.is_some_and(|place| roles.wants(place))
     };
-    let body = Body::new(path, bytes, &header, wanted, notes)?;
+    let body = Body::new(bytes, &header, wanted, notes)?;
     let tables = body.tables(notes)?;
     for (place, element) in header.elements.iter().enumerate() {
         if !roles.wants(place) {
-            let what = format!("rows of element `{}` left out", element.name.escape_debug());
+            let what = format!("rows of {element} left out");
             notes.left_out(element.rows, element.place.line, what);
         }
     }
@@ -56,8 +51,7 @@ pub(crate) fn read(
     };
     reader.polygons.positions = reader.positions(&roles)?;
     if let Some((element, list)) = roles.face {
-        let (offsets, corners) = reader.indices(element, list)?;
-        (reader.polygons.offsets, reader.polygons.corners) = (offsets, corners);
+        (reader.polygons.offsets, reader.polygons.corners) = reader.indices(element, list)?;
     } else if let Some((element, list)) = roles.strips {
         reader.strips(element, list)?;
     }
@@ -66,7 +60,7 @@ pub(crate) fn read(
         reader.face_columns(element, list);
         reader.leave_small_faces_out();
     }
-    Ok(Found::polygons(name, reader.polygons))
+    Ok(reader.polygons)
 }
 
 /// What comments say about properties that are there; of each only the first counts.
@@ -94,43 +88,34 @@ struct Reader<'a, 'n> {
 }
 
 impl Reader<'_, '_> {
-    fn positions(&self, roles: &Roles) -> Result<Vec<DVec3>, ReadError> {
+    fn positions(&self, roles: &Roles) -> Result<Vec<DVec3>, Fault> {
         let table = &self.tables[roles.vertex];
         let positions = numbers(table, roles.position, DVec3::from_array);
-        let blocks = positions.par_chunks(BLOCK).enumerate();
-        let broken = blocks.find_map_first(|(block, positions)| {
-            let row = positions.iter().position(|p| !p.is_finite())?;
-            Some(block * BLOCK + row)
-        });
-        let Some(row) = broken else {
+        if parallel::all(positions.len(), |row| positions[row].is_finite()) {
             return Ok(positions);
-        };
-        let axis = positions[row]
-            .to_array()
-            .iter()
-            .position(|x| !x.is_finite());
-        let property = roles.position[axis.unwrap_or(0)];
-        let message = format!(
-            "expected a finite number `{}`, found {}",
-            ["x", "y", "z"][axis.unwrap_or(0)],
-            positions[row].to_array()[axis.unwrap_or(0)]
-        );
-        Err(self
-            .body
-            .error(self.tables, (roles.vertex, property, row, 0), message))
+        }
+        let numbers = positions.iter().flat_map(|p| p.to_array()).enumerate();
+        let broken = numbers.into_iter().find(|(_, x)| !x.is_finite());
+        let (i, found) = broken.unwrap_or_default();
+        let (row, axis) = (i / 3, i % 3);
+        let name = ["x", "y", "z"][axis];
+        let message = format!("expected a finite number `{name}`, found {found}");
+        let place = (roles.vertex, roles.position[axis], row, 0);
+        Err(self.body.error(self.tables, place, message))
     }
 
     /// The vertices of the rows of faces.
-    fn indices(&self, element: usize, list: usize) -> Result<(Vec<u32>, Vec<u32>), ReadError> {
+    fn indices(&self, element: usize, list: usize) -> Result<(Vec<u32>, Vec<u32>), Fault> {
         let n = self.polygons.positions.len();
-        indices(&self.tables[element], list, n).map_err(|bad| {
+        let table = &self.tables[element];
+        indices(table, list, n).map_err(|bad| {
             let (row, item) = bad.unwrap_or_default();
             let message = match bad {
-                Some(_) => format!(
-                    "expected a vertex from 0 to below {n}, found {}",
-                    item_at(&self.tables[element], list, row, item)
-                ),
                 None => format!("expected fewer than {} corners, found more", u32::MAX),
+                Some(_) => {
+                    let found = item_at(table, list, row, item);
+                    format!("expected a vertex from 0 to below {n}, found {found}")
+                }
             };
             self.body
                 .error(self.tables, (element, list, row, item), message)
@@ -139,25 +124,22 @@ impl Reader<'_, '_> {
 
     /// The triangles of strips, in which -1 ends a strip: every second one is turned round, and those
     /// that visit a vertex twice only lead on to the next.
-    fn strips(&mut self, element: usize, list: usize) -> Result<(), ReadError> {
+    fn strips(&mut self, element: usize, list: usize) -> Result<(), Fault> {
         let table = &self.tables[element];
-        let (corners, strips, stitches) =
-            triangles_of_strips(table, list, self.polygons.positions.len()).map_err(
-                |(row, item, message)| {
-                    self.body
-                        .error(self.tables, (element, list, row, item), message)
-                },
-            )?;
+        let found = triangles_of_strips(table, list, self.polygons.positions.len());
+        let (corners, strips, stitches) = found.map_err(|(row, item, message)| {
+            self.body
+                .error(self.tables, (element, list, row, item), message)
+        })?;
         let line = self.header.elements[element].place.line;
-        let n_triangles = u32::try_from(corners.len() / 3).unwrap_or(u32::MAX);
-        self.polygons.offsets = (0..=n_triangles).map(|i| 3 * i).collect();
-        let what = format!("triangle strips became {n_triangles} triangles");
+        let n = corners.len() / 3;
+        self.polygons.offsets = Polygons::even_offsets(n, 3);
+        self.polygons.corners = corners;
+        let what = format!("triangle strips became {n} triangles");
         self.notes.changed(strips, line, what);
         let what = "triangles of strips left out: they visit a vertex twice";
         self.notes.changed(stitches, line, what);
-        self.polygons.corners = corners;
-        let others = (0..table.properties.len()).filter(|&p| p != list);
-        let lost = others.count() * table.rows;
+        let lost = (table.properties.len() - 1) * table.rows;
         self.notes
             .left_out(lost, line, "values of triangle strips left out");
         Ok(())
@@ -169,10 +151,8 @@ impl Reader<'_, '_> {
         mark_used(&mut used, &roles.position);
         self.marked(Domain::Vertex, roles.vertex, &mut used);
         self.normals_and_colors(Domain::Vertex, roles.vertex, &mut used);
-        let per_corner = |element: &Element| element.list("texcoord").is_some();
-        let has_uvs = roles
-            .face
-            .is_some_and(|(face, _)| per_corner(&self.header.elements[face]));
+        let faces = roles.face.map(|(face, _)| &self.header.elements[face]);
+        let has_uvs = faces.is_some_and(|faces| faces.list("texcoord").is_some());
         if let Some(uv) = free(&used, roles::uv(element))
             && !self.polygons.corners.is_empty()
             && !has_uvs
@@ -180,9 +160,8 @@ impl Reader<'_, '_> {
             mark_used(&mut used, &uv);
             let mut uvs = Values::Vec2(numbers(&self.tables[roles.vertex], uv, DVec2::from_array));
             let corners = &self.polygons.corners;
-            let count = mend(&mut uvs);
-            self.notes
-                .changed(count, None, "texture coordinates that are not finite are 0");
+            let what = "texture coordinates that are not finite are 0";
+            self.notes.changed(mend(&mut uvs), None, what);
             let uvs = uvs.gather(corners.len(), |c| Some(corners[c] as usize));
             self.insert(Domain::Corner, UV.name, UV.rule, uvs);
         }
@@ -196,9 +175,8 @@ impl Reader<'_, '_> {
         used[corners] = true;
         self.marked(Domain::Face, place, &mut used);
         for mark in self.marks.clone() {
-            let list = element.list(&mark.property);
-            let Some(list) = list.filter(|&list| mark.domain == Domain::Corner && !used[list])
-            else {
+            let list = element.list(&mark.property).filter(|&list| !used[list]);
+            let Some(list) = list.filter(|_| mark.domain == Domain::Corner) else {
                 continue;
             };
             let per = mark.kind.size();
@@ -209,14 +187,15 @@ impl Reader<'_, '_> {
                 });
             if fits {
                 used[list] = true;
-                let (values, _) = corner_values(table, list, &self.polygons.offsets, mark.kind);
+                let source = Source::List(list, &self.polygons.offsets);
+                let (values, _) = values(table, source, mark.kind);
                 self.insert(Domain::Corner, &mark.name, mark.rule, values);
             }
         }
         if let Some(list) = element.list("texcoord").filter(|&list| !used[list]) {
             used[list] = true;
-            let offsets = &self.polygons.offsets;
-            let (values, short) = corner_values(table, list, offsets, Kind::Vec2);
+            let source = Source::List(list, &self.polygons.offsets);
+            let (values, short) = values(table, source, Kind::Vec2);
             let line = element.properties[list].place.line;
             let what = "faces have texture coordinates 0: `texcoord` has not two for each corner";
             self.notes.changed(short, line, what);
@@ -230,10 +209,8 @@ impl Reader<'_, '_> {
     fn marked(&mut self, domain: Domain, place: usize, used: &mut [bool]) {
         let element = &self.header.elements[place];
         for mark in self.marks.clone() {
-            let Some(first) = element
-                .scalar(&mark.property)
-                .filter(|_| mark.domain == domain)
-            else {
+            let first = element.scalar(&mark.property);
+            let Some(first) = first.filter(|_| mark.domain == domain) else {
                 continue;
             };
             let range = first..first + mark.kind.size();
@@ -244,7 +221,8 @@ impl Reader<'_, '_> {
             });
             if fit && !used[range.clone()].contains(&true) {
                 used[range].fill(true);
-                let values = values(&self.tables[place], first, mark.kind);
+                let source = Source::Scalars(first);
+                let (values, _) = values(&self.tables[place], source, mark.kind);
                 self.insert(domain, &mark.name, mark.rule, values);
             }
         }
@@ -291,24 +269,19 @@ impl Reader<'_, '_> {
         let unused = (0..used.len()).filter(|&p| !used[p]);
         for (p, property) in unused.map(|p| (p, &element.properties[p])) {
             if property.count.is_some() {
-                let what = format!(
-                    "lists `{}` of element `{}` left out",
-                    property.name.escape_debug(),
-                    element.name.escape_debug()
-                );
+                let what = format!("lists {property} of {element} left out");
                 self.notes.left_out(table.rows, property.place.line, what);
                 continue;
             }
+            let of_kind = |kind| values(table, Source::Scalars(p), kind).0;
+            let fits = |x: &f64| *x <= f64::from(i32::MAX);
             let values = match property.value {
-                Type::Float32 | Type::Float64 => values(table, p, Kind::Float),
-                Type::UInt32 => match values(table, p, Kind::Float) {
-                    Values::Float(wide) if wide.iter().all(|&x| x <= f64::from(i32::MAX)) => {
-                        drop(wide);
-                        values(table, p, Kind::Int)
-                    }
+                Type::Float32 | Type::Float64 => of_kind(Kind::Float),
+                Type::UInt32 => match of_kind(Kind::Float) {
+                    Values::Float(wide) if wide.iter().all(fits) => of_kind(Kind::Int),
                     wide => wide,
                 },
-                _ => values(table, p, Kind::Int),
+                _ => of_kind(Kind::Int),
             };
             let rule = plain_rule(domain, property.value);
             self.insert(domain, &property.name, rule, values);
@@ -317,12 +290,11 @@ impl Reader<'_, '_> {
 
     /// Adds a column; a name that is taken gets a number.
     fn insert(&mut self, domain: Domain, name: &str, rule: Rule, mut values: Values) {
-        let count = mend(&mut values);
         let what = format!(
             "values of `{}` that are not finite are 0",
             name.escape_debug()
         );
-        self.notes.changed(count, None, what);
+        self.notes.changed(mend(&mut values), None, what);
         let mut free = name.to_owned();
         let mut number = 2;
         while !self.names.insert((domain, free.clone())) {
@@ -330,10 +302,8 @@ impl Reader<'_, '_> {
             number += 1;
         }
         if free != name {
-            let what = format!(
-                "values are now called `{}`: the name is taken",
-                free.escape_debug()
-            );
+            let new = free.escape_debug();
+            let what = format!("values are now called `{new}`: the name is taken");
             self.notes.changed(values.len(), None, what);
         }
         let column = Column {
@@ -346,40 +316,14 @@ impl Reader<'_, '_> {
 
     fn leave_small_faces_out(&mut self) {
         let offsets = &self.polygons.offsets;
-        let is_small = |ends: &[u32]| ends[1] - ends[0] < 3;
-        let small = offsets
-            .par_windows(2)
-            .with_min_len(BLOCK)
-            .filter(|ends| is_small(ends));
-        let count = small.count();
-        if count == 0 {
-            return;
-        }
+        let n = self.polygons.n_faces();
+        let is_small = |f: usize| offsets[f + 1] - offsets[f] < 3;
+        let count = parallel::count(n, is_small);
         let what = "faces with fewer than 3 corners left out";
         self.notes.left_out(count, None, what);
-        let mut faces = Vec::new();
-        let mut corners = Vec::new();
-        let mut ends = vec![0];
-        for (f, range) in offsets.windows(2).enumerate() {
-            if !is_small(range) {
-                faces.push(f);
-                corners.extend(range[0] as usize..range[1] as usize);
-                ends.push(u32::try_from(corners.len()).expect("no more than before"));
-            }
-        }
-        self.polygons.offsets = ends;
-        self.polygons.corners = corners.iter().map(|&c| self.polygons.corners[c]).collect();
-        let attributes = std::mem::take(&mut self.polygons.attributes);
-        for (domain, mut column) in attributes {
-            let kept = match domain {
-                Domain::Face => Some(&faces),
-                Domain::Corner => Some(&corners),
-                Domain::Vertex | Domain::Edge => None,
-            };
-            if let Some(kept) = kept {
-                column.values = column.values.gather(kept.len(), |i| Some(kept[i]));
-            }
-            self.polygons.attributes.insert(domain, column);
+        if count > 0 {
+            let is_small: Vec<bool> = (0..n).map(is_small).collect();
+            keep(&mut self.polygons, &is_small, &[]);
         }
     }
 }

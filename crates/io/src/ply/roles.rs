@@ -1,7 +1,8 @@
 //! What the elements and properties of a header mean.
 
 use super::header::{Element, Header};
-use crate::error::TextError;
+use crate::fault::Fault;
+use crate::text::Place;
 
 /// The elements that become a mesh, by their places in the header.
 #[derive(Debug)]
@@ -19,16 +20,16 @@ impl Roles {
     /// # Errors
     ///
     /// If there are no vertices, or an element has not what it needs to be what its name says.
-    pub(super) fn of(header: &Header) -> Result<Self, TextError> {
+    pub(super) fn of(header: &Header) -> Result<Self, Fault> {
         let Some((vertex, vertices)) = header.element("vertex") else {
-            let place = crate::text::Place {
+            let place = Place {
                 line: header.lines,
                 column: 1,
             };
             return Err(place.error("expected an element `vertex`, found none in the header"));
         };
         let mut position = [0; 3];
-        for (place, name) in position.iter_mut().zip(["x", "y", "z"]) {
+        for (place, name) in position.iter_mut().zip(POSITION) {
             *place = scalar(vertices, name)?;
         }
         let with_rows = |name: &str| header.element(name).filter(|(_, e)| e.rows > 0);
@@ -57,46 +58,36 @@ impl Roles {
     }
 }
 
-fn scalar(element: &Element, name: &str) -> Result<usize, TextError> {
+fn scalar(element: &Element, name: &str) -> Result<usize, Fault> {
     if let Some(found) = element.scalar(name) {
         return Ok(found);
     }
-    let element_name = element.name.escape_debug();
     let (place, found) = match element.list(name) {
         Some(list) => (element.properties[list].place, "a list"),
         None => (element.place, "none"),
     };
-    let message =
-        format!("expected a single value `{name}` of element `{element_name}`, found {found}");
-    Err(place.error(message))
+    Err(place.error(format!(
+        "expected a single value `{name}` of {element}, found {found}"
+    )))
 }
 
 /// The list of the vertices of a face or strip.
-fn corner_list(element: &Element) -> Result<usize, TextError> {
-    let names = ["vertex_indices", "vertex_index"];
-    if let Some(list) = names.iter().find_map(|name| element.list(name)) {
+fn corner_list(element: &Element) -> Result<usize, Fault> {
+    if let Some(list) = CORNERS.iter().find_map(|name| element.list(name)) {
         let property = &element.properties[list];
         if property.value.is_float() {
-            let message = format!(
-                "expected a list of whole numbers, found one of type {}",
-                property.value.name()
-            );
+            let found = property.value.name();
+            let message = format!("expected a list of whole numbers, found one of type {found}");
             return Err(property.place.error(message));
         }
         return Ok(list);
     }
-    let scalar = names.iter().find_map(|name| element.scalar(name));
+    let scalar = CORNERS.iter().find_map(|name| element.scalar(name));
     let place = scalar.map_or(element.place, |p| element.properties[p].place);
-    let found = if scalar.is_some() {
-        "a single value"
-    } else {
-        "none"
-    };
-    let message = format!(
-        "expected a list `vertex_indices` of element `{}`, found {found}",
-        element.name.escape_debug()
-    );
-    Err(place.error(message))
+    let found = scalar.map_or("none", |_| "a single value");
+    Err(place.error(format!(
+        "expected a list `vertex_indices` of {element}, found {found}"
+    )))
 }
 
 /// The first of some families of names that are all there.
@@ -110,6 +101,8 @@ fn family<const N: usize>(element: &Element, names: &[[&str; N]]) -> Option<[usi
     })
 }
 
+const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
+const POSITION: [&str; 3] = ["x", "y", "z"];
 const NORMAL: [&str; 3] = ["nx", "ny", "nz"];
 const UVS: [[&str; 2]; 4] = [
     ["s", "t"],
@@ -117,47 +110,27 @@ const UVS: [[&str; 2]; 4] = [
     ["texture_u", "texture_v"],
     ["texture_s", "texture_t"],
 ];
-const COLORS: [([&str; 3], &str); 3] = [
-    (["red", "green", "blue"], "alpha"),
-    (
-        ["diffuse_red", "diffuse_green", "diffuse_blue"],
+const COLORS: [[&str; 4]; 3] = [
+    ["red", "green", "blue", "alpha"],
+    [
+        "diffuse_red",
+        "diffuse_green",
+        "diffuse_blue",
         "diffuse_alpha",
-    ),
-    (["r", "g", "b"], "a"),
+    ],
+    ["r", "g", "b", "a"],
 ];
 
 /// Names that other attributes must not have: those of all families.
-pub(super) const NAMES: [&str; 29] = [
-    "x",
-    "y",
-    "z",
-    "nx",
-    "ny",
-    "nz",
-    "s",
-    "t",
-    "u",
-    "v",
-    "texture_u",
-    "texture_v",
-    "texture_s",
-    "texture_t",
-    "red",
-    "green",
-    "blue",
-    "alpha",
-    "diffuse_red",
-    "diffuse_green",
-    "diffuse_blue",
-    "diffuse_alpha",
-    "r",
-    "g",
-    "b",
-    "a",
-    "vertex_indices",
-    "vertex_index",
-    "texcoord",
-];
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    let families = UVS.as_flattened().iter().chain(COLORS.as_flattened());
+    let others = POSITION
+        .iter()
+        .chain(&NORMAL)
+        .chain(&CORNERS)
+        .chain(&["texcoord"]);
+    families.chain(others).copied()
+}
 
 /// The properties of a normal.
 pub(super) fn normal(element: &Element) -> Option<[usize; 3]> {
@@ -173,19 +146,5 @@ pub(super) fn uv(element: &Element) -> Option<[usize; 2]> {
 pub(super) fn color(element: &Element) -> Option<([usize; 3], Option<usize>)> {
     COLORS
         .iter()
-        .find_map(|(names, alpha)| Some((family(element, &[*names])?, element.scalar(alpha))))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_name_with_a_meaning_is_free() {
-        let colors = COLORS
-            .iter()
-            .flat_map(|(rgb, alpha)| rgb.iter().chain([alpha]));
-        let mut all = NORMAL.iter().chain(UVS.as_flattened()).chain(colors);
-        assert!(all.all(|name| NAMES.contains(name)));
-    }
+        .find_map(|&[r, g, b, a]| Some((family(element, &[[r, g, b]])?, element.scalar(a))))
 }

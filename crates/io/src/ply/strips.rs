@@ -26,10 +26,8 @@ pub(super) fn triangles_of_strips(
                 length = 0;
                 continue;
             }
-            let v = u32::try_from(value)
-                .ok()
-                .filter(|&v| (v as usize) < n_vertices);
-            let Some(v) = v else {
+            let v = u32::try_from(value).ok();
+            let Some(v) = v.filter(|&v| (v as usize) < n_vertices) else {
                 let message =
                     format!("expected -1 or a vertex from 0 to below {n_vertices}, found {value}");
                 return Err((row, item, message));
@@ -41,11 +39,8 @@ pub(super) fn triangles_of_strips(
                 if a == b || b == v || v == a {
                     stitches += 1;
                 } else if corners.len() + 3 >= u32::MAX as usize {
-                    return Err((
-                        row,
-                        item,
-                        "expected fewer than 4294967295 corners".to_owned(),
-                    ));
+                    let message = format!("expected fewer than {} corners", u32::MAX);
+                    return Err((row, item, message));
                 } else if length % 2 == 1 {
                     corners.extend([a, b, v]);
                 } else {

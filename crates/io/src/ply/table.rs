@@ -1,12 +1,9 @@
 //! Where the values of an element are in the bytes of a file.
 
-use rayon::prelude::*;
-
 use super::header::{Element, Property};
-use super::types::{Type, whole};
-
-/// Rows that one task works on.
-pub(super) const BLOCK: usize = 4096;
+use super::types::{Type, number, read_all, whole};
+use crate::fault::Fault;
+use crate::parallel;
 
 /// The rows of one element and where each of its values is.
 #[derive(Debug)]
@@ -43,14 +40,6 @@ enum Layout {
     },
 }
 
-/// What is wrong with the bytes of an element, and where.
-#[derive(Debug)]
-pub(super) struct Broken {
-    /// From the start of the file.
-    pub(super) offset: usize,
-    pub(super) message: String,
-}
-
 impl<'a> Table<'a> {
     /// Finds the rows of an element in `file` from `start` on, and where they end.
     ///
@@ -63,189 +52,55 @@ impl<'a> Table<'a> {
         file: &'a [u8],
         start: usize,
         big: bool,
-    ) -> Result<(Self, usize), Broken> {
+    ) -> Result<(Self, usize), Fault> {
         let bytes = &file[start..];
-        let shortest = element.properties.iter().map(|p| match p.count {
-            Some(count) => count.size(),
-            None => p.value.size(),
-        });
+        let Element {
+            properties, rows, ..
+        } = element;
+        let shortest = properties.iter().map(|p| p.count.unwrap_or(p.value).size());
         let shortest: usize = shortest.sum();
-        let least = shortest.checked_mul(element.rows);
+        let least = shortest.checked_mul(*rows);
         if least.is_none_or(|least| least > bytes.len()) {
             let message = format!(
-                "expected {} rows of element `{}` of {shortest} bytes or more, found {} bytes",
-                element.rows,
-                element.name.escape_debug(),
+                "expected {rows} rows of {element} of {shortest} bytes or more, found {} bytes",
                 bytes.len()
             );
-            return Err(Broken {
-                offset: start,
-                message,
-            });
+            return Err(Fault::byte(start, message));
         }
-        let mut table = Self {
-            properties: &element.properties,
-            rows: if element.properties.is_empty() {
-                0
-            } else {
-                element.rows
-            },
-            big,
-            bytes,
-            start,
-            layout: Layout::Even {
-                stride: 0,
-                places: Vec::new(),
-                counts: Vec::new(),
-            },
-        };
-        if table.rows == 0 {
-            table.layout = Layout::Even {
-                stride: shortest,
-                places: vec![0; element.properties.len()],
-                counts: vec![0; element.properties.len()],
-            };
-            return Ok((table, start));
-        }
-        let (layout, length) = match table.even() {
+        let rows = if properties.is_empty() { 0 } else { *rows };
+        let (layout, length) = match even(properties, rows, bytes, big) {
+            _ if rows == 0 => {
+                let layout = Layout::Even {
+                    stride: shortest,
+                    places: vec![0; properties.len()],
+                    counts: vec![0; properties.len()],
+                };
+                (layout, 0)
+            }
             Some(found) => found,
-            None => table.scanned(element)?,
+            None => scanned(element, bytes, start, big)?,
         };
-        table.layout = layout;
-        table.bytes = &bytes[..length];
+        let table = Self {
+            properties,
+            rows,
+            big,
+            bytes: &bytes[..length],
+            start,
+            layout,
+        };
         Ok((table, start + length))
     }
 
-    /// The layout if every row has the counts of the first, and how long the rows are together.
-    fn even(&self) -> Option<(Layout, usize)> {
-        let mut at = 0_usize;
-        let (mut places, mut counts, mut lists) = (Vec::new(), Vec::new(), Vec::new());
-        for property in self.properties {
-            let Some(count_type) = property.count else {
-                places.push(at);
-                counts.push(0);
-                at += property.value.size();
-                continue;
-            };
-            let bytes = self.bytes.get(at..)?;
-            let bytes = bytes.get(..count_type.size())?;
-            let count = usize::try_from(whole(count_type, self.big, bytes)).ok()?;
-            lists.push((at, count_type, count));
-            at += count_type.size();
-            places.push(at);
-            counts.push(count);
-            at = at.checked_add(count.checked_mul(property.value.size())?)?;
+    /// Reads the values of a scalar property from a row on.
+    pub(super) fn read(&self, property: usize, row: usize, out: &mut [f64]) {
+        let kind = self.properties[property].value;
+        if let Layout::Even { stride, places, .. } = &self.layout {
+            let bytes = &self.bytes[row * stride + places[property]..];
+            return read_all(kind, self.big, bytes, *stride, out);
         }
-        let stride = at;
-        let length = stride.checked_mul(self.rows)?;
-        let rows = self.bytes.get(..length)?;
-        for (at, count_type, count) in lists {
-            let same = |row: &[u8]| {
-                usize::try_from(whole(count_type, self.big, &row[at..])).ok() == Some(count)
-            };
-            let blocks = rows.par_chunks(BLOCK * stride);
-            // Most lists are counted by one byte: the type is looked at outside of the loop.
-            let all = if count_type == Type::UInt8 {
-                blocks.all(|block| {
-                    block
-                        .chunks_exact(stride)
-                        .all(|row| usize::from(row[at]) == count)
-                })
-            } else {
-                blocks.all(|block| block.chunks_exact(stride).all(same))
-            };
-            if !all {
-                return None;
-            }
+        for (row, x) in (row..).zip(out) {
+            *x = number(kind, self.big, &self.bytes[self.at(property, row)..]);
         }
-        let layout = Layout::Even {
-            stride,
-            places,
-            counts,
-        };
-        Some((layout, length))
-    }
-
-    /// The layout of rows whose lists differ, found by walking over them.
-    fn scanned(&self, element: &Element) -> Result<(Layout, usize), Broken> {
-        let mut places = Vec::new();
-        let (mut segment, mut place) = (0, 0);
-        let mut needed = vec![false];
-        for property in self.properties {
-            if let Some(count) = property.count {
-                places.push((segment, place + count.size()));
-                needed[segment] = true;
-                segment += 1;
-                place = 0;
-                needed.push(false);
-            } else {
-                places.push((segment, place));
-                needed[segment] = true;
-                place += property.value.size();
-            }
-        }
-        let room = |needed: bool| Vec::with_capacity(if needed { self.rows } else { 0 });
-        let mut starts: Vec<Vec<usize>> = needed.iter().map(|&needed| room(needed)).collect();
-        let lists = self.properties.iter().map(|p| p.count.is_some());
-        let mut counts: Vec<Vec<u32>> = lists
-            .map(|list| Vec::with_capacity(if list { self.rows } else { 0 }))
-            .collect();
-        let mut at = 0;
-        for row in 0..self.rows {
-            let mut segment = 0;
-            starts[0].push(at);
-            for (p, property) in self.properties.iter().enumerate() {
-                let Some(count_type) = property.count else {
-                    at += property.value.size();
-                    continue;
-                };
-                let broken = |message: String| Broken {
-                    offset: self.start + at.min(self.bytes.len()),
-                    message: format!(
-                        "{message} in `{}` of row {row} of element `{}`",
-                        property.name.escape_debug(),
-                        element.name.escape_debug()
-                    ),
-                };
-                let end = at + count_type.size();
-                let Some(bytes) = self.bytes.get(at..end) else {
-                    return Err(broken("expected a count, found the end of the file".into()));
-                };
-                let count = whole(count_type, self.big, bytes);
-                let Ok(n) = u32::try_from(count) else {
-                    return Err(broken(format!("expected a count, found {count}")));
-                };
-                let rest = self.bytes.len() - end;
-                let size = property.value.size();
-                if n as usize > rest / size {
-                    return Err(broken(format!(
-                        "expected {n} values of {size} bytes, found {rest} bytes"
-                    )));
-                }
-                at = end + n as usize * size;
-                counts[p].push(n);
-                segment += 1;
-                if needed[segment] {
-                    starts[segment].push(at);
-                }
-            }
-        }
-        if at > self.bytes.len() {
-            return Err(Broken {
-                offset: self.start + self.bytes.len(),
-                message: format!(
-                    "expected {} rows of element `{}`, found the end of the file",
-                    self.rows,
-                    element.name.escape_debug()
-                ),
-            });
-        }
-        let layout = Layout::Uneven {
-            places,
-            starts,
-            counts,
-        };
-        Ok((layout, at))
     }
 
     /// Where a value is in [`bytes`](Self::bytes); of a list, the first item.
@@ -257,17 +112,6 @@ impl<'a> Table<'a> {
                 let (segment, place) = places[property];
                 starts[segment][row] + place
             }
-        }
-    }
-
-    /// How long each row is and where these properties are in it, if all rows are alike.
-    pub(super) fn stride<const N: usize>(
-        &self,
-        properties: [usize; N],
-    ) -> Option<(usize, [usize; N])> {
-        match &self.layout {
-            Layout::Even { stride, places, .. } => Some((*stride, properties.map(|p| places[p]))),
-            Layout::Uneven { .. } => None,
         }
     }
 
@@ -287,4 +131,121 @@ impl<'a> Table<'a> {
             Layout::Uneven { .. } => None,
         }
     }
+}
+
+/// The layout if every row has the counts of the first, and how long the rows are together.
+fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option<(Layout, usize)> {
+    let mut at = 0_usize;
+    let (mut places, mut counts, mut lists) = (Vec::new(), Vec::new(), Vec::new());
+    for property in properties {
+        let mut count = 1;
+        if let Some(kind) = property.count {
+            let first = bytes.get(at..)?.get(..kind.size())?;
+            count = usize::try_from(whole(kind, big, first)).ok()?;
+            lists.push((at, kind, count));
+            at += kind.size();
+        }
+        places.push(at);
+        counts.push(if property.count.is_some() { count } else { 0 });
+        at = at.checked_add(count.checked_mul(property.value.size())?)?;
+    }
+    let stride = at;
+    let length = stride.checked_mul(rows)?;
+    bytes.get(..length)?;
+    for (at, kind, count) in lists {
+        // Most lists are counted by one byte: the type is looked at outside of the loop.
+        let is_same = if kind == Type::UInt8 {
+            parallel::all(rows, |row| usize::from(bytes[row * stride + at]) == count)
+        } else {
+            let count = i64::try_from(count).ok()?;
+            parallel::all(rows, |row| {
+                whole(kind, big, &bytes[row * stride + at..]) == count
+            })
+        };
+        if !is_same {
+            return None;
+        }
+    }
+    let layout = Layout::Even {
+        stride,
+        places,
+        counts,
+    };
+    Some((layout, length))
+}
+
+/// The layout of rows whose lists differ, found by walking over them, and how long they are together.
+fn scanned(
+    element: &Element,
+    all: &[u8],
+    start: usize,
+    big: bool,
+) -> Result<(Layout, usize), Fault> {
+    let mut places = Vec::new();
+    let (mut segment, mut place) = (0, 0);
+    let mut needed = vec![false];
+    for property in &element.properties {
+        needed[segment] = true;
+        if let Some(count) = property.count {
+            places.push((segment, place + count.size()));
+            needed.push(false);
+            (segment, place) = (segment + 1, 0);
+        } else {
+            places.push((segment, place));
+            place += property.value.size();
+        }
+    }
+    let room = |needed: bool| if needed { element.rows } else { 0 };
+    let starts = needed
+        .iter()
+        .map(|&needed| Vec::with_capacity(room(needed)));
+    let mut starts: Vec<Vec<usize>> = starts.collect();
+    let lists = element.properties.iter().map(|p| p.count.is_some());
+    let mut counts: Vec<Vec<u32>> = lists.map(|list| Vec::with_capacity(room(list))).collect();
+    let mut at = 0;
+    for row in 0..element.rows {
+        let mut segment = 0;
+        starts[0].push(at);
+        for (p, property) in element.properties.iter().enumerate() {
+            let size = property.value.size();
+            let Some(kind) = property.count else {
+                at += size;
+                continue;
+            };
+            let broken = |message: String| {
+                let message = format!("{message} in {property} of row {row} of {element}");
+                Fault::byte(start + at.min(all.len()), message)
+            };
+            let end = at + kind.size();
+            let Some(bytes) = all.get(at..end) else {
+                return Err(broken("expected a count, found the end of the file".into()));
+            };
+            let count = whole(kind, big, bytes);
+            let Ok(n) = u32::try_from(count) else {
+                return Err(broken(format!("expected a count, found {count}")));
+            };
+            let rest = all.len() - end;
+            if n as usize > rest / size {
+                let message = format!("expected {n} values of {size} bytes, found {rest} bytes");
+                return Err(broken(message));
+            }
+            at = end + n as usize * size;
+            counts[p].push(n);
+            segment += 1;
+            if needed[segment] {
+                starts[segment].push(at);
+            }
+        }
+    }
+    if at > all.len() {
+        let rows = element.rows;
+        let message = format!("expected {rows} rows of {element}, found the end of the file");
+        return Err(Fault::byte(start + all.len(), message));
+    }
+    let layout = Layout::Uneven {
+        places,
+        starts,
+        counts,
+    };
+    Ok((layout, at))
 }

@@ -1,6 +1,6 @@
 //! The scalar types of PLY files and how their bytes become numbers.
 
-use std::marker::PhantomData;
+use bytemuck::Pod;
 
 /// The type of a property, of a list's count or of its items.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,44 +15,34 @@ pub(super) enum Type {
     Float64,
 }
 
+/// Each type with its names, the oldest first, and how many bytes a value takes.
+const TYPES: [(Type, [&str; 2], usize); 8] = [
+    (Type::Int8, ["char", "int8"], 1),
+    (Type::UInt8, ["uchar", "uint8"], 1),
+    (Type::Int16, ["short", "int16"], 2),
+    (Type::UInt16, ["ushort", "uint16"], 2),
+    (Type::Int32, ["int", "int32"], 4),
+    (Type::UInt32, ["uint", "uint32"], 4),
+    (Type::Float32, ["float", "float32"], 4),
+    (Type::Float64, ["double", "float64"], 8),
+];
+
 impl Type {
     /// The type of this name, of either family: `uchar` or `uint8`.
     pub(super) fn parse(word: &[u8]) -> Option<Self> {
-        Some(match word {
-            b"char" | b"int8" => Self::Int8,
-            b"uchar" | b"uint8" => Self::UInt8,
-            b"short" | b"int16" => Self::Int16,
-            b"ushort" | b"uint16" => Self::UInt16,
-            b"int" | b"int32" => Self::Int32,
-            b"uint" | b"uint32" => Self::UInt32,
-            b"float" | b"float32" => Self::Float32,
-            b"double" | b"float64" => Self::Float64,
-            _ => return None,
-        })
+        let is_it = |name: &&str| name.as_bytes() == word;
+        let found = TYPES.iter().find(|(_, names, _)| names.iter().any(is_it));
+        found.map(|&(kind, ..)| kind)
     }
 
     /// The name that the oldest readers know too.
     pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Int8 => "char",
-            Self::UInt8 => "uchar",
-            Self::Int16 => "short",
-            Self::UInt16 => "ushort",
-            Self::Int32 => "int",
-            Self::UInt32 => "uint",
-            Self::Float32 => "float",
-            Self::Float64 => "double",
-        }
+        TYPES[self as usize].1[0]
     }
 
     /// How many bytes a value takes.
     pub(super) fn size(self) -> usize {
-        match self {
-            Self::Int8 | Self::UInt8 => 1,
-            Self::Int16 | Self::UInt16 => 2,
-            Self::Int32 | Self::UInt32 | Self::Float32 => 4,
-            Self::Float64 => 8,
-        }
+        TYPES[self as usize].2
     }
 
     pub(super) fn is_float(self) -> bool {
@@ -61,13 +51,10 @@ impl Type {
 
     /// The least and the greatest value of a whole-number type.
     pub(super) fn range(self) -> (i64, i64) {
+        let all = 1 << (8 * self.size().min(4));
         match self {
-            Self::Int8 => (-0x80, 0x7f),
-            Self::UInt8 => (0, 0xff),
-            Self::Int16 => (-0x8000, 0x7fff),
-            Self::UInt16 => (0, 0xffff),
-            Self::Int32 => (i32::MIN.into(), i32::MAX.into()),
-            Self::UInt32 | Self::Float32 | Self::Float64 => (0, u32::MAX.into()),
+            Self::Int8 | Self::Int16 | Self::Int32 => (-all / 2, all / 2 - 1),
+            _ => (0, all - 1),
         }
     }
 
@@ -81,89 +68,56 @@ impl Type {
     }
 }
 
-/// Reads one value from the front of some bytes, which are enough.
-pub(super) trait Scalar: Send + Sync {
-    const SIZE: usize;
-
-    fn number(bytes: &[u8]) -> f64;
-
-    /// The whole number; for floating-point types, which no caller asks for, cut to one.
-    fn whole(bytes: &[u8]) -> i64;
-}
-
-/// A number whose lowest byte comes first.
-pub(super) struct Little<T>(PhantomData<T>);
-
-/// A number whose highest byte comes first.
-pub(super) struct Big<T>(PhantomData<T>);
-
-macro_rules! scalar {
-    ($type:ty, $whole:expr) => {
-        scalar!(Little<$type>, $type, from_le_bytes, $whole);
-        scalar!(Big<$type>, $type, from_be_bytes, $whole);
-    };
-    ($marker:ty, $type:ty, $from:ident, $whole:expr) => {
-        impl Scalar for $marker {
-            const SIZE: usize = size_of::<$type>();
-
-            #[inline]
-            fn number(bytes: &[u8]) -> f64 {
-                let bytes = bytes.first_chunk().expect("the caller gives enough");
-                <$type>::$from(*bytes).into()
-            }
-
-            #[inline]
-            fn whole(bytes: &[u8]) -> i64 {
-                let bytes = bytes.first_chunk().expect("the caller gives enough");
-                $whole(<$type>::$from(*bytes))
-            }
-        }
-    };
-}
-scalar!(i8, i64::from);
-scalar!(u8, i64::from);
-scalar!(i16, i64::from);
-scalar!(u16, i64::from);
-scalar!(i32, i64::from);
-scalar!(u32, i64::from);
-scalar!(f32, |x| cut(f64::from(x)));
-scalar!(f64, cut);
-
-#[expect(clippy::cast_possible_truncation, reason = "that is what it is for")]
-fn cut(x: f64) -> i64 {
-    x as i64
-}
-
-/// Runs `$body` with `$scalar` standing for the [`Scalar`] of a type and a byte order.
-macro_rules! with_scalar {
-    ($type:expr, $big:expr, $scalar:ident => $body:expr) => {
-        with_scalar!(@ $type, $big, $scalar => $body;
+/// Runs `$body` with `$t` standing for the type of Rust that values have.
+macro_rules! with_type {
+    ($type:expr, $t:ident => $body:expr) => {
+        with_type!(@ $type, $t => $body;
             Int8 i8, UInt8 u8, Int16 i16, UInt16 u16, Int32 i32, UInt32 u32, Float32 f32, Float64 f64)
     };
-    (@ $type:expr, $big:expr, $scalar:ident => $body:expr; $($kind:ident $t:ty),*) => {
-        match ($type, $big) {
-            $(
-                ($crate::ply::types::Type::$kind, false) => {
-                    type $scalar = $crate::ply::types::Little<$t>;
-                    $body
-                }
-                ($crate::ply::types::Type::$kind, true) => {
-                    type $scalar = $crate::ply::types::Big<$t>;
-                    $body
-                }
-            )*
+    (@ $type:expr, $t:ident => $body:expr; $($kind:ident $own:ty),*) => {
+        match $type {
+            $($crate::ply::types::Type::$kind => {
+                type $t = $own;
+                $body
+            })*
         }
     };
 }
-pub(super) use with_scalar;
+pub(super) use with_type;
 
-/// The number at the front of `bytes`, for places where speed does not matter.
-pub(super) fn number(kind: Type, big: bool, bytes: &[u8]) -> f64 {
-    with_scalar!(kind, big, S => S::number(bytes))
+/// The value at the front of `bytes`, which are enough; `big` says that the highest byte comes first.
+#[inline]
+pub(super) fn read<T: Pod>(bytes: &[u8], big: bool) -> T {
+    let mut value = T::zeroed();
+    let own = bytemuck::bytes_of_mut(&mut value);
+    own.copy_from_slice(&bytes[..size_of::<T>()]);
+    if big != cfg!(target_endian = "big") {
+        own.reverse();
+    }
+    value
 }
 
-/// The whole number at the front of `bytes`.
-#[inline]
+/// Reads values that stand `stride` bytes apart, the first at the front of `bytes`.
+pub(super) fn read_all(kind: Type, big: bool, bytes: &[u8], stride: usize, out: &mut [f64]) {
+    with_type!(kind, T => {
+        for (i, x) in out.iter_mut().enumerate() {
+            *x = read::<T>(&bytes[i * stride..], big).into();
+        }
+    });
+}
+
+/// The number at the front of `bytes`.
+pub(super) fn number(kind: Type, big: bool, bytes: &[u8]) -> f64 {
+    let mut number = [0.0];
+    read_all(kind, big, bytes, 0, &mut number);
+    number[0]
+}
+
+/// The whole number at the front of `bytes`; a fraction is cut off.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "whole numbers have 32 bits"
+)]
 pub(super) fn whole(kind: Type, big: bool, bytes: &[u8]) -> i64 {
-    with_scalar!(kind, big, S => S::whole(bytes))
+    number(kind, big, bytes) as i64
 }

@@ -2,37 +2,30 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use glam::DVec3;
 use mesh::{Column, Domain, FaceId, Mesh, Rule, UV, Values};
-use rayon::prelude::*;
 use scene::Scene;
 
-use super::columns::{Kind, all_finite, mend};
+use super::columns::Kind;
 use super::header::MOST_PROPERTIES;
 use super::marks::Mark;
 use super::read::plain_rule;
 use super::roles;
-use super::table::BLOCK;
 use super::types::Type;
-use crate::color::{is_byte, to_byte};
 use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
-use crate::vertex_uvs::uvs_of_vertices;
-use crate::{WriteOptions, Written};
+use crate::parallel;
+use crate::writing::{all_finite, is_byte, mend, push_comment, to_byte, uvs_of_vertices};
+use crate::{One, WriteOptions};
 
 /// The file that holds `scene`, little-endian, and what it does not hold.
 ///
 /// # Errors
 ///
 /// If an object is no mesh.
-pub(crate) fn write(
-    path: &Path,
-    scene: &Scene,
-    options: &WriteOptions,
-) -> Result<Written, Unwritable> {
+pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwritable> {
     let mut joined = joined(scene, "PLY", true)?;
     let mesh = &*joined.mesh;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
@@ -69,22 +62,13 @@ pub(crate) fn write(
         }
     }
     let mut out = b"ply\nformat binary_little_endian 1.0\n".to_vec();
-    for line in options
-        .provenance
-        .iter()
-        .flat_map(|text| text.split(['\n', '\r']))
-    {
-        out.extend_from_slice(format!("comment {line}\n").as_bytes());
-    }
+    push_comment(&mut out, "comment", options.provenance.as_deref());
     vertices.push_header(&mut out, "vertex", mesh.n_vertices());
     faces.push_header(&mut out, "face", mesh.n_faces());
     out.extend_from_slice(b"end_header\n");
     vertices.push_rows(&mut out, mesh, mesh.n_vertices());
     faces.push_rows(&mut out, mesh, mesh.n_faces());
-    Ok(Written {
-        files: vec![(path.to_path_buf(), out)],
-        losses: joined.losses,
-    })
+    Ok((out, joined.losses))
 }
 
 /// A table to be written.
@@ -123,40 +107,41 @@ impl<'a> Element<'a> {
     fn vertices(mesh: &'a Mesh) -> Self {
         let mut new = Self::empty(0);
         for axis in ["x", "y", "z"] {
-            new.properties.push(format!("double {axis}"));
+            new.scalar(Type::Float64, axis);
         }
         new.fields.push(Field::Positions(mesh.positions()));
         new
     }
 
     fn faces(mesh: &Mesh) -> Self {
-        let degrees = (0..mesh.n_faces()).into_par_iter().with_min_len(BLOCK);
-        let most = degrees
-            .map(|f| mesh.degree(FaceId::new(f)))
-            .max()
-            .unwrap_or(0);
-        let mut new = Self::empty(most);
-        let index = if mesh.n_vertices() > i32::MAX as usize {
-            Type::UInt32
-        } else {
-            Type::Int32
-        };
-        let line = format!("list {} {} vertex_indices", new.count.name(), index.name());
-        new.properties.push(line);
+        let degree = |f| mesh.degree(FaceId::new(f));
+        let most = parallel::blocks(mesh.n_faces(), |faces| faces.map(degree).max());
+        let mut new = Self::empty(most.into_iter().flatten().max().unwrap_or(0));
+        let is_large = mesh.n_vertices() > i32::MAX as usize;
+        let index = if is_large { Type::UInt32 } else { Type::Int32 };
+        new.list(new.count, index, "vertex_indices");
         new.fields.push(Field::Corners);
         new
     }
 
     fn empty(most: usize) -> Self {
-        let reserved = roles::NAMES.iter().map(|&name| name.to_owned());
         Self {
             comments: Vec::new(),
             properties: Vec::new(),
-            names: reserved.collect(),
+            names: roles::names().map(str::to_owned).collect(),
             fields: Vec::new(),
             count: count_type(most),
             most,
         }
+    }
+
+    fn scalar(&mut self, form: Type, name: &str) {
+        self.properties.push(format!("{} {name}", form.name()));
+    }
+
+    fn list(&mut self, count: Type, form: Type, name: &str) {
+        let (count, form) = (count.name(), form.name());
+        self.properties.push(format!("list {count} {form} {name}"));
     }
 
     /// Adds an attribute of vertices, faces or corners.
@@ -175,43 +160,27 @@ impl<'a> Element<'a> {
 
     /// Adds values under names that say what they are.
     fn known(&mut self, names: &[&str], values: Cow<'a, Values>) {
-        let (mut bytes, mut floats, mut opaque) =
-            (names.len() > 2 && names[0] == "red", true, false);
-        if let (true, Values::Vec4(colors)) = (bytes, &*values) {
-            opaque = colors.par_iter().with_min_len(BLOCK).all(|c| c.w == 1.0);
-        }
-        let size = names.len() - usize::from(opaque);
-        let all = |test: fn(f64) -> bool| match &*values {
-            Values::Vec2(v) => v.par_iter().all(|v| v.to_array().into_iter().all(test)),
-            Values::Vec3(v) => v.par_iter().all(|v| v.to_array().into_iter().all(test)),
-            Values::Vec4(v) => v
-                .par_iter()
-                .all(|v| v.to_array()[..size].iter().all(|&x| test(x))),
+        let opaque = match &*values {
+            Values::Vec4(colors) => parallel::all(colors.len(), |i| colors[i].w == 1.0),
             _ => false,
         };
-        bytes = bytes && all(is_byte);
-        floats = floats && (bytes || all(is_float));
-        let form = match (bytes, floats) {
-            (true, _) => Type::UInt8,
-            (_, true) => Type::Float32,
-            _ => Type::Float64,
+        let size = names.len() - usize::from(opaque);
+        let form = if names[0] == "red" && all_numbers(&values, size, is_byte) {
+            Type::UInt8
+        } else {
+            float_for(&values, size)
         };
         for name in &names[..size] {
-            self.properties.push(format!("{} {name}", form.name()));
+            self.scalar(form, name);
         }
         self.fields.push(Field::Values { values, size, form });
     }
 
     /// Adds texture coordinates that differ between the corners of a vertex, as `MeshLab` does.
     fn corner_uvs(&mut self, values: Cow<'a, Values>) {
-        let floats = match &*values {
-            Values::Vec2(uvs) => uvs.par_iter().all(|uv| is_float(uv.x) && is_float(uv.y)),
-            _ => false,
-        };
-        let form = if floats { Type::Float32 } else { Type::Float64 };
+        let form = float_for(&values, 2);
         let count = count_type(2 * self.most);
-        let line = format!("list {} {} texcoord", count.name(), form.name());
-        self.properties.push(line);
+        self.list(count, form, "texcoord");
         self.fields.push(Field::CornerValues {
             values,
             form,
@@ -246,20 +215,14 @@ impl<'a> Element<'a> {
         }
         if is_list {
             let count = count_type(kind.size() * self.most);
-            self.properties.push(format!(
-                "list {} {} {}",
-                count.name(),
-                form.name(),
-                names[0]
-            ));
+            self.list(count, form, &names[0]);
             self.fields.push(Field::CornerValues {
                 values,
                 form,
                 count,
             });
         } else {
-            let lines = names.iter().map(|name| format!("{} {name}", form.name()));
-            self.properties.extend(lines);
+            names.iter().for_each(|name| self.scalar(form, name));
             let size = kind.size();
             self.fields.push(Field::Values { values, size, form });
         }
@@ -268,10 +231,7 @@ impl<'a> Element<'a> {
     /// Words for the components of an attribute that no other property has.
     fn free_names(&mut self, name: &str, n: usize) -> Vec<String> {
         let is_fine = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.' | ':');
-        let word: String = name
-            .chars()
-            .map(|c| if is_fine(c) { c } else { '_' })
-            .collect();
+        let word = name.replace(|c| !is_fine(c), "_");
         let word = if word.is_empty() { "value" } else { &word };
         let mut number = 1_usize;
         loop {
@@ -281,10 +241,10 @@ impl<'a> Element<'a> {
             };
             let names: Vec<String> = match n {
                 1 => vec![base],
-                _ => ["x", "y", "z", "w"][..n]
-                    .iter()
-                    .map(|axis| format!("{base}_{axis}"))
-                    .collect(),
+                _ => {
+                    let axes = ["x", "y", "z", "w"].into_iter().take(n);
+                    axes.map(|axis| format!("{base}_{axis}")).collect()
+                }
             };
             if names.iter().all(|name| !self.names.contains(name)) {
                 self.names.extend(names.iter().cloned());
@@ -305,16 +265,15 @@ impl<'a> Element<'a> {
     }
 
     fn push_rows(&self, out: &mut Vec<u8>, mesh: &Mesh, rows: usize) {
-        let blocks = (0..rows.div_ceil(BLOCK)).into_par_iter().map(|block| {
-            let mut bytes = Vec::with_capacity(BLOCK * 32);
-            for row in block * BLOCK..rows.min((block + 1) * BLOCK) {
+        let blocks = parallel::blocks(rows, |rows| {
+            let mut bytes = Vec::with_capacity(rows.len() * 32);
+            for row in rows {
                 for field in &self.fields {
                     field.push(&mut bytes, mesh, row, self.count);
                 }
             }
             bytes
         });
-        let blocks: Vec<Vec<u8>> = blocks.collect();
         out.reserve(blocks.iter().map(Vec::len).sum());
         for block in blocks {
             out.extend_from_slice(&block);
@@ -356,11 +315,7 @@ impl Field<'_> {
 
 /// One byte where that is enough, as everyone writes it.
 fn count_type(most: usize) -> Type {
-    if u8::try_from(most).is_ok() {
-        Type::UInt8
-    } else {
-        Type::Int32
-    }
+    if most < 256 { Type::UInt8 } else { Type::Int32 }
 }
 
 fn push_count(out: &mut Vec<u8>, kind: Type, n: usize) {
@@ -404,6 +359,22 @@ fn to_float(x: f64) -> f32 {
     x as f32
 }
 
-fn is_float(x: f64) -> bool {
-    f64::from(to_float(x)).to_bits() == x.to_bits()
+/// The smallest floating-point type in which the first `size` numbers of all values are exact.
+fn float_for(values: &Values, size: usize) -> Type {
+    let is_float = |x: f64| f64::from(to_float(x)).to_bits() == x.to_bits();
+    if all_numbers(values, size, is_float) {
+        Type::Float32
+    } else {
+        Type::Float64
+    }
+}
+
+/// Whether it holds for the first `size` numbers of all vectors.
+fn all_numbers(values: &Values, size: usize, is: impl Fn(f64) -> bool + Sync) -> bool {
+    parallel::all(values.len(), |i| match values {
+        Values::Vec2(v) => v[i].to_array()[..size].iter().all(|&x| is(x)),
+        Values::Vec3(v) => v[i].to_array()[..size].iter().all(|&x| is(x)),
+        Values::Vec4(v) => v[i].to_array()[..size].iter().all(|&x| is(x)),
+        _ => false,
+    })
 }

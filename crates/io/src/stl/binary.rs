@@ -2,18 +2,16 @@
 
 use glam::DVec3;
 use mesh::zeroed;
-use rayon::prelude::*;
 
-use super::read::{Facets, Normals, compare};
+use super::facets::{Facets, Normals, compare};
+use crate::fault::Fault;
+use crate::parallel::{self, BLOCK};
 
 pub(super) const HEADER: usize = 80;
 /// Where the triangles begin: the count has 4 bytes.
 pub(super) const START: usize = HEADER + 4;
 /// A normal and three corners of 3 numbers, and 2 bytes for anything.
 pub(super) const FACET: usize = 50;
-/// Facets that one task works on.
-const BLOCK: usize = 4096;
-
 /// The count in the header; `None` if the file is too short for one.
 pub(super) fn count(bytes: &[u8]) -> Option<u32> {
     let count = bytes.get(HEADER..)?.first_chunk()?;
@@ -29,11 +27,14 @@ pub(super) fn length(bytes: &[u8]) -> Option<u64> {
 ///
 /// # Errors
 ///
-/// The place of the first number of a corner that is not finite, and the number.
-pub(super) fn read(facets: &[u8]) -> Result<Facets, (usize, f32)> {
+/// The first number of a corner that is not finite.
+pub(super) fn read(facets: &[u8]) -> Result<Facets, Fault> {
     let n = facets.len() / FACET;
     let mut corners = zeroed::<DVec3>(3 * n);
-    let decode = |(corners, facets): (&mut [DVec3], &[u8])| {
+    let parts = corners
+        .chunks_mut(3 * BLOCK)
+        .zip(facets.chunks(BLOCK * FACET));
+    let blocks = parallel::consume(parts, |_, (corners, facets)| {
         let mut normals = Normals::default();
         let mut colored = 0;
         let mut finite = true;
@@ -46,17 +47,14 @@ pub(super) fn read(facets: &[u8]) -> Result<Facets, (usize, f32)> {
             colored += usize::from(facet[48..] != [0, 0]);
         }
         (normals, colored, finite)
-    };
-    let blocks: Vec<_> = corners
-        .par_chunks_mut(3 * BLOCK)
-        .zip(facets.par_chunks(BLOCK * FACET))
-        .map(decode)
-        .collect();
+    });
     if let Some(block) = blocks.iter().position(|&(_, _, finite)| !finite) {
         let first = block * BLOCK * FACET;
         for (i, facet) in facets[first..].chunks_exact(FACET).enumerate() {
             if let Some(k) = (3..12).find(|&k| !number(facet, k).is_finite()) {
-                return Err((START + first + i * FACET + 4 * k, number(facet, k)));
+                let found = number(facet, k);
+                let message = format!("expected a finite number, found {found}");
+                return Err(Fault::byte(START + first + i * FACET + 4 * k, message));
             }
         }
     }
@@ -73,18 +71,11 @@ pub(super) fn read(facets: &[u8]) -> Result<Facets, (usize, f32)> {
 
 #[inline]
 fn number(facet: &[u8], i: usize) -> f32 {
-    f32::from_le_bytes(
-        *facet[4 * i..]
-            .first_chunk()
-            .expect("a facet has 12 numbers"),
-    )
+    let bytes = facet[4 * i..].first_chunk();
+    f32::from_le_bytes(*bytes.expect("a facet has 12 numbers"))
 }
 
 #[inline]
 fn vector(numbers: &[f32; 12], i: usize) -> DVec3 {
-    DVec3::new(
-        numbers[i].into(),
-        numbers[i + 1].into(),
-        numbers[i + 2].into(),
-    )
+    DVec3::from_array([0, 1, 2].map(|k| numbers[i + k].into()))
 }

@@ -18,6 +18,7 @@
 //! [`provenance`](crate::WriteOptions::provenance). All attributes are lost.
 
 mod binary;
+mod facets;
 mod read;
 mod text;
 mod write;

@@ -1,129 +1,38 @@
 //! From the facets of an STL file to polygons.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
-use glam::DVec3;
-use mesh::{Domain, Rule, zeroed};
-use rayon::prelude::*;
+use mesh::{Domain, Rule};
 
+use super::facets::{Facets, Normals};
 use super::{binary, text};
-use crate::error::ReadError;
+use crate::Polygons;
+use crate::fault::Fault;
 use crate::note::Notes;
-use crate::peek::{PeekGeometry, PeekMesh};
+use crate::peek::PeekMesh;
+use crate::polygons::{OBJECT_TAG, most_tags};
+use crate::text::MARK;
 use crate::weld::weld;
-use crate::{Found, Polygons};
-
-/// What the tag of a solid begins with, as that of an object in OBJ.
-const SOLID_TAG: &str = "o:";
-/// Tags take a byte for each face. Solids beyond this many bytes, or this number, get none.
-const MOST_TAG_BYTES: usize = 1 << 28;
-const MOST_TAGS: usize = 4096;
-
-/// Facets as they stand in a file.
-#[derive(Debug, Default)]
-pub(super) struct Facets {
-    /// Three for each facet.
-    pub(super) corners: Vec<DVec3>,
-    pub(super) normals: Normals,
-    /// How many facets have attribute bytes.
-    pub(super) colored: usize,
-    /// The names of solids, and the first facet of each.
-    pub(super) solids: Vec<(String, usize)>,
-}
-
-/// How facet normals agree with the corners.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Normals {
-    turned: usize,
-    tilted: usize,
-}
-
-impl Normals {
-    pub(super) fn add(&mut self, side: Side) {
-        self.turned += usize::from(side == Side::Turned);
-        self.tilted += usize::from(side == Side::Tilted);
-    }
-
-    pub(super) fn append(&mut self, other: Self) {
-        self.turned += other.turned;
-        self.tilted += other.tilted;
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
-    Same,
-    /// More than a few degrees away from the normal of the corners.
-    Tilted,
-    /// Nearer to the other side.
-    Turned,
-}
-
-/// Compares a facet normal with that of its corners. They agree if the sine of the angle between them is
-/// at most 1/10 (6 degrees), which is more than the rounding of a sliver explains; a normal that is zero or
-/// not finite, or a facet without area, says nothing.
-#[inline]
-pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
-    let area = (b - a).cross(c - a);
-    let scale = area.length_squared() * normal.length_squared();
-    if !(scale > 0.0 && scale.is_finite()) {
-        return Side::Same;
-    }
-    let along = area.dot(normal);
-    if along * along >= 0.99 * scale {
-        return if along > 0.0 {
-            Side::Same
-        } else {
-            Side::Turned
-        };
-    }
-    // A sliver: its corners are rounded to 24 bits, and the area may be nothing but that.
-    let size = a.abs().max(b.abs()).max(c.abs()).max_element();
-    let longest = (b - a).length_squared().max((c - a).length_squared());
-    let rounding = 4.0 / f64::from(1 << 24) * size;
-    if area.length_squared() <= 400.0 * rounding * rounding * longest {
-        return Side::Same;
-    }
-    if along < 0.0 {
-        Side::Turned
-    } else {
-        Side::Tilted
-    }
-}
 
 /// Reads an STL file from its bytes.
 ///
 /// # Errors
 ///
 /// The first place that breaks the rules of the format.
-pub(crate) fn read(
-    path: &Path,
-    bytes: &[u8],
-    name: String,
-    notes: &mut Notes,
-) -> Result<Found, ReadError> {
-    let facets = match kind(path, bytes)? {
-        Kind::Text => text::read(bytes).map_err(|error| error.in_file(path))?,
+pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
+    let facets = match kind(bytes)? {
+        Kind::Text => text::read(bytes)?,
         Kind::Binary(end) => {
             let rest = bytes.len() - end;
             notes.left_out(rest, None, "bytes behind the last facet left out");
-            let facets = binary::read(&bytes[binary::START..end]);
-            facets.map_err(|(offset, found)| ReadError::Binary {
-                path: path.to_path_buf(),
-                offset,
-                message: format!("expected a finite number, found {found}"),
-            })?
+            binary::read(&bytes[binary::START..end])?
         }
     };
-    if u32::try_from(facets.corners.len()).is_ok_and(|n| n < u32::MAX) {
-        return Ok(Found::polygons(name, polygons(facets, notes)));
+    if facets.corners.len() >= u32::MAX as usize {
+        let message = format!("expected fewer than {} facets, found more", u32::MAX / 3);
+        return Err(Fault::byte(binary::HEADER, message));
     }
-    Err(ReadError::Binary {
-        path: path.to_path_buf(),
-        offset: binary::HEADER,
-        message: format!("expected fewer than {} facets, found more", u32::MAX / 3),
-    })
+    Ok(polygons(facets, notes))
 }
 
 enum Kind {
@@ -133,52 +42,36 @@ enum Kind {
 }
 
 /// What kind of file it is. Many binary files begin with the word `solid`, so their length decides.
-fn kind(path: &Path, bytes: &[u8]) -> Result<Kind, ReadError> {
+fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
+    let n_bytes = bytes.len();
     let length = binary::length(bytes);
-    let is_text = || {
-        let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let start = start.trim_ascii_start();
-        let word = start
-            .get(..5)
-            .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
-        // A header may begin with the word, and be followed by bytes that no text has.
-        word && !bytes[..bytes.len().min(512)].contains(&0)
-    };
-    if length == Some(bytes.len() as u64) {
-        return Ok(Kind::Binary(bytes.len()));
+    if length == Some(n_bytes as u64) {
+        return Ok(Kind::Binary(n_bytes));
     }
-    if is_text() {
+    let start = bytes.strip_prefix(MARK).unwrap_or(bytes).trim_ascii_start();
+    let word = start.get(..5).unwrap_or_default();
+    // A header may begin with the word, and be followed by bytes that no text has.
+    if word.eq_ignore_ascii_case(b"solid") && !bytes[..n_bytes.min(512)].contains(&0) {
         return Ok(Kind::Text);
     }
-    let error = |offset: usize, message: String| ReadError::Binary {
-        path: path.to_path_buf(),
-        offset,
-        message,
-    };
     let (Some(length), Some(count)) = (length, binary::count(bytes)) else {
-        let message = format!(
-            "expected `solid` or a header of {} bytes, found {} bytes",
-            binary::START,
-            bytes.len()
-        );
-        return Err(error(0, message));
+        let least = binary::START;
+        let message =
+            format!("expected `solid` or a header of {least} bytes, found {n_bytes} bytes");
+        return Err(Fault::byte(0, message));
     };
-    if let Some(end) = usize::try_from(length)
-        .ok()
-        .filter(|&end| end <= bytes.len())
-    {
-        return Ok(Kind::Binary(end));
+    match usize::try_from(length) {
+        Ok(end) if end <= n_bytes => Ok(Kind::Binary(end)),
+        _ => {
+            let message =
+                format!("expected {count} facets ({length} bytes in all), found {n_bytes} bytes");
+            Err(Fault::byte(binary::HEADER, message))
+        }
     }
-    let message = format!(
-        "expected {count} facets ({length} bytes in all), found {} bytes",
-        bytes.len()
-    );
-    Err(error(binary::HEADER, message))
 }
 
 fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     let n_corners = facets.corners.len();
-    let n_faces = n_corners / 3;
     let Normals { turned, tilted } = facets.normals;
     let what = "facet normals left out that point to the other side of their corners";
     notes.changed(turned, None, what);
@@ -187,18 +80,12 @@ fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     let what = "facets have attribute bytes, perhaps colors: left out";
     notes.left_out(facets.colored, None, what);
     let (positions, corners) = weld(facets.corners);
-    let what = format!(
-        "corners became {} vertices by equal positions",
-        positions.len()
-    );
+    let n = positions.len();
+    let what = format!("corners became {n} vertices by equal positions");
     notes.changed(n_corners, None, what);
-    let mut offsets = zeroed::<u32>(n_faces + 1);
-    let place = |f: usize| u32::try_from(3 * f).expect("checked by the caller");
-    let all = offsets.par_iter_mut().with_min_len(4096).enumerate();
-    all.for_each(|(f, offset)| *offset = place(f));
     let mut polygons = Polygons {
         positions,
-        offsets,
+        offsets: Polygons::even_offsets(n_corners / 3, 3),
         corners,
         ..Polygons::default()
     };
@@ -212,14 +99,11 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, usize)], notes: &mut Not
         return;
     }
     let n_faces = polygons.n_faces();
-    let room = MOST_TAGS.min(MOST_TAG_BYTES / n_faces.max(1));
+    let room = most_tags(n_faces);
     let mut columns: BTreeMap<&str, Vec<bool>> = BTreeMap::new();
     let (mut empty, mut too_many) = (0, 0);
-    let ends = solids
-        .iter()
-        .skip(1)
-        .map(|&(_, first)| first)
-        .chain([n_faces]);
+    let starts = solids.iter().skip(1).map(|&(_, first)| first);
+    let ends = starts.chain([n_faces]);
     for ((name, first), end) in solids.iter().zip(ends) {
         if *first == end {
             empty += 1;
@@ -231,19 +115,12 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, usize)], notes: &mut Not
         }
     }
     for (name, marks) in columns {
-        polygons.insert(
-            Domain::Face,
-            format!("{SOLID_TAG}{name}"),
-            Rule::Copy,
-            marks,
-        );
+        let name = format!("{OBJECT_TAG}{name}");
+        polygons.insert(Domain::Face, name, Rule::Copy, marks);
     }
     notes.left_out(empty, None, "solids left out: they have no facets");
-    notes.left_out(
-        too_many,
-        None,
-        "names of solids left out: too many for a mesh of this size",
-    );
+    let what = "names of solids left out: too many for a mesh of this size";
+    notes.left_out(too_many, None, what);
 }
 
 /// The counts of an STL file. There are no more vertices than said: corners are not compared.
@@ -251,8 +128,8 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, usize)], notes: &mut Not
 /// # Errors
 ///
 /// If a binary file is too short for what it says.
-pub(crate) fn peek(path: &Path, bytes: &[u8]) -> Result<PeekGeometry, ReadError> {
-    let n = match kind(path, bytes)? {
+pub(crate) fn peek(bytes: &[u8]) -> Result<PeekMesh, Fault> {
+    let n = match kind(bytes)? {
         Kind::Text => text::count(bytes),
         Kind::Binary(_) => binary::count(bytes).unwrap_or(0).into(),
     };
@@ -261,35 +138,5 @@ pub(crate) fn peek(path: &Path, bytes: &[u8]) -> Result<PeekGeometry, ReadError>
         ..PeekMesh::default()
     };
     mesh.add_faces(n, 3);
-    Ok(PeekGeometry::Mesh(mesh))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn normals_agree_within_a_few_degrees() {
-        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
-        for (normal, side) in [
-            (DVec3::Z, Side::Same),
-            (DVec3::new(0.05, 0.0, 1.0), Side::Same),
-            (DVec3::new(0.0, 0.0, 1e-9), Side::Same),
-            (DVec3::ZERO, Side::Same),
-            (DVec3::NAN, Side::Same),
-            (DVec3::new(0.5, 0.0, 1.0), Side::Tilted),
-            (DVec3::NEG_Z, Side::Turned),
-            (DVec3::new(1.0, 0.0, -0.1), Side::Turned),
-        ] {
-            assert_eq!(compare(normal, corners), side, "{normal}");
-        }
-        assert_eq!(compare(DVec3::Z, [DVec3::ZERO; 3]), Side::Same);
-    }
-
-    #[test]
-    fn the_rounding_of_a_sliver_does_not_tilt_it() {
-        let far = DVec3::splat(100.0);
-        let sliver = [far, far + 10.0 * DVec3::X, far + DVec3::new(5.0, 1e-5, 0.0)];
-        assert_eq!(compare(DVec3::Y, sliver), Side::Same);
-    }
+    Ok(mesh)
 }

@@ -2,16 +2,16 @@
 
 use glam::DVec3;
 
-use super::read::{Facets, compare};
-use crate::error::TextError;
-use crate::text::{Cursor, Place, name, number, quoted};
+use super::facets::{Facets, compare};
+use crate::fault::Fault;
+use crate::text::{Cursor, is_not_finite, name, number, quoted};
 
 /// The facets of a text.
 ///
 /// # Errors
 ///
 /// The first word that breaks the rules of the format.
-pub(super) fn read(bytes: &[u8]) -> Result<Facets, TextError> {
+pub(super) fn read(bytes: &[u8]) -> Result<Facets, Fault> {
     let mut found = Facets::default();
     let mut cursor = Cursor::new(bytes);
     expect(&mut cursor, b"solid")?;
@@ -30,15 +30,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<Facets, TextError> {
 }
 
 /// Reads facets up to `endsolid`.
-fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), TextError> {
+fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), Fault> {
     loop {
-        let (place, keyword) = word(cursor);
+        let (place, keyword) = cursor.next_word();
         if is(keyword, b"endsolid") {
             return Ok(());
         }
         if !is(keyword, b"facet") {
-            let message = format!("expected `facet` or `endsolid`, found {}", quoted(keyword));
-            return Err(place.error(message));
+            return Err(place.expected("`facet` or `endsolid`", keyword));
         }
         expect(cursor, b"normal")?;
         let normal = normal(cursor)?;
@@ -48,7 +47,7 @@ fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), TextError> {
         for corner in &mut corners {
             expect(cursor, b"vertex")?;
             for i in 0..3 {
-                let (place, word) = word(cursor);
+                let (place, word) = cursor.next_word();
                 corner[i] = number(place, word)?;
             }
         }
@@ -60,16 +59,15 @@ fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), TextError> {
 }
 
 /// A normal, which some programs write as three words `nan` where a facet has no area: then it is zero.
-fn normal(cursor: &mut Cursor) -> Result<DVec3, TextError> {
+fn normal(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     let mut normal = DVec3::ZERO;
     for i in 0..3 {
-        let (place, word) = word(cursor);
-        let is_number = |error| {
-            let text = word.strip_prefix(b"-").unwrap_or(word).to_ascii_lowercase();
-            let known = text.starts_with(b"nan") || text.starts_with(b"inf");
-            if known { Ok(f64::NAN) } else { Err(error) }
+        let (place, word) = cursor.next_word();
+        normal[i] = if is_not_finite(word) {
+            f64::NAN
+        } else {
+            number(place, word)?
         };
-        normal[i] = number(place, word).or_else(is_number)?;
     }
     Ok(if normal.is_finite() {
         normal
@@ -91,18 +89,12 @@ pub(super) fn count(bytes: &[u8]) -> u64 {
     n
 }
 
-fn word<'a>(cursor: &mut Cursor<'a>) -> (Place, &'a [u8]) {
-    cursor.skip_white();
-    (cursor.place(), cursor.word())
-}
-
-fn expect(cursor: &mut Cursor, expected: &[u8]) -> Result<(), TextError> {
-    let (place, word) = word(cursor);
+fn expect(cursor: &mut Cursor, expected: &[u8]) -> Result<(), Fault> {
+    let (place, word) = cursor.next_word();
     if is(word, expected) {
         return Ok(());
     }
-    let message = format!("expected {}, found {}", quoted(expected), quoted(word));
-    Err(place.error(message))
+    Err(place.expected(quoted(expected), word))
 }
 
 /// Keywords are written in small or capital letters.

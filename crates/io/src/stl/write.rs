@@ -1,33 +1,24 @@
 //! From a scene to the bytes of a binary STL file.
 
-use std::path::Path;
-
 use geometry::triangulate::Cutter;
 use glam::{DVec3, Vec3};
 use mesh::{Domain, FaceId, Mesh, VertexId};
-use rayon::prelude::*;
 use scene::Scene;
 
 use super::binary::{FACET, HEADER};
 use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
+use crate::parallel;
 use crate::weld::n_merged;
-use crate::{WriteOptions, Written};
-
-/// Faces that one task works on.
-const BLOCK: usize = 4096;
+use crate::{One, WriteOptions};
 
 /// The file that holds `scene`, and what it does not hold.
 ///
 /// # Errors
 ///
 /// If an object is no mesh, a position is too large for 32 bits, or there are 2^32 triangles.
-pub(crate) fn write(
-    path: &Path,
-    scene: &Scene,
-    options: &WriteOptions,
-) -> Result<Written, Unwritable> {
+pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwritable> {
     let mut joined = joined(scene, "STL", false)?;
     let mesh = &*joined.mesh;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
@@ -41,33 +32,25 @@ pub(crate) fn write(
         );
         return Err(Unwritable::object(&joined.name, message));
     }
-    let blocks = (0..mesh.n_faces().div_ceil(BLOCK)).into_par_iter();
-    let blocks: Vec<Vec<u8>> = blocks
-        .map(|block| facets(mesh, block * BLOCK..mesh.n_faces().min((block + 1) * BLOCK)))
-        .collect();
-    let length: usize = blocks.iter().map(Vec::len).sum();
-    let Ok(count) = u32::try_from(length / FACET) else {
-        let message = format!(
-            "expected fewer than 2^32 triangles, found {}",
-            length / FACET
-        );
+    let blocks = parallel::blocks(mesh.n_faces(), |faces| facets(mesh, faces));
+    let n = blocks.iter().map(Vec::len).sum::<usize>() / FACET;
+    let Ok(count) = u32::try_from(n) else {
+        let message = format!("expected fewer than 2^32 triangles, found {n}");
         return Err(Unwritable::object(&joined.name, message));
     };
-    let mut out = Vec::with_capacity(HEADER + 4 + length);
+    let mut out = Vec::with_capacity(HEADER + 4 + n * FACET);
     out.extend_from_slice(&header(options));
     out.extend_from_slice(&count.to_le_bytes());
     for block in blocks {
         out.extend_from_slice(&block);
     }
-    Ok(Written {
-        files: vec![(path.to_path_buf(), out)],
-        losses: joined.losses,
-    })
+    Ok((out, joined.losses))
 }
 
 fn note_losses(mesh: &Mesh, losses: &mut Losses) {
-    let positions = mesh.positions().par_iter().with_min_len(BLOCK);
-    let rounded = positions.filter(|p| p.as_vec3().as_dvec3() != **p).count();
+    let positions = mesh.positions();
+    let is_rounded = |v: usize| positions[v].as_vec3().as_dvec3() != positions[v];
+    let rounded = parallel::count(positions.len(), is_rounded);
     let reason = "rounded to the 32 bits of STL";
     losses.add(Domain::Vertex, "position", rounded, reason);
     let isolated = mesh.n_isolated_vertices();
@@ -75,8 +58,8 @@ fn note_losses(mesh: &Mesh, losses: &mut Losses) {
     losses.add(Domain::Vertex, "position", isolated, reason);
     let reason = "vertices at the place of another: readers of STL see one";
     losses.add(Domain::Vertex, "position", n_merged(mesh), reason);
-    let faces = (0..mesh.n_faces()).into_par_iter().with_min_len(BLOCK);
-    let polygons = faces.filter(|&f| !mesh.is_triangle(FaceId::new(f))).count();
+    let is_polygon = |f: usize| !mesh.is_triangle(FaceId::new(f));
+    let polygons = parallel::count(mesh.n_faces(), is_polygon);
     let reason = "STL holds triangles: the polygons are cut";
     losses.add(Domain::Face, "polygon", polygons, reason);
 }

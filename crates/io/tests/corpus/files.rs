@@ -40,7 +40,7 @@ pub(crate) fn check(extension: &str, bytes: &[u8]) {
     let path = folder.path().join(name);
     MEMORY.reset_peak_usage();
     let before = MEMORY.current_usage();
-    let read = mesh_io::read_bytes(&path, content, &ReadOptions::default());
+    let read = mesh_io::read_bytes(&store::Disk, &path, content, &ReadOptions::default());
     let taken = MEMORY.peak_usage().saturating_sub(before);
     let repeated = match extension {
         "gltf" | "glb" | "dae" => INSTANCES,
@@ -91,9 +91,9 @@ fn there_and_back(path: &Path, loaded: Loaded) -> Option<Round> {
     for object in loaded.objects {
         scene.insert(object).expect("names differ");
     }
-    let report = mesh_io::write(path, &scene, &WriteOptions::default()).ok()?;
+    let report = mesh_io::write(&store::Disk, path, &scene, &WriteOptions::default()).ok()?;
     let bytes = std::fs::read(path).expect("it was written");
-    let again = mesh_io::read(path, &ReadOptions::default());
+    let again = mesh_io::read(&store::Disk, path, &ReadOptions::default());
     Some(Round {
         bytes,
         has_losses: !report.losses.is_empty(),

@@ -18,7 +18,7 @@ fn unknown_extensions_list_the_known_ones() {
         "{error}"
     );
     let scene = scene([]);
-    let error = mesh_io::write(&path, &scene, &WriteOptions::default()).unwrap_err();
+    let error = mesh_io::write(&store::Disk, &path, &scene, &WriteOptions::default()).unwrap_err();
     assert!(matches!(error, WriteError::UnknownFormat { .. }));
 }
 
@@ -29,7 +29,7 @@ fn missing_files_and_folders_are_named() {
         let path = folder.path(name);
         for error in [
             read(&path).unwrap_err(),
-            mesh_io::peek(&path, &ReadOptions::default()).unwrap_err(),
+            mesh_io::peek(&store::Disk, &path, &ReadOptions::default()).unwrap_err(),
         ] {
             assert!(matches!(error, ReadError::Io { .. }), "{error}");
             assert_eq!(error.path(), path);
@@ -37,7 +37,7 @@ fn missing_files_and_folders_are_named() {
         fs::create_dir(&path).unwrap();
         assert!(read(&path).is_err());
         let scene = scene([]);
-        assert!(mesh_io::write(&path, &scene, &WriteOptions::default()).is_err());
+        assert!(mesh_io::write(&store::Disk, &path, &scene, &WriteOptions::default()).is_err());
     }
 }
 
@@ -46,13 +46,14 @@ fn a_failed_write_leaves_the_old_file() {
     let folder = Folder::new();
     let path = folder.with("a.glb", "old");
     let patches = scene([Object::new("p", Geometry::Patches(Vec::new()))]);
-    assert!(mesh_io::write(&path, &patches, &WriteOptions::default()).is_err());
+    assert!(mesh_io::write(&store::Disk, &path, &patches, &WriteOptions::default()).is_err());
     assert_eq!(fs::read(&path).unwrap(), b"old");
     assert_eq!(folder.count(), 1);
 
     let nowhere = folder.path("no/such/a.obj");
     let cube = scene([Object::mesh("c", shapes::cube())]);
-    let error = mesh_io::write(&nowhere, &cube, &WriteOptions::default()).unwrap_err();
+    let error =
+        mesh_io::write(&store::Disk, &nowhere, &cube, &WriteOptions::default()).unwrap_err();
     assert!(
         error.to_string().contains(&nowhere.display().to_string()),
         "{error}"
@@ -69,6 +70,7 @@ fn bezier_files_come_back_the_same() {
     assert_eq!(only(&path), curve);
     assert!(
         mesh_io::write(
+            &store::Disk,
             &folder.path("c.bez"),
             &scene([curve]),
             &WriteOptions::default()
@@ -85,6 +87,7 @@ fn bezier_files_come_back_the_same() {
     assert_eq!(only(&path).geometry, Geometry::Patches(vec![patch; 2]));
     assert!(
         mesh_io::write(
+            &store::Disk,
             &folder.path("p.bzc"),
             &scene([patches("p")]),
             &WriteOptions::default()

@@ -24,7 +24,12 @@ const SQUARE: &str = r##"<COLLADA version="1.4.1">
 <scene><instance_visual_scene url="#vs"/></scene></COLLADA>"##;
 
 fn read(text: &[u8]) -> Result<Loaded, ReadError> {
-    mesh_io::read_bytes(Path::new("a.dae"), text.to_vec(), &ReadOptions::default())
+    mesh_io::read_bytes(
+        &store::Disk,
+        Path::new("a.dae"),
+        text.to_vec(),
+        &ReadOptions::default(),
+    )
 }
 
 #[test]

@@ -192,7 +192,7 @@ fn latin1_text_is_read() {
 fn peeking_counts_what_reading_gives() {
     let folder = Folder::new();
     let path = folder.with("a.dae", file(CUBE, ""));
-    let peek = mesh_io::peek(&path, &ReadOptions::default()).unwrap();
+    let peek = mesh_io::peek(&store::Disk, &path, &ReadOptions::default()).unwrap();
     assert_eq!(peek.objects[0].name, "box");
     let PeekGeometry::Mesh(counts) = peek.objects[0].geometry else {
         panic!("{peek:?}");

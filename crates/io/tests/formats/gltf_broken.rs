@@ -337,12 +337,12 @@ proptest! {
         for (name, head) in [("a.gltf", &b""[..]), ("a.glb", b""), ("b.glb", b"glTF\x02\0\0\0")] {
             let path = folder.with(name, [head, &bytes].concat());
             let _ = read(&path);
-            let _ = mesh_io::peek(&path, &ReadOptions::default());
+            let _ = mesh_io::peek(&store::Disk, &path, &ReadOptions::default());
         }
         for name in ["a.obj", "a.bez", "a.bzc"] {
             let path = folder.with(name, &bytes);
             let _ = read(&path);
-            let _ = mesh_io::peek(&path, &ReadOptions::default());
+            let _ = mesh_io::peek(&store::Disk, &path, &ReadOptions::default());
         }
     }
 
@@ -360,7 +360,7 @@ proptest! {
         }
         std::fs::write(&path, bytes).unwrap();
         let _ = read(&path);
-        let _ = mesh_io::peek(&path, &ReadOptions::default());
+        let _ = mesh_io::peek(&store::Disk, &path, &ReadOptions::default());
     }
 
     #[test]

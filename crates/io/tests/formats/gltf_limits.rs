@@ -161,7 +161,7 @@ fn many_nodes_that_show_a_mesh_of_many_parts_are_counted_soon() {
     let folder = Folder::new();
     let path = folder.with("a.gltf", json.to_string());
     let start = Instant::now();
-    let peek = mesh_io::peek(&path, &ReadOptions::default()).unwrap();
+    let peek = mesh_io::peek(&store::Disk, &path, &ReadOptions::default()).unwrap();
     assert_eq!(peek.objects.len(), 5000);
     assert!(start.elapsed() < Duration::from_secs(2));
 }

@@ -24,7 +24,7 @@ fn written(name: &str, scene: &Scene) {
     };
     for extension in ["glb", "gltf"] {
         let path = folder.join(name).with_extension(extension);
-        mesh_io::write(&path, scene, &options).unwrap();
+        mesh_io::write(&store::Disk, &path, scene, &options).unwrap();
         let back = read(&path).unwrap();
         assert!(back.objects.len() <= scene.objects().len());
         gltf::Gltf::open(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));

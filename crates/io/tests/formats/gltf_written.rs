@@ -224,8 +224,13 @@ fn positions_beyond_32_bits_are_refused() {
     mesh.positions_mut()[1].x = 1e300;
     let folder = Folder::new();
     let scene = scene([Object::mesh("far", mesh)]);
-    let error =
-        mesh_io::write(&folder.path("a.glb"), &scene, &WriteOptions::default()).unwrap_err();
+    let error = mesh_io::write(
+        &store::Disk,
+        &folder.path("a.glb"),
+        &scene,
+        &WriteOptions::default(),
+    )
+    .unwrap_err();
     assert!(
         error
             .to_string()
@@ -242,7 +247,13 @@ fn generator_and_provenance_stand_in_the_asset() {
     let options = WriteOptions {
         provenance: Some("recipe \"x\"".into()),
     };
-    mesh_io::write(&path, &scene([Object::mesh("a", shapes::cube())]), &options).unwrap();
+    mesh_io::write(
+        &store::Disk,
+        &path,
+        &scene([Object::mesh("a", shapes::cube())]),
+        &options,
+    )
+    .unwrap();
     let json: Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
     assert!(
         json["asset"]["generator"]
@@ -289,7 +300,7 @@ fn peeking_reads_only_the_document() {
                 Object::mesh("box", shapes::cube()),
             ],
         );
-        let peek = mesh_io::peek(&path, &ReadOptions::default()).unwrap();
+        let peek = mesh_io::peek(&store::Disk, &path, &ReadOptions::default()).unwrap();
         let counts: Vec<_> = peek
             .objects
             .iter()
@@ -306,7 +317,7 @@ fn peeking_reads_only_the_document() {
     // Not even the binary part has to be there.
     let whole = std::fs::read(folder.path("a.glb")).unwrap();
     let cut = folder.with("cut.glb", &whole[..whole.len() - 100]);
-    assert!(mesh_io::peek(&cut, &ReadOptions::default()).is_ok());
+    assert!(mesh_io::peek(&store::Disk, &cut, &ReadOptions::default()).is_ok());
     assert!(read(&cut).is_err());
 }
 
@@ -315,6 +326,14 @@ fn patches_do_not_fit() {
     let folder = Folder::new();
     let scene = scene([Object::new("p", Geometry::Patches(Vec::new()))]);
     for name in ["a.glb", "a.gltf"] {
-        assert!(mesh_io::write(&folder.path(name), &scene, &WriteOptions::default()).is_err());
+        assert!(
+            mesh_io::write(
+                &store::Disk,
+                &folder.path(name),
+                &scene,
+                &WriteOptions::default()
+            )
+            .is_err()
+        );
     }
 }

@@ -58,11 +58,17 @@ impl Folder {
 }
 
 fn read(path: &Path) -> Result<Loaded, ReadError> {
-    mesh_io::read(path, &ReadOptions::default())
+    mesh_io::read(&store::Disk, path, &ReadOptions::default())
 }
 
 fn write(path: &Path, objects: impl IntoIterator<Item = Object>) -> WriteReport {
-    mesh_io::write(path, &scene(objects), &WriteOptions::default()).unwrap()
+    mesh_io::write(
+        &store::Disk,
+        path,
+        &scene(objects),
+        &WriteOptions::default(),
+    )
+    .unwrap()
 }
 
 fn scene(objects: impl IntoIterator<Item = Object>) -> Scene {
@@ -77,7 +83,7 @@ fn scene(objects: impl IntoIterator<Item = Object>) -> Scene {
 fn found(name: &str, content: impl AsRef<[u8]>) -> (Polygons, Vec<String>) {
     let folder = Folder::new();
     let path = folder.with(name, content);
-    let mut all = mesh_io::read_polygons(&path, &ReadOptions::default()).unwrap();
+    let mut all = mesh_io::read_polygons(&store::Disk, &path, &ReadOptions::default()).unwrap();
     let notes = read(&path).unwrap().notes;
     let notes = notes
         .iter()

@@ -230,7 +230,7 @@ fn an_edge_of_three_faces_is_split_and_said() {
         ..ReadOptions::default()
     };
     assert!(matches!(
-        mesh_io::read(&path, &strict),
+        mesh_io::read(&store::Disk, &path, &strict),
         Err(ReadError::Mesh { .. })
     ));
 }
@@ -347,7 +347,13 @@ fn what_does_not_fit_is_a_loss_or_an_error() {
     );
 
     let patches = Object::new("p", Geometry::Patches(Vec::new()));
-    let error = mesh_io::write(&path, &scene([patches]), &WriteOptions::default()).unwrap_err();
+    let error = mesh_io::write(
+        &store::Disk,
+        &path,
+        &scene([patches]),
+        &WriteOptions::default(),
+    )
+    .unwrap_err();
     assert!(error.to_string().contains("object `p`"), "{error}");
 }
 
@@ -384,7 +390,7 @@ fn the_provenance_is_a_comment() {
     let options = WriteOptions {
         provenance: Some("one\ntwo".into()),
     };
-    mesh_io::write(&path, &scene([rich()]), &options).unwrap();
+    mesh_io::write(&store::Disk, &path, &scene([rich()]), &options).unwrap();
     for name in ["a.obj", "a.mtl"] {
         let text = std::fs::read_to_string(folder.path(name)).unwrap();
         assert!(text.starts_with("# one\n# two\n"), "{text}");
@@ -409,7 +415,7 @@ fn peeking_counts_what_reading_gives() {
     let folder = Folder::new();
     let path = folder.path("a.obj");
     write(&path, [rich()]);
-    let peek = mesh_io::peek(&path, &ReadOptions::default()).unwrap();
+    let peek = mesh_io::peek(&store::Disk, &path, &ReadOptions::default()).unwrap();
     assert_eq!(peek.objects[0].name, "a");
     let PeekGeometry::Mesh(counts) = peek.objects[0].geometry else {
         panic!("{peek:?}")

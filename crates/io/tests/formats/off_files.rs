@@ -120,7 +120,7 @@ fn what_a_file_does_not_hold_is_a_loss() {
     let options = WriteOptions {
         provenance: Some("by hand\nand feet".into()),
     };
-    let report = mesh_io::write(&path, &scene(objects), &options).unwrap();
+    let report = mesh_io::write(&store::Disk, &path, &scene(objects), &options).unwrap();
     let lost: Vec<_> = report.losses.iter().map(|l| l.attribute.as_str()).collect();
     assert_eq!(lost, ["name", "uv", "side", "color"]);
     let text = std::fs::read_to_string(&path).unwrap();
@@ -247,7 +247,7 @@ fn a_peek_counts_what_reading_gives() {
     mesh.set(COLOR, vec![DVec4::ONE; mesh.n_vertices()]);
     let path = folder.path("a.off");
     write(&path, [Object::mesh("a", mesh.clone())]);
-    let peek = mesh_io::peek(&path, &ReadOptions::default()).unwrap();
+    let peek = mesh_io::peek(&store::Disk, &path, &ReadOptions::default()).unwrap();
     let PeekGeometry::Mesh(peek) = peek.objects[0].geometry else {
         panic!("a mesh");
     };
@@ -380,7 +380,7 @@ proptest! {
         let folder = Folder::new();
         let path = folder.with("a.off", text);
         let _ = read(&path);
-        let _ = mesh_io::peek(&path, &ReadOptions::default());
+        let _ = mesh_io::peek(&store::Disk, &path, &ReadOptions::default());
     }
 
     #[test]
@@ -390,6 +390,6 @@ proptest! {
         text.extend(bytes);
         let path = folder.with("a.off", text);
         let _ = read(&path);
-        let _ = mesh_io::peek(&path, &ReadOptions::default());
+        let _ = mesh_io::peek(&store::Disk, &path, &ReadOptions::default());
     }
 }

@@ -171,7 +171,7 @@ proptest! {
 
         let folder = Folder::new();
         let path = folder.with("a.obj", &text);
-        let found = mesh_io::read_polygons(&path, &mesh_io::ReadOptions::default()).unwrap();
+        let found = mesh_io::read_polygons(&store::Disk, &path, &mesh_io::ReadOptions::default()).unwrap();
         let ours = &found[0].1;
         prop_assert_eq!(ours.corners.len(), theirs.indices.len());
         let column = |name| ours.attributes.column(mesh::Domain::Corner, name).map(|c| &c.values);
@@ -196,7 +196,7 @@ proptest! {
             let other = text.replace("\r\n", "\n").replace(from, to);
             let other = folder.with("b.obj", other);
             if end.contains('#') { continue; }
-            let again = mesh_io::read_polygons(&other, &mesh_io::ReadOptions::default()).unwrap();
+            let again = mesh_io::read_polygons(&store::Disk, &other, &mesh_io::ReadOptions::default()).unwrap();
             prop_assert_eq!(&again[0].1, ours);
         }
         prop_assert!(read(&path).is_ok());

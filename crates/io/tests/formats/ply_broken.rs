@@ -304,7 +304,7 @@ fn whatever(bytes: &[u8]) {
     let folder = Folder::new();
     let path = folder.with("a.ply", bytes);
     let _ = read(&path);
-    let _ = mesh_io::peek(&path, &ReadOptions::default());
+    let _ = mesh_io::peek(&store::Disk, &path, &ReadOptions::default());
 }
 
 /// A file with lists, seams and comments.

@@ -102,7 +102,7 @@ fn strips_become_triangles() {
         notes[0].ends_with("2 triangle strips became 3 triangles"),
         "{notes:?}"
     );
-    let peek = mesh_io::peek(&path, &ReadOptions::default()).unwrap();
+    let peek = mesh_io::peek(&store::Disk, &path, &ReadOptions::default()).unwrap();
     let PeekGeometry::Mesh(mesh) = peek.objects[0].geometry else {
         panic!("a mesh");
     };

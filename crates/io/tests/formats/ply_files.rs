@@ -14,7 +14,7 @@ use crate::{Folder, assert_same, only, polygons, scene, tag, write};
 pub(crate) fn polygons_of(name: &str, bytes: impl AsRef<[u8]>) -> Polygons {
     let folder = Folder::new();
     let path = folder.with(name, bytes);
-    let mut all = mesh_io::read_polygons(&path, &ReadOptions::default()).unwrap();
+    let mut all = mesh_io::read_polygons(&store::Disk, &path, &ReadOptions::default()).unwrap();
     all.remove(0).1
 }
 
@@ -266,7 +266,15 @@ fn what_a_file_does_not_hold_is_a_loss() {
     assert_eq!(lost, [("crease", 12), ("corner", 8)]);
     let curve = bezier::Patch::new([[DVec3::ONE; 4]; 4]).unwrap();
     let patch = Object::new("p", scene::Geometry::Patches(vec![curve]));
-    assert!(mesh_io::write(&path, &scene([patch]), &WriteOptions::default()).is_err());
+    assert!(
+        mesh_io::write(
+            &store::Disk,
+            &path,
+            &scene([patch]),
+            &WriteOptions::default()
+        )
+        .is_err()
+    );
 }
 
 #[test]
@@ -276,7 +284,13 @@ fn the_provenance_is_a_comment() {
     let options = WriteOptions {
         provenance: Some("one\ntwo".into()),
     };
-    mesh_io::write(&path, &scene([Object::mesh("a", shapes::cube())]), &options).unwrap();
+    mesh_io::write(
+        &store::Disk,
+        &path,
+        &scene([Object::mesh("a", shapes::cube())]),
+        &options,
+    )
+    .unwrap();
     let bytes = std::fs::read(&path).unwrap();
     assert!(String::from_utf8_lossy(&bytes).contains("comment one\ncomment two\n"));
     assert_eq!(polygons(only(&path).as_mesh().unwrap()).len(), 6);

@@ -220,7 +220,7 @@ fn a_peek_counts_what_reading_gives() {
     let folder = Folder::new();
     let path = folder.path("a.ply");
     write(&path, [Object::mesh("a", rich())]);
-    let PeekGeometry::Mesh(mesh) = mesh_io::peek(&path, &ReadOptions::default())
+    let PeekGeometry::Mesh(mesh) = mesh_io::peek(&store::Disk, &path, &ReadOptions::default())
         .unwrap()
         .objects[0]
         .geometry

@@ -69,7 +69,7 @@ fn trip(objects: &[Object], extension: &str) -> Result<Trip, WriteError> {
     let folder = Folder::new();
     let path = folder.path(&format!("it.{extension}"));
     let scene = scene(objects.iter().cloned());
-    let report = mesh_io::write(&path, &scene, &WriteOptions::default())?;
+    let report = mesh_io::write(&store::Disk, &path, &scene, &WriteOptions::default())?;
     let name = |path: &Path| path.file_name().unwrap().to_string_lossy().into_owned();
     let files = report.files.iter();
     let bytes = files.map(|path| (name(path), std::fs::read(path).unwrap()));
@@ -333,6 +333,7 @@ fn every_feature_comes_back_as_told() {
 fn a_real_model_comes_back_as_told() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/assets/bunny.obj");
     let loaded = mesh_io::read(
+        &store::Disk,
         &path,
         &mesh_io::ReadOptions {
             name: Some("it".to_owned()),

@@ -218,7 +218,7 @@ fn what_a_file_does_not_hold_is_a_loss() {
         provenance: Some("recipe 12ab".into()),
     };
     let scene = scene([object, Object::mesh("b", shapes::tetrahedron())]);
-    let report = mesh_io::write(&path, &scene, &options).unwrap();
+    let report = mesh_io::write(&store::Disk, &path, &scene, &options).unwrap();
     let lost: Vec<_> = report
         .losses
         .iter()
@@ -264,8 +264,13 @@ fn positions_beyond_32_bits_are_refused() {
     mesh.positions_mut()[1].y = 1e300;
     let folder = Folder::new();
     let scene = scene([Object::mesh("a", mesh)]);
-    let error =
-        mesh_io::write(&folder.path("a.stl"), &scene, &WriteOptions::default()).unwrap_err();
+    let error = mesh_io::write(
+        &store::Disk,
+        &folder.path("a.stl"),
+        &scene,
+        &WriteOptions::default(),
+    )
+    .unwrap_err();
     assert!(
         error
             .to_string()
@@ -282,7 +287,7 @@ fn a_peek_counts_what_reading_gives() {
         folder.with("a.stl", text),
         folder.with("b.stl", binary(&[FLAT])),
     ] {
-        let peek = mesh_io::peek(&path, &ReadOptions::default()).unwrap();
+        let peek = mesh_io::peek(&store::Disk, &path, &ReadOptions::default()).unwrap();
         let PeekGeometry::Mesh(mesh) = peek.objects[0].geometry else {
             panic!("a mesh");
         };
@@ -385,7 +390,7 @@ fn whatever(bytes: &[u8]) {
     let folder = Folder::new();
     let path = folder.with("a.stl", bytes);
     let _ = read(&path);
-    let _ = mesh_io::peek(&path, &ReadOptions::default());
+    let _ = mesh_io::peek(&store::Disk, &path, &ReadOptions::default());
 }
 
 proptest! {

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::{Domain, Rule, Values};
-use crate::{EdgeId, FaceId, HalfEdgeId, Id, VertexId};
+use super::{Rule, Values};
+use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, VertexId};
 
 /// One attribute: a name, a rule and a value for each element of a domain.
 #[derive(Clone, Debug, PartialEq)]

@@ -70,16 +70,11 @@ impl Values {
             n: usize,
             source: impl Fn(usize) -> Option<usize> + Sync,
         ) -> Values {
-            let mut new = crate::zeroed::<T>(n);
-            new.par_iter_mut()
-                .with_min_len(crate::blocks::BLOCK)
-                .enumerate()
-                .for_each(|(i, slot)| {
-                    if let Some(s) = source(i) {
-                        *slot = old[s];
-                    }
-                });
-            T::wrap(new)
+            filled(n, |i, slot: &mut T| {
+                if let Some(s) = source(i) {
+                    *slot = old[s];
+                }
+            })
         }
         each!(self, v => run(v, n, source))
     }
@@ -99,14 +94,9 @@ impl Values {
             add: impl Fn(T, T, f64) -> T + Sync,
             weights: impl Fn(usize, &mut dyn FnMut(usize, f64)) + Sync,
         ) -> Values {
-            let mut new = crate::zeroed::<T>(n);
-            new.par_iter_mut()
-                .with_min_len(crate::blocks::BLOCK)
-                .enumerate()
-                .for_each(|(i, slot)| {
-                    weights(i, &mut |source, w| *slot = add(*slot, old[source], w));
-                });
-            T::wrap(new)
+            filled(n, |i, slot: &mut T| {
+                weights(i, &mut |source, w| *slot = add(*slot, old[source], w));
+            })
         }
         match self {
             Self::Float(v) => sum(v, n, |a, b, w| a + b * w, weights),
@@ -269,6 +259,16 @@ value!(DVec3, Vec3);
 value!(DVec4, Vec4);
 value!(i32, Int);
 value!(bool, Tag);
+
+/// Values that start at zero and are written by all threads.
+fn filled<T: Value>(n: usize, fill: impl Fn(usize, &mut T) + Sync) -> Values {
+    let mut new = crate::zeroed(n);
+    new.par_iter_mut()
+        .with_min_len(crate::blocks::BLOCK)
+        .enumerate()
+        .for_each(|(i, slot)| fill(i, slot));
+    T::wrap(new)
+}
 
 #[cfg(test)]
 mod tests {

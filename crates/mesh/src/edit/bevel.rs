@@ -61,7 +61,7 @@ impl Mesh {
         let cuts = self.check_cuts(&spokes, fraction)?;
         let f = self.face(spokes[0]).expect("v is not on the boundary");
         let new = self.join_cuts(&cuts, f);
-        self.kill_vertex(v);
+        self.kill(v);
         Ok(new)
     }
 
@@ -127,9 +127,9 @@ impl Mesh {
         }
         let cuts = self.check_cuts(&spokes, fraction)?;
         let new = self.join_cuts(&cuts, f);
-        self.kill_vertex(a);
-        self.kill_vertex(b);
-        self.kill_edge(e);
+        self.kill(a);
+        self.kill(b);
+        self.kill(e);
         Ok(new)
     }
 

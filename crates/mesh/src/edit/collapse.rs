@@ -122,8 +122,8 @@ impl Mesh {
                 self.set_face_half_edge(f, after);
             }
         }
-        self.kill_edge(e);
-        self.kill_vertex(gone);
+        self.kill(e);
+        self.kill(gone);
         // A triangle has become a lens between two edges. The one that was at the vertex that is gone
         // comes after the first side if that vertex was b, and after the second if it was a.
         for (i, h) in sides.into_iter().enumerate().filter(|&(i, _)| vanishes[i]) {
@@ -308,9 +308,9 @@ impl Mesh {
                 self.set_vertex_half_edge(self.origin(old), Some(new));
             }
         }
-        self.kill_edge(x.edge());
+        self.kill(x.edge());
         if let Some(f) = lens {
-            self.kill_face(f);
+            self.kill(f);
         }
     }
 

@@ -50,7 +50,7 @@ impl Mesh {
         faces.sort_unstable();
         faces.dedup();
         self.delete_faces(&faces)?;
-        self.kill_vertex(v);
+        self.kill(v);
         Ok(())
     }
 }

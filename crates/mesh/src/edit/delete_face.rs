@@ -45,7 +45,8 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// use mesh::{FaceId, shapes};
+    /// use geometry::shapes;
+    /// use mesh::FaceId;
     ///
     /// // Of four squares around a vertex two opposite ones would be left.
     /// let mut mesh = shapes::grid(2, 2);
@@ -94,10 +95,10 @@ impl Mesh {
             self.set_face(h, None);
         }
         for h in lone {
-            self.kill_edge(h.edge());
+            self.kill(h.edge());
         }
         for f in doomed {
-            self.kill_face(f);
+            self.kill(f);
         }
         Ok(())
     }

@@ -92,8 +92,8 @@ impl Mesh {
         if self.face_half_edge(f) == ab {
             self.set_face_half_edge(f, after_b);
         }
-        self.kill_edge(e);
-        self.kill_face(g);
+        self.kill(e);
+        self.kill(g);
         Ok(f)
     }
 

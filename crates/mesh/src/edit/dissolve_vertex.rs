@@ -121,7 +121,7 @@ impl Mesh {
             if self.vertex_half_edge(w) == Some(h.twin()) {
                 self.set_vertex_half_edge(w, Some(after));
             }
-            self.kill_edge(h.edge());
+            self.kill(h.edge());
         }
         let merged = faces[0];
         self.set_face_half_edge(merged, rim[0]);
@@ -129,7 +129,7 @@ impl Mesh {
             self.set_face(h, Some(merged));
         }
         for &f in &faces[1..] {
-            self.kill_face(f);
+            self.kill(f);
         }
         if on_boundary {
             let (into, out) = (spokes[0].twin(), spokes[last]);
@@ -138,7 +138,7 @@ impl Mesh {
             self.set_next(into, out);
             self.join_edges(spokes[0], spokes[last]);
         } else {
-            self.kill_vertex(v);
+            self.kill(v);
         }
         Ok(merged)
     }
@@ -201,8 +201,8 @@ impl Mesh {
                 self.set_face_half_edge(f, left);
             }
         }
-        self.kill_edge(y.edge());
-        self.kill_vertex(v);
+        self.kill(y.edge());
+        self.kill(v);
     }
 }
 

@@ -49,7 +49,8 @@ impl Mesh {
     /// # Examples
     ///
     /// ```
-    /// use mesh::{DVec3, FaceId, shapes};
+    /// use geometry::shapes;
+    /// use mesh::{DVec3, FaceId};
     ///
     /// let mut mesh = shapes::cube();
     /// let top = FaceId::new(1);

@@ -26,7 +26,7 @@ mod testing;
 pub use cut_face::polygon_parts;
 pub use flip::Seams;
 
-use crate::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
+use crate::{EdgeId, Element, FaceId, HalfEdgeId, Mesh, VertexId};
 
 /// Why an edit was refused. The mesh is unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -141,46 +141,90 @@ pub enum EditError {
     Full,
 }
 
+impl EditError {
+    /// The elements that it names, in the order of its message.
+    pub fn elements(self) -> Vec<Element> {
+        match self {
+            Self::NoSuchVertex(v)
+            | Self::BoundaryVertex(v)
+            | Self::FewEdges(v)
+            | Self::RepeatedVertex(v)
+            | Self::Pinch(v) => vec![v.into()],
+            Self::NoSuchHalfEdge(h) | Self::Elsewhere(h) | Self::ShortLoop(h) => vec![h.into()],
+            Self::NoSuchEdge(e)
+            | Self::Boundary(e)
+            | Self::NotBoundary(e)
+            | Self::SameFace(e)
+            | Self::Vanishes(e)
+            | Self::JoinsBoundaries(e)
+            | Self::Seam(e)
+            | Self::NoPath(e)
+            | Self::Twice(e)
+            | Self::SelfLoop(e) => vec![e.into()],
+            Self::NoSuchFace(f)
+            | Self::NotTriangle(f)
+            | Self::FewCorners(f)
+            | Self::PartOfComponent(f)
+            | Self::TwiceFace(f) => vec![f.into()],
+            Self::SameOpposite(e, v) | Self::Link(e, v) => vec![e.into(), v.into()],
+            Self::DuplicateEdge(v, w) | Self::NoCut(v, w) | Self::SeveralCuts(v, w) => {
+                vec![v.into(), w.into()]
+            }
+            Self::Adjacent(h, g) | Self::SameLoop(h, g) => vec![h.into(), g.into()],
+            Self::VisitsTwice(f, v) => vec![f.into(), v.into()],
+            Self::OutsideEdge(_) | Self::BadNumber(_) | Self::Nothing | Self::Full => Vec::new(),
+        }
+    }
+}
+
 impl Mesh {
     fn check_vertex(&self, v: VertexId) -> Result<(), EditError> {
-        if self.has_vertex(v) {
-            Ok(())
-        } else {
-            Err(EditError::NoSuchVertex(v))
-        }
+        allow(self.has_vertex(v), EditError::NoSuchVertex(v))
     }
 
     fn check_half_edge(&self, h: HalfEdgeId) -> Result<(), EditError> {
-        if self.has_edge(h.edge()) {
-            Ok(())
-        } else {
-            Err(EditError::NoSuchHalfEdge(h))
-        }
+        allow(self.has_edge(h.edge()), EditError::NoSuchHalfEdge(h))
     }
 
     fn check_edge(&self, e: EdgeId) -> Result<(), EditError> {
-        if self.has_edge(e) {
-            Ok(())
-        } else {
-            Err(EditError::NoSuchEdge(e))
-        }
+        allow(self.has_edge(e), EditError::NoSuchEdge(e))
     }
 
     fn check_face(&self, f: FaceId) -> Result<(), EditError> {
-        if self.has_face(f) {
-            Ok(())
-        } else {
-            Err(EditError::NoSuchFace(f))
-        }
+        allow(self.has_face(f), EditError::NoSuchFace(f))
     }
 
     /// Refuses if there are not ids for so many more half-edges. Vertices and faces are always fewer.
     fn check_room(&self, half_edges: usize) -> Result<(), EditError> {
         let n = self.connectivity.next.len().max(self.positions.len()) + half_edges;
-        if n < u32::MAX as usize {
-            Ok(())
-        } else {
-            Err(EditError::Full)
+        allow(n < u32::MAX as usize, EditError::Full)
+    }
+}
+
+fn allow(is_allowed: bool, refusal: EditError) -> Result<(), EditError> {
+    if is_allowed { Ok(()) } else { Err(refusal) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_elements_of_a_refusal_are_those_of_its_message() {
+        let (e, v, w) = (EdgeId::new(3), VertexId::new(1), VertexId::new(2));
+        for refusal in [
+            EditError::Boundary(e),
+            EditError::Link(e, v),
+            EditError::DuplicateEdge(v, w),
+            EditError::VisitsTwice(FaceId::new(4), v),
+            EditError::Adjacent(HalfEdgeId::new(5), HalfEdgeId::new(6)),
+        ] {
+            let text = refusal.to_string();
+            let mut from = 0;
+            for element in refusal.elements() {
+                let at = text[from..].find(&element.to_string());
+                from += at.expect("the message names it");
+            }
         }
     }
 }

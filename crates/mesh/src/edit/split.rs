@@ -114,7 +114,7 @@ impl Mesh {
         let n = self.n_vertices();
         for v in 0..self.domain_len(Domain::Vertex) {
             if self.vertex_half_edge(VertexId::new(v)).is_none() {
-                self.kill_vertex(VertexId::new(v));
+                self.kill(VertexId::new(v));
             }
         }
         n - self.n_vertices()

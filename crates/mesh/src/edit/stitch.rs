@@ -135,7 +135,7 @@ impl Mesh {
         for h in fan {
             self.set_origin(h, to);
         }
-        self.kill_vertex(from);
+        self.kill(from);
     }
 
     /// Closes a hole of two edges. The one of the lower number stays.
@@ -151,7 +151,7 @@ impl Mesh {
         if let Some(f) = face.filter(|&f| self.face_half_edge(f) == old) {
             self.set_face_half_edge(f, kept);
         }
-        self.kill_edge(gone.edge());
+        self.kill(gone.edge());
         kept.edge()
     }
 

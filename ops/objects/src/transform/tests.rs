@@ -50,7 +50,7 @@ fn four_quarter_turns_are_none() {
     for axis in ["X", "Y", "Z"] {
         let mut mesh = shapes::cube();
         for _ in 0..4 {
-            mesh = applied(&format!("(rotate: [(axis: {axis}, degrees: 90)])"), mesh);
+            mesh = applied(&format!("(rotate: [(axis: {axis}, angle: 90)])"), mesh);
         }
         assert_eq!(mesh, shapes::cube());
     }

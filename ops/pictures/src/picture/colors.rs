@@ -18,7 +18,9 @@ pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Probl
     match &by.of {
         Quantity::DistanceTo(path) => {
             let full = cx.files.to_read(path);
-            if let Err(error) = mesh_io::peek(&full, &mesh_io::ReadOptions::default()) {
+            if let Err(error) =
+                mesh_io::peek(&*cx.files.store, &full, &mesh_io::ReadOptions::default())
+            {
                 problems.push(Problem::error(error.to_string()).at(["color_by", "of"]));
             }
             plan.inputs.push(full);
@@ -54,8 +56,12 @@ pub(crate) fn others(by: &ColorBy, cx: &Context) -> Result<Vec<Mesh>, OpError> {
 /// The meshes of a file.
 fn meshes_of(path: &str, cx: &Context) -> Result<Vec<Mesh>, OpError> {
     let full = cx.files().to_read(path);
-    let loaded = mesh_io::read(Path::new(&full), &mesh_io::ReadOptions::default())
-        .map_err(|error| OpError::File(error.to_string()))?;
+    let loaded = mesh_io::read(
+        &*cx.files().store,
+        Path::new(&full),
+        &mesh_io::ReadOptions::default(),
+    )
+    .map_err(|error| OpError::File(error.to_string()))?;
     for file in loaded.files {
         if file.is_read {
             cx.files().has_read(file.path);

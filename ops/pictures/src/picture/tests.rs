@@ -123,7 +123,13 @@ fn the_color_of_a_distance_is_that_of_the_place() {
     let mut scene = Scene::new();
     scene.insert(Object::mesh("cube", shapes::cube())).unwrap();
     let path = folder.path().join("cube.obj");
-    mesh_io::write(&path, &scene, &mesh_io::WriteOptions::default()).unwrap();
+    mesh_io::write(
+        &store::Disk,
+        &path,
+        &scene,
+        &mesh_io::WriteOptions::default(),
+    )
+    .unwrap();
     let picture = picture("path: \"a.png\", color_by: (of: DistanceTo(\"cube.obj\"))");
     let numbers = picture.color_by.as_ref().unwrap();
     let cx = Context::new(&NoProgress, &files);
@@ -171,10 +177,6 @@ fn wrong_parameters_are_problems_before_anything_runs() {
         (
             "path: \"a.png\", camera: LookAt(from: (0, 0, 0), to: (0, 0, 0))",
             "expected a camera that looks from one point to another, found no direction",
-        ),
-        (
-            "path: \"a.png\", turntable: (frames: 1)",
-            "expected 2 to 720 images, found 1",
         ),
         (
             "path: \"a.png\", color_by: (of: Attribute(name: \"heat\"))",

@@ -26,7 +26,7 @@ use engine::Engine;
 use recipe::{InOrder, JobEnd, Jobs, Outcome};
 
 use crate::args::BatchArgs;
-use crate::listener::{Quiet, catch_interrupts, is_interrupted};
+use crate::listener::{QUIET, catch_interrupts, is_interrupted};
 use crate::many::{CHECKED_AHEAD, all, first_error, panicked};
 use crate::output::{print, shown};
 use engine::{Loaded, Run};
@@ -201,7 +201,7 @@ impl<'b> Chunk<'b> {
             keep_outputs: true,
             cache: None,
         };
-        let outcome = loaded.run(run, &Quiet);
+        let outcome = loaded.run(run, &QUIET);
         let row = Row {
             seconds: begin.elapsed().as_secs_f64(),
             ..row(&self.files[i].path, loaded, &outcome)

@@ -10,7 +10,7 @@ use scene::Scene;
 use view::Extent;
 
 use crate::args::SweepArgs;
-use crate::listener::Quiet;
+use crate::listener::QUIET;
 use crate::loading::load_text;
 use crate::many::{all, first_error, panicked};
 
@@ -164,7 +164,7 @@ impl Cells<'_> {
             keep_outputs: keeps,
             cache: cache.as_ref().map(|caching| caching as _),
         };
-        let outcome = loaded.run(run, &Quiet);
+        let outcome = loaded.run(run, &QUIET);
         if outcome.cancelled {
             return Err(None);
         }

@@ -195,8 +195,7 @@ impl Plan {
                 grid,
             })),
             _ => {
-                let errors = if n == 1 { "error" } else { "errors" };
-                complain(&format!("{n} {errors}, nothing was run\n"));
+                complain(&format!("{}, nothing was run\n", counted(n, "error")));
                 Ok(None)
             }
         }

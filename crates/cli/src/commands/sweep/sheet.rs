@@ -27,7 +27,7 @@ use super::cell::{CellResult, Cells, Seen};
 use super::{Plan, short};
 use crate::args::{SweepArgs, WrongUsage};
 use crate::commands::picture::{SHEET_CELL, check_names, parameters};
-use crate::listener::{Quiet, is_interrupted};
+use crate::listener::{QUIET, is_interrupted};
 use crate::many::panicked;
 
 /// Most lines below a cell: its values, and what is kept of it.
@@ -89,9 +89,13 @@ impl<'a> Sheet<'a> {
     /// The size of the image of each cell.
     fn cell_size(&self) -> [u32; 2] {
         let views = self.picture.views.len().max(1);
-        let columns = self.picture.columns.map_or(4, |n| n as usize).min(views);
+        let columns = self
+            .picture
+            .columns
+            .map_or(4, |n| n.get() as usize)
+            .min(views);
         let of = |side: u32, n: usize| side.saturating_mul(u32::try_from(n).unwrap_or(u32::MAX));
-        let [width, height] = self.picture.size;
+        let [width, height] = self.picture.size.map(op::Count::get);
         [of(width, columns), of(height, views.div_ceil(columns))]
     }
 
@@ -142,7 +146,7 @@ impl<'a> Sheet<'a> {
     }
 
     fn context(&self) -> Context<'_> {
-        let mut cx = Context::new(&Quiet, &self.files);
+        let mut cx = Context::new(&QUIET, &self.files);
         cx.budget = self.args.many.budget;
         let on = &self.args.draw.on;
         cx.on = (!on.is_empty()).then_some(on);

@@ -38,7 +38,7 @@ use serde_json::{Value as Json, json};
 use super::test_update::renew;
 use crate::args::{Format, TestArgs};
 use crate::cache;
-use crate::listener::{Quiet, catch_interrupts, is_interrupted};
+use crate::listener::{QUIET, catch_interrupts, is_interrupted};
 use crate::loading::{Found, load_text, recipes};
 use crate::many::{all, panicked};
 use crate::output::{complain, counted, print, problems_json, show, write_whole};
@@ -233,7 +233,7 @@ impl<'a> Test<'a> {
             })
             .flatten();
         let listener = Picturing {
-            listener: &Quiet,
+            listener: &QUIET,
             pictures: pictures.as_ref(),
         };
         let caching = cache.map(|cache| cache::using(cache, &self.found.path));

@@ -10,7 +10,8 @@
 //!
 //! A channel is four bytes of an element. Controls and modes are in version 1 (`0xa1`) only.
 
-use super::{Broken, Input};
+use super::input::Input;
+use crate::fault::Fault;
 
 /// Differences are stored for this many elements together.
 const GROUP: usize = 16;
@@ -60,16 +61,16 @@ pub(super) fn shortest(count: u64, stride: u64) -> u64 {
 /// # Errors
 ///
 /// The place at which the stream breaks the rules.
-pub(super) fn decode(stream: &[u8], stride: usize, out: &mut [u8]) -> Result<(), Broken> {
+pub(super) fn decode(stream: &[u8], stride: usize, out: &mut [u8]) -> Result<(), Fault> {
     let n_channels = stride / 4;
     let (is_old, in_tail) = match stream.first() {
         Some(0xa0) => (true, stride),
         Some(0xa1) => (false, stride + n_channels),
         Some(found) => {
             let message = format!("expected 0xa0 or 0xa1, found {found:#04x}");
-            return Err(Broken::new(0, message));
+            return Err(Fault::byte(0, message));
         }
-        None => return Err(Broken::new(0, "the stream is empty")),
+        None => return Err(Fault::byte(0, "the stream is empty")),
     };
     let mut input = Input::new(stream, in_tail.max(if is_old { 32 } else { 24 }))?;
     let (mut before, modes) = {
@@ -80,7 +81,7 @@ pub(super) fn decode(stream: &[u8], stride: usize, out: &mut [u8]) -> Result<(),
         vec![Channel::Bytes; n_channels]
     } else {
         let first = stream.len() - n_channels;
-        let channel = |(i, &mode)| channel(mode).map_err(|why| Broken::new(first + i, why));
+        let channel = |(i, &mode)| channel(mode).map_err(|why| Fault::byte(first + i, why));
         modes
             .iter()
             .enumerate()
@@ -118,7 +119,7 @@ fn groups(
     bits: Bits,
     n: usize,
     differences: &mut [u8; BLOCK],
-) -> Result<(), Broken> {
+) -> Result<(), Fault> {
     let n = n.div_ceil(GROUP);
     let kinds = input.take(n.div_ceil(4))?;
     let groups = differences.as_chunks_mut::<GROUP>().0.iter_mut().take(n);
@@ -134,7 +135,7 @@ fn groups(
 }
 
 /// Differences of 1, 2 or 4 bits; those with all bits set follow as bytes.
-fn few_bits(input: &mut Input, bits: usize, group: &mut [u8; GROUP]) -> Result<(), Broken> {
+fn few_bits(input: &mut Input, bits: usize, group: &mut [u8; GROUP]) -> Result<(), Fault> {
     let packed = input.take(2 * bits)?;
     let (in_byte, all) = (8 / bits, (1 << bits) - 1);
     for (i, slot) in group.iter_mut().enumerate() {

@@ -5,8 +5,9 @@
     reason = "values are rounded before, and the nearest inside is taken"
 )]
 
-use rayon::prelude::*;
 use serde::Deserialize;
+
+use crate::parallel;
 
 /// How many bytes are looked at by one task.
 const BLOCK: usize = 1 << 15;
@@ -80,9 +81,9 @@ impl Filter {
 
 /// Applies `turn` to each N bytes, in parallel.
 fn each<const N: usize>(bytes: &mut [u8], turn: impl Fn(&mut [u8; N]) + Sync) {
-    bytes
-        .par_chunks_mut(BLOCK)
-        .for_each(|block| block.as_chunks_mut().0.iter_mut().for_each(&turn));
+    parallel::consume(bytes.chunks_mut(BLOCK), |_, block| {
+        block.as_chunks_mut().0.iter_mut().for_each(&turn);
+    });
 }
 
 fn shorts(bytes: [u8; 8]) -> [u16; 4] {

@@ -6,7 +6,8 @@
 //!
 //! The lowest bit of a number says which of the two it goes on from, the others how far.
 
-use super::{Broken, Input, header, zigzag};
+use super::input::{Input, header, zigzag};
+use crate::fault::Fault;
 
 /// The length of the end, which says nothing.
 const TAIL: u8 = 4;
@@ -24,7 +25,7 @@ pub(super) fn shortest(count: u64) -> u64 {
 pub(super) fn decode(
     stream: &[u8],
     slots: impl Iterator<Item = impl FnOnce(u32)>,
-) -> Result<(), Broken> {
+) -> Result<(), Fault> {
     header(stream, 0xd1)?;
     let mut input = Input::new(stream, TAIL.into())?;
     let mut last = [0_u32; 2];

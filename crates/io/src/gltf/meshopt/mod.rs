@@ -14,6 +14,7 @@
 mod attributes;
 mod filters;
 mod indices;
+mod input;
 #[cfg(test)]
 mod tests;
 mod triangles;
@@ -22,7 +23,7 @@ use gltf_json::buffer::View;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::JsonError;
+use crate::fault::{At, Fault};
 use filters::Filter;
 
 /// The names of the extension.
@@ -60,35 +61,18 @@ enum Mode {
     Indices,
 }
 
-/// What is wrong with a stream.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct Broken {
-    /// The byte of the stream, from 0.
-    at: usize,
-    message: String,
-}
-
-impl Broken {
-    fn new(at: usize, message: impl Into<String>) -> Self {
-        Self {
-            at,
-            message: message.into(),
-        }
-    }
-}
-
 /// What the extensions say about each of the buffer views in the document.
 ///
 /// # Errors
 ///
 /// The first that is not what it should be.
-pub(super) fn compressed(views: &[Value]) -> Result<Vec<Option<Compressed>>, JsonError> {
+pub(super) fn compressed(views: &[Value]) -> Result<Vec<Option<Compressed>>, Fault> {
     let one = |(i, view): (usize, &Value)| {
         let Some((extension, json)) = extension(view) else {
             return Ok(None);
         };
         let read = Compressed::deserialize(json)
-            .map_err(|e| JsonError::new(pointer(i, extension), e.to_string()))?;
+            .map_err(|e| Fault::json(pointer(i, extension), e.to_string()))?;
         Ok(Some(Compressed { extension, ..read }))
     };
     views.iter().enumerate().map(one).collect()
@@ -143,60 +127,53 @@ impl Compressed {
     ///
     /// # Errors
     ///
-    /// Why that is impossible: the extension breaks its rules, does not agree with the view, or promises
-    /// more than any stream of this length holds.
-    pub(super) fn decoded_length(&self, view: &View) -> Result<u64, String> {
+    /// That is impossible: the extension, whose place is `pointer`, breaks its rules, does not agree with the view,
+    /// or promises more than any stream of this length holds.
+    pub(super) fn decoded_length(&self, view: &View, pointer: &str) -> Result<u64, Fault> {
         let (stride, count) = (self.byte_stride, self.count);
-        let allowed = match self.mode {
-            Mode::Attributes => stride.is_multiple_of(4) && (4..=LONGEST).contains(&stride),
-            Mode::Triangles | Mode::Indices => stride == 2 || stride == 4,
+        let (allowed, expected) = match self.mode {
+            Mode::Attributes => (
+                stride.is_multiple_of(4) && (4..=LONGEST).contains(&stride),
+                "a multiple of 4 from 4 to 256",
+            ),
+            Mode::Triangles | Mode::Indices => (stride == 2 || stride == 4, "2 or 4"),
         };
-        if !allowed {
-            let expected = match self.mode {
-                Mode::Attributes => "a multiple of 4 from 4 to 256",
-                Mode::Triangles | Mode::Indices => "2 or 4",
-            };
-            return Err(format!("expected {expected} as byteStride, found {stride}"));
-        }
-        if self.filter != Filter::None
-            && (self.mode != Mode::Attributes || !self.filter.fits(stride))
-        {
-            return Err(format!(
-                "the filter {:?} is not for elements of {stride} bytes in this mode",
-                self.filter
-            ));
-        }
-        if self.mode == Mode::Triangles && !count.is_multiple_of(3) {
-            return Err(format!("expected a multiple of 3 as count, found {count}"));
-        }
-        if view
-            .byte_stride
-            .is_some_and(|other| other.0 as u64 != stride)
-        {
-            return Err(format!(
-                "the byteStride {stride} is not that of the buffer view"
-            ));
-        }
-        let length = count.checked_mul(stride);
-        let length = length.filter(|&length| length == view.byte_length.0);
-        let length = length.ok_or_else(|| {
-            format!(
-                "{count} elements of {stride} bytes are not the {} bytes of the buffer view",
-                view.byte_length.0
-            )
-        })?;
-        let least = match self.mode {
+        let filter_fits = self.filter == Filter::None
+            || self.mode == Mode::Attributes && self.filter.fits(stride);
+        let view_stride = view.byte_stride.map_or(stride, |other| other.0 as u64);
+        let view_length = view.byte_length.0;
+        let length = count
+            .checked_mul(stride)
+            .filter(|&length| length == view_length);
+        let least = || match self.mode {
             Mode::Attributes => attributes::shortest(count, stride),
             Mode::Triangles => triangles::shortest(count),
             Mode::Indices => indices::shortest(count),
         };
-        if least > self.byte_length {
-            return Err(format!(
-                "{count} elements of {stride} bytes need at least {least} compressed bytes, found {}",
+        let message = if !allowed {
+            format!("expected {expected} as byteStride, found {stride}")
+        } else if !filter_fits {
+            let filter = self.filter;
+            format!("the filter {filter:?} is not for elements of {stride} bytes in this mode")
+        } else if self.mode == Mode::Triangles && !count.is_multiple_of(3) {
+            format!("expected a multiple of 3 as count, found {count}")
+        } else if view_stride != stride {
+            format!("the byteStride {stride} is not that of the buffer view")
+        } else if let Some(length) = length {
+            if least() <= self.byte_length {
+                return Ok(length);
+            }
+            format!(
+                "{count} elements of {stride} bytes need at least {} compressed bytes, found {}",
+                least(),
                 self.byte_length
-            ));
-        }
-        Ok(length)
+            )
+        } else {
+            format!(
+                "{count} elements of {stride} bytes are not the {view_length} bytes of the buffer view"
+            )
+        };
+        Err(Fault::json(pointer, message))
     }
 
     /// Decodes the stream into `length` bytes, which [`decoded_length`](Self::decoded_length) said.
@@ -204,7 +181,12 @@ impl Compressed {
     /// # Errors
     ///
     /// The byte at which it breaks the rules, and which.
-    pub(super) fn decode(&self, stream: &[u8], length: usize) -> Result<Vec<u8>, String> {
+    pub(super) fn decode(
+        &self,
+        stream: &[u8],
+        length: usize,
+        pointer: &str,
+    ) -> Result<Vec<u8>, Fault> {
         let mut decoded = mesh::zeroed::<u8>(length);
         // It is between 2 and 256.
         let stride = usize::try_from(self.byte_stride).unwrap_or(4);
@@ -215,7 +197,10 @@ impl Compressed {
             (Mode::Indices, 2) => indices::decode(stream, shorts(&mut decoded)),
             (Mode::Indices, _) => indices::decode(stream, longs(&mut decoded)),
         };
-        result.map_err(|broken| format!("byte {} of the stream: {}", broken.at, broken.message))?;
+        result.map_err(|Fault { at, message }| match at {
+            At::Byte(at) => Fault::json(pointer, format!("byte {at} of the stream: {message}")),
+            at => Fault { at, message },
+        })?;
         self.filter.apply(&mut decoded, stride);
         Ok(decoded)
     }
@@ -236,86 +221,4 @@ fn shorts(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
 fn longs(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     let slots = bytes.as_chunks_mut::<4>().0.iter_mut();
     slots.map(|slot| move |i: u32| *slot = i.to_le_bytes())
-}
-
-/// Reads a stream between its header and its tail.
-struct Input<'a> {
-    bytes: &'a [u8],
-    at: usize,
-}
-
-impl<'a> Input<'a> {
-    /// Stands behind the first byte; ends `tail` bytes before the end.
-    ///
-    /// # Errors
-    ///
-    /// If the stream is shorter than that.
-    fn new(stream: &'a [u8], tail: usize) -> Result<Self, Broken> {
-        let end = stream.len().checked_sub(tail).filter(|&end| end > 0);
-        let end = end.ok_or_else(|| {
-            let message = format!("expected at least {} bytes", tail + 1);
-            Broken::new(stream.len(), message)
-        })?;
-        Ok(Self {
-            bytes: &stream[..end],
-            at: 1,
-        })
-    }
-
-    fn take(&mut self, n: usize) -> Result<&'a [u8], Broken> {
-        let rest = &self.bytes[self.at..];
-        let taken = rest.get(..n).ok_or_else(|| {
-            let message = format!("expected {n} more bytes, found {}", rest.len());
-            Broken::new(self.at, message)
-        })?;
-        self.at += n;
-        Ok(taken)
-    }
-
-    fn byte(&mut self) -> Result<u8, Broken> {
-        Ok(self.take(1)?[0])
-    }
-
-    /// A number in groups of 7 bits, the lowest first; each byte but the last one has its top bit set.
-    fn number(&mut self) -> Result<u32, Broken> {
-        let start = self.at;
-        let mut number = 0;
-        for shift in (0..35).step_by(7) {
-            let byte = self.byte()?;
-            number |= u32::from(byte & 0x7f) << shift;
-            if byte < 0x80 {
-                return Ok(number);
-            }
-        }
-        Err(Broken::new(start, "expected a number of at most 5 bytes"))
-    }
-
-    /// # Errors
-    ///
-    /// If something is left.
-    fn end(&self) -> Result<(), Broken> {
-        let left = self.bytes.len() - self.at;
-        if left > 0 {
-            let message = format!("expected the end, found {left} more bytes");
-            return Err(Broken::new(self.at, message));
-        }
-        Ok(())
-    }
-}
-
-/// Checks the first byte of a stream.
-fn header(stream: &[u8], expected: u8) -> Result<(), Broken> {
-    match stream.first() {
-        Some(&found) if found == expected => Ok(()),
-        Some(found) => {
-            let message = format!("expected {expected:#04x}, found {found:#04x}");
-            Err(Broken::new(0, message))
-        }
-        None => Err(Broken::new(0, "the stream is empty")),
-    }
-}
-
-/// The signed difference behind a number: 0, -1, 1, -2, ...
-fn zigzag(v: u32) -> u32 {
-    (v >> 1) ^ (v & 1).wrapping_neg()
 }

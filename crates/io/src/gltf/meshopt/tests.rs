@@ -19,7 +19,7 @@ struct Sample {
 fn samples() -> Vec<Sample> {
     let bytes = |text: &Value| {
         let uri = format!(";base64,{}", text.as_str().unwrap());
-        data_uri(&uri).unwrap().1
+        data_uri(&uri, "").unwrap().1
     };
     let arrays: Vec<Value> = serde_json::from_str(STREAMS).unwrap();
     let samples = arrays.iter().flat_map(|array| {
@@ -51,8 +51,10 @@ fn decode(compressed: &Compressed, stream: &[u8]) -> Result<Vec<u8>, String> {
         byte_length: stream.len() as u64,
         ..compressed.clone()
     };
-    let length = compressed.decoded_length(&view(length))?;
-    compressed.decode(stream, usize::try_from(length).unwrap())
+    let length = compressed.decoded_length(&view(length), "");
+    let length = length.map_err(|error| error.message)?;
+    let decoded = compressed.decode(stream, usize::try_from(length).unwrap(), "");
+    decoded.map_err(|error| error.message)
 }
 
 /// Whether arrays are the same: bit by bit, but for one unit of the last place where a filter rounds.
@@ -122,7 +124,7 @@ fn what_no_stream_of_the_length_holds_is_refused_before_it_is_made() {
                 ..compressed.clone()
             };
             let view = view(count.saturating_mul(compressed.byte_stride));
-            assert!(compressed.decoded_length(&view).is_err(), "{name}");
+            assert!(compressed.decoded_length(&view, "").is_err(), "{name}");
         }
     }
 }
@@ -134,7 +136,8 @@ fn rules_of_the_extension_are_checked() {
     });
     let length = |json: &Value| {
         let compressed = Compressed::deserialize(json).map_err(|e| e.to_string())?;
-        compressed.decoded_length(&view(24))
+        let length = compressed.decoded_length(&view(24), "");
+        length.map_err(|error| error.message)
     };
     assert_eq!(length(&good), Ok(24));
     for (change, words) in [

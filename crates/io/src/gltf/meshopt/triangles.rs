@@ -5,7 +5,8 @@
 //! 0xe1 | a code for each triangle | numbers | 16 pairs of halves of a byte
 //! ```
 
-use super::{Broken, Input, header, zigzag};
+use super::input::{Input, header, zigzag};
+use crate::fault::Fault;
 
 /// The length of the table of pairs at the end.
 const TABLE: u8 = 16;
@@ -24,7 +25,7 @@ pub(super) fn decode(
     stream: &[u8],
     n: usize,
     mut slots: impl Iterator<Item = impl FnOnce(u32)>,
-) -> Result<(), Broken> {
+) -> Result<(), Fault> {
     header(stream, 0xe1)?;
     let mut input = Input::new(stream, TABLE.into())?;
     let first = input.at;
@@ -40,7 +41,7 @@ pub(super) fn decode(
     for (i, &code) in codes.iter().enumerate() {
         let triangle = state.triangle(code, table).map_err(|wrong| match wrong {
             Wrong::Stream(broken) => broken,
-            Wrong::Code => Broken::new(
+            Wrong::Code => Fault::byte(
                 first + i,
                 format!("the code {code:#04x} refers to an edge or a vertex before the first"),
             ),
@@ -56,11 +57,11 @@ pub(super) fn decode(
 enum Wrong {
     /// It refers to what has not been there.
     Code,
-    Stream(Broken),
+    Stream(Fault),
 }
 
-impl From<Broken> for Wrong {
-    fn from(broken: Broken) -> Self {
+impl From<Fault> for Wrong {
+    fn from(broken: Fault) -> Self {
         Self::Stream(broken)
     }
 }
@@ -149,7 +150,7 @@ impl State<'_> {
         }
     }
 
-    fn spelled_out(&mut self) -> Result<u32, Broken> {
+    fn spelled_out(&mut self) -> Result<u32, Fault> {
         let number = self.input.number()?;
         self.last = self.last.wrapping_add(zigzag(number));
         Ok(self.last)

@@ -182,23 +182,19 @@ fn broken_files_are_refused_at_the_line() {
     ] {
         let error = parse(format!("{TRIANGLE}{text}").as_bytes()).unwrap_err();
         assert!(error.message.contains(words), "{text:?}: {error:?}");
-        assert_eq!(
-            (error.line, error.column),
-            (line, column),
-            "{text:?}: {error:?}"
-        );
+        assert_eq!(error.place(), (line, column), "{text:?}: {error:?}");
     }
 }
 
 #[test]
 fn another_kind_of_file_is_refused() {
     let error = parse(b"# hello\nsolid thing\n").unwrap_err();
-    assert_eq!(error.line, 2);
+    assert_eq!(error.place().0, 2);
     assert!(parse(b"# nothing\n").is_ok());
 }
 
 /// What a file holds, or why it is refused, read in one piece by the general way alone.
-fn in_order(bytes: &[u8]) -> Result<ObjFile, TextError> {
+fn in_order(bytes: &[u8]) -> Result<ObjFile, Fault> {
     let file = join(vec![parse_whole(bytes)?]);
     match first_unknown(&file) {
         Some(error) if file.positions.is_empty() => Err(error),

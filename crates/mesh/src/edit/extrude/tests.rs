@@ -187,8 +187,8 @@ pub(in crate::edit) fn slit_ring() -> Mesh {
         mesh.set_next(before, onward);
         mesh.set_face_half_edge(f, onward);
     }
-    mesh.kill_face(g);
-    mesh.kill_edge(cut.edge());
+    mesh.kill(g);
+    mesh.kill(cut.edge());
     mesh.compact();
     assert_eq!(mesh.defects(), []);
     mesh

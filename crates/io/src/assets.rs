@@ -1,11 +1,10 @@
-//! Paths inside a file that was read: they must stay inside the folder of that file.
+//! The files that a file refers to: they must stay inside its folder.
 
-use std::fs::{self, File};
-use std::io::{self, Read};
+use std::collections::BTreeSet;
+use std::io;
 use std::path::{Path, PathBuf};
 
-#[cfg(unix)]
-use rayon::prelude::*;
+use store::{Store, StoreError, folder_of};
 
 /// The part of a path that stays inside a folder: no root, no drive, and `..` only as far as the
 /// folder itself.
@@ -91,76 +90,87 @@ fn hex(digit: u8) -> Option<u8> {
         .and_then(|value| u8::try_from(value).ok())
 }
 
-/// Reads at most `limit` bytes of the file `name`, a path from [`inside`] or [`inside_uri`], beside
-/// the file `asset`.
-///
-/// # Errors
-///
-/// If the file is missing, is no plain file, or lies outside the folder because of a link.
-pub(crate) fn read_beside(asset: &Path, name: &Path, limit: u64) -> io::Result<Vec<u8>> {
-    let folder = folder_of(asset);
-    let path = folder.join(name);
-    let real = fs::canonicalize(&path)?;
-    if !real.starts_with(fs::canonicalize(folder)?) {
-        return Err(io::Error::other(
-            "a link leads out of the folder of the file",
-        ));
-    }
-    read_plain(&real, limit)
+/// A file name as a URI reference (RFC 3986): all but the unreserved characters are escaped.
+pub(crate) fn percent_encoded(name: &str) -> String {
+    let encode = |byte: u8| match byte {
+        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
+            char::from(byte).to_string()
+        }
+        _ => format!("%{byte:02X}"),
+    };
+    name.bytes().map(encode).collect()
 }
 
-/// Reads at most `limit` bytes of a plain file: a pipe or a device could go on for ever.
-pub(crate) fn read_plain(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
-    let meta = fs::metadata(path)?;
-    if meta.is_dir() {
-        return Err(io::Error::new(
-            io::ErrorKind::IsADirectory,
-            "expected a file, found a folder",
-        ));
-    }
-    if !meta.is_file() {
-        return Err(io::Error::other(
-            "expected a plain file, found a pipe or a device",
-        ));
-    }
-    let expected = usize::try_from(meta.len().min(limit)).unwrap_or(usize::MAX);
-    let mut bytes = Vec::new();
-    bytes.try_reserve_exact(expected)?;
-    let mut file = File::open(path)?;
-    #[cfg(unix)]
-    if expected >= LARGE {
-        drop(bytes);
-        bytes = read_at_once(&file, expected)?;
-        io::Seek::seek(&mut file, io::SeekFrom::Start(expected as u64))?;
-    }
-    // What is left: all of a small file, and what was added to a large one since it was looked at.
-    let rest = limit - bytes.len() as u64;
-    file.take(rest).read_to_end(&mut bytes)?;
-    Ok(bytes)
+/// A file that a reader has looked at.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FileSeen {
+    /// Its path.
+    pub path: PathBuf,
+    /// Whether its content was wanted, be it there or not; otherwise only whether there is such a file.
+    pub is_read: bool,
 }
 
-/// From this size on several threads read a file, in pieces of this size.
-#[cfg(unix)]
-const LARGE: usize = 1 << 20;
-
-/// The first `n` bytes of a file, read by all threads: most of the time goes into making the pages of
-/// memory that the bytes are copied to.
-#[cfg(unix)]
-fn read_at_once(file: &File, n: usize) -> io::Result<Vec<u8>> {
-    use std::os::unix::fs::FileExt;
-    let mut bytes = mesh::zeroed(n);
-    bytes
-        .par_chunks_mut(LARGE)
-        .enumerate()
-        .try_for_each(|(i, piece)| file.read_exact_at(piece, (i * LARGE) as u64))?;
-    Ok(bytes)
+/// The files beside the one that is read, and which of them were looked at.
+pub(crate) struct Assets<'a> {
+    store: &'a dyn Store,
+    /// The file that is read.
+    pub(crate) path: &'a Path,
+    seen: BTreeSet<FileSeen>,
 }
 
-/// The folder that holds `path`; the working directory if the path is a bare name.
-pub(crate) fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
+impl<'a> Assets<'a> {
+    pub(crate) fn of(store: &'a dyn Store, path: &'a Path) -> Self {
+        Self {
+            store,
+            path,
+            seen: BTreeSet::new(),
+        }
+    }
+
+    /// Where a file is, by a path from [`inside`] or [`inside_uri`].
+    pub(crate) fn place(&self, name: &Path) -> PathBuf {
+        folder_of(self.path).join(name)
+    }
+
+    /// Whether there is such a file.
+    pub(crate) fn has(&mut self, name: &Path) -> bool {
+        let path = self.place(name);
+        let is_there = self.store.is_file(&path);
+        self.seen.insert(FileSeen {
+            path,
+            is_read: false,
+        });
+        is_there
+    }
+
+    /// Reads at most `limit` bytes of a file.
+    ///
+    /// # Errors
+    ///
+    /// If the file is missing, is no plain file, or lies outside the folder because of a link.
+    pub(crate) fn read(&mut self, name: &Path, limit: u64) -> io::Result<Vec<u8>> {
+        let path = self.place(name);
+        self.seen.insert(FileSeen {
+            path: path.clone(),
+            is_read: true,
+        });
+        let because = |error: StoreError| error.into_parts().1;
+        let real = self.store.canonical(&path).map_err(because)?;
+        let folder = self
+            .store
+            .canonical(folder_of(self.path))
+            .map_err(because)?;
+        if !real.starts_with(folder) {
+            return Err(io::Error::other(
+                "a link leads out of the folder of the file",
+            ));
+        }
+        self.store.read_up_to(&real, limit).map_err(because)
+    }
+
+    /// The files that were looked at, sorted.
+    pub(crate) fn into_files(self) -> Vec<FileSeen> {
+        self.seen.into_iter().collect()
     }
 }
 
@@ -224,13 +234,14 @@ mod tests {
     fn a_link_out_of_the_folder_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let inner = folder.path().join("inner");
-        fs::create_dir(&inner).unwrap();
-        fs::write(folder.path().join("secret"), "x").unwrap();
+        std::fs::create_dir(&inner).unwrap();
+        std::fs::write(folder.path().join("secret"), "x").unwrap();
         std::os::unix::fs::symlink("../secret", inner.join("link")).unwrap();
-        fs::write(inner.join("plain"), "yes").unwrap();
+        std::fs::write(inner.join("plain"), "yes").unwrap();
 
-        let asset = inner.join("a.gltf");
-        assert!(read_beside(&asset, Path::new("link"), 9).is_err());
-        assert_eq!(read_beside(&asset, Path::new("plain"), 2).unwrap(), b"ye");
+        let path = inner.join("a.gltf");
+        let mut assets = Assets::of(&store::Disk, &path);
+        assert!(assets.read(Path::new("link"), 9).is_err());
+        assert_eq!(assets.read(Path::new("plain"), 2).unwrap(), b"ye");
     }
 }

@@ -1,0 +1,38 @@
+//! Cancelling a run from another thread.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use op::Progress;
+use recipe::{Listener, StepDone};
+
+/// A listener that hears nothing, and cancels the runs that it follows once it is set.
+#[derive(Debug, Default)]
+pub struct Cancel(AtomicBool);
+
+impl Cancel {
+    /// One that is not set.
+    pub const fn new() -> Self {
+        Self(AtomicBool::new(false))
+    }
+
+    /// Cancels the runs. Returns whether it was set before.
+    pub fn set(&self) -> bool {
+        self.0.swap(true, Ordering::Relaxed)
+    }
+
+    /// Whether it is set.
+    pub fn is_set(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+impl Progress for Cancel {
+    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
+        !self.is_set()
+    }
+}
+
+impl Listener for Cancel {
+    fn step_begins(&self, _: usize, _: &str) {}
+    fn step_done(&self, _: usize, _: &StepDone) {}
+}

@@ -19,7 +19,8 @@ fn each(n: usize, work: &(dyn Fn(usize) + Sync)) {
     match n {
         0 => {}
         1 => work(0),
-        _ => (0..n).into_par_iter().for_each(work),
+        // Any thread may take any of them: each is worth the trouble.
+        _ => (0..n).into_par_iter().with_max_len(1).for_each(work),
     }
 }
 

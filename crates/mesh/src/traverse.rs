@@ -113,7 +113,7 @@ impl Mesh {
     /// Whether the origins of `x` and `y` share an edge. Walks around both at once, so that an end of
     /// few edges answers for one of many.
     #[inline]
-    pub fn share_an_edge(&self, x: HalfEdgeId, y: HalfEdgeId) -> bool {
+    pub(crate) fn share_an_edge(&self, x: HalfEdgeId, y: HalfEdgeId) -> bool {
         let (v, w) = (self.origin(x), self.origin(y));
         let (mut a, mut b) = (x, y);
         loop {

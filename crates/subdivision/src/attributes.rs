@@ -7,7 +7,7 @@ use progress::Cancelled;
 
 use crate::face_varying::Field;
 use crate::masks::AnyMasks;
-use crate::parallel::{Meter, fill_uncounted};
+use crate::parallel::{Meter, computed};
 use crate::rules::{FaceVarying, Rules};
 use crate::sharpness::{Sharpness, decreased};
 use crate::topology::{Place, Topology, linear, linear_value};
@@ -66,7 +66,7 @@ impl From<'_> {
                         Some(&s) if self.topology.moves(i) => decreased(s.max(0.0)),
                         other => other.copied().unwrap_or_default(),
                     };
-                    collected(n, meter, fade)
+                    Ok(f64::wrap(computed(n, meter, fade)?))
                 }
                 _ => Ok(gathered(column, n, &|i| {
                     self.topology.vertex(i).filter(|&v| v < n_old)
@@ -104,7 +104,7 @@ impl From<'_> {
                     Some(h) if self.topology.smooths(h.edge()) => sharpness.next_of_half(h),
                     other => other.map_or(0.0, |h| old[h.edge().index()]),
                 };
-                collected(n, meter, fade)
+                Ok(f64::wrap(computed(n, meter, fade)?))
             }
             _ => Ok(gathered(column, n, &|i| self.topology.edge(i))),
         }
@@ -157,22 +157,20 @@ impl From<'_> {
         n: usize,
         meter: &Meter,
     ) -> Result<Vec<DVec4>, Cancelled> {
-        let field = Field::new(self.mesh, sharpness, self.rules, old);
+        let field = Field::new(self.mesh, sharpness, self.rules, old, meter)?;
         let is_smoothed = |place| match place {
             Place::At(h) => self.topology.moves(self.mesh.origin(h).index()),
             Place::On(h) => self.topology.smooths(h.edge()),
             _ => true,
         };
-        let mut new = mesh::zeroed(n);
-        fill_uncounted(&mut new, meter, |i| {
+        computed(n, meter, |i| {
             let place = self.topology.corner(i);
             if is_smoothed(place) {
                 field.value(place)
             } else {
                 linear_value(self.mesh, place, old)
             }
-        })?;
-        Ok(new)
+        })
     }
 }
 
@@ -183,15 +181,4 @@ pub(crate) fn gathered(
     source: &(dyn Fn(usize) -> Option<usize> + Sync),
 ) -> Values {
     column.values.gather(n, source)
-}
-
-/// `n` numbers, computed in parallel.
-fn collected(
-    n: usize,
-    meter: &Meter,
-    value: impl Fn(usize) -> f64 + Sync,
-) -> Result<Values, Cancelled> {
-    let mut new = mesh::zeroed(n);
-    fill_uncounted(&mut new, meter, value)?;
-    Ok(f64::wrap(new))
 }

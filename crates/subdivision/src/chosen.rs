@@ -1,6 +1,8 @@
 //! Some elements of a mesh, and the ranks of these and of the others.
 
-use rayon::prelude::*;
+use std::ops::Range;
+
+use crate::parallel::of_blocks;
 
 /// Numbers in rising order.
 #[derive(Debug)]
@@ -8,10 +10,12 @@ pub(crate) struct Chosen(Vec<u32>);
 
 impl Chosen {
     /// The numbers below `n` of which `is_chosen` holds.
-    pub(crate) fn of(n: usize, is_chosen: impl Fn(usize) -> bool + Sync + Send) -> Self {
-        let all = u32::try_from(n).expect("fewer than ids");
-        let chosen = (0..all).into_par_iter();
-        Self(chosen.filter(|&i| is_chosen(i as usize)).collect())
+    pub(crate) fn of(n: usize, is_chosen: impl Fn(usize) -> bool + Sync) -> Self {
+        let number = |i| u32::try_from(i).expect("fewer than ids");
+        let in_block = |block: Range<usize>| -> Vec<u32> {
+            block.filter(|&i| is_chosen(i)).map(number).collect()
+        };
+        Self(of_blocks(n, &in_block).concat())
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -18,8 +18,9 @@
 //! their vertex are semi-sharp by different numbers, that may differ for a level.)
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
-use rayon::prelude::*;
+use progress::Cancelled;
 
+use crate::parallel::{Meter, computed};
 use crate::rules::{FaceVarying, Rules, Scheme};
 use crate::sharpness::{INFINITE, Sharpness, VertexRule, decreased, fading};
 use crate::topology::{Place, linear_value};
@@ -35,6 +36,10 @@ pub(crate) struct Field<'a> {
     seams: Vec<bool>,
 }
 
+/// Where pairs have the sharpness of this level, and that of the next.
+const NOW: usize = 0;
+const NEXT: usize = 1;
+
 /// What becomes of the value of a piece at a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
@@ -46,13 +51,6 @@ enum State {
     Dependent,
     /// It is smoothed along the border of the piece.
     Crease,
-}
-
-/// On which level sharpness is asked for.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum When {
-    Now,
-    Next,
 }
 
 /// The corners around a vertex that have one value.
@@ -80,21 +78,22 @@ impl<'a> Field<'a> {
         sharpness: Sharpness<'a>,
         rules: Rules,
         values: &'a [DVec4],
-    ) -> Self {
+        meter: &Meter,
+    ) -> Result<Self, Cancelled> {
         let differ = |a: HalfEdgeId, b: HalfEdgeId| values[a.index()] != values[b.index()];
         let is_seam = |e: usize| {
             let [h, twin] = EdgeId::new(e).half_edges();
             !mesh.is_boundary_edge(h.edge())
                 && (differ(h, mesh.next(twin)) || differ(twin, mesh.next(h)))
         };
-        Self {
+        Ok(Self {
             mesh,
             sharpness,
             scheme: rules.scheme,
             choice: rules.face_varying,
             values,
-            seams: (0..mesh.n_edges()).into_par_iter().map(is_seam).collect(),
-        }
+            seams: computed(mesh.n_edges(), meter, is_seam)?,
+        })
     }
 
     /// The value of a corner of the next level.
@@ -278,12 +277,12 @@ impl Around {
             let ends = field.of(field.mesh.next(first)) + field.of(field.mesh.prev(last));
             own * 0.75 + ends * 0.125
         };
-        let state = self.state(field, i, When::Now);
+        let state = self.state(field, i, NOW);
         match state {
             State::Corner => own,
             State::Crease => crease(),
             State::SemiSharp | State::Dependent => {
-                if self.state(field, i, When::Next) != State::Crease {
+                if self.state(field, i, NEXT) != State::Crease {
                     return own;
                 }
                 let from = match state {
@@ -296,12 +295,13 @@ impl Around {
         }
     }
 
-    fn state(&self, field: &Field, i: usize, when: When) -> State {
+    /// The state of piece `i` by the sharpness of this level or of the next.
+    fn state(&self, field: &Field, i: usize, when: usize) -> State {
         let (choice, n) = (field.choice, self.pieces.len());
-        let own = self.sharpness(field, when);
+        let own = self.sharpness(field)[when];
         let inside = |piece: &Piece, test: fn(f64) -> bool| {
             let mut edges = piece.inside.iter();
-            edges.any(|&h| test(field.edge_sharpness(h, when)))
+            edges.any(|&h| test(field.edge_sharpness(h)[when]))
         };
         let is_hard = |piece: &Piece| inside(piece, |s| s >= INFINITE);
         let is_semi = |piece: &Piece| inside(piece, |s| s > 0.0 && s < INFINITE);
@@ -334,30 +334,23 @@ impl Around {
         }
     }
 
-    fn sharpness(&self, field: &Field, when: When) -> f64 {
+    /// The sharpness of the vertex, on this level and the next.
+    fn sharpness(&self, field: &Field) -> [f64; 2] {
         let now = field.sharpness.vertex(self.vertex, self.half_edge);
-        match when {
-            When::Now => now,
-            When::Next => decreased(now),
-        }
+        [now, decreased(now)]
     }
 
     /// How much of this level's rule is left where a piece becomes smooth within the level: the mean of
     /// the sharpness that ends.
     fn weight(&self, field: &Field, piece: &Piece) -> f64 {
-        let edges = piece.inside.iter();
-        let edges = edges.map(|&h| [When::Now, When::Next].map(|w| field.edge_sharpness(h, w)));
-        let vertex = [When::Now, When::Next].map(|when| self.sharpness(field, when));
-        fading(edges.chain([vertex]))
+        let edges = piece.inside.iter().map(|&h| field.edge_sharpness(h));
+        fading(edges.chain([self.sharpness(field)]))
     }
 }
 
 impl Field<'_> {
-    /// The sharpness of an edge at the origin of `h`.
-    fn edge_sharpness(&self, h: HalfEdgeId, when: When) -> f64 {
-        match when {
-            When::Now => self.sharpness.edge(h.edge()),
-            When::Next => self.sharpness.of_half(h),
-        }
+    /// The sharpness of an edge at the origin of `h`, on this level and the next.
+    fn edge_sharpness(&self, h: HalfEdgeId) -> [f64; 2] {
+        [self.sharpness.edge(h.edge()), self.sharpness.of_half(h)]
     }
 }

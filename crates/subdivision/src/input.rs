@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 
 use mesh::{FaceId, Mesh};
-use rayon::prelude::*;
 
 use crate::error::SubdivisionError;
+use crate::parallel::any;
 use crate::rules::Scheme;
 
 /// The mesh without dead elements.
@@ -24,17 +24,15 @@ pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
 ///
 /// [`SubdivisionError::NotTriangle`] with the first face that it does not take.
 pub fn check_faces(mesh: &Mesh, scheme: Scheme) -> Result<(), SubdivisionError> {
-    if !scheme.needs_triangles() {
+    let is_polygon = |i: usize| !mesh.is_triangle(FaceId::new(i));
+    if !scheme.needs_triangles() || !any(mesh.n_faces(), is_polygon) {
         return Ok(());
     }
-    let is_polygon = |i: usize| !mesh.is_triangle(FaceId::new(i));
-    let faces = (0..mesh.n_faces()).into_par_iter();
-    match faces.position_first(is_polygon).map(FaceId::new) {
-        None => Ok(()),
-        Some(face) => Err(SubdivisionError::NotTriangle {
-            scheme,
-            face,
-            degree: mesh.degree(face),
-        }),
-    }
+    let first = (0..mesh.n_faces()).find(|&i| is_polygon(i));
+    let face = FaceId::new(first.expect("there is one"));
+    Err(SubdivisionError::NotTriangle {
+        scheme,
+        face,
+        degree: mesh.degree(face),
+    })
 }

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use crate::error::SubdivisionError;
 use crate::input::{check_faces, dense};
 use crate::level;
-use crate::parallel::{BLOCK, Meter};
+use crate::parallel::{Meter, of_blocks};
 use crate::rules::Rules;
 use crate::sharpness::Sharpness;
 use crate::size::Size;
@@ -69,10 +69,10 @@ impl SparseMatrix {
         row: impl Fn(usize, &mut dyn FnMut(usize, f64)) + Sync,
     ) -> Result<Self, Cancelled> {
         // Blocks of rows by themselves, then one after the other.
-        let block = |block: usize| {
+        let parts = of_blocks(n_rows, &|block| {
             let mut part = Self::default();
             let mut entries: Vec<(usize, f64)> = Vec::new();
-            for i in block * BLOCK..n_rows.min((block + 1) * BLOCK) {
+            for i in block {
                 entries.clear();
                 row(i, &mut |column, w| entries.push((column, w)));
                 // Stable, so that equal columns are added in their order.
@@ -87,17 +87,14 @@ impl SparseMatrix {
             }
             meter.add(part.offsets.len())?;
             Ok(part)
-        };
-        let parts: Result<Vec<Self>, Cancelled> = (0..n_rows.div_ceil(BLOCK))
-            .into_par_iter()
-            .map(block)
-            .collect();
+        });
         let mut whole = Self {
             n_columns,
             offsets: vec![0],
             ..Self::default()
         };
-        for part in parts? {
+        for part in parts {
+            let part: Self = part?;
             let start = whole.columns.len();
             whole.offsets.extend(part.offsets.iter().map(|o| start + o));
             whole.columns.extend(part.columns);

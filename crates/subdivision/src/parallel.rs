@@ -1,7 +1,9 @@
 //! Work on many elements by all threads, counted together.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
+use mesh::Value;
 use progress::{Cancelled, Progress};
 use rayon::prelude::*;
 
@@ -45,22 +47,19 @@ impl<'a> Meter<'a> {
 type Task<'a, T> = dyn Fn(usize, &mut [T]) -> Result<(), Cancelled> + Sync + 'a;
 
 /// Hands the blocks of an array to tasks. The loop of the threads is compiled once for each type of element, and
-/// what a task inlines is its own.
-fn in_blocks<T: Send>(array: &mut [T], task: &Task<T>) -> Result<(), Cancelled> {
+/// what a task inlines is its own; so it is below.
+pub(crate) fn in_blocks<T: Send>(array: &mut [T], task: &Task<T>) -> Result<(), Cancelled> {
     let blocks = array.par_chunks_mut(BLOCK).enumerate();
     blocks.try_for_each(|(block, part)| task(block * BLOCK, part))
 }
 
-/// Computes an array in parallel: element i is `value(i)`. Each counts as one on the meter.
+/// Computes an array: element i is `value(i)`. Each counts as one on the meter.
 pub(crate) fn fill<T: Send>(
     array: &mut [T],
     meter: &Meter,
     value: impl Fn(usize) -> T + Sync,
 ) -> Result<(), Cancelled> {
-    in_blocks(array, &|start, part| {
-        write(part, start, &value);
-        meter.add(part.len())
-    })
+    fill_counted(array, meter, 1, value)
 }
 
 /// As [`fill`], for what the total of the meter leaves out.
@@ -69,15 +68,50 @@ pub(crate) fn fill_uncounted<T: Send>(
     meter: &Meter,
     value: impl Fn(usize) -> T + Sync,
 ) -> Result<(), Cancelled> {
+    fill_counted(array, meter, 0, value)
+}
+
+fn fill_counted<T: Send>(
+    array: &mut [T],
+    meter: &Meter,
+    each: usize,
+    value: impl Fn(usize) -> T + Sync,
+) -> Result<(), Cancelled> {
     in_blocks(array, &|start, part| {
-        write(part, start, &value);
-        meter.add(0)
+        for (i, slot) in (start..).zip(part.iter_mut()) {
+            *slot = value(i);
+        }
+        meter.add(each * part.len())
     })
 }
 
-#[inline]
-fn write<T>(part: &mut [T], start: usize, value: &impl Fn(usize) -> T) {
-    for (i, slot) in (start..).zip(part) {
-        *slot = value(i);
-    }
+/// `n` values that [`fill_uncounted`] computes.
+pub(crate) fn computed<T: Value>(
+    n: usize,
+    meter: &Meter,
+    value: impl Fn(usize) -> T + Sync,
+) -> Result<Vec<T>, Cancelled> {
+    let mut new = mesh::zeroed(n);
+    fill_uncounted(&mut new, meter, value)?;
+    Ok(new)
+}
+
+/// What `task` makes of each block of the numbers below `n`, in order.
+pub(crate) fn of_blocks<T: Send>(n: usize, task: &(dyn Fn(Range<usize>) -> T + Sync)) -> Vec<T> {
+    let blocks = (0..n.div_ceil(BLOCK)).into_par_iter();
+    blocks.map(|block| task(block_of(block, n))).collect()
+}
+
+/// Whether `test` holds for a number below `n`.
+pub(crate) fn any(n: usize, test: impl Fn(usize) -> bool + Sync) -> bool {
+    any_block(n, &|mut block| block.any(&test))
+}
+
+fn any_block(n: usize, test: &(dyn Fn(Range<usize>) -> bool + Sync)) -> bool {
+    let blocks = (0..n.div_ceil(BLOCK)).into_par_iter();
+    blocks.any(|block| test(block_of(block, n)))
+}
+
+fn block_of(block: usize, n: usize) -> Range<usize> {
+    block * BLOCK..n.min((block + 1) * BLOCK)
 }

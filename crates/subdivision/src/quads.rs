@@ -27,11 +27,10 @@
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::Cancelled;
-use rayon::prelude::*;
 
 use crate::halves::{Parts, Rest, first, on_edge, place, second, split_edges};
 use crate::links::{self, Entries};
-use crate::parallel::{Meter, fill_uncounted};
+use crate::parallel::{Meter, any, fill_uncounted};
 use crate::topology::{Place, Topology};
 
 /// A dense mesh whose faces are cut into quads.
@@ -55,12 +54,12 @@ struct Listed {
 impl<'a> Quads<'a> {
     pub(crate) fn new(mesh: &'a Mesh) -> Self {
         let n_faces = mesh.n_faces();
-        let is_quad = |f: usize| {
+        let is_other = |f: usize| {
             let h = mesh.face_half_edge(FaceId::new(f));
             let opposite = mesh.next(mesh.next(h));
-            opposite != h && mesh.next(mesh.next(opposite)) == h
+            opposite == h || mesh.next(mesh.next(opposite)) != h
         };
-        let listed = (!(0..n_faces).into_par_iter().all(is_quad)).then(|| Listed::of(mesh));
+        let listed = any(n_faces, is_other).then(|| Listed::of(mesh));
         Self {
             mesh,
             n_vertices: mesh.n_vertices(),

@@ -17,8 +17,8 @@
 //! Edges of the boundary are infinitely sharp.
 
 use mesh::{CORNER, CREASE, EdgeId, HalfEdgeId, Mesh, VertexId};
-use rayon::prelude::*;
 
+use crate::parallel::any;
 use crate::rules::{Boundary, Creasing, Rules};
 
 /// From here on sharpness does not decrease.
@@ -150,7 +150,7 @@ pub(crate) fn fading(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
 impl<'a> Sharpness<'a> {
     pub(crate) fn of(mesh: &'a Mesh, rules: Rules) -> Self {
         fn used(values: &[f64]) -> Option<&[f64]> {
-            values.par_iter().any(|&s| s > 0.0).then_some(values)
+            any(values.len(), |i| values[i] > 0.0).then_some(values)
         }
         Self {
             mesh,

@@ -4,9 +4,9 @@ use std::fmt;
 use std::ops::Range;
 
 use mesh::{Domain, Mesh, VertexId};
-use rayon::prelude::*;
 
 use crate::attributes;
+use crate::parallel::of_blocks;
 use crate::rules::{Scheme, Split};
 
 /// Ids end at 2^32 - 2, so this many elements of a kind can be numbered.
@@ -87,17 +87,17 @@ impl Size {
         });
         let faces = mesh.connectivity().face.iter();
         let corners = faces.filter(|f| f.some().is_some()).count();
-        let with_two_edges = (0..mesh.n_vertices())
-            .into_par_iter()
-            .filter(|&i| has_two_edges_inside(mesh, VertexId::new(i)))
-            .count();
+        let with_two_edges = of_blocks(mesh.n_vertices(), &|block| {
+            let vertices = block.map(VertexId::new);
+            vertices.filter(|&v| has_two_edges_inside(mesh, v)).count()
+        });
         Self {
             vertices: mesh.n_vertices() as u64,
             edges: mesh.n_edges() as u64,
             faces: mesh.n_faces() as u64,
             corners: corners as u64,
             isolated: mesh.n_isolated_vertices() as u64,
-            with_two_edges: with_two_edges as u64,
+            with_two_edges: with_two_edges.into_iter().sum::<usize>() as u64,
             attributes,
         }
     }

@@ -42,6 +42,7 @@ use crate::chosen::Chosen;
 use crate::links::{self, Link, Links};
 use crate::parallel::Meter;
 use crate::topology::{Place, Topology};
+use crate::triangles::rank;
 
 /// A dense mesh of triangles, each of which becomes three.
 pub(crate) struct Sqrt3<'a> {
@@ -141,15 +142,7 @@ impl<'a> Sqrt3<'a> {
     #[inline]
     fn corner_number(&self, h: HalfEdgeId) -> usize {
         let f = self.face_of(h);
-        let start = self.mesh.face_half_edge(f);
-        let k = if h == start {
-            0
-        } else if self.mesh.next(h) == start {
-            2
-        } else {
-            1
-        };
-        3 * f.index() + k
+        3 * f.index() + rank(self.mesh, h, f)
     }
 
     /// The half-edge with this [`corner_number`](Self::corner_number).

@@ -43,14 +43,7 @@ impl Triangles<'_> {
         let Some(f) = self.0.face(h) else {
             return ([second(h), first(next)], [FaceId::NONE; 2]);
         };
-        let start = self.0.face_half_edge(f);
-        let k = if h == start {
-            0
-        } else if next == start {
-            2
-        } else {
-            1
-        };
+        let k = rank(self.0, h, f);
         let corner = |k: usize| FaceId::new(4 * f.index() + k);
         let after_k = if k == 2 { 0 } else { k + 1 };
         ([self.cut(f, k), first(next)], [corner(k), corner(after_k)])
@@ -78,6 +71,19 @@ impl Triangles<'_> {
             face: [f0, f3, f1, f3, f2, f3],
             first: [first(h0), first(h1), first(h2), c0.twin()],
         }
+    }
+}
+
+/// Which half-edge of triangle `f` this one is.
+#[inline]
+pub(crate) fn rank(mesh: &Mesh, h: HalfEdgeId, f: FaceId) -> usize {
+    let start = mesh.face_half_edge(f);
+    if h == start {
+        0
+    } else if mesh.next(h) == start {
+        2
+    } else {
+        1
     }
 }
 

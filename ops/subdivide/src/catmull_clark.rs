@@ -52,8 +52,7 @@ pub struct CatmullClark {
     /// How often: each level makes a quad of every corner of a face.
     /// 1 if nothing is said; with `until` the most levels that are allowed, 16 if nothing is said.
     #[serde(default)]
-    #[schemars(range(min = 0, max = 16))]
-    pub levels: Option<u32>,
+    pub levels: Option<Levels>,
     /// When to stop, instead of after a number of levels.
     #[serde(default)]
     pub until: Option<Until>,

@@ -50,8 +50,7 @@ pub struct DooSabin {
     /// How often: each level has about four times as many faces as the one before.
     /// 1 if nothing is said; with `until` the most levels that are allowed, 16 if nothing is said.
     #[serde(default)]
-    #[schemars(range(min = 0, max = 16))]
-    pub levels: Option<u32>,
+    pub levels: Option<Levels>,
     /// When to stop, instead of after a number of levels.
     #[serde(default)]
     pub until: Option<Until>,

@@ -2,8 +2,8 @@
 
 use mesh::{CORNER_NORMAL, DVec3, Domain, EdgeId, Mesh, TANGENT, VERTEX_NORMAL};
 use op::{
-    Context, FaceSelection, MeshPlan, OpError, PlanContext, PlannedAttribute, Problem, Range,
-    Refusal, Report, Select,
+    Context, FaceSelection, Levels, MeshPlan, OpError, PlanContext, PlannedAttribute,
+    PositiveLength, Problem, Range, Refusal, Report, Select,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,9 +12,6 @@ use subdivision::{
     refine_faces, subdivide_within,
 };
 
-/// The most levels that a step may ask for: a single triangle fills the ids before.
-const MAX_LEVELS: u32 = 16;
-
 /// When to stop, instead of after a number of levels.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -22,15 +19,13 @@ pub enum Until {
     /// As soon as all edges are shorter than this.
     EdgeLength {
         /// In scene units.
-        #[schemars(extend("exclusiveMinimum" = 0.0))]
-        below: f64,
+        below: PositiveLength,
     },
     /// As soon as every vertex is nearer than this to the point of the limit surface that it goes to: for
     /// Loop and Catmull-Clark.
     LimitDistance {
         /// In scene units.
-        #[schemars(extend("exclusiveMinimum" = 0.0))]
-        below: f64,
+        below: PositiveLength,
     },
 }
 
@@ -38,7 +33,7 @@ pub enum Until {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step<'a> {
     pub(crate) rules: Rules,
-    pub(crate) levels: Option<u32>,
+    pub(crate) levels: Option<Levels>,
     pub(crate) until: Option<Until>,
     pub(crate) to_limit: bool,
     pub(crate) faces: Option<&'a FaceSelection>,
@@ -57,8 +52,11 @@ impl Step<'_> {
     }
 
     fn most_levels(&self) -> u32 {
-        let otherwise = if self.until.is_some() { MAX_LEVELS } else { 1 };
-        self.levels.unwrap_or(otherwise)
+        match (self.levels, self.until) {
+            (Some(levels), _) => levels.get(),
+            (None, Some(_)) => Levels::HIGHEST.get(),
+            (None, None) => 1,
+        }
     }
 
     fn does_nothing(&self) -> bool {
@@ -67,30 +65,15 @@ impl Step<'_> {
 
     /// What is wrong with the parameters, and which.
     fn problem(&self) -> Option<(String, &'static str)> {
-        let levels = self.most_levels();
-        if levels > MAX_LEVELS {
-            let message = format!("levels must lie between 0 and {MAX_LEVELS}, not {levels}");
-            return Some((message, "levels"));
-        }
         if self.faces.is_some() && (self.until.is_some() || self.to_limit) {
             let message =
                 "`until` and `to_limit` are for the whole mesh, not for some of its faces";
             return Some((message.to_owned(), "faces"));
         }
-        let no_limit = !self.rules.scheme.has_limit();
-        match self.until {
-            Some(Until::EdgeLength { below } | Until::LimitDistance { below })
-                if !(below > 0.0 && below.is_finite()) =>
-            {
-                let message = format!("a length must be a number above 0, not {below}");
-                Some((message, "until"))
-            }
-            Some(Until::LimitDistance { .. }) if no_limit => {
-                let message = format!("the limit of {} is not known", self.rules.scheme.name());
-                Some((message, "until"))
-            }
-            _ => None,
-        }
+        let scheme = self.rules.scheme;
+        let asks_limit = matches!(self.until, Some(Until::LimitDistance { .. }));
+        (asks_limit && !scheme.has_limit())
+            .then(|| (SubdivisionError::NoLimit(scheme).to_string(), "until"))
     }
 
     /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns what is wrong.
@@ -100,7 +83,7 @@ impl Step<'_> {
         if let Some((message, field)) = self.problem() {
             problems.push(Problem::error(message).at([field]));
         }
-        let mut levels = self.most_levels().min(MAX_LEVELS);
+        let mut levels = self.most_levels();
         if self.does_nothing() {
             return problems;
         }
@@ -204,11 +187,11 @@ impl Step<'_> {
         let levels = self.most_levels();
         for level in 0.. {
             let (what, now, below) = match until {
-                Until::EdgeLength { below } => ("an edge is", longest_edge(mesh), below),
+                Until::EdgeLength { below } => ("an edge is", longest_edge(mesh), below.get()),
                 Until::LimitDistance { below } => {
                     let distance = limit_distance(mesh, self.rules, cx.progress());
                     let what = "a vertex is away from its limit by";
-                    (what, distance.map_err(failed)?, below)
+                    (what, distance.map_err(failed)?, below.get())
                 }
             };
             if now < below {

@@ -23,8 +23,16 @@ fn a_recipe_can_leave_the_levels_out_and_nothing_else_is_taken() {
     fn check<T: MeshOperation + Default + Debug + PartialEq>() {
         assert_eq!(read::<T>("()"), Ok(T::default()));
         assert_ne!(read::<T>("(levels: 3)"), Ok(T::default()));
-        assert!(read::<T>("(level: 3)").is_err());
-        assert!(read::<T>("(levels: -1)").is_err());
+        assert!(read::<T>("(levels: 16, until: EdgeLength(below: 0.1))").is_ok());
+        for wrong in [
+            "(level: 3)",
+            "(levels: -1)",
+            "(levels: 17)",
+            "(until: EdgeLength(below: 0.0))",
+            "(until: LimitDistance(below: NaN))",
+        ] {
+            assert!(read::<T>(wrong).is_err(), "{wrong}");
+        }
     }
     check::<LoopSubdivide>();
     check::<CatmullClark>();
@@ -185,14 +193,6 @@ fn the_budget_is_kept_by_the_plan_and_by_the_operation() {
     assert!(run(2, budget).is_ok());
     let error = run(2, budget - 1).unwrap_err();
     assert!(error.to_string().ends_with("level 1 fits"), "{error}");
-}
-
-#[test]
-fn levels_out_of_range_are_an_error() {
-    let operation = levels::<LoopSubdivide>(u32::MAX);
-    let error = try_applied(&operation, Mesh::default()).unwrap_err();
-    assert!(matches!(error, OpError::Parameter(_)));
-    assert_eq!(planned(&operation, &Mesh::default()).1.len(), 1);
 }
 
 /// Stops after so many calls, and remembers how far it was.

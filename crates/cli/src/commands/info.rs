@@ -86,7 +86,7 @@ fn places(note: &Note) -> Vec<Place> {
 fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
     let stream = String::new();
     let mut picture = Picture::new("info.png");
-    picture.size = [640, 480];
+    picture.size = [640, 480].map(op::Count::literal);
     let images = draw_found(&picture, path, &[(Found { scene, stream }, "")], &[])?;
     terminal_picture::show(&images[0])?;
     Ok(())

@@ -53,7 +53,7 @@ impl<'s> Builder<'s, '_> {
         // A closed surface has no back to be seen, but for slivers at its outline.
         let has_no_back = object.materials.iter().any(|m| m.double_sided)
             || coloring.is_some()
-            || (mesh.is_closed() && geometry::volume(&mesh) > 0.0);
+            || (mesh.is_closed() && geometry::volume(mesh) > 0.0);
         let back = self.style.back.filter(|_| !has_no_back);
         let part = Part {
             points: points(mesh),

@@ -14,11 +14,10 @@ mod star;
 
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Progress};
-use rayon::prelude::*;
 
 use crate::error::SubdivisionError;
 use crate::input::{check_faces, dense};
-use crate::parallel::{BLOCK, Meter};
+use crate::parallel::{Meter, any, computed, fill_uncounted, in_blocks, of_blocks};
 use crate::rules::Rules;
 use crate::sharpness::Sharpness;
 use masks::Plane;
@@ -96,20 +95,18 @@ pub fn limit_distance(
     let at = At::checked(&mesh, rules)?;
     let n = mesh.n_vertices();
     let meter = Meter::new(progress, "limit surface", n as u64);
-    let largest = |block: usize| {
-        let vertices = block * BLOCK..n.min((block + 1) * BLOCK);
-        let (mut star, mut largest, len) = (Star::default(), 0.0_f64, vertices.len());
-        for v in vertices.map(VertexId::new) {
+    let largest = of_blocks(n, &|block| {
+        let (mut star, mut largest, len) = (Star::default(), 0.0_f64, block.len());
+        for v in block.map(VertexId::new) {
             if at.settled(&mut star, v) {
                 largest = largest.max(star.limit().distance(mesh.position(v)));
             }
         }
         meter.add(len)?;
         Ok(largest)
-    };
-    let blocks = (0..n.div_ceil(BLOCK)).into_par_iter();
-    let blocks: Result<Vec<f64>, Cancelled> = blocks.map(largest).collect();
-    Ok(blocks?.into_iter().fold(0.0, f64::max))
+    });
+    let largest: Result<Vec<f64>, Cancelled> = largest.into_iter().collect();
+    Ok(largest?.into_iter().fold(0.0, f64::max))
 }
 
 /// What is known at one vertex.
@@ -142,26 +139,23 @@ impl<'a> At<'a> {
     }
 
     fn limit(&self, meter: &Meter) -> Result<Limit, Cancelled> {
-        let mut found = vec![AtVertex::default(); self.mesh.n_vertices()];
-        found
-            .par_chunks_mut(BLOCK)
-            .enumerate()
-            .try_for_each(|(block, found)| {
-                let mut star = Star::default();
-                for (i, found) in (block * BLOCK..).zip(found.iter_mut()) {
-                    *found = self.vertex(&mut star, VertexId::new(i));
-                }
-                meter.add(found.len())
-            })?;
-        let is_sharp = |at: &AtVertex| at.is_sharp;
-        let corner_normals = found
-            .par_iter()
-            .any(is_sharp)
-            .then(|| self.corner_normals(&found));
+        let n = self.mesh.n_vertices();
+        let mut found = vec![AtVertex::default(); n];
+        in_blocks(&mut found, &|start, found| {
+            let mut star = Star::default();
+            for (i, found) in (start..).zip(found.iter_mut()) {
+                *found = self.vertex(&mut star, VertexId::new(i));
+            }
+            meter.add(found.len())
+        })?;
+        let mut tangents = vec![[DVec3::ZERO; 2]; n];
+        fill_uncounted(&mut tangents, meter, |i| found[i].tangents)?;
+        let is_sharp = any(n, |i| found[i].is_sharp);
+        let corner_normals = is_sharp.then(|| self.corner_normals(&found, meter));
         Ok(Limit {
-            positions: found.par_iter().map(|at| at.position).collect(),
-            tangents: found.par_iter().map(|at| at.tangents).collect(),
-            corner_normals,
+            positions: computed(n, meter, |i| found[i].position)?,
+            tangents,
+            corner_normals: corner_normals.transpose()?,
         })
     }
 
@@ -193,8 +187,8 @@ impl<'a> At<'a> {
         }
     }
 
-    fn corner_normals(&self, found: &[AtVertex]) -> Vec<DVec3> {
-        let corner = |i: usize| {
+    fn corner_normals(&self, found: &[AtVertex], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
+        computed(self.mesh.n_half_edges(), meter, |i| {
             let h = HalfEdgeId::new(i);
             if self.mesh.connectivity().face[i] == FaceId::NONE {
                 return DVec3::ZERO;
@@ -210,10 +204,6 @@ impl<'a> At<'a> {
             let place = self.mesh.vertex_half_edges(v).position(|other| other == h);
             let place = star.spokes.len() - 1 - place.expect("a half-edge that leaves its origin");
             normal(&star.tangents(Plane::of_face(&star, place)))
-        };
-        (0..self.mesh.n_half_edges())
-            .into_par_iter()
-            .map(corner)
-            .collect()
+        })
     }
 }

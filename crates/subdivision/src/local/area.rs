@@ -57,11 +57,12 @@ impl AreaMasks<'_> {
                 Source::Old(i)
             };
         };
-        match pieces.cut_edges.get(new) {
-            Some(&e) if pieces.smooths(e) => Source::Whole(n_vertices + e.index()),
-            Some(&e) => Source::Middle(e),
+        match pieces.middles.get(new) {
+            Some(e) if pieces.smooths(e) => Source::Whole(n_vertices + e.index()),
+            Some(e) => Source::Middle(e),
             None => {
-                let f = pieces.centered[new - pieces.cut_edges.len()];
+                let f = pieces.centers.get(new - pieces.middles.len());
+                let f = f.expect("a vertex on no edge is in a face");
                 Source::Whole(n_vertices + n_edges + f.index())
             }
         }
@@ -83,7 +84,7 @@ impl AnyMasks for AreaMasks<'_> {
 
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
         // Each vertex of a large face would sum all its corners for itself.
-        let whole = if self.pieces.centered.is_empty() {
+        let whole = if self.pieces.centers.len() == 0 {
             Vec::new()
         } else {
             let mesh = self.pieces.mesh;

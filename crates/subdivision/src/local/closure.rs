@@ -22,31 +22,13 @@ pub(super) enum Cut {
 }
 
 impl Cut {
-    /// How many faces it becomes.
-    pub(super) const fn faces(self) -> u32 {
+    /// How many vertices lie inside, how many edges, and how many faces it becomes.
+    pub(super) const fn counts(self) -> [u32; 3] {
         match self {
-            Self::Whole | Self::Hung => 1,
-            Self::Two => 2,
-            Self::Four => 4,
-            Self::Quads(n) => n,
-        }
-    }
-
-    /// How many edges lie between them.
-    pub(super) const fn edges(self) -> u32 {
-        match self {
-            Self::Whole | Self::Hung => 0,
-            Self::Two => 1,
-            Self::Four => 3,
-            Self::Quads(n) => n,
-        }
-    }
-
-    /// How many vertices lie inside.
-    pub(super) const fn vertices(self) -> u32 {
-        match self {
-            Self::Quads(_) => 1,
-            _ => 0,
+            Self::Whole | Self::Hung => [0, 0, 1],
+            Self::Two => [0, 1, 2],
+            Self::Four => [0, 3, 4],
+            Self::Quads(n) => [1, n, n],
         }
     }
 }
@@ -140,12 +122,11 @@ impl Cuts {
     /// How many vertices, edges and faces the next level has.
     pub(super) fn counts_after(&self, mesh: &Mesh) -> [u64; 3] {
         let cut = self.edges.iter().filter(|&&cut| cut).count();
-        let inside = |n: fn(Cut) -> u32| self.faces.iter().map(|&c| u64::from(n(c))).sum::<u64>();
-        [
-            (mesh.n_vertices() + cut) as u64 + inside(Cut::vertices),
-            (mesh.n_edges() + cut) as u64 + inside(Cut::edges),
-            inside(Cut::faces),
-        ]
+        let start = [mesh.n_vertices() + cut, mesh.n_edges() + cut, 0].map(|n| n as u64);
+        self.faces.iter().fold(start, |[v, e, f], cut| {
+            let [vertices, edges, faces] = cut.counts().map(u64::from);
+            [v + vertices, e + edges, f + faces]
+        })
     }
 }
 

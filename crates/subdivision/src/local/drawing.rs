@@ -5,6 +5,7 @@ use mesh::{Connectivity, FaceId, HalfEdgeId};
 use super::closure::Cut;
 use super::pieces::Pieces;
 use super::sides;
+use crate::links;
 
 /// The arrays of the next level while they are filled.
 pub(super) struct Drawing<'a> {
@@ -17,16 +18,9 @@ pub(super) struct Drawing<'a> {
 impl<'a> Drawing<'a> {
     /// The vertices, the parts of old edges, and the boundary.
     pub(super) fn of_edges(pieces: &'a Pieces<'a>) -> Self {
-        let [n_vertices, n_edges, n_faces] = pieces.counts();
         let mut drawing = Self {
             pieces,
-            new: Connectivity {
-                next: mesh::zeroed(2 * n_edges),
-                origin: mesh::zeroed(2 * n_edges),
-                face: mesh::zeroed(2 * n_edges),
-                vertex_half_edge: mesh::zeroed(n_vertices),
-                face_half_edge: mesh::zeroed(n_faces),
-            },
+            new: links::zeroed(pieces.counts()),
             ring: Vec::new(),
         };
         drawing.draw_edges();
@@ -144,7 +138,7 @@ impl<'a> Drawing<'a> {
     pub(super) fn cut_into_quads(&mut self, f: usize) {
         let pieces = self.pieces;
         let center = pieces.center(f);
-        let n = pieces.cuts[f].faces() as usize;
+        let n = pieces.mesh.degree(FaceId::new(f));
         self.new.vertex_half_edge[center.index()] = pieces.inner(f, 0).twin();
         let mut h_before = pieces.mesh.prev(pieces.mesh.face_half_edge(FaceId::new(f)));
         for (k, h) in sides(pieces.mesh, f).enumerate() {

@@ -30,24 +30,54 @@ pub(super) struct Pieces<'a> {
     pub(super) mesh: &'a Mesh,
     area: Area,
     pub(super) cuts: Vec<Cut>,
-    /// The edges that are cut in two, in order: where the new vertices lie.
-    pub(super) cut_edges: Vec<EdgeId>,
-    /// The faces that get a center, in order.
-    pub(super) centered: Vec<FaceId>,
-    /// How many edges before each are cut, and at last how many in all.
-    cut_before: Vec<u32>,
-    /// The first edge inside each face, counted from the first of all, and at last how many there are.
-    inside: Vec<u32>,
-    /// The first part of each face, and at last how many there are.
-    parts: Vec<u32>,
-    /// How many faces before each have a center.
-    centers: Vec<u32>,
-    /// The old edge of each new one that lies on one.
-    old_edge: Vec<EdgeId>,
-    /// The old face of each new edge inside one.
-    face_around: Vec<FaceId>,
-    /// The old face of each new one.
-    old_face: Vec<FaceId>,
+    /// The new edges that lie on old ones.
+    on_edges: Parts<EdgeId>,
+    /// The new vertices that lie on old edges.
+    pub(super) middles: Parts<EdgeId>,
+    /// The new vertices inside faces.
+    pub(super) centers: Parts<FaceId>,
+    /// The new edges inside faces.
+    inside: Parts<FaceId>,
+    /// The new faces.
+    faces: Parts<FaceId>,
+}
+
+/// What some elements become, in their order.
+pub(super) struct Parts<I> {
+    /// How many parts the elements before each have, and at last how many there are.
+    first: Vec<u32>,
+    /// The element of each part.
+    of: Vec<I>,
+}
+
+impl<I: Copy> Parts<I> {
+    fn new(elements: impl Iterator<Item = (I, u32)>) -> Self {
+        let mut parts = Self {
+            first: vec![0],
+            of: Vec::new(),
+        };
+        let mut sum = 0;
+        for (element, n) in elements {
+            sum += n;
+            parts.first.push(sum);
+            parts.of.extend(std::iter::repeat_n(element, n as usize));
+        }
+        parts
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.of.len()
+    }
+
+    /// The element of this part, if there are so many.
+    pub(super) fn get(&self, part: usize) -> Option<I> {
+        self.of.get(part).copied()
+    }
+
+    /// The number of the first part of element `i`.
+    fn first(&self, i: usize) -> usize {
+        self.first[i] as usize
+    }
 }
 
 /// A side of a triangle that is cut into four, as the two old half-edges that run to and from its middle:
@@ -61,57 +91,47 @@ pub(super) struct Side {
 impl<'a> Pieces<'a> {
     /// The counts of the next level must fit into ids.
     pub(super) fn new(mesh: &'a Mesh, cuts: Cuts, area: Area) -> Self {
-        let Cuts { faces: cuts, edges } = cuts;
-        let counts = |count: fn(Cut) -> u32| sums(cuts.iter().map(|&cut| count(cut)));
-        let mut old_edge = Vec::new();
-        let mut cut_edges = Vec::new();
-        for (e, &is_cut) in mesh.edges().zip(&edges) {
-            old_edge.extend(std::iter::repeat_n(e, 1 + usize::from(is_cut)));
-            cut_edges.extend(is_cut.then_some(e));
-        }
-        let each_face = |count: fn(Cut) -> u32| {
-            let faces = mesh.faces().zip(&cuts);
-            faces
-                .flat_map(|(f, &cut)| std::iter::repeat_n(f, count(cut) as usize))
-                .collect()
+        let of_edges = |kept: u32| {
+            let edges = mesh.edges().zip(&cuts.edges);
+            Parts::new(edges.map(|(e, &is_cut)| (e, kept + u32::from(is_cut))))
+        };
+        let of_faces = |k: usize| {
+            let faces = mesh.faces().zip(&cuts.faces);
+            Parts::new(faces.map(|(f, cut)| (f, cut.counts()[k])))
         };
         Self {
             mesh,
             area,
-            cut_before: sums(edges.iter().map(|&cut| u32::from(cut))),
-            inside: counts(Cut::edges),
-            parts: counts(Cut::faces),
-            centers: counts(Cut::vertices),
-            cut_edges,
-            old_edge,
-            centered: each_face(Cut::vertices),
-            face_around: each_face(Cut::edges),
-            old_face: each_face(Cut::faces),
-            cuts,
+            on_edges: of_edges(1),
+            middles: of_edges(0),
+            centers: of_faces(0),
+            inside: of_faces(1),
+            faces: of_faces(2),
+            cuts: cuts.faces,
         }
     }
 
     /// How many vertices, edges and faces the next level has.
     pub(super) fn counts(&self) -> [usize; 3] {
         [
-            self.mesh.n_vertices() + self.cut_edges.len() + self.centered.len(),
-            self.old_edge.len() + self.face_around.len(),
-            self.old_face.len(),
+            self.mesh.n_vertices() + self.middles.len() + self.centers.len(),
+            self.on_edges.len() + self.inside.len(),
+            self.faces.len(),
         ]
     }
 
     /// The marks of the parts of marked faces.
     pub(super) fn inherited(&self, marks: &[bool]) -> Vec<bool> {
-        self.old_face.iter().map(|f| marks[f.index()]).collect()
+        self.faces.of.iter().map(|f| marks[f.index()]).collect()
     }
 
     pub(super) fn is_cut(&self, e: EdgeId) -> bool {
-        self.cut_before[e.index()] != self.cut_before[e.index() + 1]
+        self.middles.first(e.index()) != self.middles.first(e.index() + 1)
     }
 
     /// The first of the new edges on an old one.
     fn first_edge(&self, e: EdgeId) -> usize {
-        e.index() + self.cut_before[e.index()] as usize
+        self.on_edges.first(e.index())
     }
 
     /// The part of a half-edge that leaves its origin: all of it if the edge is not cut.
@@ -137,23 +157,23 @@ impl<'a> Pieces<'a> {
 
     /// The new vertex on a cut edge.
     pub(super) fn on_edge(&self, e: EdgeId) -> VertexId {
-        VertexId::new(self.mesh.n_vertices() + self.cut_before[e.index()] as usize)
+        VertexId::new(self.mesh.n_vertices() + self.middles.first(e.index()))
     }
 
     pub(super) fn center(&self, f: usize) -> VertexId {
-        let first = self.mesh.n_vertices() + self.cut_edges.len();
-        VertexId::new(first + self.centers[f] as usize)
+        let first = self.mesh.n_vertices() + self.middles.len();
+        VertexId::new(first + self.centers.first(f))
     }
 
     /// The first half of the k-th edge inside face `f`.
     pub(super) fn inner(&self, f: usize, k: usize) -> HalfEdgeId {
-        let e = self.old_edge.len() + self.inside[f] as usize + k;
+        let e = self.on_edges.len() + self.inside.first(f) + k;
         HalfEdgeId::new(2 * e)
     }
 
     /// The k-th part of face `f`.
     pub(super) fn part(&self, f: usize, k: usize) -> FaceId {
-        FaceId::new(self.parts[f] as usize + k)
+        FaceId::new(self.faces.first(f) + k)
     }
 
     /// The sides of a triangle: from the corner before which a vertex hangs if there is one, otherwise from
@@ -207,17 +227,6 @@ impl Side {
     }
 }
 
-/// For each number the sum of those before, and at last of all.
-fn sums(numbers: impl Iterator<Item = u32>) -> Vec<u32> {
-    let mut sum = 0;
-    let mut sums = vec![0];
-    sums.extend(numbers.map(|n| {
-        sum += n;
-        sum
-    }));
-    sums
-}
-
 impl Topology for Pieces<'_> {
     fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled> {
         let mut drawing = Drawing::of_edges(self);
@@ -236,8 +245,8 @@ impl Topology for Pieces<'_> {
     }
 
     fn corner(&self, i: usize) -> Place {
-        let Some(inner) = (i / 2).checked_sub(self.old_edge.len()) else {
-            let e = self.old_edge[i / 2];
+        let Some(inner) = (i / 2).checked_sub(self.on_edges.len()) else {
+            let e = self.on_edges.of[i / 2];
             let h = e.half_edges()[i % 2];
             return if self.mesh.face(h).is_none() {
                 Place::Outside
@@ -247,9 +256,9 @@ impl Topology for Pieces<'_> {
                 Place::On(h)
             };
         };
-        let face = self.face_around[inner];
+        let face = self.inside.of[inner];
         let f = face.index();
-        let k = inner - self.inside[f] as usize;
+        let k = inner - self.inside.first(f);
         let is_first = i.is_multiple_of(2);
         match self.cuts[f] {
             Cut::Two => {
@@ -271,11 +280,11 @@ impl Topology for Pieces<'_> {
     }
 
     fn edge(&self, i: usize) -> Option<usize> {
-        self.old_edge.get(i).map(|e| e.index())
+        self.on_edges.get(i).map(EdgeId::index)
     }
 
     fn face(&self, i: usize) -> Option<usize> {
-        Some(self.old_face[i].index())
+        self.faces.get(i).map(FaceId::index)
     }
 
     fn moves(&self, v: usize) -> bool {
@@ -287,7 +296,7 @@ impl Topology for Pieces<'_> {
     }
 
     fn half(&self, i: usize) -> Option<HalfEdgeId> {
-        let e = *self.old_edge.get(i)?;
+        let e = self.on_edges.get(i)?;
         Some(e.half_edges()[i - self.first_edge(e)])
     }
 }

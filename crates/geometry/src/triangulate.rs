@@ -10,19 +10,14 @@
 //!
 //! A quadrilateral is cut along its shorter diagonal, a larger polygon by ears, improved until it is a
 //! Delaunay triangulation inside its sides; what cannot be cut this way becomes a fan. [`Cutter`] tells
-//! all that is to know. Cutting one face of a mesh is [`triangulate_face`].
+//! all that is to know.
 //!
 //! Corners are counted from 0 along the face. A triangle is written with its corners in rising order,
 //! which is also its direction.
 
-mod avoid;
-mod face;
-
 use earcut::{Earcut, Refiner};
 
 use mesh::{DVec3, FaceId, Mesh};
-
-pub use face::triangulate_face;
 
 /// Three corners of a face, rising.
 pub type Triangle = [u32; 3];
@@ -149,28 +144,6 @@ impl Cutter {
                 is_fan: true,
             },
         }
-    }
-
-    /// How `f` is cut without the diagonals that are not allowed; `None` if there is no way.
-    ///
-    /// If [`cut`](Self::cut) takes one of those, it is the cut whose diagonals have the smallest sum of
-    /// squared lengths, with triangles that all face the way of `f`, unless those of `cut` do not either.
-    /// That takes time with the third power of the corners, so that more than 256 of them are no way.
-    pub fn cut_where(
-        &mut self,
-        mesh: &Mesh,
-        f: FaceId,
-        allowed: impl Fn([u32; 2]) -> bool,
-    ) -> Option<Cut> {
-        let cut = self.cut(mesh, f);
-        let mut diagonals = Vec::new();
-        cut.diagonals(&mut diagonals);
-        if diagonals.into_iter().all(&allowed) {
-            return Some(cut);
-        }
-        let triangles = avoid::shortest(&self.points, cut.triangles(), allowed)?;
-        let is_fan = cut.is_fan();
-        Some(Cut::Polygon { triangles, is_fan })
     }
 
     /// Cuts the points by ears; `None` if what comes out does not cover them.

@@ -94,7 +94,7 @@ impl Reader<'_, '_> {
         if parallel::all(positions.len(), |row| positions[row].is_finite()) {
             return Ok(positions);
         }
-        let numbers = positions.iter().flat_map(|p| p.to_array()).enumerate();
+        let numbers = positions.iter().flat_map(DVec3::to_array).enumerate();
         let broken = numbers.into_iter().find(|(_, x)| !x.is_finite());
         let (i, found) = broken.unwrap_or_default();
         let (row, axis) = (i / 3, i % 3);

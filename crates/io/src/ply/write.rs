@@ -222,7 +222,9 @@ impl<'a> Element<'a> {
                 count,
             });
         } else {
-            names.iter().for_each(|name| self.scalar(form, name));
+            for name in &names {
+                self.scalar(form, name);
+            }
             let size = kind.size();
             self.fields.push(Field::Values { values, size, form });
         }

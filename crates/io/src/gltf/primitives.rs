@@ -181,8 +181,7 @@ impl Triangles {
             if !found.contains(name) {
                 let more = (base + n - values.len()) * size_of_value(values);
                 reader.budget.spend(SMALL + more as u64, here)?;
-                let before = values.len();
-                *values = values.gather(base + n, |i| (i < before).then_some(i));
+                grow(values, base + n);
                 seen.partial += 1;
             }
         }
@@ -261,7 +260,26 @@ fn append(all: &mut Values, more: Values) -> bool {
 
 /// The bytes of one of the values.
 fn size_of_value(values: &Values) -> usize {
-    values.gather(1, |_| None).bytes()
+    match values {
+        Values::Float(_) => size_of::<f64>(),
+        Values::Vec2(_) => size_of::<DVec2>(),
+        Values::Vec3(_) => size_of::<DVec3>(),
+        Values::Vec4(_) => size_of::<DVec4>(),
+        Values::Int(_) => size_of::<i32>(),
+        Values::Tag(_) => size_of::<bool>(),
+    }
+}
+
+/// Fills values up with zeros. Many primitives may ask for little each.
+fn grow(values: &mut Values, n: usize) {
+    match values {
+        Values::Float(values) => values.resize(n, 0.0),
+        Values::Vec2(values) => values.resize(n, DVec2::ZERO),
+        Values::Vec3(values) => values.resize(n, DVec3::ZERO),
+        Values::Vec4(values) => values.resize(n, DVec4::ZERO),
+        Values::Int(values) => values.resize(n, 0),
+        Values::Tag(values) => values.resize(n, false),
+    }
 }
 
 /// The triangles of a primitive whose vertices are counted from 0.

@@ -7,6 +7,7 @@ mod cache;
 mod cancelling;
 mod cube_diagonals;
 mod every_op;
+mod files;
 mod fixtures;
 mod layout;
 mod opensubdiv;

@@ -1,11 +1,12 @@
-//! How many local edits a second, with all their checks?
+//! How many local edits a second, with all their checks, as steps of recipes do them?
 
 mod common;
 
 use std::time::Duration;
 
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
-use mesh::{EdgeId, Mesh};
+use mesh::{EdgeId, EditError, Mesh};
+use op::{Context, Files, NoProgress, OnRefusal, edit_each};
 
 /// Flipping every edge, and splitting every edge, of a torus of a million triangles. In random order
 /// each edit waits for memory. Flipping in order of ids would heap all edges onto a few vertices.
@@ -38,21 +39,26 @@ fn every_edge_once(c: &mut Criterion) {
     group.finish();
 }
 
-/// Flips where it is legal: others are checked and refused. Returns how many were.
-fn flip(mut mesh: Mesh, edges: &[EdgeId]) -> (Mesh, usize) {
-    let mut refused = 0;
-    for (i, &e) in edges.iter().enumerate() {
-        mesh.fetch_ahead(edges, i);
-        refused += usize::from(mesh.flip_edge(e).is_err());
-    }
-    (mesh, refused)
+/// Flips where it is legal: others are checked and refused.
+fn flip(mesh: Mesh, edges: &[EdgeId]) -> Mesh {
+    each(mesh, edges, |mesh, e| mesh.flip_edge(e).map(drop))
 }
 
-fn split(mut mesh: Mesh, edges: &[EdgeId]) -> Mesh {
-    for (i, &e) in edges.iter().enumerate() {
-        mesh.fetch_ahead(edges, i);
-        mesh.split_edge(e, 0.5).expect("any edge can be split");
-    }
+fn split(mesh: Mesh, edges: &[EdgeId]) -> Mesh {
+    each(mesh, edges, |mesh, e| mesh.split_edge(e, 0.5).map(drop))
+}
+
+/// Edits as a step of a recipe does: with an open journal, so that the step can be taken back.
+fn each(
+    mut mesh: Mesh,
+    edges: &[EdgeId],
+    edit: impl FnMut(&mut Mesh, EdgeId) -> Result<(), EditError>,
+) -> Mesh {
+    let files = Files::default();
+    let cx = Context::new(&NoProgress, &files);
+    mesh.begin();
+    edit_each(&mut mesh, edges, OnRefusal::Skip, "edit", &cx, edit).expect("refusals are skipped");
+    mesh.commit();
     mesh
 }
 

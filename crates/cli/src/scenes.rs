@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use anyhow::Context as _;
-use engine::{BUDGET, Engine, Run, Stop};
-use mesh_io::ReadOptions;
+use engine::{BUDGET, Disk, Engine, Run, Stop};
+use mesh_io::{Note, ReadOptions};
 use scene::Scene;
 
 use crate::args::{ValueArgs, WrongUsage};
@@ -42,21 +42,26 @@ pub(crate) fn find(
         );
         return Err(WrongUsage(message).into());
     }
-    let loaded =
-        mesh_io::read(&store::Disk, path, options).map_err(|error| anyhow::anyhow!("{error}"))?;
-    for note in &loaded.notes {
+    let (scene, notes) = read_file(path, options)?;
+    for note in &notes {
         complain(&format!("note: {note}\n"));
-    }
-    let mut scene = Scene::new();
-    for object in loaded.objects {
-        scene
-            .insert(object)
-            .with_context(|| format!("cannot use {}", path.display()))?;
     }
     Ok(Found {
         scene,
         stream: String::new(),
     })
+}
+
+/// The objects of a file as a scene, and what was left out or changed.
+pub(crate) fn read_file(path: &Path, options: &ReadOptions) -> anyhow::Result<(Scene, Vec<Note>)> {
+    let loaded = mesh_io::read(&Disk, path, options);
+    let loaded = loaded.map_err(|error| anyhow::anyhow!("{error}"))?;
+    let mut scene = Scene::new();
+    for object in loaded.objects {
+        let inserted = scene.insert(object);
+        inserted.with_context(|| format!("cannot use {}", path.display()))?;
+    }
+    Ok((scene, loaded.notes))
 }
 
 fn run(path: &Path, values: &ValueArgs, stop: Stop, engine: &Engine) -> anyhow::Result<Found> {

@@ -13,6 +13,7 @@ const RECIPE: &str = "(recipe: 1, steps: [
 
 fn registry() -> Registry {
     Registry::new()
+        .with_group(ops_files::register)
         .with_group(ops_shapes::register)
         .with_group(ops_faces::register)
 }
@@ -134,4 +135,37 @@ fn recipes_that_are_called_are_read_from_the_store() {
     let found = engine.load(&source, &Options::default());
     assert_eq!(found.diagnostics, []);
     assert_eq!(found.run(Run::default(), &Silent).steps.len(), 1);
+}
+
+#[test]
+fn files_of_steps_are_those_of_the_store() {
+    let store = Arc::new(Memory::default());
+    let registry = registry();
+    let engine = Engine::new(&registry).with_store(store.clone());
+    let model = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+    store.write("a.obj".as_ref(), model).unwrap();
+    store
+        .write("a.mtl".as_ref(), b"newmtl red\nKd 1 0 0\n")
+        .unwrap();
+    let text = "(recipe: 1, steps: [Load(path: \"a.obj\"), PokeFaces(), Save(path: \"new/b.obj\")],
+        expect: [Faces(eq: 3), Same(as: File(\"out/new/b.obj\"))])";
+    let run = Run {
+        keep_outputs: true,
+        cache: None,
+    };
+    // The first run writes what the second is compared with.
+    let load = |text: &str| engine.load(&Source::new("a.ron", text), &Options::default());
+    let first = text.replace(", Same(as: File(\"out/new/b.obj\"))", "");
+    for text in [first.as_str(), text] {
+        let recipe = load(text);
+        assert_eq!(recipe.diagnostics, []);
+        let outcome = recipe.run(run, &Silent);
+        assert_eq!(outcome.failures, []);
+        let written = ["out/new/b.mtl", "out/new/b.obj"].map(std::path::PathBuf::from);
+        assert_eq!(outcome.written, written);
+        assert_eq!(
+            store::files_below(&*store, "out".as_ref()).unwrap(),
+            written
+        );
+    }
 }

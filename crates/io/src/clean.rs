@@ -134,7 +134,7 @@ fn duplicates(polygons: &Polygons) -> Vec<usize> {
         let own = hashes
             .iter()
             .zip(0..)
-            .filter(|(hash, _)| **hash as usize % SHARES == share);
+            .filter(|(hash, _)| **hash % SHARES as u64 == share as u64);
         let mut keys: Vec<(u64, u32)> = own.map(|(&hash, f)| (hash, f)).collect();
         keys.sort_unstable();
         let mut duplicates = Vec::new();

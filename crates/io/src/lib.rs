@@ -83,7 +83,7 @@ mod writing;
 use std::path::{Path, PathBuf};
 
 use scene::{Geometry, Object, Scene};
-use store::{Memory, Store, folder_of};
+use store::Store;
 
 pub use assets::FileSeen;
 pub use error::{ReadError, WriteError};
@@ -354,27 +354,6 @@ pub fn write(
         bytes,
         losses,
     })
-}
-
-/// As [`write()`], but gives the bytes of the files, in their order.
-///
-/// # Errors
-///
-/// As [`write()`].
-pub fn write_bytes(
-    path: &Path,
-    scene: &Scene,
-    options: &WriteOptions,
-) -> Result<(Vec<(PathBuf, Vec<u8>)>, Vec<Loss>), WriteError> {
-    let memory = Memory::default();
-    memory.make_folder(folder_of(path))?;
-    let WriteReport { files, losses, .. } = write(&memory, path, scene, options)?;
-    let mut all = Vec::with_capacity(files.len());
-    for path in files {
-        let bytes = memory.read(&path)?;
-        all.push((path, bytes));
-    }
-    Ok((all, losses))
 }
 
 /// The bytes of files before they are saved, and what they do not hold.

@@ -52,6 +52,9 @@ impl From<Seams> for mesh::Seams {
 pub trait Edited: Copy {
     /// The elements that it is.
     fn elements(self) -> Vec<Element>;
+
+    /// Asks the processor to fetch what the edits after the `at`-th will touch.
+    fn fetch_ahead(_: &Mesh, _: &[Self], _at: usize) {}
 }
 
 macro_rules! edited {
@@ -64,7 +67,18 @@ macro_rules! edited {
     };
 }
 
-edited!(VertexId, HalfEdgeId, EdgeId, FaceId);
+edited!(VertexId, HalfEdgeId, FaceId);
+
+impl Edited for EdgeId {
+    fn elements(self) -> Vec<Element> {
+        vec![self.into()]
+    }
+
+    #[inline]
+    fn fetch_ahead(mesh: &Mesh, edges: &[Self], at: usize) {
+        mesh.fetch_ahead(edges, at);
+    }
+}
 
 impl<E: Edited> Edited for [E; 2] {
     fn elements(self) -> Vec<Element> {
@@ -95,19 +109,19 @@ pub fn edit_each<I: Edited>(
         report.notes.push("nothing was selected".to_owned());
     }
     cx.advance(what, 0, total)?;
-    for (done, &element) in (1..).zip(elements) {
-        match edit(mesh, element) {
-            Ok(()) => report.changed += 1,
-            Err(refusal) => {
-                let refused = OpError::refused_edit(refusal, mesh, &element.elements());
-                match on_refusal {
-                    OnRefusal::Error => return Err(refused),
-                    OnRefusal::Skip => report.refuse(refused)?,
-                }
+    for (at, &element) in elements.iter().enumerate() {
+        I::fetch_ahead(mesh, elements, at);
+        if let Err(refusal) = edit(mesh, element) {
+            let refused = || OpError::refused_edit(refusal, mesh, &element.elements());
+            match on_refusal {
+                OnRefusal::Error => return Err(refused()),
+                OnRefusal::Skip => report.refuse_as(refusal.into(), refused)?,
             }
+        } else {
+            report.changed += 1;
         }
-        if done % 4096 == 0 {
-            cx.advance(what, done, total)?;
+        if (at + 1).is_multiple_of(4096) {
+            cx.advance(what, at as u64 + 1, total)?;
         }
     }
     Ok(report)

@@ -66,7 +66,8 @@ pub use files::{FileError, FileLog, FileUse, Files};
 pub use operation::{MeshOperation, Operation};
 pub use parameter::{
     Angle, AngleBetween, Axis, BadVector, ClosedFraction, Count, Direction, Distance, Factors,
-    Fraction, Length, Levels, OutOfRange, PositiveFactor, PositiveLength, Sharpness, Turn, Vector,
+    Fraction, Length, Levels, OutOfRange, PositiveFactor, PositiveLength, Seconds, Sharpness, Turn,
+    Vector,
 };
 pub use place::Place;
 pub use plan::{

@@ -309,15 +309,14 @@ impl Plan {
         names: impl IntoIterator<Item = &'n str>,
         field: &str,
     ) -> Vec<Problem> {
-        let known: Vec<_> = self
-            .objects
-            .iter()
-            .map(|o| format!("\"{}\"", o.name))
-            .collect();
-        let known = if known.is_empty() {
-            "none".to_owned()
-        } else {
-            known.join(", ")
+        let known = || {
+            let names = self.objects.iter().map(|o| format!("\"{}\"", o.name));
+            let names: Vec<_> = names.collect();
+            if names.is_empty() {
+                "none".to_owned()
+            } else {
+                names.join(", ")
+            }
         };
         names
             .into_iter()
@@ -325,7 +324,7 @@ impl Plan {
             .map(|name| {
                 Problem::error(format!("no object is named \"{name}\""))
                     .at([field])
-                    .help(format!("objects at this point: {known}"))
+                    .help(format!("objects at this point: {}", known()))
             })
             .collect()
     }

@@ -79,6 +79,21 @@ impl Report {
         self
     }
 
+    /// Counts an edit that was refused for this reason. Only the first of a reason is asked for its message.
+    pub(crate) fn refuse_as(
+        &mut self,
+        reason: Refusal,
+        error: impl FnOnce() -> OpError,
+    ) -> Result<(), OpError> {
+        match self.refused.iter_mut().find(|r| r.reason == reason) {
+            Some(refused) => {
+                refused.count += 1;
+                Ok(())
+            }
+            None => self.refuse(error()),
+        }
+    }
+
     /// Counts a refused edit. Returns the error itself if it is not a refusal.
     ///
     /// # Errors

@@ -2,6 +2,8 @@
 
 use serde_json::Value as Json;
 
+use crate::shape::Schema;
+
 /// A parameter as its documentation shows it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FieldDoc {
@@ -19,32 +21,24 @@ pub struct FieldDoc {
 
 /// The parameters of an operation, in the order of its struct.
 pub fn fields(schema: &Json) -> Vec<FieldDoc> {
-    let required: Vec<&str> = schema["required"]
-        .as_array()
-        .map(|names| names.iter().filter_map(Json::as_str).collect())
-        .unwrap_or_default();
-    let Some(properties) = schema["properties"].as_object() else {
-        return Vec::new();
-    };
-    properties
-        .iter()
-        .map(|(name, property)| {
-            let target = resolve(schema, property);
-            FieldDoc {
-                name: name.clone(),
-                kind: kind(schema, property),
-                default: (!required.contains(&name.as_str())).then(|| {
-                    let default = property.get("default");
-                    default.map_or("none".to_owned(), |value| default_of(target, value))
-                }),
-                doc: property["description"]
-                    .as_str()
-                    .unwrap_or_default()
-                    .to_owned(),
-                variants: variants(schema, target),
-            }
+    fields_of(&Schema::root(schema))
+}
+
+fn fields_of(schema: &Schema) -> Vec<FieldDoc> {
+    let required: Vec<&str> = schema.required().collect();
+    let described = |name: &str| {
+        let field = schema.field(name)?;
+        let default = field.own("default");
+        let default = default.map_or("none".to_owned(), |value| default_of(&field, value));
+        Some(FieldDoc {
+            name: name.to_owned(),
+            kind: kind(&field),
+            default: (!required.contains(&name)).then_some(default),
+            doc: field.doc(),
+            variants: variants(&field),
         })
-        .collect()
+    };
+    schema.fields().filter_map(described).collect()
 }
 
 /// A type that parameters are made of: a choice of variants, or a group of fields.
@@ -63,20 +57,14 @@ pub struct TypeDoc {
 /// The types that the parameters of an operation are made of, in order of their names; not those that
 /// are written as plain numbers.
 pub fn types(schema: &Json) -> Vec<TypeDoc> {
-    let Some(definitions) = schema["$defs"].as_object() else {
-        return Vec::new();
-    };
-    let mut types: Vec<TypeDoc> = definitions
-        .iter()
-        .map(|(name, definition)| {
-            let mut inner = definition.clone();
-            inner["$defs"] = schema["$defs"].clone();
-            TypeDoc {
-                name: name.clone(),
-                doc: text_of(definition),
-                fields: fields(&inner),
-                variants: variants(schema, definition),
-            }
+    let root = Schema::root(schema);
+    let mut types: Vec<TypeDoc> = root
+        .definitions()
+        .map(|(name, definition)| TypeDoc {
+            name: name.to_owned(),
+            doc: definition.doc(),
+            fields: fields_of(&definition),
+            variants: variants(&definition),
         })
         .filter(|t| !t.fields.is_empty() || !t.variants.is_empty())
         .collect();
@@ -86,78 +74,51 @@ pub fn types(schema: &Json) -> Vec<TypeDoc> {
 
 /// The reasons that `refused:` can name, with what they mean.
 pub fn refusals() -> Vec<(String, String)> {
-    let schema = crate::schema::of::<op::Refusal>();
-    variants(&schema, &schema)
+    variants(&Schema::root(&crate::schema::of::<op::Refusal>()))
 }
 
-fn text_of(schema: &Json) -> String {
-    schema["description"]
-        .as_str()
-        .unwrap_or_default()
-        .to_owned()
-}
-
-/// What a reference leads to.
-fn resolve<'s>(root: &'s Json, schema: &'s Json) -> &'s Json {
-    let target = schema["$ref"]
-        .as_str()
-        .and_then(|r| r.strip_prefix("#/$defs/"));
-    target.map_or(schema, |name| resolve(root, &root["$defs"][name]))
-}
-
-fn kind(root: &Json, schema: &Json) -> String {
-    if let Some(name) = schema["$ref"]
-        .as_str()
-        .and_then(|r| r.strip_prefix("#/$defs/"))
-    {
-        let target = resolve(root, schema);
-        let is_tuple = target.get("prefixItems").is_some();
-        return if is_tuple {
-            kind(root, target)
-        } else {
-            name.to_owned()
-        };
+/// What kind of value is meant: the name of its type, if it has one and is no tuple.
+fn kind(schema: &Schema) -> String {
+    match schema.reference() {
+        Some(name) if schema.list("prefixItems").is_empty() => name.to_owned(),
+        _ => form(schema),
     }
-    if let Some(options) = schema["anyOf"].as_array() {
-        let not_null = options.iter().find(|o| o["type"] != "null");
-        return not_null.map_or_else(|| "value".to_owned(), |o| kind(root, o));
+}
+
+/// What kind of value is meant, whatever the name of its type.
+fn form(schema: &Schema) -> String {
+    let options = schema.list("anyOf");
+    if !options.is_empty() {
+        let not_null = options.iter().find(|option| option.types() != ["null"]);
+        return not_null.map_or_else(|| "value".to_owned(), kind);
     }
-    if let Some(items) = schema["prefixItems"].as_array() {
-        let items: Vec<String> = items.iter().map(|item| kind(root, item)).collect();
+    if let Some(items) = schema.tuple() {
+        let items: Vec<String> = items.iter().map(kind).collect();
         return format!("({})", items.join(", "));
     }
-    let type_name = match &schema["type"] {
-        Json::String(name) => name.as_str(),
-        Json::Array(names) => names
-            .iter()
-            .filter_map(Json::as_str)
-            .find(|n| *n != "null")
-            .unwrap_or("value"),
-        _ => "value",
-    };
-    match type_name {
-        "array" => match fixed_len(schema) {
-            Some(n) => format!("({})", vec![kind(root, &schema["items"]); n].join(", ")),
-            None => format!("[{}, ..]", kind(root, &schema["items"])),
-        },
-        "integer" => format!("whole number{}", range(schema)),
-        "number" => format!("number{}", range(schema)),
-        "string" => "text".to_owned(),
-        "boolean" => "true or false".to_owned(),
-        other => other.to_owned(),
+    match schema.types()[..] {
+        ["array", ..] => {
+            let items = schema.child("items").as_ref().map(kind);
+            format!("[{}, ..]", items.as_deref().unwrap_or("value"))
+        }
+        ["integer", ..] => format!("whole number{}", range(schema)),
+        ["number", ..] => format!("number{}", range(schema)),
+        ["string", ..] => "text".to_owned(),
+        ["boolean", ..] => "true or false".to_owned(),
+        [other, ..] => other.to_owned(),
+        [] => "value".to_owned(),
     }
 }
 
-fn range(schema: &Json) -> String {
+fn range(schema: &Schema) -> String {
     let above = [("minimum", "from"), ("exclusiveMinimum", "above")];
     let below = [("maximum", "to"), ("exclusiveMaximum", "below")];
+    let is_number = schema.own("type").is_some_and(|name| name == "number");
     let mut text = String::new();
     for (key, word) in above.into_iter().chain(below) {
         // The bounds of the type itself say nothing.
-        if let Some(bound) = schema
-            .get(key)
-            .filter(|b| b.as_u64() != Some(0) || schema["type"] == "number")
-        {
+        let says = |bound: &&serde_json::Number| is_number || bound.as_u64() != Some(0);
+        if let Some(bound) = schema.numbers(key).next().filter(says) {
             text += &format!(" {word} {bound}");
         }
     }
@@ -165,67 +126,45 @@ fn range(schema: &Json) -> String {
 }
 
 /// The variants of an enumeration, as they are written.
-fn variants(root: &Json, schema: &Json) -> Vec<(String, String)> {
-    let Some(options) = schema["oneOf"].as_array() else {
-        let names = schema["enum"]
-            .as_array()
-            .into_iter()
-            .flatten()
-            .filter_map(Json::as_str);
-        return names.map(|name| (name.to_owned(), String::new())).collect();
+fn variants(schema: &Schema) -> Vec<(String, String)> {
+    let units = |schema: &Schema, doc: &str| {
+        let names = schema.units().into_iter();
+        names
+            .map(|name| (name.to_owned(), doc.to_owned()))
+            .collect()
     };
-    let doc = |option: &Json| {
-        option["description"]
-            .as_str()
-            .unwrap_or_default()
-            .to_owned()
-    };
-    options
-        .iter()
-        .flat_map(|option| {
-            if let Some(name) = option["const"].as_str() {
-                return vec![(name.to_owned(), doc(option))];
-            }
-            if let Some(names) = option["enum"].as_array() {
-                let names = names.iter().filter_map(Json::as_str);
-                return names.map(|name| (name.to_owned(), doc(option))).collect();
-            }
-            let Some((name, content)) = option["properties"]
-                .as_object()
-                .and_then(|p| p.iter().next())
-            else {
-                return Vec::new();
-            };
-            let content = resolve(root, content);
-            let inside = match content["properties"].as_object() {
-                Some(fields) => {
-                    let names: Vec<String> = fields.keys().map(|f| format!("{f}: ..")).collect();
-                    names.join(", ")
+    let options = schema.list("oneOf");
+    if options.is_empty() {
+        return units(schema, "");
+    }
+    let written = |option: &Schema| -> Vec<(String, String)> {
+        let Some((name, content)) = option
+            .fields()
+            .next()
+            .and_then(|name| Some((name, option.field(name)?)))
+        else {
+            return units(option, &option.doc());
+        };
+        let fields: Vec<String> = content.fields().map(|f| format!("{f}: ..")).collect();
+        let inside = if fields.is_empty() {
+            match form(&content) {
+                tuple if tuple.starts_with('(') => {
+                    vec![".."; content.tuple().map_or(0, |items| items.len())].join(", ")
                 }
-                None => match kind(root, content) {
-                    tuple if tuple.starts_with('(') => {
-                        let items = content["prefixItems"].as_array().map_or(0, Vec::len);
-                        vec![".."; items].join(", ")
-                    }
-                    list if list.starts_with('[') => "[..]".to_owned(),
-                    _ => "..".to_owned(),
-                },
-            };
-            vec![(format!("{name}({inside})"), doc(option))]
-        })
-        .collect()
-}
-
-/// How many parts an array has that always has as many: RON writes it as a tuple. Lists have brackets.
-fn fixed_len(schema: &Json) -> Option<usize> {
-    let limit = |name: &str| schema[name].as_u64();
-    let n = limit("minItems").filter(|n| limit("maxItems") == Some(*n))?;
-    usize::try_from(n).ok().filter(|n| (1..=16).contains(n))
+                list if list.starts_with('[') => "[..]".to_owned(),
+                _ => "..".to_owned(),
+            }
+        } else {
+            fields.join(", ")
+        };
+        vec![(format!("{name}({inside})"), option.doc())]
+    };
+    options.iter().flat_map(written).collect()
 }
 
 /// A default as RON, for a value of this schema.
-fn default_of(schema: &Json, value: &Json) -> String {
-    let is_list = schema["items"].is_object() && fixed_len(schema).is_none();
+fn default_of(schema: &Schema, value: &Json) -> String {
+    let is_list = schema.child("items").is_some() && schema.tuple().is_none();
     match value {
         Json::Array(items) if is_list => {
             let items: Vec<String> = items.iter().map(to_ron).collect();

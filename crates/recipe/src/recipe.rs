@@ -25,7 +25,7 @@ pub struct Recipe {
     pub presets: Vec<String>,
     /// Its steps in the order in which they run: calls, repetitions and choices are done.
     pub steps: Vec<RecipeStep>,
-    /// What must hold.
+    /// What must hold, in the order of the steps that it comes after.
     pub expectations: Vec<Placed>,
 }
 

@@ -414,10 +414,9 @@ impl Runner<'_> {
         listener: &dyn Listener,
     ) -> Result<(), Stopped> {
         let recipe = self.recipe;
-        for (i, placed) in recipe.expectations.iter().enumerate() {
-            if placed.after != after {
-                continue;
-            }
+        let first = (recipe.expectations).partition_point(|p| is_before(p.after, after));
+        let placed = recipe.expectations.iter().enumerate().skip(first);
+        for (i, placed) in placed.take_while(|(_, placed)| placed.after == after) {
             if self
                 .session
                 .as_mut()
@@ -501,6 +500,11 @@ impl Runner<'_> {
             cache_notes,
         }
     }
+}
+
+/// Whether one place of an expectation comes before another: the end is the last one.
+fn is_before(a: Option<usize>, b: Option<usize>) -> bool {
+    a.is_some_and(|a| b.is_none_or(|b| a < b))
 }
 
 /// Vertices, edges and faces of all meshes together; points of polylines are vertices.

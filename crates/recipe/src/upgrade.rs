@@ -10,13 +10,10 @@
 //! ```
 
 use op::{Entry, Registry};
-use serde_json::Value as Json;
 
-use crate::expect::Expectation;
-use crate::params::Param;
 use crate::read::VERSION;
-use crate::schema;
-use crate::shape::{renames, step_renames};
+use crate::schema::{self, Schemas};
+use crate::shape::{Checked, check_step, checked};
 use ron_tree::{Diagnostic, LineIndex, Span, Value, ValueKind};
 
 /// An older name in a recipe.
@@ -63,15 +60,16 @@ pub fn upgrade(source: &str, registry: &Registry) -> Result<Upgraded, Vec<Diagno
     if let Some(problem) = wrong_version(root) {
         return Err(vec![problem]);
     }
+    let schemas = Schemas::new(registry);
     let mut found = Vec::new();
     if let Some(ValueKind::Map(params)) = root.field("params").map(|p| &p.kind) {
-        let schema = schema::of::<Param>();
-        found.extend(params.iter().flat_map(|(_, param)| renames(param, &schema)));
+        let renames = |(_, param): &(Value, Value)| checked(param, schema::param()).renames;
+        found.extend(params.iter().flat_map(renames));
     }
     for list in ["steps", "expect"] {
         for item in root.field(list).and_then(Value::items).unwrap_or_default() {
             if list == "steps" {
-                step(item, registry, &mut found);
+                step(item, &schemas, &mut found);
             } else {
                 expectation(item, &mut found);
             }
@@ -113,39 +111,38 @@ fn wrong_version(root: &Value) -> Option<Diagnostic> {
 }
 
 /// `Name(..)`, or `(run: Name(..), ..)`; steps may hold lists of steps.
-fn step(written: &Value, registry: &Registry, found: &mut Vec<Rename>) {
+fn step(written: &Value, schemas: &Schemas, found: &mut Vec<Rename>) {
     let envelope = matches!(written.kind, ValueKind::Struct(_));
     let run = written.field("run").filter(|_| envelope).unwrap_or(written);
-    if let Some(entry) = run.name().and_then(|(name, _)| registry.get(name)) {
-        found.extend(in_step(run, entry, &entry.schema()));
+    if let Some(entry) = run.name().and_then(|(name, _)| schemas.registry.get(name)) {
+        found.extend(in_step(run, entry, check_step(run, &schemas.of(entry))));
         return;
     }
     for field in written.fields().iter().chain(run.fields()) {
         for item in field.value.items().unwrap_or_default() {
-            step(item, registry, found);
+            step(item, schemas, found);
         }
     }
 }
 
-/// The older names in a step `Name(..)` of this operation, its own among them.
-pub(crate) fn in_step(run: &Value, entry: &Entry, schema: &Json) -> Vec<Rename> {
+/// The older names in a step `Name(..)` of this operation that was checked, its own among them.
+pub(crate) fn in_step(run: &Value, entry: &Entry, checked: Checked) -> Vec<Rename> {
     let own = run.name().filter(|(name, _)| *name != entry.name);
     let own = own.map(|(name, span)| Rename {
         span,
         from: name.to_owned(),
         to: entry.name.to_owned(),
     });
-    own.into_iter().chain(step_renames(run, schema)).collect()
+    own.into_iter().chain(checked.renames).collect()
 }
 
 fn expectation(written: &Value, found: &mut Vec<Rename>) {
-    let schema = schema::of::<Expectation>();
     let that = match written.kind {
         ValueKind::Struct(_) => written.field("that"),
         _ => Some(written),
     };
     let Some(that) = that else { return };
     for item in that.items().unwrap_or(std::slice::from_ref(that)) {
-        found.extend(renames(item, &schema));
+        found.extend(checked(item, schema::expectation()).renames);
     }
 }

@@ -116,7 +116,7 @@ impl Parser<'_> {
             Bracket::Curly => {
                 let key = self.value("a key");
                 self.colon();
-                let value = self.value_after_colon(&format!("the key {}", key.describe()));
+                let value = self.value_after_colon(|| format!("the key {}", key.describe()));
                 contents.entries.push((key, value));
             }
         }
@@ -173,8 +173,12 @@ impl Parser<'_> {
             )
         } else {
             self.colon();
-            self.value_after_colon(&format!("`{}`", name.text))
+            self.value_after_colon(|| format!("`{}`", name.text))
         };
+        if contents.fields.is_empty() {
+            // Most steps have one parameter: millions of them should not reserve room for four.
+            contents.fields.reserve_exact(1);
+        }
         contents.fields.push(Field { name, value });
     }
 
@@ -193,12 +197,12 @@ impl Parser<'_> {
         }
     }
 
-    fn value_after_colon(&mut self, of: &str) -> Value {
+    fn value_after_colon(&mut self, of: impl Fn() -> String) -> Value {
         while matches!(
             self.current.kind,
             Some(TokenKind::Colon | TokenKind::Equals)
         ) {
-            self.unexpected(&format!("the value of {of}"));
+            self.unexpected(&format!("the value of {}", of()));
             self.bump();
         }
         let is_next_field = self.current.kind == Some(TokenKind::Ident)
@@ -208,7 +212,7 @@ impl Parser<'_> {
                 .last()
                 .is_some_and(|open| open.bracket == Bracket::Round);
         if is_next_field || !starts_value(self.current.kind) {
-            self.missing(&format!("the value of {of}"));
+            self.missing(&format!("the value of {}", of()));
             return Value::new(
                 Span::new(self.previous_end, self.previous_end),
                 ValueKind::Error,
@@ -220,7 +224,6 @@ impl Parser<'_> {
     /// Passes the comma between two items, or complains that there is none.
     fn separator(&mut self, contents: &mut Contents) {
         use TokenKind as K;
-        let expected = format!("`,` or `{}`", contents.bracket.close());
         loop {
             match self.current.kind {
                 Some(K::Comma) => {
@@ -230,7 +233,8 @@ impl Parser<'_> {
                 None | Some(K::Close(_)) => return,
                 _ if self.belongs_outside(contents) => return,
                 Some(K::Colon | K::Equals | K::Semicolon | K::Hash | K::Bang) => {
-                    self.unexpected(&expected);
+                    let close = contents.bracket.close();
+                    self.unexpected(&format!("`,` or `{close}`"));
                     let pairs = matches!(self.bump().kind, Some(K::Colon | K::Equals));
                     contents.complete = false;
                     if !pairs || !starts_value(self.current.kind) {
@@ -260,7 +264,9 @@ impl Parser<'_> {
             ));
         }
         let has_fields = !fields.is_empty();
-        self.refuse_duplicates(fields.iter().map(|f| (&*f.name.text, f.name.span)), "field");
+        if fields.len() > 1 {
+            self.refuse_duplicates(fields.iter().map(|f| (&*f.name.text, f.name.span)), "field");
+        }
         let keys = entries
             .iter()
             .filter_map(|(key, _)| Some((key.as_str()?, key.span)));

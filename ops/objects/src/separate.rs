@@ -291,7 +291,7 @@ mod tests {
             ("pair 2", geometry::volume(&shapes::tetrahedron())),
         ] {
             let part = scene.object(name).unwrap();
-            assert!((geometry::volume(&part.as_mesh().unwrap()) - volume).abs() < 1e-12);
+            assert!((geometry::volume(part.as_mesh().unwrap()) - volume).abs() < 1e-12);
             assert_eq!(part.materials, [Material::new("skin")]);
         }
         assert_eq!(report.changed, 2);

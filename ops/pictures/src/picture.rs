@@ -13,8 +13,8 @@ use std::fmt::Display;
 use std::path::{Component, Path};
 
 use op::{
-    Context, Elements, Files, OpError, Operation, Plan, PlanContext, Problem, Progress, Report,
-    Selected,
+    Context, Count, Elements, Files, OpError, Operation, Plan, PlanContext, Problem, Progress,
+    Report, Seconds, Selected,
 };
 use render::animation::{Timing, to_apng, to_gif};
 use render::{Camera, Color, Image, LARGEST_SIDE, Overlays, PictureError, Style};
@@ -36,8 +36,7 @@ pub struct Picture {
     pub path: String,
     /// Width and height in pixels, of each view.
     #[serde(default = "size")]
-    #[schemars(inner(range(min = 1, max = 16384)))]
-    pub size: [u32; 2],
+    pub size: [Count<1, LARGEST_SIDE>; 2],
     /// Where the scene is seen from.
     #[serde(default)]
     pub camera: Camera,
@@ -46,8 +45,7 @@ pub struct Picture {
     pub views: Vec<Camera>,
     /// How many views stand in a row; unless told otherwise all, at most 4.
     #[serde(default)]
-    #[schemars(range(min = 1, max = 64))]
-    pub columns: Option<u32>,
+    pub columns: Option<Count<1, 64>>,
     /// How it looks: shading, lines, background.
     #[serde(default)]
     pub style: Style,
@@ -96,28 +94,26 @@ pub struct Mark {
 pub struct Turntable {
     /// How many images.
     #[serde(default = "frames")]
-    #[schemars(range(min = 2, max = 720))]
-    pub frames: u32,
+    pub frames: Count<2, 720>,
     /// How long a turn takes.
     #[serde(default = "seconds")]
-    #[schemars(range(min = 0.1, max = 600.0))]
-    pub seconds: f64,
+    pub seconds: Seconds,
 }
 
-fn size() -> [u32; 2] {
-    [1280, 960]
+fn size() -> [Count<1, LARGEST_SIDE>; 2] {
+    [1280, 960].map(Count::literal)
 }
 
 fn orange() -> Color {
     MARK
 }
 
-fn frames() -> u32 {
-    36
+fn frames() -> Count<2, 720> {
+    Count::literal(36)
 }
 
-fn seconds() -> f64 {
-    4.0
+fn seconds() -> Seconds {
+    Seconds::literal(4.0)
 }
 
 /// The formats of pictures.
@@ -162,10 +158,6 @@ impl Picture {
     /// What is wrong with the parameters, whatever the scene is.
     fn problems(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
-        if let Some(side) = self.size.iter().find(|s| !(1..=LARGEST_SIDE).contains(*s)) {
-            let message = format!("expected 1 to {LARGEST_SIDE} pixels a side, found {side}");
-            problems.push(Problem::error(message).at(["size"]));
-        }
         match Format::of(Path::new(&self.path)) {
             None => {
                 let message = format!("no format of pictures is known for \"{}\"", self.path);
@@ -178,16 +170,6 @@ impl Picture {
                 problems.push(Problem::error(message).at(["path"]).help(help));
             }
             Some(_) => {}
-        }
-        if let Some(turn) = self.turntable {
-            if !(2..=720).contains(&turn.frames) {
-                let message = format!("expected 2 to 720 images, found {}", turn.frames);
-                problems.push(Problem::error(message).at(["turntable", "frames"]));
-            }
-            if !(0.1..=600.0).contains(&turn.seconds) {
-                let message = format!("expected 0.1 to 600 seconds, found {}", turn.seconds);
-                problems.push(Problem::error(message).at(["turntable", "seconds"]));
-            }
         }
         let style = self.style.check().err().map(|error| (error, "style"));
         let cameras = self.cameras().iter().filter_map(|c| c.check().err());
@@ -270,11 +252,11 @@ impl Picture {
 
     fn shot(&self, budget: u64) -> Shot<'_> {
         Shot {
-            size: self.size,
+            size: self.size.map(Count::get),
             cameras: self.cameras(),
-            columns: self.columns,
+            columns: self.columns.map(Count::get),
             style: &self.style,
-            frames: self.turntable.map_or(1, |turn| turn.frames),
+            frames: self.turntable.map_or(1, |turn| turn.frames.get()),
             budget,
         }
     }
@@ -335,7 +317,13 @@ impl Picture {
                     Selected::Edges(list) => render::Elements::Edges(list),
                     Selected::Faces(list) => render::Elements::Faces(list),
                 };
-                let marked = marked(&object.name, elements, color, width, self.size);
+                let marked = marked(
+                    &object.name,
+                    elements,
+                    color,
+                    width,
+                    self.size.map(Count::get),
+                );
                 overlays.highlights.push(marked);
             }
         }
@@ -385,7 +373,7 @@ impl Picture {
                 _ => Err(PictureError::Encode("there is no image".to_owned())),
             };
         };
-        let delay = 1000.0 * turn.seconds / f64::from(turn.frames);
+        let delay = 1000.0 * turn.seconds.get() / f64::from(turn.frames.get());
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,

@@ -156,7 +156,7 @@ mod tests {
         );
         for side in [&front, &back] {
             assert_eq!(side.n_boundary_loops(), 2);
-            assert_eq!(geometry::n_components(&side), 1);
+            assert_eq!(geometry::n_components(side), 1);
         }
         let normal = DVec3::new(1.0, 2.0, 0.5);
         let height = |p: &DVec3| (*p - DVec3::new(0.1, 0.0, 0.05)).dot(normal);

@@ -2,27 +2,17 @@
 
 use std::path::Path;
 
-use anyhow::Context as _;
-use scene::Scene;
-
 use crate::args::ReadArgs;
-use crate::output::print;
+use crate::output::{STAMP, print};
+use crate::scenes::read_file;
 
 pub(crate) fn run(input: &Path, read: &ReadArgs, output: &Path) -> anyhow::Result<bool> {
-    let loaded = mesh_io::read(&store::Disk, input, &read.options())
-        .map_err(|error| anyhow::anyhow!("{error}"))?;
-    for note in &loaded.notes {
+    let (scene, notes) = read_file(input, &read.options())?;
+    for note in &notes {
         print(&format!("{note}\n"))?;
     }
-    let mut scene = Scene::new();
-    for object in loaded.objects {
-        scene
-            .insert(object)
-            .with_context(|| format!("cannot use {}", input.display()))?;
-    }
-    let provenance = format!("meshwright {}", env!("CARGO_PKG_VERSION"));
     let options = mesh_io::WriteOptions {
-        provenance: Some(provenance),
+        provenance: Some(STAMP.to_owned()),
     };
     let report = mesh_io::write(&store::Disk, output, &scene, &options)
         .map_err(|error| anyhow::anyhow!("{error}"))?;

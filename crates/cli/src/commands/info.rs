@@ -13,7 +13,7 @@ use crate::args::{Format, PictureErrorsArgs, ReadArgs};
 use crate::commands::picture::draw_found;
 use crate::output::{counted, grouped, print};
 use crate::picture_errors::Pictures;
-use crate::scenes::Found;
+use crate::scenes::{Found, read_file};
 use crate::terminal_picture;
 
 pub(crate) fn run(
@@ -23,12 +23,10 @@ pub(crate) fn run(
     read: &ReadArgs,
     format: Format,
 ) -> anyhow::Result<bool> {
-    let loaded = mesh_io::read(&store::Disk, path, &read.options())
-        .map_err(|error| anyhow::anyhow!("{error}"))?;
-    let scene = scene(&loaded.objects)?;
+    let (scene, notes) = read_file(path, &read.options())?;
     let pictures = picture_errors.of(path, BUDGET);
     if let Some(pictures) = &pictures {
-        for note in &loaded.notes {
+        for note in &notes {
             let places = places(note);
             if !places.is_empty() {
                 pictures.draw(&scene, &places, &note.to_string());
@@ -39,8 +37,8 @@ pub(crate) fn run(
         if let Some(pictures) = &pictures {
             pictures.warn();
         }
-        let objects: Vec<_> = loaded.objects.iter().map(object_json).collect();
-        let notes: Vec<_> = loaded.notes.iter().map(note_json).collect();
+        let objects: Vec<_> = scene.objects().iter().map(object_json).collect();
+        let notes: Vec<_> = notes.iter().map(note_json).collect();
         let pictures = pictures.as_ref().map(Pictures::paths).unwrap_or_default();
         let info = serde_json::json!({
             "file": path.display().to_string(), "objects": objects, "notes": notes, "pictures": pictures,
@@ -48,13 +46,13 @@ pub(crate) fn run(
         print(&format!("{info:#}\n"))?;
         return Ok(true);
     }
-    for object in &loaded.objects {
+    for object in scene.objects() {
         print(&format!("{}: {}\n", object.name, object.geometry.kind()))?;
         for (what, value) in facts(object) {
             print(&format!("  {what:<18} {value}\n"))?;
         }
     }
-    for note in &loaded.notes {
+    for note in &notes {
         print(&format!("note: {note}\n"))?;
     }
     if let Some(pictures) = &pictures {
@@ -64,15 +62,6 @@ pub(crate) fn run(
         show(path, scene)?;
     }
     Ok(true)
-}
-
-/// The objects of a file as a scene.
-fn scene(objects: &[Object]) -> anyhow::Result<Scene> {
-    let mut scene = Scene::new();
-    for object in objects {
-        scene.insert(object.clone())?;
-    }
-    Ok(scene)
 }
 
 /// The elements that a note is about, as a picture shows them.
@@ -97,7 +86,7 @@ fn places(note: &Note) -> Vec<Place> {
 fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
     let stream = String::new();
     let mut picture = Picture::new("info.png");
-    picture.size = [640, 480];
+    picture.size = [640, 480].map(op::Count::literal);
     let images = draw_found(&picture, path, &[(Found { scene, stream }, "")], &[])?;
     terminal_picture::show(&images[0])?;
     Ok(())
@@ -171,17 +160,17 @@ fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
                 histogram(&degrees, "corners")
             ),
         ),
-        ("valences", histogram(&geometry::valences(&mesh), "edges")),
+        ("valences", histogram(&geometry::valences(mesh), "edges")),
         ("closed", closed),
-        ("components", count(geometry::n_components(&mesh))),
+        ("components", count(geometry::n_components(mesh))),
         ("Euler char.", mesh.euler_characteristic().to_string()),
-        ("genus", geometry::genus(&mesh).to_string()),
-        ("area", geometry::area(&mesh).to_string()),
+        ("genus", geometry::genus(mesh).to_string()),
+        ("area", geometry::area(mesh).to_string()),
     ];
     if loops == 0 {
-        facts.push(("volume", geometry::volume(&mesh).to_string()));
+        facts.push(("volume", geometry::volume(mesh).to_string()));
     }
-    if let Some([min, max]) = geometry::bounds(&mesh) {
+    if let Some([min, max]) = geometry::bounds(mesh) {
         facts.push(("bounds", format!("{min} to {max}")));
     }
     let isolated = mesh.n_isolated_vertices();

@@ -225,7 +225,10 @@ fn on_sheet(
             Err(error) => {
                 complain(&format!("error: {error:#}\n"));
                 all_are_there = false;
-                Image::filled(picture.size[0], picture.size[1], [0; 4])?
+                {
+                    let [width, height] = picture.size.map(op::Count::get);
+                    Image::filled(width, height, [0; 4])?
+                }
             }
         };
         drawn.push((image, path.display().to_string()));

@@ -101,10 +101,10 @@ fn check_size(text: &str) -> Result<(), Fault> {
 /// The place of a byte. Lines end in LF.
 fn place_at(text: &str, at: usize) -> Place {
     let before = &text.as_bytes()[..at.min(text.len())];
-    let lines = before.split(|&b| b == b'\n');
+    let mut lines = before.split(|&b| b == b'\n');
     Place {
         line: lines.clone().count(),
-        column: lines.last().map_or(0, <[u8]>::len) + 1,
+        column: lines.next_back().map_or(0, <[u8]>::len) + 1,
     }
 }
 

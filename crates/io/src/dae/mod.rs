@@ -215,13 +215,13 @@ fn moved(polygons: &Polygons, to_scene: &DAffine3) -> (Polygons, usize) {
     }
     let turn = to_scene.matrix3.inverse().transpose();
     if let Some(mut column) = moved.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
-        if !turn.is_finite() {
-            lost = column.values.len();
-        } else {
+        if turn.is_finite() {
             for normal in DVec3::of_mut(&mut column.values).into_iter().flatten() {
                 *normal = (turn * *normal).normalize_or_zero();
             }
             moved.attributes.insert(Domain::Corner, column);
+        } else {
+            lost = column.values.len();
         }
     }
     if to_scene.matrix3.determinant() < 0.0 {

@@ -172,9 +172,9 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
 fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
     match json {
         Value::Array(values) => {
-            values
-                .iter()
-                .for_each(|value| count_extensions(value, uses));
+            for value in values {
+                count_extensions(value, uses);
+            }
         }
         Value::Object(members) => {
             for (key, value) in members {

@@ -98,13 +98,9 @@ impl Reader<'_> {
             return Err(Fault::json(format!("{at}/byteStride"), message));
         }
         // The last element needs no room for the rest of its stride.
-        let needed = match count {
-            0 => Some(0),
-            _ => {
-                let before = (count - 1).checked_mul(stride as u64);
-                before.and_then(|n| n.checked_add(size as u64)?.checked_add(offset))
-            }
-        };
+        let before = count.saturating_sub(1).checked_mul(stride as u64);
+        let needed = before.and_then(|n| n.checked_add(size as u64)?.checked_add(offset));
+        let needed = if count == 0 { Some(0) } else { needed };
         if needed.is_none_or(|needed| needed > bytes.len() as u64) {
             let message = format!(
                 "{count} elements of {size} bytes, {stride} apart, from byte {offset} do not fit the \

@@ -54,26 +54,24 @@ impl<'a> Writer<'a> {
         }
         let n_nodes = self.nodes.len();
         let mut document = Map::new();
-        insert(&mut document, "accessors", self.accessors)?;
+        insert(&mut document, "accessors", &self.accessors)?;
         document.insert("asset".to_owned(), asset);
-        insert(
-            &mut document,
-            "buffers",
-            [buffer].into_iter().filter(|_| length > 0).collect(),
-        )?;
-        insert(&mut document, "bufferViews", self.views)?;
+        if length > 0 {
+            insert(&mut document, "buffers", &[buffer])?;
+        }
+        insert(&mut document, "bufferViews", &self.views)?;
         // A scene without nodes says nothing.
         if n_nodes > 0 {
             document.insert("scene".to_owned(), 0.into());
         }
-        insert(&mut document, "meshes", self.meshes)?;
-        insert(&mut document, "nodes", self.nodes)?;
+        insert(&mut document, "meshes", &self.meshes)?;
+        insert(&mut document, "nodes", &self.nodes)?;
         if n_nodes > 0 {
             let nodes: Vec<usize> = (0..n_nodes).collect();
             document.insert("scenes".to_owned(), json!([{ "nodes": nodes }]));
         }
         self.materials.insert_into(&mut document);
-        let json = serde_json::to_vec(&document).map_err(no_json)?;
+        let json = serde_json::to_vec(&document).map_err(|error| no_json(&error))?;
         Ok((json, self.pieces))
     }
 
@@ -235,11 +233,11 @@ impl<'a> Writer<'a> {
 fn insert<T: Serialize>(
     document: &mut Map<String, Value>,
     key: &str,
-    list: Vec<T>,
+    list: &[T],
 ) -> Result<(), Unwritable> {
     let values = list
         .iter()
-        .map(|one| serde_json::to_value(one).map_err(no_json));
+        .map(|one| serde_json::to_value(one).map_err(|error| no_json(&error)));
     let values = values.collect::<Result<Vec<_>, _>>()?;
     if !values.is_empty() {
         document.insert(key.to_owned(), values.into());
@@ -247,7 +245,7 @@ fn insert<T: Serialize>(
     Ok(())
 }
 
-fn no_json(error: serde_json::Error) -> Unwritable {
+fn no_json(error: &serde_json::Error) -> Unwritable {
     Unwritable::Scene {
         message: error.to_string(),
     }

@@ -137,7 +137,8 @@ fn of_corners<const N: usize, V: Value>(
     for_blocks(faces, &mut all, |rows, mut out| {
         let mut numbers = Vec::new();
         for row in rows {
-            let these = take(&mut out, degree(faces, row));
+            let (these, rest) = out.split_at_mut(degree(faces, row));
+            out = rest;
             if table.count(property, row) == N * these.len() {
                 numbers.resize(N * these.len(), 0.0);
                 let items = &table.bytes[table.at(property, row)..];
@@ -154,13 +155,6 @@ fn of_corners<const N: usize, V: Value>(
 
 fn degree(offsets: &[u32], row: usize) -> usize {
     (offsets[row + 1] - offsets[row]) as usize
-}
-
-/// Takes the first `n` values away from a list.
-fn take<'a, V>(list: &mut &'a mut [V], n: usize) -> &'a mut [V] {
-    let (first, rest) = std::mem::take(list).split_at_mut(n);
-    *list = rest;
-    first
 }
 
 /// Calls `work` with the rows of each block and the part of `out` that is theirs.
@@ -198,10 +192,11 @@ pub(super) fn indices(
         for_blocks(&offsets, &mut corners, |rows, mut out| {
             let mut all = true;
             for row in rows {
-                let these = take(&mut out, degree(&offsets, row));
+                let (these, rest) = out.split_at_mut(degree(&offsets, row));
+                out = rest;
                 let items = table.bytes[table.at(property, row)..].chunks_exact(size_of::<T>());
                 for (corner, item) in these.iter_mut().zip(items) {
-                    let v: f64 = read::<T>(item, table.big).into();
+                    let v = read::<T>(item, table.big);
                     all &= v >= 0.0 && v < limit;
                     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
                     {

@@ -94,7 +94,7 @@ impl Reader<'_, '_> {
         if parallel::all(positions.len(), |row| positions[row].is_finite()) {
             return Ok(positions);
         }
-        let numbers = positions.iter().flat_map(|p| p.to_array()).enumerate();
+        let numbers = positions.iter().flat_map(DVec3::to_array).enumerate();
         let broken = numbers.into_iter().find(|(_, x)| !x.is_finite());
         let (i, found) = broken.unwrap_or_default();
         let (row, axis) = (i / 3, i % 3);
@@ -110,12 +110,11 @@ impl Reader<'_, '_> {
         let table = &self.tables[element];
         indices(table, list, n).map_err(|bad| {
             let (row, item) = bad.unwrap_or_default();
-            let message = match bad {
-                None => format!("expected fewer than {} corners, found more", u32::MAX),
-                Some(_) => {
-                    let found = item_at(table, list, row, item);
-                    format!("expected a vertex from 0 to below {n}, found {found}")
-                }
+            let message = if bad.is_some() {
+                let found = item_at(table, list, row, item);
+                format!("expected a vertex from 0 to below {n}, found {found}")
+            } else {
+                format!("expected fewer than {} corners, found more", u32::MAX)
             };
             self.body
                 .error(self.tables, (element, list, row, item), message)

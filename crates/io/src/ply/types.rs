@@ -87,21 +87,21 @@ pub(super) use with_type;
 
 /// The value at the front of `bytes`, which are enough; `big` says that the highest byte comes first.
 #[inline]
-pub(super) fn read<T: Pod>(bytes: &[u8], big: bool) -> T {
+pub(super) fn read<T: Pod + Into<f64>>(bytes: &[u8], big: bool) -> f64 {
     let mut value = T::zeroed();
     let own = bytemuck::bytes_of_mut(&mut value);
     own.copy_from_slice(&bytes[..size_of::<T>()]);
     if big != cfg!(target_endian = "big") {
         own.reverse();
     }
-    value
+    value.into()
 }
 
 /// Reads values that stand `stride` bytes apart, the first at the front of `bytes`.
 pub(super) fn read_all(kind: Type, big: bool, bytes: &[u8], stride: usize, out: &mut [f64]) {
     with_type!(kind, T => {
         for (i, x) in out.iter_mut().enumerate() {
-            *x = read::<T>(&bytes[i * stride..], big).into();
+            *x = read::<T>(&bytes[i * stride..], big);
         }
     });
 }

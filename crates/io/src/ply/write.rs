@@ -222,7 +222,9 @@ impl<'a> Element<'a> {
                 count,
             });
         } else {
-            names.iter().for_each(|name| self.scalar(form, name));
+            for name in &names {
+                self.scalar(form, name);
+            }
             let size = kind.size();
             self.fields.push(Field::Values { values, size, form });
         }
@@ -239,13 +241,9 @@ impl<'a> Element<'a> {
                 1 => word.to_owned(),
                 _ => format!("{word}_{number}"),
             };
-            let names: Vec<String> = match n {
-                1 => vec![base],
-                _ => {
-                    let axes = ["x", "y", "z", "w"].into_iter().take(n);
-                    axes.map(|axis| format!("{base}_{axis}")).collect()
-                }
-            };
+            let axes = ["_x", "_y", "_z", "_w"].into_iter().take(n);
+            let axes = axes.map(|axis| if n == 1 { "" } else { axis });
+            let names: Vec<String> = axes.map(|axis| format!("{base}{axis}")).collect();
             if names.iter().all(|name| !self.names.contains(name)) {
                 self.names.extend(names.iter().cloned());
                 return names;

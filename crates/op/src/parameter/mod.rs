@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 pub use number::{
     Angle, AngleBetween, ClosedFraction, Count, Distance, Fraction, Length, Levels, OutOfRange,
-    PositiveFactor, PositiveLength, Sharpness,
+    PositiveFactor, PositiveLength, Seconds, Sharpness,
 };
 pub use turn::Turn;
 pub use vector::{BadVector, Direction, Factors, Vector};

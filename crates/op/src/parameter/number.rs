@@ -159,6 +159,8 @@ numbers! {
     /// For how many levels of subdivision an edge or a vertex stays sharp: from 0 to 10, which is for ever.
     #[derive(Default)]
     Sharpness: Included(0.0), Included(10.0);
+    /// How long an animation takes, in seconds: from 0.1 to 600.
+    Seconds: Included(0.1), Included(600.0);
     /// A factor above 0.
     PositiveFactor: Excluded(0.0), Unbounded;
     /// How far to go in a direction, in scene units; below 0 the other way.

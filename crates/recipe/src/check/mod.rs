@@ -2,6 +2,7 @@
 
 mod attributes;
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use op::{Files, MeshPlan, Plan, PlanContext, PlannedGeometry, Problem, Range};
@@ -63,6 +64,7 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
     let mut plan = Plan::default();
     let mut attributes = Attributes::default();
     let mut over_budget = false;
+    let mut written = HashSet::new();
     let files = recipe.files(files);
     // The expectations come in the order of their steps, those of the end last.
     let mut expectations = recipe.expectations.iter().peekable();
@@ -70,7 +72,8 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
         let mut found = Vec::new();
         attributes.needs(step, &plan, &mut found);
         let before = attributes::certain(&plan);
-        plan_step(step, &mut plan, &files[step.scope], budget, &mut found);
+        let files_of = &files[step.scope];
+        plan_step(step, &mut plan, files_of, budget, &mut written, &mut found);
         attributes.losses(step, &before, &plan, &mut found);
         let bytes = plan.bytes();
         // Once: later steps only make it worse.
@@ -104,6 +107,7 @@ fn plan_step(
     plan: &mut Plan,
     files: &Files,
     budget: u64,
+    written: &mut HashSet<PathBuf>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     let Some(operation) = &step.step else {
@@ -134,13 +138,14 @@ fn plan_step(
     }
     let earlier = plan.outputs.len();
     let mut problems = operation.plan(plan, &cx);
-    let (earlier, new) = plan.outputs.split_at(earlier.min(plan.outputs.len()));
+    let new = plan.outputs.get(earlier..).unwrap_or_default();
     if problems.iter().all(|p| p.is_warning)
-        && let Some(twice) = new.iter().find(|path| earlier.contains(path))
+        && let Some(twice) = new.iter().find(|path| written.contains(*path))
     {
         let message = format!("an earlier step writes {} too", twice.display());
         problems.push(Problem::error(message));
     }
+    written.extend(new.iter().cloned());
     plan.incomplete |= problems.iter().any(|p| !p.is_warning);
     for problem in &problems {
         let path: Vec<PathItem> = problem

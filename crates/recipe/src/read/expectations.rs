@@ -1,6 +1,6 @@
 //! The expectations of a text.
 
-use super::{Draft, Reader};
+use super::Reader;
 use crate::expect::Expectation;
 use crate::recipe::Placed;
 use crate::schema;
@@ -8,14 +8,14 @@ use crate::shape::{check_shape, did_you_mean};
 use ron_tree::{Value, ValueKind};
 
 impl Reader<'_, '_> {
-    /// `Name(..)`, or `(after: "id", on: [..], that: Name(..) or a list of them)`. Puts it behind the steps
-    /// with that id, or returns it if it must hold at the end of the text.
-    pub(super) fn expectation(&mut self, written: &Value, drafts: &mut [Draft]) -> Vec<Placed> {
-        let Some(value) = self.filled(written) else {
-            return Vec::new();
-        };
+    /// `Name(..)`, or `(after: "id", on: [..], that: Name(..) or a list of them)`. Returns the id of the steps behind
+    /// which it must hold; `None` stands for the end of the text.
+    pub(super) fn expectation(&mut self, mut value: Value) -> (Option<String>, Vec<Placed>) {
+        if !self.fill(&mut value) {
+            return (None, Vec::new());
+        }
         if !matches!(value.kind, ValueKind::Struct(_) | ValueKind::Unit) {
-            return self.placed(&value, None).into_iter().collect();
+            return (None, self.placed(&value, None).into_iter().collect());
         }
         let wrong = check_shape(&value, &schema::expectation_envelope());
         self.diagnostics.extend(wrong);
@@ -23,32 +23,25 @@ impl Reader<'_, '_> {
             .field("after")
             .and_then(|id| Some((id.span, id.as_str()?)));
         if let Some((span, id)) = after
-            && !self.ids.iter().any(|known| known == id)
+            && !self.ids.contains(id)
         {
             let help = did_you_mean(id, self.ids.iter().map(String::as_str));
             self.error(span, format!("no step has the id \"{id}\""), help);
-            return Vec::new();
+            return (None, Vec::new());
         }
         let on = value.field("on").and_then(Value::items).map(|items| {
             let names = items.iter().filter_map(Value::as_str);
             names.map(str::to_owned).collect::<Vec<_>>()
         });
         let Some(that) = value.field("that") else {
-            return Vec::new();
+            return (None, Vec::new());
         };
         let items = that.items().unwrap_or(std::slice::from_ref(that));
-        let placed: Vec<Placed> = items
+        let placed = items
             .iter()
             .filter_map(|item| self.placed(item, on.clone()))
             .collect();
-        let Some((_, id)) = after else {
-            return placed;
-        };
-        // Each turn of a repetition has a step with the id, and a branch that is not taken has none.
-        for draft in drafts.iter_mut().filter(|d| d.ends.iter().any(|e| e == id)) {
-            draft.then.extend(placed.iter().cloned());
-        }
-        Vec::new()
+        (after.map(|(_, id)| id.to_owned()), placed)
     }
 
     fn placed(&mut self, value: &Value, on: Option<Vec<String>>) -> Option<Placed> {

@@ -14,7 +14,7 @@ use std::path::Path;
 
 use store::Store;
 
-use super::{Draft, MAX_STEPS, Reader, real};
+use super::{Draft, MAX_STEPS, Reader, real, take_items};
 use crate::params::{Move, Param};
 use crate::recipe::{Origin, Scope};
 use crate::schema;
@@ -63,17 +63,20 @@ pub(super) fn kind(written: &Value) -> Option<Kind> {
 
 impl Reader<'_, '_> {
     /// Does a step that holds steps.
-    pub(super) fn flow(&mut self, kind: Kind, written: &Value) -> Vec<Draft> {
-        let is_envelope = matches!(written.kind, ValueKind::Struct(_));
-        let run = written.field("run").filter(|_| is_envelope);
-        let bodies = ["steps", "otherwise"].map(|field| {
-            let body = run.unwrap_or(written).field(field);
-            body.and_then(Value::items).unwrap_or_default()
-        });
+    pub(super) fn flow(&mut self, kind: Kind, mut value: Value) -> Vec<Draft> {
+        let is_envelope = matches!(value.kind, ValueKind::Struct(_));
         // The steps inside are filled in one by one, as all steps are.
-        let Some(value) = self.filled(&without_bodies(written)) else {
-            return self.broken_step(written);
-        };
+        let bodies = ["steps", "otherwise"].map(|field| {
+            let run = if is_envelope {
+                value.field_mut("run")
+            } else {
+                Some(&mut value)
+            };
+            take_items(run.and_then(|run| run.field_mut(field)))
+        });
+        if !self.fill(&mut value) {
+            return vec![self.broken_step(value)];
+        }
         let before = self.diagnostics.len();
         let run = if is_envelope {
             let wrong = check_shape(&value, schema::step_envelope());
@@ -96,7 +99,10 @@ impl Reader<'_, '_> {
         let mut drafts = match kind {
             Kind::Call if is_whole => self.call(run, id.as_deref()),
             Kind::Call => Vec::new(),
-            Kind::Repeat => self.repeat(run, bodies[0]),
+            Kind::Repeat => {
+                let [body, _] = bodies;
+                self.repeat(run, body)
+            }
             Kind::If => self.choice(run, bodies, is_whole),
         };
         if let (Some(id), Some(last)) = (id, drafts.last_mut()) {
@@ -105,7 +111,7 @@ impl Reader<'_, '_> {
         drafts
     }
 
-    fn repeat(&mut self, run: &Value, body: &[Value]) -> Vec<Draft> {
+    fn repeat(&mut self, run: &Value, body: Vec<Value>) -> Vec<Draft> {
         let body = self.steps(body);
         let times = match run.field("times").map(|times| &times.kind) {
             Some(ValueKind::Number(number)) => number.to_int().unwrap_or(1),
@@ -131,13 +137,14 @@ impl Reader<'_, '_> {
         (1..=times).flat_map(turn).collect()
     }
 
-    fn choice(&mut self, run: &Value, bodies: [&[Value]; 2], is_whole: bool) -> Vec<Draft> {
+    fn choice(&mut self, run: &Value, bodies: [Vec<Value>; 2], is_whole: bool) -> Vec<Draft> {
+        let [then, otherwise] = bodies;
         // Both are read, so that a mistake is found in whichever is not taken.
         let known = self.ids.len();
-        let then = self.steps(bodies[0]);
+        let then = self.steps(then);
         // Only one of them is done, so that both may have a step of one id.
         let ids = self.ids.split_off(known);
-        let otherwise = self.steps(bodies[1]);
+        let otherwise = self.steps(otherwise);
         self.ids.extend(ids);
         match is_whole.then(|| self.holds(run)).flatten() {
             Some(false) => otherwise,
@@ -149,7 +156,7 @@ impl Reader<'_, '_> {
     fn holds(&mut self, run: &Value) -> Option<bool> {
         let at = run.field("param")?;
         let name = at.as_str()?;
-        self.used.push(name.to_owned());
+        self.used.insert(name.to_owned());
         if self.broken.iter().any(|b| b == name) {
             return None;
         }
@@ -189,7 +196,8 @@ impl Reader<'_, '_> {
             return Vec::new();
         };
         if self.shared.left < PRICE_OF_CALL {
-            return self.too_many(run, MAX_STEPS + 1);
+            self.too_many(run, MAX_STEPS + 1);
+            return Vec::new();
         }
         self.shared.left -= PRICE_OF_CALL;
         let scope = self.shared.scopes.len();
@@ -288,26 +296,4 @@ fn neighbours(store: &dyn Store, path: &Path) -> String {
         return String::new();
     }
     did_you_mean(&name, names.iter().map(String::as_str))
-}
-
-/// The step without the steps inside.
-fn without_bodies(written: &Value) -> Value {
-    let mut value = written.clone();
-    let is_envelope = matches!(value.kind, ValueKind::Struct(_));
-    let mut run = Some(&mut value);
-    if is_envelope {
-        run = run.and_then(|v| v.field_mut("run"));
-    }
-    if let Some(run) = run {
-        for field in ["steps", "otherwise"] {
-            if let Some(Value {
-                kind: ValueKind::List(items),
-                ..
-            }) = run.field_mut(field)
-            {
-                items.clear();
-            }
-        }
-    }
-    value
 }

@@ -13,8 +13,10 @@ mod steps;
 
 pub(crate) use flow::Kind;
 
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
+use indexmap::IndexSet;
 use op::Registry;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -146,6 +148,14 @@ struct Draft {
     then: Vec<Placed>,
 }
 
+/// The items of a list, which leaves it empty; none if it is no list.
+fn take_items(list: Option<&mut Value>) -> Vec<Value> {
+    match list.map(|list| &mut list.kind) {
+        Some(ValueKind::List(items)) => std::mem::take(items),
+        _ => Vec::new(),
+    }
+}
+
 /// Reads one text in one scope.
 struct Reader<'s, 'a> {
     shared: &'s mut Shared<'a>,
@@ -162,9 +172,11 @@ struct Reader<'s, 'a> {
     /// Parameters that are declared, but wrongly.
     broken: Vec<String>,
     /// Parameters that some `arg(..)` names.
-    used: Vec<String>,
+    used: HashSet<String>,
     /// The ids of steps.
-    ids: Vec<String>,
+    ids: IndexSet<String>,
+    /// Whether it was reported that there are too many steps.
+    is_over: bool,
 }
 
 impl<'s, 'a> Reader<'s, 'a> {
@@ -181,8 +193,9 @@ impl<'s, 'a> Reader<'s, 'a> {
             parameters: Vec::new(),
             presets: Vec::new(),
             broken: Vec::new(),
-            used: Vec::new(),
-            ids: Vec::new(),
+            used: HashSet::new(),
+            ids: IndexSet::new(),
+            is_over: false,
         }
     }
 
@@ -191,17 +204,17 @@ impl<'s, 'a> Reader<'s, 'a> {
     fn text(&mut self, values: impl FnOnce(&mut Self)) -> (Vec<Draft>, Vec<Placed>) {
         let text = self.source.text.clone();
         let parsed = ron_tree::parse(&text);
-        let root = &parsed.value;
+        let mut root = parsed.value;
         self.diagnostics.extend(parsed.diagnostics);
         let nothing = (Vec::new(), Vec::new());
         // The version is read before anything else is interpreted.
-        if !self.version(root) {
+        if !self.version(&root) {
             return nothing;
         }
         if matches!(root.kind, ValueKind::Error) && !self.diagnostics.is_empty() {
             return nothing;
         }
-        let wrong = check_shape(root, schema::envelope());
+        let wrong = check_shape(&root, schema::envelope());
         self.diagnostics.extend(wrong);
         self.about = root
             .field("about")
@@ -220,11 +233,25 @@ impl<'s, 'a> Reader<'s, 'a> {
         self.shared.scopes[self.scope]
             .parameters
             .clone_from(&self.parameters);
-        let items = |field| root.field(field).and_then(Value::items).unwrap_or_default();
-        let mut drafts = self.steps(items("steps"));
+        let mut drafts = self.steps(take_items(root.field_mut("steps")));
+        // Each turn of a repetition has a step with the id, and a branch that is not taken has none.
+        let mut ends: HashMap<String, Vec<usize>> = HashMap::new();
+        for (i, draft) in drafts.iter().enumerate() {
+            for id in &draft.ends {
+                ends.entry(id.clone()).or_default().push(i);
+            }
+        }
         let mut last = Vec::new();
-        for expectation in items("expect") {
-            last.extend(self.expectation(expectation, &mut drafts));
+        for expectation in take_items(root.field_mut("expect")) {
+            let (after, placed) = self.expectation(expectation);
+            match after {
+                None => last.extend(placed),
+                Some(id) => {
+                    for &i in ends.get(&id).into_iter().flatten() {
+                        drafts[i].then.extend(placed.iter().cloned());
+                    }
+                }
+            }
         }
         self.unused(root.field("params"));
         (drafts, last)

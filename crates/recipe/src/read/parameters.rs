@@ -143,14 +143,15 @@ impl Reader<'_, '_> {
             .with_help(did_you_mean(name, known))
     }
 
-    /// Fills parameters in.
-    pub(super) fn filled(&mut self, value: &Value) -> Option<Value> {
+    /// Fills parameters in. Returns whether all of them have values.
+    pub(super) fn fill(&mut self, value: &mut Value) -> bool {
         let mut used = Vec::new();
         // The declarations of these were reported already.
         let mut reported = Vec::new();
-        let mut value = value.clone();
         let resolve = |name: &str, span: Span| {
-            used.push(name.to_owned());
+            if !self.used.contains(name) {
+                used.push(name.to_owned());
+            }
             if self.broken.iter().any(|b| b == name) {
                 reported.push(span);
             }
@@ -159,12 +160,12 @@ impl Reader<'_, '_> {
                 .map(|p| p.value.clone())
                 .ok_or_else(|| Box::new(self.unknown(name, span)))
         };
-        let mut wrong = substitute(&mut value, resolve);
+        let mut wrong = substitute(value, resolve);
         self.used.extend(used);
         let is_whole = wrong.is_empty();
         wrong.retain(|d| d.span.is_none_or(|span| !reported.contains(&span)));
         self.diagnostics.extend(wrong);
-        is_whole.then_some(value)
+        is_whole
     }
 
     /// Warns of parameters that neither an `arg(..)`, an `If` nor a placeholder in a path names. Says
@@ -176,7 +177,7 @@ impl Reader<'_, '_> {
         }
         for (key, _) in entries(params) {
             if let Some(name) = key.as_str()
-                && !self.used.iter().any(|used| used == name)
+                && !self.used.contains(name)
                 && !self.source.text.contains(&format!("{{{name}."))
             {
                 let message = format!("the parameter `{name}` is never used");

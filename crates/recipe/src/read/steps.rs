@@ -10,39 +10,41 @@ use crate::recipe::{OnLoss, RecipeStep};
 use crate::schema;
 use crate::shape::{check_shape, check_step, did_you_mean, unread};
 use crate::upgrade::{self, Rename};
-use ron_tree::{Diagnostic, Value, ValueKind};
+use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 impl Reader<'_, '_> {
     /// Reads a list of steps.
-    pub(super) fn steps(&mut self, items: &[Value]) -> Vec<Draft> {
+    pub(super) fn steps(&mut self, items: Vec<Value>) -> Vec<Draft> {
         let mut drafts = Vec::new();
         for item in items {
-            let step = self.step(item);
-            drafts.extend(step);
+            if let Some(kind) = flow::kind(&item) {
+                let steps = self.flow(kind, item);
+                drafts.extend(steps);
+            } else if self.shared.left == 0 {
+                // Nothing more is said of the others.
+                self.too_many(&item, MAX_STEPS + 1);
+                break;
+            } else {
+                self.shared.left -= 1;
+                drafts.push(self.step(item));
+            }
         }
         drafts
     }
 
     /// `Name(..)`, or `(id: .., run: Name(..), ..)`.
-    fn step(&mut self, written: &Value) -> Vec<Draft> {
-        let is_envelope = matches!(written.kind, ValueKind::Struct(_) | ValueKind::Unit);
-        if let Some(kind) = flow::kind(written) {
-            return self.flow(kind, written);
+    fn step(&mut self, mut value: Value) -> Draft {
+        let is_envelope = matches!(value.kind, ValueKind::Struct(_) | ValueKind::Unit);
+        if !self.fill(&mut value) {
+            return self.broken_step(value);
         }
-        if self.shared.left == 0 {
-            return self.too_many(written, MAX_STEPS + 1);
-        }
-        self.shared.left -= 1;
-        let Some(value) = self.filled(written) else {
-            return self.broken_step(written);
-        };
         let before = self.diagnostics.len();
         let mut run = &value;
         if is_envelope {
             let wrong = check_shape(&value, schema::step_envelope());
             self.diagnostics.extend(wrong);
             let Some(inner) = value.field("run") else {
-                return self.broken_step(&value);
+                return self.broken_step(value);
             };
             run = inner;
         }
@@ -52,7 +54,7 @@ impl Reader<'_, '_> {
                 let message = format!("expected an operation, found {}", run.describe());
                 self.error(run.span, message, "");
             }
-            return self.broken_step(&value);
+            return self.broken_step(value);
         };
         let envelope = |field: &str| value.field(field).filter(|_| is_envelope);
         let id = self.id(envelope("id"));
@@ -80,15 +82,14 @@ impl Reader<'_, '_> {
         let refused = envelope("refused").and_then(|reason| Refusal::deserialize(reason).ok());
         let on_loss = envelope("on_loss").and_then(|on_loss| OnLoss::deserialize(on_loss).ok());
         // The name keys random choices: an older one must not make others.
-        let name = entry.as_ref().map_or(name, |entry| entry.name);
-        let step = RecipeStep {
+        let name = entry.as_ref().map_or(name, |entry| entry.name).to_owned();
+        Draft::new(RecipeStep {
             step,
             on,
             refused,
             on_loss: on_loss.unwrap_or_else(|| self.on_loss.clone()),
-            ..self.bare_step(id, name, run, span)
-        };
-        vec![Draft::new(step)]
+            ..self.bare_step(id, name, run_of(value), span)
+        })
     }
 
     fn operation(&mut self, entry: &Entry, run: &Value) -> Option<Arc<dyn Step>> {
@@ -98,9 +99,10 @@ impl Reader<'_, '_> {
             self.diagnostics.extend(checked.wrong);
             return None;
         }
-        let renames = upgrade::in_step(run, entry, &schema);
+        let parsed = entry.parse(&checked.in_full(run));
+        let renames = upgrade::in_step(run, entry, checked);
         self.diagnostics.extend(renames.iter().map(Rename::warning));
-        match entry.parse(&checked.in_full(run)) {
+        match parsed {
             Ok(step) => Some(step.into()),
             Err(error) => {
                 let mut wrong = unread(run.span, error);
@@ -112,26 +114,21 @@ impl Reader<'_, '_> {
     }
 
     /// A step that could not be read keeps its place in the list, and its id.
-    pub(super) fn broken_step(&mut self, written: &Value) -> Vec<Draft> {
-        let run = written.field("run").unwrap_or(written);
+    pub(super) fn broken_step(&mut self, written: Value) -> Draft {
+        let run = written.field("run").unwrap_or(&written);
         let (name, span) = run.name().unwrap_or(("?", written.span));
+        let name = name.to_owned();
         let id = written.field("id").and_then(Value::as_str);
         let id = id.map(str::to_owned);
         self.ids.extend(id.clone());
-        vec![Draft::new(self.bare_step(id, name, run, span))]
+        Draft::new(self.bare_step(id, name, run_of(written), span))
     }
 
-    fn bare_step(
-        &self,
-        id: Option<String>,
-        name: &str,
-        run: &Value,
-        span: crate::Span,
-    ) -> RecipeStep {
-        let label = format!("{}{}", self.prefix, id.as_deref().unwrap_or(name));
+    fn bare_step(&self, id: Option<String>, name: String, value: Value, span: Span) -> RecipeStep {
+        let label = format!("{}{}", self.prefix, id.as_ref().unwrap_or(&name));
         RecipeStep {
             id,
-            name: name.to_owned(),
+            name,
             label: label.clone(),
             step: None,
             on: None,
@@ -139,7 +136,7 @@ impl Reader<'_, '_> {
             on_loss: self.on_loss.clone(),
             scope: self.scope,
             span,
-            value: run.clone(),
+            value,
             turns: Vec::new(),
             stem: label,
         }
@@ -148,24 +145,30 @@ impl Reader<'_, '_> {
     /// Takes the id of a step, which no step before it may have.
     pub(super) fn id(&mut self, id: Option<&Value>) -> Option<String> {
         let (value, text) = id.and_then(|id| Some((id, id.as_str()?)))?;
-        if self.ids.iter().any(|known| known == text) {
+        if !self.ids.insert(text.to_owned()) {
             let message = format!("two steps have the id \"{text}\"");
             self.diagnostics
                 .push(Diagnostic::error(value.span, message));
         }
-        self.ids.push(text.to_owned());
         Some(text.to_owned())
     }
 
     /// Refuses a recipe of too many steps, once.
-    pub(super) fn too_many(&mut self, at: &Value, n: usize) -> Vec<Draft> {
-        let message = format!("the recipe has {n} steps or more, expected at most {MAX_STEPS}");
-        let told = |d: &Diagnostic| d.message.ends_with(&format!("at most {MAX_STEPS}"));
-        if !self.diagnostics.iter().any(told) {
+    pub(super) fn too_many(&mut self, at: &Value, n: usize) {
+        if !std::mem::replace(&mut self.is_over, true) {
+            let message = format!("the recipe has {n} steps or more, expected at most {MAX_STEPS}");
             let span = at.name().map_or(at.span, |(_, span)| span);
             self.error(span, message, "");
         }
-        Vec::new()
+    }
+}
+
+/// The operation of a step, without what stands around it.
+fn run_of(mut written: Value) -> Value {
+    let is_envelope = matches!(written.kind, ValueKind::Struct(_));
+    match written.field_mut("run").filter(|_| is_envelope) {
+        Some(run) => std::mem::replace(run, Value::new(run.span, ValueKind::Unit)),
+        None => written,
     }
 }
 

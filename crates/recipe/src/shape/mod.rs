@@ -32,7 +32,7 @@ pub(crate) use shorthand::Checked;
 
 use crate::upgrade::Rename;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
-use schema::Schema;
+pub(crate) use schema::Schema;
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use shorthand::Short;
@@ -45,7 +45,8 @@ pub fn check_shape(value: &Value, schema: &Json) -> Vec<Diagnostic> {
     checked(value, schema).wrong
 }
 
-fn checked(value: &Value, schema: &Json) -> Checked {
+/// What comes of holding a value against a schema.
+pub(crate) fn checked(value: &Value, schema: &Json) -> Checked {
     let mut checker = Checker::default();
     checker.check(value, &Schema::root(schema), Place::default());
     checker.finish()
@@ -100,24 +101,6 @@ pub(crate) fn check_step(step: &Value, schema: &Json) -> Checked {
         _ => checker.check(step, &schema, place),
     }
     checker.finish()
-}
-
-/// The older names of fields and variants in a value that has the shape of `schema`, in the order of the
-/// text: those that the schema lists as `aliases`.
-pub(crate) fn renames(value: &Value, schema: &Json) -> Vec<Rename> {
-    let mut checker = Checker::default();
-    checker.check(value, &Schema::root(schema), Place::default());
-    checker.renames()
-}
-
-/// The same for a step, as [`check_step`].
-pub(crate) fn step_renames(step: &Value, schema: &Json) -> Vec<Rename> {
-    let mut checker = Checker::default();
-    if let ValueKind::Call(call) = &step.kind {
-        let place = Place::named(&call.name.text);
-        checker.check_struct(&call.body, &Schema::root(schema), place, call.name.span);
-    }
-    checker.renames()
 }
 
 /// Where a value stands, for messages.
@@ -184,6 +167,7 @@ const MAX_TRIALS: u32 = 4;
 
 impl Checker {
     fn finish(mut self) -> Checked {
+        self.renames.sort_by_key(|rename| rename.span);
         self.diagnostics.sort_by_key(|d| d.span);
         if let (1.., Some(last)) = (self.more, self.diagnostics.last().and_then(|d| d.span)) {
             let message = format!("and {} more errors like these", self.more);
@@ -191,13 +175,9 @@ impl Checker {
         }
         Checked {
             wrong: self.diagnostics,
+            renames: self.renames,
             shorts: self.shorts,
         }
-    }
-
-    fn renames(mut self) -> Vec<Rename> {
-        self.renames.sort_by_key(|rename| rename.span);
-        self.renames
     }
 
     /// Notes an older name, unless a parameter of the recipe brought it.

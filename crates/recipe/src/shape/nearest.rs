@@ -18,16 +18,42 @@ pub fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) ->
         .into_iter()
         .filter_map(|candidate| {
             let known = plain(candidate);
-            let slips = strsim::damerau_levenshtein(&sought, &known);
             let begins =
                 sought.len() >= 3 && (known.starts_with(&sought) || sought.starts_with(&known));
             let allowed = known.chars().count().max(3) / 3;
+            if !begins && least_slips(&sought, &known) > allowed {
+                return None;
+            }
+            let slips = strsim::damerau_levenshtein(&sought, &known);
             (slips <= allowed || begins).then_some((slips, candidate))
         })
         .collect();
     near.sort_unstable();
     near.truncate(3);
     near.into_iter().map(|(_, candidate)| candidate).collect()
+}
+
+/// At least so many slips lie between two names: the letters that one has and the other lacks. Quick, as most
+/// names are far from each other.
+fn least_slips(a: &str, b: &str) -> usize {
+    let mut surplus = [0_isize; 32];
+    a.bytes()
+        .for_each(|byte| surplus[usize::from(byte % 32)] += 1);
+    b.bytes()
+        .for_each(|byte| surplus[usize::from(byte % 32)] -= 1);
+    let only = |sign: isize| {
+        surplus
+            .iter()
+            .map(|n| (sign * n).max(0).unsigned_abs())
+            .sum::<usize>()
+    };
+    let bytes = only(1).max(only(-1));
+    // One letter can have four bytes.
+    if a.is_ascii() && b.is_ascii() {
+        bytes
+    } else {
+        bytes / 4
+    }
 }
 
 /// Advice on an unknown name: the nearest of the known ones, or all of them if none is near.

@@ -5,7 +5,7 @@ use serde_json::{Map, Value as Json};
 
 /// A schema, with what it refers to.
 #[derive(Clone, Debug)]
-pub(super) struct Schema<'s> {
+pub(crate) struct Schema<'s> {
     root: &'s Json,
     /// The schema and those that it takes in by `$ref` and `allOf`: a value fits all of them.
     layers: Vec<&'s Map<String, Json>>,
@@ -35,7 +35,7 @@ pub(super) struct Choice<'s> {
 const MAX_LAYERS: usize = 32;
 
 impl<'s> Schema<'s> {
-    pub(super) fn root(root: &'s Json) -> Self {
+    pub(crate) fn root(root: &'s Json) -> Self {
         let mut schema = Self::new(root, root);
         schema.name = schema.text("title");
         schema
@@ -94,13 +94,42 @@ impl<'s> Schema<'s> {
     }
 
     /// The numbers of a keyword in all layers.
-    pub(super) fn numbers(&self, keyword: &str) -> impl Iterator<Item = &'s serde_json::Number> {
+    pub(crate) fn numbers(&self, keyword: &str) -> impl Iterator<Item = &'s serde_json::Number> {
         self.all(keyword).filter_map(Json::as_number)
     }
 
     /// A number of things.
     pub(super) fn count(&self, keyword: &str) -> Option<u64> {
         self.all(keyword).find_map(Json::as_u64)
+    }
+
+    /// What the schema itself says, before all that it refers to.
+    pub(crate) fn own(&self, keyword: &str) -> Option<&'s Json> {
+        self.layers.first()?.get(keyword)
+    }
+
+    /// What the value is for; empty if that is not said.
+    pub(crate) fn doc(&self) -> String {
+        let doc = self.own("description").and_then(Json::as_str);
+        doc.unwrap_or_default().to_owned()
+    }
+
+    /// The name of the type, if the schema refers to it.
+    pub(crate) fn reference(&self) -> Option<&'s str> {
+        self.name.filter(|_| self.is_reference)
+    }
+
+    /// The types that have a name.
+    pub(crate) fn definitions(&self) -> impl Iterator<Item = (&'s str, Self)> {
+        let (root, all) = (self.root, self.own("$defs").and_then(Json::as_object));
+        let definitions = all.into_iter().flatten();
+        definitions.map(move |(name, json)| (name.as_str(), Self::new(root, json)))
+    }
+
+    /// The schemas in the list of a keyword.
+    pub(crate) fn list(&self, keyword: &str) -> Vec<Self> {
+        let items = self.all(keyword).filter_map(Json::as_array).flatten();
+        items.map(|item| Self::new(self.root, item)).collect()
     }
 
     pub(super) fn format(&self) -> Option<&'s str> {
@@ -111,7 +140,7 @@ impl<'s> Schema<'s> {
         self.name
     }
 
-    pub(super) fn child(&self, keyword: &str) -> Option<Self> {
+    pub(crate) fn child(&self, keyword: &str) -> Option<Self> {
         self.all(keyword)
             .next()
             .map(|json| Self::new(self.root, json))
@@ -122,7 +151,7 @@ impl<'s> Schema<'s> {
     }
 
     /// The types that are allowed, without null if there is another; none for any.
-    pub(super) fn types(&self) -> Vec<&'s str> {
+    pub(crate) fn types(&self) -> Vec<&'s str> {
         let mut types: Vec<&str> = match self.all("type").next() {
             Some(Json::String(name)) => vec![name],
             Some(Json::Array(names)) => names.iter().filter_map(Json::as_str).collect(),
@@ -195,28 +224,26 @@ impl<'s> Schema<'s> {
 
     /// Adds the names of `enum` and `const`, if the schema is one of a text that is one of these.
     fn add_units(&self, choice: &mut Choice<'s>) -> bool {
-        if !self.types().iter().all(|&name| name == "string") {
-            return false;
-        }
-        let names = self
-            .all("enum")
-            .filter_map(Json::as_array)
-            .flatten()
-            .chain(self.all("const"));
         let before = choice.units.len();
-        choice.units.extend(names.filter_map(Json::as_str));
+        choice.units.extend(self.units());
         choice.units.len() > before
     }
 
+    /// The names of `enum` and `const`, if the schema is of a text that is one of these.
+    pub(crate) fn units(&self) -> Vec<&'s str> {
+        if !self.types().iter().all(|&name| name == "string") {
+            return Vec::new();
+        }
+        let lists = self.all("enum").filter_map(Json::as_array).flatten();
+        let names = lists.chain(self.all("const"));
+        names.filter_map(Json::as_str).collect()
+    }
+
     /// The schemas of the items, if the array has a fixed number of them.
-    pub(super) fn tuple(&self) -> Option<Vec<Self>> {
-        if let Some(items) = self.all("prefixItems").find_map(Json::as_array) {
-            return Some(
-                items
-                    .iter()
-                    .map(|item| Self::new(self.root, item))
-                    .collect(),
-            );
+    pub(crate) fn tuple(&self) -> Option<Vec<Self>> {
+        let items = self.list("prefixItems");
+        if !items.is_empty() {
+            return Some(items);
         }
         let most = self.count("maxItems")?;
         if most == 0 {
@@ -273,14 +300,14 @@ impl<'s> Schema<'s> {
     }
 
     /// The names of the fields of a struct.
-    pub(super) fn fields(&self) -> impl Iterator<Item = &'s str> {
+    pub(crate) fn fields(&self) -> impl Iterator<Item = &'s str> {
         self.all("properties")
             .filter_map(Json::as_object)
             .flatten()
             .map(|(name, _)| name.as_str())
     }
 
-    pub(super) fn field(&self, name: &str) -> Option<Self> {
+    pub(crate) fn field(&self, name: &str) -> Option<Self> {
         let mut found = self.all("properties").filter_map(|fields| fields.get(name));
         found.next().map(|json| Self::new(self.root, json))
     }
@@ -302,7 +329,7 @@ impl<'s> Schema<'s> {
     }
 
     /// The fields that must be given.
-    pub(super) fn required(&self) -> impl Iterator<Item = &'s str> {
+    pub(crate) fn required(&self) -> impl Iterator<Item = &'s str> {
         self.all("required")
             .filter_map(Json::as_array)
             .flatten()

@@ -11,6 +11,7 @@ use std::cmp::Reverse;
 
 use super::schema::{Choice, Schema};
 use super::{Checker, MAX_TRIALS, Place, did_you_mean};
+use crate::upgrade::Rename;
 use ron_tree::{Call, Diagnostic, Name, Span, Value, ValueKind};
 
 /// A value whose outer name was left out.
@@ -125,6 +126,8 @@ impl Checker {
 pub(crate) struct Checked {
     /// What is wrong.
     pub(crate) wrong: Vec<Diagnostic>,
+    /// The older names of fields and variants, in the order of the text: those that the schema lists as `aliases`.
+    pub(crate) renames: Vec<Rename>,
     pub(super) shorts: Vec<Short>,
 }
 

@@ -470,3 +470,30 @@ fn problems_come_in_the_order_of_the_text() {
     let errors = |d: &crate::Diagnostic| d.severity == Severity::Error;
     assert!(reading.diagnostics.iter().all(errors));
 }
+
+#[test]
+fn every_mistake_of_a_long_recipe_is_found() {
+    let n = 20_000;
+    let step = |i| format!("(id: \"s{i}\", run: Lift(bye: 1)),\n");
+    let expectations: String = (0..n)
+        .map(|i| format!("(after: \"s{i}\", that: Closed),"))
+        .collect();
+    let list: String = (0..n).map(step).collect();
+    let reading = read(&format!(
+        "(recipe: 1, steps: [{list}], expect: [{expectations}])"
+    ));
+
+    assert_eq!(
+        reading.diagnostics.len(),
+        2 * n,
+        "an unknown field and a missing one in each"
+    );
+    assert_eq!(reading.recipe.steps.len(), n);
+    let after: Vec<_> = reading
+        .recipe
+        .expectations
+        .iter()
+        .map(|placed| placed.after)
+        .collect();
+    assert_eq!(after, (0..n).map(Some).collect::<Vec<_>>());
+}

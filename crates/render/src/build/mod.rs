@@ -173,7 +173,7 @@ pub fn extent(scene: &Scene) -> Option<(DVec3, f64)> {
     let mut corners: Vec<DVec3> = Vec::new();
     for object in scene.objects() {
         match &object.geometry {
-            Geometry::Mesh(mesh) => corners.extend(geometry::bounds(&mesh).into_iter().flatten()),
+            Geometry::Mesh(mesh) => corners.extend(geometry::bounds(mesh).into_iter().flatten()),
             Geometry::Patches(patches) => {
                 corners.extend(patches.iter().flat_map(|p| p.points().as_flattened()));
             }

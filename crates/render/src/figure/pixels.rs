@@ -222,7 +222,7 @@ fn outline(shape: &Shape) -> Option<Path> {
             let [x, y, r] = [center.x, center.y, *radius].map(narrow);
             // A quarter of a circle is as good as a cubic curve whose tangents have this share of the radius:
             // 4 / 3 * tan(pi / 8).
-            let k = r * 0.552_284_75;
+            let k = r * 0.552_284_8;
             path.move_to(x + r, y);
             path.cubic_to(x + r, y + k, x + k, y + r, x, y + r);
             path.cubic_to(x - k, y + r, x - r, y + k, x - r, y);

@@ -179,10 +179,6 @@ fn wrong_parameters_are_problems_before_anything_runs() {
             "expected a camera that looks from one point to another, found no direction",
         ),
         (
-            "path: \"a.png\", turntable: (frames: 1)",
-            "expected 2 to 720 images, found 1",
-        ),
-        (
             "path: \"a.png\", color_by: (of: Attribute(name: \"heat\"))",
             "no mesh has an attribute \"heat\" here",
         ),

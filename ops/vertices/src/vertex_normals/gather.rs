@@ -107,7 +107,7 @@ fn area_vector(mesh: &Mesh, f: FaceId, scale: f64) -> DVec3 {
 /// The power of two that brings the extent of the mesh near 1. Multiplying by it rounds nothing, so
 /// normals do not depend on it, but products of lengths neither overflow nor vanish.
 fn scale(mesh: &Mesh) -> f64 {
-    let [min, max] = geometry::bounds(&mesh).unwrap_or_default();
+    let [min, max] = geometry::bounds(mesh).unwrap_or_default();
     // Halves first: the difference of two finite numbers may be infinite.
     let extent = (0.5 * max - 0.5 * min).max_element();
     if extent == 0.0 {

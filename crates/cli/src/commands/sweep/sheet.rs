@@ -89,9 +89,13 @@ impl<'a> Sheet<'a> {
     /// The size of the image of each cell.
     fn cell_size(&self) -> [u32; 2] {
         let views = self.picture.views.len().max(1);
-        let columns = self.picture.columns.map_or(4, |n| n as usize).min(views);
+        let columns = self
+            .picture
+            .columns
+            .map_or(4, |n| n.get() as usize)
+            .min(views);
         let of = |side: u32, n: usize| side.saturating_mul(u32::try_from(n).unwrap_or(u32::MAX));
-        let [width, height] = self.picture.size;
+        let [width, height] = self.picture.size.map(op::Count::get);
         [of(width, columns), of(height, views.div_ceil(columns))]
     }
 

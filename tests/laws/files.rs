@@ -1,0 +1,63 @@
+//! No crate below the program touches files or clocks by itself: it must run where there are none.
+
+use std::path::{Path, PathBuf};
+
+use super::{assert_none, root};
+
+/// The crates that may: the program, the store, the step cache on the disk, and benchmarks.
+const MAY: [&str; 4] = ["benches", "cache", "cli", "store"];
+
+/// What gives it away.
+const WORDS: [&str; 13] = [
+    "std::fs",
+    "File::open",
+    "File::create",
+    "OpenOptions",
+    "read_dir",
+    "tempfile::",
+    ".canonicalize()",
+    ".exists()",
+    ".is_dir()",
+    ".is_symlink()",
+    ".metadata()",
+    "std::time::Instant",
+    "SystemTime",
+];
+
+#[test]
+fn files_go_through_the_store() {
+    let mut found = Vec::new();
+    for folder in ["crates", "ops"].map(|name| root().join(name)) {
+        for package in entries(&folder) {
+            if !MAY.iter().any(|name| package.ends_with(name)) {
+                search(&package.join("src"), &mut found);
+            }
+        }
+    }
+    assert_none(&found);
+}
+
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| entry.path()).collect()
+}
+
+fn search(folder: &Path, found: &mut Vec<String>) {
+    for path in entries(folder) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if path.is_dir() && name != "tests" {
+            search(&path, found);
+        } else if name.ends_with(".rs") && !["tests.rs", "testing.rs"].contains(&&*name) {
+            let text = std::fs::read_to_string(&path).unwrap_or_default();
+            // The tests of a file stand at its end.
+            let code = text.split("#[cfg(test)]\nmod tests {").next();
+            for (i, line) in code.unwrap_or_default().lines().enumerate() {
+                let is_comment = line.trim_start().starts_with("//");
+                if !is_comment && let Some(word) = WORDS.iter().find(|word| line.contains(**word)) {
+                    let place = path.display();
+                    found.push(format!("{place}:{}: `{word}`, not the store", i + 1));
+                }
+            }
+        }
+    }
+}

@@ -160,17 +160,17 @@ fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
                 histogram(&degrees, "corners")
             ),
         ),
-        ("valences", histogram(&geometry::valences(&mesh), "edges")),
+        ("valences", histogram(&geometry::valences(mesh), "edges")),
         ("closed", closed),
-        ("components", count(geometry::n_components(&mesh))),
+        ("components", count(geometry::n_components(mesh))),
         ("Euler char.", mesh.euler_characteristic().to_string()),
-        ("genus", geometry::genus(&mesh).to_string()),
-        ("area", geometry::area(&mesh).to_string()),
+        ("genus", geometry::genus(mesh).to_string()),
+        ("area", geometry::area(mesh).to_string()),
     ];
     if loops == 0 {
-        facts.push(("volume", geometry::volume(&mesh).to_string()));
+        facts.push(("volume", geometry::volume(mesh).to_string()));
     }
-    if let Some([min, max]) = geometry::bounds(&mesh) {
+    if let Some([min, max]) = geometry::bounds(mesh) {
         facts.push(("bounds", format!("{min} to {max}")));
     }
     let isolated = mesh.n_isolated_vertices();

@@ -49,7 +49,7 @@ pub(crate) fn levels(scheme: Scheme, levels: u32, mesh: &Mesh) -> Mesh {
 pub(crate) fn kind(mesh: &Mesh) -> (i64, usize, usize, usize) {
     (
         mesh.euler_characteristic(),
-        geometry::n_components(&mesh),
+        geometry::n_components(mesh),
         mesh.n_boundary_loops(),
         mesh.n_isolated_vertices(),
     )
@@ -66,7 +66,7 @@ pub(crate) fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
 
 /// Whether `v` is one of the four corners of a sheet.
 pub(crate) fn is_corner(mesh: &Mesh, v: VertexId) -> bool {
-    let [min, max] = geometry::bounds(&mesh).unwrap();
+    let [min, max] = geometry::bounds(mesh).unwrap();
     let p = mesh.position(v);
     (p.x == min.x || p.x == max.x) && (p.y == min.y || p.y == max.y)
 }

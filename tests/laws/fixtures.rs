@@ -238,7 +238,7 @@ fn the_fixtures_have_what_they_are_for() {
     };
     assert_eq!(mesh("bow-tie vertex").n_vertices(), 6);
     assert_eq!(mesh("two cubes at one vertex").n_vertices(), 16);
-    assert_eq!(geometry::n_components(&mesh("two components")), 2);
+    assert_eq!(geometry::n_components(mesh("two components")), 2);
     assert_eq!(mesh("isolated vertices").n_isolated_vertices(), 2);
     for name in ["squares with attributes", "triangles with attributes"] {
         let mesh = mesh(name);

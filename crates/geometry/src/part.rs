@@ -262,11 +262,11 @@ mod tests {
         let mut materials = Vec::new();
         for (part, shape) in parts.iter().zip(&shapes) {
             assert_eq!(part.defects(), []);
-            assert_eq!(n_components(&part), 1);
+            assert_eq!(n_components(part), 1);
             assert_eq!(part.n_vertices(), shape.n_vertices());
             assert_eq!(part.n_edges(), shape.n_edges());
             assert_eq!(part.n_faces(), shape.n_faces());
-            assert!((area(&part) - area(&shape)).abs() < 1e-9);
+            assert!((area(part) - area(shape)).abs() < 1e-9);
             assert_eq!(part.n_boundary_loops(), shape.n_boundary_loops());
             // Nothing was cut, so nothing is dropped.
             assert_eq!(part.attributes().iter().count(), 4);
@@ -340,7 +340,7 @@ mod tests {
         let color: Vec<usize> = (0..25).map(|f| f % 2).collect();
         for (part, n) in parts(&board, &color).iter().zip([13, 12]) {
             assert_eq!(part.defects(), []);
-            assert_eq!((part.n_faces(), n_components(&part)), (n, n));
+            assert_eq!((part.n_faces(), n_components(part)), (n, n));
             assert_eq!((part.n_vertices(), part.n_edges()), (4 * n, 4 * n));
         }
         let sphere = shapes::uv_sphere(8, 5);

@@ -305,7 +305,7 @@ fn number(text: &str) -> Result<f64, ParamError> {
         .ok_or_else(|| ParamError::new("a number", &format!("`{text}`")))
 }
 
-fn within<T: PartialOrd + ToString>(
+fn within<T: Copy + PartialOrd + ToString>(
     value: T,
     min: Option<T>,
     max: Option<T>,

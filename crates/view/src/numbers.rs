@@ -198,8 +198,8 @@ impl Quantity {
                 let values = all.map(|e| angle(e).map_or(f64::NAN, f64::to_degrees));
                 (Domain::Edge, values.collect())
             }
-            Self::MeanCurvature => (Domain::Vertex, geometry::mean_curvatures(&mesh)),
-            Self::GaussianCurvature => (Domain::Vertex, geometry::gaussian_curvatures(&mesh)),
+            Self::MeanCurvature => (Domain::Vertex, geometry::mean_curvatures(mesh)),
+            Self::GaussianCurvature => (Domain::Vertex, geometry::gaussian_curvatures(mesh)),
             Self::Attribute { name, component } => attribute(mesh, name, *component)?,
             Self::DistanceTo(_) => {
                 let mut least = vec![f64::NAN; mesh.domain_len(Domain::Vertex)];

@@ -20,11 +20,11 @@ fn cut(before: &Mesh, point: DVec3, normal: DVec3) -> (Mesh, Bisection) {
     assert_eq!(mesh, after);
 
     assert_eq!(mesh.euler_characteristic(), before.euler_characteristic());
-    assert_eq!(n_components(&mesh), n_components(&before));
+    assert_eq!(n_components(&mesh), n_components(before));
     assert_eq!(mesh.n_boundary_loops(), before.n_boundary_loops());
     assert_eq!(cut.front.len() + cut.back.len(), mesh.n_faces());
     assert!(cut.edges.is_sorted());
-    let near = 2e-9 * bounds(&before).map_or(0.0, |[min, max]| (max - min).max_element());
+    let near = 2e-9 * bounds(before).map_or(0.0, |[min, max]| (max - min).max_element());
     let height = |v: VertexId| (mesh.position(v) - point).dot(normal.normalize());
     for (faces, sign) in [(&cut.front, 1.0), (&cut.back, -1.0)] {
         for &f in faces {

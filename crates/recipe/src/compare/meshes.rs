@@ -105,11 +105,11 @@ impl Counts {
             vertices: mesh.n_vertices(),
             edges: mesh.n_edges(),
             faces: mesh.n_faces(),
-            components: geometry::n_components(&mesh),
+            components: geometry::n_components(mesh),
             boundary_loops: mesh.n_boundary_loops(),
-            area: geometry::area(&mesh),
-            volume: geometry::volume(&mesh),
-            bounds: geometry::bounds(&mesh),
+            area: geometry::area(mesh),
+            volume: geometry::volume(mesh),
+            bounds: geometry::bounds(mesh),
         }
     }
 }

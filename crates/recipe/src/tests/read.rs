@@ -475,9 +475,8 @@ fn problems_come_in_the_order_of_the_text() {
 fn every_mistake_of_a_long_recipe_is_found() {
     let n = 20_000;
     let step = |i| format!("(id: \"s{i}\", run: Lift(bye: 1)),\n");
-    let expectations: String = (0..n)
-        .map(|i| format!("(after: \"s{i}\", that: Closed),"))
-        .collect();
+    let expectation = |i| format!("(after: \"s{i}\", that: Closed),");
+    let expectations: String = (0..n).map(expectation).collect();
     let list: String = (0..n).map(step).collect();
     let reading = read(&format!(
         "(recipe: 1, steps: [{list}], expect: [{expectations}])"

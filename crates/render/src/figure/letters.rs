@@ -370,7 +370,7 @@ mod tests {
         // A fraktur letter is in one font of formulas only, and formulas keep to their font.
         let fraktur = '\u{211c}';
         let (face, glyph) = Typeface::of(Font::Title, fraktur);
-        assert!(std::ptr::eq(face, &FACES[3]) && glyph != GlyphId(0));
+        assert!(std::ptr::eq(face, &raw const FACES[3]) && glyph != GlyphId(0));
         assert_eq!(Typeface::of(Font::Letter, fraktur).1, GlyphId(0));
         assert_eq!(width(Font::Plain, "\u{200b}\u{feff}"), 0.0);
     }

@@ -10,6 +10,7 @@ use crate::{Lexer, from_str, parse};
 /// Every shape that a parameter can have.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
+#[expect(clippy::option_option, reason = "`ron` reads it, and so must the tree")]
 struct Shapes {
     flag: bool,
     small: (i8, u8),

@@ -30,12 +30,12 @@ fn check(before: &Mesh, after: &Mesh, new: FaceId, [vertices, edges]: [usize; 2]
     let [v, e, f] = counts(before);
     assert_eq!(counts(after), [v + n - vertices, e + n - edges, f + 1]);
     assert_eq!(
-        crate::geometry::genus(&after),
-        crate::geometry::genus(&before)
+        crate::geometry::genus(after),
+        crate::geometry::genus(before)
     );
     assert_eq!(
-        crate::geometry::n_components(&after),
-        crate::geometry::n_components(&before)
+        crate::geometry::n_components(after),
+        crate::geometry::n_components(before)
     );
     assert_eq!(after.boundary_loops(), before.boundary_loops());
 }

@@ -219,7 +219,7 @@ fn compare(mesh: &Mesh, shape: Option<&Shape>, e: EdgeId) -> String {
                 (
                     euler,
                     mesh.n_boundary_loops(),
-                    crate::geometry::n_components(&mesh),
+                    crate::geometry::n_components(mesh),
                 )
             };
             assert_eq!(shape(&edited), shape(mesh));

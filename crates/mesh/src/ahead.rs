@@ -3,8 +3,8 @@
 //! Where edits go to and fro over a large mesh, as a queue orders them, each waits several times for
 //! memory: for the half-edges of its edge, for those next to them, for their vertices and faces. The
 //! addresses follow from each other, but those of the edits to come can be looked up while this one
-//! works. On a mesh larger than the caches that makes random edits about twice as fast; in order of ids,
-//! where neighbours share cache lines anyway, it changes nothing.
+//! works. Flips of all edges of a mesh of 1 M triangles, with an open journal: where neighbors lie in no order in
+//! memory 1.0 s instead of 1.5 s; in order of ids, where neighbors share cache lines, 1.8 s with and without it.
 
 use crate::{EdgeId, HalfEdgeId, Mesh};
 

@@ -55,7 +55,7 @@
 //!
 //! # Read in this order
 //!
-//! Eighteen files, about 4,300 lines, from what a mesh is to how it is changed; the other edits are like the first two,
+//! Eighteen files, fewer than 4,500 lines, from what a mesh is to how it is changed; the other edits are like the first two,
 //! and the rest of `build` is for polygons that are no manifold.
 //!
 //! | files | what they hold |

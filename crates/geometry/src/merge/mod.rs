@@ -103,7 +103,7 @@ pub fn merge_vertices(
 /// A face loses corners that merge with the next one around it, and goes if fewer than three are left
 /// or if it would visit a vertex twice. Where faces that hang together then run different ways round,
 /// the smaller number of them is reversed if that makes all agree, and normals are dropped. Where the
-/// result would still not be a manifold it is split, as [`build`] does: of three faces at one edge the
+/// result would still not be a manifold it is split, as [`build()`] does: of three faces at one edge the
 /// third gets its own.
 ///
 /// # Errors

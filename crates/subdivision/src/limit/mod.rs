@@ -50,7 +50,7 @@ fn normal([a, b]: &[DVec3; 2]) -> DVec3 {
         .normalize_or_zero()
 }
 
-/// The limit surface at the vertices of a mesh, for [`Scheme::Loop`] and [`Scheme::CatmullClark`].
+/// The limit surface at the vertices of a mesh, for [`Scheme::Loop`](crate::Scheme::Loop) and [`Scheme::CatmullClark`](crate::Scheme::CatmullClark).
 ///
 /// A mesh with dead elements is compacted first, and the numbers are those of the compacted mesh.
 ///

@@ -76,6 +76,7 @@ impl Mesh {
 
     /// The arrays of the connectivity. Dead elements are still in them unless the mesh
     /// [is dense](Self::is_dense).
+    #[inline]
     pub fn connectivity(&self) -> &Connectivity {
         &self.connectivity
     }
@@ -113,41 +114,49 @@ impl Mesh {
     }
 
     /// Whether no element is dead, so that ids run from 0 without gaps.
+    #[inline]
     pub fn is_dense(&self) -> bool {
         self.dead_vertices.count() + self.dead_edges.count() + self.dead_faces.count() == 0
     }
 
     /// The living vertices in order of their ids.
+    #[inline]
     pub fn vertices(&self) -> impl Iterator<Item = VertexId> + Clone + '_ {
         living(0..self.positions.len(), &self.dead_vertices)
     }
 
     /// The living edges in order of their ids.
+    #[inline]
     pub fn edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
         living(0..self.connectivity.next.len() / 2, &self.dead_edges)
     }
 
     /// The living half-edges in order of their ids.
+    #[inline]
     pub fn half_edges(&self) -> impl Iterator<Item = HalfEdgeId> + Clone + '_ {
         self.edges().flat_map(EdgeId::half_edges)
     }
 
     /// The living faces in order of their ids.
+    #[inline]
     pub fn faces(&self) -> impl Iterator<Item = FaceId> + Clone + '_ {
         living(0..self.connectivity.face_half_edge.len(), &self.dead_faces)
     }
 
     /// Whether `v` is a living vertex of this mesh.
+    #[inline]
     pub fn has_vertex(&self, v: VertexId) -> bool {
         v.index() < self.positions.len() && !self.dead_vertices.has(v.index())
     }
 
     /// Whether `e` is a living edge of this mesh.
+    #[inline]
     pub fn has_edge(&self, e: EdgeId) -> bool {
         e.index() < self.connectivity.next.len() / 2 && !self.dead_edges.has(e.index())
     }
 
     /// Whether `f` is a living face of this mesh.
+    #[inline]
     pub fn has_face(&self, f: FaceId) -> bool {
         f.index() < self.connectivity.face_half_edge.len() && !self.dead_faces.has(f.index())
     }
@@ -197,6 +206,7 @@ impl Mesh {
     }
 
     /// The positions of all vertices, dead ones too, by index.
+    #[inline]
     pub fn positions(&self) -> &[DVec3] {
         &self.positions
     }

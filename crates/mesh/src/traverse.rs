@@ -37,11 +37,13 @@ impl Iterator for Orbit<'_> {
 
 impl Mesh {
     /// The half-edges of `f`, counter-clockwise, beginning with [`Mesh::face_half_edge`].
+    #[inline]
     pub fn face_half_edges(&self, f: FaceId) -> Orbit<'_> {
         self.loop_half_edges(self.face_half_edge(f))
     }
 
     /// The half-edges around the face, or the hole, of `h`, beginning with `h`.
+    #[inline]
     pub fn loop_half_edges(&self, h: HalfEdgeId) -> Orbit<'_> {
         Orbit {
             mesh: self,
@@ -53,6 +55,7 @@ impl Mesh {
 
     /// The half-edges that leave `v`, clockwise; on the boundary the first is the boundary one and
     /// the last is the one whose twin is on the boundary.
+    #[inline]
     pub fn vertex_half_edges(&self, v: VertexId) -> Orbit<'_> {
         let h = self.vertex_half_edge(v);
         Orbit {
@@ -64,31 +67,37 @@ impl Mesh {
     }
 
     /// The corners of `f`, counter-clockwise.
+    #[inline]
     pub fn face_vertices(&self, f: FaceId) -> impl Iterator<Item = VertexId> + Clone + '_ {
         self.face_half_edges(f).map(|h| self.origin(h))
     }
 
     /// The vertices that share an edge with `v`, clockwise.
+    #[inline]
     pub fn vertex_neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + Clone + '_ {
         self.vertex_half_edges(v).map(|h| self.target(h))
     }
 
     /// The faces around `v`, clockwise.
+    #[inline]
     pub fn vertex_faces(&self, v: VertexId) -> impl Iterator<Item = FaceId> + Clone + '_ {
         self.vertex_half_edges(v).filter_map(|h| self.face(h))
     }
 
     /// The two vertices of `e`: the origin and the target of its first half.
+    #[inline]
     pub fn edge_vertices(&self, e: EdgeId) -> [VertexId; 2] {
         e.half_edges().map(|h| self.origin(h))
     }
 
     /// The faces beside `e`: of its first and of its second half.
+    #[inline]
     pub fn edge_faces(&self, e: EdgeId) -> [Option<FaceId>; 2] {
         e.half_edges().map(|h| self.face(h))
     }
 
     /// The half-edge before `h`. Walks around the face, or on the boundary around the vertex.
+    #[inline]
     pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
         let orbit = if self.face(h).is_some() {
             self.loop_half_edges(h)
@@ -129,27 +138,32 @@ impl Mesh {
     }
 
     /// The number of edges at `v`.
+    #[inline]
     pub fn valence(&self, v: VertexId) -> usize {
         self.vertex_half_edges(v).count()
     }
 
     /// The number of corners of `f`.
+    #[inline]
     pub fn degree(&self, f: FaceId) -> usize {
         self.face_half_edges(f).count()
     }
 
     /// Whether `f` has three corners.
+    #[inline]
     pub fn is_triangle(&self, f: FaceId) -> bool {
         let h = self.face_half_edge(f);
         self.next(self.next(self.next(h))) == h
     }
 
     /// Whether `e` has a face on one side only.
+    #[inline]
     pub fn is_boundary_edge(&self, e: EdgeId) -> bool {
         self.edge_faces(e).contains(&None)
     }
 
     /// Whether `v` has a boundary edge.
+    #[inline]
     pub fn is_boundary_vertex(&self, v: VertexId) -> bool {
         self.vertex_half_edge(v)
             .is_some_and(|h| self.face(h).is_none())

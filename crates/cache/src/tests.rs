@@ -20,7 +20,7 @@ use recipe::{Outcome, Reader, Settings, Silent, Why};
 use self::operations::{registry, steps};
 use crate::{Cache, Caching};
 
-/// A file of a number is a grid of so many faces.
+/// A file that holds a number n is read as a grid of n faces.
 struct GridReader;
 
 impl Reader for GridReader {

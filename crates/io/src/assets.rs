@@ -147,7 +147,7 @@ impl<'a> Assets<'a> {
     ///
     /// # Errors
     ///
-    /// If the file is missing, is no plain file, or lies outside the folder because of a link.
+    /// If the file is missing, is not a regular file, or a link leads out of the folder.
     pub(crate) fn read(&mut self, name: &Path, limit: u64) -> io::Result<Vec<u8>> {
         let path = self.place(name);
         self.seen.insert(FileSeen {

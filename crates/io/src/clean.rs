@@ -10,7 +10,7 @@ use crate::{Policies, Polygons, Unwanted, parallel};
 /// leaves of an area of zero.
 const NO_AREA: f64 = 1e-14;
 
-/// Faces are compared in so many shares, by their hashes.
+/// The number of groups, by hash, in which faces are compared.
 const SHARES: usize = 16;
 
 /// Which polygon of the file each polygon is; `None` if each is its own.

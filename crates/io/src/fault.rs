@@ -20,7 +20,7 @@ pub(crate) enum At {
     Text(Place),
     /// Of a JSON document, as a JSON pointer.
     Json(String),
-    /// Of a binary file: so many bytes stand before it.
+    /// In a binary file: the offset in bytes from its beginning.
     Byte(usize),
 }
 

@@ -26,7 +26,7 @@ pub(super) struct Cells<'a> {
     pub(super) keep: &'a [(Metric, Span)],
     /// Whether the recipe's expectations must hold.
     pub(super) expects: bool,
-    /// Takes in the scene of a cell that took so many bytes to make, if the scenes are drawn.
+    /// If scenes are drawn: takes the scene of a cell and the number of bytes that making it needed.
     pub(super) see: Option<&'a (dyn Fn(Scene, u64) -> Seen + Sync)>,
 }
 

@@ -3,54 +3,45 @@
 
 use glam::DVec3;
 
-use crate::journal::Entry;
+use crate::journal::{Array, Entry};
 use crate::marks::Marks;
 use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
 impl Mesh {
     #[inline]
     pub(crate) fn set_next(&mut self, h: HalfEdgeId, next: HalfEdgeId) {
-        let old = std::mem::replace(&mut self.connectivity.next[h.index()], next);
-        if let Some(journal) = &mut self.journal {
-            journal.half_edge(h, Entry::Next(h, old));
-        }
+        self.write(Array::Next, h, next);
     }
 
     #[inline]
     pub(crate) fn set_origin(&mut self, h: HalfEdgeId, v: VertexId) {
-        let old = std::mem::replace(&mut self.connectivity.origin[h.index()], v);
-        if let Some(journal) = &mut self.journal {
-            journal.half_edge(h, Entry::Origin(h, old));
-        }
+        self.write(Array::Origin, h, v);
     }
 
     #[inline]
     pub(crate) fn set_face(&mut self, h: HalfEdgeId, f: Option<FaceId>) {
-        let f = f.unwrap_or(FaceId::NONE);
-        let old = std::mem::replace(&mut self.connectivity.face[h.index()], f);
-        if let Some(journal) = &mut self.journal {
-            journal.half_edge(h, Entry::Face(h, old));
-        }
+        self.write(Array::Face, h, f.unwrap_or(FaceId::NONE));
     }
 
     #[inline]
     pub(crate) fn set_vertex_half_edge(&mut self, v: VertexId, h: Option<HalfEdgeId>) {
-        let h = h.unwrap_or(HalfEdgeId::NONE);
-        let old = std::mem::replace(&mut self.connectivity.vertex_half_edge[v.index()], h);
-        if let Some(journal) = &mut self.journal {
-            journal.vertex(v, Entry::VertexHalfEdge(v, old));
-        }
+        self.write(Array::VertexHalfEdge, v, h.unwrap_or(HalfEdgeId::NONE));
     }
 
     #[inline]
     pub(crate) fn set_face_half_edge(&mut self, f: FaceId, h: HalfEdgeId) {
-        let old = std::mem::replace(&mut self.connectivity.face_half_edge[f.index()], h);
+        self.write(Array::FaceHalfEdge, f, h);
+    }
+
+    #[inline]
+    fn write(&mut self, array: Array, at: impl Id, id: impl Id) {
+        let slot = &mut self.connectivity.ids_mut(array)[at.index()];
+        let old = std::mem::replace(slot, bytemuck::cast(id));
         if let Some(journal) = &mut self.journal {
-            journal.face(f, Entry::FaceHalfEdge(f, old));
+            journal.link(array, bytemuck::cast(at), old);
         }
     }
 
-    /// A new isolated vertex with zero values.
     pub(crate) fn push_vertex(&mut self, position: DVec3) -> VertexId {
         let v = VertexId::new(self.positions.len());
         self.positions.push(position);

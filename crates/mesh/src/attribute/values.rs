@@ -124,12 +124,12 @@ impl Values {
         each!(self, v => run(v, n));
     }
 
-    pub(super) fn copy(&mut self, from: usize, to: usize) {
+    pub(crate) fn copy(&mut self, from: usize, to: usize) {
         each!(self, v => v[to] = v[from]);
     }
 
     /// Exchanges two values.
-    pub(super) fn swap(&mut self, a: usize, b: usize) {
+    pub(crate) fn swap(&mut self, a: usize, b: usize) {
         each!(self, v => v.swap(a, b));
     }
 

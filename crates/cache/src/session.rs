@@ -81,12 +81,7 @@ impl CachedRun for Session<'_> {
             }
         }
         self.history.push(made_of, None);
-        let finding = Finding {
-            report: record.report.clone(),
-            refused: record.refused,
-            counts: [record.vertices, record.edges, record.faces]
-                .map(|n| usize::try_from(n).unwrap_or(usize::MAX)),
-        };
+        let finding = record.finding.clone();
         let digest = record.digest.map(Digest::from_bytes);
         self.positions.push(Position {
             state: Some(key.after(&record.read.files)),
@@ -122,15 +117,10 @@ impl CachedRun for Session<'_> {
                 let scene = self.last().step.as_ref().and_then(|(_, r)| r.scene.clone());
                 let scene = scene.filter(|_| same);
                 let scene = scene.or_else(|| self.keep(done.scene, number, label));
-                let [vertices, edges, faces] = done.counts.map(|n| n as u64);
                 let record = Record {
                     read,
                     outputs,
-                    report: done.report.clone(),
-                    refused: done.refused,
-                    vertices,
-                    edges,
-                    faces,
+                    finding: done.finding.clone(),
                     same,
                     scene,
                     digest: position.digest.map(Digest::to_bytes),

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use store::Store;
 
 use crate::source::seen_from;
-use ron_tree::{Number, Span, Value, ValueKind};
+use ron_tree::{Number, Span, Value, ValueKind, parse};
 
 /// Two folders: a relative path is seen from the one, and is to mean the same seen from the other.
 #[derive(Clone, Copy, Debug)]
@@ -145,18 +145,26 @@ impl Param {
                 let other = || ParamError::new("a whole number", &format!("`{}`", number.text()));
                 self.allowed_int(int.ok_or_else(other)?)
             }
-            (Self::Float { .. }, ValueKind::Number(number)) => self.value_of(number.text(), None),
+            (Self::Float { .. }, ValueKind::Number(_)) => self.allowed_float(number(written)?),
             (Self::Bool { .. }, ValueKind::Bool(is)) => Ok(value(ValueKind::Bool(*is))),
-            (
-                Self::Text { .. } | Self::Path { .. } | Self::Choice { .. },
-                ValueKind::String(text),
-            )
-            | (Self::Choice { .. }, ValueKind::Name(text)) => self.value_of(text, folders),
+            (Self::Text { .. }, ValueKind::String(text)) => {
+                Ok(value(ValueKind::String(text.clone())))
+            }
+            (Self::Path { .. }, ValueKind::String(text)) => {
+                let moved = |f: Move| seen_from(f.store, text, f.from, f.to);
+                let path = folders.map_or_else(|| (&**text).into(), moved);
+                Ok(value(ValueKind::String(path.to_string_lossy().into())))
+            }
+            (Self::Choice { of, .. }, ValueKind::String(text) | ValueKind::Name(text)) => {
+                let word = text.chars().all(|c| c.is_alphanumeric() || c == '_');
+                if of.iter().any(|choice| **choice == **text) && word {
+                    Ok(value(ValueKind::Name(text.clone())))
+                } else {
+                    let expected = format!("one of {}", of.join(", "));
+                    Err(ParamError::new(&expected, &format!("`{text}`")))
+                }
+            }
             (Self::Vector { .. }, ValueKind::Tuple(parts)) => {
-                let number = |part: &Value| match &part.kind {
-                    ValueKind::Number(number) if !number.has_base() => Ok(number.to_float()),
-                    _ => Err(ParamError::new("a number", &format!("`{part}`"))),
-                };
                 let parts: Vec<f64> = parts.iter().map(number).collect::<Result<_, _>>()?;
                 let [x, y, z] = parts[..] else {
                     return Err(ParamError::new(self.expected(), &format!("`{written}`")));
@@ -186,41 +194,17 @@ impl Param {
     ///
     /// If the text is no value of this type or not allowed.
     pub fn value_of(&self, text: &str, folders: Option<Move>) -> Result<Value, ParamError> {
-        let wrong = || ParamError::new(self.expected(), &format!("`{text}`"));
-        match self {
-            Self::Int { .. } => {
-                let int = text.replace('_', "").parse();
-                self.allowed_int(int.map_err(|_| wrong())?)
+        let parsed = match self {
+            Self::Text { .. } | Self::Path { .. } | Self::Choice { .. } => {
+                return self.value_from(&value(ValueKind::String(text.into())), folders);
             }
-            Self::Float { .. } => self.allowed_float(number(text)?),
-            Self::Bool { .. } => {
-                let is = text.parse().map_err(|_| wrong())?;
-                Ok(value(ValueKind::Bool(is)))
-            }
-            Self::Text { .. } => Ok(value(ValueKind::String(text.into()))),
-            Self::Path { .. } => {
-                let moved = |f: Move| seen_from(f.store, text, f.from, f.to);
-                let path = folders.map_or_else(|| text.into(), moved);
-                Ok(value(ValueKind::String(path.to_string_lossy().into())))
-            }
-            Self::Choice { of, .. } => {
-                let word = text.chars().all(|c| c.is_alphanumeric() || c == '_');
-                if of.iter().any(|choice| choice == text) && word {
-                    Ok(value(ValueKind::Name(text.into())))
-                } else {
-                    let expected = format!("one of {}", of.join(", "));
-                    Err(ParamError::new(&expected, &format!("`{text}`")))
-                }
-            }
-            Self::Vector { .. } => {
-                let inner = text.trim().trim_start_matches('(').trim_end_matches(')');
-                let parts = inner.split(',').map(|part| number(part.trim()));
-                let parts: Vec<f64> = parts.collect::<Result<_, _>>()?;
-                let [x, y, z] = parts[..] else {
-                    return Err(wrong());
-                };
-                vector([x, y, z])
-            }
+            Self::Vector { .. } if !text.contains('(') => parse(&format!("({text})")),
+            _ => parse(text),
+        };
+        if parsed.diagnostics.is_empty() {
+            self.value_from(&parsed.value, folders)
+        } else {
+            Err(ParamError::new(self.expected(), &format!("`{text}`")))
         }
     }
 
@@ -297,12 +281,13 @@ fn float(x: f64) -> Result<Value, ParamError> {
     Ok(value(ValueKind::Number(number)))
 }
 
-fn number(text: &str) -> Result<f64, ParamError> {
-    let value: Result<f64, _> = text.replace('_', "").parse();
-    value
-        .ok()
-        .filter(|value| value.is_finite())
-        .ok_or_else(|| ParamError::new("a number", &format!("`{text}`")))
+fn number(written: &Value) -> Result<f64, ParamError> {
+    match &written.kind {
+        ValueKind::Number(number) if !number.has_base() && number.to_float().is_finite() => {
+            Ok(number.to_float())
+        }
+        _ => Err(ParamError::new("a number", &format!("`{written}`"))),
+    }
 }
 
 fn within<T: Copy + PartialOrd + ToString>(

@@ -204,18 +204,7 @@ impl Runner<'_> {
                         self.cancelled = true;
                         return Err(Stopped);
                     }
-                    let [vertices, edges, faces] = found.counts;
-                    return Ok(StepDone {
-                        label: step.label().to_owned(),
-                        report: found.report,
-                        refused: found.refused,
-                        vertices,
-                        edges,
-                        faces,
-                        digest: None,
-                        time: begin.elapsed(),
-                        ran: None,
-                    });
+                    return Ok(StepDone::new(step, found, begin.elapsed(), None));
                 }
                 Err(why) => why,
             }
@@ -232,37 +221,28 @@ impl Runner<'_> {
         let (report, refused) = self.apply(step, listener)?;
         let time = begin.elapsed();
         self.at = i + 1;
-        let [vertices, edges, faces] = counts(&self.scene);
+        let finding = Finding {
+            report,
+            refused,
+            counts: counts(&self.scene),
+        };
         if let (Some(session), Some(before)) = (&mut self.session, before) {
             let stage = self.stage.as_deref();
-            let written_now = |files| match stage.zip(listed.as_ref()) {
-                Some((stage, before)) => written(before, &listing(stage, files)),
-                None => Vec::new(),
-            };
+            let files = &self.files[step.scope];
             let done = Done {
-                report: &report,
-                refused,
-                counts: [vertices, edges, faces],
+                finding: &finding,
                 scene: &self.scene,
                 same: before.is_still(&self.scene),
                 time,
                 uses: &self.log.take(),
-                written: written_now(&self.files[step.scope]),
+                written: (stage.zip(listed.as_ref())).map_or_else(Vec::new, |(stage, before)| {
+                    written(before, &listing(stage, files))
+                }),
                 stage,
             };
-            session.ran(i + 1, step.label(), &self.files[step.scope], &done);
+            session.ran(i + 1, step.label(), files, &done);
         }
-        Ok(StepDone {
-            label: step.label().to_owned(),
-            report,
-            refused,
-            vertices,
-            edges,
-            faces,
-            digest: None,
-            time,
-            ran: Some(why),
-        })
+        Ok(StepDone::new(step, finding, time, Some(why)))
     }
 
     /// The digest of the scene after the steps that are done.

@@ -7,7 +7,7 @@
 use std::collections::HashSet;
 
 use mesh::Domain;
-use op::{Loss, MeshPlan, Plan, PlannedAttribute, PlannedGeometry};
+use op::{Loss, MeshPlan, Plan, PlannedAttribute, PlannedGeometry, PlannedObject};
 
 use crate::expect::Expectation;
 use crate::recipe::{OnLoss, Placed, RecipeStep};
@@ -32,18 +32,6 @@ struct Dropped {
 /// The certain attributes of each mesh.
 pub(super) type Before = Vec<(String, Vec<PlannedAttribute>)>;
 
-/// What the meshes have for certain.
-pub(super) fn certain(plan: &Plan) -> Before {
-    let certain = |mesh: &MeshPlan| {
-        let attributes = mesh.attributes.iter().filter(|a| a.certain);
-        attributes.cloned().collect::<Vec<_>>()
-    };
-    meshes(plan)
-        .map(|(name, mesh)| (name.to_owned(), certain(mesh)))
-        .filter(|(_, attributes)| !attributes.is_empty())
-        .collect()
-}
-
 fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
     (attribute.domain, &attribute.name)
 }
@@ -59,7 +47,7 @@ impl Attributes {
     ) {
         for (object, had) in before {
             // An object that is gone was taken away, and not by accident.
-            let Some((_, mesh)) = meshes(plan).find(|(name, _)| name == object) else {
+            let Some(PlannedGeometry::Mesh(mesh)) = plan.object(object).map(|o| &o.geometry) else {
                 continue;
             };
             if mesh.attributes == *had {
@@ -91,7 +79,7 @@ impl Attributes {
         let mut tags = Vec::new();
         tagged(&step.value, &mut tags);
         for (tag, span) in tags {
-            for (object, mesh) in meshes(plan) {
+            for (object, mesh) in meshes(plan.objects()) {
                 let is_chosen =
                     (step.on.as_ref()).is_none_or(|on| on.iter().any(|(name, _)| name == object));
                 let has = |a: &PlannedAttribute| a.name == tag;
@@ -114,7 +102,7 @@ impl Attributes {
         if plan.incomplete {
             return;
         }
-        for (object, mesh) in meshes(plan) {
+        for (object, mesh) in meshes(plan.objects()) {
             let is_meant =
                 (placed.on.as_ref()).is_none_or(|on| on.iter().any(|name| name == object));
             let has = |a: &PlannedAttribute| a.domain == domain && a.name == *name;
@@ -164,35 +152,21 @@ pub(crate) fn forbidden(step: &RecipeStep, loss: &Loss) -> Diagnostic {
     Diagnostic::error(step.span, message).with_help(help)
 }
 
-fn meshes(plan: &Plan) -> impl Iterator<Item = (&str, &MeshPlan)> {
-    plan.objects
-        .iter()
-        .filter_map(|object| match &object.geometry {
-            PlannedGeometry::Mesh(mesh) => Some((object.name.as_str(), mesh)),
-            _ => None,
-        })
+/// The meshes among some objects, with their names.
+pub(super) fn meshes(objects: &[PlannedObject]) -> impl Iterator<Item = (&str, &MeshPlan)> {
+    objects.iter().filter_map(|object| match &object.geometry {
+        PlannedGeometry::Mesh(mesh) => Some((object.name.as_str(), mesh)),
+        _ => None,
+    })
 }
 
 /// The names in `Tagged("..")` anywhere in a value, and their places.
 fn tagged<'v>(value: &'v Value, tags: &mut Vec<(&'v str, Span)>) {
-    match &value.kind {
-        ValueKind::Call(call) => {
-            let name = call.body.single().and_then(Value::as_str);
-            match name.filter(|_| &*call.name.text == "Tagged") {
-                Some(name) => tags.push((name, value.span)),
-                None => tagged(&call.body, tags),
-            }
-        }
-        ValueKind::Struct(body) => {
-            for field in &body.fields {
-                tagged(&field.value, tags);
-            }
-        }
-        ValueKind::Tuple(items) | ValueKind::List(items) => {
-            for item in items {
-                tagged(item, tags);
-            }
-        }
-        _ => {}
+    if let ValueKind::Call(call) = &value.kind
+        && &*call.name.text == "Tagged"
+        && let Some(name) = call.body.single().and_then(Value::as_str)
+    {
+        tags.push((name, value.span));
     }
+    value.parts().for_each(|part| tagged(part, tags));
 }

@@ -6,7 +6,7 @@ use op::{Elements, Place, Select};
 use scene::Object;
 
 use super::same::Points;
-use super::subject::{Subject, selected};
+use super::subject::{Subject, least_angle, selected};
 use super::{Expectation, symmetry};
 
 impl Expectation {
@@ -74,11 +74,10 @@ impl Meant<'_> {
                 self.named(self.selected(of).into_iter().filter(is_off))
             }
             Expectation::MinAngle { of, min, .. } => {
-                let smallest = |f: FaceId| {
-                    let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
-                    angles.fold(f64::INFINITY, f64::min).to_degrees()
-                };
-                let angles = self.selected(of).into_iter().map(|f| (smallest(f), f));
+                let angles = self
+                    .selected(of)
+                    .into_iter()
+                    .map(|f| (least_angle(mesh, f), f));
                 let mut off: Vec<(f64, FaceId)> = angles
                     .filter(|(angle, _)| !within(*angle, *min, None))
                     .collect();

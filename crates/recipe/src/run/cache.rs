@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use op::{FileUse, Files, Refusal, Report};
 use scene::{Digest, Scene};
+use serde::{Deserialize, Serialize};
 
 use crate::recipe::{Placed, RecipeStep};
 
@@ -66,8 +67,8 @@ pub trait CachedRun {
     fn finish(self: Box<Self>) -> (Option<String>, Vec<String>);
 }
 
-/// What a step did, as it was found in the cache.
-#[derive(Clone, Debug)]
+/// What a step did, as a cache keeps it.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Finding {
     /// What it reported.
     pub report: Report,
@@ -80,12 +81,8 @@ pub struct Finding {
 /// What a step has just done.
 #[derive(Clone, Debug)]
 pub struct Done<'a> {
-    /// What it reported.
-    pub report: &'a Report,
-    /// The reason for which it was refused, as the recipe says it must be.
-    pub refused: Option<Refusal>,
-    /// Vertices, edges and faces of all meshes together.
-    pub counts: [usize; 3],
+    /// What a cache finds of it later.
+    pub finding: &'a Finding,
     /// The scene after it.
     pub scene: &'a Scene,
     /// Whether the scene is certainly the one before it.

@@ -5,8 +5,9 @@ use std::time::Duration;
 use op::{Place, Progress, Refusal, Report};
 use scene::{Digest, Scene};
 
-use super::cache::Why;
+use super::cache::{Finding, Why};
 use crate::expect::Found;
+use crate::recipe::RecipeStep;
 use ron_tree::Diagnostic;
 
 /// Follows a run.
@@ -68,6 +69,23 @@ pub struct StepDone {
     pub time: Duration,
     /// Why it ran; `None` if its result was taken from the cache.
     pub ran: Option<Why>,
+}
+
+impl StepDone {
+    pub(super) fn new(step: &RecipeStep, what: Finding, time: Duration, ran: Option<Why>) -> Self {
+        let [vertices, edges, faces] = what.counts;
+        Self {
+            label: step.label().to_owned(),
+            report: what.report,
+            refused: what.refused,
+            vertices,
+            edges,
+            faces,
+            digest: None,
+            time,
+            ran,
+        }
+    }
 }
 
 /// A listener as plain progress.

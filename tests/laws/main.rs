@@ -3,6 +3,7 @@
 
 mod all_edits;
 mod any_edit;
+mod book;
 mod cache;
 mod cancelling;
 mod cube_diagonals;

@@ -12,6 +12,7 @@ mod ops;
 mod outputs;
 mod picture;
 mod pixels;
+mod readme;
 mod refusals;
 mod reproduce;
 mod run;

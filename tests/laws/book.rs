@@ -1,0 +1,166 @@
+//! The manual: every recipe in it runs, every example in its tables can be read, and none is missing.
+//!
+//! A block `ron` is a whole recipe of the folder `scenes/`, `ron,step` a step, and `ron,sweep` a sweep.
+
+use std::fs;
+use std::path::PathBuf;
+
+use engine::{Engine, Options, Run, Silent, Source};
+use serde_json::Value as Json;
+
+use crate::{assert_none, root};
+
+/// The name and text of each chapter.
+fn chapters() -> Vec<(String, String)> {
+    let entries = fs::read_dir(root().join("book/src")).expect("there is a folder book/src");
+    let paths = entries.map(|entry| entry.expect("the folder can be listed").path());
+    let mut chapters: Vec<_> = paths
+        .filter(|path| path.extension().is_some_and(|e| e == "md"))
+        .map(|path: PathBuf| {
+            let name = path.file_name().expect("a file has a name");
+            (
+                name.to_string_lossy().into_owned(),
+                fs::read_to_string(&path).expect("a chapter is text"),
+            )
+        })
+        .collect();
+    chapters.sort();
+    chapters
+}
+
+/// The code blocks of a kind, each with its place.
+fn blocks(kind: &str) -> Vec<(String, String)> {
+    let mut all = Vec::new();
+    for (name, text) in chapters() {
+        let mut lines = text.lines().enumerate();
+        while let Some((i, line)) = lines.next() {
+            let Some(given) = line.trim_start().strip_prefix("```") else {
+                continue;
+            };
+            let block: Vec<&str> = lines
+                .by_ref()
+                .map(|(_, line)| line)
+                .take_while(|line| line.trim() != "```")
+                .collect();
+            if given == kind {
+                all.push((format!("{name}:{}", i + 2), block.join("\n")));
+            }
+        }
+    }
+    assert!(!all.is_empty(), "no block is of the kind {kind}");
+    all
+}
+
+/// What is wrong with a recipe of the folder `scenes/`, if anything. Runs it unless it is only to be `read`.
+fn problem(engine: &Engine, text: &str, read: bool) -> Option<String> {
+    let folder = tempfile::tempdir().expect("there is room for a folder");
+    let options = Options {
+        out: folder.path(),
+        ..Options::default()
+    };
+    let loaded = engine.load(&Source::new(root().join("scenes/book.ron"), text), &options);
+    if !loaded.is_read || (!read && loaded.has_errors()) {
+        return Some(loaded.render(&loaded.diagnostics, false));
+    }
+    if read {
+        return None;
+    }
+    let outcome = loaded.run(Run::default(), &Silent);
+    (!outcome.succeeded()).then(|| format!("{:?}", outcome.failure))
+}
+
+#[test]
+fn every_recipe_of_the_book_runs() {
+    let registry = ops_all::registry();
+    let engine = Engine::new(&registry);
+    let mut failures = Vec::new();
+    for (place, text) in blocks("ron") {
+        failures.extend(problem(&engine, &text, false).map(|why| format!("{place}: {why}")));
+    }
+    for (place, step) in blocks("ron,step") {
+        let text = format!("(recipe: 1, steps: [\n{step}\n])");
+        failures.extend(problem(&engine, &text, true).map(|why| format!("{place}: {why}")));
+    }
+    for (place, text) in blocks("ron,sweep") {
+        let reading = recipe::read_sweep(&text);
+        if reading.has_errors() {
+            failures.push(format!("{place}: {:?}", reading.diagnostics));
+        }
+    }
+    assert_none(&failures);
+}
+
+/// The code in the first column of the tables of a chapter, each with the heading above it.
+fn examples(chapter: &str) -> Vec<(String, String)> {
+    let path = root().join("book/src").join(chapter);
+    let text = fs::read_to_string(path).expect("the chapter is there");
+    let mut heading = "";
+    let mut all = Vec::new();
+    for line in text.lines() {
+        if let Some(title) = line.strip_prefix("## ") {
+            heading = title;
+        }
+        let code = line.strip_prefix("| `").and_then(|row| row.split_once('`'));
+        if let Some((code, _)) = code {
+            all.push((heading.to_owned(), code.to_owned()));
+        }
+    }
+    all
+}
+
+/// The names of the variants of a definition.
+fn variants(definition: &str) -> Vec<String> {
+    let schema = recipe::schema(&ops_all::registry());
+    let definition = &schema["$defs"][definition];
+    let choices = definition["oneOf"].as_array().expect("a choice");
+    let name = |choice: &Json| {
+        let required = choice["required"][0].as_str();
+        required.or_else(|| choice["const"].as_str()).map(str::to_owned)
+    };
+    choices.iter().filter_map(name).collect()
+}
+
+#[test]
+fn every_selection_and_expectation_has_an_example_that_can_be_read() {
+    let registry = ops_all::registry();
+    let engine = Engine::new(&registry);
+    let mut failures = Vec::new();
+    let mut try_one = |expectation: &str| {
+        let text = format!("(recipe: 1, steps: [Cube()], expect: [\n{expectation}\n])");
+        failures.extend(problem(&engine, &text, true));
+    };
+    let selections = examples("selections.md");
+    for (heading, code) in &selections {
+        match heading.as_str() {
+            kind @ ("Vertices" | "Edges" | "Faces") => {
+                try_one(&format!("Count(of: {kind}({code}), min: 0)"));
+            }
+            _ if code.contains("Faces(") => try_one(&format!("Count(of: Faces({code}), min: 0)")),
+            _ => try_one(&format!("Count(of: Edges({code}), min: 0)")),
+        }
+    }
+    let expectations = examples("expectations.md");
+    for (_, code) in &expectations {
+        try_one(code);
+    }
+    for (kind, heading) in [
+        ("Expectation.VertexSelection", "Vertices"),
+        ("Expectation.EdgeSelection", "Edges"),
+        ("Expectation.FaceSelection", "Faces"),
+    ] {
+        for name in variants(kind) {
+            let is_there = |(at, code): &(String, String)| {
+                (at == heading || at.starts_with("For all")) && code.starts_with(&name)
+            };
+            if !selections.iter().any(is_there) {
+                failures.push(format!("selections.md has no example of {kind} {name}"));
+            }
+        }
+    }
+    for name in variants("Expectation") {
+        if !expectations.iter().any(|(_, code)| code.starts_with(&name)) {
+            failures.push(format!("expectations.md has no example of {name}"));
+        }
+    }
+    assert_none(&failures);
+}

@@ -32,6 +32,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+/// The examples of the book are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../book/src/library.md")]
+struct Library;
+
 mod cancel;
 mod loaded;
 mod read;

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Builds the book into target/book: the chapters of book/src, and a page for each operation from ops/README.md.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+out=target/book-source
+rm -rf "$out" && mkdir -p "$out/src/operations"
+cp book/book.toml "$out" && cp -r book/src/. "$out/src"
+
+# The generated reference becomes one page for each operation, and one for the types of their parameters.
+awk -v out="$out/src/operations" '
+    /^# Steps that hold steps/ { page = out "/types.md"; print "# Types of parameters\n" > page }
+    /^## / && page != out "/types.md" { page = out "/" $2 ".md"; sub("^## ", "# ") }
+    page { gsub(/\(all\/pictures\//, "(../pictures/"); if (!/^# Types of parameters/ || page !~ /types/) print > page }
+' ops/README.md
+mkdir "$out/src/pictures" && cp -r ops/all/pictures/. "$out/src/pictures"
+{
+    printf '# Operations\n\n'
+    sed -n 's|^- \[\([A-Za-z0-9]*\)\](#[^)]*): \(.*\)|- [\1](operations/\1.md): \2|p' ops/README.md
+    printf -- '- [Types of parameters](operations/types.md)\n'
+} > "$out/src/operations.md"
+pages=$(sed -n 's|^- \[\([A-Za-z0-9]*\)\](#.*|  - [\1](operations/\1.md)|p' ops/README.md)
+awk -v pages="$pages\n  - [Types of parameters](operations/types.md)" '
+    { print } /\(operations.md\)/ { print pages }
+' book/src/SUMMARY.md > "$out/src/SUMMARY.md"
+sed -i 's|#include ../../|#include ../../../|' "$out"/src/*.md
+mdbook build "$out" --dest-dir "$PWD/target/book"

@@ -1,12 +1,12 @@
-//! Reads, checks and runs recipes: one place for the program, the editor, Python and the browser.
+//! Reads, checks and runs recipes. The program `meshwright` is a thin layer over this crate.
 //!
 //! ```text
 //! Engine --open--> Source --load--> Loaded --run--> Outcome      (diagnostics and forecast are in Loaded)
 //!                                      ^ `--run_from(step, scene)--> Outcome
 //! ```
 //!
-//! A [`Listener`] hears of each step and sees the scene after it. It cancels the run when
-//! [`advance`](op::Progress::advance) returns false, as [`Cancel`] does from another thread.
+//! A [`Listener`] is called after each step with the scene. To cancel the run, return false from
+//! [`advance`](op::Progress::advance), or use [`Cancel`] from another thread.
 //!
 //! # Examples
 //!
@@ -60,11 +60,11 @@ pub use store::{Disk, Memory, Store};
 /// The memory that meshes may take unless another amount is given, in bytes.
 pub const BUDGET: u64 = 8 << 30;
 
-/// Reads recipes with the operations of a registry, and their files from a store.
+/// Reads and runs recipes. It knows the operations (a registry) and where files are (a store).
 #[derive(Debug)]
 pub struct Engine<'r> {
     registry: &'r Registry,
-    /// Made once for all recipes.
+    /// The schemas of the parameters, built once and shared by all recipes.
     schemas: Schemas<'r>,
     store: Arc<dyn Store>,
 }
@@ -72,7 +72,7 @@ pub struct Engine<'r> {
 /// How a recipe is read and checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
-    /// The values of its parameters.
+    /// Values for the parameters of the recipe.
     pub values: Values<'a>,
     /// The folder for outputs. Defaults to `out`.
     pub out: &'a Path,
@@ -100,13 +100,13 @@ impl<'r> Engine<'r> {
         }
     }
 
-    /// The same with files in another place.
+    /// This engine, but with files in `store`.
     #[must_use]
     pub fn with_store(self, store: Arc<dyn Store>) -> Self {
         Self { store, ..self }
     }
 
-    /// The operations.
+    /// The operations that recipes can use.
     pub fn registry(&self) -> &'r Registry {
         self.registry
     }

@@ -15,26 +15,26 @@
 //!
 //! Ids are plain numbers ([`VertexId`], [`HalfEdgeId`], [`EdgeId`], [`FaceId`]). The halves of edge e are
 //! 2e and 2e + 1, so `h.twin()` and `h.edge()` need no mesh. Faces are counter-clockwise seen from
-//! outside; around a vertex the circulators turn clockwise.
+//! outside. Iterators around a vertex go clockwise.
 //!
 //! # Invariants
 //!
-//! [`Mesh::defects`] names every broken one, with its element:
+//! [`Mesh::defects`] lists every rule that is broken, with the element that breaks it:
 //!
 //! 1. Arrays that belong together have the same length; half-edges come in pairs.
-//! 2. Entries name living elements.
+//! 2. Every stored id belongs to an element that was not removed.
 //! 3. `next` is a permutation of the half-edges, stays on one face (or around one hole), and begins
 //!    where the half-edge before ended: `origin(next(h)) == target(h)`.
 //! 4. No edge begins and ends at one vertex, and each has a face on one side at least. Both halves
 //!    always exist; on the boundary `face(h)` is `None`.
 //! 5. A face has at least three corners, and its half-edges are one loop through its
 //!    [`face_half_edge`](Mesh::face_half_edge).
-//! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex leaves it, and is the boundary one
-//!    if there is one; only an isolated vertex has none.
-//! 7. The half-edges that leave a vertex are all reached by walking around it, past one gap at most: one
-//!    fan.
+//! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex leaves it. At a boundary it is the
+//!    outgoing half-edge without a face. Only an isolated vertex has none.
+//! 7. The faces at a vertex form one connected fan with at most one gap: walking around the vertex reaches
+//!    all half-edges that leave it.
 //! 8. Positions are finite.
-//! 9. A column of an attribute has one value for each element of its domain.
+//! 9. A column of an attribute has one value for each vertex, corner, edge or face: the elements of its domain.
 //!
 //! # Editing
 //!
@@ -49,23 +49,23 @@
 //! | whole meshes | [`reverse`](Mesh::reverse) |
 //!
 //! Removed elements are marked dead, and no id is used again until [`Mesh::compact`] renumbers.
-//! [`Mesh::begin`], [`Mesh::rollback`] and [`Mesh::commit`] take edits back, one or many, and
-//! [`Mesh::revert`] undoes and redoes them later. Operations over a whole mesh build new arrays
-//! ([`Mesh::from_arrays`]) or polygons ([`build()`]) and put them in place with [`Mesh::replace`].
+//! [`Mesh::begin`] starts to record edits, [`Mesh::rollback`] undoes them, and [`Mesh::commit`] ends the recording and
+//! returns a [`Change`], which [`Mesh::revert`] applies later: once to undo, again to redo. Operations on a whole
+//! mesh build new arrays ([`Mesh::from_arrays`]) or polygons ([`build()`]) and store them with [`Mesh::replace`].
 //!
 //! # Read in this order
 //!
-//! Eighteen files, fewer than 4,500 lines, from what a mesh is to how it is changed; the other edits are like the first two,
-//! and the rest of `build` is for polygons that are no manifold.
+//! Eighteen files lead from what a mesh is to how it is changed. The other edits are like flip and split; the rest of `build`
+//! handles polygons that do not form a manifold.
 //!
-//! | files | what they hold |
+//! | files | contents |
 //! | --- | --- |
 //! | `id.rs`, `arrays.rs`, `traverse.rs` | ids and elements, the arrays behind a mesh, ways around faces and vertices |
 //! | `validate.rs` | the invariants above, as functions |
 //! | `measure.rs` | areas, normals and angles of single elements |
 //! | `attribute.rs`, `attribute/columns.rs`, `attribute/values.rs` | named columns of values |
-//! | `marks.rs`, `write.rs`, `journal.rs`, `compact.rs` | dead elements, writing single entries, undoing, renumbering |
-//! | `edit/mod.rs`, `edit/flip.rs`, `edit/split.rs` | why an edit is refused, and two edits |
+//! | `marks.rs`, `write.rs`, `journal.rs`, `compact.rs` | dead elements, writing single entries, undo, renumbering |
+//! | `edit/mod.rs`, `edit/flip.rs`, `edit/split.rs` | reasons for refusing an edit, and two edits |
 //! | `build/mod.rs`, `build/pair.rs`, `build/assemble.rs` | a mesh from polygons |
 //!
 //! # Examples
@@ -87,7 +87,7 @@
 #[cfg(test)]
 extern crate self as mesh;
 
-/// What the tests use of the crate `geometry`, which stands on this one.
+/// `geometry` depends on this crate, so the tests compile the files that they need from it.
 #[cfg(test)]
 #[path = "../../geometry/src"]
 pub mod geometry {

@@ -2,8 +2,8 @@
 //! plans, reports, errors, selections and parameter types. No operation lives here.
 //!
 //! An operation is a struct whose fields are its parameters. Most change one mesh and implement
-//! [`MeshOperation`]; they get objects, `on:`, loss reports and the promise that an error changes
-//! nothing for free. Those that see the whole scene implement [`Operation`].
+//! [`MeshOperation`]; the choice of objects (`on:`), loss reports and a rollback on errors come for free. Those
+//! that see the whole scene implement [`Operation`].
 //!
 //! ```
 //! use mesh::DVec3;

@@ -219,8 +219,17 @@ impl<'s> Parser<'s> {
 
     /// Reports that something is missing before `current`.
     pub(super) fn missing(&mut self, what: &str) {
-        let place = Span::new(self.previous_end, self.previous_end);
-        self.complain(Diagnostic::error(place, format!("missing {what}")));
+        self.complain(Diagnostic::error(self.gap(), format!("missing {what}")));
+    }
+
+    /// The place before `current`, behind the last token.
+    pub(super) fn gap(&self) -> Span {
+        Span::new(self.previous_end, self.previous_end)
+    }
+
+    /// A value that is missing before `current`.
+    pub(super) fn nothing(&self) -> Value {
+        Value::new(self.gap(), ValueKind::Error)
     }
 
     /// Reads no further.
@@ -310,8 +319,7 @@ impl<'s> Parser<'s> {
             }
             _ => {
                 self.unexpected(expected);
-                let place = Span::new(self.previous_end, self.previous_end);
-                return Value::new(place, ValueKind::Error);
+                return self.nothing();
             }
         };
         self.bump();

@@ -90,14 +90,23 @@ pub enum Param {
 impl Param {
     /// The name of its type.
     pub fn type_name(&self) -> &'static str {
+        self.words().0
+    }
+
+    fn expected(&self) -> &'static str {
+        self.words().1
+    }
+
+    /// The name of its type, and what values it takes.
+    fn words(&self) -> (&'static str, &'static str) {
         match self {
-            Self::Int { .. } => "Int",
-            Self::Float { .. } => "Float",
-            Self::Bool { .. } => "Bool",
-            Self::Text { .. } => "Text",
-            Self::Path { .. } => "Path",
-            Self::Choice { .. } => "Choice",
-            Self::Vector { .. } => "Vector",
+            Self::Int { .. } => ("Int", "a whole number"),
+            Self::Float { .. } => ("Float", "a number"),
+            Self::Bool { .. } => ("Bool", "true or false"),
+            Self::Text { .. } => ("Text", "a text in quotes"),
+            Self::Path { .. } => ("Path", "a path in quotes"),
+            Self::Choice { .. } => ("Choice", "one of its words"),
+            Self::Vector { .. } => ("Vector", "three numbers `(x, y, z)`"),
         }
     }
 
@@ -173,18 +182,6 @@ impl Param {
                 vector([x, y, z])
             }
             _ => Err(ParamError::new(self.expected(), &written.describe())),
-        }
-    }
-
-    fn expected(&self) -> &'static str {
-        match self {
-            Self::Int { .. } => "a whole number",
-            Self::Float { .. } => "a number",
-            Self::Bool { .. } => "true or false",
-            Self::Text { .. } => "a text in quotes",
-            Self::Path { .. } => "a path in quotes",
-            Self::Choice { .. } => "one of its words",
-            Self::Vector { .. } => "three numbers `(x, y, z)`",
         }
     }
 

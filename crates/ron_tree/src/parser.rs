@@ -142,7 +142,10 @@ impl<'s> Parser<'s> {
         let last_end = self.next.span.end;
         let mut line = self.next.line + line_feeds(self.next.span.of(self.source));
         let (mut starts_line, mut after_junk) = (last_end == 0, false);
-        while let Some(Token { kind, span }) = self.lexer.next() {
+        let (kind, span) = loop {
+            let Some(Token { kind, span }) = self.lexer.next() else {
+                break (None, Span::new(self.source.len(), self.source.len()));
+            };
             let feeds = line_feeds(span.of(self.source));
             match kind {
                 kind if kind.is_trivia() => starts_line |= feeds > 0,
@@ -160,22 +163,13 @@ impl<'s> Parser<'s> {
                     // Whatever is missing may stand in the comment.
                     after_junk = true;
                 }
-                _ => {
-                    return Lexeme {
-                        kind: Some(kind),
-                        span,
-                        line,
-                        starts_line,
-                        after_junk,
-                    };
-                }
+                _ => break (Some(kind), span),
             }
             line += feeds;
-        }
-        let end = Span::new(self.source.len(), self.source.len());
+        };
         Lexeme {
-            kind: None,
-            span: end,
+            kind,
+            span,
             line,
             starts_line,
             after_junk,

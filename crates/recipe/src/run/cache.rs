@@ -136,7 +136,7 @@ pub enum Why {
     #[error("it reads from another folder")]
     Folder,
     /// A file is not what it was.
-    #[error("the file {} {1}", .0.display())]
+    #[error("the file {} {}", .0.display(), .1)]
     File(PathBuf, Change),
     /// The recipe or its parameters are others, and the files that the step writes say which.
     #[error("the recipe changed, and what is written says from which one it is")]
@@ -160,7 +160,7 @@ pub enum Why {
     #[error("its result was not stored: making it took less time than storing it would")]
     NotKept,
     /// What it depends on cannot be told: a file and the reason.
-    #[error("what it read cannot be told: {}, {1}", .0.display())]
+    #[error("what it read cannot be told: {}, {}", .0.display(), .1)]
     Unknown(PathBuf, String),
     /// What it depends on cannot be told, because an earlier step has left a scene with removed elements.
     #[error("what an earlier step has left cannot be told")]

@@ -164,3 +164,35 @@ fn every_selection_and_expectation_has_an_example_that_can_be_read() {
     }
     assert_none(&failures);
 }
+
+/// The targets of the links in a text.
+fn links(text: &str) -> impl Iterator<Item = &str> {
+    let targets = text.split("](").skip(1);
+    targets.filter_map(|rest| rest.split_once(')').map(|(target, _)| target))
+}
+
+#[test]
+fn every_link_leads_to_a_file() {
+    let readme = fs::read_to_string(root().join("README.md")).expect("there is a README");
+    let mut pages = vec![(root().to_owned(), "README.md".to_owned(), readme)];
+    let book = root().join("book/src");
+    pages.extend(chapters().into_iter().map(|(name, text)| (book.clone(), name, text)));
+    let mut failures = Vec::new();
+    for (folder, name, text) in &pages {
+        for link in links(text).filter(|link| !link.contains("://")) {
+            let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
+            let file = if path.is_empty() { name } else { path };
+            let Ok(target) = fs::read(folder.join(file)) else {
+                failures.push(format!("{name}: {link} leads nowhere"));
+                continue;
+            };
+            let target = String::from_utf8_lossy(&target);
+            let heading = |line: &str| line.trim_start_matches('#').trim().to_lowercase().replace(' ', "-");
+            let is_heading = |line: &&str| line.starts_with('#');
+            if !anchor.is_empty() && !target.lines().filter(is_heading).any(|line| heading(line) == anchor) {
+                failures.push(format!("{name}: {link} leads to no heading"));
+            }
+        }
+    }
+    assert_none(&failures);
+}

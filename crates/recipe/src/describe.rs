@@ -15,16 +15,30 @@ pub struct FieldDoc {
     pub default: Option<String>,
     /// What it is for.
     pub doc: String,
-    /// The variants to choose from, with what they mean.
-    pub variants: Vec<(String, String)>,
+    /// The variants to choose from.
+    pub variants: Vec<VariantDoc>,
+}
+
+/// One variant of a choice, such as a selection or an expectation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VariantDoc {
+    /// Its name.
+    pub name: String,
+    /// How it is written: `Sharp(above: ..)`.
+    pub written: String,
+    /// What it means.
+    pub doc: String,
+    /// Its fields, if they have names.
+    pub fields: Vec<FieldDoc>,
 }
 
 /// The parameters of an operation, in the order of its struct.
 pub fn fields(schema: &Json) -> Vec<FieldDoc> {
-    fields_of(&Schema::root(schema))
+    fields_of(&Schema::root(schema), true)
 }
 
-fn fields_of(schema: &Schema) -> Vec<FieldDoc> {
+/// The fields of a schema; with the variants of their types only if it is said, because selections contain selections.
+fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
     let required: Vec<&str> = schema.required().collect();
     let described = |name: &str| {
         let field = schema.field(name)?;
@@ -35,7 +49,7 @@ fn fields_of(schema: &Schema) -> Vec<FieldDoc> {
             kind: kind(&field),
             default: (!required.contains(&name)).then_some(default),
             doc: field.doc(),
-            variants: variants(&field),
+            variants: if with_variants { variants(&field) } else { Vec::new() },
         })
     };
     schema.fields().filter_map(described).collect()
@@ -51,7 +65,14 @@ pub struct TypeDoc {
     /// Its fields, if it is written `(a: .., b: ..)`.
     pub fields: Vec<FieldDoc>,
     /// Its variants, if it is a choice.
-    pub variants: Vec<(String, String)>,
+    pub variants: Vec<VariantDoc>,
+}
+
+impl TypeDoc {
+    /// Whether it is one of the selections, or a region, which only selections name.
+    pub fn is_selection(&self) -> bool {
+        self.name.ends_with("Selection") || self.name == "Region"
+    }
 }
 
 /// The types that the parameters of an operation are made of, in order of their names; not those that
@@ -63,7 +84,7 @@ pub fn types(schema: &Json) -> Vec<TypeDoc> {
         .map(|(name, definition)| TypeDoc {
             name: name.to_owned(),
             doc: definition.doc(),
-            fields: fields_of(&definition),
+            fields: fields_of(&definition, true),
             variants: variants(&definition),
         })
         .filter(|t| !t.fields.is_empty() || !t.variants.is_empty())
@@ -72,9 +93,21 @@ pub fn types(schema: &Json) -> Vec<TypeDoc> {
     types
 }
 
-/// The reasons that `refused:` can name, with what they mean.
-pub fn refusals() -> Vec<(String, String)> {
+/// The reasons that `refused:` can name.
+pub fn refusals() -> Vec<VariantDoc> {
     variants(&Schema::root(&crate::schema::of::<op::Refusal>()))
+}
+
+/// What recipes can expect, in the order of the documentation.
+pub fn expectations() -> Vec<VariantDoc> {
+    variants(&Schema::root(crate::schema::expectation()))
+}
+
+/// The kinds of selections and the region that some of them name.
+pub fn selections() -> Vec<TypeDoc> {
+    let mut all = types(crate::schema::expectation());
+    all.retain(|t| t.is_selection());
+    all
 }
 
 /// What kind of value is meant: the name of its type, if it has one and is no tuple.
@@ -125,19 +158,22 @@ fn range(schema: &Schema) -> String {
     text
 }
 
-/// The variants of an enumeration, as they are written.
-fn variants(schema: &Schema) -> Vec<(String, String)> {
+/// The variants of an enumeration.
+fn variants(schema: &Schema) -> Vec<VariantDoc> {
     let units = |schema: &Schema, doc: &str| {
-        let names = schema.units().into_iter();
-        names
-            .map(|name| (name.to_owned(), doc.to_owned()))
-            .collect()
+        let unit = |name: &str| VariantDoc {
+            name: name.to_owned(),
+            written: name.to_owned(),
+            doc: doc.to_owned(),
+            fields: Vec::new(),
+        };
+        schema.units().into_iter().map(unit).collect()
     };
     let options = schema.list("oneOf");
     if options.is_empty() {
         return units(schema, "");
     }
-    let written = |option: &Schema| -> Vec<(String, String)> {
+    let described = |option: &Schema| -> Vec<VariantDoc> {
         let Some((name, content)) = option
             .fields()
             .next()
@@ -145,7 +181,7 @@ fn variants(schema: &Schema) -> Vec<(String, String)> {
         else {
             return units(option, &option.doc());
         };
-        let fields: Vec<String> = content.fields().map(|f| format!("{f}: ..")).collect();
+        let fields = fields_of(&content, false);
         let inside = if fields.is_empty() {
             match form(&content) {
                 tuple if tuple.starts_with('(') => {
@@ -155,11 +191,17 @@ fn variants(schema: &Schema) -> Vec<(String, String)> {
                 _ => "..".to_owned(),
             }
         } else {
-            fields.join(", ")
+            let written: Vec<String> = fields.iter().map(|f| format!("{}: ..", f.name)).collect();
+            written.join(", ")
         };
-        vec![(format!("{name}({inside})"), option.doc())]
+        vec![VariantDoc {
+            name: name.to_owned(),
+            written: format!("{name}({inside})"),
+            doc: option.doc(),
+            fields,
+        }]
     };
-    options.iter().flat_map(written).collect()
+    options.iter().flat_map(described).collect()
 }
 
 /// A default as RON, for a value of this schema.
@@ -282,14 +324,14 @@ mod tests {
             fields[0]
                 .variants
                 .iter()
-                .any(|(v, _)| v == "Between(.., ..)")
+                .any(|v| v.written == "Between(.., ..)")
         );
         assert!(
             fields[0]
                 .variants
                 .iter()
-                .any(|(v, _)| v == "Sharp(above: ..)")
+                .any(|v| v.written == "Sharp(above: ..)")
         );
-        assert_eq!(fields[3].variants[1].0, "Skip");
+        assert_eq!(fields[3].variants[1].written, "Skip");
     }
 }

@@ -32,7 +32,9 @@ mod substitute;
 mod sweep;
 
 pub use check::{Forecast, StepForecast, check, mebibytes};
-pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
+pub use describe::{
+    FieldDoc, TypeDoc, VariantDoc, expectations, fields, refusals, selections, types,
+};
 pub use diagnostic::render;
 pub use expect::{Expectation, Found, Measured, Metric, Other, Reader};
 pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};

@@ -1,42 +1,71 @@
-//! `meshwright ops`: lists the operations, or shows one, from the same structs that recipes are read
+//! `meshwright ops`, `meshwright expectations`: describe what recipes can say, from the same types that recipes are read
 //! into.
 
-use std::collections::BTreeMap;
-use std::path::Path;
-
 use op::{Entry, Registry};
-use recipe::{FieldDoc, TypeDoc, did_you_mean, fields, step_kinds, types};
+use recipe::{FieldDoc, TypeDoc, VariantDoc, did_you_mean, fields, step_kinds, types};
 use serde_json::Value as Json;
 
-use super::new_op::snake_case;
-use crate::output::{print, table};
+use super::reference::reference;
+use crate::args::OpsArgs;
+use crate::output::print;
 
-pub(crate) fn run(
-    name: Option<&str>,
-    markdown: bool,
-    pictures: Option<&Path>,
-    registry: &Registry,
-) -> anyhow::Result<bool> {
-    if markdown {
-        print(&reference(registry, pictures))?;
-        return Ok(true);
-    }
+/// Where the lines of texts end.
+const WIDTH: usize = 100;
+
+pub(crate) fn run(args: &OpsArgs, registry: &Registry) -> anyhow::Result<bool> {
+    let text = if args.markdown {
+        reference(registry, args.pictures.as_deref())
+    } else if args.selections {
+        selections()
+    } else if let Some(name) = &args.name {
+        operation(name, registry)?
+    } else {
+        list(registry)
+    };
+    print(&text)?;
+    Ok(true)
+}
+
+/// What recipes can expect: a list, or one of them with its fields.
+pub(crate) fn expectations(name: Option<&str>) -> anyhow::Result<bool> {
+    let all = recipe::expectations();
     let Some(name) = name else {
-        let mut rows: Vec<Vec<String>> = registry
-            .entries()
-            .iter()
-            .map(|e| vec![format!("{:<20} {}", e.name, e.summary)])
-            .collect();
-        rows.extend(step_kinds().iter().map(|(name, schema)| {
-            let doc = schema["description"].as_str().unwrap_or_default();
-            vec![format!("{name:<20} {doc}")]
-        }));
-        print(&table(&rows))?;
+        let text = variants_text(&all, "");
+        print(&format!("{text}\n`meshwright expectations NAME` shows the fields of one.\n"))?;
         return Ok(true);
     };
+    let Some(one) = all.iter().find(|one| one.name == name) else {
+        let known = all.iter().map(|one| one.name.as_str());
+        anyhow::bail!("there is no expectation `{name}`: {}", did_you_mean(name, known));
+    };
+    let mut text = format!("{}\n\n{}\n", one.written, one.doc);
+    if !one.fields.is_empty() {
+        text += "\nFields:\n";
+    }
+    text.extend(one.fields.iter().map(|field| field_text(field, "  ")));
+    print(&text)?;
+    Ok(true)
+}
+
+fn list(registry: &Registry) -> String {
+    let row = |name: &str, summary: &str| format!("{name:<20} {summary}\n");
+    let entries = registry.entries().iter();
+    let mut text: String = entries.map(|e| row(e.name, e.summary)).collect();
+    for (name, schema) in step_kinds() {
+        text += &row(name, schema["description"].as_str().unwrap_or_default());
+    }
+    text
+}
+
+fn selections() -> String {
+    let types = recipe::selections();
+    let texts: Vec<String> = types.iter().map(type_text).collect();
+    texts.join("\n")
+}
+
+fn operation(name: &str, registry: &Registry) -> anyhow::Result<String> {
     if let Some((name, schema)) = step_kinds().into_iter().find(|(kind, _)| *kind == name) {
-        print(&format!("{name}: {}", described(&schema)))?;
-        return Ok(true);
+        return Ok(format!("{name}: {}", described(&schema)));
     }
     let Some(entry) = registry.get(name) else {
         let known = registry.entries().iter().map(|e| e.name);
@@ -46,50 +75,52 @@ pub(crate) fn run(
             did_you_mean(name, known)
         );
     };
-    print(&detail(entry))?;
-    Ok(true)
+    Ok(detail(entry))
 }
 
 fn detail(entry: &Entry) -> String {
-    let schema = entry.schema();
     let mut text = format!(
         "{} (version {}): {}\n\n{}",
         entry.name,
         entry.version,
         entry.summary,
-        described(&schema)
+        described(&entry.schema())
     );
     if entry.takes_on {
-        text += "\nTakes `on: [\"name\", ..]` to act on chosen objects; without it on all that it can.\n";
+        text += "\n`on: [\"name\", ..]` chooses objects. If omitted, the step acts on all objects that it can act on.\n";
     }
     text + &format!("\nExample: {}\n", entry.example)
 }
 
-/// The description and the parameters.
+/// The description, the parameters, and the types that they are made of; selections only by their names.
 fn described(schema: &Json) -> String {
     let mut text = String::new();
-    if let Some(description) = schema.get("description").and_then(|d| d.as_str()) {
+    if let Some(description) = schema["description"].as_str() {
         text += &format!("{description}\n");
     }
     let fields = fields(schema);
-    if fields.is_empty() {
-        text += "\nNo parameters.\n";
+    text += if fields.is_empty() {
+        "\nNo parameters.\n"
     } else {
-        text += "\nParameters:\n";
+        "\nParameters:\n"
+    };
+    text.extend(fields.iter().map(|field| field_text(field, "  ")));
+    // The variants of a parameter stand with it.
+    let is_shown = |t: &TypeDoc| fields.iter().any(|f| f.kind == t.name);
+    let types = types(schema);
+    for t in types.iter().filter(|t| !t.is_selection() && !is_shown(t)) {
+        text += &format!("\n{}", type_text(t));
     }
-    for field in &fields {
-        text += &field_text(field, "  ");
-    }
-    // What the parameters are made of, but for the variants that stand above.
-    let shown = |t: &TypeDoc| fields.iter().any(|f| f.kind == t.name);
-    for t in types(schema).iter().filter(|t| !shown(t)) {
-        text += &format!("\n{}: {}\n", t.name, t.doc);
-        for field in &t.fields {
-            text += &field_text(field, "  ");
-        }
-        text += &variants_text(&t.variants, "  ");
+    if types.iter().any(TypeDoc::is_selection) {
+        text += "\n`meshwright ops --selections` lists the selections.\n";
     }
     text
+}
+
+fn type_text(t: &TypeDoc) -> String {
+    let mut text = format!("{}: {}\n", t.name, t.doc);
+    text.extend(t.fields.iter().map(|field| field_text(field, "  ")));
+    text + &variants_text(&t.variants, "  ")
 }
 
 fn field_text(field: &FieldDoc, indent: &str) -> String {
@@ -103,111 +134,26 @@ fn field_text(field: &FieldDoc, indent: &str) -> String {
         text += format!("{indent}    {line}").trim_end();
         text.push('\n');
     }
+    if field.kind.ends_with("Selection") {
+        return text;
+    }
     text + &variants_text(&field.variants, &format!("{indent}    "))
 }
 
-fn variants_text(variants: &[(String, String)], indent: &str) -> String {
+/// Variants with their documentation in a second column.
+fn variants_text(variants: &[VariantDoc], indent: &str) -> String {
     let mut text = String::new();
-    for (variant, doc) in variants {
-        let first = doc.lines().next().unwrap_or("");
-        text += format!("{indent}{variant:<34} {first}").trim_end();
-        text.push('\n');
+    for variant in variants {
+        let column = indent.len() + 35;
+        let mut line = format!("{indent}{:<34}", variant.written);
+        for word in variant.doc.split_whitespace() {
+            if line.chars().count() + 1 + word.chars().count() > WIDTH {
+                text += &format!("{line}\n");
+                line = " ".repeat(column - 1);
+            }
+            line += &format!(" {word}");
+        }
+        text += &format!("{}\n", line.trim_end());
     }
     text
-}
-
-/// The reference of all operations as Markdown.
-fn reference(registry: &Registry, pictures: Option<&Path>) -> String {
-    let mut text =
-        "# Operations\n\nMade by `meshwright ops --markdown` from the operations themselves.\n\n"
-            .to_owned();
-    for entry in registry.entries() {
-        text += &format!(
-            "- [{0}](#{1}): {2}\n",
-            entry.name,
-            entry.name.to_lowercase(),
-            entry.summary
-        );
-    }
-    let mut used: BTreeMap<String, TypeDoc> = BTreeMap::new();
-    for entry in registry.entries() {
-        let schema = entry.schema();
-        text += &format!("\n## {}\n\n", entry.name);
-        if let Some(description) = schema.get("description").and_then(|d| d.as_str()) {
-            text += &format!("{description}\n\n");
-        }
-        text += &format!("```ron\n{}\n```\n\n", entry.example);
-        if let Some(folder) = pictures {
-            text += &shown(entry.name, folder);
-        }
-        let fields = fields(&schema);
-        if fields.is_empty() {
-            text += "No parameters.\n";
-        } else {
-            text += &fields_table(&fields);
-        }
-        used.extend(types(&schema).into_iter().map(|t| (t.name.clone(), t)));
-    }
-    text += "\n# Steps that hold steps\n";
-    for (name, schema) in step_kinds() {
-        let doc = schema["description"].as_str().unwrap_or_default();
-        text += &format!(
-            "\n## {name}\n\n{doc}.\n\n{}",
-            fields_table(&fields(&schema))
-        );
-    }
-    text += "\n# Types of parameters\n";
-    for t in used.values() {
-        text += &format!("\n## {}\n\n{}\n\n", t.name, t.doc);
-        if !t.fields.is_empty() {
-            text += &fields_table(&t.fields);
-        }
-        if !t.variants.is_empty() {
-            text += &variants_table(&t.variants);
-        }
-    }
-    text += "\n# Reasons for `refused:`\n\n";
-    text + &variants_table(&recipe::refusals())
-}
-
-/// The pictures of an operation side by side, with the recipe that draws them.
-fn shown(operation: &str, folder: &Path) -> String {
-    let name = snake_case(operation);
-    let recipe = format!("{}/{name}", folder.display());
-    let images: Vec<String> = ["before", "after"]
-        .iter()
-        .filter(|image| folder.join(format!("{name}/{image}.png")).is_file())
-        .map(|image| format!("![{image}]({recipe}/{image}.png)"))
-        .collect();
-    if images.is_empty() {
-        return String::new();
-    }
-    format!("{} [drawn by]({recipe}.ron)\n\n", images.join(" "))
-}
-
-fn fields_table(fields: &[FieldDoc]) -> String {
-    let mut text =
-        "| parameter | type | default | meaning |\n| --- | --- | --- | --- |\n".to_owned();
-    for field in fields {
-        let default = match &field.default {
-            Some(default) => format!("`{default}`"),
-            None => "required".to_owned(),
-        };
-        let (name, kind, doc) = (&field.name, &field.kind, cell(&field.doc));
-        text += &format!("| `{name}` | {kind} | {default} | {doc} |\n");
-    }
-    text
-}
-
-fn variants_table(variants: &[(String, String)]) -> String {
-    let mut text = "| choice | meaning |\n| --- | --- |\n".to_owned();
-    for (variant, doc) in variants {
-        text += &format!("| `{variant}` | {} |\n", cell(doc));
-    }
-    text
-}
-
-/// A text in one cell of a table.
-fn cell(text: &str) -> String {
-    text.replace('\n', " ").replace('|', "\\|")
 }

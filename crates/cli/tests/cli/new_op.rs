@@ -90,6 +90,7 @@ fn target() -> PathBuf {
 }
 
 #[test]
+#[ignore = "builds the workspace a second time: .ci/run runs it"]
 fn a_new_operation_of_a_group_works_as_it_is() {
     let folder = workspace();
     folder
@@ -119,6 +120,7 @@ fn a_new_operation_of_a_group_works_as_it_is() {
 }
 
 #[test]
+#[ignore = "builds the workspace a second time: .ci/run runs it"]
 fn a_new_crate_is_a_program_with_its_operation() {
     let folder = Folder::new();
     let root = repository();

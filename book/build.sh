@@ -23,4 +23,10 @@ awk -v pages="$pages\n  - [Types of parameters](operations/types.md)" '
     { print } /\(operations.md\)/ { print pages }
 ' book/src/SUMMARY.md > "$out/src/SUMMARY.md"
 sed -i 's|#include ../../|#include ../../../|' "$out"/src/*.md
+# Pictures from elsewhere in the repository are copied beside the chapters.
+for image in $(grep -oh '](\.\./\.\./[^)]*png' "$out"/src/*.md | sed 's|](../../||'); do
+    mkdir -p "$out/src/images/$(dirname "$image")"
+    cp "$image" "$out/src/images/$image"
+done
+sed -i 's|](\.\./\.\./\([^)]*png\)|](images/\1|g' "$out"/src/*.md
 mdbook build "$out" --dest-dir "$PWD/target/book"

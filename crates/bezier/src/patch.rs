@@ -154,14 +154,7 @@ pub(crate) fn cubic(p: [DVec3; 4], w: Weights) -> DVec3 {
     match w.end() {
         Some(0) => p[0],
         Some(_) => p[3],
-        None => {
-            let q = [
-                w.blend(p[0], p[1]),
-                w.blend(p[1], p[2]),
-                w.blend(p[2], p[3]),
-            ];
-            quadratic(q, w)
-        }
+        None => quadratic([0, 1, 2].map(|i| w.blend(p[i], p[i + 1])), w),
     }
 }
 

@@ -185,8 +185,8 @@ fn casteljau<P: Point>(mut points: Vec<P>, weights: Weights) -> P {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bernstein;
     use crate::fixtures::{Lcg, assert_close};
+    use crate::oracle;
 
     /// Random curves of degree 0 to 12.
     fn curves(seed: u64) -> Vec<Curve<DVec3>> {
@@ -202,10 +202,10 @@ mod tests {
         for curve in curves(2) {
             for _ in 0..50 {
                 let t = random.unit();
-                assert_close(curve.point(t), bernstein::point(curve.points(), t), 1e-12);
+                assert_close(curve.point(t), oracle::point(curve.points(), t), 1e-12);
                 assert_close(
                     curve.derivative(t),
-                    bernstein::derivative(curve.points(), t),
+                    oracle::derivative(curve.points(), t),
                     1e-12,
                 );
             }
@@ -308,7 +308,7 @@ mod tests {
         let shift = DVec3::new(0.0, 2.0, 0.0);
         let moved = curve.with_point(2, curve.points()[2] + shift).unwrap();
 
-        let weight = bernstein::weight(5, 2, 0.4);
+        let weight = oracle::weight(5, 2, 0.4);
         assert_close(moved.point(0.4) - curve.point(0.4), shift * weight, 1e-12);
     }
 

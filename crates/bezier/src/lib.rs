@@ -46,14 +46,14 @@
 //! - Newell, "The utilization of procedure models in digital image synthesis", 1975: the teapot,
 //!   whose lid and bottom have the collapsed sides that every Bezier program meets first.
 
-#[cfg(test)]
-mod bernstein;
 mod collapse;
 pub mod curve;
 mod error;
 #[cfg(test)]
 mod fixtures;
 pub mod normal;
+#[cfg(test)]
+mod oracle;
 pub mod patch;
 pub mod polygons;
 pub mod tessellate;

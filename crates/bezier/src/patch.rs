@@ -186,8 +186,8 @@ fn taylor(p: [DVec3; 4], w: Weights) -> [DVec3; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bernstein;
     use crate::fixtures::{Lcg, assert_close};
+    use crate::oracle;
 
     #[test]
     fn points_and_derivatives_agree_with_the_bernstein_form() {
@@ -196,7 +196,7 @@ mod tests {
             let patch = random.patch();
             for _ in 0..20 {
                 let (u, v) = (random.unit(), random.unit());
-                let [point, by_u, by_v] = bernstein::patch(patch.points(), u, v);
+                let [point, by_u, by_v] = oracle::patch(patch.points(), u, v);
                 let (du, dv) = patch.derivatives(u, v);
                 assert_close(patch.point(u, v), point, 1e-12);
                 assert_close(du, by_u, 1e-12);

@@ -27,28 +27,27 @@ use crate::weights::Weights;
 /// costs (8 million steps) and what [`Curve::levels`] holds (200 MB).
 pub const MAX_POINTS: usize = 4096;
 
-/// A point of the plane or of space, and the vectors between such points.
+/// A point of the plane or of space, and the vectors between such points. The origin is the default.
 pub trait Point:
-    Copy + Debug + PartialEq + Add<Output = Self> + Sub<Output = Self> + Mul<f64, Output = Self>
+    Copy
+    + Debug
+    + Default
+    + PartialEq
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<f64, Output = Self>
 {
-    /// The origin, or the vector of length zero.
-    const ZERO: Self;
-
     /// Whether every coordinate is a number and not infinite.
     fn is_finite(self) -> bool;
 }
 
 impl Point for DVec2 {
-    const ZERO: Self = DVec2::ZERO;
-
     fn is_finite(self) -> bool {
         DVec2::is_finite(self)
     }
 }
 
 impl Point for DVec3 {
-    const ZERO: Self = DVec3::ZERO;
-
     fn is_finite(self) -> bool {
         DVec3::is_finite(self)
     }
@@ -140,7 +139,7 @@ impl<P: Point> Curve<P> {
         let n = self.degree() as f64;
         let differences = self.points.windows(2).map(|pair| (pair[1] - pair[0]) * n);
         match differences.collect::<Vec<P>>() {
-            differences if differences.is_empty() => P::ZERO,
+            differences if differences.is_empty() => P::default(),
             differences => casteljau(differences, Weights::at(t)),
         }
     }

@@ -116,18 +116,13 @@ impl Patch {
     ///
     /// These are the sizes against which derivatives are called zero.
     pub(crate) fn reach(&self) -> DVec2 {
-        let mut reach = DVec2::ZERO;
-        for row in &self.points {
-            for pair in row.windows(2) {
-                reach.x = reach.x.max(size(pair[1] - pair[0]));
-            }
-        }
-        for rows in self.points.windows(2) {
-            for (p, q) in rows[0].iter().zip(&rows[1]) {
-                reach.y = reach.y.max(size(*q - *p));
-            }
-        }
-        reach
+        let along = |patch: &Self| {
+            let pairs = patch.points.iter().flat_map(|row| row.windows(2));
+            pairs
+                .map(|pair| size(pair[1] - pair[0]))
+                .fold(0.0, f64::max)
+        };
+        DVec2::new(along(self), along(&self.transposed()))
     }
 
     /// The derivatives at a pair of weights.

@@ -28,6 +28,8 @@
 //! the corners of a cell lie in a line (the tip of the teapot's spout in one segment), may have
 //! faces without area.
 
+use std::num::NonZero;
+
 use glam::DVec2;
 
 use crate::collapse::Sides;
@@ -76,7 +78,7 @@ pub fn tessellate_patch(
     faces: Faces,
     out: &mut Tessellation,
 ) -> Result<(), BezierError> {
-    let n = checked_segments(segments)?;
+    let n = NonZero::new(segments).ok_or(BezierError::NoSegments)?.get();
     let sides = Sides::of(patch, n);
     let more = sides.counts(n, faces);
     out.counts().plus(&more).check()?;
@@ -109,7 +111,7 @@ pub fn tessellate_patch(
 /// [`BezierError::NoSegments`] if `segments` is 0, [`BezierError::TooManyElements`] if the
 /// vertices, faces or face corners do not fit ids of 32 bits.
 pub fn counts(patches: &[Patch], segments: u32, faces: Faces) -> Result<Counts, BezierError> {
-    let n = checked_segments(segments)?;
+    let n = NonZero::new(segments).ok_or(BezierError::NoSegments)?.get();
     let total = patches.iter().fold(Counts::default(), |total, patch| {
         total.plus(&Sides::of(patch, n).counts(n, faces))
     });
@@ -173,15 +175,6 @@ fn push_faces(below: &[u32], above: &[u32], faces: Faces, out: &mut Tessellation
                 out.push_face([a, c, d]);
             }
         }
-    }
-}
-
-/// `segments`, unless it is 0.
-fn checked_segments(segments: u32) -> Result<u32, BezierError> {
-    if segments == 0 {
-        Err(BezierError::NoSegments)
-    } else {
-        Ok(segments)
     }
 }
 

@@ -82,7 +82,7 @@ fn legends_and_labels() {
         title: String::new(),
         scale: Scale::Discrete(vec![entry("Größe", 0), entry("нос", 250)]),
     };
-    let mut below = Image::filled(150, 110, [180, 190, 200, 255]).unwrap();
+    let mut below = Image::filled(140, 110, [180, 190, 200, 255]).unwrap();
     draw_legend(&mut below, &list, 1.5);
     image.place(&below, [0, 130]);
     let label = |x, text: &str| Label::new(DVec2::new(x, 40.0), text, 13.0, BLACK);

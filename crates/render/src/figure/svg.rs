@@ -38,6 +38,13 @@ impl Paint {
         }
     }
 
+    /// The same, with an outline in dashes.
+    #[must_use]
+    pub const fn with_dashes(mut self, dashes: &'static [f64]) -> Self {
+        self.dashes = dashes;
+        self
+    }
+
     /// The same, outlined.
     #[must_use]
     pub const fn with_stroke(mut self, color: Color, width: f64) -> Self {

@@ -26,29 +26,25 @@ const LINE: f64 = 24.0;
 
 /// The entries in lines, each line centered in `width` pixels.
 pub(super) fn entries(panels: &[Panel], width: f64) -> Vec<Vec<Entry>> {
-    let mut lines: Vec<Vec<Entry>> = Vec::new();
-    let mut ends = Vec::new();
+    // Each with its end, from the left.
+    let mut lines: Vec<(Vec<Entry>, f64)> = Vec::new();
     for (mark, text) in explained(panels) {
         let long = MARK + text_width(&text);
-        let left = match ends.last() {
-            Some(end) if end + GAP + long <= width - 16.0 => end + GAP,
-            _ => {
-                lines.push(Vec::new());
-                ends.push(0.0);
-                0.0
-            }
-        };
-        if let (Some(line), Some(end)) = (lines.last_mut(), ends.last_mut()) {
-            *end = left + long;
+        let fits = |(_, end): &&mut (_, f64)| *end + GAP + long <= width - 16.0;
+        if let Some((line, end)) = lines.last_mut().filter(fits) {
+            let left = *end + GAP;
             line.push(Entry { mark, text, left });
+            *end = left + long;
+        } else {
+            let left = 0.0;
+            lines.push((vec![Entry { mark, text, left }], long));
         }
     }
-    for (line, end) in lines.iter_mut().zip(ends) {
-        for entry in line {
-            entry.left += (width - end) / 2.0;
-        }
+    for (line, end) in &mut lines {
+        line.iter_mut()
+            .for_each(|entry| entry.left += (width - *end) / 2.0);
     }
-    lines
+    lines.into_iter().map(|(line, _)| line).collect()
 }
 
 /// What the panels have.
@@ -60,8 +56,7 @@ fn explained(panels: &[Panel]) -> Vec<(Option<Paint>, Text)> {
         (line(POLYGON, 1.8), plain("control polygon")),
     ];
     if panels.iter().any(|p| p.before.is_some()) {
-        let mut dashed = Paint::stroke(FAINT, 2.4);
-        dashed.dashes = &[6.0, 5.0];
+        let dashed = Paint::stroke(FAINT, 2.4).with_dashes(&[6.0, 5.0]);
         entries.push((Some(dashed), plain("before")));
     }
     let constructed = || panels.iter().filter(|p| p.t.is_some());

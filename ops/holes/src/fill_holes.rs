@@ -67,8 +67,8 @@ impl MeshOperation for FillHoles {
                 plan.degrees.max = plan.degrees.max.max(corners.min(plan.edges.max));
             }
             Cover::Triangles => {
-                plan.faces = plan.faces.plus(Range::at_most(plan.edges.max));
-                plan.edges = plan.edges.plus(Range::at_most(plan.edges.max));
+                let most = plan.edges.or_less();
+                plan.grow(Range::exactly(0), most, most);
             }
         }
         plan.degrees.min = plan.degrees.min.min(3);

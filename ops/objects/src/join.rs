@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use mesh::Domain;
 use op::prelude::*;
-use op::{Operation, PlannedAttribute, check_name, named_object};
+use op::{Operation, PlannedAttribute, PlannedObject, check_name, named_object};
 use scene::{Geometry, Object};
 
 /// Joins meshes into one.
@@ -54,10 +54,7 @@ impl Operation for Join {
         for (i, name) in self.objects.iter().enumerate() {
             let at = i.to_string();
             match plan.object(name).map(|o| &o.geometry) {
-                None => {
-                    let missing = plan.check_names([name.as_str()], "objects").into_iter();
-                    problems.extend(missing.map(|p| p.at(["objects", &at])));
-                }
+                None => problems.extend(plan.missing(name, ["objects", &at])),
                 Some(PlannedGeometry::Mesh(mesh)) => parts.push(mesh.clone()),
                 Some(other) => {
                     let message = not_a_mesh(name, other.kind());
@@ -65,9 +62,8 @@ impl Operation for Join {
                 }
             }
         }
-        if plan.object(&self.name).is_some() && !self.objects.contains(&self.name) {
-            let message = scene::DuplicateName(self.name.clone()).to_string();
-            problems.push(Problem::error(message).at(["name"]));
+        if !self.objects.contains(&self.name) {
+            problems.extend(plan.taken(&self.name, "name"));
         }
         if !problems.is_empty() {
             return problems;
@@ -78,25 +74,19 @@ impl Operation for Join {
             return problems;
         }
         let joined = self.joined_plan(&parts);
-        let largest = joined
-            .edges
-            .by(2)
-            .min
-            .max(joined.vertices.min)
-            .max(joined.faces.min);
+        let counts = [joined.edges.by(2), joined.vertices, joined.faces];
+        let largest = counts.map(|n| n.min).into_iter().fold(0, u64::max);
         if largest > parts::MAX_ELEMENTS {
             problems.push(Problem::error(parts::too_many(largest)));
         }
         let first = &self.objects[0];
-        plan.objects
-            .retain(|o| o.name == *first || !self.objects.contains(&o.name));
-        let object = plan
-            .objects
-            .iter_mut()
-            .find(|o| o.name == *first)
-            .expect("checked above");
-        object.name.clone_from(&self.name);
-        object.geometry = PlannedGeometry::Mesh(joined);
+        let objects = &mut plan.objects;
+        objects.retain(|o| o.name == *first || !self.objects.contains(&o.name));
+        let object = objects.iter_mut().find(|o| o.name == *first);
+        *object.expect("checked above") = PlannedObject {
+            name: self.name.clone(),
+            geometry: PlannedGeometry::Mesh(joined),
+        };
         problems
     }
 
@@ -180,18 +170,12 @@ impl Join {
     fn joined_plan(&self, parts: &[MeshPlan]) -> MeshPlan {
         let mut joined = parts[0].clone();
         for part in &parts[1..] {
-            joined.vertices = joined.vertices.plus(part.vertices);
-            joined.edges = joined.edges.plus(part.edges);
-            joined.faces = joined.faces.plus(part.faces);
+            joined.grow(part.vertices, part.edges, part.faces);
             joined.others |= part.others;
-            joined.degrees.min = joined.degrees.min.min(part.degrees.min);
-            joined.degrees.max = joined.degrees.max.max(part.degrees.max);
+            joined.degrees = joined.degrees.or(part.degrees);
             for a in &part.attributes {
-                if !joined
-                    .attributes
-                    .iter()
-                    .any(|b| (b.domain, &b.name) == (a.domain, &a.name))
-                {
+                let is_same = |b: &PlannedAttribute| (b.domain, &b.name) == (a.domain, &a.name);
+                if !joined.attributes.iter().any(is_same) {
                     joined.attributes.push(a.clone());
                 }
             }

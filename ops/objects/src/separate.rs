@@ -57,7 +57,7 @@ impl Operation for Separate {
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let Some(place) = plan.objects.iter().position(|o| o.name == self.object) else {
-            return plan.check_names([self.object.as_str()], "object");
+            return Vec::from_iter(plan.missing(&self.object, ["object"]));
         };
         let PlannedGeometry::Mesh(mesh) = &plan.objects[place].geometry else {
             let kind = plan.objects[place].geometry.kind();
@@ -81,10 +81,8 @@ impl Operation for Separate {
             return vec![Problem::error(message).at(["count"])];
         }
         let names: Vec<String> = (1..=count).map(|i| self.name(i)).collect();
-        let taken = |name: &&String| plan.object(name).is_some();
-        if let Some(name) = names.iter().find(taken) {
-            let message = scene::DuplicateName(name.clone()).to_string();
-            return vec![Problem::error(message).at(["object"])];
+        if let Some(taken) = names.iter().find_map(|name| plan.taken(name, "object")) {
+            return vec![taken];
         }
         let mut objects = names.into_iter().map(|name| PlannedObject {
             name,

@@ -98,22 +98,11 @@ impl Operation for CurveFigure {
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        match cx.files.to_write(&self.path) {
-            Ok(path) => {
-                if Format::of(&path).is_none() {
-                    let message = format!("no format of figures is known for \"{}\"", self.path);
-                    let help = "endings that can be written: .svg, .png";
-                    problems.push(Problem::error(message).at(["path"]).help(help));
-                }
-                if plan.outputs.contains(&path) {
-                    let message = format!("an earlier step writes \"{}\" too", self.path);
-                    problems.push(Problem::error(message).at(["path"]));
-                }
-                plan.outputs.push(path);
-            }
-            Err(error) => problems.push(Problem::error(error.to_string()).at(["path"])),
-        }
+        let mut problems = plan.write(cx, &self.path, |path| {
+            let unknown = Problem::error(self.no_format()).at(["path"]);
+            let help = "endings that can be written: .svg, .png";
+            Format::of(path).is_none().then(|| unknown.help(help))
+        });
         problems.extend(self.plan_curves(plan, cx));
         problems
     }
@@ -131,8 +120,7 @@ impl Operation for CurveFigure {
             Some(Format::Svg) => figure.finish(stamp).into_bytes(),
             Some(Format::Png) => self.png(&figure, stamp, cx.budget)?,
             None => {
-                let message = format!("no format of figures is known for \"{}\"", self.path);
-                return Err(OpError::Parameter(message));
+                return Err(OpError::Parameter(self.no_format()));
             }
         };
         cx.files()
@@ -145,11 +133,15 @@ impl Operation for CurveFigure {
 }
 
 impl CurveFigure {
+    fn no_format(&self) -> String {
+        format!("no format of figures is known for \"{}\"", self.path)
+    }
+
     /// What is wrong with the objects.
     fn plan_curves(&self, plan: &Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         let before = self.before.as_deref();
-        problems.extend(plan.check_names(before, "before"));
+        problems.extend(before.and_then(|name| plan.missing(name, ["before"])));
         let most = if self.t.is_empty() {
             MAX_DRAWN
         } else {

@@ -8,13 +8,12 @@ mod colors;
 #[cfg(test)]
 mod tests;
 
-use std::borrow::Cow;
 use std::fmt::Display;
 use std::path::{Component, Path};
 
 use op::{
     Context, Count, Elements, Files, OpError, Operation, Plan, PlanContext, Problem, Progress,
-    Report, Seconds, Selected,
+    Report, Seconds, Selected, chosen_scene,
 };
 use render::animation::{Timing, to_apng, to_gif};
 use render::{Camera, Color, Image, LARGEST_SIDE, Overlays, PictureError, Style};
@@ -223,7 +222,7 @@ impl Picture {
     /// As [`draw`](Self::draw).
     pub fn extent(&self, scene: &Scene, cx: &mut Context) -> Result<Extent, OpError> {
         self.in_order()?;
-        let scene = chosen(scene, cx.on);
+        let scene = chosen_scene(scene, cx);
         // Images of materials change nothing of where things are.
         let (subject, _) = self.subject(&scene, "", &mut |_, _| None, cx)?;
         self.shot(cx.budget).extent(subject).map_err(failed)
@@ -271,7 +270,7 @@ impl Picture {
         cx.advance("draw", 0, 1)?;
         let folder = self.images.as_deref();
         let chosen: Vec<_> = (scenes.iter())
-            .map(|(scene, caption)| (chosen(scene, cx.on), *caption))
+            .map(|(scene, caption)| (chosen_scene(scene, cx), *caption))
             .collect();
         let (mut subjects, mut notes) = (Vec::new(), Vec::new());
         for (scene, caption) in &chosen {
@@ -397,16 +396,7 @@ impl Operation for Picture {
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = self.problems();
-        match cx.files.to_write(&self.path) {
-            Ok(path) => {
-                if plan.outputs.contains(&path) {
-                    let message = format!("an earlier step writes \"{}\" too", self.path);
-                    problems.push(Problem::error(message).at(["path"]));
-                }
-                plan.outputs.push(path);
-            }
-            Err(error) => problems.push(Problem::error(error.to_string()).at(["path"])),
-        }
+        problems.extend(plan.write(cx, &self.path, |_| None));
         if let Some(color_by) = &self.color_by {
             problems.extend(colors::plan(color_by, plan, cx));
         }
@@ -432,20 +422,6 @@ impl Operation for Picture {
             ..Report::default()
         })
     }
-}
-
-/// The objects that the step was told to act on.
-fn chosen<'s>(scene: &'s Scene, on: Option<&[String]>) -> Cow<'s, Scene> {
-    let Some(on) = on else {
-        return Cow::Borrowed(scene);
-    };
-    let mut chosen = Scene::new();
-    for object in scene.objects() {
-        if on.contains(&object.name) {
-            chosen.insert(object.clone()).expect("names are unique");
-        }
-    }
-    Cow::Owned(chosen)
 }
 
 /// The bytes of an image that a material names, if it is a file in the folder or in a folder in it.

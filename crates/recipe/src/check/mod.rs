@@ -117,7 +117,7 @@ fn plan_step(
     let on = step.on_names();
     let mut unknown = false;
     for (name, span) in step.on.iter().flatten() {
-        for problem in plan.check_names([name.as_str()], "on") {
+        if let Some(problem) = plan.missing(name, ["on"]) {
             diagnostics.push(diagnostic(&problem, *span));
             unknown = true;
         }
@@ -229,8 +229,10 @@ fn expected(
             placed.span,
         ));
     }
-    let problems = plan.check_names(names, "on");
-    found.extend(problems.iter().map(|p| diagnostic(p, placed.span)));
+    let missing = names
+        .into_iter()
+        .filter_map(|name| plan.missing(name, ["on"]));
+    found.extend(missing.map(|p| diagnostic(&p, placed.span)));
     attributes.expected(placed, plan, &mut found);
     found
 }

@@ -242,7 +242,7 @@ fn planned(scene: &Scene) -> Plan {
         let geometry = object.as_mesh().map_or(PlannedGeometry::Polylines, |m| {
             PlannedGeometry::Mesh(MeshPlan::of(m))
         });
-        assert_eq!(plan.insert(&object.name, geometry), []);
+        assert_eq!(plan.insert(&object.name, geometry), None);
     }
     plan
 }

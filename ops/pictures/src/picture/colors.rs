@@ -63,11 +63,7 @@ fn meshes_of(path: &str, cx: &Context) -> Result<Vec<Mesh>, OpError> {
     )
     .map_err(|error| OpError::File(error.to_string()))?;
     for file in loaded.files {
-        if file.is_read {
-            cx.files().has_read(file.path);
-        } else {
-            cx.files().has_looked_for(file.path);
-        }
+        cx.files().has_used(file.path, file.is_read);
     }
     let meshes: Vec<Mesh> = (loaded.objects.iter())
         .filter_map(|object| object.as_mesh().map(|mesh| (**mesh).clone()))

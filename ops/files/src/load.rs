@@ -90,13 +90,11 @@ impl Operation for Load {
                 let message = format!("\"{}\" takes {bytes} bytes, over the budget", object.name);
                 return Err(OpError::Budget(message));
             }
-            scene
-                .insert(object)
-                .map_err(|error| OpError::Object(error.to_string()))?;
+            let inserted = scene.insert(object);
+            inserted.map_err(|error| OpError::Object(error.to_string()))?;
         }
-        report
-            .notes
-            .extend(loaded.notes.iter().map(ToString::to_string));
+        let notes = loaded.notes.iter().map(ToString::to_string);
+        report.notes.extend(notes);
         cx.advance("read", 1, 1)?;
         Ok(report)
     }

@@ -73,12 +73,12 @@ impl MeshOperation for FillHoles {
         }
         plan.degrees.min = plan.degrees.min.min(3);
         for attribute in &mut plan.attributes {
-            let is_normal = [
-                (Domain::Vertex, VERTEX_NORMAL.name),
-                (Domain::Corner, CORNER_NORMAL.name),
-            ]
-            .contains(&(attribute.domain, &attribute.name));
-            attribute.certain &= !is_normal;
+            let normal = match attribute.domain {
+                Domain::Vertex => VERTEX_NORMAL.name,
+                Domain::Corner => CORNER_NORMAL.name,
+                Domain::Edge | Domain::Face => continue,
+            };
+            attribute.certain &= attribute.name != normal;
         }
         Vec::new()
     }

@@ -97,14 +97,12 @@ impl Operation for Join {
         if !self.objects.contains(&self.name) {
             check_name(scene, &self.name)?;
         }
-        let mut parts: Vec<&Object> = Vec::new();
-        for name in &self.objects {
+        let part = |name: &String| {
             let object = named_object(scene, name)?;
-            if object.as_mesh().is_none() {
-                return Err(OpError::Object(not_a_mesh(name, object.geometry.kind())));
-            }
-            parts.push(object);
-        }
+            let no_mesh = || OpError::Object(not_a_mesh(name, object.geometry.kind()));
+            object.as_mesh().map(|_| object).ok_or_else(no_mesh)
+        };
+        let parts: Vec<&Object> = self.objects.iter().map(part).collect::<Result<_, _>>()?;
         let (joined, report) = self.joined(&parts, cx)?;
 
         // All is checked: the first part becomes the result and the others go.
@@ -136,17 +134,12 @@ impl Join {
 
     /// The result of parts that are meshes.
     fn joined(&self, parts: &[&Object], cx: &Context) -> Result<(Object, Report), OpError> {
-        let meshes: Vec<&Mesh> = parts
-            .iter()
-            .filter_map(|o| o.as_mesh())
-            .map(Arc::as_ref)
-            .collect();
+        let meshes = parts.iter().filter_map(|o| o.as_mesh());
+        let meshes: Vec<&Mesh> = meshes.map(Arc::as_ref).collect();
         let bytes: usize = meshes.iter().map(|m| m.bytes()).sum();
-        if bytes as u64 > cx.budget {
-            let message = format!(
-                "the result takes {bytes} bytes, the budget is {}",
-                cx.budget
-            );
+        let budget = cx.budget;
+        if bytes as u64 > budget {
+            let message = format!("the result takes {bytes} bytes, the budget is {budget}");
             return Err(OpError::Budget(message));
         }
         let mut joined = parts::connected(&meshes, cx)?;
@@ -156,15 +149,11 @@ impl Join {
         if self.tag_parts {
             attributes::tag_parts(&mut joined, parts, &mut report);
         }
-        let geometry = Geometry::Mesh(Arc::new(joined));
-        Ok((
-            Object {
-                name: self.name.clone(),
-                geometry,
-                materials,
-            },
-            report,
-        ))
+        let object = Object {
+            materials,
+            ..Object::mesh(&self.name, joined)
+        };
+        Ok((object, report))
     }
 
     fn joined_plan(&self, parts: &[MeshPlan]) -> MeshPlan {

@@ -110,10 +110,7 @@ impl Operation for CurveFigure {
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("draw", 0, 1)?;
         let failed = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
-        let path = cx
-            .files()
-            .to_write(&self.path)
-            .map_err(|error| failed(&error))?;
+        let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
         let figure = self.figure(scene, cx)?;
         let stamp = cx.files().provenance.as_deref();
         let bytes = match Format::of(&path) {
@@ -123,10 +120,8 @@ impl Operation for CurveFigure {
                 return Err(OpError::Parameter(self.no_format()));
             }
         };
-        cx.files()
-            .store
-            .write(&path, &bytes)
-            .map_err(|error| failed(&error))?;
+        let store = &cx.files().store;
+        store.write(&path, &bytes).map_err(|e| failed(&e))?;
         cx.advance("draw", 1, 1)?;
         Ok(Report::changed(0))
     }
@@ -197,21 +192,23 @@ impl CurveFigure {
     /// The figure of the chosen curves.
     fn figure(&self, scene: &Scene, cx: &Context) -> Result<Svg, OpError> {
         let chosen: Vec<&Object> = match cx.on {
-            Some(on) => on
-                .iter()
-                .map(|name| named_object(scene, name))
-                .collect::<Result<_, _>>()?,
-            None => scene
-                .objects()
-                .iter()
-                .filter(|o| matches!(o.geometry, Geometry::Curve(_)))
-                .filter(|o| self.before.as_ref() != Some(&o.name))
-                .collect(),
+            Some(on) => {
+                let objects = on.iter().map(|name| named_object(scene, name));
+                objects.collect::<Result<_, _>>()?
+            }
+            None => {
+                let curves = scene.objects().iter();
+                let curves = curves.filter(|o| matches!(o.geometry, Geometry::Curve(_)));
+                curves
+                    .filter(|o| self.before.as_ref() != Some(&o.name))
+                    .collect()
+            }
         };
-        let before = match &self.before {
-            Some(name) => Some(curve(named_object(scene, name)?)?),
-            None => None,
-        };
+        let before = self
+            .before
+            .as_ref()
+            .map(|name| curve(named_object(scene, name)?));
+        let before = before.transpose()?;
         let parameters: Vec<Option<f64>> = if self.t.is_empty() {
             vec![None]
         } else {

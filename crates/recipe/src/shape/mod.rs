@@ -224,13 +224,8 @@ impl Checker {
         if let Some(choice) = schema.choice() {
             return self.check_choice(value, schema, &choice, place);
         }
-        match schema.types()[..] {
-            _ if schema.allows_nothing() => {
-                let message = format!("no value is allowed{}", place.of());
-                self.report(value, value.span, message, None);
-            }
-            [] => {}
-            [one, ..] => self.check_type(value, schema, one, place),
+        if let [one, ..] = schema.types()[..] {
+            self.check_type(value, schema, one, place);
         }
     }
 

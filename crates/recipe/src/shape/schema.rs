@@ -13,8 +13,6 @@ pub(crate) struct Schema<'s> {
     name: Option<&'s str>,
     /// Whether the schema stands in `$defs` rather than in its place.
     is_reference: bool,
-    /// Whether it is `false`, which no value fits.
-    never: bool,
 }
 
 /// A choice between variants of an enumeration, or other schemas.
@@ -40,20 +38,17 @@ impl<'s> Schema<'s> {
     }
 
     fn new(root: &'s Json, json: &'s Json) -> Self {
-        let (layers, name, is_reference) = (Vec::new(), None, false);
         let mut schema = Self {
             root,
-            layers,
-            name,
-            is_reference,
-            never: false,
+            layers: Vec::new(),
+            name: None,
+            is_reference: false,
         };
         schema.add(json);
         schema
     }
 
     fn add(&mut self, json: &'s Json) {
-        self.never |= json == &Json::Bool(false);
         let Json::Object(layer) = json else { return };
         if self.layers.len() >= MAX_LAYERS {
             return;
@@ -142,10 +137,6 @@ impl<'s> Schema<'s> {
         self.all(keyword)
             .next()
             .map(|json| Self::new(self.root, json))
-    }
-
-    pub(super) fn allows_nothing(&self) -> bool {
-        self.never
     }
 
     /// The types that are allowed, without null if there is another; none for any.

@@ -33,7 +33,7 @@ impl Operation for Save {
             let help = format!("endings that can be written: {}", Format::known_to_write());
             Some(Problem::error(message).at(["path"]).help(help))
         });
-        if plan.objects.is_empty() && !plan.incomplete {
+        if plan.objects().is_empty() && !plan.incomplete {
             problems.push(Problem::error("there is nothing to save at this point"));
         }
         problems

@@ -26,7 +26,7 @@ impl Operation for Delete {
         let mut problems = Vec::new();
         for (i, name) in self.objects.iter().enumerate() {
             problems.extend(plan.missing(name, ["objects", &i.to_string()]));
-            plan.objects.retain(|o| o.name != *name);
+            plan.objects_mut().retain(|o| o.name != *name);
         }
         problems
     }
@@ -89,6 +89,6 @@ mod tests {
         let problems = step(r#"(objects: ["a", "d"])"#).plan(&mut plan, &cx);
         assert_eq!(problems.len(), 1);
         assert_eq!(problems[0].path, ["objects", "1"]);
-        assert_eq!(plan.objects, []);
+        assert_eq!(plan.objects(), []);
     }
 }

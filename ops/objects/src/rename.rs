@@ -30,7 +30,7 @@ impl Operation for Rename {
             problem = plan.taken(&self.to, "to");
         }
         if problem.is_none()
-            && let Some(object) = plan.objects.iter_mut().find(|o| o.name == self.from)
+            && let Some(object) = plan.objects_mut().iter_mut().find(|o| o.name == self.from)
         {
             object.name.clone_from(&self.to);
         }
@@ -107,6 +107,6 @@ mod tests {
         );
         assert_eq!(step(r#"(from: "a", to: "a")"#).plan(&mut plan, &cx), []);
         assert_eq!(step(r#"(from: "a", to: "c")"#).plan(&mut plan, &cx), []);
-        assert_eq!(plan.objects[0].name, "c");
+        assert_eq!(plan.objects()[0].name, "c");
     }
 }

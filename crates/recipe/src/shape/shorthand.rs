@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use std::cmp::Reverse;
 
 use super::schema::{Choice, Schema};
-use super::{Checker, MAX_TRIALS, Place, did_you_mean};
+use super::{Checker, Place, did_you_mean};
 use crate::upgrade::Rename;
 use ron_tree::{Call, Diagnostic, Name, Span, Value, ValueKind};
 
@@ -32,14 +32,7 @@ impl Checker {
         choice: &Choice,
         place: Place,
     ) {
-        if self.trials >= MAX_TRIALS {
-            return;
-        }
-        let trial = || Self {
-            trials: self.trials + 1,
-            ..Self::default()
-        };
-        let mut whole = trial();
+        let mut whole = Self::default();
         whole.check_variant(value, schema, choice, place);
         if whole.diagnostics.is_empty() {
             return self.take(whole);
@@ -47,7 +40,7 @@ impl Checker {
         let mut trials = Vec::new();
         for name in choice.names() {
             if let Some(content) = choice.content(name) {
-                let mut trial = trial();
+                let mut trial = Self::default();
                 trial.check(value, &content, place);
                 trials.push((name, content, trial));
             }
@@ -145,30 +138,10 @@ impl Checked {
 
 /// Puts names around the values in `value` that stand where these were left out.
 fn complete(value: &mut Value, shorts: &[Short]) {
-    let short = shorts.iter().find(|short| short.span == value.span);
-    match &mut value.kind {
-        // The outermost of the values of a place is the one that was held against the schema.
-        _ if short.is_some() => {}
-        ValueKind::Call(call) => complete(&mut call.body, shorts),
-        ValueKind::Struct(body) => {
-            for field in &mut body.fields {
-                complete(&mut field.value, shorts);
-            }
-        }
-        ValueKind::Tuple(values) | ValueKind::List(values) => {
-            for value in values {
-                complete(value, shorts);
-            }
-        }
-        ValueKind::Map(entries) => {
-            for (_, value) in entries {
-                complete(value, shorts);
-            }
-        }
-        _ => {}
-    }
-    if let Some(short) = short {
-        *value = in_full(value, &short.name);
+    // The outermost of the values of a place is the one that was held against the schema.
+    match shorts.iter().find(|short| short.span == value.span) {
+        Some(short) => *value = in_full(value, &short.name),
+        None => value.for_each_part(|part| complete(part, shorts)),
     }
 }
 
@@ -183,13 +156,7 @@ fn in_full(value: &Value, name: &str) -> Value {
 
 /// How many names in the value are among those of `names`.
 fn n_known(value: &Value, names: &[String]) -> usize {
-    let all = |values: &[Value]| values.iter().map(|v| n_known(v, names)).sum::<usize>();
-    let inside = match &value.kind {
-        ValueKind::Call(call) => n_known(&call.body, names),
-        ValueKind::Struct(body) => body.fields.iter().map(|f| n_known(&f.value, names)).sum(),
-        ValueKind::Tuple(values) | ValueKind::List(values) => all(values),
-        _ => 0,
-    };
+    let inside: usize = value.parts().map(|part| n_known(part, names)).sum();
     let is_known = |(name, _): (&str, _)| names.iter().any(|known| known == name);
     inside + usize::from(value.name().is_some_and(is_known))
 }

@@ -160,7 +160,7 @@ pub(super) fn flatten(
 ///
 /// # Errors
 ///
-/// [`BuildError`] for whatever else than [`BuildError::NonManifold`].
+/// [`BuildError`] for input that is not polygons; whether they are a manifold is not checked.
 pub(super) fn check(
     positions: &[DVec3],
     offsets: &[u32],

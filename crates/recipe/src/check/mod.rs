@@ -10,7 +10,7 @@ use op::{Files, Plan, PlanContext, Problem, Range};
 use crate::expect::{Other, golden};
 use crate::recipe::{Placed, Recipe, RecipeStep};
 use crate::shape::did_you_mean;
-use ron_tree::{Diagnostic, Severity, Span, field_span};
+use ron_tree::{Diagnostic, Span, field_span};
 
 use attributes::{Attributes, Before, meshes};
 
@@ -47,9 +47,7 @@ pub struct Forecast {
 impl Forecast {
     /// Whether the recipe cannot run.
     pub fn has_errors(&self) -> bool {
-        self.diagnostics
-            .iter()
-            .any(|d| d.severity == Severity::Error)
+        self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
     fn add(&mut self, recipe: &Recipe, scope: usize, found: Vec<Diagnostic>) {
@@ -82,7 +80,7 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
         // Once: later steps only make it worse.
         if known.bytes.min > budget && !over_budget {
             over_budget = true;
-            if !found.iter().any(|d| d.severity == Severity::Error) {
+            if !found.iter().any(Diagnostic::is_error) {
                 found.push(over(step, known.bytes.min, budget));
             }
         }

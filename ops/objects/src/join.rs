@@ -15,7 +15,7 @@ use std::sync::Arc;
 use mesh::Domain;
 use op::prelude::*;
 use op::{Operation, PlannedAttribute, PlannedObject, check_name, named_object};
-use scene::{Geometry, Object};
+use scene::Object;
 
 /// Joins meshes into one.
 ///

@@ -6,7 +6,7 @@ use mesh::{
     Attribute, DVec2, DVec3, FaceId, HalfEdgeId, MATERIAL, Mesh, Rule, UV, VERTEX_NORMAL, VertexId,
 };
 use op::Range;
-use scene::Material;
+use scene::{Geometry, Material};
 
 fn step(text: &str) -> Join {
     op::test::read(text).unwrap()

@@ -159,7 +159,7 @@ fn recorded(
             )
         }
         Err(error) => {
-            let (_, why) = error.into_parts();
+            let why = error.error;
             Failure::Unmet(format!("{message}; it cannot be read: {why}"))
         }
     }

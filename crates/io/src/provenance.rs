@@ -125,7 +125,7 @@ mod tests {
         scene
             .insert(Object::mesh("a", shapes::tetrahedron()))
             .unwrap();
-        for format in Format::ALL.into_iter().filter(|f| f.is_written()) {
+        for format in Format::all().filter(|f| f.is_written()) {
             let path = folder.path().join(format!("a.{}", format.extension()));
             if write(&Disk, &path, &scene, &options).is_err() {
                 continue;

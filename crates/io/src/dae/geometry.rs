@@ -317,7 +317,7 @@ impl Columns {
         let n = polygons.corners.len();
         if !self.normals.is_empty() {
             self.normals.resize(n, DVec3::ZERO);
-            polygons.insert_corners(CORNER_NORMAL, self.normals);
+            polygons.insert_known(CORNER_NORMAL, self.normals);
         }
         if !self.colors.is_empty() {
             self.colors.resize(n, DVec4::ONE);

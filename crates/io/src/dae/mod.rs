@@ -39,11 +39,9 @@ mod tally;
 
 use std::collections::BTreeMap;
 
-use glam::{DAffine3, DVec3};
-use mesh::{CORNER_NORMAL, Domain, MATERIAL, UV, Value};
+use mesh::{CORNER_NORMAL, Domain, MATERIAL, UV};
 use scene::{Material, Texture};
 
-use crate::clean::gather;
 use crate::fault::Fault;
 use crate::note::{Names, Notes};
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
@@ -159,7 +157,8 @@ impl Object<'_, '_> {
 
     /// The polygons in the scene's coordinates, with their materials.
     fn polygons(self) -> Result<Polygons, Fault> {
-        let (mut polygons, lost) = moved(&self.surface.polygons, &self.placed.to_scene);
+        let mut polygons = self.surface.polygons.clone();
+        let lost = polygons.place(&self.placed.to_scene);
         let what = "normals left out: the placement is flat";
         self.tally.left_out(lost, self.placed.geometry, what);
         if self.surface.symbols.is_empty() {
@@ -197,46 +196,9 @@ impl Object<'_, '_> {
             symbol.map_or(-1, |symbol| place_of_symbol[symbol])
         };
         let values = self.surface.symbol_of.iter().map(place).collect();
-        polygons.insert_faces(MATERIAL, values);
+        polygons.insert_known(MATERIAL, values);
         Ok(polygons)
     }
-}
-
-/// The polygons moved by `to_scene`, and how many normals are lost because a flat placement leaves them without a
-/// direction. A mirror turns polygons inside out: their corners are taken the other way round.
-fn moved(polygons: &Polygons, to_scene: &DAffine3) -> (Polygons, usize) {
-    let mut moved = polygons.clone();
-    let mut lost = 0;
-    if *to_scene == DAffine3::IDENTITY {
-        return (moved, lost);
-    }
-    for position in &mut moved.positions {
-        *position = to_scene.transform_point3(*position);
-    }
-    let turn = to_scene.matrix3.inverse().transpose();
-    if let Some(mut column) = moved.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
-        if turn.is_finite() {
-            for normal in DVec3::of_mut(&mut column.values).into_iter().flatten() {
-                *normal = (turn * *normal).normalize_or_zero();
-            }
-            moved.attributes.insert(Domain::Corner, column);
-        } else {
-            lost = column.values.len();
-        }
-    }
-    if to_scene.matrix3.determinant() < 0.0 {
-        let mut order: Vec<u32> = (0..).take(moved.corners.len()).collect();
-        for ends in moved.offsets.windows(2) {
-            // The first corner stays the first.
-            order[ends[0] as usize + 1..ends[1] as usize].reverse();
-        }
-        moved.corners = order
-            .iter()
-            .map(|&c| polygons.corners[c as usize])
-            .collect();
-        gather(&mut moved.attributes, Domain::Corner, &order);
-    }
-    (moved, lost)
 }
 
 // ---- Notes -------------------------------------------------------------------------------------

@@ -84,7 +84,7 @@ fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> P
         ..Polygons::default()
     };
     if !file.colors.is_empty() {
-        polygons.insert_vertices(mesh::COLOR, std::mem::take(&mut file.colors));
+        polygons.insert_known(mesh::COLOR, std::mem::take(&mut file.colors));
     }
     let faces = &file.faces;
     let what = "texture coordinates (`vt`) left out: no face uses them";
@@ -92,19 +92,19 @@ fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> P
     let what = "normals (`vn`) left out: no face uses them";
     notes.left_out(unused(file.normals.len(), &faces.normals), None, what);
     if !faces.uvs.is_empty() {
-        polygons.insert_corners(UV, values(&file.uvs, &faces.uvs));
+        polygons.insert_known(UV, values(&file.uvs, &faces.uvs));
         let what = "face corners without texture coordinate: taken as 0 0";
         notes.changed(missing(&faces.uvs), None, what);
     }
     if !faces.normals.is_empty() {
-        polygons.insert_corners(CORNER_NORMAL, values(&file.normals, &faces.normals));
+        polygons.insert_known(CORNER_NORMAL, values(&file.normals, &faces.normals));
         let what = "face corners without normal: taken as 0 0 0";
         notes.changed(missing(&faces.normals), None, what);
     }
     set_materials(&mut polygons, &file, &materials);
     if file.runs.iter().any(|run| run.smoothing != 0) {
         let values = on_faces(&polygons, &file, |run| run.smoothing);
-        polygons.insert_faces(mesh::SMOOTHING, values);
+        polygons.insert_known(mesh::SMOOTHING, values);
     }
     set_tags(&mut polygons, &file, notes);
     polygons.materials = materials;
@@ -166,7 +166,7 @@ fn set_materials(polygons: &mut Polygons, file: &ObjFile, materials: &[Material]
     let places: Vec<i32> = file.material_names.iter().map(place_of).collect();
     let of_run = |run: &Run| run.material.map_or(-1, |m| places[m]);
     let values = on_faces(polygons, file, of_run);
-    polygons.insert_faces(mesh::MATERIAL, values);
+    polygons.insert_known(mesh::MATERIAL, values);
 }
 
 fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {

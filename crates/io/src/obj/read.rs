@@ -29,7 +29,7 @@ pub(crate) fn read(bytes: &[u8], assets: &mut Assets, notes: &mut Notes) -> Resu
     note_left_out(&file, notes);
     take_paint(&mut file, notes);
     let n_lines = file.line_offsets.len() - 1;
-    if file.faces.len() == 0 && n_lines > 0 {
+    if file.offsets.len() == 1 && n_lines > 0 {
         let lines = polylines(&file, notes);
         return Ok(Shape::Other(Geometry::Polylines(lines)));
     }
@@ -79,27 +79,27 @@ fn polylines(file: &ObjFile, notes: &mut Notes) -> Vec<Vec<DVec3>> {
 fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> Polygons {
     let mut polygons = Polygons {
         positions: std::mem::take(&mut file.positions),
-        offsets: std::mem::take(&mut file.faces.offsets),
-        corners: std::mem::take(&mut file.faces.positions),
+        offsets: std::mem::take(&mut file.offsets),
+        corners: std::mem::take(&mut file.corners[0]),
         ..Polygons::default()
     };
     if !file.colors.is_empty() {
         polygons.insert_known(mesh::COLOR, std::mem::take(&mut file.colors));
     }
-    let faces = &file.faces;
+    let [_, of_uvs, of_normals] = &file.corners;
     let what = "texture coordinates (`vt`) left out: no face uses them";
-    notes.left_out(unused(file.uvs.len(), &faces.uvs), None, what);
+    notes.left_out(unused(file.uvs.len(), of_uvs), None, what);
     let what = "normals (`vn`) left out: no face uses them";
-    notes.left_out(unused(file.normals.len(), &faces.normals), None, what);
-    if !faces.uvs.is_empty() {
-        polygons.insert_known(UV, values(&file.uvs, &faces.uvs));
+    notes.left_out(unused(file.normals.len(), of_normals), None, what);
+    if !of_uvs.is_empty() {
+        polygons.insert_known(UV, values(&file.uvs, of_uvs));
         let what = "face corners without texture coordinate: taken as 0 0";
-        notes.changed(missing(&faces.uvs), None, what);
+        notes.changed(missing(of_uvs), None, what);
     }
-    if !faces.normals.is_empty() {
-        polygons.insert_known(CORNER_NORMAL, values(&file.normals, &faces.normals));
+    if !of_normals.is_empty() {
+        polygons.insert_known(CORNER_NORMAL, values(&file.normals, of_normals));
         let what = "face corners without normal: taken as 0 0 0";
-        notes.changed(missing(&faces.normals), None, what);
+        notes.changed(missing(of_normals), None, what);
     }
     set_materials(&mut polygons, &file, &materials);
     if file.runs.iter().any(|run| run.smoothing != 0) {

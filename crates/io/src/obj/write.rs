@@ -128,8 +128,8 @@ impl<'a> Text<'a> {
             }));
         }
         for lines in lines.chunks(BLOCK) {
-            let before = self.before.counts.positions;
-            self.before.counts.positions += lines.iter().map(Vec::len).sum::<usize>();
+            let before = self.before.counts[0];
+            self.before.counts[0] += lines.iter().map(Vec::len).sum::<usize>();
             self.blocks.push(Box::new(move |out| {
                 let mut number = before;
                 for line in lines.iter().filter(|line| !line.is_empty()) {

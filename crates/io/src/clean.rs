@@ -1,5 +1,7 @@
 //! Cleaning polygons by the [`Policies`] of the reader, before a mesh is built of them.
 
+use std::sync::atomic::Ordering::Relaxed;
+
 use glam::DVec3;
 use mesh::{Attributes, Domain, Elements, VertexId};
 
@@ -221,14 +223,10 @@ pub(crate) fn keep(polygons: &mut Polygons, is_dropped: &[bool], is_corner_kept:
 }
 
 fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
-    let mut is_used = vec![false; polygons.positions.len()];
-    for &v in &polygons.corners {
-        if let Some(used) = is_used.get_mut(v as usize) {
-            *used = true;
-        }
-    }
+    let n = polygons.positions.len();
+    let used = parallel::named(n, &polygons.corners);
     let (kept, isolated): (Vec<u32>, Vec<u32>) =
-        (0..id(is_used.len())).partition(|&v| is_used[v as usize]);
+        (0..id(n)).partition(|&v| used[v as usize].load(Relaxed));
     if isolated.is_empty() {
         return;
     }
@@ -240,7 +238,7 @@ fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
         "isolated vertices dropped"
     };
     note(polygons, what, vertices, notes);
-    let mut new = vec![u32::MAX; is_used.len()];
+    let mut new = vec![u32::MAX; n];
     for (i, &v) in (0..).zip(&kept) {
         new[v as usize] = i;
     }

@@ -164,7 +164,8 @@ impl Polygons {
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")
                 && vertices.column(Domain::Vertex, &column.name).is_none()
-                && let Some(values) = agreed(&built.mesh, &column.values)
+                && let Some(values) =
+                    agreed(&built.mesh, &column.values, |a, b| column.values.same(a, b))
             {
                 (domain, column.values) = (Domain::Vertex, values);
             }
@@ -284,17 +285,21 @@ impl Sources {
     }
 }
 
-/// One value for each vertex, if all its corners have the same; zero where a vertex has none.
-fn agreed(mesh: &Mesh, values: &Values) -> Option<Values> {
+/// The values of vertices, if the corners of each have the `same`; zero where a vertex has no corner.
+pub(crate) fn agreed(
+    mesh: &Mesh,
+    values: &Values,
+    same: impl Fn(usize, usize) -> bool + Sync,
+) -> Option<Values> {
     let corners = |v: usize| {
         mesh.vertex_half_edges(VertexId::new(v))
             .filter(|&h| mesh.face(h).is_some())
             .map(HalfEdgeId::index)
     };
-    let same = parallel::all(mesh.n_vertices(), |v| {
+    let agree = parallel::all(mesh.n_vertices(), |v| {
         let mut corners = corners(v);
         let first = corners.next();
-        first.is_none_or(|first| corners.all(|h| values.same(first, h)))
+        first.is_none_or(|first| corners.all(|h| same(first, h)))
     });
-    same.then(|| values.gather(mesh.n_vertices(), |v| corners(v).next()))
+    agree.then(|| values.gather(mesh.n_vertices(), |v| corners(v).next()))
 }

@@ -29,13 +29,13 @@
 //! Document type declarations are refused, so that entities cannot grow; what instances repeat may take
 //! 64 times the size of the file, and 16 MiB in any case.
 
+mod cost;
 mod document;
 mod geometry;
 mod materials;
 mod nodes;
 mod outline;
 mod sources;
-mod tally;
 
 use std::collections::BTreeMap;
 
@@ -50,7 +50,6 @@ use crate::{Found, Polygons, Shape};
 use document::{Document, elements, error_at, line, number_of, text};
 use geometry::{Geometries, Surface};
 use nodes::{Placed, placed};
-use tally::{Budget, Tally};
 
 /// Reads the objects of a file from its bytes.
 ///
@@ -86,12 +85,10 @@ fn each_object<T>(
     let text = document::decoded(bytes)?;
     let xml = document::parsed(&text)?;
     let document = Document::new(&xml)?;
-    let mut tally = Tally::default();
     note_asset(&document, notes)?;
-    note_libraries(&document, &mut tally);
-    let mut budget = Budget::of(document.size);
-    let placed = placed(&document, &mut budget, notes, &mut tally)?;
-    let mut geometries = Geometries::new(&document, budget);
+    note_libraries(&document);
+    let placed = placed(&document, notes)?;
+    let mut geometries = Geometries::new(&document);
     let mut surfaces: BTreeMap<u32, Option<Surface>> = BTreeMap::new();
     let mut materials = BTreeMap::new();
     let mut names = Names::default();
@@ -100,29 +97,27 @@ fn each_object<T>(
         let id = number_of(placed.geometry);
         let known = surfaces.contains_key(&id);
         if !known {
-            let surface = geometries.surface(placed.geometry, &mut tally)?;
+            let surface = geometries.surface(placed.geometry)?;
             surfaces.insert(id, surface);
         }
         let Some(Some(surface)) = surfaces.get(&id) else {
             let what = "geometries left out that have no polygons";
-            tally.left_out(1, placed.geometry, what);
+            document.left_out(1, placed.geometry, what);
             continue;
         };
         if known && let Some(instance) = placed.instance {
-            geometries.budget.take(instance, surface.cost())?;
+            document.take(instance, surface.cost())?;
         }
         let object = Object {
             document: &document,
             placed,
             surface,
             materials: &mut materials,
-            tally: &mut tally,
-            budget: &mut geometries.budget,
         };
         let name = names.unique(placed.name(name), notes);
         objects.push(make(name, object)?);
     }
-    tally.into_notes(notes);
+    document.note_all(notes);
     Ok(objects)
 }
 
@@ -133,8 +128,6 @@ struct Object<'a, 'd> {
     surface: &'d Surface<'a>,
     /// Those of materials and effects that were read before, by the numbers of their elements.
     materials: &'d mut BTreeMap<u32, Material>,
-    tally: &'d mut Tally,
-    budget: &'d mut Budget,
 }
 
 impl Object<'_, '_> {
@@ -160,7 +153,7 @@ impl Object<'_, '_> {
         let mut polygons = self.surface.polygons.clone();
         let lost = polygons.place(&self.placed.to_scene);
         let what = "normals left out: the placement is flat";
-        self.tally.left_out(lost, self.placed.geometry, what);
+        self.document.left_out(lost, self.placed.geometry, what);
         if self.surface.symbols.is_empty() {
             return Ok(polygons);
         }
@@ -174,22 +167,21 @@ impl Object<'_, '_> {
             let node = self.placed.materials.get(symbol).or(same_id);
             let Some(&node) = node else {
                 let what = "names of materials that the file does not define: they are white";
-                self.tally.changed(1, self.placed.geometry, what);
+                self.document.changed(1, self.placed.geometry, what);
                 place_of_symbol.push(next);
                 polygons.materials.push(Material::new(*symbol));
                 continue;
             };
             place_of_symbol.push(*places.entry(number_of(node)).or_insert(next));
             if places[&number_of(node)] == next {
-                let material =
-                    materials::material(self.document, node, self.materials, self.tally)?;
+                let material = materials::material(self.document, node, self.materials)?;
                 polygons.materials.push(material);
             }
         }
         for material in &polygons.materials {
             let path = material.base_color_texture.as_ref().and_then(Texture::path);
             let text = material.name.len() + path.map_or(0, str::len);
-            self.budget.take(self.placed.geometry, text)?;
+            self.document.take(self.placed.geometry, text)?;
         }
         let place = |&symbol: &i32| {
             let symbol = usize::try_from(symbol).ok();
@@ -226,7 +218,7 @@ fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
 }
 
 /// Counts what the reader does not look at.
-fn note_libraries(document: &Document, tally: &mut Tally) {
+fn note_libraries(document: &Document) {
     for library in elements(document.root) {
         let what = match library.tag_name().name() {
             "library_animations" | "library_animation_clips" => "animations left out",
@@ -243,6 +235,6 @@ fn note_libraries(document: &Document, tally: &mut Tally) {
             _ => continue,
         };
         let parts = elements(library).filter(|part| !document::is(*part, "asset"));
-        tally.left_out(parts.count(), library, what);
+        document.left_out(parts.count(), library, what);
     }
 }

@@ -1,7 +1,7 @@
 //! From a glTF document to objects.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::atomic::Ordering::Relaxed;
 
 use glam::{DAffine3, DVec3};
 use mesh::Domain;
@@ -149,11 +149,8 @@ fn polygons(
         corners: mut order,
         materials,
     } = triangles;
-    let Welded {
-        positions,
-        vertex_of,
-        unused,
-    } = weld(positions, &order);
+    let n = positions.len();
+    let (positions, vertex_of, unused) = weld(positions, &order);
     notes.left_out(unused, None, "vertices left out: no triangle uses them");
     let mut polygons = Polygons {
         positions,
@@ -167,7 +164,7 @@ fn polygons(
         let values = parallel::collect(materials.len(), place);
         polygons.insert_known(mesh::MATERIAL, values);
     }
-    if let Some(vertex_of) = vertex_of {
+    if polygons.positions.len() < n {
         parallel::change(&mut order, |v| *v = vertex_of[*v as usize]);
     }
     polygons.corners = order;
@@ -176,41 +173,22 @@ fn polygons(
     polygons
 }
 
-struct Welded {
-    positions: Vec<DVec3>,
-    /// For each vertex of the triangles its place in `positions`; `None` if it is its own.
-    vertex_of: Option<Vec<u32>>,
-    unused: usize,
-}
-
-/// Joins vertices at exactly the same position, in the order in which each place comes first, and
-/// leaves out those that no triangle uses.
-fn weld(positions: Vec<DVec3>, corners: &[u32]) -> Welded {
+/// Joins vertices at exactly the same position, in the order in which each place comes first, and leaves out those
+/// that no triangle uses. Returns the positions, the place of each vertex among them, and how many are left out.
+fn weld(mut positions: Vec<DVec3>, corners: &[u32]) -> (Vec<DVec3>, Vec<u32>, usize) {
     let n = positions.len();
-    let used: Vec<AtomicBool> = (0..n).map(|_| AtomicBool::new(false)).collect();
-    parallel::blocks(corners.len(), |block| {
-        for &v in &corners[block] {
-            used[v as usize].store(true, Relaxed);
-        }
-    });
+    let used = parallel::named(n, corners);
     let kept = parallel::filter(n, |v| used[v].load(Relaxed));
     let unused = n - kept.len();
-    if unused == 0 {
-        let (positions, vertex_of) = weld::weld(positions);
-        return Welded {
-            vertex_of: (positions.len() < n).then_some(vertex_of),
-            positions,
-            unused,
-        };
+    if unused > 0 {
+        positions = kept.iter().map(|&v| positions[v]).collect();
     }
-    let (positions, places) = weld::weld(kept.iter().map(|&v| positions[v]).collect());
-    let mut vertex_of = vec![0; n];
-    for (&v, place) in kept.iter().zip(places) {
-        vertex_of[v] = place;
+    let (positions, mut vertex_of) = weld::weld(positions);
+    if unused > 0 {
+        let places = std::mem::replace(&mut vertex_of, vec![0; n]);
+        for (&v, place) in kept.iter().zip(places) {
+            vertex_of[v] = place;
+        }
     }
-    Welded {
-        positions,
-        vertex_of: Some(vertex_of),
-        unused,
-    }
+    (positions, vertex_of, unused)
 }

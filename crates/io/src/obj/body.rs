@@ -15,6 +15,7 @@ use crate::decimal::push_whole;
 use crate::loss::Losses;
 use crate::parallel;
 use crate::save::Block;
+use crate::writing::NOT_FINITE;
 
 /// The vertices, values or faces of a block.
 const BLOCK: usize = 8192;
@@ -246,7 +247,7 @@ fn lost_colors(colors: &[DVec4], losses: &mut Losses) {
     let broken = parallel::count(n, |v| !colors[v].truncate().is_finite());
     let domain = Domain::Vertex;
     losses.add(domain, "color", translucent, "OBJ has no place for alpha");
-    losses.add(domain, "color", broken, "not finite: written as 0");
+    losses.add(domain, "color", broken, NOT_FINITE);
 }
 
 /// How many different values there are.
@@ -265,8 +266,7 @@ fn numbers<const N: usize>(
         let h = HalfEdgeId::new(h);
         mesh.face(h).is_some() && value(h).iter().any(|x| !x.is_finite())
     });
-    let reason = "not finite: written as 0";
-    losses.add(Domain::Corner, attribute, broken, reason);
+    losses.add(Domain::Corner, attribute, broken, NOT_FINITE);
     let bits = |h| finite(value(h)).map(f64::to_bits);
     CornerNumbers::new(mesh, |a, b| bits(a) == bits(b))
 }

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
 
 use bytemuck::Zeroable;
@@ -60,20 +59,15 @@ fn take_paint(file: &mut ObjFile, notes: &mut Notes) {
 }
 
 fn polylines(file: &ObjFile, notes: &mut Notes) -> Vec<Vec<DVec3>> {
-    let mut used = vec![false; file.positions.len()];
-    let corners = |w: &[u32]| &file.line_corners[w[0] as usize..w[1] as usize];
-    let mut lines = Vec::with_capacity(file.line_offsets.len() - 1);
-    for line in file.line_offsets.windows(2).map(corners) {
-        for &v in line {
-            used[v as usize] = true;
-        }
-        lines.push(line.iter().map(|&v| file.positions[v as usize]).collect());
-    }
-    let unused = used.iter().filter(|&&used| !used).count();
+    let line = |w: &[u32]| {
+        let corners = file.line_corners[w[0] as usize..w[1] as usize].iter();
+        corners.map(|&v| file.positions[v as usize]).collect()
+    };
+    let unused = unused(file.positions.len(), &file.line_corners);
     notes.left_out(unused, None, "vertices left out: no polyline uses them");
     let colors = file.colors.len();
     notes.left_out(colors, None, "vertex colors left out: polylines have none");
-    lines
+    file.line_offsets.windows(2).map(line).collect()
 }
 
 fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> Polygons {
@@ -125,12 +119,7 @@ fn missing(indices: &[u32]) -> usize {
 
 /// How many of `n` no index names.
 fn unused(n: usize, indices: &[u32]) -> usize {
-    let used: Vec<AtomicBool> = (0..n).map(|_| AtomicBool::new(false)).collect();
-    parallel::blocks(indices.len(), |block| {
-        for &index in indices[block].iter().filter(|&&index| index != NONE) {
-            used[index as usize].store(true, Relaxed);
-        }
-    });
+    let used = parallel::named(n, indices);
     used.iter().filter(|used| !used.load(Relaxed)).count()
 }
 

@@ -17,7 +17,7 @@ use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
 use crate::parallel;
-use crate::writing::{all_finite, is_byte, mend, push_comment, to_byte, uvs_of_vertices};
+use crate::writing::{finite, is_byte, push_comment, to_byte, uvs_of_vertices};
 use crate::{One, WriteOptions};
 
 /// The file that holds `scene`, little-endian, and what it does not hold.
@@ -44,17 +44,13 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwrit
             losses.add(domain, &column.name, column.values.len(), reason);
             continue;
         }
-        let mut values = Cow::Borrowed(&column.values);
-        if !all_finite(&values) {
-            let broken = mend(values.to_mut());
-            losses.add(domain, &column.name, broken, "not finite: written as 0");
-        }
+        let values = finite(domain, column, &mut losses);
         if domain == Domain::Corner
             && (column.name.as_str(), column.rule) == (UV.name, UV.rule)
-            && let Values::Vec2(uvs) = &*values
+            && let Values::Vec2(_) = &*values
         {
-            match uvs_of_vertices(mesh, uvs) {
-                Some(uvs) => vertices.known(&["s", "t"], Cow::Owned(Values::Vec2(uvs))),
+            match uvs_of_vertices(mesh, &values) {
+                Some(uvs) => vertices.known(&["s", "t"], Cow::Owned(uvs)),
                 // As MeshLab does where corners of a vertex differ.
                 None => {
                     let form = float_for(&values, 2);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use mesh::{Domain, Rule};
 
-use super::facets::{Facets, Normals};
+use super::facets::Facets;
 use super::{binary, text};
 use crate::Polygons;
 use crate::fault::Fault;
@@ -72,7 +72,7 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
 
 fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     let n_corners = facets.corners.len();
-    let Normals { turned, tilted } = facets.normals;
+    let [_, tilted, turned] = facets.sides;
     let what = "facet normals left out that point to the other side of their corners";
     notes.changed(turned, None, what);
     let what = "facet normals left out that are not normal to their corners";

@@ -53,7 +53,7 @@ fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), Fault> {
         }
         expect(cursor, b"endloop")?;
         expect(cursor, b"endfacet")?;
-        found.normals.add(compare(normal, corners));
+        found.sides[compare(normal, corners) as usize] += 1;
         found.corners.extend(corners);
     }
 }

@@ -35,12 +35,11 @@ pub(crate) fn read(
 ) -> Result<Vec<Found>, Fault> {
     // Dropped at the end: the accessors read from it as it is.
     let bytes = bytes.into_boxed_slice();
-    let container = buffers::container(&bytes)?;
-    let json = parse(&bytes[container.json])?;
+    let (json, binary) = buffers::container(&bytes)?;
+    let json = parse(json)?;
     let budget = Budget::of(bytes.len());
     let document = Document::new(&json, &budget, notes)?;
     drop(json);
-    let binary = container.binary.map(|range| &bytes[range]);
     let (buffers, fallbacks) = (&document.buffers, &document.fallbacks);
     let loaded = buffers::load(buffers, fallbacks, binary, &budget, assets)?;
     if document.compressed.iter().any(Option::is_some) {

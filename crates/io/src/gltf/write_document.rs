@@ -134,7 +134,7 @@ impl<'a> Writer<'a> {
         } else {
             ComponentType::U32
         };
-        let count = 3 * faces.n_triangles();
+        let count = 3 * faces.n_triangles;
         let length = count * component.size();
         let fill = move |out: &mut [u8]| fill_indices(out, mesh, split, faces, short);
         let view = self.view(length, Some(ELEMENT_ARRAY_BUFFER), fill);

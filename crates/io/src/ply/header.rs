@@ -74,16 +74,20 @@ impl fmt::Display for Property {
 }
 
 impl Element {
+    /// The place of the property of this name, a list or a single value.
+    pub(super) fn find(&self, name: &str, is_list: bool) -> Option<usize> {
+        let is_it = |p: &Property| p.count.is_some() == is_list && p.name == name;
+        self.properties.iter().position(is_it)
+    }
+
     /// The place of the scalar property of this name.
     pub(super) fn scalar(&self, name: &str) -> Option<usize> {
-        let is_it = |p: &Property| p.count.is_none() && p.name == name;
-        self.properties.iter().position(is_it)
+        self.find(name, false)
     }
 
     /// The place of the list property of this name.
     pub(super) fn list(&self, name: &str) -> Option<usize> {
-        let is_it = |p: &Property| p.count.is_some() && p.name == name;
-        self.properties.iter().position(is_it)
+        self.find(name, true)
     }
 }
 
@@ -110,7 +114,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
     let lines = bytes[start..].split_inclusive(|&byte| byte == end);
     for (line, bytes) in (1..).zip(lines) {
         (header.length, header.lines) = (header.length + bytes.len(), line);
-        let start = Place { line, column: 1 };
+        let start = Place::of_line(line);
         let mut words = Words {
             rest: bytes.strip_suffix(&[end]).unwrap_or(bytes),
             place: start,
@@ -138,9 +142,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
     if header.lines == 0 {
         return Err(Place::START.expected("`ply`", b""));
     }
-    let line = header.lines + 1;
     let message = "expected `end_header`, found the end of the file";
-    Err(Place { line, column: 1 }.error(message))
+    Err(Place::of_line(header.lines + 1).error(message))
 }
 
 /// What lines of the header end in, which the first one shows: bytes of the data behind the header may look like

@@ -1,5 +1,7 @@
 //! Facets, and how their normals agree with their corners.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 /// Facets as they stand in a file.
@@ -11,8 +13,8 @@ pub(super) struct Facets {
     pub(super) sides: [usize; 3],
     /// How many facets have attribute bytes.
     pub(super) colored: usize,
-    /// The names of solids, and the first facet of each.
-    pub(super) solids: Vec<(String, usize)>,
+    /// The names of solids, and which facets each has.
+    pub(super) solids: Vec<(String, Range<usize>)>,
 }
 
 /// How a facet normal agrees with the corners.

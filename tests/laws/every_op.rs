@@ -7,7 +7,7 @@ use std::path::Path;
 use mesh::{Mesh, Values};
 use op::{
     Context, Entry, Files, MeshPlan, NoProgress, OpError, Plan, PlanContext, PlannedGeometry,
-    PlannedObject, Progress, Range, Report, Step,
+    Progress, Range, Report, Step,
 };
 use scene::{Geometry, Object, Scene};
 
@@ -230,19 +230,17 @@ fn planning_never_panics_even_when_little_is_known() {
 /// The plan of a scene that is there.
 fn known(scene: &Scene) -> Plan {
     let exactly = |n: usize| Range::exactly(n as u64);
-    let planned = |object: &Object| PlannedObject {
-        name: object.name.clone(),
-        geometry: match &object.geometry {
-            Geometry::Mesh(mesh) => PlannedGeometry::Mesh(MeshPlan::of(mesh)),
-            Geometry::Patches(patches) => PlannedGeometry::Patches(exactly(patches.len())),
-            Geometry::Curve(curve) => PlannedGeometry::Curve(exactly(curve.points().len())),
-            Geometry::Polylines(_) => PlannedGeometry::Polylines,
-        },
+    let planned = |object: &Object| match &object.geometry {
+        Geometry::Mesh(mesh) => PlannedGeometry::Mesh(MeshPlan::of(mesh)),
+        Geometry::Patches(patches) => PlannedGeometry::Patches(exactly(patches.len())),
+        Geometry::Curve(curve) => PlannedGeometry::Curve(exactly(curve.points().len())),
+        Geometry::Polylines(_) => PlannedGeometry::Polylines,
     };
-    Plan {
-        objects: scene.objects().iter().map(planned).collect(),
-        ..Plan::default()
+    let mut plan = Plan::default();
+    for object in scene.objects() {
+        assert_eq!(plan.insert(&object.name, planned(object)), []);
     }
+    plan
 }
 
 /// Where a scene is not as planned.
@@ -253,7 +251,7 @@ fn differences(scene: &Scene, plan: &Plan) -> Vec<String> {
         .map(|o| (o.name.as_str(), o.geometry.kind()))
         .collect();
     let planned: Vec<_> = plan
-        .objects
+        .objects()
         .iter()
         .map(|o| (o.name.as_str(), o.geometry.kind()))
         .collect();
@@ -264,7 +262,7 @@ fn differences(scene: &Scene, plan: &Plan) -> Vec<String> {
         return vec![format!("planned {planned:?}, found {there:?}")];
     }
     let mut differences = Vec::new();
-    for planned in &plan.objects {
+    for planned in plan.objects() {
         let object = scene.object(&planned.name).expect("the names are the same");
         let name = &object.name;
         match (&object.geometry, &planned.geometry) {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use op::{Refusal, Report};
+use recipe::Finding;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -24,11 +24,7 @@ const MOST_RESULTS: usize = 4;
 pub(crate) struct Record {
     pub(crate) read: Inputs,
     pub(crate) outputs: Option<Outputs>,
-    pub(crate) report: Report,
-    pub(crate) refused: Option<Refusal>,
-    pub(crate) vertices: u64,
-    pub(crate) edges: u64,
-    pub(crate) faces: u64,
+    pub(crate) finding: Finding,
     /// Whether the scene is the one from before.
     pub(crate) same: bool,
     /// The scene after the step, if it is kept.

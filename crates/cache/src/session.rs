@@ -18,6 +18,7 @@ use crate::seen::Eyes;
 use crate::why::History;
 
 /// What is known of the scene before a step, or at the end.
+#[derive(Default)]
 struct Position {
     /// `None` if nobody can tell what it is.
     state: Option<State>,
@@ -81,19 +82,13 @@ impl CachedRun for Session<'_> {
             }
         }
         self.history.push(made_of, None);
-        let finding = Finding {
-            report: record.report.clone(),
-            refused: record.refused,
-            counts: [record.vertices, record.edges, record.faces]
-                .map(|n| usize::try_from(n).unwrap_or(usize::MAX)),
-        };
+        let finding = record.finding.clone();
         let digest = record.digest.map(Digest::from_bytes);
         self.positions.push(Position {
             state: Some(key.after(&record.read.files)),
             digest: digest.or_else(|| self.last().digest.filter(|_| record.same)),
             step: Some((key, record)),
-            is_dirty: false,
-            lost: None,
+            ..Position::default()
         });
         Ok(finding)
     }
@@ -104,11 +99,8 @@ impl CachedRun for Session<'_> {
         let made_of = self.made_of.take();
         let read = self.eyes.read(done.uses);
         let mut position = Position {
-            state: None,
-            step: None,
-            is_dirty: false,
             digest: self.last().digest.filter(|_| same),
-            lost: None,
+            ..Position::default()
         };
         let Some(made_of) = made_of else {
             self.positions.push(position);
@@ -122,15 +114,10 @@ impl CachedRun for Session<'_> {
                 let scene = self.last().step.as_ref().and_then(|(_, r)| r.scene.clone());
                 let scene = scene.filter(|_| same);
                 let scene = scene.or_else(|| self.keep(done.scene, number, label));
-                let [vertices, edges, faces] = done.counts.map(|n| n as u64);
                 let record = Record {
                     read,
                     outputs,
-                    report: done.report.clone(),
-                    refused: done.refused,
-                    vertices,
-                    edges,
-                    faces,
+                    finding: done.finding.clone(),
                     same,
                     scene,
                     digest: position.digest.map(Digest::to_bytes),
@@ -267,10 +254,7 @@ impl<'a> Session<'a> {
         let folder = &caching.cache.folder;
         let start = Position {
             state: Some(State::start()),
-            step: None,
-            is_dirty: false,
-            digest: None,
-            lost: None,
+            ..Position::default()
         };
         Self {
             folder,

@@ -17,6 +17,7 @@ use glam::{DVec2, DVec3, DVec4};
 use crate::{EdgeId, FaceId, HalfEdgeId, VertexId};
 
 pub use columns::{Attributes, Column, Sources};
+pub(crate) use values::pop_value;
 pub use values::{Value, Values};
 
 /// Texture coordinates of corners.

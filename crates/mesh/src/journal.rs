@@ -13,17 +13,18 @@
 //! that does it again. Notes that would outgrow the mesh become one copy of it, and a level that has a
 //! copy needs no notes any more: so a journal never takes more than about twice the bytes of its mesh.
 
+use bytemuck::cast_slice_mut;
 use glam::DVec3;
 
-use crate::attribute::{Attributes, Column};
-use crate::{Connectivity, Domain, FaceId, HalfEdgeId, Id, Mesh, Values, VertexId};
+use crate::attribute::{Attributes, Column, pop_value};
+use crate::{Connectivity, Domain, Id, Mesh, Values, VertexId};
 
 /// What an edit, or several, did to a mesh: enough to take it back. See [`Mesh::commit`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Change {
     entries: Vec<Entry>,
-    /// The numbers of positions and values, in the order of the entries that own them.
-    numbers: Vec<f64>,
+    /// The bytes of positions and values, in the order of the entries that own them.
+    values: Vec<u8>,
 }
 
 impl Change {
@@ -36,7 +37,7 @@ impl Change {
 
     /// The bytes that it takes, without those of whole arrays in it.
     pub fn bytes(&self) -> usize {
-        size_of_val(self.entries.as_slice()) + size_of_val(self.numbers.as_slice())
+        size_of_val(self.entries.as_slice()) + self.values.len()
     }
 }
 
@@ -55,9 +56,9 @@ pub(crate) struct Journal {
 /// What lies between a begin and its end.
 #[derive(Clone, Copy, Debug)]
 struct Level {
-    /// Where its notes begin, and its numbers.
+    /// Where its notes begin, and the bytes of their values.
     start: usize,
-    first_number: usize,
+    first_value: usize,
     /// How long the arrays were.
     lengths: Lengths,
     /// Whether it has noted a whole mesh, so that all else that changes is in that already.
@@ -67,14 +68,11 @@ struct Level {
 /// One thing to put back.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Entry {
-    Next(HalfEdgeId, HalfEdgeId),
-    Origin(HalfEdgeId, VertexId),
-    Face(HalfEdgeId, FaceId),
-    VertexHalfEdge(VertexId, HalfEdgeId),
-    FaceHalfEdge(FaceId, HalfEdgeId),
-    /// Three numbers.
+    /// The id at this place of an array, as a plain number.
+    Link(Array, u32, u32),
+    /// The bytes of a position.
     Position(VertexId),
-    /// The numbers of one value in each column of the domain.
+    /// The bytes of one value in each column of the domain.
     Values(Domain, usize),
     /// An element that was marked dead, or is to be again.
     Mark(Domain, usize),
@@ -90,6 +88,42 @@ pub(crate) enum Entry {
     Level(Box<Lengths>),
     /// What stood behind: it comes again.
     Tail(Box<Tail>),
+}
+
+/// One of the arrays of [`Connectivity`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Array {
+    Next,
+    Origin,
+    Face,
+    VertexHalfEdge,
+    FaceHalfEdge,
+}
+
+impl Array {
+    /// The domain whose elements have entries in it.
+    #[inline]
+    const fn domain(self) -> Domain {
+        match self {
+            Self::Next | Self::Origin | Self::Face => Domain::Corner,
+            Self::VertexHalfEdge => Domain::Vertex,
+            Self::FaceHalfEdge => Domain::Face,
+        }
+    }
+}
+
+impl Connectivity {
+    /// The ids of an array as plain numbers.
+    #[inline]
+    pub(crate) fn ids_mut(&mut self, array: Array) -> &mut [u32] {
+        match array {
+            Array::Next => cast_slice_mut(&mut self.next),
+            Array::Origin => cast_slice_mut(&mut self.origin),
+            Array::Face => cast_slice_mut(&mut self.face),
+            Array::VertexHalfEdge => cast_slice_mut(&mut self.vertex_half_edge),
+            Array::FaceHalfEdge => cast_slice_mut(&mut self.face_half_edge),
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -128,7 +162,7 @@ impl Journal {
     fn begin(&mut self, lengths: Lengths) {
         self.levels.push(Level {
             start: self.noted.entries.len(),
-            first_number: self.noted.numbers.len(),
+            first_value: self.noted.values.len(),
             lengths,
             has_whole: false,
         });
@@ -151,35 +185,27 @@ impl Journal {
     }
 
     #[inline]
-    pub(crate) fn half_edge(&mut self, h: HalfEdgeId, entry: Entry) {
-        if h.index() < self.lengths.half_edges {
-            self.noted.entries.push(entry);
-        }
+    fn is_noted(&self, domain: Domain, i: usize) -> bool {
+        i < self.lengths.of(domain)
     }
 
+    /// Notes the id that was at place `i` of an array.
     #[inline]
-    pub(crate) fn vertex(&mut self, v: VertexId, entry: Entry) {
-        if v.index() < self.lengths.vertices {
-            self.noted.entries.push(entry);
-        }
-    }
-
-    #[inline]
-    pub(crate) fn face(&mut self, f: FaceId, entry: Entry) {
-        if f.index() < self.lengths.faces {
-            self.noted.entries.push(entry);
+    pub(crate) fn link(&mut self, array: Array, i: u32, old: u32) {
+        if self.is_noted(array.domain(), i as usize) {
+            self.noted.entries.push(Entry::Link(array, i, old));
         }
     }
 
     pub(crate) fn position(&mut self, v: VertexId, old: DVec3) {
-        if v.index() < self.lengths.vertices {
+        if self.is_noted(Domain::Vertex, v.index()) {
             self.noted.position(v, old);
         }
     }
 
     /// Notes the values that `element` has in these columns, all those of its domain.
     pub(crate) fn values<I: Id>(&mut self, element: I, columns: &[Column]) {
-        if element.index() < self.lengths.of(I::DOMAIN) {
+        if self.is_noted(I::DOMAIN, element.index()) {
             self.noted.values(I::DOMAIN, element.index(), columns);
         }
     }
@@ -188,12 +214,12 @@ impl Journal {
 impl Change {
     fn position(&mut self, v: VertexId, old: DVec3) {
         self.entries.push(Entry::Position(v));
-        self.numbers.extend(old.to_array());
+        self.values.extend(bytemuck::bytes_of(&old));
     }
 
     fn values(&mut self, domain: Domain, i: usize, columns: &[Column]) {
         for column in columns {
-            column.values.push_numbers(i, &mut self.numbers);
+            column.values.push_bytes(i, &mut self.values);
         }
         self.entries.push(Entry::Values(domain, i));
     }
@@ -254,7 +280,7 @@ impl Mesh {
         if outer.has_whole {
             // The copy from before is enough.
             journal.noted.entries.truncate(ended.start);
-            journal.noted.numbers.truncate(ended.first_number);
+            journal.noted.values.truncate(ended.first_value);
         } else if ended.has_whole {
             outer.has_whole = true;
             journal.lengths = Lengths::default();
@@ -344,7 +370,7 @@ impl Mesh {
     fn go_back(&mut self, change: &mut Change, start: usize) -> Change {
         let mut inverse = Change::default();
         for entry in change.entries.drain(start..).rev() {
-            let undo = self.put_back(entry, &mut change.numbers, &mut inverse);
+            let undo = self.put_back(entry, &mut change.values, &mut inverse);
             inverse.entries.extend(undo);
         }
         inverse
@@ -355,33 +381,25 @@ impl Mesh {
     fn put_back(
         &mut self,
         entry: Entry,
-        numbers: &mut Vec<f64>,
+        values: &mut Vec<u8>,
         inverse: &mut Change,
     ) -> Option<Entry> {
         use std::mem::replace;
         let c = &mut self.connectivity;
         Some(match entry {
-            Entry::Next(h, old) => Entry::Next(h, replace(&mut c.next[h.index()], old)),
-            Entry::Origin(h, old) => Entry::Origin(h, replace(&mut c.origin[h.index()], old)),
-            Entry::Face(h, old) => Entry::Face(h, replace(&mut c.face[h.index()], old)),
-            Entry::VertexHalfEdge(v, old) => {
-                Entry::VertexHalfEdge(v, replace(&mut c.vertex_half_edge[v.index()], old))
-            }
-            Entry::FaceHalfEdge(f, old) => {
-                Entry::FaceHalfEdge(f, replace(&mut c.face_half_edge[f.index()], old))
+            Entry::Link(array, i, old) => {
+                Entry::Link(array, i, replace(&mut c.ids_mut(array)[i as usize], old))
             }
             Entry::Position(v) => {
                 let position = &mut self.positions[v.index()];
                 inverse.position(v, *position);
-                for axis in (0..3).rev() {
-                    position[axis] = numbers.pop().expect("three numbers were noted");
-                }
+                *position = pop_value(values);
                 return None;
             }
             Entry::Values(domain, i) => {
                 inverse.values(domain, i, self.attributes.of(domain));
                 for column in self.attributes.of_mut(domain).iter_mut().rev() {
-                    column.values.pop_numbers(i, numbers);
+                    column.values.pop_bytes(i, values);
                 }
                 return None;
             }

@@ -13,7 +13,7 @@
 //! boundary, so is prev(h)), for the first corner of a face, and for the values of a corner.
 //! Reversed twice, every array is as it was.
 
-use crate::attribute::{Attributes, Column};
+use crate::attribute::Attributes;
 use crate::{Connectivity, Domain, HalfEdgeId, Mesh};
 
 impl Mesh {
@@ -64,9 +64,8 @@ impl Mesh {
                 }),
                 _ => column.values.clone(),
             };
-            let (name, rule) = (column.name.clone(), column.rule);
-            let mut column = Column { name, rule, values };
-            column.turn_over();
+            let mut column = column.like(values);
+            column.turn_over(0..column.values.len());
             attributes.insert(domain, column);
         }
         attributes.drop_by_rule();

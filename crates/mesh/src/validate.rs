@@ -179,34 +179,21 @@ impl Mesh {
 
     /// 2.
     fn check_entries_of_half_edge(&self, h: HalfEdgeId, found: Found) {
-        let element = Element::HalfEdge(h);
-        if !self.has_edge(self.next(h).edge()) {
-            let array = "next";
-            found(Defect::Dangling { array, element });
-        }
-        if !self.has_vertex(self.origin(h)) {
-            let array = "origin";
-            found(Defect::Dangling { array, element });
-        }
-        if self.face(h).is_some_and(|f| !self.has_face(f)) {
-            let array = "face";
-            found(Defect::Dangling { array, element });
-        }
+        let has_face = self.face(h).is_none_or(|f| self.has_face(f));
+        check_entry("next", h, self.has_edge(self.next(h).edge()), found);
+        check_entry("origin", h, self.has_vertex(self.origin(h)), found);
+        check_entry("face", h, has_face, found);
     }
 
     fn check_entry_of_vertex(&self, v: VertexId, found: Found) {
         let first = self.vertex_half_edge(v);
-        if first.is_some_and(|h| !self.has_edge(h.edge())) {
-            let (array, element) = ("vertex_half_edge", v.into());
-            found(Defect::Dangling { array, element });
-        }
+        let has_edge = first.is_none_or(|h| self.has_edge(h.edge()));
+        check_entry("vertex_half_edge", v, has_edge, found);
     }
 
     fn check_entry_of_face(&self, f: FaceId, found: Found) {
-        if !self.has_edge(self.face_half_edge(f).edge()) {
-            let (array, element) = ("face_half_edge", f.into());
-            found(Defect::Dangling { array, element });
-        }
+        let has_edge = self.has_edge(self.face_half_edge(f).edge());
+        check_entry("face_half_edge", f, has_edge, found);
     }
 
     /// 3 and 4, but for whether `next` is a permutation.
@@ -333,6 +320,15 @@ impl Mesh {
                 found(Defect::ColumnLength { domain, name });
             }
         }
+    }
+}
+
+/// Tells of the entry of an element in an array, unless what it names is there.
+#[inline]
+fn check_entry(array: &'static str, element: impl Into<Element>, is_there: bool, found: Found) {
+    if !is_there {
+        let element = element.into();
+        found(Defect::Dangling { array, element });
     }
 }
 

@@ -3,54 +3,46 @@
 
 use glam::DVec3;
 
-use crate::journal::Entry;
+use crate::attribute::Column;
+use crate::journal::{Array, Entry};
 use crate::marks::Marks;
-use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
+use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, Mesh, Values, VertexId};
 
 impl Mesh {
     #[inline]
     pub(crate) fn set_next(&mut self, h: HalfEdgeId, next: HalfEdgeId) {
-        let old = std::mem::replace(&mut self.connectivity.next[h.index()], next);
-        if let Some(journal) = &mut self.journal {
-            journal.half_edge(h, Entry::Next(h, old));
-        }
+        self.write(Array::Next, h, next);
     }
 
     #[inline]
     pub(crate) fn set_origin(&mut self, h: HalfEdgeId, v: VertexId) {
-        let old = std::mem::replace(&mut self.connectivity.origin[h.index()], v);
-        if let Some(journal) = &mut self.journal {
-            journal.half_edge(h, Entry::Origin(h, old));
-        }
+        self.write(Array::Origin, h, v);
     }
 
     #[inline]
     pub(crate) fn set_face(&mut self, h: HalfEdgeId, f: Option<FaceId>) {
-        let f = f.unwrap_or(FaceId::NONE);
-        let old = std::mem::replace(&mut self.connectivity.face[h.index()], f);
-        if let Some(journal) = &mut self.journal {
-            journal.half_edge(h, Entry::Face(h, old));
-        }
+        self.write(Array::Face, h, f.unwrap_or(FaceId::NONE));
     }
 
     #[inline]
     pub(crate) fn set_vertex_half_edge(&mut self, v: VertexId, h: Option<HalfEdgeId>) {
-        let h = h.unwrap_or(HalfEdgeId::NONE);
-        let old = std::mem::replace(&mut self.connectivity.vertex_half_edge[v.index()], h);
-        if let Some(journal) = &mut self.journal {
-            journal.vertex(v, Entry::VertexHalfEdge(v, old));
-        }
+        self.write(Array::VertexHalfEdge, v, h.unwrap_or(HalfEdgeId::NONE));
     }
 
     #[inline]
     pub(crate) fn set_face_half_edge(&mut self, f: FaceId, h: HalfEdgeId) {
-        let old = std::mem::replace(&mut self.connectivity.face_half_edge[f.index()], h);
+        self.write(Array::FaceHalfEdge, f, h);
+    }
+
+    #[inline]
+    fn write(&mut self, array: Array, at: impl Id, id: impl Id) {
+        let slot = &mut self.connectivity.ids_mut(array)[at.index()];
+        let old = std::mem::replace(slot, bytemuck::cast(id));
         if let Some(journal) = &mut self.journal {
-            journal.face(f, Entry::FaceHalfEdge(f, old));
+            journal.link(array, bytemuck::cast(at), old);
         }
     }
 
-    /// A new isolated vertex with zero values.
     pub(crate) fn push_vertex(&mut self, position: DVec3) -> VertexId {
         let v = VertexId::new(self.positions.len());
         self.positions.push(position);
@@ -101,60 +93,48 @@ impl Mesh {
     /// Gives element `to` the values of element `from`, whatever their rules.
     #[inline]
     pub(crate) fn copy_values<I: Id>(&mut self, from: I, to: I) {
-        if !self.attributes.of(I::DOMAIN).is_empty() {
-            self.note_values(to);
-            self.attributes.copy(from, to);
-        }
+        self.edit_values(to, |column| column.values.copy(from.index(), to.index()));
     }
 
     /// Exchanges the values of two elements, whatever their rules.
     pub(crate) fn swap_values<I: Id>(&mut self, a: I, b: I) {
-        if !self.attributes.of(I::DOMAIN).is_empty() {
-            self.note_values(a);
-            self.note_values(b);
-            self.attributes.swap(a, b);
-        }
+        self.edit_values(b, |_| {});
+        self.edit_values(a, |column| column.values.swap(a.index(), b.index()));
     }
 
     /// Turns the normals of an element over.
     pub(crate) fn turn_over<I: Id>(&mut self, element: I) {
-        if self.attributes.has_normals(I::DOMAIN) {
-            self.note_values(element);
-            self.attributes.turn_over(element);
-        }
+        let i = element.index();
+        self.edit_values(element, |column| column.turn_over(i..i + 1));
     }
 
     /// Gives element `to`, which lies between `a` and `b` at `t` (0 at `a`, 1 at `b`), the values that
     /// the rules say. Columns that are copied, not interpolated, stay as they are.
     #[inline]
     pub(crate) fn mix_values<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
-        if !self.attributes.of(I::DOMAIN).is_empty() {
-            self.note_values(to);
-            self.attributes.mix(a, b, t, to);
-        }
+        self.edit_values(to, |column| column.mix(a, b, t, to));
     }
 
     /// Gives element `to` the mean of the values of `from`, where the rules say interpolate; columns
     /// that are copied stay as they are. `from` may contain `to`.
     pub(crate) fn average_values<I: Id>(&mut self, from: &[I], to: I) {
-        if !self.attributes.of(I::DOMAIN).is_empty() {
-            self.note_values(to);
-            self.attributes.average(from, to);
-        }
+        self.edit_values(to, |column| column.average(from, to));
     }
 
     /// Gives edge `to` what counts of its values and those of `from`, when the two become one: the larger
     /// number, and the mark of either. Other columns stay as they are.
     pub(crate) fn merge_values(&mut self, from: EdgeId, to: EdgeId) {
-        if !self.attributes.of(Domain::Edge).is_empty() {
-            self.note_values(to);
-            self.attributes.merge(from, to);
-        }
+        let (source, target) = (from.index(), to.index());
+        self.edit_values(to, |column| match &mut column.values {
+            Values::Float(v) if v[source] > v[target] => v[target] = v[source],
+            Values::Tag(v) => v[target] |= v[source],
+            _ => {}
+        });
     }
 
     /// Moves the values of corner `to` along an edge that shrinks to the place `t` on it. `sides` are the
     /// corners at both ends of the edge, in the face on each side; where `to` has the value of the one
-    /// at its own end, which is `end`, it gets that of the place.
+    /// at its own end, which is `end`, it gets that of the place. None of them is `to`.
     pub(crate) fn follow_values(
         &mut self,
         sides: [Option<[HalfEdgeId; 2]>; 2],
@@ -162,18 +142,30 @@ impl Mesh {
         t: f64,
         to: HalfEdgeId,
     ) {
-        self.note_values(to);
-        self.attributes.follow(sides, end, t, to);
+        self.edit_values(to, |column| {
+            let is_same =
+                |side: &&[HalfEdgeId; 2]| column.values.same(side[end].index(), to.index());
+            if let Some(&[a, b]) = sides.iter().flatten().find(is_same) {
+                column.mix(a, b, t, to);
+            }
+        });
     }
 
     pub(crate) fn has_corner_columns(&self) -> bool {
         !self.attributes.of(Domain::Corner).is_empty()
     }
 
-    fn note_values<I: Id>(&mut self, element: I) {
-        if let Some(journal) = &mut self.journal {
-            journal.values(element, self.attributes.of(I::DOMAIN));
+    /// Changes the values of an element in all columns, after noting them.
+    #[inline]
+    fn edit_values<I: Id>(&mut self, element: I, edit: impl Fn(&mut Column)) {
+        let columns = self.attributes.of_mut(I::DOMAIN);
+        if columns.is_empty() {
+            return;
         }
+        if let Some(journal) = &mut self.journal {
+            journal.values(element, columns);
+        }
+        columns.iter_mut().for_each(edit);
     }
 
     /// Removes the columns whose rule is [`Rule::Drop`](crate::Rule::Drop), and keeps the journal within

@@ -45,7 +45,7 @@ impl Wanted {
     ) -> Vec<Problem> {
         let mut problems = Vec::new();
         let mut n = 0;
-        for object in &mut plan.objects {
+        for object in plan.objects_mut() {
             if cx.on.is_some_and(|on| !on.contains(&object.name)) {
                 continue;
             }

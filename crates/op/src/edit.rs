@@ -115,7 +115,9 @@ pub fn edit_each<I: Edited>(
             let refused = || OpError::refused_edit(refusal, mesh, &element.elements());
             match on_refusal {
                 OnRefusal::Error => return Err(refused()),
-                OnRefusal::Skip => report.refuse_as(refusal.into(), refused)?,
+                OnRefusal::Skip => {
+                    report.count_refused(refusal.into(), 1, || refused().to_string())
+                }
             }
         } else {
             report.changed += 1;

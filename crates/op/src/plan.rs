@@ -1,5 +1,6 @@
 //! What is known of a scene before anything runs: kinds, counts, attributes and bytes.
 
+use std::collections::HashMap;
 use std::path::PathBuf;
 
 use mesh::{CORNER_NORMAL, Domain, Rule, VERTEX_NORMAL};
@@ -272,8 +273,10 @@ pub struct PlannedObject {
 /// What is known of a scene at one point of a recipe. Steps change it as they will change the scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
-    /// The objects, in order.
-    pub objects: Vec<PlannedObject>,
+    objects: Vec<PlannedObject>,
+    /// The place of each name; empty since objects were changed.
+    places: HashMap<String, usize>,
+    is_edited: bool,
     /// Files that are read so far.
     pub inputs: Vec<PathBuf>,
     /// Files that are written so far.
@@ -284,17 +287,44 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// The objects, in order.
+    pub fn objects(&self) -> &[PlannedObject] {
+        &self.objects
+    }
+
+    /// The same, to be changed. A new object is added with [`insert`](Self::insert), which takes no time in
+    /// proportion to the others.
+    pub fn objects_mut(&mut self) -> &mut Vec<PlannedObject> {
+        self.is_edited = true;
+        self.places.clear();
+        &mut self.objects
+    }
+
+    /// Whether there was a call of [`objects_mut`](Self::objects_mut) since the last one of this method. Otherwise
+    /// objects were added at the end, and the others are as they were.
+    pub fn take_edited(&mut self) -> bool {
+        std::mem::take(&mut self.is_edited)
+    }
+
     /// The object of this name.
     pub fn object(&self, name: &str) -> Option<&PlannedObject> {
-        self.objects.iter().find(|o| o.name == name)
+        if self.places.len() < self.objects.len() {
+            return self.objects.iter().find(|o| o.name == name);
+        }
+        self.places.get(name).map(|&place| &self.objects[place])
     }
 
     /// Adds an object; a problem if its name is taken.
     pub fn insert(&mut self, name: &str, geometry: PlannedGeometry) -> Vec<Problem> {
+        if self.places.is_empty() {
+            let names = self.objects.iter().map(|o| o.name.clone());
+            self.places = names.zip(0..).collect();
+        }
         if self.object(name).is_some() {
             let message = format!("an object named \"{name}\" is in the scene already");
             return vec![Problem::error(message).at(["name"])];
         }
+        self.places.insert(name.to_owned(), self.objects.len());
         self.objects.push(PlannedObject {
             name: name.to_owned(),
             geometry,
@@ -327,16 +357,6 @@ impl Plan {
                     .help(format!("objects at this point: {}", known()))
             })
             .collect()
-    }
-
-    /// The bytes that all meshes take.
-    pub fn bytes(&self) -> Range {
-        self.objects
-            .iter()
-            .fold(Range::exactly(0), |sum, o| match &o.geometry {
-                PlannedGeometry::Mesh(mesh) => sum.plus(mesh.bytes()),
-                _ => sum,
-            })
     }
 }
 

@@ -2,8 +2,12 @@
 
 use std::fmt;
 
+use ron::Options;
+use ron::error::SpannedResult;
+use ron::extensions::Extensions;
 use ron_tree::{Value, ValueKind};
 use scene::Scene;
+use schemars::{Schema, SchemaGenerator};
 
 use crate::{Context, OpError, Operation, Plan, PlanContext, Problem, Report};
 
@@ -34,8 +38,10 @@ pub struct Entry {
     pub aliases: &'static [&'static str],
     /// Whether a step of it may choose objects with `on:`.
     pub takes_on: bool,
-    schema: fn() -> schemars::Schema,
+    schema: fn() -> Schema,
+    schema_in: fn(&mut SchemaGenerator) -> Schema,
     parse: fn(&Value) -> Result<Box<dyn Step>, ron_tree::Error>,
+    parse_by_ron: fn(&str) -> SpannedResult<Box<dyn Step>>,
 }
 
 impl fmt::Debug for Entry {
@@ -56,13 +62,23 @@ impl Entry {
             aliases: T::ALIASES,
             takes_on: T::TAKES_ON,
             schema: || schemars::schema_for!(T),
+            schema_in: SchemaGenerator::subschema_for::<T>,
             parse: |parameters| Ok(Box::new(T::deserialize(parameters)?)),
+            parse_by_ron: |parameters| {
+                let options = Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+                Ok(Box::new(options.from_str::<T>(parameters)?))
+            },
         }
     }
 
     /// The JSON schema of the parameters, with their documentation.
     pub fn schema(&self) -> serde_json::Value {
         (self.schema)().to_value()
+    }
+
+    /// A reference to the same schema, which stands among the definitions of `generator`.
+    pub fn schema_in(&self, generator: &mut SchemaGenerator) -> serde_json::Value {
+        (self.schema_in)(generator).to_value()
     }
 
     /// Reads a step `Name(levels: 2)`, whatever the name, or only its parameters `(levels: 2)`. A name alone stands for
@@ -77,6 +93,15 @@ impl Entry {
             ValueKind::Name(_) => (self.parse)(&Value::new(step.span, ValueKind::Unit)),
             _ => (self.parse)(step),
         }
+    }
+
+    /// Reads parameters `(levels: 2)` with the crate `ron`: the judge of what [`parse`](Self::parse) accepts.
+    ///
+    /// # Errors
+    ///
+    /// Why the text holds no parameters of this operation.
+    pub fn parse_by_ron(&self, parameters: &str) -> SpannedResult<Box<dyn Step>> {
+        (self.parse_by_ron)(parameters)
     }
 }
 

@@ -82,7 +82,7 @@ pub fn made(operation: &impl Operation) -> Mesh {
 
     let mut scene = Scene::new();
     run(operation, &mut scene).expect("the operation succeeds");
-    let ([object], [planned]) = (scene.objects(), &plan.objects[..]) else {
+    let ([object], [planned]) = (scene.objects(), plan.objects()) else {
         panic!("a source makes one object");
     };
     let mesh = object.as_mesh().expect("the object is a mesh");

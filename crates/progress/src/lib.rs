@@ -16,6 +16,8 @@
 //! assert_eq!(sum(&[1.0, 2.0], &NoProgress), Ok(3.0));
 //! ```
 
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
 /// Listens to a computation and can cancel it.
 pub trait Progress: Sync {
     /// Called when `done` of `total` parts of a computation are done; `what` names it in a few words.
@@ -33,6 +35,60 @@ pub trait Progress: Sync {
         } else {
             Err(Cancelled)
         }
+    }
+}
+
+/// Adds up the work of all threads on one computation and reports it.
+pub struct Meter<'a> {
+    listener: &'a dyn Progress,
+    what: &'static str,
+    done: AtomicU64,
+    total: u64,
+    /// A report follows when the parts that are done pass a multiple of this.
+    interval: u64,
+}
+
+impl<'a> Meter<'a> {
+    /// A computation of `total` parts, named by `what`, with none done yet. Every addition is reported.
+    pub fn new(listener: &'a dyn Progress, what: &'static str, total: u64) -> Self {
+        Self {
+            listener,
+            what,
+            done: AtomicU64::new(0),
+            total,
+            interval: 1,
+        }
+    }
+
+    /// Reports once for every `interval` parts only, for additions of a few.
+    #[must_use]
+    pub fn every(self, interval: u64) -> Self {
+        Self { interval, ..self }
+    }
+
+    /// Counts `n` more parts as done. Adding 0 only asks whether to go on.
+    ///
+    /// # Errors
+    ///
+    /// [`Cancelled`] if the computation is to stop.
+    pub fn add(&self, n: usize) -> Result<(), Cancelled> {
+        let before = self.done.fetch_add(n as u64, Relaxed);
+        let done = before + n as u64;
+        if n > 0 && before / self.interval == done / self.interval {
+            return Ok(());
+        }
+        self.listener
+            .report(self.what, done.min(self.total), self.total)
+    }
+
+    /// Reports that all parts are done.
+    ///
+    /// # Errors
+    ///
+    /// [`Cancelled`] if the computation is to stop.
+    pub fn finish(&self) -> Result<(), Cancelled> {
+        self.done.store(self.total, Relaxed);
+        self.add(0)
     }
 }
 

@@ -90,17 +90,6 @@ fn lead(value: &mut Value, folders: Move, inputs: &[PathBuf]) {
             let path = seen_from(folders.store, text, folders.from, folders.to);
             *text = path.to_string_lossy().into();
         }
-        ValueKind::Call(call) => lead(&mut call.body, folders, inputs),
-        ValueKind::Struct(body) => {
-            for field in &mut body.fields {
-                lead(&mut field.value, folders, inputs);
-            }
-        }
-        ValueKind::Tuple(items) | ValueKind::List(items) => {
-            for item in items {
-                lead(item, folders, inputs);
-            }
-        }
-        _ => {}
+        _ => value.for_each_part(|part| lead(part, folders, inputs)),
     }
 }

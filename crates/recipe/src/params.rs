@@ -1,5 +1,6 @@
 //! The parameters of a recipe: declared with a type and a default, set from the command line.
 
+use std::fmt::Display;
 use std::path::Path;
 
 use schemars::JsonSchema;
@@ -7,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use store::Store;
 
 use crate::source::seen_from;
-use ron_tree::{Number, Span, Value, ValueKind};
+use ron_tree::{Number, Span, Value, ValueKind, parse};
 
 /// Two folders: a relative path is seen from the one, and is to mean the same seen from the other.
 #[derive(Clone, Copy, Debug)]
@@ -89,14 +90,23 @@ pub enum Param {
 impl Param {
     /// The name of its type.
     pub fn type_name(&self) -> &'static str {
+        self.words().0
+    }
+
+    fn expected(&self) -> &'static str {
+        self.words().1
+    }
+
+    /// The name of its type, and what values it takes.
+    fn words(&self) -> (&'static str, &'static str) {
         match self {
-            Self::Int { .. } => "Int",
-            Self::Float { .. } => "Float",
-            Self::Bool { .. } => "Bool",
-            Self::Text { .. } => "Text",
-            Self::Path { .. } => "Path",
-            Self::Choice { .. } => "Choice",
-            Self::Vector { .. } => "Vector",
+            Self::Int { .. } => ("Int", "a whole number"),
+            Self::Float { .. } => ("Float", "a number"),
+            Self::Bool { .. } => ("Bool", "true or false"),
+            Self::Text { .. } => ("Text", "a text in quotes"),
+            Self::Path { .. } => ("Path", "a path in quotes"),
+            Self::Choice { .. } => ("Choice", "one of its words"),
+            Self::Vector { .. } => ("Vector", "three numbers `(x, y, z)`"),
         }
     }
 
@@ -145,18 +155,26 @@ impl Param {
                 let other = || ParamError::new("a whole number", &format!("`{}`", number.text()));
                 self.allowed_int(int.ok_or_else(other)?)
             }
-            (Self::Float { .. }, ValueKind::Number(number)) => self.value_of(number.text(), None),
+            (Self::Float { .. }, ValueKind::Number(_)) => self.allowed_float(number(written)?),
             (Self::Bool { .. }, ValueKind::Bool(is)) => Ok(value(ValueKind::Bool(*is))),
-            (
-                Self::Text { .. } | Self::Path { .. } | Self::Choice { .. },
-                ValueKind::String(text),
-            )
-            | (Self::Choice { .. }, ValueKind::Name(text)) => self.value_of(text, folders),
+            (Self::Text { .. }, ValueKind::String(text)) => {
+                Ok(value(ValueKind::String(text.clone())))
+            }
+            (Self::Path { .. }, ValueKind::String(text)) => {
+                let moved = |f: Move| seen_from(f.store, text, f.from, f.to);
+                let path = folders.map_or_else(|| (&**text).into(), moved);
+                Ok(value(ValueKind::String(path.to_string_lossy().into())))
+            }
+            (Self::Choice { of, .. }, ValueKind::String(text) | ValueKind::Name(text)) => {
+                let word = text.chars().all(|c| c.is_alphanumeric() || c == '_');
+                if of.iter().any(|choice| **choice == **text) && word {
+                    Ok(value(ValueKind::Name(text.clone())))
+                } else {
+                    let expected = format!("one of {}", of.join(", "));
+                    Err(ParamError::new(&expected, &format!("`{text}`")))
+                }
+            }
             (Self::Vector { .. }, ValueKind::Tuple(parts)) => {
-                let number = |part: &Value| match &part.kind {
-                    ValueKind::Number(number) if !number.has_base() => Ok(number.to_float()),
-                    _ => Err(ParamError::new("a number", &format!("`{part}`"))),
-                };
                 let parts: Vec<f64> = parts.iter().map(number).collect::<Result<_, _>>()?;
                 let [x, y, z] = parts[..] else {
                     return Err(ParamError::new(self.expected(), &format!("`{written}`")));
@@ -167,18 +185,6 @@ impl Param {
         }
     }
 
-    fn expected(&self) -> &'static str {
-        match self {
-            Self::Int { .. } => "a whole number",
-            Self::Float { .. } => "a number",
-            Self::Bool { .. } => "true or false",
-            Self::Text { .. } => "a text in quotes",
-            Self::Path { .. } => "a path in quotes",
-            Self::Choice { .. } => "one of its words",
-            Self::Vector { .. } => "three numbers `(x, y, z)`",
-        }
-    }
-
     /// The value that is given as plain text, as on the command line. A relative path is led from one folder to
     /// another, if they are given.
     ///
@@ -186,41 +192,17 @@ impl Param {
     ///
     /// If the text is no value of this type or not allowed.
     pub fn value_of(&self, text: &str, folders: Option<Move>) -> Result<Value, ParamError> {
-        let wrong = || ParamError::new(self.expected(), &format!("`{text}`"));
-        match self {
-            Self::Int { .. } => {
-                let int = text.replace('_', "").parse();
-                self.allowed_int(int.map_err(|_| wrong())?)
+        let parsed = match self {
+            Self::Text { .. } | Self::Path { .. } | Self::Choice { .. } => {
+                return self.value_from(&value(ValueKind::String(text.into())), folders);
             }
-            Self::Float { .. } => self.allowed_float(number(text)?),
-            Self::Bool { .. } => {
-                let is = text.parse().map_err(|_| wrong())?;
-                Ok(value(ValueKind::Bool(is)))
-            }
-            Self::Text { .. } => Ok(value(ValueKind::String(text.into()))),
-            Self::Path { .. } => {
-                let moved = |f: Move| seen_from(f.store, text, f.from, f.to);
-                let path = folders.map_or_else(|| text.into(), moved);
-                Ok(value(ValueKind::String(path.to_string_lossy().into())))
-            }
-            Self::Choice { of, .. } => {
-                let word = text.chars().all(|c| c.is_alphanumeric() || c == '_');
-                if of.iter().any(|choice| choice == text) && word {
-                    Ok(value(ValueKind::Name(text.into())))
-                } else {
-                    let expected = format!("one of {}", of.join(", "));
-                    Err(ParamError::new(&expected, &format!("`{text}`")))
-                }
-            }
-            Self::Vector { .. } => {
-                let inner = text.trim().trim_start_matches('(').trim_end_matches(')');
-                let parts = inner.split(',').map(|part| number(part.trim()));
-                let parts: Vec<f64> = parts.collect::<Result<_, _>>()?;
-                let [x, y, z] = parts[..] else {
-                    return Err(wrong());
-                };
-                vector([x, y, z])
-            }
+            Self::Vector { .. } if !text.contains('(') => parse(&format!("({text})")),
+            _ => parse(text),
+        };
+        if parsed.diagnostics.is_empty() {
+            self.value_from(&parsed.value, folders)
+        } else {
+            Err(ParamError::new(self.expected(), &format!("`{text}`")))
         }
     }
 
@@ -240,41 +222,14 @@ impl Param {
     }
 }
 
-/// Why something is no value of a parameter.
+/// Why something is no value of a parameter: what is expected and what was found.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ParamError {
-    /// It is of another type.
-    #[error("expected {expected}, found {found}")]
-    Unexpected {
-        /// What the parameter takes.
-        expected: String,
-        /// What was there.
-        found: String,
-    },
-    /// It is less than the minimum.
-    #[error("{value} is below the minimum {min}")]
-    Below {
-        /// The value.
-        value: String,
-        /// The lowest that is allowed.
-        min: String,
-    },
-    /// It is more than the maximum.
-    #[error("{value} is above the maximum {max}")]
-    Above {
-        /// The value.
-        value: String,
-        /// The highest that is allowed.
-        max: String,
-    },
-}
+#[error("{0}")]
+pub struct ParamError(String);
 
 impl ParamError {
     fn new(expected: &str, found: &str) -> Self {
-        Self::Unexpected {
-            expected: expected.to_owned(),
-            found: found.to_owned(),
-        }
+        Self(format!("expected {expected}, found {found}"))
     }
 }
 
@@ -297,31 +252,26 @@ fn float(x: f64) -> Result<Value, ParamError> {
     Ok(value(ValueKind::Number(number)))
 }
 
-fn number(text: &str) -> Result<f64, ParamError> {
-    let value: Result<f64, _> = text.replace('_', "").parse();
-    value
-        .ok()
-        .filter(|value| value.is_finite())
-        .ok_or_else(|| ParamError::new("a number", &format!("`{text}`")))
+fn number(written: &Value) -> Result<f64, ParamError> {
+    match &written.kind {
+        ValueKind::Number(number) if !number.has_base() && number.to_float().is_finite() => {
+            Ok(number.to_float())
+        }
+        _ => Err(ParamError::new("a number", &format!("`{written}`"))),
+    }
 }
 
-fn within<T: Copy + PartialOrd + ToString>(
+fn within<T: Copy + PartialOrd + Display>(
     value: T,
     min: Option<T>,
     max: Option<T>,
 ) -> Result<(), ParamError> {
-    let text = value.to_string();
-    match (min, max) {
-        (Some(min), _) if value < min => Err(ParamError::Below {
-            value: text,
-            min: min.to_string(),
-        }),
-        (_, Some(max)) if value > max => Err(ParamError::Above {
-            value: text,
-            max: max.to_string(),
-        }),
-        _ => Ok(()),
-    }
+    let message = match (min, max) {
+        (Some(min), _) if value < min => format!("{value} is below the minimum {min}"),
+        (_, Some(max)) if value > max => format!("{value} is above the maximum {max}"),
+        _ => return Ok(()),
+    };
+    Err(ParamError(message))
 }
 
 #[cfg(test)]

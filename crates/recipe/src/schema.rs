@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use op::{Entry, Refusal, Registry};
-use schemars::JsonSchema;
-use serde_json::{Map, Value as Json, json};
+use schemars::{JsonSchema, SchemaGenerator};
+use serde_json::{Value as Json, json};
 
 use crate::expect::Expectation;
 use crate::params::Param;
@@ -61,8 +61,9 @@ pub(crate) fn expectation() -> &'static Json {
 /// The fields around a recipe; steps and expectations can be anything.
 pub(crate) fn envelope() -> &'static Json {
     static SCHEMA: LazyLock<Json> = LazyLock::new(|| {
-        with_definitions(&[("OnLoss", of::<OnLoss>())], |at| {
-            recipe(&json!({}), &json!({}), &json!({}), &at("OnLoss"))
+        with_definitions(|defined| {
+            let on_loss = reference::<OnLoss>(defined);
+            recipe(&json!({}), &json!({}), &json!({}), &on_loss)
         })
     });
     &SCHEMA
@@ -70,12 +71,8 @@ pub(crate) fn envelope() -> &'static Json {
 
 /// The fields around an operation; the operation can be anything.
 pub(crate) fn step_envelope() -> &'static Json {
-    static SCHEMA: LazyLock<Json> = LazyLock::new(|| {
-        let parts = [("Refusal", of::<Refusal>()), ("OnLoss", of::<OnLoss>())];
-        with_definitions(&parts, |at| {
-            step_fields(&json!({}), &at("Refusal"), &at("OnLoss"))
-        })
-    });
+    static SCHEMA: LazyLock<Json> =
+        LazyLock::new(|| with_definitions(|defined| step_fields(&json!({}), defined)));
     &SCHEMA
 }
 
@@ -150,16 +147,10 @@ pub(crate) fn expectation_envelope() -> Json {
 /// The schema of whole recipes with the operations of `registry`, in the JSON form of RON: `Name(a: 1)`
 /// is `{"Name": {"a": 1}}`, and a name without parameters is a string.
 pub fn schema(registry: &Registry) -> Json {
-    let mut parts = vec![
-        ("Param", of::<Param>()),
-        ("Expectation", of::<Expectation>()),
-        ("Refusal", of::<Refusal>()),
-        ("OnLoss", of::<OnLoss>()),
-    ];
-    parts.extend(registry.entries().iter().map(|e| (e.name, e.schema())));
     // A step can hold steps, so it has a name.
+    let step_reference = json!({ "$ref": "#/$defs/Step" });
     let mut step = Json::Null;
-    let mut schema = with_definitions(&parts, |at| {
+    let mut schema = with_definitions(|defined| {
         let call = |name: &str, doc: &Json, parameters: &Json| {
             json!({
                 "type": "object",
@@ -169,30 +160,29 @@ pub fn schema(registry: &Registry) -> Json {
                 "additionalProperties": false,
             })
         };
-        let flows = Kind::ALL.map(|kind| {
-            let fields = flow_fields(kind, &at("Step"));
+        let mut operations = Vec::new();
+        for entry in registry.entries() {
+            let (name, summary) = (entry.name, json!(entry.summary));
+            operations.push(call(name, &summary, &entry.schema_in(defined)));
+            if entry.schema().get("required").is_none() {
+                operations.push(json!({ "const": name, "description": summary }));
+            }
+        }
+        operations.extend(Kind::ALL.map(|kind| {
+            let fields = flow_fields(kind, &step_reference);
             call(kind.name(), &fields["description"], &fields)
-        });
-        let operations: Vec<Json> = registry
-            .entries()
-            .iter()
-            .flat_map(|e| {
-                let call = call(e.name, &json!(e.summary), &at(e.name));
-                let alone = json!({ "const": e.name, "description": e.summary });
-                let needs = e.schema().get("required").is_some();
-                if needs { vec![call] } else { vec![call, alone] }
-            })
-            .chain(flows)
-            .collect();
+        }));
         let operation = json!({ "oneOf": operations });
-        let fields = step_fields(&operation, &at("Refusal"), &at("OnLoss"));
+        let fields = step_fields(&operation, defined);
         step = json!({ "oneOf": [operation, fields] });
-        let expectation = at("Expectation");
+        let expectation = reference::<Expectation>(defined);
         let many =
             json!({ "oneOf": [expectation.clone(), { "type": "array", "items": expectation }] });
-        let placed = json!({ "oneOf": [at("Expectation"), expectation_fields(&many)] });
-        recipe(&at("Param"), &at("Step"), &placed, &at("OnLoss"))
+        let placed = json!({ "oneOf": [expectation, expectation_fields(&many)] });
+        let (param, on_loss) = (reference::<Param>(defined), reference::<OnLoss>(defined));
+        recipe(&param, &step_reference, &placed, &on_loss)
     });
+    allow_shorthand(&mut schema);
     schema["$defs"]["Step"] = step;
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     schema["title"] = json!("Meshwright recipe");
@@ -220,7 +210,7 @@ fn recipe(param: &Json, step: &Json, expectation: &Json, on_loss: &Json) -> Json
     })
 }
 
-fn step_fields(operation: &Json, refusal: &Json, on_loss: &Json) -> Json {
+fn step_fields(operation: &Json, defined: &mut SchemaGenerator) -> Json {
     // What stands beside a reference or a choice goes with it.
     let told = |schema: &Json, doc: &str| json!({ "allOf": [schema], "description": doc });
     json!({
@@ -239,8 +229,8 @@ fn step_fields(operation: &Json, refusal: &Json, on_loss: &Json) -> Json {
                 "description": "The objects that it acts on; all that it can if this is left out.",
             },
             "note": { "type": "string", "description": "For readers." },
-            "refused": told(refusal, "The reason for which it must be refused, and change nothing."),
-            "on_loss": told(on_loss, "What may be lost; as the recipe says if this is left out."),
+            "refused": told(&reference::<Refusal>(defined), "The reason for which it must be refused, and change nothing."),
+            "on_loss": told(&reference::<OnLoss>(defined), "What may be lost; as the recipe says if this is left out."),
         },
         "required": ["run"],
         "additionalProperties": false,
@@ -260,32 +250,17 @@ fn expectation_fields(that: &Json) -> Json {
     })
 }
 
-/// Puts schemas with definitions of their own side by side: each part and each of its definitions gets
-/// a name of its own, and references are led there.
-fn with_definitions(
-    parts: &[(&str, Json)],
-    build: impl FnOnce(&dyn Fn(&str) -> Json) -> Json,
-) -> Json {
-    let mut definitions = Map::new();
-    for (name, schema) in parts {
-        let mut schema = schema.clone();
-        if let Some(object) = schema.as_object_mut() {
-            object.remove("$schema");
-            if let Some(Json::Object(own)) = object.remove("$defs") {
-                for (key, mut definition) in own {
-                    lead(&mut definition, name);
-                    allow_shorthand(&mut definition);
-                    definitions.insert(format!("{name}.{key}"), definition);
-                }
-            }
-        }
-        lead(&mut schema, name);
-        allow_shorthand(&mut schema);
-        definitions.insert((*name).to_owned(), schema);
-    }
-    let mut schema = build(&|name| json!({ "$ref": format!("#/$defs/{name}") }));
-    schema["$defs"] = Json::Object(definitions);
+/// A schema with the definitions that `build` refers to.
+fn with_definitions(build: impl FnOnce(&mut SchemaGenerator) -> Json) -> Json {
+    let mut defined = SchemaGenerator::default();
+    let mut schema = build(&mut defined);
+    schema["$defs"] = Json::Object(defined.take_definitions(true));
     schema
+}
+
+/// A reference to the schema of a type.
+fn reference<T: JsonSchema>(defined: &mut SchemaGenerator) -> Json {
+    defined.subschema_for::<T>().to_value()
 }
 
 /// Where the outer name of a value may be left out, lets what stands in its brackets stand alone.
@@ -305,27 +280,6 @@ fn allow_shorthand(schema: &mut Json) {
             }
         }
         Json::Array(items) => items.iter_mut().for_each(allow_shorthand),
-        _ => {}
-    }
-}
-
-/// Leads references in the schema of `part` to the definitions of that part.
-fn lead(schema: &mut Json, part: &str) {
-    match schema {
-        Json::Object(object) => {
-            for (key, value) in object.iter_mut() {
-                match value {
-                    Json::String(target) if key == "$ref" => {
-                        *target = match target.strip_prefix("#/$defs/") {
-                            Some(name) => format!("#/$defs/{part}.{name}"),
-                            None => format!("#/$defs/{part}"),
-                        };
-                    }
-                    _ => lead(value, part),
-                }
-            }
-        }
-        Json::Array(items) => items.iter_mut().for_each(|item| lead(item, part)),
         _ => {}
     }
 }

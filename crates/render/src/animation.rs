@@ -1,8 +1,9 @@
 //! Images one after another: APNG and GIF files.
 
-use crate::palette::Palette;
 use progress::Progress;
 
+use crate::image::{encoder, samples};
+use crate::palette::Palette;
 use crate::work::Work;
 use crate::{Image, PictureError};
 
@@ -28,46 +29,19 @@ pub fn to_apng(
     texts: &[(&str, &str)],
     progress: &dyn Progress,
 ) -> Result<Vec<u8>, PictureError> {
-    let (width, height) = common_size(frames)?;
-    let failed = |error: png::EncodingError| PictureError::Encode(error.to_string());
+    common_size(frames)?;
     let n = u32::try_from(frames.len()).map_err(|_| encode("too many images"))?;
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_depth(png::BitDepth::Eight);
-    let is_opaque = frames.iter().flat_map(|f| &f.pixels).all(|p| p[3] == 255);
-    encoder.set_color(if is_opaque {
-        png::ColorType::Rgb
-    } else {
-        png::ColorType::Rgba
-    });
-    encoder.set_compression(png::Compression::Balanced);
-    encoder
-        .set_animated(n, u32::from(timing.turns))
-        .map_err(failed)?;
-    encoder
-        .set_frame_delay(timing.delay, 1000)
-        .map_err(failed)?;
-    for (keyword, text) in texts {
-        encoder
-            .add_itxt_chunk((*keyword).to_owned(), (*text).to_owned())
-            .map_err(failed)?;
-    }
-    let mut writer = encoder.write_header().map_err(failed)?;
+    let (mut encoder, channels) = encoder(&mut bytes, frames, texts)?;
+    encoder.set_animated(n, u32::from(timing.turns))?;
+    encoder.set_frame_delay(timing.delay, 1000)?;
+    let mut writer = encoder.write_header()?;
     let work = Work::new(progress, "encode", frames.len() as u64);
     for frame in frames {
         work.add(1)?;
-        let data: Vec<u8> = if is_opaque {
-            frame
-                .pixels
-                .iter()
-                .flat_map(|p| [p[0], p[1], p[2]])
-                .collect()
-        } else {
-            frame.pixels.as_flattened().to_vec()
-        };
-        writer.write_image_data(&data).map_err(failed)?;
+        writer.write_image_data(&samples(&frame.pixels, channels))?;
     }
-    writer.finish().map_err(failed)?;
+    writer.finish()?;
     Ok(bytes)
 }
 
@@ -87,24 +61,19 @@ pub fn to_gif(
     let (width, height) = common_size(frames)?;
     let side = |side: u32| u16::try_from(side).map_err(|_| encode("the images are too large"));
     let (width, height) = (side(width)?, side(height)?);
-    let failed = |error: gif::EncodingError| PictureError::Encode(error.to_string());
     let mut palette = Palette::of(frames);
     let colors = palette.colors().as_flattened().to_vec();
     let mut bytes = Vec::new();
-    let mut encoder = gif::Encoder::new(&mut bytes, width, height, &colors).map_err(failed)?;
-    encoder
-        .set_repeat(match timing.turns {
-            0 => gif::Repeat::Infinite,
-            // What is counted are the turns after the first.
-            turns => gif::Repeat::Finite(turns - 1),
-        })
-        .map_err(failed)?;
+    let mut encoder = gif::Encoder::new(&mut bytes, width, height, &colors)?;
+    encoder.set_repeat(match timing.turns {
+        0 => gif::Repeat::Infinite,
+        // What is counted are the turns after the first.
+        turns => gif::Repeat::Finite(turns - 1),
+    })?;
     if let Some(comment) = comment {
         // Blocks of an extension have at most 255 bytes.
         let blocks: Vec<&[u8]> = comment.as_bytes().chunks(255).collect();
-        encoder
-            .write_raw_extension(gif::Extension::Comment.into(), &blocks)
-            .map_err(failed)?;
+        encoder.write_raw_extension(gif::Extension::Comment.into(), &blocks)?;
     }
     let work = Work::new(progress, "encode", frames.len() as u64);
     for frame in frames {
@@ -124,7 +93,7 @@ pub fn to_gif(
             buffer: buffer.into(),
             ..gif::Frame::default()
         };
-        encoder.write_frame(&frame).map_err(failed)?;
+        encoder.write_frame(&frame)?;
     }
     drop(encoder);
     Ok(bytes)
@@ -136,20 +105,18 @@ fn encode(message: &str) -> PictureError {
 
 /// The size of all images.
 fn common_size(frames: &[Image]) -> Result<(u32, u32), PictureError> {
-    let first = frames
-        .first()
-        .ok_or_else(|| encode("expected at least one image, found none"))?;
-    let size = (first.width, first.height);
-    for (i, frame) in frames.iter().enumerate() {
-        let (width, height) = (frame.width, frame.height);
-        if (width, height) != size {
+    let [Image { width, height, .. }, others @ ..] = frames else {
+        return Err(encode("expected at least one image, found none"));
+    };
+    for (i, frame) in (1..).zip(others) {
+        let (w, h) = (frame.width, frame.height);
+        if (w, h) != (*width, *height) {
             return Err(PictureError::Encode(format!(
-                "expected images of one size, {} x {}, found {width} x {height} in image {i}",
-                size.0, size.1
+                "expected images of one size, {width} x {height}, found {w} x {h} in image {i}"
             )));
         }
     }
-    Ok(size)
+    Ok((*width, *height))
 }
 
 #[cfg(test)]

@@ -66,46 +66,24 @@ impl Camera {
     /// The camera after a turn to the right, around what it looks at, about the axis that points upwards. A camera
     /// that fits is then [steady](Self::Fit::steady).
     #[must_use]
-    pub fn turned(self, degrees: f64) -> Self {
-        match self {
-            Self::Fit {
-                from,
-                up,
-                projection,
-                margin,
-                ..
-            } => {
+    pub fn turned(mut self, degrees: f64) -> Self {
+        match &mut self {
+            Self::Fit { from, steady, .. } => {
                 let [azimuth, elevation] = from.angles();
-                Self::Fit {
-                    from: Side::Angles {
-                        azimuth: azimuth + degrees,
-                        elevation,
-                    },
-                    up,
-                    projection,
-                    margin,
-                    steady: true,
-                }
+                let azimuth = azimuth + degrees;
+                *from = Side::Angles { azimuth, elevation };
+                *steady = true;
             }
-            Self::LookAt {
-                from,
-                to,
-                up,
-                projection,
-            } => {
+            Self::LookAt { from, to, up, .. } => {
                 let (sin, cos) = geometry::sin_cos_degrees(degrees);
                 let [right, upwards, front] = up.axes();
-                let d = DVec3::from(from) - DVec3::from(to);
+                let d = DVec3::from(*from) - DVec3::from(*to);
                 let [x, y, z] = [right, upwards, front].map(|axis| d.dot(axis));
                 let d = right * (x * cos + z * sin) + upwards * y + front * (z * cos - x * sin);
-                Self::LookAt {
-                    from: (DVec3::from(to) + d).into(),
-                    to,
-                    up,
-                    projection,
-                }
+                *from = (DVec3::from(*to) + d).into();
             }
         }
+        self
     }
 
     /// The few of many points that decide what it shows in a picture of this size: a [`View`] of the points of many
@@ -263,8 +241,8 @@ pub struct View {
     /// Pixels for a unit: at distance 1 with perspective, else everywhere.
     scale: f64,
     is_perspective: bool,
-    /// What is nearer than this is not seen. Only with perspective.
-    near: f64,
+    /// What is nearer than this is not seen; minus infinity without perspective.
+    pub(crate) near: f64,
     /// The middle of the picture, in pixels.
     middle: DVec2,
 }
@@ -336,7 +314,7 @@ impl View {
             eye: from,
             scale: 0.5 * size.y / tangent.unwrap_or(flat),
             is_perspective: tangent.is_some(),
-            near: 1e-3 * distance,
+            near: tangent.map_or(f64::NEG_INFINITY, |_| 1e-3 * distance),
             middle: 0.5 * size,
         })
     }
@@ -344,7 +322,7 @@ impl View {
     /// Where a point is seen; `None` if it is behind the camera.
     pub fn see(&self, p: DVec3) -> Option<Seen> {
         let v = self.turned(p);
-        (!self.is_perspective || v.z >= self.near).then(|| self.project(v))
+        (v.z >= self.near).then(|| self.project(v))
     }
 
     /// Right, upwards and distance from the camera.
@@ -354,15 +332,6 @@ impl View {
         DVec3::new(p.dot(x), p.dot(y), -p.dot(z))
     }
 
-    /// The nearest distance that is seen; everything without perspective.
-    pub(crate) fn near(&self) -> f64 {
-        if self.is_perspective {
-            self.near
-        } else {
-            f64::NEG_INFINITY
-        }
-    }
-
     /// Whether something (as [`turned`](Self::turned) gives it) is on the inner side of a border: not
     /// negative inside, and linear in `v`. Border 0 is what is too near; the others are `far` pixels from
     /// the upper left corner, to each side.
@@ -370,8 +339,7 @@ impl View {
         let distance = if self.is_perspective { v.z } else { 1.0 };
         let (x, y) = (self.scale * v.x, -self.scale * v.y);
         match border {
-            0 if self.is_perspective => v.z - self.near,
-            0 => 1.0,
+            0 => v.z - self.near,
             1 => x + (far + self.middle.x) * distance,
             2 => (far - self.middle.x) * distance - x,
             3 => y + (far + self.middle.y) * distance,

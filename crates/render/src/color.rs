@@ -1,7 +1,7 @@
 //! Colors: how recipes write them, and linear light.
 
 use std::fmt;
-use std::sync::OnceLock;
+use std::sync::LazyLock;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Serialize};
@@ -46,12 +46,8 @@ impl Color {
     /// Linear red, green and blue, and alpha, from 0 to 1.
     pub fn linear(self) -> [f32; 4] {
         let [r, g, b, a] = self.0;
-        [
-            to_linear(r),
-            to_linear(g),
-            to_linear(b),
-            f32::from(a) / 255.0,
-        ]
+        let [r, g, b] = [r, g, b].map(to_linear);
+        [r, g, b, f32::from(a) / 255.0]
     }
 }
 
@@ -111,56 +107,49 @@ impl JsonSchema for Color {
 
 /// The light of an sRGB value, from 0 to 1 (IEC 61966-2-1, 1999).
 pub fn to_linear(value: u8) -> f32 {
-    static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
-    let table = TABLE.get_or_init(|| {
-        std::array::from_fn(|i| {
-            let s = i as f64 / 255.0;
-            let light = if s <= 0.04045 {
-                s / 12.92
-            } else {
-                libm::pow((s + 0.055) / 1.055, 2.4)
-            };
-            narrow(light)
+    static TABLE: LazyLock<[f32; 256]> = LazyLock::new(|| {
+        std::array::from_fn(|i| match i as f64 / 255.0 {
+            s if s <= 0.04045 => narrow(s / 12.92),
+            s => narrow(libm::pow((s + 0.055) / 1.055, 2.4)),
         })
     });
-    table[usize::from(value)]
+    TABLE[usize::from(value)]
 }
 
 /// The sRGB value of a light, which is taken between 0 and 1 (IEC 61966-2-1, 1999).
 pub fn to_srgb(light: f32) -> u8 {
     /// Steps of the table: 20 for each value where the curve is steepest.
     const STEPS: usize = 1 << 16;
-    static TABLE: OnceLock<Vec<u8>> = OnceLock::new();
-    let table = TABLE.get_or_init(|| {
-        let value = |i: usize| {
-            let light = i as f64 / STEPS as f64;
-            let s = if light <= 0.003_130_8 {
-                12.92 * light
-            } else {
-                1.055 * libm::pow(light, 1.0 / 2.4) - 0.055
-            };
-            byte(narrow(s))
+    static TABLE: LazyLock<Vec<u8>> = LazyLock::new(|| {
+        let value = |i: usize| match i as f64 / STEPS as f64 {
+            light if light <= 0.003_130_8 => 12.92 * light,
+            light => 1.055 * libm::pow(light, 1.0 / 2.4) - 0.055,
         };
-        (0..=STEPS).map(value).collect()
+        (0..=STEPS).map(|i| byte(narrow(value(i)))).collect()
     });
     let light = light.clamp(0.0, 1.0);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "from 0 to 1; not a number becomes 0"
-    )]
-    table[(light * STEPS as f32 + 0.5) as usize]
+    TABLE[whole(f64::from(light * STEPS as f32 + 0.5))]
 }
 
-/// From 0 to 1 to the nearest byte.
+/// From 0 to 1 to the nearest byte; 0 for what is not a number.
 pub(crate) fn byte(value: f32) -> u8 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "from 0 to 255; not a number becomes 0"
-    )]
-    let byte = (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-    byte
+    let nearest = whole(f64::from(value.clamp(0.0, 1.0) * 255.0 + 0.5));
+    u8::try_from(nearest).unwrap_or(u8::MAX)
+}
+
+/// The number without its decimals, or the nearest one that fits; 0 for what is not a number.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "what it is for"
+)]
+pub(crate) fn whole(value: f64) -> usize {
+    value as usize
+}
+
+/// As [`whole`], in 32 bits.
+pub(crate) fn whole_u32(value: f64) -> u32 {
+    u32::try_from(whole(value)).unwrap_or(u32::MAX)
 }
 
 /// The nearest `f32`.

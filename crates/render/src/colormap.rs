@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::color::{mix, narrow, to_linear};
+use crate::color::{byte, mix, narrow, to_linear, whole};
 
 /// How numbers become colors.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
@@ -78,22 +78,12 @@ impl ColorMap {
         };
         let last = stops.len() - 1;
         let place = t.clamp(0.0, 1.0) * last as f64;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "from 0 to the last stop; not a number becomes 0"
-        )]
-        let below = (place as usize).min(last);
+        let below = whole(place);
         if self == Self::Classes {
             return stops[below];
         }
-        let above = stops[(below + 1).min(last)].map(f32::from);
-        let color = mix(
-            stops[below].map(f32::from),
-            above,
-            narrow(place - below as f64),
-        );
-        color.map(|c| crate::color::byte(c / 255.0))
+        let [from, to] = [below, (below + 1).min(last)].map(|i| stops[i].map(f32::from));
+        mix(from, to, narrow(place - below as f64)).map(|c| byte(c / 255.0))
     }
 
     /// The sRGB color of a whole number in [`Classes`](Self::Classes): they repeat after eight.

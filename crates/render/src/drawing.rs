@@ -10,24 +10,15 @@ use crate::texture::Texture;
 
 /// Values that belong to all of a [`Part`], or to its faces, points or corners.
 #[derive(Clone, Debug)]
-pub enum Channel<'a, T: Clone> {
+pub enum Channel<'a> {
     /// One value for everything.
-    All(T),
+    All([f32; 3]),
     /// A value for each face.
-    Face(Cow<'a, [T]>),
+    Face(Cow<'a, [[f32; 3]]>),
     /// A value for each point, mixed inside triangles.
-    Point(Cow<'a, [T]>),
+    Point(Cow<'a, [[f32; 3]]>),
     /// A value for each corner, mixed inside triangles.
-    Corner(Cow<'a, [T]>),
-}
-
-/// Where normals come from.
-#[derive(Clone, Debug)]
-pub enum Normals<'a> {
-    /// Each triangle has its own.
-    Triangle,
-    /// These. A zero stands for that of the triangle.
-    Given(Channel<'a, [f32; 3]>),
+    Corner(Cow<'a, [[f32; 3]]>),
 }
 
 /// Triangles that share their points.
@@ -43,10 +34,10 @@ pub struct Part<'a> {
     pub faces: Vec<u32>,
     /// How many faces there are.
     pub n_faces: u32,
-    /// Normals, of any length.
-    pub normals: Normals<'a>,
+    /// Normals, of any length. A zero stands for that of the triangle.
+    pub normals: Channel<'a>,
     /// Linear red, green and blue of the front, from 0 to 1. Multiplied with that of the material.
-    pub colors: Channel<'a, [f32; 3]>,
+    pub colors: Channel<'a>,
     /// Faces with a color of their own: in place of everything else, on both sides. Its alpha says how much
     /// of it there is. Empty, or one for each face.
     pub marks: Vec<[f32; 4]>,
@@ -172,31 +163,16 @@ impl Drawing<'_> {
     }
 }
 
-/// What can be mixed inside a triangle.
-pub trait Mixed: Copy {
-    /// The sum of three values, each times its barycentric coordinate.
-    fn mixed(values: [Self; 3], weights: [f32; 3]) -> Self;
-}
-
-impl<const N: usize> Mixed for [f32; N] {
-    fn mixed([a, b, c]: [Self; 3], [u, v, w]: [f32; 3]) -> Self {
+impl Channel<'_> {
+    /// The value at a place in a triangle of `part` with these barycentric coordinates.
+    pub(crate) fn at(&self, part: &Part, triangle: usize, [u, v, w]: [f32; 3]) -> [f32; 3] {
+        let (values, places) = match self {
+            Self::All(value) => return *value,
+            Self::Face(values) => return values[part.face(triangle)],
+            Self::Point(values) => (values, part.triangles[triangle]),
+            Self::Corner(values) => (values, part.corners[triangle]),
+        };
+        let [a, b, c] = places.map(|p| values[p as usize]);
         std::array::from_fn(|i| a[i] * u + b[i] * v + c[i] * w)
-    }
-}
-
-impl<T: Mixed> Channel<'_, T> {
-    /// The value at a place in a triangle of `part`.
-    pub(crate) fn at(&self, part: &Part, triangle: usize, weights: [f32; 3]) -> T {
-        match self {
-            Self::All(value) => *value,
-            Self::Face(values) => values[part.face(triangle)],
-            Self::Point(values) => T::mixed(
-                part.triangles[triangle].map(|p| values[p as usize]),
-                weights,
-            ),
-            Self::Corner(values) => {
-                T::mixed(part.corners[triangle].map(|c| values[c as usize]), weights)
-            }
-        }
     }
 }

@@ -49,3 +49,15 @@ pub enum PictureError {
     #[error("the image cannot be encoded: {0}")]
     Encode(String),
 }
+
+impl From<png::EncodingError> for PictureError {
+    fn from(error: png::EncodingError) -> Self {
+        Self::Encode(error.to_string())
+    }
+}
+
+impl From<gif::EncodingError> for PictureError {
+    fn from(error: gif::EncodingError) -> Self {
+        Self::Encode(error.to_string())
+    }
+}

@@ -100,15 +100,11 @@ impl Image {
         let (width, height) = (u32::from(width), u32::from(height));
         checked_size(width, height)?;
         let bytes = decoder.decode().map_err(failed)?;
-        let pixels = bytes
-            .as_chunks()
-            .0
-            .iter()
-            .map(|&[r, g, b]| [r, g, b, u8::MAX]);
+        let pixels = bytes.as_chunks().0.iter();
         Ok(Self {
             width,
             height,
-            pixels: pixels.collect(),
+            pixels: pixels.map(|&[r, g, b]| [r, g, b, u8::MAX]).collect(),
         })
     }
 
@@ -144,41 +140,53 @@ impl Image {
         progress: &dyn Progress,
     ) -> Result<Vec<u8>, PictureError> {
         let work = Work::new(progress, "encode", u64::from(self.height));
-        let failed = |error: png::EncodingError| PictureError::Encode(error.to_string());
-        let is_opaque = self.pixels.iter().all(|p| p[3] == u8::MAX);
         let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, self.width, self.height);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_color(if is_opaque {
-            png::ColorType::Rgb
-        } else {
-            png::ColorType::Rgba
-        });
-        encoder.set_compression(png::Compression::Balanced);
-        for (keyword, text) in texts {
-            encoder
-                .add_itxt_chunk((*keyword).to_owned(), (*text).to_owned())
-                .map_err(failed)?;
-        }
-        let mut writer = encoder.write_header().map_err(failed)?;
+        let (encoder, channels) = encoder(&mut bytes, std::slice::from_ref(self), texts)?;
+        let mut writer = encoder.write_header()?;
         // Row by row: a large image is not copied as a whole.
-        let mut stream = writer.stream_writer().map_err(failed)?;
-        let mut bytes_of_row = Vec::with_capacity(4 * self.width as usize);
+        let mut stream = writer.stream_writer()?;
         for row in self.pixels.chunks(self.width.max(1) as usize) {
-            bytes_of_row.clear();
-            for pixel in row {
-                let n = if is_opaque { 3 } else { 4 };
-                bytes_of_row.extend_from_slice(&pixel[..n]);
-            }
             work.add(1)?;
-            stream
-                .write_all(&bytes_of_row)
-                .map_err(|e| failed(e.into()))?;
+            let written = stream.write_all(&samples(row, channels));
+            written.map_err(png::EncodingError::from)?;
         }
-        stream.finish().map_err(failed)?;
-        writer.finish().map_err(failed)?;
+        stream.finish()?;
+        writer.finish()?;
         Ok(bytes)
     }
+}
+
+/// A PNG encoder with these texts for images of one size, and how many channels it takes: without alpha where all
+/// images are opaque.
+pub(crate) fn encoder<'b>(
+    bytes: &'b mut Vec<u8>,
+    images: &[Image],
+    texts: &[(&str, &str)],
+) -> Result<(png::Encoder<'b, &'b mut Vec<u8>>, usize), PictureError> {
+    let [width, height] = images.first().map_or([0; 2], |i| [i.width, i.height]);
+    let mut pixels = images.iter().flat_map(|image| &image.pixels);
+    let (color, channels) = if pixels.all(|p| p[3] == u8::MAX) {
+        (png::ColorType::Rgb, 3)
+    } else {
+        (png::ColorType::Rgba, 4)
+    };
+    let mut encoder = png::Encoder::new(bytes, width, height);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_color(color);
+    encoder.set_compression(png::Compression::Balanced);
+    for (keyword, text) in texts {
+        encoder.add_itxt_chunk((*keyword).to_owned(), (*text).to_owned())?;
+    }
+    Ok((encoder, channels))
+}
+
+/// The first channels of pixels.
+pub(crate) fn samples(pixels: &[[u8; 4]], channels: usize) -> Vec<u8> {
+    let mut samples = Vec::with_capacity(4 * pixels.len());
+    for pixel in pixels {
+        samples.extend_from_slice(&pixel[..channels]);
+    }
+    samples
 }
 
 /// Decodes PNG files into pixels with alpha.

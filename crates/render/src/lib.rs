@@ -63,7 +63,7 @@ pub use camera::{Camera, Projection, Seen, Side, Up, View};
 pub use color::{Color, NAMES, NoColor, to_linear, to_srgb};
 pub use colormap::ColorMap;
 pub use difference::{compare, difference};
-pub use drawing::{Channel, Drawing, Label, Line, Mixed, NO_FACE, Normals, Part, Surface};
+pub use drawing::{Channel, Drawing, Label, Line, NO_FACE, Part, Surface};
 pub use error::PictureError;
 pub use image::{Image, LARGEST_SIDE, checked_size};
 pub use raster::{Look, PlacedLabel, Rendered, bytes_needed, render};

@@ -40,89 +40,64 @@ pub enum Background {
 
 /// Lines on a surface.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Lines {
     /// Their width in pixels.
     #[schemars(range(min = 0.0, max = 100.0))]
-    #[serde(default = "line_width")]
     pub width: f64,
     /// Their color.
-    #[serde(default = "line_color")]
     pub color: Color,
     /// How much of them is seen where a surface is before them, from 0 (nothing) to 1.
     #[schemars(range(min = 0.0, max = 1.0))]
-    #[serde(default)]
     pub hidden: f64,
 }
 
 impl Default for Lines {
     fn default() -> Self {
         Self {
-            width: line_width(),
-            color: line_color(),
+            width: 1.0,
+            color: Color([28, 34, 48, 200]),
             hidden: 0.0,
         }
     }
 }
 
-fn line_width() -> f64 {
-    1.0
-}
-
-fn line_color() -> Color {
-    Color([28, 34, 48, 200])
-}
-
 /// How a picture looks.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct Style {
     /// How light falls on surfaces.
-    #[serde(default)]
     pub shading: Shading,
     /// Where surfaces have no normals of their own, edges with at least this angle between their faces look
     /// sharp, in degrees.
-    #[serde(default = "sharp")]
     #[schemars(range(min = 0.0, max = 180.0))]
     pub sharp: f64,
     /// How dark hollows are, from 0 (no darker) to 1.
-    #[serde(default = "occlusion")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub occlusion: f64,
     /// What is behind everything.
-    #[serde(default)]
     pub background: Background,
     /// The color of all surfaces, in place of those that the scene has.
-    #[serde(default)]
     pub color: Option<Color>,
     /// The color of the backs of faces, which show where a mesh is open or turned inside out.
-    #[serde(default = "back")]
     pub back: Option<Color>,
     /// The edges of meshes: thinner where they are only some pixels apart, so that the surface is seen.
-    #[serde(default)]
     pub wireframe: Option<Lines>,
     /// Edges with a face on one side only.
-    #[serde(default)]
     pub boundary: Option<Lines>,
     /// Edges with a crease: the sharper the wider, up to twice the width.
-    #[serde(default)]
     pub creases: Option<Lines>,
     /// Normals of vertices as short lines: their length as a fraction of the size of the scene.
-    #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub normals: Option<f64>,
     /// Dots on all vertices of meshes and all points of polylines: their diameter in pixels.
-    #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub points: Option<f64>,
     /// The control nets of Bezier patches and the control polygons of curves.
-    #[serde(default)]
     pub control_nets: Option<Lines>,
     /// Elements that have their numbers written beside them; only on small meshes.
-    #[serde(default)]
     pub ids: Option<Ids>,
     /// The width of curves and polylines in pixels.
-    #[serde(default = "curve_width")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub curve_width: f64,
 }
@@ -162,24 +137,24 @@ impl Style {
         ];
         numbers.extend(self.normals.map(|n| ("normals", n, 1.0)));
         numbers.extend(self.points.map(|n| ("points", n, 100.0)));
-        let lines = [
+        let kinds = [
             self.wireframe,
             self.boundary,
             self.creases,
             self.control_nets,
         ];
-        for lines in lines.into_iter().flatten() {
-            numbers.push(("width", lines.width, 100.0));
-            numbers.push(("hidden", lines.hidden, 1.0));
+        for lines in kinds.into_iter().flatten() {
+            numbers.extend([("width", lines.width, 100.0), ("hidden", lines.hidden, 1.0)]);
         }
         match numbers
             .into_iter()
             .find(|&(_, n, most)| !(0.0..=most).contains(&n))
         {
             None => Ok(()),
-            Some((name, n, most)) => Err(PictureError::Style(format!(
-                "expected `{name}` from 0 to {most}, found {n}"
-            ))),
+            Some((name, n, most)) => {
+                let message = format!("expected `{name}` from 0 to {most}, found {n}");
+                Err(PictureError::Style(message))
+            }
         }
     }
 
@@ -197,11 +172,11 @@ impl Default for Style {
     fn default() -> Self {
         Self {
             shading: Shading::default(),
-            sharp: sharp(),
-            occlusion: occlusion(),
+            sharp: 40.0,
+            occlusion: 0.8,
             background: Background::default(),
             color: None,
-            back: back(),
+            back: Some(Color::rgb(0xd9, 0xa0, 0x82)),
             wireframe: None,
             boundary: None,
             creases: None,
@@ -209,27 +184,7 @@ impl Default for Style {
             points: None,
             control_nets: None,
             ids: None,
-            curve_width: curve_width(),
+            curve_width: 2.5,
         }
     }
-}
-
-fn sharp() -> f64 {
-    40.0
-}
-
-fn occlusion() -> f64 {
-    0.8
-}
-
-#[expect(
-    clippy::unnecessary_wraps,
-    reason = "the default of a field that may be None"
-)]
-fn back() -> Option<Color> {
-    Some(Color::rgb(0xd9, 0xa0, 0x82))
-}
-
-fn curve_width() -> f64 {
-    2.5
 }

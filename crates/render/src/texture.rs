@@ -6,7 +6,7 @@ use glam::DVec2;
 use scene::{Filter, Sampler, TextureTransform, Wrap};
 
 use crate::Image;
-use crate::color::{byte, to_linear, to_srgb};
+use crate::color::{byte, mix, narrow, to_linear, to_srgb, whole};
 
 /// A picture in memory, and how it lies on a surface.
 #[derive(Clone, Debug)]
@@ -36,21 +36,13 @@ const SLACK: f32 = 1e-6;
 const LEAST_WEIGHT: f32 = 1.0 / 1024.0;
 
 impl Alpha {
-    /// How much of the surface a pixel of the picture itself covers.
-    fn of(self, alpha: u8) -> f32 {
-        let alpha = f32::from(alpha) / 255.0;
+    /// How much of the surface a pixel covers. Level 0 is the picture itself; in place of alpha, its copies have
+    /// coverage.
+    fn coverage(self, level: usize, alpha: f32) -> f32 {
         match self {
             Self::Ignored => 1.0,
-            Self::Cut(least) => f32::from(u8::from(alpha >= least - SLACK)),
-            Self::Blended => alpha,
-        }
-    }
-
-    /// How much of the surface a pixel of a copy covers: coverage is what copies have in place of alpha.
-    fn of_copy(self, alpha: u8) -> f32 {
-        match self {
-            Self::Ignored => 1.0,
-            Self::Cut(_) | Self::Blended => f32::from(alpha) / 255.0,
+            Self::Cut(least) if level == 0 => f32::from(u8::from(alpha >= least - SLACK)),
+            Self::Cut(_) | Self::Blended => alpha,
         }
     }
 }
@@ -62,10 +54,11 @@ struct Level {
     pixels: Vec<[u8; 4]>,
 }
 
-/// What is looked at for a pixel of the picture: a place in two levels, and how far it is from the first to the second.
+/// What is looked at for a pixel of the picture: a place in a level and the next one, and how far it is from the first
+/// to the second.
 struct Footprint {
     place: DVec2,
-    levels: [usize; 2],
+    level: usize,
     t: f32,
     is_nearest: bool,
 }
@@ -91,16 +84,8 @@ impl Texture {
         let is_opaque = first.pixels.iter().all(|p| p[3] == u8::MAX);
         let alpha = if is_opaque { Alpha::Ignored } else { alpha };
         let mut levels = vec![first];
-        while let Some(last) = levels.last() {
-            let is_first = levels.len() == 1;
-            let weight = |a| {
-                if is_first {
-                    alpha.of(a)
-                } else {
-                    alpha.of_copy(a)
-                }
-            };
-            let Some(half) = last.half(&weight) else {
+        for level in 0.. {
+            let Some(half) = levels[level].half(|a| alpha.coverage(level, part(a))) else {
                 break;
             };
             levels.push(half);
@@ -123,12 +108,15 @@ impl Texture {
     pub(crate) fn at(&self, uv: DVec2, beside: [DVec2; 2]) -> [f32; 3] {
         let footprint = self.footprint(uv, beside);
         if self.is_opaque() {
-            return self.mixed(&footprint, |_, [r, g, b, _]| [r, g, b].map(to_linear));
+            let light = |[r, g, b, _]: [u8; 4]| [r, g, b].map(to_linear);
+            return footprint.mixed(|level| self.at_level(level, &footprint, light));
         }
-        let [r, g, b, weight] = self.mixed(&footprint, |level, [r, g, b, a]| {
-            let weight = self.weight(level, a).max(LEAST_WEIGHT);
-            let [r, g, b] = [r, g, b].map(|c| to_linear(c) * weight);
-            [r, g, b, weight]
+        let [r, g, b, weight] = footprint.mixed(|level| {
+            self.at_level(level, &footprint, |[r, g, b, a]| {
+                let weight = self.alpha.coverage(level, part(a)).max(LEAST_WEIGHT);
+                let [r, g, b] = [r, g, b].map(|c| to_linear(c) * weight);
+                [r, g, b, weight]
+            })
         });
         [r, g, b].map(|c| c / weight)
     }
@@ -140,39 +128,11 @@ impl Texture {
     /// from far away.
     pub(crate) fn coverage(&self, uv: DVec2, beside: [DVec2; 2]) -> f32 {
         let footprint = self.footprint(uv, beside);
-        let Alpha::Cut(least) = self.alpha else {
-            let [coverage] = self.mixed(&footprint, |level, p| [self.weight(level, p[3])]);
-            return coverage;
-        };
-        let of = |level: usize| {
-            let at = |texel: &dyn Fn(u8) -> f32| {
-                let [value] =
-                    self.levels[level].at(&footprint, self.sampler.wrap, |p| [texel(p[3])]);
-                value
-            };
-            if level == 0 {
-                let alpha = at(&|a| f32::from(a) / 255.0);
-                f32::from(u8::from(alpha >= least - SLACK))
-            } else {
-                at(&|a| self.alpha.of_copy(a))
-            }
-        };
-        let [fine, coarse] = footprint.levels;
-        if footprint.t > 0.0 {
-            let [coverage] = crate::color::mix([of(fine)], [of(coarse)], footprint.t);
-            coverage
-        } else {
-            of(fine)
-        }
-    }
-
-    /// The weight of a pixel of a level.
-    fn weight(&self, level: usize, alpha: u8) -> f32 {
-        if level == 0 {
-            self.alpha.of(alpha)
-        } else {
-            self.alpha.of_copy(alpha)
-        }
+        let [coverage] = footprint.mixed(|level| {
+            let alpha = self.at_level(level, &footprint, |p| [part(p[3])]);
+            alpha.map(|alpha| self.alpha.coverage(level, alpha))
+        });
+        coverage
     }
 
     /// Which pixels of which copies are looked at: between the two copies whose pixels are as large as those of the
@@ -188,92 +148,27 @@ impl Texture {
         let place = turned(DVec2::new(uv.x, 1.0 - uv.y)) + DVec2::from(self.transform.offset);
         let size = DVec2::new(self.levels[0].width as f64, self.levels[0].height as f64);
         let [a, b] = beside.map(|d| (turned(DVec2::new(d.x, -d.y)) * size).length());
-        let wide = a.max(b);
-        let last = self.levels.len() - 1;
-        // A picture of large pixels is meant to be seen as such if its file says so.
-        if wide <= 1.0 {
-            return Footprint {
-                place,
-                levels: [0; 2],
-                t: 0.0,
-                is_nearest: self.sampler.magnify == Some(Filter::Nearest),
-            };
-        }
-        let level = libm::log2(wide).clamp(0.0, last as f64);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "from 0 to the last level"
-        )]
-        let below = (level as usize).min(last);
+        let wide = a.max(b).max(1.0);
+        let level = libm::log2(wide).min((self.levels.len() - 1) as f64);
         Footprint {
             place,
-            levels: [below, (below + 1).min(last)],
-            t: crate::color::narrow(level - below as f64),
-            is_nearest: false,
+            level: whole(level),
+            t: narrow(level.fract()),
+            // A picture of large pixels is meant to be seen as such if its file says so.
+            is_nearest: wide <= 1.0 && self.sampler.magnify == Some(Filter::Nearest),
         }
     }
 
-    /// The mean over a footprint of what `texel` makes of the pixels of a level.
-    fn mixed<const N: usize>(
+    /// What `texel` makes of the pixels of a level at a place from 0 to 1, and beyond as the sampler says.
+    fn at_level<const N: usize>(
         &self,
+        level: usize,
         footprint: &Footprint,
-        texel: impl Fn(usize, [u8; 4]) -> [f32; N],
-    ) -> [f32; N] {
-        let of =
-            |level: usize| self.levels[level].at(footprint, self.sampler.wrap, |p| texel(level, p));
-        let [fine, coarse] = footprint.levels;
-        if fine == coarse {
-            return of(fine);
-        }
-        crate::color::mix(of(fine), of(coarse), footprint.t)
-    }
-}
-
-impl Level {
-    /// The mean of each four pixels, whose alphas have these weights; `None` of a single pixel.
-    fn half(&self, weight: &dyn Fn(u8) -> f32) -> Option<Self> {
-        if self.width * self.height == 1 {
-            return None;
-        }
-        let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
-        let mut pixels = Vec::with_capacity(width * height);
-        for y in 0..height {
-            for x in 0..width {
-                let (x1, y1) = (
-                    (2 * x + 1).min(self.width - 1),
-                    (2 * y + 1).min(self.height - 1),
-                );
-                let four = [(2 * x, 2 * y), (x1, 2 * y), (2 * x, y1), (x1, y1)]
-                    .map(|(x, y)| self.pixels[y * self.width + x]);
-                let weights = four.map(|p| weight(p[3]));
-                let all = weights.iter().sum::<f32>();
-                let mean = |i: usize| {
-                    let of = |(p, w): (&[u8; 4], &f32)| {
-                        to_linear(p[i]) * if all > 0.0 { *w } else { 1.0 }
-                    };
-                    let sum = four.iter().zip(&weights).map(of).sum::<f32>();
-                    to_srgb(sum / if all > 0.0 { all } else { 4.0 })
-                };
-                pixels.push([mean(0), mean(1), mean(2), byte(all / 4.0)]);
-            }
-        }
-        Some(Self {
-            width,
-            height,
-            pixels,
-        })
-    }
-
-    /// What `texel` makes of the pixels at a place from 0 to 1, and beyond as `wrap` says.
-    fn at<const N: usize>(
-        &self,
-        footprint: &Footprint,
-        wrap: [Wrap; 2],
         texel: impl Fn([u8; 4]) -> [f32; N],
     ) -> [f32; N] {
-        let (w, h) = (self.width, self.height);
-        let value = |x: usize, y: usize| texel(self.pixels[y * w + x]);
+        let (level, wrap) = (&self.levels[level], self.sampler.wrap);
+        let (w, h) = (level.width, level.height);
+        let value = |x: usize, y: usize| texel(level.pixels[y * w + x]);
         let x = footprint.place.x * w as f64;
         let y = footprint.place.y * h as f64;
         if footprint.is_nearest {
@@ -284,15 +179,64 @@ impl Level {
         }
         let (x, y) = (x - 0.5, y - 0.5);
         let (left, top) = (x.floor(), y.floor());
-        let (s, t) = (
-            crate::color::narrow(x - left),
-            crate::color::narrow(y - top),
-        );
+        let (s, t) = (narrow(x - left), narrow(y - top));
         let [x0, x1] = [left, left + 1.0].map(|x| wrapped(x, w, wrap[0]));
         let [y0, y1] = [top, top + 1.0].map(|y| wrapped(y, h, wrap[1]));
-        let upper = crate::color::mix(value(x0, y0), value(x1, y0), s);
-        let lower = crate::color::mix(value(x0, y1), value(x1, y1), s);
-        crate::color::mix(upper, lower, t)
+        let upper = mix(value(x0, y0), value(x1, y0), s);
+        let lower = mix(value(x0, y1), value(x1, y1), s);
+        mix(upper, lower, t)
+    }
+}
+
+impl Footprint {
+    /// The mean of what `of` says of two levels.
+    fn mixed<const N: usize>(&self, of: impl Fn(usize) -> [f32; N]) -> [f32; N] {
+        if self.t > 0.0 {
+            mix(of(self.level), of(self.level + 1), self.t)
+        } else {
+            of(self.level)
+        }
+    }
+}
+
+/// The part of 1 that a byte stands for.
+fn part(byte: u8) -> f32 {
+    f32::from(byte) / 255.0
+}
+
+impl Level {
+    /// The mean of each four pixels, whose alphas have these weights; `None` of a single pixel.
+    fn half(&self, weight: impl Fn(u8) -> f32) -> Option<Self> {
+        if self.width * self.height == 1 {
+            return None;
+        }
+        let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
+        let mut pixels = Vec::with_capacity(width * height);
+        for y in 0..height {
+            for x in 0..width {
+                let [x0, y0] = [2 * x, 2 * y];
+                let [x1, y1] = [(x0 + 1).min(self.width - 1), (y0 + 1).min(self.height - 1)];
+                let four = [(x0, y0), (x1, y0), (x0, y1), (x1, y1)]
+                    .map(|(x, y)| self.pixels[y * self.width + x]);
+                let covered = four.map(|p| weight(p[3]));
+                let all = covered.iter().sum::<f32>();
+                let (weights, sum) = if all > 0.0 {
+                    (covered, all)
+                } else {
+                    ([1.0; 4], 4.0)
+                };
+                let mean = |i: usize| {
+                    let light = four.iter().zip(weights).map(|(p, w)| to_linear(p[i]) * w);
+                    to_srgb(light.sum::<f32>() / sum)
+                };
+                pixels.push([mean(0), mean(1), mean(2), byte(all / 4.0)]);
+            }
+        }
+        Some(Self {
+            width,
+            height,
+            pixels,
+        })
     }
 }
 
@@ -307,13 +251,7 @@ fn wrapped(x: f64, n: usize, wrap: Wrap) -> usize {
         }
         Wrap::Clamp => x,
     };
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "what is less than 0, or no number, becomes 0"
-    )]
-    let inside = inside as usize;
-    inside.min(n - 1)
+    whole(inside).min(n - 1)
 }
 
 #[cfg(test)]

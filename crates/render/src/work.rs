@@ -4,8 +4,15 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use progress::Progress;
+use rayon::prelude::*;
 
 use crate::PictureError;
+
+/// What `of` says of each number below `n`, in parallel.
+pub(crate) fn each<T: Send>(n: usize, of: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
+    let numbers = (0..n).into_par_iter().with_min_len(4096);
+    numbers.map(of).collect()
+}
 
 /// Work of several threads that can be cancelled. The listener is called by one of them at a time.
 pub(crate) struct Work<'a> {

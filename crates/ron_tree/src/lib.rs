@@ -31,7 +31,7 @@ pub use json::to_json;
 pub use lexer::{Bracket, Lexer, Token, TokenKind};
 pub use literal::Number;
 pub use parser::{MAX_BYTES, MAX_DEPTH, MAX_VALUES, Parsed, parse};
-pub use path::{PathItem, field_span};
+pub use path::field_span;
 pub use tree::{Call, Field, Name, Struct, Value, ValueKind, string_literal};
 
 #[cfg(test)]

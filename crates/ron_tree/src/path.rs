@@ -3,27 +3,6 @@
 use super::tree::{Value, ValueKind};
 use crate::diagnostic::Span;
 
-/// One step of a path into a value.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum PathItem {
-    /// A field, a variant of an enumeration or a key of a map.
-    Key(String),
-    /// An item of a list or tuple, from 0.
-    Index(usize),
-}
-
-impl From<&str> for PathItem {
-    fn from(key: &str) -> Self {
-        Self::Key(key.to_owned())
-    }
-}
-
-impl From<usize> for PathItem {
-    fn from(index: usize) -> Self {
-        Self::Index(index)
-    }
-}
-
 /// The place of the value at `path` in `value`.
 ///
 /// The path holds names of fields, variants and keys, and numbers of items from 0, from the outside
@@ -31,7 +10,7 @@ impl From<usize> for PathItem {
 /// `FlipEdges(edges: Random(count: 24))`. The name of the outermost call, `Some(..)` and the
 /// brackets of a variant with one value need not be named. Where the path leads nowhere, since a
 /// parameter was left out, its deepest part that exists is the place.
-pub fn field_span(value: &Value, path: &[PathItem]) -> Span {
+pub fn field_span(value: &Value, path: &[String]) -> Span {
     let (mut value, mut deepest) = (value, value);
     // Whether the name of the call at `value` was named in the path.
     let mut named = false;
@@ -58,31 +37,30 @@ enum Step<'v> {
     Nowhere,
 }
 
-fn step<'v>(value: &'v Value, item: &PathItem, named: bool) -> Step<'v> {
+fn step<'v>(value: &'v Value, item: &str, named: bool) -> Step<'v> {
     if let Some(inner) = value.some() {
         return Step::Through(inner);
     }
-    let found = match (&value.kind, item) {
-        (ValueKind::Call(call), PathItem::Key(key)) if !named && *key == *call.name.text => {
-            return Step::Variant;
-        }
-        (ValueKind::Call(call), _) => return Step::Through(&call.body),
-        (ValueKind::Name(name), PathItem::Key(key)) if *key == **name => return Step::Variant,
-        (ValueKind::Struct(body), PathItem::Key(key)) => body.field(key).map(|f| &f.value),
-        (ValueKind::Map(entries), PathItem::Key(key)) => entries
+    let index = item.parse::<usize>();
+    let found = match &value.kind {
+        ValueKind::Call(call) if !named && *item == *call.name.text => return Step::Variant,
+        ValueKind::Call(call) => return Step::Through(&call.body),
+        ValueKind::Name(name) if *item == **name => return Step::Variant,
+        ValueKind::Struct(_) => value.field(item),
+        ValueKind::Map(entries) => entries
             .iter()
-            .find(|(k, _)| k.as_str() == Some(key))
+            .find(|(key, _)| key.as_str() == Some(item))
             .map(|(_, value)| value),
         // The only value of a variant is the variant's content, and not its first item, if it
         // has parts itself.
-        (ValueKind::Tuple(items), item)
+        ValueKind::Tuple(items)
             if items.len() == 1
-                && (matches!(item, PathItem::Key(_))
+                && (index.is_err()
                     || matches!(items[0].kind, ValueKind::Tuple(_) | ValueKind::List(_))) =>
         {
             return Step::Through(&items[0]);
         }
-        (ValueKind::Tuple(items) | ValueKind::List(items), PathItem::Index(i)) => items.get(*i),
+        ValueKind::Tuple(items) | ValueKind::List(items) => index.ok().and_then(|i| items.get(i)),
         _ => None,
     };
     found.map_or(Step::Nowhere, Step::Into)
@@ -97,11 +75,7 @@ mod tests {
                           at: (1, 2), list: Vertices([7, 8]), map: {\"k\": 5}, kind: Area)";
 
     fn found(path: &[&str]) -> &'static str {
-        let item = |text: &&str| {
-            text.parse()
-                .map_or_else(|_| PathItem::from(*text), PathItem::Index)
-        };
-        let path: Vec<PathItem> = path.iter().map(item).collect();
+        let path: Vec<String> = path.iter().map(ToString::to_string).collect();
         field_span(&parse(SOURCE).value, &path).of(SOURCE)
     }
 

@@ -3,11 +3,11 @@
 use mesh::{
     Attributes, CORNER, CREASE, Column, DVec2, DVec3, DVec4, Domain, Mesh, Rule, Value, Values,
 };
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
 use crate::face_varying::Field;
 use crate::masks::AnyMasks;
-use crate::parallel::{Meter, computed};
+use crate::parallel::computed;
 use crate::rules::{FaceVarying, Rules};
 use crate::sharpness::{Sharpness, decreased};
 use crate::topology::{Place, Topology, linear, linear_value};
@@ -50,9 +50,7 @@ impl From<'_> {
                 Domain::Edge => self.edge_values(column, n, meter)?,
                 Domain::Face => gathered(column, n, &|i| self.topology.face(i)),
             };
-            let name = column.name.clone();
-            let rule = column.rule;
-            new.insert(domain, Column { name, rule, values });
+            new.insert(domain, column.like(values));
         }
         Ok(new)
     }
@@ -73,28 +71,24 @@ impl From<'_> {
                 })),
             };
         }
+        let Some(old) = to_vec4s(&column.values) else {
+            return Ok(column.values.blend(n, |i, add| self.masks.mask(i, add)));
+        };
         // All as vectors of three numbers, so that masks are compiled for these only.
-        let smoothed = |old: Vec<DVec3>| self.masks.values(n, &old, meter);
-        Ok(match &column.values {
-            Values::Float(v) => {
-                let new = smoothed(v.iter().map(|&x| DVec3::new(x, 0.0, 0.0)).collect())?;
-                f64::wrap(new.into_iter().map(|v| v.x).collect())
+        let smoothed = |part: fn(&DVec4) -> DVec3| {
+            let old: Vec<DVec3> = old.iter().map(part).collect();
+            self.masks.values(n, &old, meter)
+        };
+        let mut new: Vec<DVec4> = smoothed(|v| v.truncate())?
+            .into_iter()
+            .map(|v| v.extend(0.0))
+            .collect();
+        if matches!(column.values, Values::Vec4(_)) {
+            for (new, last) in new.iter_mut().zip(smoothed(|v| DVec3::splat(v.w))?) {
+                new.w = last.x;
             }
-            Values::Vec2(v) => {
-                let new = smoothed(v.iter().map(|v| v.extend(0.0)).collect())?;
-                DVec2::wrap(new.into_iter().map(DVec3::truncate).collect())
-            }
-            Values::Vec3(v) => DVec3::wrap(self.masks.values(n, v, meter)?),
-            Values::Vec4(v) => {
-                let new = smoothed(v.iter().map(|v| v.truncate()).collect())?;
-                let last = smoothed(v.iter().map(|v| DVec3::new(v.w, 0.0, 0.0)).collect())?;
-                let both = new.into_iter().zip(last);
-                DVec4::wrap(both.map(|(v, last)| v.extend(last.x)).collect())
-            }
-            whole @ (Values::Int(_) | Values::Tag(_)) => {
-                whole.blend(n, |i, add| self.masks.mask(i, add))
-            }
-        })
+        }
+        Ok(of_vec4s(&column.values, new))
     }
 
     fn edge_values(&self, column: &Column, n: usize, meter: &Meter) -> Result<Values, Cancelled> {
@@ -117,33 +111,12 @@ impl From<'_> {
                 _ => None,
             }));
         }
-        if let (Some(sharpness), true) =
-            (self.sharpness, self.rules.face_varying != FaceVarying::All)
+        let is_linear = self.rules.face_varying == FaceVarying::All;
+        if let (Some(sharpness), false) = (self.sharpness, is_linear)
+            && let Some(old) = to_vec4s(&column.values)
         {
-            // All as vectors of four numbers, so that the rules are compiled for these only.
-            let smoothed = |old: Vec<DVec4>| {
-                let new = self.smooth_corners(sharpness, &old, n, meter);
-                new.map(Vec::into_iter)
-            };
-            match &column.values {
-                Values::Float(v) => {
-                    let new = smoothed(v.iter().map(|&x| DVec4::new(x, 0.0, 0.0, 0.0)).collect());
-                    return Ok(f64::wrap(new?.map(|v| v.x).collect()));
-                }
-                Values::Vec2(v) => {
-                    let new = smoothed(v.iter().map(|v| v.extend(0.0).extend(0.0)).collect());
-                    return Ok(DVec2::wrap(new?.map(|v| v.truncate().truncate()).collect()));
-                }
-                Values::Vec3(v) => {
-                    let new = smoothed(v.iter().map(|v| v.extend(0.0)).collect());
-                    return Ok(DVec3::wrap(new?.map(DVec4::truncate).collect()));
-                }
-                Values::Vec4(v) => {
-                    let new = self.smooth_corners(sharpness, v, n, meter)?;
-                    return Ok(DVec4::wrap(new));
-                }
-                Values::Int(_) | Values::Tag(_) => {}
-            }
+            let new = self.smooth_corners(sharpness, &old, n, meter)?;
+            return Ok(of_vec4s(&column.values, new));
         }
         Ok(column
             .values
@@ -171,6 +144,29 @@ impl From<'_> {
                 linear_value(self.mesh, place, old)
             }
         })
+    }
+}
+
+/// The values as vectors of four numbers, so that what smooths them is compiled for these only; `None` if
+/// they have no means.
+fn to_vec4s(values: &Values) -> Option<Vec<DVec4>> {
+    Some(match values {
+        Values::Float(v) => v.iter().map(|&x| DVec4::new(x, 0.0, 0.0, 0.0)).collect(),
+        Values::Vec2(v) => v.iter().map(|v| v.extend(0.0).extend(0.0)).collect(),
+        Values::Vec3(v) => v.iter().map(|v| v.extend(0.0)).collect(),
+        Values::Vec4(v) => v.clone(),
+        Values::Int(_) | Values::Tag(_) => return None,
+    })
+}
+
+/// Values of the kind of `like`, the inverse of [`to_vec4s`].
+fn of_vec4s(like: &Values, new: Vec<DVec4>) -> Values {
+    let new = new.into_iter();
+    match like {
+        Values::Float(_) => f64::wrap(new.map(|v| v.x).collect()),
+        Values::Vec2(_) => DVec2::wrap(new.map(|v| v.truncate().truncate()).collect()),
+        Values::Vec3(_) => DVec3::wrap(new.map(DVec4::truncate).collect()),
+        _ => DVec4::wrap(new.collect()),
     }
 }
 

@@ -32,13 +32,12 @@
 //! whose twin is across(k), and the edges that follow have lower numbers by as many.
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
 use crate::chosen::Chosen;
 use crate::links::{self, Link, Links};
-use crate::parallel::Meter;
 use crate::size::has_two_edges_inside;
-use crate::topology::{Place, Topology};
+use crate::topology::{Place, Topology, near};
 
 /// A dense mesh whose corners, edges and vertices are cut off.
 pub(crate) struct DooSabin<'a> {
@@ -106,27 +105,14 @@ impl<'a> DooSabin<'a> {
         }
     }
 
-    /// The new vertex beside `h` near its origin.
-    #[inline]
-    #[expect(clippy::unused_self, reason = "reads like its neighbors")]
-    fn p(&self, h: HalfEdgeId) -> VertexId {
-        VertexId::new(h.index())
-    }
-
     /// The new vertex beside `h` near its target.
     #[inline]
     fn q(&self, h: HalfEdgeId) -> VertexId {
         if self.mesh.face(h).is_some() {
-            self.p(self.mesh.next(h))
+            p(self.mesh.next(h))
         } else {
             VertexId::new(2 * self.n_edges + self.outer.below(h.index()))
         }
-    }
-
-    #[inline]
-    #[expect(clippy::unused_self, reason = "reads like its neighbors")]
-    fn along(&self, h: HalfEdgeId) -> HalfEdgeId {
-        HalfEdgeId::new(2 * h.index())
     }
 
     #[inline]
@@ -167,69 +153,47 @@ impl<'a> DooSabin<'a> {
     fn edge_along(&self, h: HalfEdgeId) -> [Link; 2] {
         let next = self.mesh.next(h);
         let (next, face) = match self.mesh.face(h) {
-            Some(f) => (self.along(next), f),
+            Some(f) => (along(next), f),
             None => (self.join(next).twin(), FaceId::NONE),
         };
-        let origin = self.p(h);
-        let twin = Link {
-            origin: self.q(h),
-            next: self.across(h),
-            face: self.edge_face(h),
-        };
-        [Link { origin, next, face }, twin]
+        let twin = Link(self.q(h), self.across(h), self.edge_face(h));
+        [Link(p(h), next, face), twin]
     }
 
     #[inline]
     fn edge_across(&self, h: HalfEdgeId) -> [Link; 2] {
-        let half = Link {
-            origin: self.p(h),
-            next: self.along(h.twin()).twin(),
-            face: self.edge_face(h),
-        };
-        let origin = self.q(h.twin());
-        let k = self.mesh.next(h.twin());
+        let mesh = self.mesh;
+        let half = Link(p(h), along(h.twin()).twin(), self.edge_face(h));
+        let k = mesh.next(h.twin());
         let (next, face) = if self.doubled.contains(k.index()) {
-            (self.along(k.twin()).twin(), self.edge_face(k))
+            (along(k.twin()).twin(), self.edge_face(k))
+        } else if mesh.face(h).is_some() {
+            (self.after(h), self.vertex_face(mesh.origin(h)))
         } else {
-            let face = self.vertex_face(self.mesh.origin(h));
-            if self.mesh.face(h).is_some() {
-                (self.after(h), face)
-            } else {
-                (self.join(h), face)
-            }
+            (self.join(h), self.vertex_face(mesh.origin(h)))
         };
-        [half, Link { origin, next, face }]
+        [half, Link(self.q(h.twin()), next, face)]
     }
 
     #[inline]
     fn edge_join(&self, h: HalfEdgeId) -> [Link; 2] {
-        let half = Link {
-            origin: self.p(h),
-            next: self.after(h),
-            face: self.vertex_face(self.mesh.origin(h)),
-        };
-        let twin = Link {
-            origin: self.q(self.mesh.prev(h)),
-            next: self.along(h),
-            face: FaceId::NONE,
-        };
-        [half, twin]
+        let face = self.vertex_face(self.mesh.origin(h));
+        [
+            Link(p(h), self.after(h), face),
+            Link(self.q(self.mesh.prev(h)), along(h), FaceId::NONE),
+        ]
     }
+}
 
-    /// The corner values of vertex p(h), or q(h), in the old face beside.
-    fn place(&self, h: HalfEdgeId, is_q: bool) -> Place {
-        let mesh = self.mesh;
-        if mesh.face(h).is_some() {
-            return Place::Pulled(if is_q { mesh.next(h) } else { h });
-        }
-        let at_target = h.twin();
-        let at_origin = mesh.next(at_target);
-        if is_q {
-            Place::Toward([at_target, at_origin], 4)
-        } else {
-            Place::Toward([at_origin, at_target], 4)
-        }
-    }
+/// The new vertex beside `h` near its origin.
+#[inline]
+fn p(h: HalfEdgeId) -> VertexId {
+    VertexId::new(h.index())
+}
+
+#[inline]
+fn along(h: HalfEdgeId) -> HalfEdgeId {
+    HalfEdgeId::new(2 * h.index())
 }
 
 impl Links for DooSabin<'_> {
@@ -256,7 +220,7 @@ impl Links for DooSabin<'_> {
     fn vertex(&self, i: usize) -> HalfEdgeId {
         let corners = 2 * self.n_edges;
         if i < corners {
-            self.along(HalfEdgeId::new(i))
+            along(HalfEdgeId::new(i))
         } else if i < corners + self.outer.len() {
             let h = HalfEdgeId::new(self.outer.at(i - corners));
             self.join(self.mesh.next(h)).twin()
@@ -267,10 +231,10 @@ impl Links for DooSabin<'_> {
 
     fn face(&self, i: usize) -> HalfEdgeId {
         let Some(i) = i.checked_sub(self.n_faces) else {
-            return self.along(self.mesh.face_half_edge(FaceId::new(i)));
+            return along(self.mesh.face_half_edge(FaceId::new(i)));
         };
         let Some(i) = i.checked_sub(self.n_edges) else {
-            return self.along(EdgeId::new(i).half_edge()).twin();
+            return along(EdgeId::new(i).half_edge()).twin();
         };
         let v = VertexId::new(self.faceless.other(i));
         let h = self.mesh.vertex_half_edge(v);
@@ -285,28 +249,12 @@ impl Topology for DooSabin<'_> {
     }
 
     fn corner(&self, i: usize) -> Place {
-        let (edge, is_twin) = (i / 2, i % 2 == 1);
-        if edge < 2 * self.n_edges {
-            let h = HalfEdgeId::new(edge);
-            if is_twin {
-                self.place(h, true)
-            } else if self.mesh.face(h).is_none() {
-                Place::Outside
-            } else {
-                self.place(h, false)
-            }
-        } else if edge < self.first_join() {
-            let h = HalfEdgeId::new(self.doubled.other(edge - 2 * self.n_edges));
-            if is_twin {
-                self.place(h.twin(), true)
-            } else {
-                self.place(h, false)
-            }
-        } else if is_twin {
-            Place::Outside
-        } else {
-            let h = HalfEdgeId::new(self.outer.at(edge - self.first_join()));
-            self.place(h, false)
+        let Link(origin, _, face) = Links::edge(self, i / 2)[i % 2];
+        match self.source(origin.index()) {
+            _ if face == FaceId::NONE => Place::Outside,
+            Source::Corner(h) => Place::Pulled(h),
+            Source::Near(h) => near(self.mesh, h, 4),
+            Source::Isolated(_) => Place::Outside,
         }
     }
 

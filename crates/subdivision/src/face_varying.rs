@@ -18,9 +18,9 @@
 //! their vertex are semi-sharp by different numbers, that may differ for a level.)
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
-use crate::parallel::{Meter, computed};
+use crate::parallel::computed;
 use crate::rules::{FaceVarying, Rules, Scheme};
 use crate::sharpness::{INFINITE, Sharpness, VertexRule, decreased, fading};
 use crate::topology::{Place, linear_value};

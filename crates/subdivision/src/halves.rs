@@ -21,10 +21,10 @@
 //! for edges in pairs.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
 use crate::links::{self, Arrays, Entries};
-use crate::parallel::{Meter, fill_uncounted};
+use crate::parallel::fill_uncounted;
 use crate::topology::Place;
 
 /// The part of half-edge `h` that leaves its origin.

@@ -1,12 +1,11 @@
 //! One level: the connectivity by a topology, the values at vertices by masks, the attributes by both.
 
 use mesh::Mesh;
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
 use crate::attributes;
 use crate::doo_sabin::DooSabin;
 use crate::masks::{AnyMasks, ButterflyMasks, CatmullClarkMasks, LoopMasks, MidpointMasks};
-use crate::parallel::Meter;
 use crate::quads::Quads;
 use crate::rules::{Rules, Scheme, Split};
 use crate::sharpness::Sharpness;

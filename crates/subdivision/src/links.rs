@@ -1,10 +1,10 @@
 //! Connectivity that is written element by element: each is a function of its number and the old mesh.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, VertexId};
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 use rayon::prelude::*;
 
-use crate::parallel::{BLOCK, Meter, fill_uncounted};
+use crate::parallel::{BLOCK, fill_uncounted};
 
 /// Half-edges to be written: the same part of three arrays.
 pub(crate) struct Arrays<'n> {
@@ -77,14 +77,13 @@ fn each_block(blocks: Vec<(Arrays, &mut [HalfEdgeId])>, task: &Task) -> Result<(
     blocks.try_for_each(|(block, (halves, firsts))| task(block, halves, firsts))
 }
 
-/// What is known of a half-edge.
+/// The origin of a half-edge, the one after it, and its face, which is [`FaceId::NONE`] on the boundary.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Link {
-    pub(crate) origin: VertexId,
-    pub(crate) next: HalfEdgeId,
-    /// [`FaceId::NONE`] on the boundary.
-    pub(crate) face: FaceId,
-}
+pub(crate) struct Link(
+    pub(crate) VertexId,
+    pub(crate) HalfEdgeId,
+    pub(crate) FaceId,
+);
 
 /// The elements of a new mesh.
 pub(crate) trait Links: Sync {
@@ -123,9 +122,9 @@ pub(crate) fn connectivity(links: &impl Links, meter: &Meter) -> Result<Connecti
     write(halves, &mut [], meter, |e| {
         let halves = links.edge(e);
         Entries {
-            next: halves.map(|half| half.next),
-            origin: halves.map(|half| half.origin),
-            face: halves.map(|half| half.face),
+            next: halves.map(|Link(_, next, _)| next),
+            origin: halves.map(|Link(origin, _, _)| origin),
+            face: halves.map(|Link(_, _, face)| face),
             first: [],
         }
     })?;

@@ -37,12 +37,11 @@ mod pieces;
 use std::borrow::Cow;
 
 use mesh::{FaceId, Mesh};
-use progress::{Cancelled, Progress};
+use progress::{Cancelled, Meter, Progress};
 
 use crate::error::SubdivisionError;
 use crate::input::{check_faces, dense};
 use crate::level;
-use crate::parallel::Meter;
 use crate::rules::{Rules, Scheme, Split};
 use crate::sharpness::Sharpness;
 use crate::size::{Size, TooLarge};

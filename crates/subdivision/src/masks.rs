@@ -13,9 +13,9 @@ pub(crate) use loop_masks::LoopMasks;
 pub(crate) use midpoint::MidpointMasks;
 
 use mesh::{DVec3, HalfEdgeId, Mesh, VertexId};
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
-use crate::parallel::{Meter, fill};
+use crate::parallel::fill;
 use crate::sharpness::{Sharpness, VertexRule};
 
 /// The masks of a scheme on one mesh.

@@ -2,14 +2,14 @@
 
 use std::ops::Range;
 
-use mesh::{CORNER, CREASE, Column, Domain, Mesh};
-use progress::{Cancelled, Progress};
+use mesh::{Attributes, CORNER, CREASE, Domain, Mesh};
+use progress::{Cancelled, Meter, Progress};
 use rayon::prelude::*;
 
 use crate::error::SubdivisionError;
 use crate::input::{check_faces, dense};
 use crate::level;
-use crate::parallel::{Meter, of_blocks};
+use crate::parallel::of_blocks;
 use crate::rules::Rules;
 use crate::sharpness::Sharpness;
 use crate::size::Size;
@@ -165,17 +165,11 @@ pub fn subdivision_matrix(
 
 /// Takes all attributes away that do not shape the surface.
 fn keep_sharpness(mesh: &mut Mesh) {
-    let shapes = |domain: Domain, column: &Column| {
-        domain == Domain::Edge && column.name == CREASE.name
-            || domain == Domain::Vertex && column.name == CORNER.name
-    };
-    let others: Vec<(Domain, String)> = mesh
-        .attributes()
-        .iter()
-        .filter(|&(domain, column)| !shapes(domain, column))
-        .map(|(domain, column)| (domain, column.name.clone()))
-        .collect();
-    for (domain, name) in others {
-        mesh.remove_column(domain, &name);
+    let mut kept = Attributes::default();
+    for (domain, name) in [(Domain::Edge, CREASE.name), (Domain::Vertex, CORNER.name)] {
+        if let Some(column) = mesh.attributes().column(domain, name) {
+            kept.insert(domain, column.clone());
+        }
     }
+    mesh.set_attributes(kept);
 }

@@ -1,47 +1,14 @@
 //! Work on many elements by all threads, counted together.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use mesh::Value;
-use progress::{Cancelled, Progress};
+use progress::{Cancelled, Meter};
 use rayon::prelude::*;
 
 /// How many elements one task works on. A block takes well below a millisecond, so that progress is
 /// smooth and cancelling quick.
 pub(crate) const BLOCK: usize = 4096;
-
-/// Adds up the work of all threads and tells the listener.
-pub(crate) struct Meter<'a> {
-    listener: &'a dyn Progress,
-    what: &'static str,
-    done: AtomicU64,
-    total: u64,
-}
-
-impl<'a> Meter<'a> {
-    pub(crate) fn new(listener: &'a dyn Progress, what: &'static str, total: u64) -> Self {
-        Self {
-            listener,
-            what,
-            done: AtomicU64::new(0),
-            total,
-        }
-    }
-
-    /// Counts `n` more elements as done.
-    pub(crate) fn add(&self, n: usize) -> Result<(), Cancelled> {
-        let done = self.done.fetch_add(n as u64, Relaxed) + n as u64;
-        self.listener
-            .report(self.what, done.min(self.total), self.total)
-    }
-
-    /// All is done.
-    pub(crate) fn finish(&self) -> Result<(), Cancelled> {
-        self.done.store(self.total, Relaxed);
-        self.add(0)
-    }
-}
 
 /// What is done with a block of an array, given the number of its first element.
 type Task<'a, T> = dyn Fn(usize, &mut [T]) -> Result<(), Cancelled> + Sync + 'a;

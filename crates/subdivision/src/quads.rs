@@ -26,11 +26,11 @@
 //! Subdivision", 2021, for edges in pairs.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
 use crate::halves::{Parts, Rest, first, on_edge, place, second, split_edges};
 use crate::links::{self, Entries};
-use crate::parallel::{Meter, any, fill_uncounted};
+use crate::parallel::{any, fill_uncounted};
 use crate::topology::{Place, Topology};
 
 /// A dense mesh whose faces are cut into quads.

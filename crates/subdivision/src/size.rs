@@ -1,6 +1,5 @@
 //! How large a mesh becomes, known before anything is computed.
 
-use std::fmt;
 use std::ops::Range;
 
 use mesh::{Domain, Mesh, VertexId};
@@ -102,7 +101,7 @@ impl Size {
         }
     }
 
-    /// How much these levels, of which the first begins here, add to the [`Meter`](crate::parallel::Meter): about one for
+    /// How much these levels, of which the first begins here, add to the [`Meter`](progress::Meter): about one for
     /// each new vertex, and one for each old edge and new face or, in schemes of other edges, for each new edge.
     pub(crate) fn work(self, scheme: Scheme, levels: Range<u32>) -> u64 {
         let (mut size, mut sum) = (self, 0);
@@ -232,7 +231,8 @@ impl<N: Count> Size<N> {
 }
 
 /// The mesh would be too large.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("level {levels} has {faces} faces and {}", self.excess())]
 pub struct TooLarge {
     /// The level at which it is.
     pub levels: u32,
@@ -256,16 +256,11 @@ impl TooLarge {
             None => "no level fits".to_owned(),
         }
     }
-}
 
-impl std::error::Error for TooLarge {}
-
-impl fmt::Display for TooLarge {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "level {} has {} faces and ", self.levels, self.faces)?;
+    fn excess(&self) -> String {
         match self.bytes {
-            Some(bytes) => write!(f, "takes {bytes} bytes, but the budget is {}", self.budget),
-            None => write!(f, "{} half-edges, but ids end at 2^32 - 2", self.half_edges),
+            Some(bytes) => format!("takes {bytes} bytes, but the budget is {}", self.budget),
+            None => format!("{} half-edges, but ids end at 2^32 - 2", self.half_edges),
         }
     }
 }

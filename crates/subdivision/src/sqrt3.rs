@@ -36,12 +36,11 @@
 //! After two levels every edge of the boundary, and every old edge, is three. Kobbelt, "√3-Subdivision", 2000.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
 use crate::chosen::Chosen;
 use crate::links::{self, Link, Links};
-use crate::parallel::Meter;
-use crate::topology::{Place, Topology};
+use crate::topology::{Place, Topology, near};
 use crate::triangles::rank;
 
 /// A dense mesh of triangles, each of which becomes three.
@@ -204,39 +203,19 @@ impl<'a> Sqrt3<'a> {
         let mesh = self.mesh;
         if mesh.face(h).is_none() {
             let inner = h.twin();
-            let face = FaceId::NONE;
-            return match self.side(inner) {
+            let (origin, next) = match self.side(inner) {
                 // From y to x, then to a.
-                Side::Cut => Link {
-                    origin: self.end(mesh.next(inner)),
-                    next: self.spoke(inner).twin(),
-                    face,
-                },
-                _ => Link {
-                    origin: mesh.origin(h),
-                    next: mesh.next(h),
-                    face,
-                },
+                Side::Cut => (self.end(mesh.next(inner)), self.spoke(inner).twin()),
+                _ => (mesh.origin(h), mesh.next(h)),
             };
+            return Link(origin, next, FaceId::NONE);
         }
-        let face = self.triangle(h);
-        match self.side(h) {
-            Side::Flipped => Link {
-                origin: self.end(h.twin()),
-                next: self.spoke(h).twin(),
-                face,
-            },
-            Side::Kept => Link {
-                origin: mesh.origin(h),
-                next: self.spoke(mesh.next(h)),
-                face,
-            },
-            Side::Cut => Link {
-                origin: self.end(h),
-                next: self.second_spoke(h).twin(),
-                face,
-            },
-        }
+        let (origin, next) = match self.side(h) {
+            Side::Flipped => (self.end(h.twin()), self.spoke(h).twin()),
+            Side::Kept => (mesh.origin(h), self.spoke(mesh.next(h))),
+            Side::Cut => (self.end(h), self.second_spoke(h).twin()),
+        };
+        Link(origin, next, self.triangle(h))
     }
 
     /// Both halves of the spoke of `h`.
@@ -252,9 +231,7 @@ impl<'a> Sqrt3<'a> {
             (Side::Flipped, Side::Cut) => (after, self.triangle(after)),
             (Side::Flipped, _) => (before.twin(), self.triangle(before.twin())),
         };
-        let origin = mesh.origin(h);
-        let half = Link { origin, next, face };
-
+        let half = Link(mesh.origin(h), next, face);
         let (next, face) = match self.side(h) {
             Side::Flipped => (self.spoke_at_target(h.twin()), self.triangle(h)),
             Side::Kept => (h, self.triangle(h)),
@@ -264,8 +241,7 @@ impl<'a> Sqrt3<'a> {
                 (self.spoke(mesh.next(following)), FaceId::NONE)
             }
         };
-        let origin = self.end(h);
-        [half, Link { origin, next, face }]
+        [half, Link(self.end(h), next, face)]
     }
 
     /// Both halves of the second spoke of c, where the edge of `h` is cut.
@@ -273,37 +249,17 @@ impl<'a> Sqrt3<'a> {
     fn edge_second_spoke(&self, h: HalfEdgeId) -> [Link; 2] {
         let after = self.mesh.next(h);
         let last = self.mesh.next(after);
-        let half = Link {
-            origin: self.mesh.origin(last),
-            next: after.twin(),
-            face: self.triangle(after.twin()),
-        };
-        let twin = Link {
-            origin: self.end(after),
-            next: self.spoke(last),
-            face: self.triangle(h),
-        };
-        [half, twin]
+        let outside = after.twin();
+        [
+            Link(self.mesh.origin(last), outside, self.triangle(outside)),
+            Link(self.end(after), self.spoke(last), self.triangle(h)),
+        ]
     }
 
     /// The half-edge with a face whose edge is the `r`-th that is cut.
     fn of_rank(&self, r: usize) -> HalfEdgeId {
         let cut = self.cut.as_ref().expect("only odd levels have ranks");
         HalfEdgeId::new(cut.at(r)).twin()
-    }
-
-    /// The corner value of the vertex `end(h)` in the face of `h`.
-    fn place_of_end(&self, h: HalfEdgeId) -> Place {
-        let (before, after) = (self.prev(h), self.mesh.next(h));
-        if self.side(before) == Side::Cut {
-            Place::Toward([h, before], 3)
-        } else if self.side(h) == Side::Cut {
-            Place::Toward([h, after], 3)
-        } else if self.side(after) == Side::Cut {
-            Place::Toward([after, before], 3)
-        } else {
-            Place::In(self.face_of(h))
-        }
     }
 }
 
@@ -367,45 +323,18 @@ impl Topology for Sqrt3<'_> {
     /// whose number it has, and at the centers those of theirs.
     fn corner(&self, i: usize) -> Place {
         let mesh = self.mesh;
-        let (edge, is_twin) = (i / 2, i % 2 == 1);
-        let Some(spoke) = edge.checked_sub(self.n_edges) else {
-            let h = HalfEdgeId::new(i);
-            return if mesh.face(h).is_none() {
-                Place::Outside
-            } else {
-                match self.side(h) {
-                    Side::Flipped => self.place_of_end(h.twin()),
-                    Side::Kept => Place::At(h),
-                    Side::Cut => self.place_of_end(h),
-                }
-            };
-        };
-        let [half, twin] = Links::edge(self, edge);
-        let link = if is_twin { twin } else { half };
-        if link.face == FaceId::NONE {
+        let Link(origin, _, face) = Links::edge(self, i / 2)[i % 2];
+        if face == FaceId::NONE {
             return Place::Outside;
         }
-        match spoke.checked_sub(3 * self.n_faces) {
-            None => {
-                let h = self.of_corner(spoke);
-                let before = self.prev(h);
-                if is_twin {
-                    self.place_of_end(h)
-                } else if self.side(before) == Side::Flipped && self.side(mesh.next(h)) != Side::Cut
-                {
-                    Place::At(before.twin())
-                } else {
-                    Place::At(h)
-                }
+        match self.source(origin.index()) {
+            Source::Old(v) => {
+                let mut sides = mesh.face_half_edges(FaceId::new(face.index() / 3));
+                let h = sides.find(|&h| mesh.origin(h) == v);
+                Place::At(h.expect("a triangle has a corner of its old face"))
             }
-            Some(r) => {
-                let after = mesh.next(self.of_rank(r));
-                if is_twin {
-                    self.place_of_end(after)
-                } else {
-                    Place::At(after.twin())
-                }
-            }
+            Source::Center(f) => Place::In(f),
+            Source::Near(h) => near(mesh, h, 3),
         }
     }
 

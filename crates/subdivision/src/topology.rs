@@ -3,9 +3,7 @@
 use std::f64::consts::TAU;
 
 use mesh::{Connectivity, DVec4, EdgeId, FaceId, HalfEdgeId, Mesh};
-use progress::Cancelled;
-
-use crate::parallel::Meter;
+use progress::{Cancelled, Meter};
 
 /// How the elements of the next level lie in a dense mesh.
 pub(crate) trait Topology: Sync {
@@ -60,6 +58,15 @@ pub(crate) enum Place {
     Toward([HalfEdgeId; 2], u32),
     /// Nowhere: the half-edge is on the boundary.
     Outside,
+}
+
+/// The place on the edge of `h`, one n-th of the way from its origin, in the face that `h` or its twin has.
+pub(crate) fn near(mesh: &Mesh, h: HalfEdgeId, n: u32) -> Place {
+    if mesh.face(h).is_some() {
+        Place::Toward([h, mesh.next(h)], n)
+    } else {
+        Place::Toward([mesh.next(h.twin()), h.twin()], n)
+    }
 }
 
 /// Adds the old corners that a new one is the mean of, all in its own old face.

@@ -20,11 +20,10 @@
 //! One task for each old face writes six half-edges and four faces.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh};
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
 use crate::halves::{Parts, Rest, first, on_edge, place, second, split_edges};
 use crate::links::{self, Entries};
-use crate::parallel::Meter;
 use crate::topology::{Place, Topology};
 
 /// A dense mesh of triangles, each of which is cut into four.

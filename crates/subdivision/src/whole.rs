@@ -4,12 +4,11 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use mesh::Mesh;
-use progress::Progress;
+use progress::{Meter, Progress};
 
 use crate::error::SubdivisionError;
 use crate::input::{check_faces, dense};
 use crate::level;
-use crate::parallel::Meter;
 use crate::rules::Rules;
 use crate::size::Size;
 

@@ -136,6 +136,6 @@ mod tests {
             budget: bytes(3) - 1,
         };
         assert_eq!(step.plan(&mut plan, &cx).len(), 1);
-        assert_eq!(plan.objects[0].geometry, PlannedGeometry::Polylines);
+        assert_eq!(plan.objects()[0].geometry, PlannedGeometry::Polylines);
     }
 }

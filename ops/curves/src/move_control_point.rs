@@ -115,7 +115,7 @@ mod tests {
             let mut plan = Plan::default();
             assert_eq!(plan.insert("arch", PlannedGeometry::Curve(points)), []);
             let problems = step(text).plan(&mut plan, &cx);
-            assert_eq!(plan.objects[0].geometry, PlannedGeometry::Curve(points));
+            assert_eq!(plan.objects()[0].geometry, PlannedGeometry::Curve(points));
             problems
                 .iter()
                 .map(|p| p.path.join("."))

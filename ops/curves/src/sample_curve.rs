@@ -112,7 +112,7 @@ mod tests {
         let curve = PlannedGeometry::Curve(Range::exactly(3));
         assert_eq!(plan.insert("arch", curve), []);
         assert_eq!(step.plan(&mut plan, &cx), []);
-        assert_eq!(plan.objects[0].geometry, PlannedGeometry::Polylines);
+        assert_eq!(plan.objects()[0].geometry, PlannedGeometry::Polylines);
     }
 
     #[test]

@@ -42,7 +42,7 @@ impl Operation for Save {
             let message = format!("an earlier step writes \"{}\" too", self.path);
             problems.push(Problem::error(message).at(["path"]));
         }
-        if plan.objects.is_empty() && !plan.incomplete {
+        if plan.objects().is_empty() && !plan.incomplete {
             problems.push(Problem::error("there is nothing to save at this point"));
         }
         plan.outputs.push(path);

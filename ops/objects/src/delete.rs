@@ -28,7 +28,7 @@ impl Operation for Delete {
             let place = i.to_string();
             let missing = plan.check_names([name.as_str()], "objects");
             problems.extend(missing.into_iter().map(|p| p.at(["objects", &place])));
-            plan.objects.retain(|o| o.name != *name);
+            plan.objects_mut().retain(|o| o.name != *name);
         }
         problems
     }
@@ -91,6 +91,6 @@ mod tests {
         let problems = step(r#"(objects: ["a", "d"])"#).plan(&mut plan, &cx);
         assert_eq!(problems.len(), 1);
         assert_eq!(problems[0].path, ["objects", "1"]);
-        assert_eq!(plan.objects, []);
+        assert_eq!(plan.objects(), []);
     }
 }

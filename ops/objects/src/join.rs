@@ -88,10 +88,9 @@ impl Operation for Join {
             problems.push(Problem::error(parts::too_many(largest)));
         }
         let first = &self.objects[0];
-        plan.objects
-            .retain(|o| o.name == *first || !self.objects.contains(&o.name));
-        let object = plan
-            .objects
+        let objects = plan.objects_mut();
+        objects.retain(|o| o.name == *first || !self.objects.contains(&o.name));
+        let object = objects
             .iter_mut()
             .find(|o| o.name == *first)
             .expect("checked above");

@@ -33,7 +33,7 @@ impl Operation for Rename {
             let message = scene::DuplicateName(self.to.clone()).to_string();
             return vec![Problem::error(message).at(["to"])];
         }
-        let objects = plan.objects.iter_mut();
+        let objects = plan.objects_mut().iter_mut();
         objects
             .filter(|o| o.name == self.from)
             .for_each(|o| o.name.clone_from(&self.to));
@@ -110,6 +110,6 @@ mod tests {
         );
         assert_eq!(step(r#"(from: "a", to: "a")"#).plan(&mut plan, &cx), []);
         assert_eq!(step(r#"(from: "a", to: "c")"#).plan(&mut plan, &cx), []);
-        assert_eq!(plan.objects[0].name, "c");
+        assert_eq!(plan.objects()[0].name, "c");
     }
 }

@@ -56,11 +56,11 @@ impl Operation for Separate {
     const EXAMPLE: &'static str = r#"Separate(object: "mesh")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
-        let Some(place) = plan.objects.iter().position(|o| o.name == self.object) else {
+        let Some(place) = plan.objects().iter().position(|o| o.name == self.object) else {
             return plan.check_names([self.object.as_str()], "object");
         };
-        let PlannedGeometry::Mesh(mesh) = &plan.objects[place].geometry else {
-            let kind = plan.objects[place].geometry.kind();
+        let PlannedGeometry::Mesh(mesh) = &plan.objects()[place].geometry else {
+            let kind = plan.objects()[place].geometry.kind();
             return vec![Problem::error(not_a_mesh(&self.object, kind)).at(["object"])];
         };
         if mesh.faces.max == 0 {
@@ -69,7 +69,7 @@ impl Operation for Separate {
         let part = self.part_of(mesh);
         let Some(count) = self.count.map(Count::get) else {
             // The parts have names that cannot be known.
-            plan.objects.remove(place);
+            plan.objects_mut().remove(place);
             plan.incomplete = true;
             return Vec::new();
         };
@@ -90,8 +90,8 @@ impl Operation for Separate {
             name,
             geometry: PlannedGeometry::Mesh(part.clone()),
         });
-        plan.objects[place] = objects.next().expect("at least one part");
-        plan.objects.extend(objects);
+        plan.objects_mut()[place] = objects.next().expect("at least one part");
+        plan.objects_mut().extend(objects);
         Vec::new()
     }
 
@@ -329,9 +329,9 @@ mod tests {
         );
         let (plan, problems) = planned(&step(r#"(object: "pair", count: 2)"#), &scene);
         assert_eq!((problems, plan.incomplete), (vec![], false));
-        let planned: Vec<_> = plan.objects.iter().map(|o| o.name.as_str()).collect();
+        let planned: Vec<_> = plan.objects().iter().map(|o| o.name.as_str()).collect();
         assert_eq!(planned, ["pair 1", "other", "pair 2"]);
-        let PlannedGeometry::Mesh(part) = &plan.objects[2].geometry else {
+        let PlannedGeometry::Mesh(part) = &plan.objects()[2].geometry else {
             panic!("a part is a mesh");
         };
         assert_eq!(part.faces, Range::at_most(10));

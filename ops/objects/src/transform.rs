@@ -191,7 +191,7 @@ impl Operation for Transform {
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         let chosen = |name: &String| cx.on.is_none_or(|on| on.contains(name));
-        let objects: Vec<_> = plan.objects.iter().filter(|o| chosen(&o.name)).collect();
+        let objects: Vec<_> = plan.objects().iter().filter(|o| chosen(&o.name)).collect();
         if objects.is_empty() && !plan.incomplete {
             problems.push(Problem::error("Transform finds no object to change"));
         }

@@ -156,7 +156,7 @@ impl CurveFigure {
             MAX_CONSTRUCTED
         };
         let (mut n, mut points_of_all) = (0, 0_u64);
-        for object in &plan.objects {
+        for object in plan.objects() {
             let is_before = before == Some(&object.name);
             let is_chosen = match cx.on {
                 Some(on) => on.contains(&object.name),

@@ -14,10 +14,8 @@
 //! or crowded points are clusters at once, however many points they hold, and only differences of
 //! coordinates are ever computed, which neither overflow nor round where it matters.
 
-use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
-
 use mesh::DVec3;
-use progress::{Cancelled, Progress};
+use progress::{Cancelled, Meter, Progress};
 
 use super::union_find::UnionFind;
 
@@ -41,7 +39,8 @@ pub fn clusters(
     progress: &dyn Progress,
 ) -> Result<Vec<u32>, Cancelled> {
     let n = u32::try_from(positions.len()).expect("ids of a mesh fit 32 bits");
-    progress.report("weld", 0, u64::from(n))?;
+    let meter = Meter::new(progress, "weld", u64::from(n)).every(TASK as u64);
+    meter.add(0)?;
     let mut points: Vec<Point> = positions
         .iter()
         .zip(0..)
@@ -51,14 +50,12 @@ pub fn clusters(
     let search = Search {
         reach: Reach::new(distance),
         sets: UnionFind::new(n),
-        done: AtomicU64::new(0),
-        total: u64::from(n),
-        progress,
+        meter,
     };
     if !points.is_empty() {
         search.within(&Tree::of(&points, &search.reach))?;
     }
-    progress.report("weld", u64::from(n), u64::from(n))?;
+    search.meter.finish()?;
     Ok(search.sets.into_lowest())
 }
 
@@ -169,9 +166,7 @@ impl Reach {
 struct Search<'a> {
     reach: Reach,
     sets: UnionFind,
-    done: AtomicU64,
-    total: u64,
-    progress: &'a dyn Progress,
+    meter: Meter<'a>,
 }
 
 impl Search<'_> {
@@ -195,7 +190,7 @@ impl Search<'_> {
                 self.join_near(&tree.points[..i], *p);
             }
         }
-        self.count(tree.points.len())
+        self.meter.add(tree.points.len())
     }
 
     /// Joins what is connected between two boxes.
@@ -246,17 +241,6 @@ impl Search<'_> {
                 self.sets.join(p.index, q.index);
             }
         }
-    }
-
-    /// Tells progress, once for every [`TASK`] points or so.
-    fn count(&self, points: usize) -> Result<(), Cancelled> {
-        let task = TASK as u64;
-        let more = points as u64;
-        let before = self.done.fetch_add(more, Relaxed);
-        if before / task == (before + more) / task {
-            return Ok(());
-        }
-        self.progress.report("weld", before + more, self.total)
     }
 }
 

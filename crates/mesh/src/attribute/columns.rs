@@ -1,5 +1,7 @@
 //! Named columns of values, and what edits do with them.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 use super::{Rule, Values};
@@ -103,12 +105,9 @@ impl Attributes {
     pub fn gathered(&self, sources: Sources) -> Self {
         fn run<I: Id>(columns: &[Column], from: &[I]) -> Vec<Column> {
             let source = |i: usize| (from[i] != I::NONE).then(|| from[i].index());
+            let columns = columns.iter();
             columns
-                .iter()
-                .map(|c| Column {
-                    values: c.values.gather(from.len(), source),
-                    ..c.clone_empty()
-                })
+                .map(|c| c.like(c.values.gather(from.len(), source)))
                 .collect()
         }
         Self {
@@ -137,13 +136,7 @@ impl Attributes {
             for column in other.of(domain) {
                 if self.column(domain, &column.name).is_none() {
                     let values = column.values.gather(len, |_| None);
-                    self.insert(
-                        domain,
-                        Column {
-                            values,
-                            ..column.clone_empty()
-                        },
-                    );
+                    self.insert(domain, column.like(values));
                 }
                 let mine = self
                     .column_mut(domain, &column.name)
@@ -163,88 +156,6 @@ impl Attributes {
     pub(crate) fn grow(&mut self, domain: Domain, n: usize) {
         for column in &mut self.columns[domain as usize] {
             column.values.grow(n);
-        }
-    }
-
-    /// Gives element `to` the values of element `from`.
-    pub(crate) fn copy<I: Id>(&mut self, from: I, to: I) {
-        for column in &mut self.columns[I::DOMAIN as usize] {
-            column.values.copy(from.index(), to.index());
-        }
-    }
-
-    /// Exchanges the values of two elements.
-    pub(crate) fn swap<I: Id>(&mut self, a: I, b: I) {
-        for column in &mut self.columns[I::DOMAIN as usize] {
-            column.values.swap(a.index(), b.index());
-        }
-    }
-
-    /// Whether a domain has a column of normals.
-    pub(crate) fn has_normals(&self, domain: Domain) -> bool {
-        self.of(domain).iter().any(|c| c.rule == Rule::Normal)
-    }
-
-    /// Turns the normals of an element over.
-    pub(crate) fn turn_over<I: Id>(&mut self, element: I) {
-        for column in &mut self.columns[I::DOMAIN as usize] {
-            if let Some(normals) = column.normals_mut() {
-                normals[element.index()] = DVec3::ZERO - normals[element.index()];
-            }
-        }
-    }
-
-    /// Gives element `to`, which lies between `a` and `b`, the values that the rules say.
-    pub(crate) fn mix<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
-        for column in &mut self.columns[I::DOMAIN as usize] {
-            column.mix(a.index(), b.index(), t, to.index());
-        }
-    }
-
-    /// Gives corner `to`, in each column where it has the value of a corner `sides[_][end]`, the value
-    /// between the two corners of that side. None of them is `to`.
-    pub(crate) fn follow(
-        &mut self,
-        sides: [Option<[HalfEdgeId; 2]>; 2],
-        end: usize,
-        t: f64,
-        to: HalfEdgeId,
-    ) {
-        for column in &mut self.columns[Domain::Corner as usize] {
-            let is_same =
-                |side: &&[HalfEdgeId; 2]| column.values.same(side[end].index(), to.index());
-            if let Some([a, b]) = sides.iter().flatten().find(is_same) {
-                column.mix(a.index(), b.index(), t, to.index());
-            }
-        }
-    }
-
-    /// Gives edge `to` the larger number and the mark of either of two edges.
-    pub(crate) fn merge(&mut self, from: EdgeId, to: EdgeId) {
-        let (from, to) = (from.index(), to.index());
-        for column in &mut self.columns[Domain::Edge as usize] {
-            match &mut column.values {
-                Values::Float(v) if v[from] > v[to] => v[to] = v[from],
-                Values::Tag(v) => v[to] |= v[from],
-                _ => {}
-            }
-        }
-    }
-
-    /// Gives element `to` the mean of the values of `from`, where the rules say interpolate.
-    pub(crate) fn average<I: Id>(&mut self, from: &[I], to: I) {
-        for column in &mut self.columns[I::DOMAIN as usize] {
-            if matches!(column.rule, Rule::Interpolate | Rule::Normal) {
-                let weight = 1.0 / from.len().max(1) as f64;
-                let weights = |_: usize, add: &mut dyn FnMut(usize, f64)| {
-                    for i in from {
-                        add(i.index(), weight);
-                    }
-                };
-                let mean = column.values.blend(1, weights);
-                column.values.set(to.index(), &mean);
-                column.normalize(to.index());
-            }
         }
     }
 
@@ -272,11 +183,34 @@ impl Attributes {
 }
 
 impl Column {
+    /// A column of the same name and rule.
+    #[must_use]
+    pub fn like(&self, values: Values) -> Self {
+        Self {
+            name: self.name.clone(),
+            rule: self.rule,
+            values,
+        }
+    }
+
     /// Gives element `to`, which lies between `a` and `b`, the value that the rule says.
-    fn mix(&mut self, a: usize, b: usize, t: f64, to: usize) {
+    #[inline]
+    pub(crate) fn mix<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
         if matches!(self.rule, Rule::Interpolate | Rule::Normal) {
-            self.values.mix(a, b, t, to);
-            self.normalize(to);
+            self.values.mix(a.index(), b.index(), t, to.index());
+            self.normalize(to.index());
+        }
+    }
+
+    /// Gives element `to` the mean of the values of `from`, if the rule says interpolate.
+    pub(crate) fn average<I: Id>(&mut self, from: &[I], to: I) {
+        if matches!(self.rule, Rule::Interpolate | Rule::Normal) {
+            let weight = 1.0 / from.len().max(1) as f64;
+            let mean = self.values.blend(1, |_, add| {
+                from.iter().for_each(|i| add(i.index(), weight));
+            });
+            self.values.set(to.index(), &mean);
+            self.normalize(to.index());
         }
     }
 
@@ -295,19 +229,11 @@ impl Column {
         }
     }
 
-    /// Turns all values over if they are normals. A difference, so that 0 stays 0 and not -0.
-    pub(crate) fn turn_over(&mut self) {
-        for normal in self.normals_mut().into_iter().flatten() {
+    /// Turns values over if they are normals. A difference, so that 0 stays 0 and not -0.
+    pub(crate) fn turn_over(&mut self, which: Range<usize>) {
+        let normals = self.normals_mut().map(|normals| &mut normals[which]);
+        for normal in normals.into_iter().flatten() {
             *normal = DVec3::ZERO - *normal;
-        }
-    }
-
-    /// A column of the same name, rule and type without values.
-    fn clone_empty(&self) -> Self {
-        Self {
-            name: self.name.clone(),
-            rule: self.rule,
-            values: self.values.gather(0, |_| None),
         }
     }
 }

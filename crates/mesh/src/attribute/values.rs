@@ -1,5 +1,6 @@
 //! The values of a column, whatever their type.
 
+use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 
@@ -131,66 +132,33 @@ impl Values {
         each!(self, v => run(v, n));
     }
 
-    pub(super) fn copy(&mut self, from: usize, to: usize) {
+    pub(crate) fn copy(&mut self, from: usize, to: usize) {
         each!(self, v => v[to] = v[from]);
     }
 
     /// Exchanges two values.
-    pub(super) fn swap(&mut self, a: usize, b: usize) {
+    pub(crate) fn swap(&mut self, a: usize, b: usize) {
         each!(self, v => v.swap(a, b));
     }
 
     /// Sets the value at `i` to the only one of `other`, which has the same type.
     pub(super) fn set(&mut self, i: usize, other: &Self) {
-        match (self, other) {
-            (Self::Float(a), Self::Float(b)) => a[i] = b[0],
-            (Self::Vec2(a), Self::Vec2(b)) => a[i] = b[0],
-            (Self::Vec3(a), Self::Vec3(b)) => a[i] = b[0],
-            (Self::Vec4(a), Self::Vec4(b)) => a[i] = b[0],
-            (Self::Int(a), Self::Int(b)) => a[i] = b[0],
-            (Self::Tag(a), Self::Tag(b)) => a[i] = b[0],
-            _ => unreachable!("blended from the same column"),
-        }
+        each!(self, v => v[i] = Value::of(other).expect("blended from the same column")[0]);
     }
 
-    /// Puts the numbers of the value at `i` behind `numbers`.
-    pub(crate) fn push_numbers(&self, i: usize, numbers: &mut Vec<f64>) {
-        match self {
-            Self::Float(v) => numbers.push(v[i]),
-            Self::Vec2(v) => numbers.extend(v[i].to_array()),
-            Self::Vec3(v) => numbers.extend(v[i].to_array()),
-            Self::Vec4(v) => numbers.extend(v[i].to_array()),
-            Self::Int(v) => numbers.push(f64::from(v[i])),
-            Self::Tag(v) => numbers.push(f64::from(u8::from(v[i]))),
-        }
+    /// Puts the bytes of the value at `i` behind `bytes`.
+    pub(crate) fn push_bytes(&self, i: usize, bytes: &mut Vec<u8>) {
+        each!(self, v => bytes.extend(bytemuck::bytes_of(&v[i])));
     }
 
-    /// Takes the numbers of the value at `i` from the end of `numbers`, as
-    /// [`push_numbers`](Self::push_numbers) put them there.
-    pub(crate) fn pop_numbers(&mut self, i: usize, numbers: &mut Vec<f64>) {
-        let mut pop = || numbers.pop().expect("pushed before");
-        // The last component was pushed last.
-        match self {
-            Self::Float(v) => v[i] = pop(),
-            Self::Vec2(v) => (v[i].y, v[i].x) = (pop(), pop()),
-            Self::Vec3(v) => (v[i].z, v[i].y, v[i].x) = (pop(), pop(), pop()),
-            Self::Vec4(v) => (v[i].w, v[i].z, v[i].y, v[i].x) = (pop(), pop(), pop(), pop()),
-            #[expect(clippy::cast_possible_truncation, reason = "it was an i32")]
-            Self::Int(v) => v[i] = pop() as i32,
-            Self::Tag(v) => v[i] = pop() != 0.0,
-        }
+    /// Takes the value at `i` from the end of `bytes`, where [`push_bytes`](Self::push_bytes) put it.
+    pub(crate) fn pop_bytes(&mut self, i: usize, bytes: &mut Vec<u8>) {
+        each!(self, v => v[i] = pop_value(bytes));
     }
 
     /// Takes the values from `n` on away and returns them.
     pub(crate) fn split_off(&mut self, n: usize) -> Self {
-        match self {
-            Self::Float(v) => Self::Float(v.split_off(n)),
-            Self::Vec2(v) => Self::Vec2(v.split_off(n)),
-            Self::Vec3(v) => Self::Vec3(v.split_off(n)),
-            Self::Vec4(v) => Self::Vec4(v.split_off(n)),
-            Self::Int(v) => Self::Int(v.split_off(n)),
-            Self::Tag(v) => Self::Tag(v.split_off(n)),
-        }
+        each!(self, v => Value::wrap(v.split_off(n)))
     }
 
     /// Whether the values at `a` and `b` are equal.
@@ -203,16 +171,7 @@ impl Values {
     }
 
     pub(crate) fn append(&mut self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Float(a), Self::Float(b)) => a.extend_from_slice(b),
-            (Self::Vec2(a), Self::Vec2(b)) => a.extend_from_slice(b),
-            (Self::Vec3(a), Self::Vec3(b)) => a.extend_from_slice(b),
-            (Self::Vec4(a), Self::Vec4(b)) => a.extend_from_slice(b),
-            (Self::Int(a), Self::Int(b)) => a.extend_from_slice(b),
-            (Self::Tag(a), Self::Tag(b)) => a.extend_from_slice(b),
-            _ => return false,
-        }
-        true
+        each!(self, v => Value::of(other).map(|more| v.extend_from_slice(more)).is_some())
     }
 
     /// The weighted mean of two values, for the kinds that have one.
@@ -229,7 +188,9 @@ impl Values {
 }
 
 /// A type that a column can hold.
-pub trait Value: Copy + Default + PartialEq + Send + Sync + bytemuck::Zeroable + 'static {
+pub trait Value:
+    Copy + Default + PartialEq + Send + Sync + Zeroable + NoUninit + CheckedBitPattern + 'static
+{
     /// Values of this type.
     fn wrap(values: Vec<Self>) -> Values;
     /// The values, if they are of this type.
@@ -245,17 +206,15 @@ macro_rules! value {
                 Values::$kind(values)
             }
             fn of(values: &Values) -> Option<&[Self]> {
-                if let Values::$kind(v) = values {
-                    Some(v)
-                } else {
-                    None
+                match values {
+                    Values::$kind(v) => Some(v),
+                    _ => None,
                 }
             }
             fn of_mut(values: &mut Values) -> Option<&mut [Self]> {
-                if let Values::$kind(v) = values {
-                    Some(v)
-                } else {
-                    None
+                match values {
+                    Values::$kind(v) => Some(v),
+                    _ => None,
                 }
             }
         }
@@ -267,6 +226,14 @@ value!(DVec3, Vec3);
 value!(DVec4, Vec4);
 value!(i32, Int);
 value!(bool, Tag);
+
+/// Takes a value from the end of `bytes`, where its bytes were put before.
+pub(crate) fn pop_value<T: CheckedBitPattern>(bytes: &mut Vec<u8>) -> T {
+    let start = bytes.len() - size_of::<T>();
+    let value = bytemuck::checked::pod_read_unaligned(&bytes[start..]);
+    bytes.truncate(start);
+    value
+}
 
 /// Values that start at zero and are written by all threads.
 fn filled<T: Value>(n: usize, fill: impl Fn(usize, &mut T) + Sync) -> Values {

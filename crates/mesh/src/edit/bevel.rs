@@ -182,8 +182,7 @@ impl Mesh {
             let e = self.push_edge(ends[i], ends[(i + 1) % n]);
             ring.push(e.half_edges());
         }
-        let new = self.push_face(ring[n - 1][1]);
-        self.copy_values(f, new);
+        let new = self.push_copy_of_face(f, ring[n - 1][1]);
 
         // The corners at the cuts: to the right of each edge first, while those to the left still have
         // their old values.
@@ -198,15 +197,11 @@ impl Mesh {
 
         for (i, &[along, back]) in ring.iter().enumerate() {
             let (h, onward) = (cuts[i].0, cuts[(i + 1) % n].0);
-            let right = self.face(h.twin());
             let left_out = self.next(h.twin());
-            if let Some(f) = right
-                && left_out != onward
-                && self.face_half_edge(f) == left_out
-            {
-                self.set_face_half_edge(f, along);
+            if left_out != onward {
+                self.replace_first_of_face(left_out, along);
             }
-            self.set_face(along, right);
+            self.set_face(along, self.face(h.twin()));
             self.set_next(h.twin(), along);
             self.set_next(along, onward);
             self.set_face(back, Some(new));

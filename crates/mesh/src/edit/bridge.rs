@@ -46,12 +46,8 @@ impl Mesh {
     /// # Ok::<(), mesh::EditError>(())
     /// ```
     pub fn bridge_loops(&mut self, h: HalfEdgeId, g: HalfEdgeId) -> Result<Vec<FaceId>, EditError> {
-        for x in [h, g] {
-            self.check_half_edge(x)?;
-            if self.face(x).is_some() {
-                return Err(EditError::NotBoundary(x.edge()));
-            }
-        }
+        self.check_hole(h)?;
+        self.check_hole(g)?;
         let mut long: Vec<HalfEdgeId> = self.loop_half_edges(h).collect();
         if long.contains(&g) {
             return Err(EditError::SameLoop(h, g));
@@ -99,9 +95,9 @@ impl Mesh {
             }
             let f = self.push_face(side);
             self.copy_face_beside(side, f);
-            for (k, &(x, corner)) in sides.iter().enumerate() {
-                self.set_next(x, sides[(k + 1) % sides.len()].0);
-                self.set_face(x, Some(f));
+            let around: Vec<HalfEdgeId> = sides.iter().map(|&(x, _)| x).collect();
+            self.link_around(f, &around);
+            for (x, corner) in sides {
                 self.copy_values(corner, x);
             }
             band.push(f);

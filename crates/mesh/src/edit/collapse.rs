@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::check_finite;
 use crate::{EdgeId, EditError, HalfEdgeId, Id, Mesh, VertexId};
 
 impl Mesh {
@@ -99,9 +100,7 @@ impl Mesh {
     }
 
     fn collapse(&mut self, e: EdgeId, t: f64, point: DVec3) -> Result<VertexId, EditError> {
-        if let Some(bad) = point.to_array().into_iter().find(|x| !x.is_finite()) {
-            return Err(EditError::BadNumber(bad));
-        }
+        check_finite(&[point])?;
         self.check_collapse(e)?;
         let sides = e.half_edges();
         let [a, b] = self.edge_vertices(e);
@@ -118,9 +117,7 @@ impl Mesh {
         for (h, before) in sides.into_iter().zip(before) {
             let after = self.next(h);
             self.set_next(before, after);
-            if let Some(f) = self.face(h).filter(|&f| self.face_half_edge(f) == h) {
-                self.set_face_half_edge(f, after);
-            }
+            self.replace_first_of_face(h, after);
         }
         self.kill(e);
         self.kill(gone);
@@ -300,14 +297,9 @@ impl Mesh {
         self.set_next(before, y);
         self.set_next(y, after);
         self.set_face(y, beyond);
-        if let Some(p) = beyond.filter(|&p| self.face_half_edge(p) == outer) {
-            self.set_face_half_edge(p, y);
-        }
-        for (old, new) in [(x, y.twin()), (outer, y)] {
-            if self.vertex_half_edge(self.origin(old)) == Some(old) {
-                self.set_vertex_half_edge(self.origin(old), Some(new));
-            }
-        }
+        self.replace_first_of_face(outer, y);
+        self.replace_leaving(x, y.twin());
+        self.replace_leaving(outer, y);
         self.kill(x.edge());
         if let Some(f) = lens {
             self.kill(f);

@@ -1,5 +1,6 @@
 //! Opening a mesh along edges.
 
+use super::sorted_once;
 use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 
 /// A part of the faces around a vertex, between two cuts, or between a cut and the boundary.
@@ -75,10 +76,7 @@ impl Mesh {
 
         self.drop_columns_by_rule();
         // The fans of faces are read before the edges along them are doubled.
-        let mut vertices: Vec<VertexId> =
-            sorted.iter().flat_map(|&e| self.edge_vertices(e)).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
+        let vertices = sorted_once(sorted.iter().flat_map(|&e| self.edge_vertices(e)));
         let is_cut = |h: HalfEdgeId| sorted.binary_search(&h.edge()).is_ok();
         let fans: Vec<Vec<HalfEdgeId>> = vertices
             .iter()
@@ -97,7 +95,11 @@ impl Mesh {
             let mut parts = parts(&fan, copy_of);
             parts.sort_by_key(|part| part.leaving.iter().filter_map(|&h| self.face(h)).min());
             for (i, part) in parts.into_iter().enumerate() {
-                let owner = if i == 0 { v } else { self.copy_vertex(v) };
+                let owner = if i == 0 {
+                    v
+                } else {
+                    self.push_copy_of_vertex(v)
+                };
                 self.set_next(part.arriving, part.leaving[0]);
                 self.set_vertex_half_edge(owner, Some(part.leaving[0]));
                 for h in part.leaving {
@@ -115,9 +117,7 @@ impl Mesh {
     ///
     /// If one is not an edge of the mesh.
     pub fn slits(&self, edges: &[EdgeId]) -> Vec<EdgeId> {
-        let mut edges = edges.to_vec();
-        edges.sort_unstable();
-        edges.dedup();
+        let mut edges = sorted_once(edges.iter().copied());
         let mut ends: Vec<VertexId> = edges.iter().flat_map(|&e| self.edge_vertices(e)).collect();
         ends.sort_unstable();
         let is_end = |v: VertexId| {
@@ -150,17 +150,9 @@ impl Mesh {
         self.set_next(before, kept);
         self.set_next(kept, after);
         self.set_face(kept, face);
+        self.replace_first_of_face(old, kept);
         self.set_face(old, None);
-        if let Some(f) = face.filter(|&f| self.face_half_edge(f) == old) {
-            self.set_face_half_edge(f, kept);
-        }
         new
-    }
-
-    fn copy_vertex(&mut self, v: VertexId) -> VertexId {
-        let copy = self.push_vertex(self.position(v));
-        self.copy_values(v, copy);
-        copy
     }
 }
 

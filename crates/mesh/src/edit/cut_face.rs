@@ -1,6 +1,6 @@
 //! Cutting a face along several diagonals at once.
 
-use crate::{EdgeId, EditError, FaceId, HalfEdgeId, Mesh};
+use crate::{EditError, FaceId, HalfEdgeId, Mesh};
 
 /// The parts of a polygon with `n` corners that diagonals leave, each as its half-edges in order. Corners
 /// are counted from 0 along the face. Half-edges below `n` are the sides, each from the corner of its
@@ -97,11 +97,7 @@ impl Mesh {
         let mut half_edges = sides.clone();
         for diagonal in diagonals {
             let [x, y] = diagonal.map(|corner| sides[corner as usize]);
-            let e: EdgeId = self.push_edge(self.origin(x), self.origin(y));
-            let [xy, yx] = e.half_edges();
-            self.copy_values(x, xy);
-            self.copy_values(y, yx);
-            half_edges.extend([xy, yx]);
+            half_edges.extend(self.push_diagonal(x, y));
         }
         let mut faces = Vec::with_capacity(parts.len());
         for part in parts {
@@ -109,14 +105,9 @@ impl Mesh {
             let face = if faces.is_empty() {
                 f
             } else {
-                let new = self.push_face(around[0]);
-                self.copy_values(f, new);
-                new
+                self.push_copy_of_face(f, around[0])
             };
-            for (i, &h) in around.iter().enumerate() {
-                self.set_next(h, around[(i + 1) % around.len()]);
-                self.set_face(h, Some(face));
-            }
+            self.link_around(face, &around);
             faces.push(face);
         }
         Ok(faces)

@@ -1,6 +1,7 @@
 //! Taking an edge or a vertex away, with the faces at it.
 
-use crate::{EdgeId, EditError, FaceId, Mesh, VertexId};
+use super::sorted_once;
+use crate::{EdgeId, EditError, Mesh, VertexId};
 
 impl Mesh {
     /// Takes an edge away, and with it the faces beside it.
@@ -21,9 +22,7 @@ impl Mesh {
     /// [`EditError::NoSuchEdge`]. The mesh is unchanged.
     pub fn delete_edge(&mut self, e: EdgeId) -> Result<(), EditError> {
         self.check_edge(e)?;
-        let mut faces: Vec<FaceId> = self.edge_faces(e).into_iter().flatten().collect();
-        faces.dedup();
-        self.delete_faces(&faces)
+        self.delete_faces(&sorted_once(self.edge_faces(e).into_iter().flatten()))
     }
 
     /// Takes a vertex away, and with it the faces around it.
@@ -46,10 +45,7 @@ impl Mesh {
     /// [`EditError::NoSuchVertex`]. The mesh is unchanged.
     pub fn delete_vertex(&mut self, v: VertexId) -> Result<(), EditError> {
         self.check_vertex(v)?;
-        let mut faces: Vec<FaceId> = self.vertex_faces(v).collect();
-        faces.sort_unstable();
-        faces.dedup();
-        self.delete_faces(&faces)?;
+        self.delete_faces(&sorted_once(self.vertex_faces(v)))?;
         self.kill(v);
         Ok(())
     }
@@ -59,7 +55,7 @@ impl Mesh {
 mod tests {
     use super::*;
     use crate::edit::testing::{shapes_to_try, undone_and_redone};
-    use crate::shapes;
+    use crate::{FaceId, shapes};
 
     /// The faces and edges that are left.
     fn left(mesh: &Mesh) -> [usize; 3] {

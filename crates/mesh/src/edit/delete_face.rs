@@ -1,5 +1,6 @@
 //! Taking faces away.
 
+use super::{first_repeated, sorted_once};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
@@ -59,14 +60,13 @@ impl Mesh {
         for &f in faces {
             self.check_face(f)?;
         }
-        let mut doomed = faces.to_vec();
-        doomed.sort_unstable();
-        if let Some(pair) = doomed.windows(2).find(|pair| pair[0] == pair[1]) {
-            return Err(EditError::TwiceFace(pair[0]));
+        if let Some(f) = first_repeated(faces) {
+            return Err(EditError::TwiceFace(f));
         }
-        if doomed.is_empty() {
+        if faces.is_empty() {
             return Ok(());
         }
+        let doomed = sorted_once(faces.iter().copied());
         let stays = |h: HalfEdgeId| {
             self.face(h)
                 .is_some_and(|f| doomed.binary_search(&f).is_err())
@@ -75,9 +75,7 @@ impl Mesh {
             .iter()
             .flat_map(|&f| self.face_half_edges(f))
             .collect();
-        let mut corners: Vec<VertexId> = sides.iter().map(|&h| self.origin(h)).collect();
-        corners.sort_unstable();
-        corners.dedup();
+        let corners = sorted_once(sides.iter().map(|&h| self.origin(h)));
         let rims = corners
             .iter()
             .map(|&v| self.rim_at(v, stays))

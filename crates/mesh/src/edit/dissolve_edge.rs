@@ -83,15 +83,9 @@ impl Mesh {
         }
         self.set_next(before_a, after_a);
         self.set_next(before_b, after_b);
-        for (h, after) in [(ab, after_a), (ba, after_b)] {
-            let v = self.origin(h);
-            if self.vertex_half_edge(v) == Some(h) {
-                self.set_vertex_half_edge(v, Some(after));
-            }
-        }
-        if self.face_half_edge(f) == ab {
-            self.set_face_half_edge(f, after_b);
-        }
+        self.replace_leaving(ab, after_a);
+        self.replace_leaving(ba, after_b);
+        self.replace_first_of_face(ab, after_b);
         self.kill(e);
         self.kill(g);
         Ok(f)

@@ -1,5 +1,6 @@
 //! Taking a vertex out of the faces around it, which become one.
 
+use super::first_repeated;
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, Seams, VertexId};
 
 impl Mesh {
@@ -77,7 +78,7 @@ impl Mesh {
             }
             _ => {}
         }
-        if faces.windows(2).any(|pair| pair[0] == pair[1]) {
+        if first_repeated(&faces).is_some() {
             return Err(EditError::RepeatedVertex(v));
         }
         // On the boundary the first and the last spoke stay, to become one edge.
@@ -99,9 +100,8 @@ impl Mesh {
             // The rim is open: it ends where the first spoke does.
             corners.push(self.target(spokes[0]));
         }
-        corners.sort_unstable();
-        if let Some(pair) = corners.windows(2).find(|pair| pair[0] == pair[1]) {
-            return Err(EditError::RepeatedVertex(pair[0]));
+        if let Some(v) = first_repeated(&corners) {
+            return Err(EditError::RepeatedVertex(v));
         }
         if on_boundary && self.share_an_edge(spokes[0].twin(), spokes[last].twin()) {
             let [first, last] = [spokes[0], spokes[last]].map(|h| self.target(h));
@@ -116,11 +116,9 @@ impl Mesh {
 
         self.drop_columns_by_rule();
         for &h in inner {
-            let (w, after) = (self.target(h), self.next(h));
+            let after = self.next(h);
             self.set_next(self.prev_on_face(h.twin()), after);
-            if self.vertex_half_edge(w) == Some(h.twin()) {
-                self.set_vertex_half_edge(w, Some(after));
-            }
+            self.replace_leaving(h.twin(), after);
             self.kill(h.edge());
         }
         let merged = faces[0];
@@ -193,14 +191,9 @@ impl Mesh {
         self.set_next(x.twin(), out);
         self.set_next(into, x);
         self.set_origin(x, b);
-        if self.vertex_half_edge(b) == Some(y.twin()) {
-            self.set_vertex_half_edge(b, Some(x));
-        }
-        for (gone, left) in [(y, x.twin()), (y.twin(), x)] {
-            if let Some(f) = self.face(gone).filter(|&f| self.face_half_edge(f) == gone) {
-                self.set_face_half_edge(f, left);
-            }
-        }
+        self.replace_leaving(y.twin(), x);
+        self.replace_first_of_face(y, x.twin());
+        self.replace_first_of_face(y.twin(), x);
         self.kill(y.edge());
         self.kill(v);
     }

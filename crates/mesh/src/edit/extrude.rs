@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
+use super::{check_finite, sorted_once};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
@@ -67,15 +68,11 @@ impl Mesh {
         let rim = Rim::of(self, faces)?;
         self.check_room(4 * rim.bases.len())?;
         let corners = rim.half_edges.iter().map(|&h| self.origin(h));
-        for x in corners.flat_map(|v| (self.position(v) + offset).to_array()) {
-            if !x.is_finite() {
-                return Err(EditError::BadNumber(x));
-            }
-        }
+        let places: Vec<DVec3> = corners.map(|v| self.position(v) + offset).collect();
+        check_finite(&places)?;
 
         let sides = self.raise(&rim);
-        let moved: BTreeSet<VertexId> = faces.iter().flat_map(|&f| self.face_vertices(f)).collect();
-        for v in moved {
+        for v in sorted_once(faces.iter().flat_map(|&f| self.face_vertices(f))) {
             self.set_position(v, self.position(v) + offset);
         }
         Ok(sides)
@@ -84,13 +81,10 @@ impl Mesh {
     /// Takes faces off the mesh along their rim and puts side faces between, without moving anything.
     pub(super) fn raise(&mut self, rim: &Rim) -> Vec<FaceId> {
         self.drop_columns_by_rule();
-        let mut raised = Vec::with_capacity(rim.bases.len());
-        for &h in &rim.bases {
-            let v = self.origin(h);
-            let copy = self.push_vertex(self.position(v));
-            self.copy_values(v, copy);
-            raised.push(copy);
-        }
+        let bases = rim.bases.iter();
+        let raised: Vec<VertexId> = bases
+            .map(|&h| self.push_copy_of_vertex(self.origin(h)))
+            .collect();
         let mut edges = Vec::with_capacity(rim.bases.len());
         for (i, &h) in rim.bases.iter().enumerate() {
             let top = self.push_edge(raised[i], raised[rim.after[i]]);
@@ -112,12 +106,8 @@ impl Mesh {
                 self.copy_values(far, copy);
             }
             self.set_face(top, Some(f));
-            if self.face_half_edge(f) == h {
-                self.set_face_half_edge(f, top);
-            }
-            let side = self.push_face(h);
-            self.copy_values(f, side);
-            sides.push(side);
+            self.replace_first_of_face(h, top);
+            sides.push(self.push_copy_of_face(f, h));
         }
 
         // The faces turn to their new edges and vertices.
@@ -136,11 +126,7 @@ impl Mesh {
         for (i, &h) in rim.bases.iter().enumerate() {
             let ([top, top_back], [_, down]) = edges[i];
             let (_, [up, _]) = edges[rim.after[i]];
-            let around = [h, up, top_back, down];
-            for (k, &side) in around.iter().enumerate() {
-                self.set_next(side, around[(k + 1) % 4]);
-                self.set_face(side, Some(sides[i]));
-            }
+            self.link_around(sides[i], &[h, up, top_back, down]);
             self.set_vertex_half_edge(raised[i], Some(top));
             let v = self.origin(h);
             if !self.is_boundary_vertex(v) {

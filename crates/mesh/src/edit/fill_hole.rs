@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod tests;
 
+use super::{first_repeated, sorted_once};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
@@ -86,11 +87,9 @@ impl Mesh {
         let rim = self.rim(h)?;
         let n = rim.len();
         self.check_room(2 * n)?;
-        let mut sorted = ears.to_vec();
-        sorted.sort_unstable();
-        sorted.dedup();
+        let n_different = sorted_once(ears.iter()).len();
         assert_eq!(
-            [sorted.len(), ears.len()],
+            [n_different, ears.len()],
             [n - 2; 2],
             "n - 2 different ears"
         );
@@ -111,10 +110,9 @@ impl Mesh {
             }
             let f = self.push_face(sides[0]);
             self.copy_face_beside(rim[0], f);
-            for (i, corner) in [p, ear, q].into_iter().enumerate() {
-                self.set_next(sides[i], sides[(i + 1) % 3]);
-                self.set_face(sides[i], Some(f));
-                self.copy_values(corners[corner], sides[i]);
+            self.link_around(f, &sides);
+            for (side, corner) in sides.into_iter().zip([p, ear, q]) {
+                self.copy_values(corners[corner], side);
             }
             triangles.push(f);
         }
@@ -127,18 +125,14 @@ impl Mesh {
     ///
     /// Those of [`fill_hole`](Self::fill_hole).
     pub fn rim(&self, h: HalfEdgeId) -> Result<Vec<HalfEdgeId>, EditError> {
-        self.check_half_edge(h)?;
-        if self.face(h).is_some() {
-            return Err(EditError::NotBoundary(h.edge()));
-        }
+        self.check_hole(h)?;
         let rim: Vec<HalfEdgeId> = self.loop_half_edges(h).collect();
         if rim.len() < 3 {
             return Err(EditError::ShortLoop(h));
         }
-        let mut vertices: Vec<VertexId> = rim.iter().map(|&h| self.origin(h)).collect();
-        vertices.sort_unstable();
-        match vertices.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(pair) => Err(EditError::Pinch(pair[0])),
+        let vertices: Vec<VertexId> = rim.iter().map(|&h| self.origin(h)).collect();
+        match first_repeated(&vertices) {
+            Some(v) => Err(EditError::Pinch(v)),
             None => Ok(rim),
         }
     }

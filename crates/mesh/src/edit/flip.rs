@@ -99,18 +99,14 @@ impl Mesh {
             self.set_next(before_x, moved);
             self.set_next(moved, x);
         }
+        self.replace_leaving(ab, ad);
+        self.replace_leaving(ba, bc);
         self.set_origin(ab, d);
         self.set_origin(ba, c);
         self.set_face(ad, Some(f));
         self.set_face(bc, Some(g));
         self.set_face_half_edge(f, ab);
         self.set_face_half_edge(g, ba);
-        if self.vertex_half_edge(a) == Some(ab) {
-            self.set_vertex_half_edge(a, Some(ad));
-        }
-        if self.vertex_half_edge(b) == Some(ba) {
-            self.set_vertex_half_edge(b, Some(bc));
-        }
         Ok(())
     }
 

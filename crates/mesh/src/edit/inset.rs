@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::check_finite;
 use super::extrude::Rim;
 use crate::{EditError, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
@@ -81,11 +82,7 @@ impl Mesh {
         let center = self.face_center(f);
         let inner_place = |&v: &VertexId| (1.0 - t) * self.position(v) + t * center + offset;
         let places: Vec<DVec3> = vertices.iter().map(inner_place).collect();
-        for x in places.iter().flat_map(DVec3::to_array) {
-            if !x.is_finite() {
-                return Err(EditError::BadNumber(x));
-            }
-        }
+        check_finite(&places)?;
 
         let ring = self.raise(&rim);
         let inner_corners: Vec<HalfEdgeId> = self.face_half_edges(f).collect();

@@ -26,7 +26,9 @@ mod testing;
 pub use cut_face::polygon_parts;
 pub use flip::Seams;
 
-use crate::{EdgeId, Element, FaceId, HalfEdgeId, Mesh, VertexId};
+use glam::DVec3;
+
+use crate::{EdgeId, Element, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
 /// Why an edit was refused. The mesh is unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -194,11 +196,88 @@ impl Mesh {
         allow(self.has_face(f), EditError::NoSuchFace(f))
     }
 
+    /// Refuses unless `h` is a half-edge without a face.
+    fn check_hole(&self, h: HalfEdgeId) -> Result<(), EditError> {
+        self.check_half_edge(h)?;
+        allow(self.face(h).is_none(), EditError::NotBoundary(h.edge()))
+    }
+
     /// Refuses if there are not ids for so many more half-edges. Vertices and faces are always fewer.
     fn check_room(&self, half_edges: usize) -> Result<(), EditError> {
         let n = self.connectivity.next.len().max(self.positions.len()) + half_edges;
         allow(n < u32::MAX as usize, EditError::Full)
     }
+
+    /// Lets half-edges follow each other around `f`, the first after the last.
+    fn link_around(&mut self, f: FaceId, around: &[HalfEdgeId]) {
+        for (&h, &next) in around.iter().zip(around.iter().cycle().skip(1)) {
+            self.set_next(h, next);
+            self.set_face(h, Some(f));
+        }
+    }
+
+    /// If the face of `old` begins at it, lets that face begin at `new`.
+    #[inline]
+    fn replace_first_of_face(&mut self, old: HalfEdgeId, new: HalfEdgeId) {
+        if let Some(f) = self.face(old).filter(|&f| self.face_half_edge(f) == old) {
+            self.set_face_half_edge(f, new);
+        }
+    }
+
+    /// If `old` is the half-edge of its origin, gives that vertex `new` instead.
+    #[inline]
+    fn replace_leaving(&mut self, old: HalfEdgeId, new: HalfEdgeId) {
+        let v = self.origin(old);
+        if self.vertex_half_edge(v) == Some(old) {
+            self.set_vertex_half_edge(v, Some(new));
+        }
+    }
+
+    /// A new isolated vertex in the place of `v`, with its values.
+    fn push_copy_of_vertex(&mut self, v: VertexId) -> VertexId {
+        let copy = self.push_vertex(self.position(v));
+        self.copy_values(v, copy);
+        copy
+    }
+
+    /// A new face that begins at `h`, with the values of `f`.
+    fn push_copy_of_face(&mut self, f: FaceId, h: HalfEdgeId) -> FaceId {
+        let copy = self.push_face(h);
+        self.copy_values(f, copy);
+        copy
+    }
+
+    /// A new edge between the origins of two corners of a face, each half with the values of the corner
+    /// that it leaves.
+    fn push_diagonal(&mut self, x: HalfEdgeId, y: HalfEdgeId) -> [HalfEdgeId; 2] {
+        let halves = self.push_edge(self.origin(x), self.origin(y)).half_edges();
+        self.copy_values(x, halves[0]);
+        self.copy_values(y, halves[1]);
+        halves
+    }
+}
+
+/// Refuses points with a coordinate that is not finite.
+fn check_finite(points: &[DVec3]) -> Result<(), EditError> {
+    let mut coordinates = points.iter().flat_map(DVec3::to_array);
+    let bad = coordinates.find(|x| !x.is_finite());
+    bad.map_or(Ok(()), |x| Err(EditError::BadNumber(x)))
+}
+
+/// The lowest id that is named more than once.
+fn first_repeated<I: Id>(ids: &[I]) -> Option<I> {
+    let mut sorted = ids.to_vec();
+    sorted.sort_unstable();
+    let mut pairs = sorted.windows(2);
+    pairs.find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
+}
+
+/// The ids in rising order, each once.
+fn sorted_once<T: Ord>(ids: impl Iterator<Item = T>) -> Vec<T> {
+    let mut sorted: Vec<T> = ids.collect();
+    sorted.sort_unstable();
+    sorted.dedup();
+    sorted
 }
 
 fn allow(is_allowed: bool, refusal: EditError) -> Result<(), EditError> {

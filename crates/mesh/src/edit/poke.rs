@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::{check_finite, first_repeated};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
@@ -54,12 +55,10 @@ impl Mesh {
     /// As [`poke_face`](Self::poke_face), with [`EditError::BadNumber`] if `position` is not finite.
     pub fn poke_face_at(&mut self, f: FaceId, position: DVec3) -> Result<VertexId, EditError> {
         self.check_face(f)?;
-        if let Some(x) = position.to_array().into_iter().find(|x| !x.is_finite()) {
-            return Err(EditError::BadNumber(x));
-        }
+        check_finite(&[position])?;
         let sides: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
         let corners: Vec<VertexId> = sides.iter().map(|&h| self.origin(h)).collect();
-        if let Some(v) = passed_twice(&corners) {
+        if let Some(v) = first_repeated(&corners) {
             return Err(EditError::VisitsTwice(f, v));
         }
         self.check_room(2 * sides.len())?;
@@ -80,26 +79,15 @@ impl Mesh {
             let to_m = spokes[following].twin();
             self.copy_values(sides[following], to_m);
             self.copy_values(spokes[0], spoke);
-            self.set_next(side, to_m);
-            self.set_next(to_m, spoke);
-            self.set_next(spoke, side);
-
-            let triangle = if i == 0 { f } else { self.push_face(side) };
-            self.copy_values(f, triangle);
-            for h in [side, to_m, spoke] {
-                self.set_face(h, Some(triangle));
-            }
+            let triangle = if i == 0 {
+                f
+            } else {
+                self.push_copy_of_face(f, side)
+            };
+            self.link_around(triangle, &[side, to_m, spoke]);
         }
         Ok(m)
     }
-}
-
-/// A vertex that comes twice.
-fn passed_twice(corners: &[VertexId]) -> Option<VertexId> {
-    let mut sorted = corners.to_vec();
-    sorted.sort_unstable();
-    let mut pairs = sorted.windows(2);
-    pairs.find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
 }
 
 #[cfg(test)]

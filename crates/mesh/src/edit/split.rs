@@ -101,11 +101,9 @@ impl Mesh {
             self.set_next(before_b, bm);
         }
         self.set_next(bm, ma);
+        self.replace_leaving(ma, bm);
         self.set_origin(ma, m);
         self.set_vertex_half_edge(m, Some(if self.face(ma).is_none() { ma } else { mb }));
-        if self.vertex_half_edge(b) == Some(ma) {
-            self.set_vertex_half_edge(b, Some(bm));
-        }
         Ok(new)
     }
 

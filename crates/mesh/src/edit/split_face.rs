@@ -107,10 +107,7 @@ impl Mesh {
         moved: HalfEdgeId,
     ) -> EdgeId {
         let (before_x, before_y) = (self.prev(x), self.prev(y));
-        let e = self.push_edge(self.origin(x), self.origin(y));
-        let [xy, yx] = e.half_edges();
-        self.copy_values(x, xy);
-        self.copy_values(y, yx);
+        let [xy, yx] = self.push_diagonal(x, y);
         self.set_next(before_x, xy);
         self.set_next(xy, y);
         self.set_next(before_y, yx);
@@ -133,7 +130,7 @@ impl Mesh {
         if let Some(old) = self.face(kept) {
             self.set_face_half_edge(old, kept);
         }
-        e
+        xy.edge()
     }
 }
 

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::check_finite;
 use crate::{EdgeId, EditError, HalfEdgeId, Mesh};
 
 impl Mesh {
@@ -61,9 +62,7 @@ impl Mesh {
     ) -> Result<EdgeId, EditError> {
         self.check_half_edge(x)?;
         self.check_half_edge(y)?;
-        if let Some(bad) = position.to_array().into_iter().find(|x| !x.is_finite()) {
-            return Err(EditError::BadNumber(bad));
-        }
+        check_finite(&[position])?;
         let v = self.origin(x);
         if self.origin(y) != v {
             return Err(EditError::Elsewhere(y));

@@ -51,12 +51,8 @@ impl Mesh {
     /// # Ok::<(), mesh::EditError>(())
     /// ```
     pub fn stitch_edges(&mut self, h: HalfEdgeId, g: HalfEdgeId) -> Result<EdgeId, EditError> {
-        for x in [h, g] {
-            self.check_half_edge(x)?;
-            if self.face(x).is_some() {
-                return Err(EditError::NotBoundary(x.edge()));
-            }
-        }
+        self.check_hole(h)?;
+        self.check_hole(g)?;
         if h == g {
             return Err(EditError::Twice(h.edge()));
         }
@@ -148,9 +144,7 @@ impl Mesh {
         self.set_next(kept, after);
         self.set_face(kept, face);
         self.copy_values(old, kept);
-        if let Some(f) = face.filter(|&f| self.face_half_edge(f) == old) {
-            self.set_face_half_edge(f, kept);
-        }
+        self.replace_first_of_face(old, kept);
         self.kill(gone.edge());
         kept.edge()
     }

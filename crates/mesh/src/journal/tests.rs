@@ -2,7 +2,8 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::{
-    COLOR, CREASE, DVec2, DVec4, EdgeId, EditError, MATERIAL, Rule, UV, VERTEX_NORMAL, shapes,
+    COLOR, CREASE, DVec2, DVec4, EdgeId, EditError, FaceId, MATERIAL, Rule, UV, VERTEX_NORMAL,
+    shapes,
 };
 
 /// A mesh with a column of each type and rule.

@@ -7,7 +7,7 @@
 use std::collections::HashSet;
 
 use mesh::Domain;
-use op::{Loss, MeshPlan, Plan, PlannedAttribute, PlannedGeometry};
+use op::{Loss, MeshPlan, Plan, PlannedAttribute, PlannedGeometry, PlannedObject};
 
 use crate::expect::Expectation;
 use crate::recipe::{OnLoss, Placed, RecipeStep};
@@ -32,18 +32,6 @@ struct Dropped {
 /// The certain attributes of each mesh.
 pub(super) type Before = Vec<(String, Vec<PlannedAttribute>)>;
 
-/// What the meshes have for certain.
-pub(super) fn certain(plan: &Plan) -> Before {
-    let certain = |mesh: &MeshPlan| {
-        let attributes = mesh.attributes.iter().filter(|a| a.certain);
-        attributes.cloned().collect::<Vec<_>>()
-    };
-    meshes(plan)
-        .map(|(name, mesh)| (name.to_owned(), certain(mesh)))
-        .filter(|(_, attributes)| !attributes.is_empty())
-        .collect()
-}
-
 fn key(attribute: &PlannedAttribute) -> (Domain, &str) {
     (attribute.domain, &attribute.name)
 }
@@ -59,7 +47,7 @@ impl Attributes {
     ) {
         for (object, had) in before {
             // An object that is gone was taken away, and not by accident.
-            let Some((_, mesh)) = meshes(plan).find(|(name, _)| name == object) else {
+            let Some(PlannedGeometry::Mesh(mesh)) = plan.object(object).map(|o| &o.geometry) else {
                 continue;
             };
             if mesh.attributes == *had {
@@ -90,17 +78,11 @@ impl Attributes {
         }
         let mut tags = Vec::new();
         tagged(&step.value, &mut tags);
+        let on = step.on_names();
         for (tag, span) in tags {
-            for (object, mesh) in meshes(plan) {
-                let is_chosen =
-                    (step.on.as_ref()).is_none_or(|on| on.iter().any(|(name, _)| name == object));
-                let has = |a: &PlannedAttribute| a.name == tag;
-                if is_chosen && !mesh.others && !mesh.attributes.iter().any(has) {
-                    let message = format!("nothing of \"{object}\" is tagged \"{tag}\"");
-                    let help = self.help(object, None, tag, mesh);
-                    found.push(Diagnostic::error(span, message).with_help(help));
-                    break;
-                }
+            if let Some((object, help)) = self.lacking(plan, on.as_deref(), None, tag) {
+                let message = format!("nothing of \"{object}\" is tagged \"{tag}\"");
+                found.push(Diagnostic::error(span, message).with_help(help));
             }
         }
     }
@@ -114,17 +96,29 @@ impl Attributes {
         if plan.incomplete {
             return;
         }
-        for (object, mesh) in meshes(plan) {
-            let is_meant =
-                (placed.on.as_ref()).is_none_or(|on| on.iter().any(|name| name == object));
-            let has = |a: &PlannedAttribute| a.domain == domain && a.name == *name;
-            if is_meant && !mesh.others && !mesh.attributes.iter().any(has) {
-                let message = format!("\"{object}\" has no {domain} attribute \"{name}\" here");
-                let help = self.help(object, Some(domain), name, mesh);
-                found.push(Diagnostic::error(placed.span, message).with_help(help));
-                break;
-            }
+        let lacking = self.lacking(plan, placed.on.as_deref(), Some(domain), name);
+        if let Some((object, help)) = lacking {
+            let message = format!("\"{object}\" has no {domain} attribute \"{name}\" here");
+            found.push(Diagnostic::error(placed.span, message).with_help(help));
         }
+    }
+
+    /// The first of the objects that are meant that cannot have an attribute, with advice.
+    fn lacking<'p>(
+        &self,
+        plan: &'p Plan,
+        on: Option<&[String]>,
+        domain: Option<Domain>,
+        name: &str,
+    ) -> Option<(&'p str, String)> {
+        let has = |a: &PlannedAttribute| a.name == name && domain.is_none_or(|d| a.domain == d);
+        let lacks = |(object, mesh): &(&str, &MeshPlan)| {
+            on.is_none_or(|on| on.iter().any(|name| name == object))
+                && !mesh.others
+                && !mesh.attributes.iter().any(has)
+        };
+        let (object, mesh) = meshes(plan.objects()).find(lacks)?;
+        Some((object, self.help(object, domain, name, mesh)))
     }
 
     /// Who dropped it, or else what it may have been meant to be.
@@ -164,35 +158,21 @@ pub(crate) fn forbidden(step: &RecipeStep, loss: &Loss) -> Diagnostic {
     Diagnostic::error(step.span, message).with_help(help)
 }
 
-fn meshes(plan: &Plan) -> impl Iterator<Item = (&str, &MeshPlan)> {
-    plan.objects
-        .iter()
-        .filter_map(|object| match &object.geometry {
-            PlannedGeometry::Mesh(mesh) => Some((object.name.as_str(), mesh)),
-            _ => None,
-        })
+/// The meshes among some objects, with their names.
+pub(super) fn meshes(objects: &[PlannedObject]) -> impl Iterator<Item = (&str, &MeshPlan)> {
+    objects.iter().filter_map(|object| match &object.geometry {
+        PlannedGeometry::Mesh(mesh) => Some((object.name.as_str(), mesh)),
+        _ => None,
+    })
 }
 
 /// The names in `Tagged("..")` anywhere in a value, and their places.
 fn tagged<'v>(value: &'v Value, tags: &mut Vec<(&'v str, Span)>) {
-    match &value.kind {
-        ValueKind::Call(call) => {
-            let name = call.body.single().and_then(Value::as_str);
-            match name.filter(|_| &*call.name.text == "Tagged") {
-                Some(name) => tags.push((name, value.span)),
-                None => tagged(&call.body, tags),
-            }
-        }
-        ValueKind::Struct(body) => {
-            for field in &body.fields {
-                tagged(&field.value, tags);
-            }
-        }
-        ValueKind::Tuple(items) | ValueKind::List(items) => {
-            for item in items {
-                tagged(item, tags);
-            }
-        }
-        _ => {}
+    if let ValueKind::Call(call) = &value.kind
+        && &*call.name.text == "Tagged"
+        && let Some(name) = call.body.single().and_then(Value::as_str)
+    {
+        tags.push((name, value.span));
     }
+    value.parts().for_each(|part| tagged(part, tags));
 }

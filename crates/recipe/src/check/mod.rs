@@ -5,14 +5,14 @@ mod attributes;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use op::{Files, MeshPlan, Plan, PlanContext, PlannedGeometry, Problem, Range};
+use op::{Files, Plan, PlanContext, Problem, Range};
 
 use crate::expect::{Other, golden};
 use crate::recipe::{Placed, Recipe, RecipeStep};
 use crate::shape::did_you_mean;
-use ron_tree::{Diagnostic, PathItem, Severity, Span, field_span};
+use ron_tree::{Diagnostic, Span, field_span};
 
-use attributes::Attributes;
+use attributes::{Attributes, Before, meshes};
 
 pub(crate) use attributes::forbidden;
 
@@ -47,9 +47,7 @@ pub struct Forecast {
 impl Forecast {
     /// Whether the recipe cannot run.
     pub fn has_errors(&self) -> bool {
-        self.diagnostics
-            .iter()
-            .any(|d| d.severity == Severity::Error)
+        self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
     fn add(&mut self, recipe: &Recipe, scope: usize, found: Vec<Diagnostic>) {
@@ -63,6 +61,7 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
     let mut forecast = Forecast::default();
     let mut plan = Plan::default();
     let mut attributes = Attributes::default();
+    let mut known = Known::default();
     let mut over_budget = false;
     let mut written = HashSet::new();
     let files = recipe.files(files);
@@ -71,16 +70,18 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
     for (i, step) in recipe.steps.iter().enumerate() {
         let mut found = Vec::new();
         attributes.needs(step, &plan, &mut found);
-        let before = attributes::certain(&plan);
         let files_of = &files[step.scope];
         plan_step(step, &mut plan, files_of, budget, &mut written, &mut found);
-        attributes.losses(step, &before, &plan, &mut found);
-        let bytes = plan.bytes();
+        if plan.take_edited() {
+            attributes.losses(step, &known.certain, &plan, &mut found);
+            known = Known::default();
+        }
+        known.add_objects(&plan);
         // Once: later steps only make it worse.
-        if bytes.min > budget && !over_budget {
+        if known.bytes.min > budget && !over_budget {
             over_budget = true;
-            if !found.iter().any(|d| d.severity == Severity::Error) {
-                found.push(over(step, bytes.min, budget));
+            if !found.iter().any(Diagnostic::is_error) {
+                found.push(over(step, known.bytes.min, budget));
             }
         }
         forecast.add(recipe, step.scope, found);
@@ -88,7 +89,7 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
             let found = expected(placed, &plan, &attributes, &files);
             forecast.add(recipe, placed.scope, found);
         }
-        forecast.steps.push(totals(step, &plan));
+        forecast.steps.push(known.forecast(step, plan.incomplete));
     }
     for placed in expectations {
         let found = expected(placed, &plan, &attributes, &files);
@@ -148,19 +149,8 @@ fn plan_step(
     written.extend(new.iter().cloned());
     plan.incomplete |= problems.iter().any(|p| !p.is_warning);
     for problem in &problems {
-        let path: Vec<PathItem> = problem
-            .path
-            .iter()
-            .map(|item| {
-                item.parse::<usize>()
-                    .map_or_else(|_| item.as_str().into(), PathItem::Index)
-            })
-            .collect();
-        let span = if path.is_empty() {
-            step.span
-        } else {
-            field_span(&step.value, &path)
-        };
+        let span = field_span(&step.value, &problem.path);
+        // The whole step is shown by its name.
         let span = if span == step.value.span {
             step.span
         } else {
@@ -279,29 +269,66 @@ fn missing_file(files: &Files, path: &Path, span: Span) -> Option<Diagnostic> {
     (!files.store.is_file(path)).then(|| Diagnostic::error(span, message))
 }
 
-fn totals(step: &RecipeStep, plan: &Plan) -> StepForecast {
-    let meshes = || {
-        plan.objects.iter().filter_map(|o| match &o.geometry {
-            PlannedGeometry::Mesh(mesh) => Some(mesh),
-            _ => None,
-        })
-    };
-    let sum = |count: fn(&MeshPlan) -> Range| {
-        let known = meshes().map(count).fold(Range::exactly(0), Range::plus);
-        if plan.incomplete {
-            Range {
-                max: u64::MAX,
-                ..known
-            }
-        } else {
-            known
+/// What is known of all meshes of a plan together. Objects that a step adds are added to it, so that a step takes no
+/// time in proportion to the objects that it leaves alone.
+struct Known {
+    /// How many objects are counted.
+    objects: usize,
+    vertices: Range,
+    edges: Range,
+    faces: Range,
+    bytes: Range,
+    certain: Before,
+}
+
+impl Default for Known {
+    fn default() -> Self {
+        let none = Range::exactly(0);
+        Self {
+            objects: 0,
+            vertices: none,
+            edges: none,
+            faces: none,
+            bytes: none,
+            certain: Before::new(),
         }
-    };
-    StepForecast {
-        label: step.label().to_owned(),
-        vertices: sum(|m| m.vertices),
-        edges: sum(|m| m.edges),
-        faces: sum(|m| m.faces),
-        bytes: plan.bytes(),
+    }
+}
+
+impl Known {
+    fn add_objects(&mut self, plan: &Plan) {
+        for (name, mesh) in meshes(&plan.objects()[self.objects..]) {
+            self.vertices = self.vertices.plus(mesh.vertices);
+            self.edges = self.edges.plus(mesh.edges);
+            self.faces = self.faces.plus(mesh.faces);
+            self.bytes = self.bytes.plus(mesh.bytes());
+            let certain: Vec<_> = mesh
+                .attributes
+                .iter()
+                .filter(|a| a.certain)
+                .cloned()
+                .collect();
+            if !certain.is_empty() {
+                self.certain.push((name.to_owned(), certain));
+            }
+        }
+        self.objects = plan.objects().len();
+    }
+
+    fn forecast(&self, step: &RecipeStep, is_incomplete: bool) -> StepForecast {
+        let or_more = |count: Range| match is_incomplete {
+            true => Range {
+                max: u64::MAX,
+                ..count
+            },
+            false => count,
+        };
+        StepForecast {
+            label: step.label().to_owned(),
+            vertices: or_more(self.vertices),
+            edges: or_more(self.edges),
+            faces: or_more(self.faces),
+            bytes: self.bytes,
+        }
     }
 }

@@ -7,7 +7,7 @@ use op::{FaceSelection, Files};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::subject::{Failure, Subject};
+use super::subject::Subject;
 use super::{Other, Reader};
 use crate::run::Outcome;
 use geometry::distance::Distance;
@@ -96,7 +96,7 @@ impl Metric {
             Self::Volume => Measured::Number(subject.sum(geometry::volume)?),
             Self::MinAngle => {
                 let smallest = subject.smallest_angle(&FaceSelection::All);
-                Measured::Number(smallest.map_err(Failure::into_message)?.0)
+                Measured::Number(smallest.map_err(|broken| broken.message)?.0)
             }
             Self::DistanceTo { other, on } => {
                 let on = on.as_ref().map(std::slice::from_ref);

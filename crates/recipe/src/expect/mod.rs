@@ -15,11 +15,10 @@ use op::{EdgeSelection, Elements, FaceSelection, Vector, VertexSelection};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use check::Broken;
 pub use metric::{Measured, Metric};
 pub(crate) use output::golden;
 pub(crate) use same::same_faces;
-pub use subject::{Found, Reader, Subject};
+pub use subject::{Broken, Found, Reader, Subject};
 pub use symmetry::Group;
 
 /// What must hold for a scene. Where it speaks of the mesh, it means all meshes together, or those of

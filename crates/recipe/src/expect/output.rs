@@ -9,33 +9,10 @@ use op::Files;
 use scene::{Digest, Object, Scene};
 use store::TemporaryFolder;
 
-use super::subject::{Failure, Found, Subject};
+use super::subject::{Broken, Found, Subject, fails_unless};
 
 /// The bytes of a larger file are not kept to renew what it is held against.
 const LARGEST: u64 = 64 << 20;
-
-/// What is other in a file.
-#[derive(Debug)]
-pub(super) enum Difference {
-    /// It holds something else.
-    Told(String),
-    /// One of the files cannot be read.
-    Unknown(String),
-}
-
-impl Difference {
-    pub(super) fn into_message(self) -> String {
-        match self {
-            Self::Told(message) | Self::Unknown(message) => message,
-        }
-    }
-}
-
-impl From<String> for Difference {
-    fn from(message: String) -> Self {
-        Self::Unknown(message)
-    }
-}
 
 /// Whether the ending is that of a picture whose pixels are compared.
 pub(super) fn is_picture(path: &str) -> bool {
@@ -90,79 +67,59 @@ pub(super) fn check(
     path: &str,
     beside: &str,
     tolerance: u8,
-) -> Result<(), Failure> {
+) -> Result<(), Broken> {
     let files = subject.files;
     let written = files.to_write(path).map_err(|error| error.to_string())?;
     let golden = golden(files, beside)?;
     if !files.store.is_file(&written) {
         return Err(format!("no step has written \"{path}\" so far").into());
     }
-    if !files.store.exists(&golden) {
-        let message = format!(
-            "expected \"{path}\" to be as {}, which is not there: `meshwright test --update` makes it",
-            golden.display()
-        );
-        return Err(recorded(
-            message,
-            [&written, &golden],
-            (tolerance, true),
-            subject,
-        ));
-    }
-    let compared = if is_picture(path) {
-        compare_pictures(&written, &golden, tolerance, subject)
+    let after_colon = |broken: Broken| Broken {
+        message: format!(": {}", broken.message),
+        ..broken
+    };
+    let compared = if !files.store.exists(&golden) {
+        Err(", which is not there: `meshwright test --update` makes it".into())
+    } else if is_picture(path) {
+        compare_pictures(&written, &golden, tolerance, subject).map_err(after_colon)
     } else {
-        compare(&written, &golden, subject)
+        compare(&written, &golden, subject).map_err(after_colon)
     };
-    let Err(difference) = compared else {
-        return Ok(());
-    };
-    let is_unknown = matches!(difference, Difference::Unknown(_));
-    let message = format!(
-        "expected \"{path}\" to be as {}: {}",
-        golden.display(),
-        difference.into_message()
-    );
-    Err(recorded(
-        message,
-        [&written, &golden],
-        (tolerance, is_unknown),
-        subject,
-    ))
+    compared.map_err(|mut broken| {
+        let (shown, why) = (golden.display(), &broken.message);
+        broken.message = format!("expected \"{path}\" to be as {shown}{why}");
+        recorded(broken, &written, &golden, tolerance, subject)
+    })
 }
 
-/// What is found in place of the golden file, if that can be said in one file.
+/// The same with what is found in place of the golden file, if that can be said in one file.
 fn recorded(
-    message: String,
-    [written, golden]: [&Path; 2],
-    (tolerance, is_unknown): (u8, bool),
+    mut broken: Broken,
+    written: &Path,
+    golden: &Path,
+    tolerance: u8,
     subject: Subject,
-) -> Failure {
+) -> Broken {
     let store = &subject.files.store;
-    if store.len(written).is_none_or(|len| len > LARGEST) {
-        return Failure::Unmet(format!("{message}; it is too large to be recorded"));
-    }
-    match store.read(written) {
-        Ok(bytes) if !stands_alone(written, golden, &bytes, subject) => Failure::Unmet(format!(
-            "{message}; it cannot be recorded without the files beside it: write a .glb, .ply or .mws"
-        )),
-        Ok(bytes) => {
-            let golden = golden.to_path_buf();
-            Failure::Recorded(
-                message,
-                Found::File {
+    let why = if store.len(written).is_none_or(|len| len > LARGEST) {
+        "is too large to be recorded".to_owned()
+    } else {
+        match store.read(written) {
+            Ok(bytes) if stands_alone(written, golden, &bytes, subject) => {
+                let golden = golden.to_path_buf();
+                broken.found = Some(Found::File {
                     golden,
                     bytes,
                     tolerance,
-                    is_unknown,
-                },
-            )
+                });
+                return broken;
+            }
+            Ok(_) => "cannot be recorded without the files beside it: write a .glb, .ply or .mws"
+                .to_owned(),
+            Err(error) => format!("cannot be read: {}", error.error),
         }
-        Err(error) => {
-            let why = error.error;
-            Failure::Unmet(format!("{message}; it cannot be read: {why}"))
-        }
-    }
+    };
+    Broken::unmet(format!("{}; it {why}", broken.message))
 }
 
 /// Whether a file says the same without those beside it, such as the materials of an OBJ file, under the name of
@@ -190,7 +147,7 @@ fn compare_pictures(
     golden: &Path,
     tolerance: u8,
     subject: Subject,
-) -> Result<(), Difference> {
+) -> Result<(), Broken> {
     let bytes = |path| {
         let bytes = subject.files.store.read(path);
         bytes.map_err(|error| error.to_string())
@@ -199,22 +156,19 @@ fn compare_pictures(
     let differs = subject
         .reader
         .compare_pictures((written, &now), (golden, &then), tolerance)?;
-    differs.map_or(Ok(()), |message| Err(Difference::Told(message)))
+    differs.map_or(Ok(()), |message| Err(Broken::unmet(message)))
 }
 
 /// What is other in files that are no pictures.
-fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Difference> {
+fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Broken> {
     let (reader, files) = (subject.reader, subject.files);
     // What is no file of objects is a file of bytes.
     if let Ok(now) = reader.objects(written, files) {
         let then = reader.objects(golden, files)?;
         let [now, then] = digests((written, now), (golden, then))?;
-        let message = format!("expected objects of the digest {then}, found {now}");
-        return if now == then {
-            Ok(())
-        } else {
-            Err(Difference::Told(message))
-        };
+        return fails_unless(now == then, || {
+            format!("expected objects of the digest {then}, found {now}")
+        });
     }
     let bytes = |path: &Path| {
         let bytes = files.store.read(path).map_err(|e| e.to_string())?;
@@ -225,7 +179,7 @@ fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Differ
         return Ok(());
     }
     let at = now.iter().zip(&then).position(|(a, b)| a != b);
-    Err(Difference::Told(match at {
+    Err(Broken::unmet(match at {
         Some(at) => {
             let line = then[..at].split(|b| *b == b'\n').count();
             format!("byte {at}, in line {line}, is the first that differs")

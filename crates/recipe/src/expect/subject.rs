@@ -37,28 +37,48 @@ pub trait Reader: Sync {
     ) -> Result<Option<String>, String>;
 }
 
-/// Why an expectation does not hold.
-pub(super) enum Failure {
-    /// The scene is not as expected.
-    Unmet(String),
-    /// A value that the recipe records is another one in the scene.
-    Recorded(String, Found),
-    /// There is nothing to hold it against: then its contrary does not hold either.
-    Unknown(String),
+/// An expectation that does not hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Broken {
+    /// What was expected and what was found, in one line.
+    pub message: String,
+    /// What was found, if a value that the expectation records is another one.
+    pub found: Option<Found>,
+    /// Whether nothing could be compared: then the contrary does not hold either.
+    pub(super) is_unknown: bool,
 }
 
-impl Failure {
-    /// What was expected and what was found.
-    pub(super) fn into_message(self) -> String {
-        match self {
-            Self::Unmet(message) | Self::Recorded(message, _) | Self::Unknown(message) => message,
+impl Broken {
+    /// The scene is not as expected.
+    pub(super) fn unmet(message: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            found: None,
+            is_unknown: false,
+        }
+    }
+
+    /// A value that the recipe records is another one in the scene.
+    pub(super) fn recorded(message: String, found: Found) -> Self {
+        Self {
+            found: Some(found),
+            ..Self::unmet(message)
         }
     }
 }
 
-impl From<String> for Failure {
+impl From<String> for Broken {
     fn from(message: String) -> Self {
-        Self::Unknown(message)
+        Self {
+            is_unknown: true,
+            ..Self::unmet(message)
+        }
+    }
+}
+
+impl From<&str> for Broken {
+    fn from(message: &str) -> Self {
+        message.to_owned().into()
     }
 }
 
@@ -79,8 +99,6 @@ pub enum Found {
         bytes: Vec<u8>,
         /// By how many steps of 255 the colors of a picture may differ.
         tolerance: u8,
-        /// Whether there is none so far that could be compared.
-        is_unknown: bool,
     },
     /// A place, in place of `is`.
     Position {
@@ -152,11 +170,11 @@ impl<'a> Subject<'a> {
 
     pub(super) fn each_mesh(
         &self,
-        ask: impl Fn(&str, &Mesh) -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
+        ask: impl Fn(&str, &Mesh) -> Result<(), Broken>,
+    ) -> Result<(), Broken> {
         let meshes = self.meshes()?;
         if meshes.is_empty() {
-            return Err("expected a mesh, found none".to_owned().into());
+            return Err("expected a mesh, found none".into());
         }
         meshes
             .into_iter()
@@ -203,10 +221,10 @@ impl<'a> Subject<'a> {
         }
     }
 
-    pub(super) fn bounds(&self, min: Vector, max: Vector, tolerance: f64) -> Result<(), Failure> {
+    pub(super) fn bounds(&self, min: Vector, max: Vector, tolerance: f64) -> Result<(), Broken> {
         let points = self.points()?;
         let Some(&first) = points.first() else {
-            return Err("expected points, found none".to_owned().into());
+            return Err("expected points, found none".into());
         };
         let low = points.iter().fold(first, |a, &b| a.min(b));
         let high = points.iter().fold(first, |a, &b| a.max(b));
@@ -221,27 +239,25 @@ impl<'a> Subject<'a> {
             max: high,
             tolerance,
         };
-        Err(Failure::Recorded(message, found))
+        Err(Broken::recorded(message, found))
     }
 
-    pub(super) fn valence(
+    /// Asks about every element of a selection, of which there must be one.
+    pub(super) fn each_selected<S: Select>(
         &self,
-        of: &VertexSelection,
-        min: Option<u64>,
-        max: Option<u64>,
-    ) -> Result<(), Failure> {
-        let mut n = 0;
+        of: &S,
+        mut ask: impl FnMut(&Mesh, S::Id) -> Result<(), Broken>,
+    ) -> Result<(), Broken> {
+        let mut is_empty = true;
         for (object, mesh) in self.meshes()? {
-            for v in selected(of, object, mesh, self.files)? {
-                n += 1;
-                let valence = mesh.valence(v) as u64;
-                within(&format!("edges at {v}"), valence, None, min, max)?;
+            for id in selected(of, object, mesh, self.files)? {
+                is_empty = false;
+                ask(mesh, id)?;
             }
         }
-        if n == 0 {
-            return Err("expected vertices to be selected, found none"
-                .to_owned()
-                .into());
+        if is_empty {
+            let message = format!("expected {} to be selected, found none", S::WORD);
+            return Err(message.into());
         }
         Ok(())
     }
@@ -249,25 +265,19 @@ impl<'a> Subject<'a> {
     pub(super) fn dihedral(
         &self,
         of: &EdgeSelection,
-        min: Option<f64>,
-        max: Option<f64>,
-        reaches: Option<f64>,
-    ) -> Result<(), Failure> {
+        [min, max, reaches]: [Option<f64>; 3],
+    ) -> Result<(), Broken> {
         let mut largest: Option<f64> = None;
-        for (object, mesh) in self.meshes()? {
-            for e in selected(of, object, mesh, self.files)? {
-                let Some(angle) = mesh.dihedral_angle(e).map(f64::to_degrees) else {
-                    continue;
-                };
-                let what = format!("a dihedral angle at {}", ends(mesh, e));
-                near(&what, angle, [None, min, max], 0.0)?;
-                largest = Some(largest.map_or(angle, |l| l.max(angle)));
-            }
-        }
-        let Some(largest) = largest else {
-            let message = "expected edges between two faces to be selected, found none";
-            return Err(message.to_owned().into());
-        };
+        self.each_selected(of, |mesh, e| {
+            let Some(angle) = mesh.dihedral_angle(e).map(f64::to_degrees) else {
+                return Ok(());
+            };
+            largest = Some(largest.map_or(angle, |l| l.max(angle)));
+            let what = format_args!("a dihedral angle at {}", Ends(mesh, e));
+            near(what, angle, [None, min, max], 0.0)
+        })?;
+        let largest =
+            largest.ok_or("expected edges between two faces to be selected, found none")?;
         near(
             "a largest dihedral angle",
             largest,
@@ -276,76 +286,34 @@ impl<'a> Subject<'a> {
         )
     }
 
-    pub(super) fn edge_length(
-        &self,
-        of: &EdgeSelection,
-        min: Option<f64>,
-        max: Option<f64>,
-    ) -> Result<(), Failure> {
-        let mut n = 0;
-        for (object, mesh) in self.meshes()? {
-            for e in selected(of, object, mesh, self.files)? {
-                n += 1;
-                let [v, w] = mesh.edge_vertices(e).map(|v| mesh.position(v));
-                let what = format!("a length of {}", ends(mesh, e));
-                near(&what, v.distance(w), [None, min, max], 0.0)?;
-            }
-        }
-        if n == 0 {
-            let message = "expected edges to be selected, found none";
-            return Err(message.to_owned().into());
-        }
-        Ok(())
-    }
-
     /// The smallest corner angle of the faces of a selection, in degrees, and the face that has it.
-    pub(super) fn smallest_angle(&self, of: &FaceSelection) -> Result<(f64, FaceId), Failure> {
-        let mut smallest: Option<(f64, FaceId)> = None;
-        for (object, mesh) in self.meshes()? {
-            for f in selected(of, object, mesh, self.files)? {
-                for angle in mesh.face_half_edges(f).map(|h| mesh.corner_angle(h)) {
-                    if smallest.is_none_or(|(least, _)| angle < least) {
-                        smallest = Some((angle, f));
-                    }
-                }
+    pub(super) fn smallest_angle(&self, of: &FaceSelection) -> Result<(f64, FaceId), Broken> {
+        let mut smallest = (f64::INFINITY, FaceId::NONE);
+        self.each_selected(of, |mesh, f| {
+            let angle = least_angle(mesh, f);
+            if angle < smallest.0 {
+                smallest = (angle, f);
             }
-        }
-        smallest
-            .map(|(angle, f)| (angle.to_degrees(), f))
-            .ok_or_else(|| {
-                "expected faces to be selected, found none"
-                    .to_owned()
-                    .into()
-            })
+            Ok(())
+        })?;
+        Ok(smallest)
     }
 
     pub(super) fn mean_area(
         &self,
         of: &FaceSelection,
-        min: Option<f64>,
-        max: Option<f64>,
-    ) -> Result<(), Failure> {
+        bounds: [Option<f64>; 3],
+    ) -> Result<(), Broken> {
         let (object, mesh) = self.one_mesh()?;
         let chosen = selected(of, object, mesh, self.files)?;
         let mut areas: Vec<f64> = mesh.faces().map(|f| mesh.face_area(f)).collect();
         areas.sort_by(f64::total_cmp);
         if chosen.is_empty() {
-            return Err("expected faces to be selected, found none"
-                .to_owned()
-                .into());
+            return Err("expected faces to be selected, found none".into());
         }
-        let mean = chosen
-            .iter()
-            .map(|&f: &FaceId| mesh.face_area(f))
-            .sum::<f64>()
-            / chosen.len() as f64;
-        let found = mean / areas[areas.len() / 2];
-        near(
-            "a mean face area over the median",
-            found,
-            [None, min, max],
-            0.0,
-        )
+        let sum: f64 = chosen.iter().map(|&f| mesh.face_area(f)).sum();
+        let found = sum / chosen.len() as f64 / areas[areas.len() / 2];
+        near("a mean face area over the median", found, bounds, 0.0)
     }
 
     pub(super) fn position(
@@ -353,7 +321,7 @@ impl<'a> Subject<'a> {
         of: &VertexSelection,
         is: DVec3,
         tolerance: f64,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Broken> {
         let (object, mesh) = self.one_mesh()?;
         let chosen = selected(of, object, mesh, self.files)?;
         let [v] = chosen[..] else {
@@ -392,11 +360,11 @@ impl<'a> Subject<'a> {
         index: u32,
         is: DVec3,
         tolerance: f64,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), Broken> {
         let lines = self.polylines()?;
         let Some(&found) = lines.get(line as usize).and_then(|l| l.get(index as usize)) else {
             let message = format!("there is no point {index} on a polyline {line}");
-            return Err(Failure::Unmet(message));
+            return Err(Broken::unmet(message));
         };
         found_at(found, is, tolerance, || {
             format!("point {index} of polyline {line}")
@@ -411,18 +379,29 @@ pub(super) fn selected<S: Select>(
     object: &Object,
     mesh: &Mesh,
     files: &Files,
-) -> Result<Vec<S::Id>, Failure> {
+) -> Result<Vec<S::Id>, Broken> {
     let mut cx = Context::new(&NoProgress, files);
     cx.materials = object.materials.iter().map(|m| m.name.clone()).collect();
     selection.resolve(mesh, &cx).map_err(|error| match error {
-        OpError::Refused { message, .. } => Failure::Unmet(message),
-        other => Failure::Unknown(other.to_string()),
+        OpError::Refused { message, .. } => Broken::unmet(message),
+        other => other.to_string().into(),
     })
 }
 
-pub(super) fn ends(mesh: &Mesh, e: EdgeId) -> String {
-    let [v, w] = mesh.edge_vertices(e);
-    format!("the edge {v}-{w}")
+/// An edge by its vertices, as messages name it.
+pub(super) struct Ends<'m>(pub(super) &'m Mesh, pub(super) EdgeId);
+
+impl fmt::Display for Ends<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [v, w] = self.0.edge_vertices(self.1);
+        write!(f, "the edge {v}-{w}")
+    }
+}
+
+/// The smallest corner angle of a face, in degrees.
+pub(super) fn least_angle(mesh: &Mesh, f: FaceId) -> f64 {
+    let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
+    angles.fold(f64::INFINITY, f64::min).to_degrees()
 }
 
 fn found_at(
@@ -430,50 +409,39 @@ fn found_at(
     is: DVec3,
     tolerance: f64,
     what: impl FnOnce() -> String,
-) -> Result<(), Failure> {
+) -> Result<(), Broken> {
     if at.distance(is) <= tolerance {
         return Ok(());
     }
     let message = format!("expected {} at {is}, found it at {at}", what());
-    Err(Failure::Recorded(
-        message,
-        Found::Position { at, tolerance },
-    ))
+    Err(Broken::recorded(message, Found::Position { at, tolerance }))
 }
 
-pub(super) fn fails_unless(holds: bool, message: impl FnOnce() -> String) -> Result<(), Failure> {
+pub(super) fn fails_unless(holds: bool, message: impl FnOnce() -> String) -> Result<(), Broken> {
     if holds {
         Ok(())
     } else {
-        Err(Failure::Unmet(message()))
+        Err(Broken::unmet(message()))
     }
 }
 
 pub(super) fn within<T: PartialOrd + fmt::Display + Copy + Into<i128>>(
-    what: &str,
+    what: impl fmt::Display,
     found: T,
-    eq: Option<T>,
-    min: Option<T>,
-    max: Option<T>,
-) -> Result<(), Failure> {
-    let bounds = [
-        ("", eq, eq.is_none_or(|n| found == n)),
-        ("at least ", min, min.is_none_or(|n| found >= n)),
-        ("at most ", max, max.is_none_or(|n| found <= n)),
-    ];
-    match bounds.into_iter().find(|(_, _, holds)| !holds) {
-        Some((word, Some(n), _)) => {
-            let what = counted(what, n.into());
-            let message = format!("expected {word}{n} {what}, found {found}");
-            // A recorded value in place of the found one would not mend what is broken besides.
-            Err(if word.is_empty() && bounds[1].2 && bounds[2].2 {
-                Failure::Recorded(message, Found::Count(found.into()))
-            } else {
-                Failure::Unmet(message)
-            })
-        }
-        _ => Ok(()),
-    }
+    bounds: [Option<T>; 3],
+) -> Result<(), Broken> {
+    let is_equal = bounds[0].is_none_or(|n| found == n);
+    bounded(
+        found,
+        bounds,
+        is_equal,
+        Found::Count(found.into()),
+        |word, n| {
+            let what = what.to_string();
+            let what = counted(&what, n.into());
+            format!("expected {word}{n} {what}, found {found}")
+        },
+    )
 }
 
 /// The word for so many: `what` for several.
@@ -491,26 +459,35 @@ fn counted(what: &str, n: i128) -> Cow<'_, str> {
 }
 
 pub(super) fn near(
-    what: &str,
+    what: impl fmt::Display,
     found: f64,
-    [eq, min, max]: [Option<f64>; 3],
+    bounds: [Option<f64>; 3],
     tolerance: f64,
-) -> Result<(), Failure> {
-    const EQ: &str = "of ";
-    let bounds = [
-        (EQ, eq, eq.is_none_or(|x| (found - x).abs() <= tolerance)),
-        ("of at least ", min, min.is_none_or(|x| found >= x)),
-        ("of at most ", max, max.is_none_or(|x| found <= x)),
-    ];
-    match bounds.into_iter().find(|(_, _, holds)| !holds) {
-        Some((word, Some(x), _)) => {
-            let message = format!("expected {what} {word}{x}, found {found}");
-            Err(if word == EQ && bounds[1].2 && bounds[2].2 {
-                Failure::Recorded(message, Found::Number(found))
-            } else {
-                Failure::Unmet(message)
-            })
-        }
+) -> Result<(), Broken> {
+    let is_equal = bounds[0].is_none_or(|x| (found - x).abs() <= tolerance);
+    bounded(found, bounds, is_equal, Found::Number(found), |word, x| {
+        format!("expected {what} of {word}{x}, found {found}")
+    })
+}
+
+/// Fails with the first of the bounds `eq`, `min` and `max` that is broken. Only where `eq` alone is broken, recording
+/// the found value mends it.
+fn bounded<T: PartialOrd + Copy>(
+    found: T,
+    [eq, min, max]: [Option<T>; 3],
+    is_equal: bool,
+    recorded: Found,
+    message: impl Fn(&str, T) -> String,
+) -> Result<(), Broken> {
+    let is_high_enough = min.is_none_or(|min| found >= min);
+    let is_low_enough = max.is_none_or(|max| found <= max);
+    match (eq, min, max) {
+        (Some(eq), ..) if !is_equal => Err(Broken {
+            found: (is_high_enough && is_low_enough).then_some(recorded),
+            ..Broken::unmet(message("", eq))
+        }),
+        (_, Some(min), _) if !is_high_enough => Err(Broken::unmet(message("at least ", min))),
+        (.., Some(max)) if !is_low_enough => Err(Broken::unmet(message("at most ", max))),
         _ => Ok(()),
     }
 }

@@ -66,7 +66,9 @@ fn check_on(scene: &Scene, on: Option<&[String]>, text: &str) -> Result<(), Stri
         files: &files,
         reader: &reader,
     };
-    expectation(text).check(subject)
+    expectation(text)
+        .hold(subject)
+        .map_err(|broken| broken.message)
 }
 
 fn check(scene: &Scene, text: &str) -> Result<(), String> {

@@ -27,7 +27,7 @@ use crate::recipe::{OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, locate
 use crate::schema::{self, Schemas};
 use crate::shape::{self, check_shape};
 use crate::source::Source;
-use ron_tree::{Diagnostic, Severity, Span, Value, ValueKind};
+use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 /// The version of recipes that this program reads.
 pub const VERSION: i128 = 1;
@@ -47,9 +47,7 @@ pub struct Reading {
 impl Reading {
     /// Whether the recipe cannot run.
     pub fn has_errors(&self) -> bool {
-        self.diagnostics
-            .iter()
-            .any(|d| d.severity == Severity::Error)
+        self.diagnostics.iter().any(Diagnostic::is_error)
     }
 }
 

@@ -5,16 +5,17 @@ use std::time::Duration;
 use op::{Place, Progress, Refusal, Report};
 use scene::{Digest, Scene};
 
-use super::cache::Why;
+use super::cache::{Finding, Why};
 use crate::expect::Found;
+use crate::recipe::RecipeStep;
 use ron_tree::Diagnostic;
 
 /// Follows a run.
 pub trait Listener: Progress {
     /// A step begins.
-    fn step_begins(&self, number: usize, label: &str);
+    fn step_begins(&self, _number: usize, _label: &str) {}
     /// A step is done.
-    fn step_done(&self, number: usize, done: &StepDone);
+    fn step_done(&self, _number: usize, _done: &StepDone) {}
     /// Whether to tell the digest of the scene after each step, which takes a while for large ones.
     fn wants_digests(&self) -> bool {
         false
@@ -70,26 +71,24 @@ pub struct StepDone {
     pub ran: Option<Why>,
 }
 
-/// A listener as plain progress.
-pub(super) struct Forward<'a>(pub(super) &'a dyn Listener);
-
-impl Progress for Forward<'_> {
-    fn advance(&self, what: &str, done: u64, total: u64) -> bool {
-        self.0.advance(what, done, total)
+impl StepDone {
+    pub(super) fn new(step: &RecipeStep, what: Finding, time: Duration, ran: Option<Why>) -> Self {
+        let [vertices, edges, faces] = what.counts;
+        Self {
+            label: step.label().to_owned(),
+            report: what.report,
+            refused: what.refused,
+            vertices,
+            edges,
+            faces,
+            digest: None,
+            time,
+            ran,
+        }
     }
 }
 
 /// Follows nothing and never stops.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
+pub use op::NoProgress as Silent;
 
-impl Progress for Silent {
-    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
-        true
-    }
-}
-
-impl Listener for Silent {
-    fn step_begins(&self, _: usize, _: &str) {}
-    fn step_done(&self, _: usize, _: &StepDone) {}
-}
+impl Listener for Silent {}

@@ -81,24 +81,17 @@ pub(crate) fn unread(span: Span, error: ron_tree::Error) -> Diagnostic {
 pub(crate) fn check_step(step: &Value, schema: &Json) -> Checked {
     let mut checker = Checker::default();
     let schema = Schema::root(schema);
-    let place = Place::default();
     match &step.kind {
         ValueKind::Call(call) => {
-            let place = Place {
-                name: Some(&call.name.text),
-                inside: false,
-            };
+            let place = Place::named(&call.name.text);
             checker.check_struct(&call.body, &schema, place, call.name.span);
         }
         ValueKind::Name(name) => {
             let body = Value::new(step.span, ValueKind::Unit);
-            let place = Place {
-                name: Some(name),
-                inside: false,
-            };
+            let place = Place::named(name);
             checker.check_struct(&body, &schema, place, step.span);
         }
-        _ => checker.check(step, &schema, place),
+        _ => checker.check(step, &schema, Place::default()),
     }
     checker.finish()
 }
@@ -236,18 +229,13 @@ impl Checker {
         if let Some(choice) = schema.choice() {
             return self.check_choice(value, schema, &choice, place);
         }
-        let types = schema.types();
-        match types.as_slice() {
+        match schema.types()[..] {
             _ if schema.allows_nothing() => {
                 let message = format!("no value is allowed{}", place.of());
                 self.report(value, value.span, message, None);
             }
             [] => {}
-            [one] => self.check_type(value, schema, one, place),
-            several => match several.iter().find(|t| is_of_type(value, t)) {
-                Some(one) => self.check_type(value, schema, one, place),
-                None => self.mismatch(value, &schema.expectation(), place, None),
-            },
+            [one, ..] => self.check_type(value, schema, one, place),
         }
     }
 
@@ -368,20 +356,6 @@ impl Checker {
         };
         let message = format!("{} has {count} {things}, expected {limit}", place.subject());
         self.report(value, value.span, message, None);
-    }
-}
-
-/// Whether a value has the form of a type of JSON schema, without a look inside.
-fn is_of_type(value: &Value, name: &str) -> bool {
-    match (&value.kind, name) {
-        (ValueKind::Number(number), "integer") => number.to_int().is_some(),
-        (ValueKind::Number(_), "number")
-        | (ValueKind::String(_) | ValueKind::Char(_), "string")
-        | (ValueKind::Bool(_), "boolean")
-        | (ValueKind::List(_) | ValueKind::Tuple(_), "array")
-        | (ValueKind::Struct(_) | ValueKind::Map(_), "object")
-        | (ValueKind::Unit, "null" | "array" | "object") => true,
-        _ => false,
     }
 }
 

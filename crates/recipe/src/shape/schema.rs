@@ -367,15 +367,9 @@ impl<'s> Schema<'s> {
                 }
             };
         }
-        let types = self.types();
-        let parts: Vec<String> = types
-            .iter()
-            .map(|name| self.type_expectation(name))
-            .collect();
-        if parts.is_empty() {
-            "a value".to_owned()
-        } else {
-            parts.join(" or ")
+        match self.types()[..] {
+            [name, ..] => self.type_expectation(name),
+            [] => "a value".to_owned(),
         }
     }
 

@@ -145,30 +145,10 @@ impl Checked {
 
 /// Puts names around the values in `value` that stand where these were left out.
 fn complete(value: &mut Value, shorts: &[Short]) {
-    let short = shorts.iter().find(|short| short.span == value.span);
-    match &mut value.kind {
-        // The outermost of the values of a place is the one that was held against the schema.
-        _ if short.is_some() => {}
-        ValueKind::Call(call) => complete(&mut call.body, shorts),
-        ValueKind::Struct(body) => {
-            for field in &mut body.fields {
-                complete(&mut field.value, shorts);
-            }
-        }
-        ValueKind::Tuple(values) | ValueKind::List(values) => {
-            for value in values {
-                complete(value, shorts);
-            }
-        }
-        ValueKind::Map(entries) => {
-            for (_, value) in entries {
-                complete(value, shorts);
-            }
-        }
-        _ => {}
-    }
-    if let Some(short) = short {
-        *value = in_full(value, &short.name);
+    // The outermost of the values of a place is the one that was held against the schema.
+    match shorts.iter().find(|short| short.span == value.span) {
+        Some(short) => *value = in_full(value, &short.name),
+        None => value.for_each_part(|part| complete(part, shorts)),
     }
 }
 
@@ -183,13 +163,7 @@ fn in_full(value: &Value, name: &str) -> Value {
 
 /// How many names in the value are among those of `names`.
 fn n_known(value: &Value, names: &[String]) -> usize {
-    let all = |values: &[Value]| values.iter().map(|v| n_known(v, names)).sum::<usize>();
-    let inside = match &value.kind {
-        ValueKind::Call(call) => n_known(&call.body, names),
-        ValueKind::Struct(body) => body.fields.iter().map(|f| n_known(&f.value, names)).sum(),
-        ValueKind::Tuple(values) | ValueKind::List(values) => all(values),
-        _ => 0,
-    };
+    let inside: usize = value.parts().map(|part| n_known(part, names)).sum();
     let is_known = |(name, _): (&str, _)| names.iter().any(|known| known == name);
     inside + usize::from(value.name().is_some_and(is_known))
 }

@@ -29,7 +29,7 @@ use crate::expect::Metric;
 use crate::recipe::Parameter;
 use crate::schema;
 use crate::shape::{self, check_shape, did_you_mean};
-use ron_tree::{Diagnostic, Severity, Span, Value, ValueKind};
+use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 /// The version of sweeps that this program reads.
 pub const SWEEP_VERSION: i128 = 1;
@@ -158,9 +158,7 @@ pub fn read_sweep(source: &str) -> SweepReading {
 impl SweepReading {
     /// Whether the sweep cannot run.
     pub fn has_errors(&self) -> bool {
-        self.diagnostics
-            .iter()
-            .any(|d| d.severity == Severity::Error)
+        self.diagnostics.iter().any(Diagnostic::is_error)
     }
 }
 

@@ -213,3 +213,18 @@ fn outputs_stay_in_the_output_folder() {
         );
     }
 }
+
+#[test]
+fn objects_that_a_step_leaves_alone_take_no_time() {
+    let steps: Vec<String> = (0..20_000)
+        .map(|i| format!("Sheet(columns: 1, name: \"{i}\")"))
+        .collect();
+    let text = super::steps(&steps.join(", "));
+    let recipe = read_with(&text, &[]).recipe;
+    let begin = std::time::Instant::now();
+    let forecast = crate::check(&recipe, &op::Files::default(), u64::MAX);
+    assert!(!forecast.has_errors());
+    assert_eq!(forecast.steps[19_999].faces, Range::exactly(20_000));
+    // Minutes, if each step looks at all objects.
+    assert!(begin.elapsed().as_secs() < 20, "{:?}", begin.elapsed());
+}

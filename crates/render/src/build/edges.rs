@@ -30,9 +30,8 @@ impl Builder<'_, '_> {
     ) -> Result<(), PictureError> {
         let style = self.style;
         if let Some(lines) = style.wireframe {
-            let color = lines.color.linear();
             for e in mesh.edges() {
-                self.edge(mesh, e, lines.width, color, lines.hidden);
+                self.edge(mesh, e, lines.width, lines.color.linear(), lines.hidden);
                 if let Some(line) = self.drawing.lines.last_mut() {
                     line.room = room(mesh, e);
                 }
@@ -59,10 +58,8 @@ impl Builder<'_, '_> {
             }
         }
         self.vertices(mesh);
-        for highlight in &self.overlays.highlights {
-            if highlight.object != object.name {
-                continue;
-            }
+        let highlights = self.overlays.highlights.iter();
+        for highlight in highlights.filter(|h| h.object == object.name) {
             let color = highlight.color.linear();
             match &highlight.elements {
                 Elements::Faces(_) => {}
@@ -156,30 +153,32 @@ impl Builder<'_, '_> {
 
     /// Labels with the numbers of elements.
     fn ids(&mut self, object: &Object, mesh: &Mesh) -> Result<(), PictureError> {
-        let labels: Vec<Label> = match self.style.ids {
-            None => return Ok(()),
-            Some(Ids::Vertices) => {
-                let label = |v: VertexId| Label {
-                    at: mesh.position(v),
-                    text: v.index().to_string(),
-                };
-                mesh.vertices().map(label).take(MOST_IDS + 1).collect()
-            }
-            Some(Ids::Faces) => {
-                let label = |f: ::mesh::FaceId| Label {
-                    at: mesh.face_center(f),
-                    text: f.index().to_string(),
-                };
-                mesh.faces().map(label).take(MOST_IDS + 1).collect()
-            }
+        let Some(ids) = self.style.ids else {
+            return Ok(());
         };
-        if labels.len() > MOST_IDS {
+        let n = match ids {
+            Ids::Vertices => mesh.n_vertices(),
+            Ids::Faces => mesh.n_faces(),
+        };
+        if n > MOST_IDS {
             return Err(PictureError::Style(format!(
                 "expected at most {MOST_IDS} elements to write numbers at, \"{}\" has more; leave `ids` away",
                 object.name
             )));
         }
-        self.drawing.labels.extend(labels);
+        let label = |i: usize, at| Label {
+            at,
+            text: i.to_string(),
+        };
+        let labels = &mut self.drawing.labels;
+        match ids {
+            Ids::Vertices => {
+                labels.extend(mesh.vertices().map(|v| label(v.index(), mesh.position(v))))
+            }
+            Ids::Faces => {
+                labels.extend(mesh.faces().map(|f| label(f.index(), mesh.face_center(f))))
+            }
+        }
         Ok(())
     }
 }
@@ -187,12 +186,11 @@ impl Builder<'_, '_> {
 /// The mean length of the sides of the faces beside an edge: how far apart edges are there.
 fn room(mesh: &Mesh, e: EdgeId) -> f64 {
     let (mut sum, mut n) = (0.0, 0);
-    for f in mesh.edge_faces(e).into_iter().flatten() {
-        for h in mesh.face_half_edges(f) {
-            let [p, q] = [mesh.origin(h), mesh.target(h)].map(|v| mesh.position(v));
-            sum += p.distance(q);
-            n += 1;
-        }
+    let faces = mesh.edge_faces(e).into_iter().flatten();
+    for h in faces.flat_map(|f| mesh.face_half_edges(f)) {
+        let [p, q] = [mesh.origin(h), mesh.target(h)].map(|v| mesh.position(v));
+        sum += p.distance(q);
+        n += 1;
     }
     if n > 0 {
         sum / f64::from(n)

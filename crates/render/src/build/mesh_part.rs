@@ -14,8 +14,9 @@ use scene::Object;
 use super::{Builder, Coloring, Elements, fits, normals};
 use crate::PictureError;
 use crate::color::{Color, narrow};
-use crate::drawing::{Channel, Normals, Part, Surface};
+use crate::drawing::{Channel, Part, Surface};
 use crate::style::Shading;
+use crate::work::each;
 
 /// Faces that one task cuts into triangles.
 const CHUNK: usize = 1 << 14;
@@ -40,15 +41,9 @@ impl<'s> Builder<'s, '_> {
             let why = format!("{}: no texture coordinates for its textures", object.name);
             self.missing.push(why);
         }
-        let is_by_corner =
-            |normals: &Normals| matches!(normals, Normals::Given(Channel::Corner(_)));
-        let needs_corners =
-            !uvs.is_empty() || matches!(colors, Channel::Corner(_)) || is_by_corner(&normals);
-        let Cut {
-            triangles,
-            corners,
-            faces,
-        } = cut(mesh, needs_corners);
+        let is_by_corner = |channel: &Channel| matches!(channel, Channel::Corner(_));
+        let needs_corners = !uvs.is_empty() || is_by_corner(&colors) || is_by_corner(&normals);
+        let cut = cut(mesh, needs_corners);
         let n_faces = u32::try_from(mesh.domain_len(Domain::Face)).unwrap_or(u32::MAX);
         // A closed surface has no back to be seen, but for slivers at its outline.
         let has_no_back = object.materials.iter().any(|m| m.double_sided)
@@ -57,9 +52,9 @@ impl<'s> Builder<'s, '_> {
         let back = self.style.back.filter(|_| !has_no_back);
         let part = Part {
             points: points(mesh),
-            triangles,
-            corners,
-            faces,
+            triangles: cut.triangles,
+            corners: cut.corners,
+            faces: cut.faces,
             n_faces,
             normals,
             colors,
@@ -75,21 +70,18 @@ impl<'s> Builder<'s, '_> {
         Ok(())
     }
 
-    fn normals(&self, mesh: &'s Mesh) -> Normals<'s> {
+    fn normals(&self, mesh: &'s Mesh) -> Channel<'s> {
         let is_flat = matches!(self.style.shading, Shading::Flat | Shading::Plain);
         if is_flat {
             let is_triangles = mesh.faces().all(|f| mesh.is_triangle(f));
-            return if is_triangles {
-                Normals::Triangle
-            } else {
-                let areas = normals::of_faces(mesh, self.radius);
-                Normals::Given(Channel::Face(areas.into()))
-            };
-        }
-        if let Some(given) = mesh.get(CORNER_NORMAL) {
-            Normals::Given(Channel::Corner(normals::narrowed(given).into()))
+            if is_triangles {
+                return Channel::All([0.0; 3]);
+            }
+            Channel::Face(normals::of_faces(mesh, self.radius).into())
+        } else if let Some(given) = mesh.get(CORNER_NORMAL) {
+            Channel::Corner(normals::narrowed(given).into())
         } else if let Some(given) = mesh.get(VERTEX_NORMAL) {
-            Normals::Given(Channel::Point(normals::narrowed(given).into()))
+            Channel::Point(normals::narrowed(given).into())
         } else {
             normals::smooth(mesh, self.radius, self.style.sharp)
         }
@@ -102,16 +94,11 @@ impl<'s> Builder<'s, '_> {
         mesh: &Mesh,
         color: Color,
         coloring: Option<&Coloring>,
-    ) -> (Channel<'s, [f32; 3]>, Vec<Surface>, Vec<u32>) {
+    ) -> (Channel<'s>, Vec<Surface>, Vec<u32>) {
         let plain = vec![Surface::default()];
         let usual = rgb(color.linear());
         if let Some(c) = coloring {
-            let mapped: Vec<[f32; 3]> = c
-                .values
-                .par_iter()
-                .with_min_len(4096)
-                .map(|&value| c.map.linear(value, c.range))
-                .collect();
+            let mapped = each(c.values.len(), |i| c.map.linear(c.values[i], c.range));
             let channel = match c.domain {
                 Domain::Vertex => Channel::Point(mapped.into()),
                 Domain::Corner => Channel::Corner(mapped.into()),
@@ -128,48 +115,39 @@ impl<'s> Builder<'s, '_> {
             Channel::Point(narrowed.collect::<Vec<_>>().into())
         });
         if object.materials.is_empty() {
-            return (
-                of_vertices.unwrap_or(Channel::All(usual)),
-                plain,
-                Vec::new(),
-            );
+            let colors = of_vertices.unwrap_or(Channel::All(usual));
+            return (colors, plain, Vec::new());
         }
-        let mut surfaces: Vec<Surface> = Vec::new();
-        for material in &object.materials {
-            let surface = self.surface(material);
-            surfaces.push(surface);
-        }
+        let materials = object.materials.iter();
+        let mut surfaces: Vec<Surface> = materials.map(|m| self.surface(m)).collect();
         // For faces without a material.
-        let none = surfaces.len();
-        let [r, g, b] = usual;
+        let none = u32::try_from(surfaces.len()).unwrap_or(u32::MAX);
+        let [r, g, b] = if of_vertices.is_some() {
+            [1.0; 3]
+        } else {
+            usual
+        };
         surfaces.push(Surface {
-            color: if of_vertices.is_some() {
-                [1.0; 4]
-            } else {
-                [r, g, b, 1.0]
-            },
+            color: [r, g, b, 1.0],
             ..Surface::default()
         });
-        let place = |m: &i32| usize::try_from(*m).map_or(none, |m| m.min(none));
+        let place = |m: &i32| u32::try_from(*m).map_or(none, |m| m.min(none));
         let of_face = mesh.get(MATERIAL).map_or_else(
             || vec![none; mesh.domain_len(Domain::Face)],
             |materials| materials.iter().map(place).collect(),
         );
-        let of_face = of_face.into_iter().map(|m| u32::try_from(m).unwrap_or(0));
         let colors = of_vertices.unwrap_or(Channel::All([1.0; 3]));
-        (colors, surfaces, of_face.collect())
+        (colors, surfaces, of_face)
     }
 
     /// Highlighted faces.
     fn marks(&self, object: &Object, mesh: &Mesh) -> Vec<[f32; 4]> {
         let mut marks = Vec::new();
-        for highlight in &self.overlays.highlights {
+        let highlights = self.overlays.highlights.iter();
+        for highlight in highlights.filter(|h| h.object == object.name) {
             let Elements::Faces(faces) = &highlight.elements else {
                 continue;
             };
-            if highlight.object != object.name {
-                continue;
-            }
             marks.resize(mesh.domain_len(Domain::Face), [0.0; 4]);
             for f in faces.iter().filter(|&&f| mesh.has_face(f)) {
                 marks[f.index()] = highlight.color.linear();
@@ -206,12 +184,12 @@ fn uvs<'s>(mesh: &'s Mesh, surfaces: &[Surface]) -> Vec<Cow<'s, [DVec2]>> {
         return Vec::new();
     };
     let names = ["uv", "uv1", "uv2", "uv3"];
-    let set = |name| mesh.get(Attribute::<HalfEdgeId, DVec2>::new(name, Rule::Interpolate));
-    let sets = names.into_iter().take(last + 1).map(set);
-    sets.collect::<Option<Vec<_>>>()
-        .map_or_else(Vec::new, |sets| {
-            sets.into_iter().map(Cow::Borrowed).collect()
-        })
+    let set = |name| {
+        let uvs = Attribute::<HalfEdgeId, DVec2>::new(name, Rule::Interpolate);
+        mesh.get(uvs).map(Cow::Borrowed)
+    };
+    let sets: Option<_> = names.into_iter().take(last + 1).map(set).collect();
+    sets.unwrap_or_default()
 }
 
 /// The triangles of a mesh.

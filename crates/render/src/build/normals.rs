@@ -1,100 +1,76 @@
 //! Normals for surfaces that have none: area-weighted, and split at sharp edges.
 
-use ::mesh::{EdgeId, FaceId, HalfEdgeId, Mesh, SMOOTHING, VertexId};
+use ::mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, SMOOTHING, VertexId};
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::color::narrow;
-use crate::drawing::{Channel, Normals};
+use crate::drawing::Channel;
+use crate::work::each;
 
 /// Area vectors of faces in units of `size` squared, by index; zero for faces that are not there.
 pub(super) fn of_faces(mesh: &Mesh, size: f64) -> Vec<[f32; 3]> {
     let scale = 1.0 / (size * size);
-    let mut areas = Vec::new();
-    (0..mesh.connectivity().face_half_edge.len())
-        .into_par_iter()
-        .with_min_len(4096)
-        .map(|i| {
-            let f = FaceId::new(i);
-            if mesh.has_face(f) {
-                (mesh.area_vector(f) * scale).to_array().map(narrow)
-            } else {
-                [0.0; 3]
-            }
-        })
-        .collect_into_vec(&mut areas);
-    areas
+    each(mesh.domain_len(Domain::Face), |i| {
+        let f = FaceId::new(i);
+        if mesh.has_face(f) {
+            (mesh.area_vector(f) * scale).to_array().map(narrow)
+        } else {
+            [0.0; 3]
+        }
+    })
 }
 
 /// The sum of the area vectors around each vertex, by index. Gouraud, "Continuous Shading of Curved Surfaces",
 /// 1971, with weights by area.
 fn of_vertices(mesh: &Mesh, areas: &[[f32; 3]]) -> Vec<[f32; 3]> {
-    let mut normals = Vec::new();
-    (0..mesh.positions().len())
-        .into_par_iter()
-        .with_min_len(4096)
-        .map(|i| {
-            let v = VertexId::new(i);
-            if !mesh.has_vertex(v) {
-                return [0.0; 3];
-            }
-            let faces = mesh.vertex_faces(v);
-            faces.fold([0.0; 3], |sum, f| add(sum, areas[f.index()]))
-        })
-        .collect_into_vec(&mut normals);
-    normals
+    each(mesh.positions().len(), |i| {
+        let v = VertexId::new(i);
+        if !mesh.has_vertex(v) {
+            return [0.0; 3];
+        }
+        let faces = mesh.vertex_faces(v);
+        faces.fold([0.0; 3], |sum, f| add(sum, areas[f.index()]))
+    })
 }
 
 /// Smooth normals, split at edges whose faces differ by at least `sharp` degrees; where the mesh has smoothing
 /// groups, between faces of different groups instead.
-pub(super) fn smooth<'a>(mesh: &Mesh, size: f64, sharp: f64) -> Normals<'a> {
+pub(super) fn smooth<'a>(mesh: &Mesh, size: f64, sharp: f64) -> Channel<'a> {
     let areas = of_faces(mesh, size);
     let is_sharp = sharp_edges(mesh, &areas, sharp);
-    if !is_sharp.par_iter().any(|&s| s) {
-        let normals = of_vertices(mesh, &areas);
-        return Normals::Given(Channel::Point(normals.into()));
+    if !is_sharp.contains(&true) {
+        return Channel::Point(of_vertices(mesh, &areas).into());
     }
-    let mut normals = Vec::new();
-    (0..mesh.connectivity().next.len())
-        .into_par_iter()
-        .with_min_len(4096)
-        .map(|i| {
-            let h = HalfEdgeId::new(i);
-            if mesh.has_edge(h.edge()) {
-                of_corner(mesh, h, &areas, &is_sharp)
-            } else {
-                [0.0; 3]
-            }
-        })
-        .collect_into_vec(&mut normals);
-    Normals::Given(Channel::Corner(normals.into()))
+    let normals = each(mesh.domain_len(Domain::Corner), |i| {
+        let h = HalfEdgeId::new(i);
+        if mesh.has_edge(h.edge()) {
+            of_corner(mesh, h, &areas, &is_sharp)
+        } else {
+            [0.0; 3]
+        }
+    });
+    Channel::Corner(normals.into())
 }
 
 fn sharp_edges(mesh: &Mesh, areas: &[[f32; 3]], sharp: f64) -> Vec<bool> {
     let groups = mesh.get(SMOOTHING);
     let limit = libm::cos(sharp.to_radians());
-    let mut is_sharp = Vec::new();
-    (0..mesh.connectivity().next.len() / 2)
-        .into_par_iter()
-        .with_min_len(4096)
-        .map(|i| {
-            let e = EdgeId::new(i);
-            if !mesh.has_edge(e) {
-                return false;
-            }
-            let [Some(f), Some(g)] = mesh.edge_faces(e) else {
-                return false;
-            };
-            if let Some(groups) = groups {
-                let (f, g) = (groups[f.index()], groups[g.index()]);
-                return f != g || f == 0;
-            }
-            let of = |f: FaceId| DVec3::from(areas[f.index()].map(f64::from)).normalize_or_zero();
-            let (n, m) = (of(f), of(g));
-            n != DVec3::ZERO && m != DVec3::ZERO && n.dot(m) <= limit
-        })
-        .collect_into_vec(&mut is_sharp);
-    is_sharp
+    each(mesh.domain_len(Domain::Edge), |i| {
+        let e = EdgeId::new(i);
+        if !mesh.has_edge(e) {
+            return false;
+        }
+        let [Some(f), Some(g)] = mesh.edge_faces(e) else {
+            return false;
+        };
+        if let Some(groups) = groups {
+            let (f, g) = (groups[f.index()], groups[g.index()]);
+            return f != g || f == 0;
+        }
+        let of = |f: FaceId| DVec3::from(areas[f.index()].map(f64::from)).normalize_or_zero();
+        let (n, m) = (of(f), of(g));
+        n != DVec3::ZERO && m != DVec3::ZERO && n.dot(m) <= limit
+    })
 }
 
 /// The sum of the area vectors around the origin of `h`, from its face to the next sharp edges.
@@ -138,13 +114,7 @@ fn add(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
 
 /// Vectors as the drawing has them.
 pub(super) fn narrowed(vectors: &[DVec3]) -> Vec<[f32; 3]> {
-    let mut narrowed = Vec::new();
-    vectors
-        .par_iter()
-        .with_min_len(4096)
-        .map(|v| v.to_array().map(narrow))
-        .collect_into_vec(&mut narrowed);
-    narrowed
+    each(vectors.len(), |i| vectors[i].to_array().map(narrow))
 }
 
 #[cfg(test)]
@@ -159,7 +129,7 @@ mod tests {
     #[test]
     fn the_corners_of_a_cube_have_the_normals_of_their_faces() {
         let cube = shapes::cube();
-        let Normals::Given(Channel::Corner(normals)) = smooth(&cube, 1.0, 40.0) else {
+        let Channel::Corner(normals) = smooth(&cube, 1.0, 40.0) else {
             panic!("edges of 90 degrees are sharp");
         };
         for h in cube.half_edges() {
@@ -171,7 +141,7 @@ mod tests {
     #[test]
     fn a_cube_without_sharp_edges_has_normals_along_its_diagonals() {
         let cube = shapes::cube();
-        let Normals::Given(Channel::Point(normals)) = smooth(&cube, 1.0, 120.0) else {
+        let Channel::Point(normals) = smooth(&cube, 1.0, 120.0) else {
             panic!("no edge is sharp");
         };
         let middle = 0.5 * geometry::bounds(&cube).unwrap().into_iter().sum::<DVec3>();
@@ -184,7 +154,7 @@ mod tests {
     #[test]
     fn the_side_of_a_cylinder_is_smooth_up_to_its_rims() {
         let cylinder = shapes::cylinder(24, true);
-        let Normals::Given(Channel::Corner(normals)) = smooth(&cylinder, 1.0, 40.0) else {
+        let Channel::Corner(normals) = smooth(&cylinder, 1.0, 40.0) else {
             panic!("the rims are sharp");
         };
         for h in cylinder.half_edges() {
@@ -204,14 +174,8 @@ mod tests {
     fn smoothing_groups_say_which_edges_are_sharp() {
         let mut cube = shapes::cube();
         cube.set(SMOOTHING, vec![1; 6]);
-        assert!(matches!(
-            smooth(&cube, 1.0, 40.0),
-            Normals::Given(Channel::Point(_))
-        ));
+        assert!(matches!(smooth(&cube, 1.0, 40.0), Channel::Point(_)));
         cube.set(SMOOTHING, vec![0; 6]);
-        assert!(matches!(
-            smooth(&cube, 1.0, 40.0),
-            Normals::Given(Channel::Corner(_))
-        ));
+        assert!(matches!(smooth(&cube, 1.0, 40.0), Channel::Corner(_)));
     }
 }

@@ -8,7 +8,7 @@ use super::normals::narrowed;
 use super::{Builder, Stroke};
 use crate::PictureError;
 use crate::color::Color;
-use crate::drawing::{Channel, NO_FACE, Normals, Part, Surface};
+use crate::drawing::{Channel, NO_FACE, Part, Surface};
 use crate::figure::construction;
 
 /// Cells of a patch along each side.
@@ -28,7 +28,7 @@ impl Builder<'_, '_> {
             .filter_map(|corners| corners.try_into().ok())
             .collect();
         let n_faces = u32::try_from(triangles.len()).unwrap_or(u32::MAX);
-        let normals = Normals::Given(Channel::Point(narrowed(&surface.normals).into()));
+        let normals = Channel::Point(narrowed(&surface.normals).into());
         self.drawing.parts.push(Part {
             points: surface.positions.into(),
             triangles,

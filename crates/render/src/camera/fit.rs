@@ -50,11 +50,7 @@ impl Fit {
     /// the distance: the largest of ±x and ±y is that of planes beside everything. A point is inside the right
     /// border if x - cx <= tx (cz - z), which is x + tx z <= cx + tx cz, and so on.
     fn slant(&self) -> DVec2 {
-        if self.tangent.is_some() {
-            self.half
-        } else {
-            DVec2::ZERO
-        }
+        self.tangent.map_or(DVec2::ZERO, |_| self.half)
     }
 
     /// The few points that decide where the camera is: the outermost ones to each side that counts.
@@ -99,13 +95,6 @@ impl Fit {
         let (center, radius) = sphere(points);
         // Everything below is seen from the center, so that places far from the origin lose no digits.
         let [x, y, z] = self.axes;
-        let turned = |p: DVec3| {
-            DVec3::new(
-                (p - center).dot(x),
-                (p - center).dot(y),
-                (p - center).dot(z),
-            )
-        };
         let least = 1e-6 * radius;
         let (half, slant) = (self.half, self.slant());
         let (mut most, mut front) = ([f64::NEG_INFINITY; 4], f64::NEG_INFINITY);
@@ -115,7 +104,7 @@ impl Fit {
             (most, front) = ([a, a, b, b], radius);
         } else {
             points(&mut |p| {
-                let p = turned(p);
+                let p = DVec3::from([x, y, z].map(|axis| (p - center).dot(axis)));
                 let (tx, ty) = (slant.x * p.z, slant.y * p.z);
                 let sides = [p.x + tx, tx - p.x, p.y + ty, ty - p.y];
                 for (most, side) in most.iter_mut().zip(sides) {
@@ -130,30 +119,23 @@ impl Fit {
         let [right, left, top, bottom] = most;
         let middle = DVec2::new(right - left, top - bottom) * 0.5;
         let extent = DVec2::new(right + left, top + bottom) * 0.5;
+        let aside = center + x * middle.x + y * middle.y;
         let away = (extent / half).max_element();
-        if self.tangent.is_none() {
-            let away = if away > least {
-                away
-            } else {
-                radius.max(f64::MIN_POSITIVE)
-            };
-            return View {
-                axes: self.axes,
-                eye: center + x * middle.x + y * middle.y,
-                scale: 0.5 * self.size.y / away,
-                is_perspective: false,
-                near: 0.0,
-                middle: 0.5 * self.size,
-            };
-        }
-        // Not inside of what is seen from its edge.
-        let away = away.max(front + 0.05 * radius);
+        let (eye, scale, near) = match self.tangent {
+            // Not inside of what is seen from its edge.
+            Some(tangent) => {
+                let eye = aside + z * away.max(front + 0.05 * radius);
+                (eye, tangent, 1e-3 * radius)
+            }
+            None if away > least => (aside, away, f64::NEG_INFINITY),
+            None => (aside, radius.max(f64::MIN_POSITIVE), f64::NEG_INFINITY),
+        };
         View {
             axes: self.axes,
-            eye: center + x * middle.x + y * middle.y + z * away,
-            scale: 0.5 * self.size.y / self.tangent.unwrap_or(1.0),
-            is_perspective: true,
-            near: 1e-3 * radius,
+            eye,
+            scale: 0.5 * self.size.y / scale,
+            is_perspective: self.tangent.is_some(),
+            near,
             middle: 0.5 * self.size,
         }
     }

@@ -6,6 +6,7 @@ use super::label::text_width;
 use super::pixels::draw;
 use super::svg::{Anchor, Color, Font, Paint, Svg, Text};
 use crate::Image;
+use crate::color::whole;
 
 /// The meaning of colors.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,10 +110,8 @@ fn words(scale: &Scale) -> Vec<String> {
             ticks(*low, *high, 6).into_iter().map(|t| t.name).collect()
         }
         Scale::Discrete(entries) => {
-            let shown = entries
-                .iter()
-                .take(MOST_ENTRIES)
-                .map(|(name, _)| name.clone());
+            let shown = entries.iter().take(MOST_ENTRIES);
+            let shown = shown.map(|(name, _)| name.clone());
             let more = entries.len().saturating_sub(MOST_ENTRIES);
             let more = (more > 0).then(|| format!("and {more} more"));
             shown.chain(more).collect()
@@ -131,10 +130,8 @@ fn title_height(legend: &Legend) -> f64 {
 /// The width and the height of a legend, in whole pixels at scale 1.
 fn measured(legend: &Legend) -> DVec2 {
     let words = words(&legend.scale);
-    let widest = words
-        .iter()
-        .map(|word| text_width(&plain(word)))
-        .fold(0.0, f64::max);
+    let widths = words.iter().map(|word| text_width(&plain(word)));
+    let widest = widths.fold(0.0, f64::max);
     let inner = match legend.scale {
         Scale::Continuous { .. } => DVec2::new(BAR[0] + 12.0 + widest, BAR[1] + 8.0),
         Scale::Discrete(_) => DVec2::new(14.0 + 9.0 + widest, words.len() as f64 * ROW - 6.0),
@@ -172,14 +169,9 @@ fn write(svg: &mut Svg, legend: &Legend, place: DVec2, size: DVec2) {
 fn write_bar(svg: &mut Svg, corner: DVec2, [low, high]: [f64; 2], colors: &[Color]) {
     let [width, height] = BAR;
     // Strips of whole pixels, each of the color in its middle: gradients are not the same everywhere.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "from 0 to the number of colors"
-    )]
     let color_at = |share: f64| {
         let last = colors.len().saturating_sub(1);
-        let i = (share * last as f64).round() as usize;
+        let i = whole((share * last as f64).round());
         colors.get(i.min(last)).copied().unwrap_or(LINE)
     };
     let mut y = 0.0;
@@ -189,18 +181,11 @@ fn write_bar(svg: &mut Svg, corner: DVec2, [low, high]: [f64; 2], colors: &[Colo
         while y + strip < height && color_at(1.0 - (y + strip + 0.5) / height) == color {
             strip += 1.0;
         }
-        svg.rectangle(
-            corner + DVec2::Y * y,
-            DVec2::new(width, strip),
-            &Paint::fill(color),
-        );
+        let size = DVec2::new(width, strip);
+        svg.rectangle(corner + DVec2::Y * y, size, &Paint::fill(color));
         y += strip;
     }
-    svg.rectangle(
-        corner,
-        DVec2::new(width, height),
-        &Paint::stroke(LINE, 0.75),
-    );
+    svg.rectangle(corner, BAR.into(), &Paint::stroke(LINE, 0.75));
     for tick in ticks(low, high, 6) {
         let at = corner + DVec2::new(width, (1.0 - tick.share) * height);
         svg.polyline(&[at, at + DVec2::X * 5.0], &Paint::stroke(LINE, 1.0));

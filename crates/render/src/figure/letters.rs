@@ -9,11 +9,12 @@ use std::sync::LazyLock;
 use glam::DVec2;
 use tiny_skia::{Path, PathBuilder, Transform};
 use ttf_parser::gdef::GlyphClass;
-use ttf_parser::gpos::{AnchorMatrix, MarkArray, PairAdjustment, PositioningSubtable};
-use ttf_parser::opentype_layout::Coverage;
+use ttf_parser::gpos::{self, AnchorMatrix, PairAdjustment, PositioningSubtable};
+use ttf_parser::opentype_layout::Class;
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 use super::svg::{Anchor, Font, Text, number, shown};
+use crate::color::narrow;
 
 /// The embedded fonts in the order in which a missing character is looked for. `fonts/README.md` says where they come
 /// from.
@@ -95,13 +96,11 @@ impl Cluster {
         self.size / f32::from(self.face.face.units_per_em())
     }
 
-    #[expect(clippy::cast_precision_loss, reason = "units of a font are few")]
     fn advance(&self) -> f32 {
         self.units as f32 * self.scale()
     }
 
     /// Adds the outlines of the letter whose origin is moved to `place`.
-    #[expect(clippy::cast_precision_loss, reason = "units of a font are few")]
     fn outline(&self, place: Transform, builder: &mut PathBuilder) {
         for &(glyph, [x, y]) in &self.glyphs {
             let mut outline = Outline::default();
@@ -173,14 +172,6 @@ fn is_invisible(c: char) -> bool {
         | '\u{fe00}'..='\u{fe0f}' | '\u{feff}')
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the rasterizer has 32-bit numbers"
-)]
-pub(super) fn narrow(x: f64) -> f32 {
-    x as f32
-}
-
 /// A font and where its letters stand beside each other.
 struct Typeface {
     face: Face<'static>,
@@ -190,11 +181,8 @@ struct Typeface {
 
 impl Typeface {
     fn new(face: Face<'static>) -> Self {
-        let lookups = face
-            .tables()
-            .gpos
-            .into_iter()
-            .flat_map(|table| table.lookups);
+        let tables = face.tables().gpos.into_iter();
+        let lookups = tables.flat_map(|table| table.lookups);
         let positions = lookups.map(|l| l.subtables.into_iter().collect()).collect();
         Self { face, positions }
     }
@@ -255,26 +243,16 @@ impl Typeface {
         let (base, _) = letter.glyphs[0];
         let (last, [x, y]) = letter.glyphs[letter.glyphs.len() - 1];
         let on_letter = |table: &PositioningSubtable| match table {
-            PositioningSubtable::MarkToBase(t) => on(
-                t.mark_coverage,
-                t.marks,
-                mark,
-                t.base_coverage,
-                t.anchors,
-                base,
-            ),
+            PositioningSubtable::MarkToBase(t) => {
+                let anchor = t.marks.get(t.mark_coverage.get(mark)?)?;
+                on(anchor, t.anchors, t.base_coverage.get(base)?)
+            }
             _ => None,
         };
         let on_mark = |table: &PositioningSubtable| match table {
             PositioningSubtable::MarkToMark(t) => {
-                let [dx, dy] = on(
-                    t.mark1_coverage,
-                    t.marks,
-                    mark,
-                    t.mark2_coverage,
-                    t.mark2_matrix,
-                    last,
-                )?;
+                let anchor = t.marks.get(t.mark1_coverage.get(mark)?)?;
+                let [dx, dy] = on(anchor, t.mark2_matrix, t.mark2_coverage.get(last)?)?;
                 Some([x + dx, y + dy])
             }
             _ => None,
@@ -287,17 +265,9 @@ impl Typeface {
     }
 }
 
-/// How far a mark is from what it stands on, if a table of a font has both.
-fn on(
-    marks: Coverage,
-    anchors: MarkArray,
-    mark: GlyphId,
-    bases: Coverage,
-    places: AnchorMatrix,
-    base: GlyphId,
-) -> Option<[i32; 2]> {
-    let (class, anchor) = anchors.get(marks.get(mark)?)?;
-    let place = places.get(bases.get(base)?, class)?;
+/// How far a mark with this anchor is from the base of this number that it stands on, if the font says where.
+fn on((class, anchor): (Class, gpos::Anchor), places: AnchorMatrix, base: u16) -> Option<[i32; 2]> {
+    let place = places.get(base, class)?;
     Some([place.x - anchor.x, place.y - anchor.y].map(i32::from))
 }
 

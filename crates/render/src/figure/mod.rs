@@ -15,7 +15,7 @@ mod pixels;
 mod svg;
 
 pub use pixels::{bytes_needed, draw, pixel_size, pixels};
-pub use svg::{Anchor, Color, Font, Paint, Path, Run, Svg, Text};
+pub use svg::{Anchor, Color, Command, Font, Paint, Run, Svg, Text};
 
 /// Texts that break programs, for tests: every one must be written and drawn without harm.
 #[doc(hidden)]

@@ -10,9 +10,10 @@ use tiny_skia::{
     Transform,
 };
 
-use super::letters::{self, narrow};
-use super::svg::{Color, Element, Shape, Svg};
+use super::letters;
+use super::svg::{Color, Element, Shape, Svg, number};
 use crate::blend::blended;
+use crate::color::{narrow, whole_u32};
 use crate::image::checked_size;
 use crate::{Image, PictureError};
 
@@ -35,12 +36,7 @@ pub fn pixels(svg: &Svg, scale: f64, background: [u8; 4]) -> Result<Image, Pictu
 /// [`PictureError::Size`] if a side is not from 1 to [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
 pub fn pixel_size(svg: &Svg, scale: f64) -> Result<(u32, u32), PictureError> {
     // A number that is none, or below zero, becomes 0 and is refused.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "saturates"
-    )]
-    let [width, height] = [svg.width(), svg.height()].map(|x| (x * scale).round() as u32);
+    let [width, height] = [svg.width(), svg.height()].map(|x| whole_u32((x * scale).round()));
     checked_size(width, height)?;
     Ok((width, height))
 }
@@ -59,16 +55,9 @@ pub fn draw(image: &mut Image, svg: &Svg, scale: f64) {
     };
     // The box of strokes is not always tight around dashes and caps: one pixel more.
     let span = |low: f32, high: f32, side: u32| {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "saturates"
-        )]
-        let [low, high] = [
-            (f64::from(low) * scale).floor() - 1.0,
-            (f64::from(high) * scale).ceil() + 1.0,
-        ]
-        .map(|x| x.clamp(0.0, f64::from(side)) as u32);
+        let low = (f64::from(low) * scale).floor() - 1.0;
+        let high = (f64::from(high) * scale).ceil() + 1.0;
+        let [low, high] = [low, high].map(|x| whole_u32(x).min(side));
         (low, high.saturating_sub(low))
     };
     let (left, width) = span(area.left(), area.right(), image.width);
@@ -77,26 +66,14 @@ pub fn draw(image: &mut Image, svg: &Svg, scale: f64) {
         // Nothing of it is inside.
         return;
     };
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the rasterizer has 32-bit numbers"
-    )]
-    let place = Transform::from_row(
-        scale as f32,
-        0.0,
-        0.0,
-        scale as f32,
-        -(left as f32),
-        -(top as f32),
-    );
+    let scale = narrow(scale);
+    let place = Transform::from_row(scale, 0.0, 0.0, scale, -(left as f32), -(top as f32));
     for drawn in &drawn {
         drawn.draw(&mut layer, place);
     }
     let rows = layer.pixels().chunks_exact(width as usize);
-    let below = image
-        .pixels
-        .chunks_exact_mut(image.width as usize)
-        .skip(top as usize);
+    let below = image.pixels.chunks_exact_mut(image.width as usize);
+    let below = below.skip(top as usize);
     for (from, to) in rows.zip(below) {
         for (&over, under) in from.iter().zip(&mut to[left as usize..]) {
             let [r, g, b] = [over.red(), over.green(), over.blue()];
@@ -123,17 +100,9 @@ impl Drawn {
                 stroke,
                 dashes,
             } => {
-                let stroke = stroke.map(|(color, width)| {
-                    let dashes = dashes.iter().copied().map(narrow).collect();
-                    let stroke = Stroke {
-                        width: narrow(width),
-                        line_cap: LineCap::Round,
-                        line_join: LineJoin::Round,
-                        dash: StrokeDash::new(dashes, 0.0),
-                        ..Stroke::default()
-                    };
-                    (color, stroke)
-                });
+                let dashes = dashes.iter().copied().map(narrow).collect();
+                let dash = StrokeDash::new(dashes, 0.0);
+                let stroke = stroke.map(|pen| stroked(pen, LineCap::Round, dash));
                 let drawn = |path| Self {
                     path,
                     fill: *fill,
@@ -144,24 +113,20 @@ impl Drawn {
             Element::Text { place, text } => {
                 let paths = letters::line(*place, text).paths;
                 let halo = text.halo.map(|(color, width)| {
-                    let stroke = Stroke {
-                        width: narrow(super::svg::number(width * 2.0)),
-                        line_join: LineJoin::Round,
-                        ..Stroke::default()
+                    stroked((color, number(width * 2.0)), LineCap::Butt, None)
+                });
+                let layers = [(None, halo), (Some(text.color), None)];
+                let layers = layers.into_iter().flat_map(|(fill, stroke)| {
+                    let drawn = move |path: &Path| Self {
+                        path: path.clone(),
+                        fill,
+                        stroke: stroke.clone(),
                     };
-                    (color, stroke)
+                    paths.iter().map(drawn)
                 });
-                let halos = paths.iter().filter(|_| halo.is_some()).map(|path| Self {
-                    path: path.clone(),
-                    fill: None,
-                    stroke: halo.clone(),
-                });
-                let letters = paths.iter().map(|path| Self {
-                    path: path.clone(),
-                    fill: Some(text.color),
-                    stroke: None,
-                });
-                halos.chain(letters).collect()
+                layers
+                    .filter(|d| d.fill.is_some() || d.stroke.is_some())
+                    .collect()
             }
             Element::Open { .. } | Element::Close => Vec::new(),
         }
@@ -204,6 +169,22 @@ fn joined(a: Rect, b: Rect) -> Rect {
     Rect::from_ltrb(left, top, right, bottom).unwrap_or(a)
 }
 
+/// How a line of this color and width is drawn.
+fn stroked(
+    (color, width): (Color, f64),
+    cap: LineCap,
+    dash: Option<StrokeDash>,
+) -> (Color, Stroke) {
+    let stroke = Stroke {
+        width: narrow(width),
+        line_cap: cap,
+        line_join: LineJoin::Round,
+        dash,
+        ..Stroke::default()
+    };
+    (color, stroke)
+}
+
 /// The outline of a shape; none if it has no size.
 fn outline(shape: &Shape) -> Option<Path> {
     let mut path = PathBuilder::new();
@@ -240,8 +221,8 @@ fn outline(shape: &Shape) -> Option<Path> {
                 }
             }
         }
-        Shape::Path(shape) => {
-            for (letter, points) in &shape.parts {
+        Shape::Path(commands) => {
+            for (letter, points) in commands {
                 let points: Vec<[f32; 2]> = points.iter().copied().map(point).collect();
                 match (letter, &points[..]) {
                     ('M', &[[x, y]]) => path.move_to(x, y),

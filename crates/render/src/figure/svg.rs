@@ -186,58 +186,9 @@ impl Text {
     }
 }
 
-/// A path of lines and Bezier curves.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Path {
-    /// The commands of SVG, with their points.
-    pub(super) parts: Vec<(char, Vec<DVec2>)>,
-}
-
-impl Path {
-    /// An empty path.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// Begins a new part at `p`.
-    pub fn move_to(&mut self, p: DVec2) {
-        self.command('M', &[p]);
-    }
-
-    /// A straight line to `p`.
-    pub fn line_to(&mut self, p: DVec2) {
-        self.command('L', &[p]);
-    }
-
-    /// A quadratic Bezier curve with the inner control point `b`, to `p`.
-    pub fn quadratic_to(&mut self, b: DVec2, p: DVec2) {
-        self.command('Q', &[b, p]);
-    }
-
-    /// A cubic Bezier curve with the inner control points `b` and `c`, to `p`.
-    pub fn cubic_to(&mut self, b: DVec2, c: DVec2, p: DVec2) {
-        self.command('C', &[b, c, p]);
-    }
-
-    /// Joins the end of the part to its beginning.
-    pub fn close(&mut self) {
-        self.command('Z', &[]);
-    }
-
-    fn command(&mut self, letter: char, points: &[DVec2]) {
-        let points = points.iter().copied().map(rounded).collect();
-        self.parts.push((letter, points));
-    }
-
-    /// The path as SVG writes it.
-    fn data(&self) -> String {
-        let part = |(letter, points): &(char, Vec<DVec2>)| {
-            let points: Vec<String> = points.iter().map(|p| format!("{} {}", p.x, p.y)).collect();
-            format!("{letter}{}", points.join(" "))
-        };
-        self.parts.iter().map(part).collect()
-    }
-}
+/// A command of an SVG path with its points: `M` begins a part, `L`, `Q` and `C` add a line and Bezier curves of degree 2
+/// and 3, and `Z` joins the end of the part to its beginning.
+pub type Command = (char, Vec<DVec2>);
 
 /// What a document is made of. All numbers are rounded as they are written.
 #[derive(Clone, Debug, PartialEq)]
@@ -263,7 +214,7 @@ pub(super) enum Shape {
     Rectangle { corner: DVec2, size: DVec2 },
     Circle { center: DVec2, radius: f64 },
     Polyline(Vec<DVec2>),
-    Path(Path),
+    Path(Vec<Command>),
 }
 
 /// An SVG document: what is drawn later lies above.
@@ -309,14 +260,16 @@ impl Svg {
     /// Straight lines from point to point; nothing for less than two.
     pub fn polyline(&mut self, points: &[DVec2], paint: &Paint) {
         if points.len() >= 2 {
-            let points = points.iter().copied().map(rounded).collect();
-            self.shape(Shape::Polyline(points), paint);
+            self.shape(Shape::Polyline(all_rounded(points)), paint);
         }
     }
 
     /// A path.
-    pub fn path(&mut self, path: &Path, paint: &Paint) {
-        self.shape(Shape::Path(path.clone()), paint);
+    pub fn path(&mut self, path: &[Command], paint: &Paint) {
+        let path = path
+            .iter()
+            .map(|(letter, points)| (*letter, all_rounded(points)));
+        self.shape(Shape::Path(path.collect()), paint);
     }
 
     /// A line of text at `place`, its base line at the height of `place`.
@@ -352,13 +305,9 @@ impl Svg {
         if let Some(provenance) = provenance {
             xml += &format!("  <metadata>{}</metadata>\n", escaped(provenance));
         }
-        let mut depth = 1;
+        let mut depth = 1_usize;
         for element in &self.elements {
-            let mut line = |depth, text: &str| {
-                xml.extend(std::iter::repeat_n("  ", depth));
-                xml += text;
-                xml.push('\n');
-            };
+            let mut line = |depth, text: &str| xml += &format!("{:1$}{text}\n", "", 2 * depth);
             match element {
                 Element::Shape {
                     shape,
@@ -405,20 +354,24 @@ impl Shape {
                 "rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"",
                 corner.x, corner.y, size.x, size.y
             ),
-            Self::Circle { center, radius } => {
-                format!(
-                    "circle cx=\"{}\" cy=\"{}\" r=\"{radius}\"",
-                    center.x, center.y
-                )
+            Self::Circle {
+                center: DVec2 { x, y },
+                radius,
+            } => format!("circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\""),
+            Self::Polyline(points) => format!("polyline points=\"{}\"", written(points, ",")),
+            Self::Path(path) => {
+                let commands = path.iter();
+                let commands = commands.map(|(letter, p)| format!("{letter}{}", written(p, " ")));
+                format!("path d=\"{}\"", commands.collect::<String>())
             }
-            Self::Polyline(points) => {
-                let points: Vec<String> =
-                    points.iter().map(|p| format!("{},{}", p.x, p.y)).collect();
-                format!("polyline points=\"{}\"", points.join(" "))
-            }
-            Self::Path(path) => format!("path d=\"{}\"", path.data()),
         }
     }
+}
+
+/// Points with blanks between them.
+fn written(points: &[DVec2], between: &str) -> String {
+    let points = points.iter().map(|p| format!("{}{between}{}", p.x, p.y));
+    points.collect::<Vec<_>>().join(" ")
 }
 
 /// The element of a text with these attributes.
@@ -442,11 +395,8 @@ fn letters(place: DVec2, text: &Text, attributes: &str) -> String {
             more += &format!(" dy=\"{}\"", number((raised - run.raise) * text.size));
             raised = run.raise;
         }
-        runs += &format!(
-            "<tspan {}{more}>{}</tspan>",
-            run.font.attributes(),
-            escaped(&run.text)
-        );
+        let (font, text) = (run.font.attributes(), escaped(&run.text));
+        runs += &format!("<tspan {font}{more}>{text}</tspan>");
     }
     let [x, y, size] = [place.x, place.y, number(text.size)];
     // Blanks at the ends and between parts count.
@@ -488,27 +438,23 @@ pub(crate) fn number(value: f64) -> f64 {
     if value.is_nan() {
         return 0.0;
     }
-    let rounded = (value.clamp(-LARGEST, LARGEST) * 1000.0).round() / 1000.0;
-    // No "-0".
-    rounded + 0.0
+    // Plus zero: no "-0".
+    (value.clamp(-LARGEST, LARGEST) * 1000.0).round() / 1000.0 + 0.0
 }
 
 fn rounded(p: DVec2) -> DVec2 {
     DVec2::new(number(p.x), number(p.y))
 }
 
+fn all_rounded(points: &[DVec2]) -> Vec<DVec2> {
+    points.iter().copied().map(rounded).collect()
+}
+
 /// The text as XML between tags: what has a meaning there is written in another way, and the rest is [shown].
 pub(crate) fn escaped(text: &str) -> String {
-    let mut xml = String::with_capacity(text.len());
-    for c in text.chars().map(shown) {
-        match c {
-            '&' => xml.push_str("&amp;"),
-            '<' => xml.push_str("&lt;"),
-            '>' => xml.push_str("&gt;"),
-            c => xml.push(c),
-        }
-    }
-    xml
+    let text: String = text.chars().map(shown).collect();
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    text.replace('>', "&gt;")
 }
 
 /// The character that stands for one in a document: a line end or a tab becomes a blank, and what XML does not allow
@@ -575,10 +521,7 @@ mod tests {
         let [a, b] = [DVec2::ZERO, DVec2::new(1.0, 2.25)];
         svg.polyline(&[a], &Paint::fill(BLACK));
         svg.polyline(&[a, b], &Paint::stroke([255, 0, 16, 51], 1.5));
-        let mut path = Path::new();
-        path.move_to(a);
-        path.cubic_to(a, b, b);
-        path.close();
+        let path = [('M', vec![a]), ('C', vec![a, b, b]), ('Z', vec![])];
         svg.path(&path, &Paint::fill(BLACK));
         assert_eq!(
             svg.finish(None),

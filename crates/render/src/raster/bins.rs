@@ -9,8 +9,9 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::lines::{FlatLine, limits};
-use super::project::{Corner, Flat, GRID, GRID_BITS, clipped};
+use super::project::{Corner, Flat, GRID, GRID_BITS, clipped, project};
 use super::{Frame, LINED, SORTED, TILE};
+use crate::color::whole_u32;
 use crate::drawing::Drawing;
 use crate::work::Work;
 use crate::{PictureError, View};
@@ -155,11 +156,8 @@ impl Triangles {
         frame: &Frame,
         work: &Work,
     ) -> Result<Self, PictureError> {
-        let points: Vec<_> = drawing
-            .parts
-            .iter()
-            .map(|part| super::project::project(view, &part.points))
-            .collect();
+        let parts = drawing.parts.iter();
+        let points: Vec<_> = parts.map(|p| project(view, &p.points)).collect();
         let mut ranges = Vec::new();
         let mut first_of_all = 0_u32;
         for (part, p) in drawing.parts.iter().enumerate() {
@@ -244,22 +242,23 @@ fn touched(flat: &Flat, frame: &Frame) -> Option<TileRect> {
 
 /// Lines by tiles.
 pub(super) struct Lines {
+    flat: Vec<Option<FlatLine>>,
     chunks: Vec<(u32, Sorted)>,
 }
 
 impl Lines {
     /// Sorts lines by their boxes.
     pub(super) fn new(
-        lines: &[Option<FlatLine>],
+        flat: Vec<Option<FlatLine>>,
         frame: &Frame,
         work: &Work,
     ) -> Result<Self, PictureError> {
-        let ranges: Vec<_> = chunks(lines.len(), lines.len()).collect();
+        let ranges: Vec<_> = chunks(flat.len(), flat.len()).collect();
         let chunks = ranges
             .into_par_iter()
             .map(|range| {
                 let mut rects = Vec::with_capacity(range.len());
-                for (i, line) in (0..).zip(&lines[range.clone()]) {
+                for (i, line) in (0..).zip(&flat[range.clone()]) {
                     let rect = line.as_ref().and_then(|line| around(limits(line), frame));
                     rects.extend(rect.map(|rect| (i, rect)));
                 }
@@ -268,17 +267,18 @@ impl Lines {
                 Ok((first, Sorted::new(frame, &rects)))
             })
             .collect::<Result<_, PictureError>>()?;
-        Ok(Self { chunks })
+        Ok(Self { flat, chunks })
     }
 
-    /// Puts the lines that may touch a tile into `lines`, in their order.
-    pub(super) fn of(&self, tile: usize, lines: &mut Vec<u32>) {
-        lines.clear();
+    /// The lines that may touch a tile, in their order, with their numbers.
+    pub(super) fn of(&self, tile: usize) -> impl Iterator<Item = (u32, &FlatLine)> {
+        let mut lines: Vec<u32> = Vec::new();
         for (first, sorted) in &self.chunks {
-            let begin = lines.len();
             lines.extend(sorted.of(tile).map(|line| first + line));
-            lines[begin..].sort_unstable();
         }
+        lines.sort_unstable();
+        let flat = |line: u32| Some((line, self.flat[line as usize].as_ref()?));
+        lines.into_iter().filter_map(flat)
     }
 }
 
@@ -288,18 +288,9 @@ fn around([left, top, right, bottom]: [f64; 4], frame: &Frame) -> Option<TileRec
     if right < 0.0 || bottom < 0.0 || left >= w || top >= h {
         return None;
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "inside the picture"
-    )]
-    let tile = |x: f64, end: f64| x.clamp(0.0, end - 1.0) as u32 / TILE;
-    Some([
-        tile(left, w),
-        tile(top, h),
-        tile(right, w) + 1,
-        tile(bottom, h) + 1,
-    ])
+    let tile = |x: f64, end: f64| whole_u32(x.clamp(0.0, end - 1.0)) / TILE;
+    let end = [tile(right, w) + 1, tile(bottom, h) + 1];
+    Some([tile(left, w), tile(top, h), end[0], end[1]])
 }
 
 #[cfg(test)]

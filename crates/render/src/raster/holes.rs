@@ -5,8 +5,9 @@ use glam::DVec2;
 
 use super::project::GRID;
 use super::shade::{Facts, Shader, surface_place};
-use super::tile::{PLACES, SAMPLES};
+use super::tile::{PLACES, SAMPLES, mask_of};
 use crate::View;
+use crate::color::whole;
 use crate::texture::Texture;
 
 /// What a triangle covers.
@@ -59,12 +60,7 @@ impl<'a> Shader<'a> {
             })),
             _ => {
                 let n = n_covered(alpha);
-                let is_covered = |k: &usize| rank(*k, turn) < n;
-                Cover::Same(
-                    (0..SAMPLES)
-                        .filter(is_covered)
-                        .fold(0, |mask, k| mask | 1 << k),
-                )
+                Cover::Same(mask_of(|k| rank(k, turn) < n))
             }
         }
     }
@@ -105,13 +101,7 @@ impl Textured<'_> {
 
 /// How many of the samples are covered at a coverage from 0 to 1.
 fn n_covered(coverage: f32) -> usize {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "from 0 to 16; not a number becomes 0"
-    )]
-    let n = (coverage.clamp(0.0, 1.0) * SAMPLES as f32 + 0.5) as usize;
-    n
+    whole(f64::from(coverage.clamp(0.0, 1.0) * SAMPLES as f32 + 0.5))
 }
 
 /// How many samples are covered before this one: the first few are spread over the pixel, every seventh in turn.

@@ -7,14 +7,15 @@
 //! What is hidden of a point is a ring: a faint disc would look like a stain on what is before it.
 
 use glam::{DVec2, DVec3};
-use rayon::prelude::*;
 
 use super::TILE;
 use super::project::GRID;
 use super::shade::Shader;
 use super::tile::{NOTHING, PLACES, Tile};
 use crate::View;
+use crate::color::whole_u32;
 use crate::drawing::{Drawing, Line};
+use crate::work::each;
 
 /// The width of the ring that a hidden point is: a part of its radius, but so many pixels at least.
 const RING: f64 = 0.35;
@@ -38,47 +39,39 @@ pub(super) struct FlatLine {
 
 /// Where lines are seen; `None` for those behind the camera.
 pub(super) fn project(drawing: &Drawing, view: &View) -> Vec<Option<FlatLine>> {
-    let flat = |line: &Line| {
-        let [a, b] = line.ends.map(|p| view.turned(p));
-        let cut = |a: DVec3, b: DVec3| {
-            let (da, db) = (view.inside(0, 0.0, a), view.inside(0, 0.0, b));
-            if da >= 0.0 {
-                a
-            } else {
-                let mut cut = b + (a - b) * (db / (db - da));
-                cut.z = view.near();
-                cut
-            }
-        };
-        if view.inside(0, 0.0, a) < 0.0 && view.inside(0, 0.0, b) < 0.0 {
-            return None;
+    each(drawing.lines.len(), |i| flat(&drawing.lines[i], view))
+}
+
+fn flat(line: &Line, view: &View) -> Option<FlatLine> {
+    let [a, b] = line.ends.map(|p| view.turned(p));
+    let [da, db] = [a, b].map(|v| view.inside(0, 0.0, v));
+    if da < 0.0 && db < 0.0 {
+        return None;
+    }
+    let cut = |[a, b]: [DVec3; 2], [da, db]: [f64; 2]| {
+        if da >= 0.0 {
+            return a;
         }
-        let seen = [cut(a, b), cut(b, a)].map(|v| view.project(v));
-        let ends = seen.map(|s| s.at);
-        let length_squared = ends[0].distance_squared(ends[1]);
-        let width = f64::from(line.width);
-        let pixel = view.pixel(0.5 * seen[0].depth + 0.5 * seen[1].depth);
-        let width = width.min(FINE * line.room / pixel);
-        let flat = FlatLine {
-            ends,
-            depths: seen.map(|s| s.depth),
-            radius: 0.5 * width,
-            scaled: if length_squared > 0.0 {
-                (ends[1] - ends[0]) / length_squared
-            } else {
-                DVec2::ZERO
-            },
-        };
-        (flat.ends[0].is_finite() && flat.ends[1].is_finite() && flat.radius > 0.0).then_some(flat)
+        let mut cut = b + (a - b) * (db / (db - da));
+        cut.z = view.near;
+        cut
     };
-    let mut lines = Vec::new();
-    drawing
-        .lines
-        .par_iter()
-        .with_min_len(1024)
-        .map(flat)
-        .collect_into_vec(&mut lines);
-    lines
+    let seen = [cut([a, b], [da, db]), cut([b, a], [db, da])].map(|v| view.project(v));
+    let ends = seen.map(|s| s.at);
+    let length_squared = ends[0].distance_squared(ends[1]);
+    let pixel = view.pixel(0.5 * seen[0].depth + 0.5 * seen[1].depth);
+    let width = f64::from(line.width).min(FINE * line.room / pixel);
+    let flat = FlatLine {
+        ends,
+        depths: seen.map(|s| s.depth),
+        radius: 0.5 * width,
+        scaled: if length_squared > 0.0 {
+            (ends[1] - ends[0]) / length_squared
+        } else {
+            DVec2::ZERO
+        },
+    };
+    (ends.iter().all(|p| p.is_finite()) && flat.radius > 0.0).then_some(flat)
 }
 
 /// The box of a line in pixels: left, top, right and bottom.
@@ -104,27 +97,17 @@ impl FlatLine {
 }
 
 /// Draws a line into a tile.
-pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, shader: &Shader) {
+pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, shader: &Shader) {
+    let line = &shader.drawing.lines[number as usize];
     let corner = DVec2::new(f64::from(tile.left), f64::from(tile.top));
     let half = f64::from(TILE) / 2.0;
     if flat.distance(corner + half) > half * std::f64::consts::SQRT_2 + flat.radius {
         return;
     }
     let [left, top, right, bottom] = limits(flat);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between the borders of the tile"
-    )]
-    let pixel = |x: f64, low: u32, high: u32| x.clamp(f64::from(low), f64::from(high - 1)) as u32;
-    let (x0, x1) = (
-        pixel(left, tile.left, tile.right),
-        pixel(right, tile.left, tile.right),
-    );
-    let (y0, y1) = (
-        pixel(top, tile.top, tile.bottom),
-        pixel(bottom, tile.top, tile.bottom),
-    );
+    let pixel = |x: f64, low: u32, high: u32| whole_u32(x.clamp(low.into(), (high - 1).into()));
+    let [x0, x1] = [left, right].map(|x| pixel(x, tile.left, tile.right));
+    let [y0, y1] = [top, bottom].map(|y| pixel(y, tile.top, tile.bottom));
     let radius_squared = flat.radius * flat.radius;
     let is_point = flat.scaled == DVec2::ZERO;
     let hole = if is_point {
@@ -132,7 +115,6 @@ pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, s
     } else {
         0.0
     };
-    let sight = Sight { flat, line, shader };
     for y in y0..=y1 {
         for x in x0..=x1 {
             let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
@@ -149,7 +131,7 @@ pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, s
                     continue;
                 }
                 let seen = (tile.seen[place][k], tile.depth[place][k]);
-                let is_seen = sight.is_seen(seen, t, &mut tile.planes);
+                let is_seen = flat.is_seen(line, shader, seen, t, &mut tile.planes);
                 let over = &mut tile.over[place][k];
                 if is_seen {
                     *over = 2 * number + 2;
@@ -165,44 +147,40 @@ pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, line: &Line, s
 }
 
 /// The planes of triangles that were asked for lately: the triangle, its face, a point and a normal.
-pub(super) type Planes = Vec<Option<(u32, u32, DVec3, DVec3)>>;
+pub(super) type Planes = Vec<Option<(u32, (u32, DVec3, DVec3))>>;
 
-/// Whether a line is before a triangle.
-struct Sight<'a> {
-    flat: &'a FlatLine,
-    line: &'a Line,
-    shader: &'a Shader<'a>,
-}
-
-impl Sight<'_> {
+impl FlatLine {
     /// Whether the line at `t` is before what a sample sees: a triangle at a depth.
-    fn is_seen(&self, (seen, sample): (u32, f32), t: f64, planes: &mut Planes) -> bool {
+    fn is_seen(
+        &self,
+        line: &Line,
+        shader: &Shader,
+        (seen, sample): (u32, f32),
+        t: f64,
+        planes: &mut Planes,
+    ) -> bool {
         if seen == NOTHING {
             return true;
         }
-        let [d0, d1] = self.flat.depths;
+        let [d0, d1] = self.depths;
         let depth = d0 + (d1 - d0) * t;
-        let view = self.shader.view;
+        let view = shader.view;
         // A curved surface comes forward beside its edges by less than this.
-        let bias = view.pixel(depth) * (1.0 + self.flat.radius);
+        let bias = view.pixel(depth) * (1.0 + self.radius);
         let limit = depth - view.depth_of(bias, depth);
         if f64::from(sample) >= limit {
             return true;
         }
         let n = planes.len();
         let entry = &mut planes[seen as usize % n];
-        let (face, p, n) = match *entry {
-            Some((id, face, p, n)) if id == seen => (face, p, n),
-            _ => {
-                let (face, p, n) = self.shader.plane(seen);
-                *entry = Some((seen, face, p, n));
-                (face, p, n)
-            }
-        };
-        if self.line.faces.contains(&face) {
+        if entry.is_none_or(|(id, ..)| id != seen) {
+            *entry = None;
+        }
+        let (_, (face, p, n)) = *entry.get_or_insert_with(|| (seen, shader.plane(seen)));
+        if line.faces.contains(&face) {
             return true;
         }
-        let surface = view.plane_depth(p, n, self.flat.place(t));
+        let surface = view.plane_depth(p, n, self.place(t));
         surface.is_none_or(|surface| surface >= limit)
     }
 }

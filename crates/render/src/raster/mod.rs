@@ -28,7 +28,7 @@ use glam::DVec2;
 use progress::Progress;
 use rayon::prelude::*;
 
-use crate::color::{byte, narrow, to_srgb};
+use crate::color::{byte, narrow, to_srgb, whole_u32};
 use crate::drawing::Drawing;
 use crate::image::{Image, checked_size};
 use crate::style::Shading;
@@ -161,8 +161,7 @@ pub fn render(
     let work = Work::new(progress, "draw", before + of_maps + of_tiles);
     work.add(0)?;
     let triangles = bins::Triangles::new(drawing, view, &frame, &work)?;
-    let flat_lines = lines::project(drawing, view);
-    let line_bins = bins::Lines::new(&flat_lines, &frame, &work)?;
+    let lines = bins::Lines::new(lines::project(drawing, view), &frame, &work)?;
     let shader = Shader::new(drawing, view, size, look, |n_maps| {
         work.add(of_maps / n_maps)
     })?;
@@ -176,30 +175,18 @@ pub fn render(
         .try_for_each(|(band, row)| {
             let tiles: Vec<Vec<[u8; 4]>> = (0..frame.columns)
                 .into_par_iter()
-                .map_init(
-                    || (Tile::new(), Vec::new()),
-                    |(tile, on_tile), column| {
-                        tile.begin(&frame, column, row);
-                        let number = (row * frame.columns + column) as usize;
-                        triangles.of(drawing, number, |id, flat| {
-                            draw(tile, id, flat, &shader);
-                        });
-                        line_bins.of(number, on_tile);
-                        for &line in &*on_tile {
-                            if let Some(flat) = &flat_lines[line as usize] {
-                                lines::draw(
-                                    tile,
-                                    line,
-                                    flat,
-                                    &drawing.lines[line as usize],
-                                    &shader,
-                                );
-                            }
-                        }
-                        work.add(of_tile)?;
-                        Ok(resolve(tile, &shader, look))
-                    },
-                )
+                .map_init(Tile::new, |tile, column| {
+                    tile.begin(&frame, column, row);
+                    let number = (row * frame.columns + column) as usize;
+                    triangles.of(drawing, number, |id, flat| {
+                        draw(tile, id, flat, &shader);
+                    });
+                    for (line, flat) in lines.of(number) {
+                        lines::draw(tile, line, flat, &shader);
+                    }
+                    work.add(of_tile)?;
+                    Ok(resolve(tile, &shader, look))
+                })
                 .collect::<Result<_, PictureError>>()?;
             for (tile, left) in tiles.iter().zip((0..width).step_by(TILE as usize)) {
                 let n = (width - left).min(TILE as usize);
@@ -240,8 +227,8 @@ fn draw(tile: &mut Tile, id: u32, flat: &Flat, shader: &Shader) {
 
 /// The pixels of a tile.
 fn resolve(tile: &Tile, shader: &Shader, look: &Look) -> Vec<[u8; 4]> {
-    let mut pixels =
-        Vec::with_capacity(((tile.right - tile.left) * (tile.bottom - tile.top)) as usize);
+    let n_pixels = (tile.right - tile.left) * (tile.bottom - tile.top);
+    let mut pixels = Vec::with_capacity(n_pixels as usize);
     let nothing = finished([0.0; 4], look.background);
     let mut memory = Memory::default();
     for y in tile.top..tile.bottom {
@@ -295,14 +282,8 @@ fn shaded(
             color = [r, g, b, 1.0];
         }
         if let Some([r, g, b, a]) = line {
-            let [s, t, u, v] = color;
-            let rest = 1.0 - a;
-            color = [
-                r * a + s * rest,
-                g * a + t * rest,
-                b * a + u * rest,
-                a + v * rest,
-            ];
+            let over = [r * a, g * a, b * a, a];
+            color = std::array::from_fn(|i| over[i] + color[i] * (1.0 - a));
         }
         for (sum, c) in sum.iter_mut().zip(color) {
             *sum += c * n;
@@ -335,27 +316,19 @@ fn place(
     if !(0.0..w).contains(&seen.at.x) || !(0.0..h).contains(&seen.at.y) {
         return None;
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "inside the picture"
-    )]
-    let [x, y] = seen.at.to_array().map(|x| x as u32);
+    let [x, y] = seen.at.to_array().map(whole_u32);
     let number = (y / TILE * frame.columns + x / TILE) as usize;
     let nearer = view.depth_of(2.0 * view.pixel(seen.depth), seen.depth);
     let limit = narrow(seen.depth - nearer);
-    let mut is_hidden = false;
     // As if it were a tile of one pixel.
     let mut tile = Tile::new();
     (tile.left, tile.top, tile.right, tile.bottom) = (x, y, x + 1, y + 1);
     triangles.of(drawing, number, |id, flat| {
         tile.draw(id, flat, u16::MAX);
     });
-    let nearest = nearest_sample(seen.at);
-    is_hidden |= tile.depth[0][nearest] < limit;
     Some(PlacedLabel {
         at: seen.at,
-        is_hidden,
+        is_hidden: tile.depth[0][nearest_sample(seen.at)] < limit,
     })
 }
 

@@ -6,12 +6,11 @@
 
 use std::borrow::Cow;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::shade::surface_place;
 use crate::PictureError;
-use crate::color::narrow;
 use crate::drawing::{Drawing, Part, Surface};
 
 /// Maps, each for two opposite directions.
@@ -42,7 +41,7 @@ pub(super) struct Occlusion {
 
 struct Map {
     /// The directions of its columns, of its rows, and of depth.
-    axes: [[f32; 3]; 3],
+    axes: [Vec3; 3],
     /// The largest depth in each texel, and the largest seen from the other side: minus the least.
     depths: Vec<[f32; 2]>,
 }
@@ -55,14 +54,6 @@ fn direction(i: usize) -> DVec3 {
     let r = (1.0 - z * z).max(0.0).sqrt();
     let (sin, cos) = libm::sincos(turn);
     DVec3::new(r * cos, r * sin, z)
-}
-
-fn single(v: DVec3) -> [f32; 3] {
-    v.to_array().map(narrow)
-}
-
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 impl Occlusion {
@@ -81,43 +72,33 @@ impl Occlusion {
         let side = side(size) as usize;
         // One texel stays free at each border.
         let texel = 2.0 * radius / (side - 2) as f64;
-        let wide: Vec<_> = drawing
-            .parts
-            .iter()
-            .map(|part| {
-                if has_see_through(part) {
-                    Cow::Owned(opaque(part))
-                } else {
-                    wide(part, texel * SMALL)
-                }
-            })
-            .collect();
+        let parts = drawing.parts.iter();
+        let drawn: Vec<_> = parts.map(|part| drawn(part, texel * SMALL)).collect();
         let maps = (0..MAPS)
             .into_par_iter()
             .map(|i| {
                 let z = direction(i);
                 let x = z.any_orthonormal_vector();
-                let axes = [x, z.cross(x), z].map(single);
+                let axes = [x, z.cross(x), z].map(|axis| axis.as_vec3());
                 let mut depths = vec![[f32::NEG_INFINITY; 2]; side * side];
                 let mut places = Vec::new();
-                for (part, wide) in drawing.parts.iter().zip(&wide) {
-                    let has_small = wide.len() < part.triangles.len() && !has_see_through(part);
+                for (part, (triangles, has_small)) in drawing.parts.iter().zip(&drawn) {
                     places.clear();
                     let half = side as f32 / 2.0;
                     places.extend(part.points.iter().map(|&p| {
-                        let p = single((p - center) / texel);
-                        let step = |axis| step(dot(axis, p) + half);
+                        let p = ((p - center) / texel).as_vec3();
+                        let step = |axis: Vec3| step(axis.dot(p) + half);
                         Place {
                             at: [step(axes[0]), step(axes[1])],
-                            depth: dot(axes[2], p),
+                            depth: axes[2].dot(p),
                         }
                     }));
-                    if has_small {
+                    if *has_small {
                         for &p in &places {
                             dot_at(&mut depths, side, p);
                         }
                     }
-                    for triangle in wide.iter() {
+                    for triangle in triangles.iter() {
                         fill(&mut depths, side, triangle.map(|v| places[v as usize]));
                     }
                 }
@@ -137,16 +118,16 @@ impl Occlusion {
     /// for all.
     pub(super) fn open(&self, p: DVec3, normal: DVec3) -> f32 {
         // Away from its own surface, which the maps know to a texel only.
-        let p = single((p - self.center) / self.texel + normal * 2.0);
-        let n = single(normal);
+        let p = ((p - self.center) / self.texel + normal * 2.0).as_vec3();
+        let n = normal.as_vec3();
         let half = self.side as f32 / 2.0 - 0.5;
         let (mut open, mut all) = (0.0, 0.0);
         for map in &self.maps {
-            let along = dot(map.axes[2], n);
+            let along = map.axes[2].dot(n);
             let weight = along.abs();
             all += weight;
-            let depth = dot(map.axes[2], p);
-            let (x, y) = (dot(map.axes[0], p) + half, dot(map.axes[1], p) + half);
+            let depth = map.axes[2].dot(p);
+            let (x, y) = (map.axes[0].dot(p) + half, map.axes[1].dot(p) + half);
             let limit = (self.side - 2) as f32;
             let (x, y) = (x.clamp(0.0, limit), y.clamp(0.0, limit));
             #[expect(
@@ -175,43 +156,27 @@ impl Occlusion {
 /// corners alone cover all texels whose middles it covers.
 const SMALL: f64 = 0.85;
 
-/// Whether some surfaces of a part hide little of what is behind them.
-fn has_see_through(part: &Part) -> bool {
-    part.materials.iter().any(Surface::is_see_through)
-}
-
-/// The triangles of a part that hide what is behind them.
-fn opaque(part: &Part) -> Vec<[u32; 3]> {
-    let is_opaque = |i: usize| {
-        let surface = part.materials.get(surface_place(part, i));
-        !surface.is_some_and(Surface::is_see_through)
+/// The triangles of a part that are drawn into maps, and whether its points are drawn for the others: those without an
+/// edge of at least this length. Of a part with surfaces that hide little of what is behind them, all triangles of
+/// the other surfaces.
+fn drawn<'a>(part: &'a Part, length: f64) -> (Cow<'a, [[u32; 3]]>, bool) {
+    let has_see_through = part.materials.iter().any(Surface::is_see_through);
+    let is_drawn = |&i: &usize| {
+        if has_see_through {
+            let surface = part.materials.get(surface_place(part, i));
+            return !surface.is_some_and(Surface::is_see_through);
+        }
+        let [a, b, c] = part.corners_at(i);
+        let is_long = |edge: &DVec3| edge.length_squared() >= length * length;
+        [a - b, b - c, c - a].iter().any(is_long)
     };
-    let triangles = part.triangles.iter().enumerate();
-    triangles
-        .filter(|&(i, _)| is_opaque(i))
-        .map(|(_, t)| *t)
-        .collect()
-}
-
-/// The triangles of a part with an edge of at least this length.
-fn wide<'a>(part: &'a Part, length: f64) -> Cow<'a, [[u32; 3]]> {
-    let is_wide = |triangle: &[u32; 3]| {
-        let [a, b, c] = triangle.map(|v| part.points[v as usize]);
-        [a - b, b - c, c - a]
-            .iter()
-            .any(|edge| edge.length_squared() >= length * length)
-    };
-    let wide: Vec<[u32; 3]> = part
-        .triangles
-        .par_iter()
-        .with_min_len(4096)
-        .copied()
-        .filter(is_wide)
-        .collect();
-    if wide.len() == part.triangles.len() {
-        Cow::Borrowed(&part.triangles)
+    let triangles = (0..part.triangles.len()).into_par_iter().with_min_len(4096);
+    let drawn = triangles.filter(is_drawn).map(|i| part.triangles[i]);
+    let drawn: Vec<[u32; 3]> = drawn.collect();
+    if drawn.len() == part.triangles.len() {
+        (Cow::Borrowed(&part.triangles), false)
     } else {
-        Cow::Owned(wide)
+        (Cow::Owned(drawn), !has_see_through)
     }
 }
 

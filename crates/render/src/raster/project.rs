@@ -5,9 +5,9 @@
 //! on the grid, so that each sample on it is in one of them.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use crate::color::narrow;
+use crate::work::each;
 use crate::{Seen, View};
 
 /// Steps of the grid for a pixel, as a power of two.
@@ -55,7 +55,7 @@ impl Corner {
     }
 
     fn of(view: &View, v: DVec3) -> Self {
-        if v.z < view.near() {
+        if v.z < view.near {
             return Self::OUTSIDE;
         }
         let seen = view.project(v);
@@ -69,13 +69,7 @@ impl Corner {
 
 /// Where points are seen.
 pub(super) fn project(view: &View, points: &[DVec3]) -> Vec<Corner> {
-    let mut corners = Vec::new();
-    points
-        .par_iter()
-        .with_min_len(4096)
-        .map(|&p| Corner::of(view, view.turned(p)))
-        .collect_into_vec(&mut corners);
-    corners
+    each(points.len(), |i| Corner::of(view, view.turned(points[i])))
 }
 
 /// What is left of a triangle inside the limits: a convex polygon cut into triangles.
@@ -107,11 +101,8 @@ pub(super) fn clipped(view: &View, corners: [DVec3; 3]) -> Vec<Flat> {
             return Vec::new();
         }
     }
-    let seen: Vec<Corner> = polygon
-        .iter()
-        .map(|&v| Corner::new(view.project(v)))
-        .collect();
-    (2..seen.len())
-        .map(|i| [seen[0], seen[i - 1], seen[i]])
-        .collect()
+    let seen = polygon.iter().map(|&v| Corner::new(view.project(v)));
+    let seen: Vec<Corner> = seen.collect();
+    let fan = |pair: &[Corner]| [seen[0], pair[0], pair[1]];
+    seen[1..].windows(2).map(fan).collect()
 }

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use super::Look;
 use super::occlusion::Occlusion;
 use crate::color::{mix, narrow};
-use crate::drawing::{Drawing, Normals, Part, Surface};
+use crate::drawing::{Drawing, Part, Surface};
 use crate::style::Shading;
 use crate::{PictureError, View};
 
@@ -285,8 +285,8 @@ impl<'a> Shader<'a> {
         open: f32,
         surface: Option<&Surface>,
     ) -> [f32; 3] {
-        let [x, y, z] = self.view.axes();
-        let n = DVec3::new(normal.dot(x), normal.dot(y), normal.dot(z));
+        let seen = |v: DVec3| DVec3::from(self.view.axes().map(|axis| v.dot(axis)));
+        let n = seen(normal);
         if self.look.shading == Shading::Matcap {
             return matcap(color, n, open);
         }
@@ -302,11 +302,10 @@ impl<'a> Shader<'a> {
             return light;
         }
         // Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977.
-        let eye = DVec3::new(to_eye.dot(x), to_eye.dot(y), to_eye.dot(z));
         let roughness = surface.map_or(1.0, |s| s.roughness).clamp(0.0, 1.0);
         let exponent = 24.0 + 200.0 * (1.0 - roughness);
         let strength = 0.22 + 0.4 * (1.0 - roughness);
-        let half = (self.key + eye).normalize_or_zero();
+        let half = (self.key + seen(to_eye)).normalize_or_zero();
         let glint = libm::powf(narrow(n.dot(half).max(0.0)), exponent) * strength * direct;
         light.map(|c| c + glint)
     }
@@ -314,12 +313,8 @@ impl<'a> Shader<'a> {
 
 /// The normal that light falls on, of length 1.
 fn normal(part: &Part, triangle: usize, spot: &Spot) -> DVec3 {
-    let given = match &part.normals {
-        Normals::Triangle => DVec3::ZERO,
-        Normals::Given(channel) => {
-            DVec3::from(channel.at(part, triangle, spot.weights).map(f64::from)).normalize_or_zero()
-        }
-    };
+    let given = part.normals.at(part, triangle, spot.weights);
+    let given = DVec3::from(given.map(f64::from)).normalize_or_zero();
     if given == DVec3::ZERO {
         return spot.normal;
     }

@@ -7,7 +7,7 @@ use super::project::{Corner, GRID};
 use super::shade::{FILL, FILL_LIGHT, GROUND, KEY, KEY_LIGHT, SKY};
 use super::tile::{NOTHING, SAMPLES, Tile};
 use super::{Look, Rendered, TILE, render};
-use crate::drawing::{Channel, Drawing, Label, Line, NO_FACE, Normals, Part, Surface};
+use crate::drawing::{Channel, Drawing, Label, Line, NO_FACE, Part, Surface};
 use crate::style::Shading;
 use crate::work::While;
 use crate::{Camera, PictureError, Projection, Side, Up, View, to_linear};
@@ -21,7 +21,7 @@ fn part(points: Vec<DVec3>, triangles: Vec<[u32; 3]>, color: [f32; 3]) -> Part<'
         triangles,
         corners: Vec::new(),
         faces: Vec::new(),
-        normals: Normals::Triangle,
+        normals: Channel::All([0.0; 3]),
         colors: Channel::All(color),
         marks: Vec::new(),
         materials: vec![Surface::default()],

@@ -9,7 +9,7 @@ use std::ops::{Add, BitOr, Mul, Sub};
 use crate::color::narrow;
 
 use super::lines::Planes;
-use super::project::{Flat, GRID, GRID_BITS};
+use super::project::{Corner, Flat, GRID, GRID_BITS};
 use super::{Frame, TILE};
 
 /// Samples of a pixel.
@@ -89,18 +89,9 @@ impl Tile {
             return;
         };
         // In 32 bits the arithmetic is exact for triangles of less than 64 pixels: 32 to each side.
-        let [x0, y0, x1, y1] = setup.limits;
-        let reach = flat.iter().flat_map(|c| {
-            [
-                c.at[0].abs_diff(flat[0].at[0]),
-                c.at[1].abs_diff(flat[0].at[1]),
-            ]
-        });
-        let is_small = mask == u16::MAX && reach.max().unwrap_or(0) < 1 << 13;
-        if x0 > x1 || y0 > y1 {
-            return;
-        }
-        if is_small {
+        let first = flat[0].at;
+        let is_near = |c: &Corner| (0..2).all(|i| c.at[i].abs_diff(first[i]) < 1 << 13);
+        if mask == u16::MAX && flat.iter().all(is_near) {
             self.fill::<i32>(id, &setup, mask);
         } else {
             self.fill::<i64>(id, &setup, mask);
@@ -120,9 +111,7 @@ impl Tile {
         let [x0, y0, x1, y1] = setup.limits;
         for y in y0..=y1 {
             for x in x0..=x1 {
-                let mask = (0..SAMPLES)
-                    .filter(|&k| setup.is_inside(x, y, k) && covers([x, y], k))
-                    .fold(0, |mask, k| mask | 1 << k);
+                let mask = mask_of(|k| setup.is_inside(x, y, k) && covers([x, y], k));
                 if mask != 0 {
                     setup.limits = [x, y, x, y];
                     self.fill::<i64>(id, &setup, mask);
@@ -137,7 +126,7 @@ impl Tile {
     )]
     fn fill<T: Number>(&mut self, id: u32, setup: &Setup, mask: u16) {
         let [x0, y0, x1, y1] = setup.limits;
-        let edges = setup.edges.map(Edge::of::<T>);
+        let edges = setup.edges.map(|edge| edge.map(T::of));
         // What each edge changes from the middle of a pixel to its samples.
         let mut aside = edges.map(|[a, b, _]| {
             PLACES.map(|[x, y]| a * T::of(i64::from(x)) + b * T::of(i64::from(y)))
@@ -208,23 +197,15 @@ impl Number for i32 {
     }
 }
 
-/// An edge: a x + b y + c is not negative inside, seen from the first corner of its triangle.
-#[derive(Clone, Copy)]
-struct Edge {
-    a: i64,
-    b: i64,
-    c: i64,
-}
-
-impl Edge {
-    fn of<T: Number>(self) -> [T; 3] {
-        [self.a, self.b, self.c].map(T::of)
-    }
+/// The bits of the samples for which something holds.
+pub(super) fn mask_of(mut holds: impl FnMut(usize) -> bool) -> u16 {
+    (0..SAMPLES).fold(0, |mask, k| mask | u16::from(holds(k)) << k)
 }
 
 /// What filling a triangle needs.
 struct Setup {
-    edges: [Edge; 3],
+    /// a, b and c of each edge: a x + b y + c is not negative inside, seen from the first corner.
+    edges: [[i64; 3]; 3],
     /// The first and the last pixel to look at, from left to right and from top to bottom.
     limits: [u32; 4],
     /// The first corner.
@@ -240,8 +221,7 @@ impl Setup {
     /// `None` if the triangle has no area or is not on the tile.
     fn new(flat: &Flat, tile: &Tile) -> Option<Self> {
         let [o, mut p, mut q] = *flat;
-        let from_o =
-            |c: super::project::Corner| [c.at[0] - o.at[0], c.at[1] - o.at[1]].map(i64::from);
+        let from_o = |c: Corner| [c.at[0] - o.at[0], c.at[1] - o.at[1]].map(i64::from);
         let (mut u, mut v) = (from_o(p), from_o(q));
         let mut area = u[0] * v[1] - u[1] * v[0];
         if area == 0 {
@@ -269,16 +249,9 @@ impl Setup {
             let (a, b) = (s[1] - t[1], t[0] - s[0]);
             let c = -(a * s[0] + b * s[1]);
             let is_mine = a > 0 || (a == 0 && b > 0);
-            Edge {
-                a,
-                b,
-                c: if is_mine { c } else { c - 1 },
-            }
+            [a, b, if is_mine { c } else { c - 1 }]
         };
-        let (dp, dq) = (
-            f64::from(p.depth) - f64::from(o.depth),
-            f64::from(q.depth) - f64::from(o.depth),
-        );
+        let [dp, dq] = [p, q].map(|c| f64::from(c.depth) - f64::from(o.depth));
         let [ux, uy, vx, vy] = [u[0], u[1], v[0], v[1]].map(|x| x as f64);
         let area = area as f64;
         Some(Self {
@@ -296,7 +269,7 @@ impl Setup {
     fn is_inside(&self, x: u32, y: u32, sample: usize) -> bool {
         let (from, aside) = (self.from(x, y), PLACES[sample].map(i64::from));
         let [x, y] = [from[0] + aside[0], from[1] + aside[1]];
-        self.edges.iter().all(|e| e.a * x + e.b * y + e.c >= 0)
+        self.edges.iter().all(|[a, b, c]| a * x + b * y + c >= 0)
     }
 
     /// The middle of a pixel, from the first corner.

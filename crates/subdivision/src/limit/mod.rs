@@ -13,11 +13,11 @@ mod masks;
 mod star;
 
 use mesh::{DVec3, FaceId, HalfEdgeId, Mesh, VertexId};
-use progress::{Cancelled, Progress};
+use progress::{Cancelled, Meter, Progress};
 
 use crate::error::SubdivisionError;
 use crate::input::{check_faces, dense};
-use crate::parallel::{Meter, any, computed, fill_uncounted, in_blocks, of_blocks};
+use crate::parallel::{any, computed, fill_uncounted, in_blocks, of_blocks};
 use crate::rules::Rules;
 use crate::sharpness::Sharpness;
 use masks::Plane;
@@ -178,12 +178,12 @@ impl<'a> At<'a> {
                 ..AtVertex::default()
             };
         }
-        let is_sharp = star.is_inner && star.sharp.iter().filter(|&&s| s > 0.0).count() > 1
-            || !star.is_inner && star.sharp.iter().filter(|&&s| s > 0.0).count() > 2;
+        let n_sharp = star.sharp.iter().filter(|&&s| s > 0.0).count();
         AtVertex {
             position: star.limit(),
             tangents: star.tangents(Plane::first_of(star)),
-            is_sharp,
+            // Both edges of the boundary are sharp.
+            is_sharp: n_sharp > if star.is_inner { 1 } else { 2 },
         }
     }
 

@@ -1,11 +1,11 @@
 //! Where a level smooths: inside of the chosen faces.
 
-use mesh::{DVec3, EdgeId, Mesh};
-use progress::Cancelled;
+use mesh::{DVec3, Mesh};
+use progress::{Cancelled, Meter};
 
 use super::pieces::Pieces;
 use crate::masks::AnyMasks;
-use crate::parallel::{Meter, fill};
+use crate::parallel::fill;
 use crate::topology::Topology;
 
 /// What belongs to the chosen faces alone.
@@ -36,34 +36,19 @@ pub(super) struct AreaMasks<'a> {
     pub(super) masks: &'a dyn AnyMasks,
 }
 
-/// Where a vertex comes from.
-enum Source {
-    /// From this vertex of the whole level.
-    Whole(usize),
-    /// From this old vertex, which stays.
-    Old(usize),
-    /// From the middle of this edge.
-    Middle(EdgeId),
-}
-
 impl AreaMasks<'_> {
-    fn source(&self, i: usize) -> Source {
+    /// The vertex of the whole level that vertex `i` is, if that is smoothed.
+    fn whole(&self, i: usize) -> Option<usize> {
         let pieces = self.pieces;
         let (n_vertices, n_edges) = (pieces.mesh.n_vertices(), pieces.mesh.n_edges());
         let Some(new) = i.checked_sub(n_vertices) else {
-            return if pieces.moves(i) {
-                Source::Whole(i)
-            } else {
-                Source::Old(i)
-            };
+            return pieces.moves(i).then_some(i);
         };
         match pieces.middles.get(new) {
-            Some(e) if pieces.smooths(e) => Source::Whole(n_vertices + e.index()),
-            Some(e) => Source::Middle(e),
+            Some(e) => pieces.smooths(e).then_some(n_vertices + e.index()),
             None => {
-                let f = pieces.centers.get(new - pieces.middles.len());
-                let f = f.expect("a vertex on no edge is in a face");
-                Source::Whole(n_vertices + n_edges + f.index())
+                let f = pieces.centers.get(new - pieces.middles.len())?;
+                Some(n_vertices + n_edges + f.index())
             }
         }
     }
@@ -71,14 +56,17 @@ impl AreaMasks<'_> {
 
 impl AnyMasks for AreaMasks<'_> {
     fn mask(&self, i: usize, add: &mut dyn FnMut(usize, f64)) {
-        match self.source(i) {
-            Source::Whole(i) => self.masks.mask(i, add),
-            Source::Old(i) => add(i, 1.0),
-            Source::Middle(e) => {
-                for v in self.pieces.mesh.edge_vertices(e) {
-                    add(v.index(), 0.5);
-                }
-            }
+        let (mesh, middles) = (self.pieces.mesh, &self.pieces.middles);
+        if let Some(i) = self.whole(i) {
+            return self.masks.mask(i, add);
+        }
+        let new = i.checked_sub(mesh.n_vertices());
+        match new.and_then(|new| middles.get(new)) {
+            Some(e) => mesh
+                .edge_vertices(e)
+                .iter()
+                .for_each(|v| add(v.index(), 0.5)),
+            None => add(i, 1.0),
         }
     }
 
@@ -93,8 +81,8 @@ impl AnyMasks for AreaMasks<'_> {
         };
         let mut new: Vec<DVec3> = mesh::zeroed(n);
         fill(&mut new, meter, |i| {
-            if let (false, Source::Whole(i)) = (whole.is_empty(), self.source(i)) {
-                return whole[i];
+            if let Some(value) = self.whole(i).and_then(|i| whole.get(i)) {
+                return *value;
             }
             let mut sum = DVec3::ZERO;
             self.mask(i, &mut |source, w| sum += old[source] * w);

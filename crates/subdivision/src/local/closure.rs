@@ -1,10 +1,10 @@
 //! Which faces and edges a level cuts.
 
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh};
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
 use super::sides;
-use crate::parallel::{BLOCK, Meter};
+use crate::parallel::BLOCK;
 
 /// What becomes of a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

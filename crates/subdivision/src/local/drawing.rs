@@ -10,7 +10,7 @@ use crate::links;
 /// The arrays of the next level while they are filled.
 pub(super) struct Drawing<'a> {
     pieces: &'a Pieces<'a>,
-    new: Connectivity,
+    pub(super) new: Connectivity,
     /// The half-edges of a face.
     ring: Vec<HalfEdgeId>,
 }
@@ -18,22 +18,7 @@ pub(super) struct Drawing<'a> {
 impl<'a> Drawing<'a> {
     /// The vertices, the parts of old edges, and the boundary.
     pub(super) fn of_edges(pieces: &'a Pieces<'a>) -> Self {
-        let mut drawing = Self {
-            pieces,
-            new: links::zeroed(pieces.counts()),
-            ring: Vec::new(),
-        };
-        drawing.draw_edges();
-        drawing
-    }
-
-    /// All arrays, when every face is drawn.
-    pub(super) fn done(self) -> Connectivity {
-        self.new
-    }
-
-    fn draw_edges(&mut self) {
-        let (pieces, mesh, new) = (self.pieces, self.pieces.mesh, &mut self.new);
+        let (mesh, mut new) = (pieces.mesh, links::zeroed(pieces.counts()));
         for v in mesh.vertices() {
             let leaving = mesh.vertex_half_edge(v);
             new.vertex_half_edge[v.index()] = leaving.map_or(HalfEdgeId::NONE, |h| pieces.first(h));
@@ -59,6 +44,8 @@ impl<'a> Drawing<'a> {
                 new.next[last.index()] = pieces.first(mesh.next(h));
             }
         }
+        let ring = Vec::new();
+        Self { pieces, new, ring }
     }
 
     /// Joins the half-edges of the ring to a face that begins at one of them, and empties it.

@@ -16,13 +16,13 @@
 //! ```
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
 use super::area::Area;
 use super::closure::{Cut, Cuts};
 use super::drawing::Drawing;
 use super::sides;
-use crate::parallel::{BLOCK, Meter};
+use crate::parallel::BLOCK;
 use crate::topology::{Place, Topology};
 
 /// A dense mesh and what becomes of its elements.
@@ -241,7 +241,7 @@ impl Topology for Pieces<'_> {
                 Cut::Quads(_) => drawing.cut_into_quads(f),
             }
         }
-        Ok(drawing.done())
+        Ok(drawing.new)
     }
 
     fn corner(&self, i: usize) -> Place {

@@ -13,11 +13,11 @@
 //! Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes", 1978.
 
 use mesh::{DVec3, EdgeId, FaceId, Mesh, VertexId};
-use progress::Cancelled;
+use progress::{Cancelled, Meter};
 
 use super::midpoint::center;
 use super::{Masks, at_vertex};
-use crate::parallel::{Meter, fill};
+use crate::parallel::fill;
 use crate::sharpness::Sharpness;
 
 pub(crate) struct CatmullClarkMasks<'a> {

@@ -187,7 +187,7 @@ fn the_plan_turns_patches_into_a_mesh() {
         planned(&parse("(segments: 10, uvs: true)"), &mut plan, None),
         []
     );
-    let PlannedGeometry::Mesh(mesh) = &plan.objects[0].geometry else {
+    let PlannedGeometry::Mesh(mesh) = &plan.objects()[0].geometry else {
         panic!("a mesh");
     };
     assert_eq!(mesh.faces, Range::at_most(6400));

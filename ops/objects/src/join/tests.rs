@@ -267,9 +267,9 @@ fn the_plan_is_what_happens() {
     assert_eq!(step.plan(&mut plan, &cx), []);
     op::test::run(&step, &mut scene).unwrap();
 
-    let names: Vec<_> = plan.objects.iter().map(|o| o.name.as_str()).collect();
+    let names: Vec<_> = plan.objects().iter().map(|o| o.name.as_str()).collect();
     assert_eq!(names, ["x", "all"]);
-    let PlannedGeometry::Mesh(planned) = &plan.objects[1].geometry else {
+    let PlannedGeometry::Mesh(planned) = &plan.objects()[1].geometry else {
         panic!("a mesh");
     };
     let actual = MeshPlan::of(&mesh_of(&scene, "all"));

@@ -27,7 +27,7 @@ pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Probl
         }
         Quantity::Attribute { name, .. } if !plan.incomplete => {
             let mut known = Vec::new();
-            for object in &plan.objects {
+            for object in plan.objects() {
                 if let PlannedGeometry::Mesh(mesh) = &object.geometry {
                     if mesh.others {
                         return problems;

@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::trace::trace;
 use super::{CURVE, FAINT, POINT, POLYGON, Panel, TEXT, WHITE, level_color, names};
 use crate::figure::label::shortened;
-use crate::figure::svg::{Anchor, Font, Paint, Path, Run, Svg, Text};
+use crate::figure::svg::{Anchor, Font, Paint, Run, Svg, Text};
 
 /// The radius of control points, in pixels of a wide panel.
 pub(super) const RADIUS: f64 = 4.2;
@@ -65,8 +65,7 @@ pub(super) fn draw(
         }
     });
     if labels {
-        let arrows = before.map(|before| arrows(&before, &curve));
-        let arrows = arrows.unwrap_or_default();
+        let arrows = before.map_or(Vec::new(), |before| arrows(&before, &curve));
         svg.group("names", |svg| {
             names::draw(svg, &curve, &levels, &arrows, area, zoom);
         });
@@ -99,8 +98,8 @@ fn arrows(before: &Curve<DVec2>, now: &Curve<DVec2>) -> Vec<[DVec2; 2]> {
         return Vec::new();
     }
     let pairs = before.points().iter().zip(now.points());
-    pairs
-        .map(|(&from, &to)| [from, to])
+    let arrows = pairs.map(|(&from, &to)| [from, to]);
+    arrows
         .filter(|[from, to]| from.distance(*to) > 28.0)
         .collect()
 }
@@ -110,11 +109,9 @@ fn draw_arrow(svg: &mut Svg, from: DVec2, to: DVec2) {
     let side = way.perp() * 4.0;
     let neck = to - way * 9.0;
     svg.polyline(&[from, neck], &Paint::stroke(POLYGON, 1.3));
-    let mut head = Path::new();
-    head.move_to(to);
-    head.line_to(neck + side);
-    head.line_to(neck - side);
-    head.close();
+    let corners = [('M', to), ('L', neck + side), ('L', neck - side)];
+    let mut head: Vec<_> = corners.map(|(letter, p)| (letter, vec![p])).into();
+    head.push(('Z', Vec::new()));
     svg.path(&head, &Paint::fill(POLYGON));
 }
 
@@ -147,7 +144,7 @@ fn shown(t: f64) -> String {
     if is_other_end {
         format!("{t:e}")
     } else {
-        format!("{rounded}")
+        rounded.to_string()
     }
 }
 

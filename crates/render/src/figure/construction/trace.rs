@@ -3,7 +3,7 @@
 use bezier::Curve;
 use glam::DVec2;
 
-use crate::figure::svg::Path;
+use crate::figure::svg::Command;
 
 /// A path is no farther from its curve than this, in pixels.
 const TOLERANCE: f64 = 0.02;
@@ -18,21 +18,16 @@ const MAX_HALVINGS: u32 = 10;
 /// (Hermite's interpolation; Farin, "Curves and Surfaces for CAGD", 5th edition, 2002, §7.5); an interval is halved
 /// until a quarter, the half and three quarters of its piece lie on the curve. An end where the curve stands
 /// still is drawn as the point that it is.
-pub(super) fn trace(curve: &Curve<DVec2>) -> Path {
-    let mut path = Path::new();
+pub(super) fn trace(curve: &Curve<DVec2>) -> Vec<Command> {
     let points = curve.points();
-    path.move_to(points[0]);
-    match *points {
+    let mut path = vec![('M', points[..1].to_vec())];
+    match points {
         // With round ends, a line without length is a dot.
-        [a] => path.line_to(a),
-        [_, b] => path.line_to(b),
-        [_, b, c] => path.quadratic_to(b, c),
-        [_, b, c, d] => path.cubic_to(b, c, d),
-        _ => {
-            for [b, c, d] in pieces(curve) {
-                path.cubic_to(b, c, d);
-            }
+        [_] => path.push(('L', points.to_vec())),
+        [_, rest @ ..] if rest.len() <= 3 => {
+            path.push((['L', 'Q', 'C'][rest.len() - 1], rest.to_vec()));
         }
+        _ => path.extend(pieces(curve).iter().map(|piece| ('C', piece.to_vec()))),
     }
     path
 }
@@ -64,11 +59,9 @@ fn hermite(curve: &Curve<DVec2>, t: f64, h: f64) -> [DVec2; 4] {
 }
 
 fn is_near(curve: &Curve<DVec2>, piece: &[DVec2; 4], t: f64, h: f64) -> bool {
-    let piece = Curve::new(piece.to_vec());
-    piece.is_ok_and(|piece| {
-        [0.25, 0.5, 0.75]
-            .iter()
-            .all(|&s| piece.point(s).distance(curve.point(t + s * h)) < TOLERANCE)
+    Curve::new(piece.to_vec()).is_ok_and(|piece| {
+        let is_near = |s| piece.point(s).distance(curve.point(t + s * h)) < TOLERANCE;
+        [0.25, 0.5, 0.75].into_iter().all(is_near)
     })
 }
 

@@ -11,7 +11,7 @@
 
 use op::{Entry, Registry};
 
-use crate::read::VERSION;
+use crate::read::{VERSION, other_version};
 use crate::schema::{self, Schemas};
 use crate::shape::{Checked, check_step, checked};
 use ron_tree::{Diagnostic, LineIndex, Span, Value, ValueKind};
@@ -92,22 +92,11 @@ fn wrong_version(root: &Value) -> Option<Diagnostic> {
         let message = "expected a recipe, found a text without `recipe: 1`";
         return Some(Diagnostic::error(root.span, message));
     };
-    let number = match &version.kind {
-        ValueKind::Number(number) => number.to_int(),
-        _ => None,
-    };
-    match number {
-        Some(VERSION) => None,
-        Some(found) if found > VERSION => {
-            let message = format!("this recipe is of version {found}, expected {VERSION}");
-            let help = "a newer meshwright can read it; there is nothing to upgrade here";
-            Some(Diagnostic::error(version.span, message).with_help(help))
-        }
-        _ => {
-            let message = format!("expected version {VERSION}, found {}", version.describe());
-            Some(Diagnostic::error(version.span, message).with_help("write 1"))
-        }
+    if matches!(&version.kind, ValueKind::Number(number) if number.is_int()) {
+        return other_version(root, "recipe", VERSION);
     }
+    let message = format!("expected version {VERSION}, found {}", version.describe());
+    Some(Diagnostic::error(version.span, message).with_help("write 1"))
 }
 
 /// `Name(..)`, or `(run: Name(..), ..)`; steps may hold lists of steps.

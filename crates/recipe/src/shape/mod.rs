@@ -144,8 +144,6 @@ struct Checker {
     diagnostics: Vec<Diagnostic>,
     /// How many more there are than are kept.
     more: usize,
-    /// How many values around this one are tried against several schemas.
-    trials: u32,
     /// Older names that were met.
     renames: Vec<Rename>,
     /// Names that were left out.
@@ -154,9 +152,6 @@ struct Checker {
 
 /// Most problems of one value that are reported one by one.
 const MAX_DIAGNOSTICS: usize = 100;
-
-/// Most trials inside each other: each multiplies the time by the number of alternatives.
-const MAX_TRIALS: u32 = 4;
 
 impl Checker {
     fn finish(mut self) -> Checked {
@@ -229,13 +224,8 @@ impl Checker {
         if let Some(choice) = schema.choice() {
             return self.check_choice(value, schema, &choice, place);
         }
-        match schema.types()[..] {
-            _ if schema.allows_nothing() => {
-                let message = format!("no value is allowed{}", place.of());
-                self.report(value, value.span, message, None);
-            }
-            [] => {}
-            [one, ..] => self.check_type(value, schema, one, place),
+        if let [one, ..] = schema.types()[..] {
+            self.check_type(value, schema, one, place);
         }
     }
 

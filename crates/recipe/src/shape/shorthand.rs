@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use std::cmp::Reverse;
 
 use super::schema::{Choice, Schema};
-use super::{Checker, MAX_TRIALS, Place, did_you_mean};
+use super::{Checker, Place, did_you_mean};
 use crate::upgrade::Rename;
 use ron_tree::{Call, Diagnostic, Name, Span, Value, ValueKind};
 
@@ -32,14 +32,7 @@ impl Checker {
         choice: &Choice,
         place: Place,
     ) {
-        if self.trials >= MAX_TRIALS {
-            return;
-        }
-        let trial = || Self {
-            trials: self.trials + 1,
-            ..Self::default()
-        };
-        let mut whole = trial();
+        let mut whole = Self::default();
         whole.check_variant(value, schema, choice, place);
         if whole.diagnostics.is_empty() {
             return self.take(whole);
@@ -47,7 +40,7 @@ impl Checker {
         let mut trials = Vec::new();
         for name in choice.names() {
             if let Some(content) = choice.content(name) {
-                let mut trial = trial();
+                let mut trial = Self::default();
                 trial.check(value, &content, place);
                 trials.push((name, content, trial));
             }

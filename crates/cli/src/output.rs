@@ -244,8 +244,5 @@ pub(crate) fn begin(path: &Path, bytes: &[u8]) -> Result<Box<dyn NewFile>, Store
         file.sync()?;
         Ok(file)
     };
-    begin().map_err(|error| StoreError::Write {
-        path: path.to_owned(),
-        error,
-    })
+    begin().map_err(|error| StoreError::new("write", path, error))
 }

@@ -136,7 +136,7 @@ pub fn edit_each<I: Edited>(
             match on_refusal {
                 OnRefusal::Error => return Err(refused()),
                 OnRefusal::Skip => {
-                    report.count_refused(refusal.into(), 1, || refused().to_string())
+                    report.count_refused(refusal.into(), 1, || refused().to_string());
                 }
             }
         } else {

@@ -143,7 +143,7 @@ impl Files {
     ///
     /// # Errors
     ///
-    /// [`StoreError::Folder`] if that cannot be done.
+    /// [`StoreError`] if that cannot be done.
     pub fn make_folder_of(&self, path: &Path) -> Result<(), StoreError> {
         self.store.make_folder(store::folder_of(path))
     }

@@ -318,18 +318,16 @@ impl Known {
     }
 
     fn forecast(&self, step: &RecipeStep, is_incomplete: bool) -> StepForecast {
-        let or_more = |count: Range| match is_incomplete {
-            true => Range {
-                max: u64::MAX,
-                ..count
-            },
-            false => count,
+        let unknown = if is_incomplete {
+            Range::ANY
+        } else {
+            Range::exactly(0)
         };
         StepForecast {
             label: step.label().to_owned(),
-            vertices: or_more(self.vertices),
-            edges: or_more(self.edges),
-            faces: or_more(self.faces),
+            vertices: self.vertices.plus(unknown),
+            edges: self.edges.plus(unknown),
+            faces: self.faces.plus(unknown),
             bytes: self.bytes,
         }
     }

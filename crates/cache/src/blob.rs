@@ -82,7 +82,7 @@ impl Arrays for Stored<'_> {
 
 fn store_bytes(folder: &Folder, blob: BlobRef, bytes: &[u8]) -> bool {
     let path = folder.path(Kind::Blob, &blob.hash);
-    is_there(&path, blob.len)
+    is_stored(folder, &blob)
         || folder.write(&path, |file| {
             file.write_all(bytes)?;
             Ok(blob.len)
@@ -90,12 +90,12 @@ fn store_bytes(folder: &Folder, blob: BlobRef, bytes: &[u8]) -> bool {
 }
 
 /// Whether a blob is stored already. Its content is looked at when it is read.
-fn is_there(path: &Path, len: u64) -> bool {
-    let there = fs::metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() == len);
-    if there {
-        Folder::touch(path);
+fn is_stored(folder: &Folder, blob: &BlobRef) -> bool {
+    let is_there = seems_there(folder, blob);
+    if is_there {
+        Folder::touch(&folder.path(Kind::Blob, &blob.hash));
     }
-    there
+    is_there
 }
 
 fn load_bytes(folder: &Folder, blob: &BlobRef, into: &mut [u8]) -> Result<(), Unusable> {
@@ -118,7 +118,7 @@ pub(crate) fn store_file(folder: &Folder, path: &Path) -> Option<BlobRef> {
         from.seek(SeekFrom::Start(0))?;
         io::copy(&mut from, out)
     };
-    (is_there(&to, len) || folder.write(&to, copy)).then_some(blob)
+    (is_stored(folder, &blob) || folder.write(&to, copy)).then_some(blob)
 }
 
 /// Whether a blob seems to be there, without reading it.

@@ -18,6 +18,7 @@ use crate::seen::Eyes;
 use crate::why::History;
 
 /// What is known of the scene before a step, or at the end.
+#[derive(Default)]
 struct Position {
     /// `None` if nobody can tell what it is.
     state: Option<State>,
@@ -87,8 +88,7 @@ impl CachedRun for Session<'_> {
             state: Some(key.after(&record.read.files)),
             digest: digest.or_else(|| self.last().digest.filter(|_| record.same)),
             step: Some((key, record)),
-            is_dirty: false,
-            lost: None,
+            ..Position::default()
         });
         Ok(finding)
     }
@@ -99,11 +99,8 @@ impl CachedRun for Session<'_> {
         let made_of = self.made_of.take();
         let read = self.eyes.read(done.uses);
         let mut position = Position {
-            state: None,
-            step: None,
-            is_dirty: false,
             digest: self.last().digest.filter(|_| same),
-            lost: None,
+            ..Position::default()
         };
         let Some(made_of) = made_of else {
             self.positions.push(position);
@@ -257,10 +254,7 @@ impl<'a> Session<'a> {
         let folder = &caching.cache.folder;
         let start = Position {
             state: Some(State::start()),
-            step: None,
-            is_dirty: false,
-            digest: None,
-            lost: None,
+            ..Position::default()
         };
         Self {
             folder,

@@ -10,7 +10,7 @@ use crate::key::{Ingredients, digest};
 use crate::record::{load_data, store_data};
 
 /// A step of the last run.
-#[derive(Clone, Debug, Deserialize, Serialize)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(crate) struct Past {
     pub(crate) made_of: Ingredients,
     /// Why it was not stored.
@@ -52,13 +52,7 @@ impl History {
             std::mem::take(&mut self.now),
             std::mem::take(&mut self.past),
         );
-        let is_same = now.len() >= past.len()
-            && now
-                .iter()
-                .zip(&past)
-                .all(|(a, b)| a.made_of == b.made_of && a.unknown == b.unknown)
-            && now.len() == past.len();
-        if !is_same {
+        if now != past {
             let all: Vec<Past> = now.into_iter().chain(past.into_iter().skip(n)).collect();
             store_data(folder, Kind::Recipe, &id, &all);
         }
@@ -128,24 +122,21 @@ fn changes(from: &str, to: &str) -> String {
     let text = |value: Option<&ron_tree::Value>| {
         // As recipes have it.
         let value = value.map(|value| value.some().unwrap_or(value));
-        value.map_or_else(|| "nothing".to_owned(), |value| short(&value.to_string()))
+        value.map_or_else(|| "nothing".to_owned(), ToString::to_string)
     };
     let changed = names.iter().filter_map(|name| {
-        let (from, to) = (from.field(name), to.field(name));
-        let (from, to) = (text(from), text(to));
-        (from != to).then(|| format!("{name} {from} -> {to}"))
+        let (from, to) = (text(from.field(name)), text(to.field(name)));
+        let (from_short, to_short) = (short(&from), short(&to));
+        if from == to {
+            None
+        } else if from_short == to_short {
+            // Long values that are alike at their beginning.
+            Some(name.clone())
+        } else {
+            Some(format!("{name} {from_short} -> {to_short}"))
+        }
     });
-    let changed: Vec<String> = changed.collect();
-    if changed.is_empty() {
-        // Long values that are alike at their beginning.
-        let differs = |name: &&String| {
-            let value = |value: &ron_tree::Value| value.field(name).map(ToString::to_string);
-            value(&from) != value(&to)
-        };
-        let names: Vec<&str> = names.iter().filter(differs).map(String::as_str).collect();
-        return names.join(", ");
-    }
-    changed.join(", ")
+    changed.collect::<Vec<_>>().join(", ")
 }
 
 /// The beginning of a text that may be long.

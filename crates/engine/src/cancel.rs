@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use op::Progress;
-use recipe::{Listener, StepDone};
+use recipe::Listener;
 
 /// A listener that hears nothing, and cancels the runs that it follows once it is set.
 #[derive(Debug, Default)]
@@ -32,7 +32,4 @@ impl Progress for Cancel {
     }
 }
 
-impl Listener for Cancel {
-    fn step_begins(&self, _: usize, _: &str) {}
-    fn step_done(&self, _: usize, _: &StepDone) {}
-}
+impl Listener for Cancel {}

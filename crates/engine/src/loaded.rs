@@ -1,7 +1,7 @@
 //! A recipe that was read and checked, and its runs.
 
 use op::Files;
-use recipe::{Diagnostic, Forecast, Listener, Outcome, Recipe, Settings, Severity, StepCache};
+use recipe::{Diagnostic, Forecast, Listener, Outcome, Recipe, Settings, StepCache};
 use scene::Scene;
 
 use crate::FileReader;
@@ -42,8 +42,7 @@ impl Loaded {
 
     /// How many errors there are.
     pub fn n_errors(&self) -> usize {
-        let is_error = |d: &&Diagnostic| d.severity == Severity::Error;
-        self.diagnostics.iter().filter(is_error).count()
+        self.diagnostics.iter().filter(|d| d.is_error()).count()
     }
 
     /// Runs the recipe, which must have no errors.

@@ -79,18 +79,20 @@ impl Report {
         self
     }
 
-    /// Counts an edit that was refused for this reason. Only the first of a reason is asked for its message.
-    pub(crate) fn refuse_as(
+    /// Counts edits that were refused for this reason. Only the first of a reason is asked for its message.
+    pub(crate) fn count_refused(
         &mut self,
         reason: Refusal,
-        error: impl FnOnce() -> OpError,
-    ) -> Result<(), OpError> {
+        count: u64,
+        first: impl FnOnce() -> String,
+    ) {
         match self.refused.iter_mut().find(|r| r.reason == reason) {
-            Some(refused) => {
-                refused.count += 1;
-                Ok(())
-            }
-            None => self.refuse(error()),
+            Some(refused) => refused.count += count,
+            None => self.refused.push(Refused {
+                reason,
+                count,
+                first: first(),
+            }),
         }
     }
 
@@ -106,14 +108,7 @@ impl Report {
         else {
             return Err(error);
         };
-        match self.refused.iter_mut().find(|r| r.reason == reason) {
-            Some(refused) => refused.count += 1,
-            None => self.refused.push(Refused {
-                reason,
-                count: 1,
-                first: message,
-            }),
-        }
+        self.count_refused(reason, 1, || message);
         Ok(())
     }
 
@@ -121,10 +116,7 @@ impl Report {
     pub fn merge(&mut self, other: Self) {
         self.changed += other.changed;
         for refused in other.refused {
-            match self.refused.iter_mut().find(|r| r.reason == refused.reason) {
-                Some(mine) => mine.count += refused.count,
-                None => self.refused.push(refused),
-            }
+            self.count_refused(refused.reason, refused.count, || refused.first);
         }
         self.losses.extend(other.losses);
         self.notes.extend(other.notes);

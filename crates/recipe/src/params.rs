@@ -1,5 +1,6 @@
 //! The parameters of a recipe: declared with a type and a default, set from the command line.
 
+use std::fmt::Display;
 use std::path::Path;
 
 use schemars::JsonSchema;
@@ -89,14 +90,23 @@ pub enum Param {
 impl Param {
     /// The name of its type.
     pub fn type_name(&self) -> &'static str {
+        self.words().0
+    }
+
+    fn expected(&self) -> &'static str {
+        self.words().1
+    }
+
+    /// The name of its type, and what values it takes.
+    fn words(&self) -> (&'static str, &'static str) {
         match self {
-            Self::Int { .. } => "Int",
-            Self::Float { .. } => "Float",
-            Self::Bool { .. } => "Bool",
-            Self::Text { .. } => "Text",
-            Self::Path { .. } => "Path",
-            Self::Choice { .. } => "Choice",
-            Self::Vector { .. } => "Vector",
+            Self::Int { .. } => ("Int", "a whole number"),
+            Self::Float { .. } => ("Float", "a number"),
+            Self::Bool { .. } => ("Bool", "true or false"),
+            Self::Text { .. } => ("Text", "a text in quotes"),
+            Self::Path { .. } => ("Path", "a path in quotes"),
+            Self::Choice { .. } => ("Choice", "one of its words"),
+            Self::Vector { .. } => ("Vector", "three numbers `(x, y, z)`"),
         }
     }
 
@@ -175,18 +185,6 @@ impl Param {
         }
     }
 
-    fn expected(&self) -> &'static str {
-        match self {
-            Self::Int { .. } => "a whole number",
-            Self::Float { .. } => "a number",
-            Self::Bool { .. } => "true or false",
-            Self::Text { .. } => "a text in quotes",
-            Self::Path { .. } => "a path in quotes",
-            Self::Choice { .. } => "one of its words",
-            Self::Vector { .. } => "three numbers `(x, y, z)`",
-        }
-    }
-
     /// The value that is given as plain text, as on the command line. A relative path is led from one folder to
     /// another, if they are given.
     ///
@@ -224,41 +222,14 @@ impl Param {
     }
 }
 
-/// Why something is no value of a parameter.
+/// Why something is no value of a parameter: what is expected and what was found.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ParamError {
-    /// It is of another type.
-    #[error("expected {expected}, found {found}")]
-    Unexpected {
-        /// What the parameter takes.
-        expected: String,
-        /// What was there.
-        found: String,
-    },
-    /// It is less than the minimum.
-    #[error("{value} is below the minimum {min}")]
-    Below {
-        /// The value.
-        value: String,
-        /// The lowest that is allowed.
-        min: String,
-    },
-    /// It is more than the maximum.
-    #[error("{value} is above the maximum {max}")]
-    Above {
-        /// The value.
-        value: String,
-        /// The highest that is allowed.
-        max: String,
-    },
-}
+#[error("{0}")]
+pub struct ParamError(String);
 
 impl ParamError {
     fn new(expected: &str, found: &str) -> Self {
-        Self::Unexpected {
-            expected: expected.to_owned(),
-            found: found.to_owned(),
-        }
+        Self(format!("expected {expected}, found {found}"))
     }
 }
 
@@ -290,23 +261,17 @@ fn number(written: &Value) -> Result<f64, ParamError> {
     }
 }
 
-fn within<T: Copy + PartialOrd + ToString>(
+fn within<T: Copy + PartialOrd + Display>(
     value: T,
     min: Option<T>,
     max: Option<T>,
 ) -> Result<(), ParamError> {
-    let text = value.to_string();
-    match (min, max) {
-        (Some(min), _) if value < min => Err(ParamError::Below {
-            value: text,
-            min: min.to_string(),
-        }),
-        (_, Some(max)) if value > max => Err(ParamError::Above {
-            value: text,
-            max: max.to_string(),
-        }),
-        _ => Ok(()),
-    }
+    let message = match (min, max) {
+        (Some(min), _) if value < min => format!("{value} is below the minimum {min}"),
+        (_, Some(max)) if value > max => format!("{value} is above the maximum {max}"),
+        _ => return Ok(()),
+    };
+    Err(ParamError(message))
 }
 
 #[cfg(test)]

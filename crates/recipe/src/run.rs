@@ -23,7 +23,6 @@ use crate::check::forbidden;
 use crate::expect::{Found, Reader, Subject};
 use crate::recipe::{Recipe, RecipeStep};
 use before::Before;
-use listener::Forward;
 use ron_tree::Diagnostic;
 use stage::{deliver, listing, staging, written};
 
@@ -136,8 +135,8 @@ struct Runner<'a> {
 }
 
 /// Why a step failed, and the places that it is about.
-struct Fault {
-    message: String,
+pub(crate) struct Fault {
+    pub(crate) message: String,
     places: Vec<Place>,
 }
 
@@ -295,7 +294,8 @@ impl Runner<'_> {
         step: &RecipeStep,
         listener: &dyn Listener,
     ) -> Result<(Report, Option<Refusal>), Stopped> {
-        self.step(step, listener).map_err(|fault| {
+        let (files, budget) = (&self.files[step.scope], self.settings.budget);
+        attempt(step, &mut self.scene, files, budget, listener).map_err(|fault| {
             match fault {
                 None => self.cancelled = true,
                 Some(Fault { message, places }) => {
@@ -322,69 +322,6 @@ impl Runner<'_> {
             found,
         });
         self.failures.push(diagnostic);
-    }
-
-    /// Does a step. Fails with a message and the places that it is about, or without them if it was cancelled; the
-    /// scene is then as it was before.
-    fn step(
-        &mut self,
-        step: &RecipeStep,
-        listener: &dyn Listener,
-    ) -> Result<(Report, Option<Refusal>), Option<Fault>> {
-        let nowhere = |message| {
-            Some(Fault {
-                message,
-                places: Vec::new(),
-            })
-        };
-        let Some(operation) = &step.step else {
-            return Err(nowhere("this step could not be read".to_owned()));
-        };
-        // Held only where it is needed: whoever changes a mesh that is held copies it first.
-        let is_needed = step.refused.is_some() || !operation.is_atomic();
-        let before = is_needed.then(|| self.scene.clone());
-        let on = step.on_names();
-        let progress: &dyn Progress = &Forward(listener);
-        let mut cx = Context::new(progress, &self.files[step.scope]);
-        cx.on = on.as_deref();
-        cx.stream = step.label();
-        cx.budget = self.settings.budget;
-        // After a panic nothing is known of the scene, and nobody asks for it: the run ends.
-        let apply = AssertUnwindSafe(|| operation.apply(&mut self.scene, &mut cx));
-        let Ok(result) = catch_unwind(apply) else {
-            self.scene = before.unwrap_or_default();
-            let message = format!("{} has panicked, which is a mistake in it", step.name);
-            return Err(nowhere(message));
-        };
-        if result.is_err() || step.refused.is_some() {
-            self.scene = before.unwrap_or_else(|| std::mem::take(&mut self.scene));
-        }
-        match (result, step.refused) {
-            (Err(OpError::Cancelled), _) => Err(None),
-            (Ok(report), None) => Ok((report, None)),
-            (Ok(_), Some(expected)) => Err(nowhere(format!(
-                "expected to be refused as {expected:?}, but it was done"
-            ))),
-            (
-                Err(OpError::Refused {
-                    reason, message, ..
-                }),
-                Some(expected),
-            ) if reason == expected => Ok((
-                Report::default().note(format!("refused as expected: {message}")),
-                Some(reason),
-            )),
-            (Err(error), expected) => {
-                let message = match expected {
-                    None => error.to_string(),
-                    Some(expected) => {
-                        format!("expected to be refused as {expected:?}, but: {error}")
-                    }
-                };
-                let places = error.places().to_vec();
-                Err(Some(Fault { message, places }))
-            }
-        }
     }
 
     /// Holds the expectations after this step, or at the end, against the scene.
@@ -478,6 +415,66 @@ impl Runner<'_> {
             written,
             cache_problem,
             cache_notes,
+        }
+    }
+}
+
+/// Does a step. Fails with a message and the places that it is about, or without them if it was cancelled; the
+/// scene is then as it was before.
+pub(crate) fn attempt(
+    step: &RecipeStep,
+    scene: &mut Scene,
+    files: &Files,
+    budget: u64,
+    progress: &dyn Progress,
+) -> Result<(Report, Option<Refusal>), Option<Fault>> {
+    let fault = |message: String, places: &[Place]| {
+        let places = places.to_vec();
+        Err(Some(Fault { message, places }))
+    };
+    let Some(operation) = &step.step else {
+        return fault("this step could not be read".to_owned(), &[]);
+    };
+    // Held only where it is needed: whoever changes a mesh that is held copies it first.
+    let is_needed = step.refused.is_some() || !operation.is_atomic();
+    let before = is_needed.then(|| scene.clone());
+    let on = step.on_names();
+    let mut cx = Context::new(progress, files);
+    cx.on = on.as_deref();
+    cx.stream = step.label();
+    cx.budget = budget;
+    // After a panic nothing is known of the scene, and nobody asks for it: the run ends.
+    let apply = AssertUnwindSafe(|| operation.apply(scene, &mut cx));
+    let Ok(result) = catch_unwind(apply) else {
+        *scene = before.unwrap_or_default();
+        let message = format!("{} has panicked, which is a mistake in it", step.name);
+        return fault(message, &[]);
+    };
+    if (result.is_err() || step.refused.is_some())
+        && let Some(before) = before
+    {
+        *scene = before;
+    }
+    match (result, step.refused) {
+        (Err(OpError::Cancelled), _) => Err(None),
+        (Ok(report), None) => Ok((report, None)),
+        (Ok(_), Some(expected)) => {
+            let message = format!("expected to be refused as {expected:?}, but it was done");
+            fault(message, &[])
+        }
+        (
+            Err(OpError::Refused {
+                reason, message, ..
+            }),
+            Some(expected),
+        ) if reason == expected => {
+            let report = Report::default().note(format!("refused as expected: {message}"));
+            Ok((report, Some(reason)))
+        }
+        (Err(error), None) => fault(error.to_string(), error.places()),
+        (Err(error), Some(expected)) => {
+            let message = format!("expected to be refused as {expected:?}, but: {error}");
+            fault(message, error.places())
         }
     }
 }

@@ -5,15 +5,15 @@
 //! "Simplifying and Isolating Failure-Inducing Input", 2002. Vertices keep their numbers until the end, when
 //! those without faces go too, if the step still fails then.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use mesh::FaceId;
-use op::{Context, Files, OpError, Progress};
+use op::{Files, OpError, Progress};
 use scene::{Geometry, Scene};
 
 use crate::check::forbidden;
 use crate::recipe::RecipeStep;
+use crate::run::attempt;
 
 /// How a step fails on a scene; `None` if it does what the recipe wants of it. The scene stays as it is.
 ///
@@ -27,29 +27,14 @@ pub fn failure(
     budget: u64,
     progress: &dyn Progress,
 ) -> Result<Option<String>, OpError> {
-    let Some(operation) = &step.step else {
-        return Ok(None);
-    };
-    let on = step.on_names();
-    let mut cx = Context::new(progress, files);
-    cx.on = on.as_deref();
-    cx.stream = step.label();
-    cx.budget = budget;
-    let mut scene = scene.clone();
-    // The copy is thrown away, whatever has become of it.
-    let applied = catch_unwind(AssertUnwindSafe(|| operation.apply(&mut scene, &mut cx)));
-    let Ok(result) = applied else {
-        return Ok(Some("panicked".to_owned()));
-    };
-    Ok(match (result, step.refused) {
-        (Err(OpError::Cancelled), _) => return Err(OpError::Cancelled),
-        (Err(OpError::Refused { reason, .. }), Some(expected)) if reason == expected => None,
-        (Err(error), _) => Some(error.to_string()),
-        (Ok(_), Some(expected)) => Some(format!("not refused as {expected:?}")),
-        (Ok(report), None) => {
-            (step.on_loss.forbidden(&report.losses)).map(|loss| forbidden(step, loss).message)
+    match attempt(step, &mut scene.clone(), files, budget, progress) {
+        Ok((report, _)) => {
+            let lost = step.on_loss.forbidden(&report.losses);
+            Ok(lost.map(|loss| forbidden(step, loss).message))
         }
-    })
+        Err(Some(fault)) => Ok(Some(fault.message)),
+        Err(None) => Err(OpError::Cancelled),
+    }
 }
 
 /// Whether two failures are the same but for the numbers in them.

@@ -9,8 +9,7 @@ use std::slice;
 
 use serde::de::value::BorrowedStrDeserializer;
 use serde::de::{
-    Deserialize, DeserializeOwned, DeserializeSeed, EnumAccess, MapAccess, SeqAccess,
-    VariantAccess, Visitor,
+    DeserializeOwned, DeserializeSeed, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
 };
 use serde::{Deserializer, forward_to_deserialize_any};
 
@@ -122,11 +121,10 @@ impl Value {
             ValueKind::Unit => &[],
             _ => return self.expected("named fields `(name: ..)`"),
         };
-        let access = Fields {
-            fields: fields.iter(),
-            value: None,
-        };
-        self.locate(visitor.visit_map(access))
+        let pairs = fields
+            .iter()
+            .map(|f| (Key::Name(&f.name.text, f.name.span), &f.value));
+        self.locate(visitor.visit_map(Pairs { pairs, value: None }))
     }
 }
 
@@ -201,16 +199,10 @@ impl<'de> Deserializer<'de> for &'de Value {
             ValueKind::String(text) => text,
             _ => return value.expected("a string"),
         };
-        // Recipes hold no bytes, but lists of them.
-        deserialize_byte_buf, visit_byte_buf, value => Vec::deserialize(value)?;
     }
 
     fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
         self.deserialize_str(visitor)
-    }
-
-    fn deserialize_bytes<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
-        self.deserialize_byte_buf(visitor)
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
@@ -275,10 +267,10 @@ impl<'de> Deserializer<'de> for &'de Value {
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
         match &self.kind {
-            ValueKind::Map(entries) => self.locate(visitor.visit_map(Entries {
-                entries: entries.iter(),
-                value: None,
-            })),
+            ValueKind::Map(entries) => {
+                let pairs = entries.iter().map(|(key, value)| (Key::Value(key), value));
+                self.locate(visitor.visit_map(Pairs { pairs, value: None }))
+            }
             _ => self.expected("a map `{..}`"),
         }
     }
@@ -310,7 +302,7 @@ impl<'de> Deserializer<'de> for &'de Value {
         self.locate(visitor.visit_unit())
     }
 
-    forward_to_deserialize_any! { identifier }
+    forward_to_deserialize_any! { identifier bytes byte_buf }
 }
 
 /// The items of a list or tuple.
@@ -328,43 +320,38 @@ impl<'de> SeqAccess<'de> for &mut Items<'de> {
     }
 }
 
-/// The fields of a struct.
-struct Fields<'de> {
-    fields: slice::Iter<'de, Field>,
-    value: Option<&'de Value>,
+/// The key of an entry of a map, or the name of a field or variant, with its place.
+enum Key<'de> {
+    Name(&'de str, Span),
+    Value(&'de Value),
 }
 
-impl<'de> MapAccess<'de> for Fields<'de> {
-    type Error = Error;
-
-    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>> {
-        let Some(Field { name, value }) = self.fields.next() else {
-            return Ok(None);
-        };
-        self.value = Some(value);
-        let key = seed.deserialize(BorrowedStrDeserializer::<Error>::new(&name.text));
-        key.map(Some).map_err(|error| Error {
-            span: Some(name.span),
-            ..error
-        })
-    }
-
-    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value> {
-        self.value.expect("a value follows its key").read(seed)
+impl<'de> Key<'de> {
+    fn read<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value> {
+        match self {
+            Self::Value(key) => key.read(seed),
+            Self::Name(name, span) => {
+                let read = seed.deserialize(BorrowedStrDeserializer::<Error>::new(name));
+                read.map_err(|error| Error {
+                    span: Some(span),
+                    ..error
+                })
+            }
+        }
     }
 }
 
-/// The entries of a map.
-struct Entries<'de> {
-    entries: slice::Iter<'de, (Value, Value)>,
+/// The fields of a struct, or the entries of a map.
+struct Pairs<'de, I> {
+    pairs: I,
     value: Option<&'de Value>,
 }
 
-impl<'de> MapAccess<'de> for Entries<'de> {
+impl<'de, I: Iterator<Item = (Key<'de>, &'de Value)>> MapAccess<'de> for Pairs<'de, I> {
     type Error = Error;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>> {
-        let Some((key, value)) = self.entries.next() else {
+        let Some((key, value)) = self.pairs.next() else {
             return Ok(None);
         };
         self.value = Some(value);
@@ -376,7 +363,7 @@ impl<'de> MapAccess<'de> for Entries<'de> {
     }
 
     fn size_hint(&self) -> Option<usize> {
-        Some(self.entries.len())
+        self.pairs.size_hint().1
     }
 }
 
@@ -391,11 +378,7 @@ impl<'de> EnumAccess<'de> for Variant<'de> {
         let Some((name, span)) = self.0.name() else {
             return self.0.expected("a variant");
         };
-        let variant = seed.deserialize(BorrowedStrDeserializer::<Error>::new(name));
-        let variant = variant.map_err(|error| Error {
-            span: Some(span),
-            ..error
-        })?;
+        let variant = Key::Name(name, span).read(seed)?;
         Ok((variant, self))
     }
 }

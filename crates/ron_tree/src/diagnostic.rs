@@ -65,6 +65,11 @@ impl Diagnostic {
         self
     }
 
+    /// Whether the text is refused because of it.
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+
     /// The diagnostic in one line, `file:line:column: error: message`.
     ///
     /// `lines` is the index of the text that the spans point into.

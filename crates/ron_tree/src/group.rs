@@ -167,10 +167,7 @@ impl Parser<'_> {
         };
         let value = if matches!(self.current.kind, Some(K::Comma | K::Close(_))) {
             self.missing(&format!("the value of `{}`", name.text));
-            Value::new(
-                Span::new(self.previous_end, self.previous_end),
-                ValueKind::Error,
-            )
+            self.nothing()
         } else {
             self.colon();
             self.value_after_colon(|| format!("`{}`", name.text))
@@ -213,10 +210,7 @@ impl Parser<'_> {
                 .is_some_and(|open| open.bracket == Bracket::Round);
         if is_next_field || !starts_value(self.current.kind) {
             self.missing(&format!("the value of {}", of()));
-            return Value::new(
-                Span::new(self.previous_end, self.previous_end),
-                ValueKind::Error,
-            );
+            return self.nothing();
         }
         self.value("a value")
     }
@@ -258,10 +252,7 @@ impl Parser<'_> {
         } = contents;
         if !complete && (bracket == Bracket::Square || !values.is_empty()) {
             // The number of items is not known.
-            values.push(Value::new(
-                Span::new(self.previous_end, self.previous_end),
-                ValueKind::Error,
-            ));
+            values.push(self.nothing());
         }
         let has_fields = !fields.is_empty();
         if fields.len() > 1 {
@@ -321,10 +312,7 @@ impl Parser<'_> {
             let message = format!("this `{}` is not closed", open.bracket.open());
             let help = format!("`{}` is missing", open.bracket.close());
             let diagnostic = Diagnostic::error(open.span, message)
-                .with_label(
-                    Span::new(self.previous_end, self.previous_end),
-                    "most likely here",
-                )
+                .with_label(self.gap(), "most likely here")
                 .with_help(help);
             self.report(diagnostic);
             self.complained_at = Some(self.current.span.start);

@@ -5,6 +5,9 @@
 
 use std::str::FromStr;
 
+use ron::error::Position;
+use serde::de::DeserializeOwned;
+
 use crate::diagnostic::Span;
 
 /// What is wrong with a literal, and where in it.
@@ -133,30 +136,45 @@ fn parse_float<T: FromStr>(text: &str) -> Option<T> {
 
 /// The text of a `".."` literal.
 pub(super) fn unescape_string(literal: &str) -> Result<String, BadLiteral> {
-    let inside = &literal[1..literal.len() - 1];
-    let mut text = String::with_capacity(inside.len());
-    let mut at = 0;
-    while let Some(found) = inside[at..].find('\\') {
-        text.push_str(&inside[at..at + found]);
-        at += found;
-        let rest = &inside[at + 1..];
-        let line_end = if rest.starts_with("\r\n") {
-            2
-        } else {
-            usize::from(rest.starts_with('\n'))
-        };
-        if line_end > 0 {
-            let spaces = rest[line_end..].trim_start_matches([' ', '\t', '\n', '\r']);
-            at = inside.len() - spaces.len();
-            continue;
-        }
-        let (c, length) =
-            unescape(rest, false).map_err(|message| bad_escape(1 + at, rest, message))?;
-        text.push(c);
-        at += 1 + length;
+    if literal.contains('\\') {
+        unescape(literal)
+    } else {
+        Ok(literal[1..literal.len() - 1].to_owned())
     }
-    text.push_str(&inside[at..]);
-    Ok(text)
+}
+
+/// The character of a `'.'` literal.
+pub(super) fn unescape_char(literal: &str) -> Result<char, BadLiteral> {
+    unescape(literal)
+}
+
+/// Reads a literal with escapes as `ron` does, and says which of them is wrong.
+fn unescape<T: DeserializeOwned>(literal: &str) -> Result<T, BadLiteral> {
+    ron::from_str(literal).map_err(|error| {
+        if error.code == ron::Error::ExpectedChar {
+            return BadLiteral {
+                span: Span::new(0, literal.len()),
+                message: "more than one character",
+            };
+        }
+        let Position { line, col } = error.span.end;
+        let lines = literal.split_inclusive('\n').take(line - 1);
+        let line_start: usize = lines.map(str::len).sum();
+        let before = literal[line_start..].chars().take(col - 1);
+        let end = line_start + before.map(char::len_utf8).sum::<usize>();
+        let start = literal[..end].rfind('\\').unwrap_or(0);
+        let escaped = literal[start..].chars().nth(1);
+        BadLiteral {
+            span: Span::new(start, start + 1 + escaped.map_or(0, char::len_utf8)),
+            message: match escaped {
+                Some('x') => "`\\x` is followed by two hexadecimal digits of a character in UTF-8",
+                Some('u') => {
+                    "`\\u` is followed by the hexadecimal number of a character, as `\\u{e9}`"
+                }
+                _ => "unknown escape in a string: a backslash is written `\\\\`",
+            },
+        }
+    })
 }
 
 /// The text of a raw string literal, which starts with `r`.
@@ -165,96 +183,9 @@ pub(super) fn raw_string(literal: &str) -> String {
     literal[2 + hashes..literal.len() - 1 - hashes].to_owned()
 }
 
-/// The character of a `'.'` literal.
-pub(super) fn unescape_char(literal: &str) -> Result<char, BadLiteral> {
-    let inside = &literal[1..literal.len() - 1];
-    let whole = |message| BadLiteral {
-        span: Span::new(0, literal.len()),
-        message,
-    };
-    let Some(rest) = inside.strip_prefix('\\') else {
-        return inside.chars().next().ok_or(whole("a character is missing"));
-    };
-    let (c, length) = unescape(rest, true).map_err(|message| bad_escape(1, rest, message))?;
-    if length == rest.len() {
-        Ok(c)
-    } else {
-        Err(whole("more than one character"))
-    }
-}
-
 /// A name without the `r#` of raw ones.
 pub(super) fn name(text: &str) -> &str {
     text.strip_prefix("r#").unwrap_or(text)
-}
-
-fn bad_escape(at: usize, rest: &str, message: &'static str) -> BadLiteral {
-    let length = 1 + rest.chars().next().map_or(0, char::len_utf8);
-    BadLiteral {
-        span: Span::new(at, at + length),
-        message,
-    }
-}
-
-/// The character of the escape whose backslash stands before `text`, and the length of the rest.
-fn unescape(text: &str, is_char: bool) -> Result<(char, usize), &'static str> {
-    let c = match text.chars().next() {
-        Some(c @ ('\'' | '"' | '\\')) => c,
-        Some('n') => '\n',
-        Some('r') => '\r',
-        Some('t') => '\t',
-        Some('0') => '\0',
-        Some('x') => return unescape_bytes(text, is_char),
-        Some('u') => return unescape_unicode(text),
-        _ => return Err("unknown escape in a string: a backslash is written `\\\\`"),
-    };
-    Ok((c, 1))
-}
-
-/// `\x41`, or several of them that make one character of UTF-8.
-fn unescape_bytes(text: &str, is_char: bool) -> Result<(char, usize), &'static str> {
-    const BAD: &str = "`\\x` is followed by two hexadecimal digits of a character in UTF-8";
-    let mut bytes = Vec::with_capacity(4);
-    let mut at = 0;
-    while bytes.len() < if is_char { 1 } else { 4 } {
-        // The first backslash was taken off by the caller.
-        let prefix = if at == 0 { "x" } else { "\\x" };
-        let digits = text[at..]
-            .strip_prefix(prefix)
-            .and_then(|rest| rest.get(..2))
-            .ok_or(BAD)?;
-        let hexadecimal = digits.bytes().all(|b| b.is_ascii_hexdigit());
-        let byte = u8::from_str_radix(digits, 16)
-            .ok()
-            .filter(|_| hexadecimal)
-            .ok_or(BAD)?;
-        bytes.push(byte);
-        at += prefix.len() + 2;
-        if let Some(c) = std::str::from_utf8(&bytes)
-            .ok()
-            .and_then(|s| s.chars().next())
-        {
-            return Ok((c, at));
-        }
-    }
-    Err(BAD)
-}
-
-/// `\u{1F600}`.
-fn unescape_unicode(text: &str) -> Result<(char, usize), &'static str> {
-    const BAD: &str = "`\\u` is followed by the hexadecimal number of a character, as `\\u{e9}`";
-    let inside = text.strip_prefix("u{").ok_or(BAD)?;
-    let end = inside
-        .find('}')
-        .filter(|end| (1..=6).contains(end))
-        .ok_or(BAD)?;
-    let digits = &inside[..end];
-    let hexadecimal = digits.bytes().all(|b| b.is_ascii_hexdigit());
-    let number = u32::from_str_radix(digits, 16)
-        .ok()
-        .filter(|_| hexadecimal)
-        .ok_or(BAD)?;
-    Ok((char::from_u32(number).ok_or(BAD)?, end + 3))
 }
 
 #[cfg(test)]

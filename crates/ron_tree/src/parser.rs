@@ -142,7 +142,10 @@ impl<'s> Parser<'s> {
         let last_end = self.next.span.end;
         let mut line = self.next.line + line_feeds(self.next.span.of(self.source));
         let (mut starts_line, mut after_junk) = (last_end == 0, false);
-        while let Some(Token { kind, span }) = self.lexer.next() {
+        let (kind, span) = loop {
+            let Some(Token { kind, span }) = self.lexer.next() else {
+                break (None, Span::new(self.source.len(), self.source.len()));
+            };
             let feeds = line_feeds(span.of(self.source));
             match kind {
                 kind if kind.is_trivia() => starts_line |= feeds > 0,
@@ -160,22 +163,13 @@ impl<'s> Parser<'s> {
                     // Whatever is missing may stand in the comment.
                     after_junk = true;
                 }
-                _ => {
-                    return Lexeme {
-                        kind: Some(kind),
-                        span,
-                        line,
-                        starts_line,
-                        after_junk,
-                    };
-                }
+                _ => break (Some(kind), span),
             }
             line += feeds;
-        }
-        let end = Span::new(self.source.len(), self.source.len());
+        };
         Lexeme {
-            kind: None,
-            span: end,
+            kind,
+            span,
             line,
             starts_line,
             after_junk,
@@ -219,8 +213,17 @@ impl<'s> Parser<'s> {
 
     /// Reports that something is missing before `current`.
     pub(super) fn missing(&mut self, what: &str) {
-        let place = Span::new(self.previous_end, self.previous_end);
-        self.complain(Diagnostic::error(place, format!("missing {what}")));
+        self.complain(Diagnostic::error(self.gap(), format!("missing {what}")));
+    }
+
+    /// The place before `current`, behind the last token.
+    pub(super) fn gap(&self) -> Span {
+        Span::new(self.previous_end, self.previous_end)
+    }
+
+    /// A value that is missing before `current`.
+    pub(super) fn nothing(&self) -> Value {
+        Value::new(self.gap(), ValueKind::Error)
     }
 
     /// Reads no further.
@@ -310,8 +313,7 @@ impl<'s> Parser<'s> {
             }
             _ => {
                 self.unexpected(expected);
-                let place = Span::new(self.previous_end, self.previous_end);
-                return Value::new(place, ValueKind::Error);
+                return self.nothing();
             }
         };
         self.bump();

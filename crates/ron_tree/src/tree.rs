@@ -57,13 +57,6 @@ pub struct Struct {
     pub complete: bool,
 }
 
-impl Struct {
-    /// The field with this name, the first if it was written twice.
-    pub fn field(&self, name: &str) -> Option<&Field> {
-        self.fields.iter().find(|field| &*field.name.text == name)
-    }
-}
-
 /// `name: value`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
@@ -263,13 +256,7 @@ impl fmt::Display for Value {
 /// assert_eq!(ron_tree::string_literal("a \"b\"\n"), r#""a \"b\"\n""#);
 /// ```
 pub fn string_literal(text: &str) -> String {
-    struct Literal<'t>(&'t str);
-    impl fmt::Display for Literal<'_> {
-        fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            write_string(f, self.0)
-        }
-    }
-    Literal(text).to_string()
+    Value::new(Span::default(), ValueKind::String(text.into())).to_string()
 }
 
 fn write_string(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {

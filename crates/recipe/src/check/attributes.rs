@@ -78,17 +78,11 @@ impl Attributes {
         }
         let mut tags = Vec::new();
         tagged(&step.value, &mut tags);
+        let on = step.on_names();
         for (tag, span) in tags {
-            for (object, mesh) in meshes(plan.objects()) {
-                let is_chosen =
-                    (step.on.as_ref()).is_none_or(|on| on.iter().any(|(name, _)| name == object));
-                let has = |a: &PlannedAttribute| a.name == tag;
-                if is_chosen && !mesh.others && !mesh.attributes.iter().any(has) {
-                    let message = format!("nothing of \"{object}\" is tagged \"{tag}\"");
-                    let help = self.help(object, None, tag, mesh);
-                    found.push(Diagnostic::error(span, message).with_help(help));
-                    break;
-                }
+            if let Some((object, help)) = self.lacking(plan, on.as_deref(), None, tag) {
+                let message = format!("nothing of \"{object}\" is tagged \"{tag}\"");
+                found.push(Diagnostic::error(span, message).with_help(help));
             }
         }
     }
@@ -102,17 +96,29 @@ impl Attributes {
         if plan.incomplete {
             return;
         }
-        for (object, mesh) in meshes(plan.objects()) {
-            let is_meant =
-                (placed.on.as_ref()).is_none_or(|on| on.iter().any(|name| name == object));
-            let has = |a: &PlannedAttribute| a.domain == domain && a.name == *name;
-            if is_meant && !mesh.others && !mesh.attributes.iter().any(has) {
-                let message = format!("\"{object}\" has no {domain} attribute \"{name}\" here");
-                let help = self.help(object, Some(domain), name, mesh);
-                found.push(Diagnostic::error(placed.span, message).with_help(help));
-                break;
-            }
+        let lacking = self.lacking(plan, placed.on.as_deref(), Some(domain), name);
+        if let Some((object, help)) = lacking {
+            let message = format!("\"{object}\" has no {domain} attribute \"{name}\" here");
+            found.push(Diagnostic::error(placed.span, message).with_help(help));
         }
+    }
+
+    /// The first of the objects that are meant that cannot have an attribute, with advice.
+    fn lacking<'p>(
+        &self,
+        plan: &'p Plan,
+        on: Option<&[String]>,
+        domain: Option<Domain>,
+        name: &str,
+    ) -> Option<(&'p str, String)> {
+        let has = |a: &PlannedAttribute| a.name == name && domain.is_none_or(|d| a.domain == d);
+        let lacks = |(object, mesh): &(&str, &MeshPlan)| {
+            on.is_none_or(|on| on.iter().any(|name| name == object))
+                && !mesh.others
+                && !mesh.attributes.iter().any(has)
+        };
+        let (object, mesh) = meshes(plan.objects()).find(lacks)?;
+        Some((object, self.help(object, domain, name, mesh)))
     }
 
     /// Who dropped it, or else what it may have been meant to be.

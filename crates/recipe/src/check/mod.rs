@@ -10,7 +10,7 @@ use op::{Files, Plan, PlanContext, Problem, Range};
 use crate::expect::{Other, golden};
 use crate::recipe::{Placed, Recipe, RecipeStep};
 use crate::shape::did_you_mean;
-use ron_tree::{Diagnostic, Severity, Span, field_span};
+use ron_tree::{Diagnostic, Span, field_span};
 
 use attributes::{Attributes, Before, meshes};
 
@@ -47,9 +47,7 @@ pub struct Forecast {
 impl Forecast {
     /// Whether the recipe cannot run.
     pub fn has_errors(&self) -> bool {
-        self.diagnostics
-            .iter()
-            .any(|d| d.severity == Severity::Error)
+        self.diagnostics.iter().any(Diagnostic::is_error)
     }
 
     fn add(&mut self, recipe: &Recipe, scope: usize, found: Vec<Diagnostic>) {
@@ -82,7 +80,7 @@ pub fn check(recipe: &Recipe, files: &Files, budget: u64) -> Forecast {
         // Once: later steps only make it worse.
         if known.bytes.min > budget && !over_budget {
             over_budget = true;
-            if !found.iter().any(|d| d.severity == Severity::Error) {
+            if !found.iter().any(Diagnostic::is_error) {
                 found.push(over(step, known.bytes.min, budget));
             }
         }
@@ -120,7 +118,7 @@ fn plan_step(
     let on = step.on_names();
     let mut unknown = false;
     for (name, span) in step.on.iter().flatten() {
-        for problem in plan.check_names([name.as_str()], "on") {
+        if let Some(problem) = plan.missing(name, ["on"]) {
             diagnostics.push(diagnostic(&problem, *span));
             unknown = true;
         }
@@ -221,8 +219,10 @@ fn expected(
             placed.span,
         ));
     }
-    let problems = plan.check_names(names, "on");
-    found.extend(problems.iter().map(|p| diagnostic(p, placed.span)));
+    let missing = names
+        .into_iter()
+        .filter_map(|name| plan.missing(name, ["on"]));
+    found.extend(missing.map(|p| diagnostic(&p, placed.span)));
     attributes.expected(placed, plan, &mut found);
     found
 }
@@ -318,18 +318,16 @@ impl Known {
     }
 
     fn forecast(&self, step: &RecipeStep, is_incomplete: bool) -> StepForecast {
-        let or_more = |count: Range| match is_incomplete {
-            true => Range {
-                max: u64::MAX,
-                ..count
-            },
-            false => count,
+        let unknown = if is_incomplete {
+            Range::ANY
+        } else {
+            Range::exactly(0)
         };
         StepForecast {
             label: step.label().to_owned(),
-            vertices: or_more(self.vertices),
-            edges: or_more(self.edges),
-            faces: or_more(self.faces),
+            vertices: self.vertices.plus(unknown),
+            edges: self.edges.plus(unknown),
+            faces: self.faces.plus(unknown),
             bytes: self.bytes,
         }
     }

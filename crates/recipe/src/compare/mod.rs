@@ -109,18 +109,21 @@ impl ObjectDifference {
             }
             _ => None,
         };
-        let find = |o: &'_ Object, name: &str| o.materials.iter().position(|m| m.name == name);
-        let missing = |from: &Object, other: &Object| -> Vec<String> {
-            let names = from.materials.iter().map(|m| m.name.clone());
-            names.filter(|name| find(other, name).is_none()).collect()
-        };
-        let (materials_only_first, materials_only_second) = (missing(a, b), missing(b, a));
-        let differ = a
-            .materials
-            .iter()
-            .filter(|m| find(b, &m.name).is_some_and(|i| b.materials[i] != **m));
-        let order =
+        let names =
             |o: &Object| -> Vec<String> { o.materials.iter().map(|m| m.name.clone()).collect() };
+        let (first, second) = (names(a), names(b));
+        let missing = |from: &[String], other: &[String]| -> Vec<String> {
+            let names = from.iter().filter(|name| !other.contains(name));
+            names.cloned().collect()
+        };
+        let (materials_only_first, materials_only_second) =
+            (missing(&first, &second), missing(&second, &first));
+        let differ = (a.materials.iter()).filter(|m| {
+            second
+                .iter()
+                .position(|name| *name == m.name)
+                .is_some_and(|i| b.materials[i] != **m)
+        });
         Self {
             names: [a.name.clone(), b.name.clone()],
             kinds: [a.geometry.kind(), b.geometry.kind()],
@@ -129,7 +132,7 @@ impl ObjectDifference {
             materials_differ: differ.map(|m| m.name.clone()).collect(),
             materials_reordered: materials_only_first.is_empty()
                 && materials_only_second.is_empty()
-                && order(a) != order(b),
+                && first != second,
             materials_only_first,
             materials_only_second,
         }

@@ -59,19 +59,14 @@ impl Meant<'_> {
                 Elements::Faces(of) => self.named(self.selected(of)),
             },
             Expectation::Valence { of, min, max } => {
-                let is_off = |v: &VertexId| !within(mesh.valence(*v) as u64, *min, *max);
-                self.named(self.selected(of).into_iter().filter(is_off))
+                self.outside(of, |v| Some(mesh.valence(v) as u64), *min, *max)
             }
             Expectation::DihedralAngle { of, min, max, .. } => {
-                let is_off = |e: &EdgeId| {
-                    let angle = mesh.dihedral_angle(*e).map(f64::to_degrees);
-                    angle.is_some_and(|angle| !within(angle, *min, *max))
-                };
-                self.named(self.selected(of).into_iter().filter(is_off))
+                let angle = |e| mesh.dihedral_angle(e).map(f64::to_degrees);
+                self.outside(of, angle, *min, *max)
             }
             Expectation::EdgeLength { of, min, max } => {
-                let is_off = |e: &EdgeId| !within(mesh.length(e.half_edge()), *min, *max);
-                self.named(self.selected(of).into_iter().filter(is_off))
+                self.outside(of, |e| Some(mesh.length(e.half_edge())), *min, *max)
             }
             Expectation::MinAngle { of, min, .. } => {
                 let angles = self
@@ -118,6 +113,21 @@ impl Meant<'_> {
     fn selected<S: Select>(&self, of: &S) -> Vec<S::Id> {
         let found = selected(of, self.object, self.mesh, self.subject.files);
         found.unwrap_or_default()
+    }
+
+    /// The selected elements whose measure, if they have one, is not within bounds.
+    fn outside<S: Select, T: PartialOrd + Copy>(
+        &self,
+        of: &S,
+        measure: impl Fn(S::Id) -> Option<T>,
+        min: Option<T>,
+        max: Option<T>,
+    ) -> Vec<Place>
+    where
+        S::Id: Into<Element>,
+    {
+        let is_off = |id: &S::Id| measure(*id).is_some_and(|found| !within(found, min, max));
+        self.named(self.selected(of).into_iter().filter(is_off))
     }
 
     fn named<E: Into<Element>>(&self, elements: impl IntoIterator<Item = E>) -> Vec<Place> {

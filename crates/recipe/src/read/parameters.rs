@@ -6,7 +6,7 @@ use crate::recipe::{Origin, Parameter};
 use crate::schema;
 use crate::shape::did_you_mean;
 use crate::substitute::substitute;
-use ron_tree::{Diagnostic, Severity, Span, Value, ValueKind};
+use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 /// Values for some parameters, under one name.
 pub(super) struct Preset {
@@ -171,8 +171,7 @@ impl Reader<'_, '_> {
     /// Warns of parameters that neither an `arg(..)`, an `If` nor a placeholder in a path names. Says
     /// nothing beside errors: one of them may be the use.
     pub(super) fn unused(&mut self, params: Option<&Value>) {
-        let is_error = |d: &Diagnostic| d.severity == Severity::Error;
-        if self.diagnostics.iter().any(is_error) {
+        if self.diagnostics.iter().any(Diagnostic::is_error) {
             return;
         }
         for (key, _) in entries(params) {

@@ -98,15 +98,19 @@ pub struct Done<'a> {
 }
 
 /// Why a step ran. Shown as the end of a sentence that begins with "because".
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Why {
     /// There is no cache.
+    #[error("there is no cache")]
     NoCache,
     /// The cache knows no run of this step.
+    #[error("it has not run before")]
     New,
     /// Another version of the program, or another build of it.
+    #[error("the program is another one")]
     Program,
     /// The operation has another version.
+    #[error("the version of the operation changed: {from} -> {to}")]
     Version {
         /// The version then.
         from: u32,
@@ -114,88 +118,65 @@ pub enum Why {
         to: u32,
     },
     /// Parameters have other values: which, and what they were and are.
+    #[error("parameters changed: {0}")]
     Parameters(String),
     /// `on` names other objects.
+    #[error("`on` changed")]
     On,
     /// The id is another one, and keys the random choices.
+    #[error("its id changed, which keys random choices")]
     Id,
     /// `refused` is another one.
+    #[error("`refused` changed")]
     Refused,
     /// The memory budget is another one.
+    #[error("the memory budget changed")]
     Budget,
     /// It reads from another folder.
+    #[error("it reads from another folder")]
     Folder,
     /// A file is not what it was.
+    #[error("the file {} {}", .0.display(), .1)]
     File(PathBuf, Change),
     /// The recipe or its parameters are others, and the files that the step writes say which.
+    #[error("the recipe changed, and what is written says from which one it is")]
     Provenance,
     /// The names of the files that the step writes are others.
+    #[error("the names of its outputs changed")]
     Outputs,
     /// An earlier step, by its number from 1 and its label, ran.
+    #[error("step {0} {1} ran again")]
     Earlier(usize, String),
     /// There are other steps before it.
+    #[error("there are other steps before it")]
     Order,
     /// The cache does not have its result any more.
+    #[error("its result is not in the cache any more")]
     Gone,
     /// Its result in the cache was damaged: how.
+    #[error("its result in the cache was damaged: {0}")]
     Damaged(String),
     /// Its result was not stored: making it took less time than storing it would have.
+    #[error("its result was not stored: making it took less time than storing it would")]
     NotKept,
     /// What it depends on cannot be told: a file and the reason.
+    #[error("what it read cannot be told: {}, {}", .0.display(), .1)]
     Unknown(PathBuf, String),
     /// What it depends on cannot be told, because an earlier step has left a scene with removed elements.
+    #[error("what an earlier step has left cannot be told")]
     NoState,
 }
 
 /// What became of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Change {
     /// It has another content.
+    #[error("changed")]
     Changed,
     /// It is not there any more.
+    #[error("is gone")]
     Gone,
     /// It was not there.
+    #[error("was not there before")]
     Appeared,
-}
-
-impl fmt::Display for Why {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoCache => f.write_str("there is no cache"),
-            Self::New => f.write_str("it has not run before"),
-            Self::Program => f.write_str("the program is another one"),
-            Self::Version { from, to } => {
-                write!(f, "the version of the operation changed: {from} -> {to}")
-            }
-            Self::Parameters(which) => write!(f, "parameters changed: {which}"),
-            Self::On => f.write_str("`on` changed"),
-            Self::Id => f.write_str("its id changed, which keys random choices"),
-            Self::Refused => f.write_str("`refused` changed"),
-            Self::Budget => f.write_str("the memory budget changed"),
-            Self::Folder => f.write_str("it reads from another folder"),
-            Self::File(path, change) => {
-                let change = match change {
-                    Change::Changed => "changed",
-                    Change::Gone => "is gone",
-                    Change::Appeared => "was not there before",
-                };
-                write!(f, "the file {} {change}", path.display())
-            }
-            Self::Provenance => {
-                f.write_str("the recipe changed, and what is written says from which one it is")
-            }
-            Self::Outputs => f.write_str("the names of its outputs changed"),
-            Self::Earlier(number, label) => write!(f, "step {number} {label} ran again"),
-            Self::Order => f.write_str("there are other steps before it"),
-            Self::Gone => f.write_str("its result is not in the cache any more"),
-            Self::Damaged(how) => write!(f, "its result in the cache was damaged: {how}"),
-            Self::NotKept => f.write_str(
-                "its result was not stored: making it took less time than storing it would",
-            ),
-            Self::Unknown(path, why) => {
-                write!(f, "what it read cannot be told: {}, {why}", path.display())
-            }
-            Self::NoState => f.write_str("what an earlier step has left cannot be told"),
-        }
-    }
 }

@@ -13,9 +13,9 @@ use ron_tree::Diagnostic;
 /// Follows a run.
 pub trait Listener: Progress {
     /// A step begins.
-    fn step_begins(&self, number: usize, label: &str);
+    fn step_begins(&self, _number: usize, _label: &str) {}
     /// A step is done.
-    fn step_done(&self, number: usize, done: &StepDone);
+    fn step_done(&self, _number: usize, _done: &StepDone) {}
     /// Whether to tell the digest of the scene after each step, which takes a while for large ones.
     fn wants_digests(&self) -> bool {
         false
@@ -88,26 +88,7 @@ impl StepDone {
     }
 }
 
-/// A listener as plain progress.
-pub(super) struct Forward<'a>(pub(super) &'a dyn Listener);
-
-impl Progress for Forward<'_> {
-    fn advance(&self, what: &str, done: u64, total: u64) -> bool {
-        self.0.advance(what, done, total)
-    }
-}
-
 /// Follows nothing and never stops.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Silent;
+pub use op::NoProgress as Silent;
 
-impl Progress for Silent {
-    fn advance(&self, _: &str, _: u64, _: u64) -> bool {
-        true
-    }
-}
-
-impl Listener for Silent {
-    fn step_begins(&self, _: usize, _: &str) {}
-    fn step_done(&self, _: usize, _: &StepDone) {}
-}
+impl Listener for Silent {}

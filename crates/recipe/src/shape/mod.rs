@@ -30,7 +30,6 @@ mod variants;
 pub use nearest::{did_you_mean, nearest};
 pub(crate) use shorthand::Checked;
 
-use crate::upgrade::Rename;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 pub(crate) use schema::Schema;
 use serde::de::DeserializeOwned;
@@ -81,26 +80,39 @@ pub(crate) fn unread(span: Span, error: ron_tree::Error) -> Diagnostic {
 pub(crate) fn check_step(step: &Value, schema: &Json) -> Checked {
     let mut checker = Checker::default();
     let schema = Schema::root(schema);
-    let place = Place::default();
     match &step.kind {
         ValueKind::Call(call) => {
-            let place = Place {
-                name: Some(&call.name.text),
-                inside: false,
-            };
+            let place = Place::named(&call.name.text);
             checker.check_struct(&call.body, &schema, place, call.name.span);
         }
         ValueKind::Name(name) => {
             let body = Value::new(step.span, ValueKind::Unit);
-            let place = Place {
-                name: Some(name),
-                inside: false,
-            };
+            let place = Place::named(name);
             checker.check_struct(&body, &schema, place, step.span);
         }
-        _ => checker.check(step, &schema, place),
+        _ => checker.check(step, &schema, Place::default()),
     }
     checker.finish()
+}
+
+/// An older name in a recipe.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rename {
+    /// Its place in the text.
+    pub span: Span,
+    /// The older name.
+    pub from: String,
+    /// The name that stands for it now.
+    pub to: String,
+}
+
+impl Rename {
+    /// What the reader says of it.
+    pub(crate) fn warning(&self) -> Diagnostic {
+        let message = format!("`{}` is called `{}` now", self.from, self.to);
+        Diagnostic::warning(self.span, message)
+            .with_help("meshwright upgrade writes the new name into the recipe")
+    }
 }
 
 /// Where a value stands, for messages.
@@ -151,8 +163,6 @@ struct Checker {
     diagnostics: Vec<Diagnostic>,
     /// How many more there are than are kept.
     more: usize,
-    /// How many values around this one are tried against several schemas.
-    trials: u32,
     /// Older names that were met.
     renames: Vec<Rename>,
     /// Names that were left out.
@@ -161,9 +171,6 @@ struct Checker {
 
 /// Most problems of one value that are reported one by one.
 const MAX_DIAGNOSTICS: usize = 100;
-
-/// Most trials inside each other: each multiplies the time by the number of alternatives.
-const MAX_TRIALS: u32 = 4;
 
 impl Checker {
     fn finish(mut self) -> Checked {
@@ -236,18 +243,8 @@ impl Checker {
         if let Some(choice) = schema.choice() {
             return self.check_choice(value, schema, &choice, place);
         }
-        let types = schema.types();
-        match types.as_slice() {
-            _ if schema.allows_nothing() => {
-                let message = format!("no value is allowed{}", place.of());
-                self.report(value, value.span, message, None);
-            }
-            [] => {}
-            [one] => self.check_type(value, schema, one, place),
-            several => match several.iter().find(|t| is_of_type(value, t)) {
-                Some(one) => self.check_type(value, schema, one, place),
-                None => self.mismatch(value, &schema.expectation(), place, None),
-            },
+        if let [one, ..] = schema.types()[..] {
+            self.check_type(value, schema, one, place);
         }
     }
 
@@ -368,20 +365,6 @@ impl Checker {
         };
         let message = format!("{} has {count} {things}, expected {limit}", place.subject());
         self.report(value, value.span, message, None);
-    }
-}
-
-/// Whether a value has the form of a type of JSON schema, without a look inside.
-fn is_of_type(value: &Value, name: &str) -> bool {
-    match (&value.kind, name) {
-        (ValueKind::Number(number), "integer") => number.to_int().is_some(),
-        (ValueKind::Number(_), "number")
-        | (ValueKind::String(_) | ValueKind::Char(_), "string")
-        | (ValueKind::Bool(_), "boolean")
-        | (ValueKind::List(_) | ValueKind::Tuple(_), "array")
-        | (ValueKind::Struct(_) | ValueKind::Map(_), "object")
-        | (ValueKind::Unit, "null" | "array" | "object") => true,
-        _ => false,
     }
 }
 

@@ -132,20 +132,14 @@ struct Bounds {
 impl Bounds {
     /// Each end with whether the number itself is left out.
     fn of(schema: &Schema) -> Self {
-        let ends = |inclusive, exclusive| {
-            let number = |n: &serde_json::Number| n.as_f64();
-            let inside = schema
-                .numbers(inclusive)
-                .filter_map(number)
-                .map(|limit| (limit, false));
-            let outside = schema
-                .numbers(exclusive)
-                .filter_map(number)
-                .map(|limit| (limit, true));
-            inside.chain(outside).collect::<Vec<_>>()
+        let limits = |keyword, is_open| {
+            let numbers = schema
+                .numbers(keyword)
+                .filter_map(serde_json::Number::as_f64);
+            numbers.map(move |limit| (limit, is_open))
         };
-        let lower = ends("minimum", "exclusiveMinimum").into_iter();
-        let upper = ends("maximum", "exclusiveMaximum").into_iter();
+        let lower = limits("minimum", false).chain(limits("exclusiveMinimum", true));
+        let upper = limits("maximum", false).chain(limits("exclusiveMaximum", true));
         Self {
             least: lower.max_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))),
             most: upper.min_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))),

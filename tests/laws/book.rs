@@ -115,7 +115,9 @@ fn variants(definition: &str) -> Vec<String> {
     let choices = definition["oneOf"].as_array().expect("a choice");
     let name = |choice: &Json| {
         let required = choice["required"][0].as_str();
-        required.or_else(|| choice["const"].as_str()).map(str::to_owned)
+        required
+            .or_else(|| choice["const"].as_str())
+            .map(str::to_owned)
     };
     choices.iter().filter_map(name).collect()
 }
@@ -176,7 +178,11 @@ fn every_link_leads_to_a_file() {
     let readme = fs::read_to_string(root().join("README.md")).expect("there is a README");
     let mut pages = vec![(root().to_owned(), "README.md".to_owned(), readme)];
     let book = root().join("book/src");
-    pages.extend(chapters().into_iter().map(|(name, text)| (book.clone(), name, text)));
+    pages.extend(
+        chapters()
+            .into_iter()
+            .map(|(name, text)| (book.clone(), name, text)),
+    );
     let mut failures = Vec::new();
     for (folder, name, text) in &pages {
         for link in links(text).filter(|link| !link.contains("://")) {
@@ -187,9 +193,19 @@ fn every_link_leads_to_a_file() {
                 continue;
             };
             let target = String::from_utf8_lossy(&target);
-            let heading = |line: &str| line.trim_start_matches('#').trim().to_lowercase().replace(' ', "-");
+            let heading = |line: &str| {
+                line.trim_start_matches('#')
+                    .trim()
+                    .to_lowercase()
+                    .replace(' ', "-")
+            };
             let is_heading = |line: &&str| line.starts_with('#');
-            if !anchor.is_empty() && !target.lines().filter(is_heading).any(|line| heading(line) == anchor) {
+            if !anchor.is_empty()
+                && !target
+                    .lines()
+                    .filter(is_heading)
+                    .any(|line| heading(line) == anchor)
+            {
                 failures.push(format!("{name}: {link} leads to no heading"));
             }
         }

@@ -76,13 +76,9 @@ struct Hole<'m> {
     shape: f64,
 }
 
-/// The best triangles over a part of the rim.
-#[derive(Clone, Copy)]
-struct Best {
-    cost: f64,
-    /// The third corner of the triangle at the edge between the ends of the part.
-    middle: usize,
-}
+/// The cost of the best triangles over a part of the rim, and the third corner of the one at the edge between
+/// the ends of the part.
+type Best = (f64, usize);
 
 impl<'m> Hole<'m> {
     fn of(mesh: &'m Mesh, rim: &[HalfEdgeId]) -> Self {
@@ -125,11 +121,7 @@ impl<'m> Hole<'m> {
         let n = self.points.len();
         let mut best: Vec<Option<Best>> = vec![None; n * n];
         for i in 1..n {
-            let nothing = Best {
-                cost: 0.0,
-                middle: i,
-            };
-            best[(i - 1) * n + i] = Some(nothing);
+            best[(i - 1) * n + i] = Some((0.0, i));
         }
         for length in 2..n {
             for i in 0..n - length {
@@ -141,13 +133,13 @@ impl<'m> Hole<'m> {
                 let mut found: Option<Best> = None;
                 for middle in i + 1..k {
                     let parts = (best[i * n + middle], best[middle * n + k]);
-                    let (Some(left), Some(right)) = parts else {
+                    let (Some((left, _)), Some((right, _))) = parts else {
                         continue;
                     };
-                    let cost = left.cost + right.cost + self.cost(i, middle, k);
+                    let cost = left + right + self.cost(i, middle, k);
                     // The first one of all, so that coordinates too large to square do no harm.
-                    if found.is_none_or(|f| cost < f.cost) {
-                        found = Some(Best { cost, middle });
+                    if found.is_none_or(|(least, _)| cost < least) {
+                        found = Some((cost, middle));
                     }
                 }
                 best[i * n + k] = found;
@@ -159,7 +151,7 @@ impl<'m> Hole<'m> {
         let mut parts = vec![(0, n - 1)];
         while let Some((i, k)) = parts.pop() {
             if k - i > 1 {
-                let middle = best[i * n + k]?.middle;
+                let (_, middle) = best[i * n + k]?;
                 ears.push(middle);
                 parts.extend([(i, middle), (middle, k)]);
             }

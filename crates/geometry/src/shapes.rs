@@ -155,10 +155,6 @@ pub fn torus(around: u32, across: u32, major: f64, minor: f64) -> Mesh {
         around >= 3 && across >= 3,
         "a torus needs at least 3 x 3 faces"
     );
-    let turn = |i: u32, n: u32| {
-        let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(n));
-        (cos, sin)
-    };
     let positions = (0..around)
         .flat_map(|i| {
             let (x, y) = turn(i, around);
@@ -189,9 +185,8 @@ pub fn cylinder(around: u32, caps: bool) -> Mesh {
         .into_iter()
         .flat_map(|z| {
             (0..around).map(move |i| {
-                let (sin, cos) =
-                    libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(around));
-                DVec3::new(cos, sin, z)
+                let (x, y) = turn(i, around);
+                DVec3::new(x, y, z)
             })
         })
         .collect();
@@ -224,8 +219,8 @@ pub fn uv_sphere(around: u32, rings: u32) -> Mesh {
         let (up, out) =
             libm::sincos(std::f64::consts::PI * (f64::from(j) / f64::from(rings) - 0.5));
         for i in 0..around {
-            let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(around));
-            positions.push(DVec3::new(out * cos, out * sin, up));
+            let (x, y) = turn(i, around);
+            positions.push(DVec3::new(out * x, out * y, up));
         }
     }
     positions.push(DVec3::Z);
@@ -253,6 +248,12 @@ pub fn fans(mesh: &Mesh) -> Mesh {
         triangles.extend(corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]));
     }
     of(mesh.positions().to_vec(), &triangles)
+}
+
+/// The point of the unit circle after `i` of `n` steps around it.
+fn turn(i: u32, n: u32) -> (f64, f64) {
+    let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(n));
+    (cos, sin)
 }
 
 /// A mesh of polygons that are known to be a manifold.

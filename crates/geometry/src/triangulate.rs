@@ -134,16 +134,10 @@ impl Cutter {
         if let [a, b, c, d] = self.points[..] {
             return quad([a, b, c, d], lowest);
         }
-        match self.ears() {
-            Some(triangles) => Cut::Polygon {
-                triangles,
-                is_fan: false,
-            },
-            None => Cut::Polygon {
-                triangles: fan(n, lowest),
-                is_fan: true,
-            },
-        }
+        let ears = self.ears();
+        let is_fan = ears.is_none();
+        let triangles = ears.unwrap_or_else(|| fan(n, lowest));
+        Cut::Polygon { triangles, is_fan }
     }
 
     /// Cuts the points by ears; `None` if what comes out does not cover them.
@@ -232,11 +226,7 @@ fn quad(points: [DVec3; 4], lowest: u32) -> Cut {
 fn fan(n: usize, corner: u32) -> Vec<Triangle> {
     let n = u32::try_from(n).expect("corners fit 32 bits");
     let mut triangles: Vec<Triangle> = (1..n - 1)
-        .map(|i| {
-            let mut triangle = [corner, (corner + i) % n, (corner + i + 1) % n];
-            triangle.sort_unstable();
-            triangle
-        })
+        .map(|i| rising([corner, (corner + i) % n, (corner + i + 1) % n]))
         .collect();
     triangles.sort_unstable();
     triangles
@@ -244,14 +234,14 @@ fn fan(n: usize, corner: u32) -> Vec<Triangle> {
 
 /// Triples of corners as triangles.
 fn sorted(indices: &[u32]) -> Vec<Triangle> {
-    indices
-        .chunks_exact(3)
-        .map(|t| {
-            let mut triangle = [t[0], t[1], t[2]];
-            triangle.sort_unstable();
-            triangle
-        })
-        .collect()
+    let triangles = indices.as_chunks().0;
+    triangles.iter().map(|&triangle| rising(triangle)).collect()
+}
+
+/// The triangle with its corners in rising order.
+fn rising(mut triangle: Triangle) -> Triangle {
+    triangle.sort_unstable();
+    triangle
 }
 
 /// Puts corners that no triangle has back where they belong: on the side that skips them.
@@ -306,8 +296,7 @@ fn put_back(n: usize, triangles: &mut Vec<Triangle>) {
         let mut piece = t;
         while from != b {
             let to = (from + 1) % n;
-            let mut triangle = [from, to, c];
-            triangle.sort_unstable();
+            let triangle = rising([from, to, c]);
             if from == a {
                 triangles[t] = triangle;
             } else {

@@ -1,7 +1,5 @@
 //! The mesh: its arrays, its elements, and the accessors that read them.
 
-use std::ops::Range;
-
 use glam::DVec3;
 
 use crate::attribute::{
@@ -28,6 +26,29 @@ pub struct Connectivity {
     pub face_half_edge: Vec<HalfEdgeId>,
 }
 
+impl Connectivity {
+    /// Puts the elements of `other` behind these: their ids are shifted by the counts of these.
+    pub fn append(&mut self, other: &Self) {
+        fn push<I: Id + PartialEq>(all: &mut Vec<I>, more: &[I], by: usize) {
+            let shifted = |&id: &I| match id == I::NONE {
+                true => id,
+                false => I::new(id.index() + by),
+            };
+            all.extend(more.iter().map(shifted));
+        }
+        let (h, v, f) = (
+            self.next.len(),
+            self.vertex_half_edge.len(),
+            self.face_half_edge.len(),
+        );
+        push(&mut self.next, &other.next, h);
+        push(&mut self.origin, &other.origin, v);
+        push(&mut self.face, &other.face, f);
+        push(&mut self.vertex_half_edge, &other.vertex_half_edge, h);
+        push(&mut self.face_half_edge, &other.face_half_edge, h);
+    }
+}
+
 /// A half-edge mesh of polygons in space, with attributes.
 ///
 /// Meshes are equal if all their arrays are, dead elements included.
@@ -36,9 +57,8 @@ pub struct Mesh {
     pub(crate) connectivity: Connectivity,
     pub(crate) positions: Vec<DVec3>,
     pub(crate) attributes: Attributes,
-    pub(crate) dead_vertices: Marks,
-    pub(crate) dead_edges: Marks,
-    pub(crate) dead_faces: Marks,
+    /// The dead elements by domain. A corner lives with its edge and has no mark.
+    pub(crate) dead: [Marks; 4],
     /// What the edits since [`Mesh::begin`] overwrote, while that is open.
     pub(crate) journal: Option<Box<Journal>>,
 }
@@ -48,9 +68,7 @@ impl PartialEq for Mesh {
         self.connectivity == other.connectivity
             && self.positions == other.positions
             && self.attributes == other.attributes
-            && self.dead_vertices == other.dead_vertices
-            && self.dead_edges == other.dead_edges
-            && self.dead_faces == other.dead_faces
+            && self.dead == other.dead
     }
 }
 
@@ -85,7 +103,7 @@ impl Mesh {
 
     /// The number of living vertices.
     pub fn n_vertices(&self) -> usize {
-        self.positions.len() - self.dead_vertices.count()
+        self.n_living(Domain::Vertex)
     }
 
     /// The number of living half-edges: two for each edge.
@@ -95,15 +113,16 @@ impl Mesh {
 
     /// The number of living edges.
     pub fn n_edges(&self) -> usize {
-        self.connectivity.next.len() / 2 - self.dead_edges.count()
+        self.n_living(Domain::Edge)
     }
 
     /// The number of living faces.
     pub fn n_faces(&self) -> usize {
-        self.connectivity.face_half_edge.len() - self.dead_faces.count()
+        self.n_living(Domain::Face)
     }
 
     /// The number of values that a column of this domain has: all elements, dead ones too.
+    #[inline]
     pub fn domain_len(&self, domain: Domain) -> usize {
         match domain {
             Domain::Vertex => self.positions.len(),
@@ -116,19 +135,19 @@ impl Mesh {
     /// Whether no element is dead, so that ids run from 0 without gaps.
     #[inline]
     pub fn is_dense(&self) -> bool {
-        self.dead_vertices.count() + self.dead_edges.count() + self.dead_faces.count() == 0
+        self.dead.iter().all(|marks| marks.count() == 0)
     }
 
     /// The living vertices in order of their ids.
     #[inline]
     pub fn vertices(&self) -> impl Iterator<Item = VertexId> + Clone + '_ {
-        living(0..self.positions.len(), &self.dead_vertices)
+        self.living()
     }
 
     /// The living edges in order of their ids.
     #[inline]
     pub fn edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
-        living(0..self.connectivity.next.len() / 2, &self.dead_edges)
+        self.living()
     }
 
     /// The living half-edges in order of their ids.
@@ -140,25 +159,43 @@ impl Mesh {
     /// The living faces in order of their ids.
     #[inline]
     pub fn faces(&self) -> impl Iterator<Item = FaceId> + Clone + '_ {
-        living(0..self.connectivity.face_half_edge.len(), &self.dead_faces)
+        self.living()
+    }
+
+    #[inline]
+    fn n_living(&self, domain: Domain) -> usize {
+        self.domain_len(domain) - self.dead[domain as usize].count()
+    }
+
+    #[inline]
+    pub(crate) fn is_living<I: Id>(&self, id: I) -> bool {
+        id.index() < self.domain_len(I::DOMAIN) && !self.dead[I::DOMAIN as usize].has(id.index())
+    }
+
+    #[inline]
+    fn living<I: Id>(&self) -> impl Iterator<Item = I> + Clone + '_ {
+        let dead = &self.dead[I::DOMAIN as usize];
+        (0..self.domain_len(I::DOMAIN))
+            .filter(|&i| !dead.has(i))
+            .map(I::new)
     }
 
     /// Whether `v` is a living vertex of this mesh.
     #[inline]
     pub fn has_vertex(&self, v: VertexId) -> bool {
-        v.index() < self.positions.len() && !self.dead_vertices.has(v.index())
+        self.is_living(v)
     }
 
     /// Whether `e` is a living edge of this mesh.
     #[inline]
     pub fn has_edge(&self, e: EdgeId) -> bool {
-        e.index() < self.connectivity.next.len() / 2 && !self.dead_edges.has(e.index())
+        self.is_living(e)
     }
 
     /// Whether `f` is a living face of this mesh.
     #[inline]
     pub fn has_face(&self, f: FaceId) -> bool {
-        f.index() < self.connectivity.face_half_edge.len() && !self.dead_faces.has(f.index())
+        self.is_living(f)
     }
 
     // ---- Reading the arrays --------------------------------------------------------------------
@@ -338,9 +375,4 @@ impl Mesh {
         let attributes: usize = self.attributes.iter().map(|(_, c)| c.values.bytes()).sum();
         12 * c.next.len() + 4 * c.face_half_edge.len() + 28 * self.positions.len() + attributes
     }
-}
-
-/// The ids of a range that are not marked dead.
-fn living<I: Id>(range: Range<usize>, dead: &Marks) -> impl Iterator<Item = I> + Clone + '_ {
-    range.filter(|&i| !dead.has(i)).map(I::new)
 }

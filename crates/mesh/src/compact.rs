@@ -1,7 +1,7 @@
 //! Taking dead elements out of the arrays.
 
 use crate::attribute::Sources;
-use crate::{EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
+use crate::{Connectivity, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
 /// The new id of each element from before [`Mesh::compact`]; `NONE` for elements that were dead.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,37 +42,32 @@ impl Mesh {
             faces: inverse(&faces, self.connectivity.face_half_edge.len()),
         };
         let old = &*self;
-        let mut new = Self::default();
         let half_edge = |h: Option<HalfEdgeId>| h.map_or(HalfEdgeId::NONE, |h| map.half_edge(h));
         let face = |f: Option<FaceId>| f.map_or(FaceId::NONE, |f| map.faces[f.index()]);
-        new.attributes = old.attributes.gathered(Sources {
-            vertices: &vertices,
-            corners: &corners,
-            edges: &edges,
-            faces: &faces,
-        });
-        new.positions = vertices.iter().map(|&v| old.position(v)).collect();
-        let c = &mut new.connectivity;
-        c.next = corners
-            .iter()
-            .map(|&h| map.half_edge(old.next(h)))
-            .collect();
-        c.origin = corners
-            .iter()
-            .map(|&h| map.vertices[old.origin(h).index()])
-            .collect();
-        c.face = corners.iter().map(|&h| face(old.face(h))).collect();
-        c.vertex_half_edge = vertices
-            .iter()
-            .map(|&v| half_edge(old.vertex_half_edge(v)))
-            .collect();
-        c.face_half_edge = faces
-            .iter()
-            .map(|&f| map.half_edge(old.face_half_edge(f)))
-            .collect();
+        let new = Self {
+            attributes: old.attributes.gathered(Sources {
+                vertices: &vertices,
+                corners: &corners,
+                edges: &edges,
+                faces: &faces,
+            }),
+            positions: each(&vertices, |v| old.position(v)),
+            connectivity: Connectivity {
+                next: each(&corners, |h| map.half_edge(old.next(h))),
+                origin: each(&corners, |h| map.vertices[old.origin(h).index()]),
+                face: each(&corners, |h| face(old.face(h))),
+                vertex_half_edge: each(&vertices, |v| half_edge(old.vertex_half_edge(v))),
+                face_half_edge: each(&faces, |f| map.half_edge(old.face_half_edge(f))),
+            },
+            ..Self::default()
+        };
         self.replace(new);
         Some(map)
     }
+}
+
+fn each<I: Id, T>(kept: &[I], value: impl Fn(I) -> T) -> Vec<T> {
+    kept.iter().map(|&id| value(id)).collect()
 }
 
 /// For each old index below `n` its place in `kept`.

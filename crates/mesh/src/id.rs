@@ -28,7 +28,7 @@ pub trait Id:
 }
 
 macro_rules! id {
-    ($(#[$doc:meta])* $name:ident, $letter:literal, $domain:ident) => {
+    ($(#[$doc:meta])* $name:ident, $letter:literal, $domain:ident, $element:ident) => {
         $(#[$doc])*
         #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Pod, Zeroable)]
         #[repr(transparent)]
@@ -79,6 +79,12 @@ macro_rules! id {
             }
         }
 
+        impl From<$name> for Element {
+            fn from(id: $name) -> Self {
+                Self::$element(id)
+            }
+        }
+
         impl fmt::Display for $name {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 if *self == Self::NONE {
@@ -99,21 +105,21 @@ macro_rules! id {
 
 id!(
     /// A vertex. Shown as `v12`.
-    VertexId, "v", Vertex
+    VertexId, "v", Vertex, Vertex
 );
 id!(
     /// A half-edge: an edge seen from one of its sides, with a direction. Shown as `h12`.
     ///
     /// The two halves of edge e are half-edges 2e and 2e + 1.
-    HalfEdgeId, "h", Corner
+    HalfEdgeId, "h", Corner, HalfEdge
 );
 id!(
     /// An edge: a pair of half-edges. Shown as `e12`.
-    EdgeId, "e", Edge
+    EdgeId, "e", Edge, Edge
 );
 id!(
     /// A face: a polygon of any degree. Shown as `f12`.
-    FaceId, "f", Face
+    FaceId, "f", Face, Face
 );
 
 impl HalfEdgeId {
@@ -198,18 +204,6 @@ impl fmt::Display for Element {
         }
     }
 }
-
-macro_rules! from_ids {
-    ($($id:ident => $kind:ident),*) => {
-        $(impl From<$id> for Element {
-            fn from(id: $id) -> Self {
-                Self::$kind(id)
-            }
-        })*
-    };
-}
-
-from_ids!(VertexId => Vertex, HalfEdgeId => HalfEdge, EdgeId => Edge, FaceId => Face);
 
 #[cfg(test)]
 mod tests {

@@ -100,18 +100,6 @@ pub(crate) enum Array {
     FaceHalfEdge,
 }
 
-impl Array {
-    /// The domain whose elements have entries in it.
-    #[inline]
-    const fn domain(self) -> Domain {
-        match self {
-            Self::Next | Self::Origin | Self::Face => Domain::Corner,
-            Self::VertexHalfEdge => Domain::Vertex,
-            Self::FaceHalfEdge => Domain::Face,
-        }
-    }
-}
-
 impl Connectivity {
     /// The ids of an array as plain numbers.
     #[inline]
@@ -126,12 +114,8 @@ impl Connectivity {
     }
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Lengths {
-    vertices: usize,
-    half_edges: usize,
-    faces: usize,
-}
+/// How many elements of each domain there are.
+type Lengths = [usize; 4];
 
 /// The ends of all arrays.
 #[derive(Clone, Debug, PartialEq)]
@@ -185,27 +169,28 @@ impl Journal {
     }
 
     #[inline]
-    fn is_noted(&self, domain: Domain, i: usize) -> bool {
-        i < self.lengths.of(domain)
+    fn is_noted<I: Id>(&self, element: I) -> bool {
+        element.index() < self.lengths[I::DOMAIN as usize]
     }
 
-    /// Notes the id that was at place `i` of an array.
+    /// Notes the id that an element had in an array.
     #[inline]
-    pub(crate) fn link(&mut self, array: Array, i: u32, old: u32) {
-        if self.is_noted(array.domain(), i as usize) {
-            self.noted.entries.push(Entry::Link(array, i, old));
+    pub(crate) fn link<I: Id>(&mut self, array: Array, element: I, old: u32) {
+        if self.is_noted(element) {
+            let entry = Entry::Link(array, bytemuck::cast(element), old);
+            self.noted.entries.push(entry);
         }
     }
 
     pub(crate) fn position(&mut self, v: VertexId, old: DVec3) {
-        if self.is_noted(Domain::Vertex, v.index()) {
+        if self.is_noted(v) {
             self.noted.position(v, old);
         }
     }
 
     /// Notes the values that `element` has in these columns, all those of its domain.
     pub(crate) fn values<I: Id>(&mut self, element: I, columns: &[Column]) {
-        if self.is_noted(I::DOMAIN, element.index()) {
+        if self.is_noted(element) {
             self.noted.values(I::DOMAIN, element.index(), columns);
         }
     }
@@ -222,17 +207,6 @@ impl Change {
             column.values.push_bytes(i, &mut self.values);
         }
         self.entries.push(Entry::Values(domain, i));
-    }
-}
-
-impl Lengths {
-    const fn of(&self, domain: Domain) -> usize {
-        match domain {
-            Domain::Vertex => self.vertices,
-            Domain::Corner => self.half_edges,
-            Domain::Edge => self.half_edges / 2,
-            Domain::Face => self.faces,
-        }
     }
 }
 
@@ -404,7 +378,7 @@ impl Mesh {
                 return None;
             }
             Entry::Mark(domain, i) => {
-                let marks = self.dead_mut(domain);
+                let marks = &mut self.dead[domain as usize];
                 if marks.has(i) {
                     marks.remove(i);
                 } else {
@@ -438,29 +412,26 @@ impl Mesh {
         })
     }
 
-    const fn lengths(&self) -> Lengths {
-        Lengths {
-            vertices: self.positions.len(),
-            half_edges: self.connectivity.next.len(),
-            faces: self.connectivity.face_half_edge.len(),
-        }
+    fn lengths(&self) -> Lengths {
+        Domain::ALL.map(|domain| self.domain_len(domain))
     }
 
     fn cut_tail(&mut self, lengths: Lengths) -> Tail {
         let c = &mut self.connectivity;
+        let [vertices, half_edges, _, faces] = lengths;
         Tail {
             connectivity: Connectivity {
-                next: c.next.split_off(lengths.half_edges),
-                origin: c.origin.split_off(lengths.half_edges),
-                face: c.face.split_off(lengths.half_edges),
-                vertex_half_edge: c.vertex_half_edge.split_off(lengths.vertices),
-                face_half_edge: c.face_half_edge.split_off(lengths.faces),
+                next: c.next.split_off(half_edges),
+                origin: c.origin.split_off(half_edges),
+                face: c.face.split_off(half_edges),
+                vertex_half_edge: c.vertex_half_edge.split_off(vertices),
+                face_half_edge: c.face_half_edge.split_off(faces),
             },
-            positions: self.positions.split_off(lengths.vertices),
+            positions: self.positions.split_off(vertices),
             values: Domain::ALL.map(|domain| {
                 let columns = self.attributes.of_mut(domain).iter_mut();
                 columns
-                    .map(|c| c.values.split_off(lengths.of(domain)))
+                    .map(|c| c.values.split_off(lengths[domain as usize]))
                     .collect()
             }),
         }

@@ -70,9 +70,7 @@ impl Mesh {
         }
         attributes.drop_by_rule();
         let mut reversed = Self {
-            dead_vertices: self.dead_vertices.clone(),
-            dead_edges: self.dead_edges.clone(),
-            dead_faces: self.dead_faces.clone(),
+            dead: self.dead.clone(),
             ..Self::from_arrays(connectivity, self.positions.clone())
         };
         reversed.set_attributes(attributes);

@@ -45,11 +45,16 @@ impl Mesh {
     /// The half-edges around the face, or the hole, of `h`, beginning with `h`.
     #[inline]
     pub fn loop_half_edges(&self, h: HalfEdgeId) -> Orbit<'_> {
+        self.orbit(Some(h), false)
+    }
+
+    #[inline]
+    fn orbit(&self, start: Option<HalfEdgeId>, around_vertex: bool) -> Orbit<'_> {
         Orbit {
             mesh: self,
-            start: Some(h),
-            at: Some(h),
-            around_vertex: false,
+            start,
+            at: start,
+            around_vertex,
         }
     }
 
@@ -57,13 +62,7 @@ impl Mesh {
     /// the last is the one whose twin is on the boundary.
     #[inline]
     pub fn vertex_half_edges(&self, v: VertexId) -> Orbit<'_> {
-        let h = self.vertex_half_edge(v);
-        Orbit {
-            mesh: self,
-            start: h,
-            at: h,
-            around_vertex: true,
-        }
+        self.orbit(self.vertex_half_edge(v), true)
     }
 
     /// The corners of `f`, counter-clockwise.
@@ -99,19 +98,12 @@ impl Mesh {
     /// The half-edge before `h`. Walks around the face, or on the boundary around the vertex.
     #[inline]
     pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
-        let orbit = if self.face(h).is_some() {
-            self.loop_half_edges(h)
+        let prev = if self.face(h).is_some() {
+            self.orbit(Some(h), false).last()
         } else {
-            Orbit {
-                mesh: self,
-                start: Some(h),
-                at: Some(h),
-                around_vertex: true,
-            }
+            self.orbit(Some(h), true).last().map(HalfEdgeId::twin)
         };
-        let on_boundary = orbit.around_vertex;
-        let last = orbit.last().expect("an orbit contains its start");
-        if on_boundary { last.twin() } else { last }
+        prev.expect("an orbit contains its start")
     }
 
     /// The half-edge from `v` to `w`, if they share an edge. Of several the first around `v`.

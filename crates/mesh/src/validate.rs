@@ -117,26 +117,24 @@ impl Mesh {
 
     /// Whether there are no [`defects`](Self::defects), asked by all threads.
     pub fn is_valid(&self) -> bool {
-        let [n_half_edges, n_vertices, n_faces] =
-            [Domain::Corner, Domain::Vertex, Domain::Face].map(|d| self.domain_len(d));
-        let half_edge = |i: usize| Some(HalfEdgeId::new(i)).filter(|h| self.has_edge(h.edge()));
-        let vertex = |i: usize| Some(VertexId::new(i)).filter(|&v| self.has_vertex(v));
-        let face = |i: usize| Some(FaceId::new(i)).filter(|&f| self.has_face(f));
-
         is_silent(|found| self.check_lengths(found))
             && is_silent(|found| self.check_columns(found))
-            && all(n_half_edges, half_edge, |h, found| {
-                self.check_entries_of_half_edge(h, found);
+            && self.all(|e: EdgeId, found| {
+                (e.half_edges().iter()).for_each(|&h| self.check_entries_of_half_edge(h, found));
             })
-            && all(n_vertices, vertex, |v, found| {
+            && self.all(|v: VertexId, found| {
                 self.check_entry_of_vertex(v, found);
                 self.check_position(v, found);
             })
-            && all(n_faces, face, |f, found| self.check_entry_of_face(f, found))
+            && self.all(|f: FaceId, found| self.check_entry_of_face(f, found))
             && {
                 let (is_permutation, is_linked) = rayon::join(
                     || self.is_permutation(),
-                    || all(n_half_edges, half_edge, |h, found| self.check_links(h, found)),
+                    || {
+                        self.all(|e: EdgeId, found| {
+                            (e.half_edges().iter()).for_each(|&h| self.check_links(h, found));
+                        })
+                    },
                 );
                 is_permutation && is_linked
             }
@@ -144,13 +142,31 @@ impl Mesh {
             // of different faces meet nowhere, and they pass all corners if every face is one loop. The same
             // holds for the walks around vertices.
             && {
-                let faces = &self.connectivity.face;
-                let is_corner = |i: &usize| half_edge(*i).is_some() && faces[*i] != FaceId::NONE;
-                let n_corners = numbers(n_half_edges).filter(is_corner).count();
-                sum(n_faces, face, |f| self.loop_of_face(f, usize::MAX)) == Some(n_corners)
+                let faces = |e| self.edge_faces(e).into_iter().flatten().count();
+                self.sum(|f| self.loop_of_face(f, usize::MAX)) == self.sum(|e| Ok(faces(e)))
             }
-            && sum(n_vertices, vertex, |v| self.fan_of_vertex(v, usize::MAX))
-                == Some(self.n_half_edges())
+            && self.sum(|v| self.fan_of_vertex(v, usize::MAX)) == Some(self.n_half_edges())
+    }
+
+    /// Whether a check finds nothing at any living element, asked by all threads.
+    fn all<I: Id>(&self, check: impl Fn(I, Found) + Sync + Send) -> bool {
+        numbers(self.domain_len(I::DOMAIN)).map(I::new).all(|id| {
+            let is_clean = || is_silent(|found| check(id, found));
+            !self.is_living(id) || is_clean()
+        })
+    }
+
+    /// The sum over all living elements, by all threads; `None` if there is a defect.
+    fn sum<I: Id>(&self, term: impl Fn(I) -> Result<usize, Defect> + Sync + Send) -> Option<usize> {
+        let term = |id| {
+            if self.is_living(id) {
+                term(id).ok()
+            } else {
+                Some(0)
+            }
+        };
+        let ids = numbers(self.domain_len(I::DOMAIN)).map(I::new);
+        ids.map(term).sum()
     }
 
     // ---- The invariants, in the order of the crate's front page -------------------------------
@@ -343,25 +359,6 @@ fn numbers(n: usize) -> impl IndexedParallelIterator<Item = usize> {
     (0..n).into_par_iter().with_min_len(BLOCK)
 }
 
-/// Whether a check of each living element finds nothing.
-fn all<I: Id>(
-    n: usize,
-    living: impl Fn(usize) -> Option<I> + Sync + Send,
-    check: impl Fn(I, Found) + Sync + Send,
-) -> bool {
-    numbers(n).all(|i| living(i).is_none_or(|id| is_silent(|found| check(id, found))))
-}
-
-/// The sum over the living elements, if there are all terms.
-fn sum<I: Id>(
-    n: usize,
-    living: impl Fn(usize) -> Option<I> + Sync + Send,
-    term: impl Fn(I) -> Result<usize, Defect> + Sync + Send,
-) -> Option<usize> {
-    let term = |i| living(i).map_or(Some(0), |id| term(id).ok());
-    numbers(n).map(term).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -543,7 +540,7 @@ mod tests {
         let around: Vec<_> = mesh.vertex_half_edges(v).collect();
         for h in [around[0], around[2]] {
             let f = mesh.face(h).unwrap();
-            mesh.dead_faces.add(f.index());
+            mesh.dead[Domain::Face as usize].add(f.index());
             let sides: Vec<_> = mesh.face_half_edges(f).collect();
             for side in sides {
                 mesh.set_face(side, None);

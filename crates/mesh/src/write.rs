@@ -5,7 +5,6 @@ use glam::DVec3;
 
 use crate::attribute::Column;
 use crate::journal::{Array, Entry};
-use crate::marks::Marks;
 use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, Mesh, Values, VertexId};
 
 impl Mesh {
@@ -39,7 +38,7 @@ impl Mesh {
         let slot = &mut self.connectivity.ids_mut(array)[at.index()];
         let old = std::mem::replace(slot, bytemuck::cast(id));
         if let Some(journal) = &mut self.journal {
-            journal.link(array, bytemuck::cast(at), old);
+            journal.link(array, at, old);
         }
     }
 
@@ -72,21 +71,12 @@ impl Mesh {
 
     /// Marks a vertex, an edge or a face dead.
     pub(crate) fn kill<I: Id>(&mut self, id: I) {
-        let dead = self.dead_mut(I::DOMAIN);
+        let dead = &mut self.dead[I::DOMAIN as usize];
         if !dead.has(id.index()) {
             dead.add(id.index());
             if let Some(journal) = &mut self.journal {
                 journal.note(|| Entry::Mark(I::DOMAIN, id.index()));
             }
-        }
-    }
-
-    /// The dead elements of a domain. A corner lives with its edge.
-    pub(crate) fn dead_mut(&mut self, domain: Domain) -> &mut Marks {
-        match domain {
-            Domain::Vertex => &mut self.dead_vertices,
-            Domain::Edge | Domain::Corner => &mut self.dead_edges,
-            Domain::Face => &mut self.dead_faces,
         }
     }
 

@@ -49,7 +49,11 @@ fn fields_of(schema: &Schema, with_variants: bool) -> Vec<FieldDoc> {
             kind: kind(&field),
             default: (!required.contains(&name)).then_some(default),
             doc: field.doc(),
-            variants: if with_variants { variants(&field) } else { Vec::new() },
+            variants: if with_variants {
+                variants(&field)
+            } else {
+                Vec::new()
+            },
         })
     };
     schema.fields().filter_map(described).collect()

@@ -106,6 +106,11 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// The sharpness of an edge at the origin of `h`, on this level and the next.
+    fn edge_sharpness(&self, h: HalfEdgeId) -> [f64; 2] {
+        [self.sharpness.edge(h.edge()), self.sharpness.of_half(h)]
+    }
+
     fn of(&self, h: HalfEdgeId) -> DVec4 {
         self.values[h.index()]
     }
@@ -345,12 +350,5 @@ impl Around {
     fn weight(&self, field: &Field, piece: &Piece) -> f64 {
         let edges = piece.inside.iter().map(|&h| field.edge_sharpness(h));
         fading(edges.chain([self.sharpness(field)]))
-    }
-}
-
-impl Field<'_> {
-    /// The sharpness of an edge at the origin of `h`, on this level and the next.
-    fn edge_sharpness(&self, h: HalfEdgeId) -> [f64; 2] {
-        [self.sharpness.edge(h.edge()), self.sharpness.of_half(h)]
     }
 }

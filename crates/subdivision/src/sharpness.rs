@@ -189,7 +189,7 @@ impl<'a> Sharpness<'a> {
         if self.mesh.face(h).is_none() {
             let is_corner = match self.boundary {
                 Boundary::EdgesOnly => false,
-                Boundary::EdgesAndCorners => self.clockwise_last(h) == self.clockwise_next(h),
+                Boundary::EdgesAndCorners => self.clockwise_last(h) == self.mesh.next(h.twin()),
                 Boundary::Fixed => true,
             };
             if is_corner {
@@ -203,11 +203,6 @@ impl<'a> Sharpness<'a> {
     #[inline]
     fn clockwise_last(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.mesh.prev(h).twin()
-    }
-
-    #[inline]
-    fn clockwise_next(&self, h: HalfEdgeId) -> HalfEdgeId {
-        self.mesh.next(h.twin())
     }
 
     /// How much of the sharp mask the new vertex on an edge has: 1 lies in the middle, 0 is smooth.

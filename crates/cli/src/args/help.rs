@@ -47,6 +47,7 @@ const GROUPS: [(&str, &[(&str, &str)]); 4] = [
             ("cache", "cache clear"),
             ("new-op", "new-op InflateFaces"),
             ("completions", "completions bash"),
+            ("man", "man > meshwright.1"),
         ],
     ),
 ];
@@ -57,7 +58,7 @@ Meshwright edits 3D meshes by recipe. Three commands to start with:
 
   meshwright new part             write a small recipe, part.ron
   meshwright run part.ron         run it; its files are written to the folder out
-  meshwright info out/part.obj    show what a file contains
+  meshwright info out/part.glb    show what a file contains
 
 `meshwright --help` lists all commands.
 ";
@@ -72,7 +73,11 @@ pub(crate) fn command() -> Command {
         for (name, example) in commands {
             let about = command.find_subcommand(name).and_then(Command::get_about);
             let about = about.map(ToString::to_string).unwrap_or_default();
-            let _ = write!(template, "  {name:<13} {about}\n{:16}meshwright {example}\n", "");
+            let _ = write!(
+                template,
+                "  {name:<13} {about}\n{:16}meshwright {example}\n",
+                ""
+            );
         }
     }
     template += "\nOptions:\n{options}\n\n`meshwright COMMAND --help` describes a command and its options.\n";
@@ -91,9 +96,16 @@ mod tests {
 
     #[test]
     fn every_command_has_a_place_and_an_example() {
-        let named: Vec<&str> = GROUPS.iter().flat_map(|(_, c)| c.iter().map(|(name, _)| *name)).collect();
+        let named: Vec<&str> = GROUPS
+            .iter()
+            .flat_map(|(_, c)| c.iter().map(|(name, _)| *name))
+            .collect();
         for command in Args::command().get_subcommands() {
-            assert!(named.contains(&command.get_name()), "{}", command.get_name());
+            assert!(
+                named.contains(&command.get_name()),
+                "{}",
+                command.get_name()
+            );
         }
         for (name, example) in GROUPS.iter().flat_map(|(_, commands)| commands.iter()) {
             assert!(Args::command().find_subcommand(name).is_some(), "{name}");

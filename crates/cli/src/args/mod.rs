@@ -1,6 +1,7 @@
 //! The command line.
 
 mod cache;
+pub(crate) mod help;
 mod look;
 mod many;
 mod picture;
@@ -9,7 +10,8 @@ mod run;
 
 use std::path::PathBuf;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
@@ -32,89 +34,127 @@ pub(crate) struct Args {
 pub(crate) enum Command {
     /// Run a recipe
     Run(RunArgs),
+    /// Check a recipe without running it, and forecast counts and memory
+    Check(CheckArgs),
     /// Run a recipe again whenever it or one of its inputs is saved
     Watch(RunArgs),
-    /// Check a recipe without running it, and forecast what it will make
-    Check(CheckArgs),
-    /// Run recipes as tests: one line each, and a summary
+    /// Run recipes as tests
     Test(TestArgs),
+    /// Show what a file contains
+    Info(InfoArgs),
+    /// Draw files or the results of recipes as an image
+    Picture(PictureArgs),
+    /// Show which elements of a mesh a selection matches
+    Select(SelectArgs),
+    /// Compare two files, or the results of two recipes
+    ///
+    /// The exit code is 0 if they are equal, 1 if they differ and 2 if they cannot be compared.
+    Diff(DiffArgs),
+    /// Read a file and write it in another format
+    Convert(ConvertArgs),
     /// Run one recipe on many files
     Batch(BatchArgs),
-    /// Run one recipe with many values of its parameters, and measure what comes out
+    /// Run one recipe with many parameter values and tabulate the results
     Sweep(SweepArgs),
-    /// List the operations, or show one of them
-    Ops {
-        /// The operation to show
+    /// Write a small recipe with comments, to be changed
+    New(NewArgs),
+    /// List the operations and selections, or describe one operation
+    Ops(OpsArgs),
+    /// List what recipes can expect, or describe one expectation
+    Expectations {
+        /// The expectation to describe
         name: Option<String>,
-        /// Print the whole reference as Markdown
-        #[arg(long, conflicts_with = "name")]
-        markdown: bool,
-        /// With what the recipes in this folder draw: `NAME/before.png` and `NAME/after.png` of `NAME.ron`
-        #[arg(long, requires = "markdown", value_name = "FOLDER")]
-        pictures: Option<PathBuf>,
     },
-    /// Show what a file holds
-    Info {
-        /// A mesh, patch or curve file
-        file: PathBuf,
-        /// Show a small picture too: in pixels where the terminal can, else in characters
-        #[arg(long)]
-        picture: bool,
-        #[command(flatten)]
-        picture_errors: PictureErrorsArgs,
-        #[command(flatten)]
-        read: ReadArgs,
-        #[arg(long, value_enum, default_value_t)]
-        format: Format,
-    },
-    /// Read a file and write it in another format
-    Convert {
-        /// The file to read
-        input: PathBuf,
-        #[command(flatten)]
-        read: ReadArgs,
-        /// The file to write; its ending chooses the format
-        output: PathBuf,
-    },
-    /// Run the recipes that wrote files again, and compare the bytes
-    ///
-    /// A file says which recipe wrote it, with which parameters and from which inputs. The recipe is looked
-    /// for below the working directory.
-    Reproduce(ReproduceArgs),
-    /// Draw files, or what recipes make, as an image
-    Picture(PictureArgs),
-    /// Show the elements of a mesh that a selection matches
-    Select(SelectArgs),
-    /// Hold two files, or what two recipes make, against each other: exit code 0 if they are equal, 1 if not
-    Diff(DiffArgs),
-    /// Rewrite older spellings in recipes; comments and layout stay
-    Upgrade(UpgradeArgs),
-    /// Show where the cache is and what it holds, or empty it
-    Cache(CacheCommandArgs),
-    /// Make the mesh smaller on which a step of a recipe fails, and write it with the step
-    Shrink(ShrinkArgs),
     /// Print the JSON schema of recipes
     Schema,
-    /// Write a new operation, a working sample with its test and its picture: a crate of its own, or with `--in` a file of
-    /// a group
-    NewOp {
-        /// The name of the operation in camel case, such as `InflateFaces`
-        name: String,
-        /// Write a file into this group of operations, such as `faces`, in place of a crate
-        #[arg(long = "in", value_name = "GROUP")]
-        group: Option<String>,
-        /// Where to write the crate; for a group the root of Meshwright's workspace
-        #[arg(long, default_value = ".")]
-        dir: PathBuf,
-        /// The root of Meshwright's workspace, which the crate depends on
-        #[arg(
-            long,
-            default_value = ".",
-            conflicts_with = "group",
-            value_name = "DIR"
-        )]
-        meshwright: PathBuf,
+    /// Rewrite older spellings in recipes; comments and layout are kept
+    Upgrade(UpgradeArgs),
+    /// Run the recipes that wrote files again and compare the bytes
+    ///
+    /// A file records which recipe wrote it, with which parameters and from which inputs. The recipe is searched
+    /// for below the working directory.
+    Reproduce(ReproduceArgs),
+    /// Reduce a failing step to a minimal mesh
+    Shrink(ShrinkArgs),
+    /// Show or clear the step cache
+    Cache(CacheCommandArgs),
+    /// Write the source of a new operation, with a test and a picture
+    ///
+    /// It becomes a crate of its own, or with `--in` a file of a group in Meshwright's workspace.
+    NewOp(NewOpArgs),
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: Shell,
     },
+    /// Print the manual page
+    Man,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct NewArgs {
+    /// The name of the recipe, or a model that it reads: `part` and `part.obj` both write `part.ron`
+    pub(crate) name: PathBuf,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct OpsArgs {
+    /// The operation to describe
+    pub(crate) name: Option<String>,
+    /// List the selections instead
+    #[arg(long, conflicts_with = "name")]
+    pub(crate) selections: bool,
+    /// Print the whole reference as Markdown
+    #[arg(long, conflicts_with = "name")]
+    pub(crate) markdown: bool,
+    /// A folder of pictures for the reference: `NAME/before.png` and `NAME/after.png`, drawn by `NAME.ron`
+    #[arg(long, requires = "markdown", value_name = "FOLDER")]
+    pub(crate) pictures: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct InfoArgs {
+    /// A mesh, patch or curve file
+    pub(crate) file: PathBuf,
+    /// Also show a small picture: pixels if the terminal supports them, otherwise characters
+    #[arg(long)]
+    pub(crate) picture: bool,
+    #[command(flatten)]
+    pub(crate) picture_errors: PictureErrorsArgs,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct ConvertArgs {
+    /// The file to read
+    pub(crate) input: PathBuf,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    /// The file to write; its ending determines the format
+    pub(crate) output: PathBuf,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct NewOpArgs {
+    /// The name of the operation in camel case, such as `InflateFaces`
+    pub(crate) name: String,
+    /// Write a file into this group of operations, such as `faces`, instead of a crate
+    #[arg(long = "in", value_name = "GROUP")]
+    pub(crate) group: Option<String>,
+    /// Where to write the crate; for a group the root of Meshwright's workspace
+    #[arg(long, default_value = ".")]
+    pub(crate) dir: PathBuf,
+    /// The root of Meshwright's workspace, which the crate depends on
+    #[arg(
+        long,
+        default_value = ".",
+        conflicts_with = "group",
+        value_name = "DIR"
+    )]
+    pub(crate) meshwright: PathBuf,
 }
 
 /// An invalid combination of arguments, found after they were read: exit code 2.
@@ -139,23 +179,21 @@ fn assignment(text: &str) -> Result<(String, String), String> {
 }
 
 fn size(text: &str) -> Result<u64, String> {
-    let digits = text
-        .find(|c: char| !c.is_ascii_digit())
-        .unwrap_or(text.len());
-    let (number, unit) = text.split_at(digits);
+    let digits = text.find(|c: char| !c.is_ascii_digit());
+    let (number, unit) = text.split_at(digits.unwrap_or(text.len()));
     let shift = match unit.trim() {
-        "" | "B" => 0,
-        "KiB" | "K" => 10,
-        "MiB" | "M" => 20,
-        "GiB" | "G" => 30,
-        "TiB" | "T" => 40,
-        _ => return Err("expected a size such as 512MiB or 8GiB".to_owned()),
+        "" | "B" => Some(0),
+        "KiB" | "K" => Some(10),
+        "MiB" | "M" => Some(20),
+        "GiB" | "G" => Some(30),
+        "TiB" | "T" => Some(40),
+        _ => None,
     };
-    number
-        .parse::<u64>()
-        .ok()
-        .and_then(|n| n.checked_mul(1 << shift))
-        .ok_or_else(|| "expected a size such as 512MiB or 8GiB".to_owned())
+    let number = number.parse::<u64>().ok();
+    let size = number
+        .zip(shift)
+        .and_then(|(n, shift)| n.checked_mul(1 << shift));
+    size.ok_or_else(|| "expected a size such as 512MiB or 8GiB".to_owned())
 }
 
 #[cfg(test)]

@@ -31,12 +31,17 @@ pub(crate) fn expectations(name: Option<&str>) -> anyhow::Result<bool> {
     let all = recipe::expectations();
     let Some(name) = name else {
         let text = variants_text(&all, "");
-        print(&format!("{text}\n`meshwright expectations NAME` shows the fields of one.\n"))?;
+        print(&format!(
+            "{text}\n`meshwright expectations NAME` shows the fields of one.\n"
+        ))?;
         return Ok(true);
     };
     let Some(one) = all.iter().find(|one| one.name == name) else {
         let known = all.iter().map(|one| one.name.as_str());
-        anyhow::bail!("there is no expectation `{name}`: {}", did_you_mean(name, known));
+        anyhow::bail!(
+            "there is no expectation `{name}`: {}",
+            did_you_mean(name, known)
+        );
     };
     let mut text = format!("{}\n\n{}\n", one.written, one.doc);
     if !one.fields.is_empty() {
@@ -144,12 +149,16 @@ fn field_text(field: &FieldDoc, indent: &str) -> String {
 fn variants_text(variants: &[VariantDoc], indent: &str) -> String {
     let mut text = String::new();
     for variant in variants {
-        let column = indent.len() + 35;
         let mut line = format!("{indent}{:<34}", variant.written);
+        let column = " ".repeat(indent.len() + 34);
+        if line.len() > column.len() && !variant.doc.is_empty() {
+            text += &format!("{line}\n");
+            line.clone_from(&column);
+        }
         for word in variant.doc.split_whitespace() {
             if line.chars().count() + 1 + word.chars().count() > WIDTH {
                 text += &format!("{line}\n");
-                line = " ".repeat(column - 1);
+                line.clone_from(&column);
             }
             line += &format!(" {word}");
         }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use op::Registry;
 use recipe::{FieldDoc, TypeDoc, VariantDoc, fields, step_kinds, types};
+use serde_json::Value as Json;
 
 use super::new_op::snake_case;
 
@@ -14,23 +15,19 @@ pub(crate) fn reference(registry: &Registry, pictures: Option<&Path>) -> String 
         "# Operations\n\nMade by `meshwright ops --markdown` from the operations themselves.\n\n"
             .to_owned();
     for entry in registry.entries() {
-        text += &format!(
-            "- [{0}](#{1}): {2}\n",
-            entry.name,
-            entry.name.to_lowercase(),
-            entry.summary
-        );
+        let (name, anchor) = (entry.name, entry.name.to_lowercase());
+        text += &format!("- [{name}](#{anchor}): {}\n", entry.summary);
     }
     let mut used: BTreeMap<String, TypeDoc> = BTreeMap::new();
     for entry in registry.entries() {
         let schema = entry.schema();
         text += &format!("\n## {}\n\n", entry.name);
-        if let Some(description) = schema.get("description").and_then(|d| d.as_str()) {
-            text += &format!("{description}\n\n");
+        if schema["description"].is_string() {
+            text += &format!("{}\n\n", description(&schema));
         }
         text += &format!("```ron\n{}\n```\n\n", entry.example);
         if let Some(folder) = pictures {
-            text += &shown(entry.name, folder);
+            text += &images(entry.name, folder);
         }
         let fields = fields(&schema);
         if fields.is_empty() {
@@ -42,11 +39,8 @@ pub(crate) fn reference(registry: &Registry, pictures: Option<&Path>) -> String 
     }
     text += "\n# Steps that hold steps\n";
     for (name, schema) in step_kinds() {
-        let doc = schema["description"].as_str().unwrap_or_default();
-        text += &format!(
-            "\n## {name}\n\n{doc}.\n\n{}",
-            fields_table(&fields(&schema))
-        );
+        let (doc, table) = (description(&schema), fields_table(&fields(&schema)));
+        text += &format!("\n## {name}\n\n{doc}.\n\n{table}");
     }
     text += "\n# Types of parameters\n";
     for t in used.values() {
@@ -63,7 +57,7 @@ pub(crate) fn reference(registry: &Registry, pictures: Option<&Path>) -> String 
 }
 
 /// The pictures of an operation side by side, with the recipe that draws them.
-fn shown(operation: &str, folder: &Path) -> String {
+fn images(operation: &str, folder: &Path) -> String {
     let name = snake_case(operation);
     let recipe = format!("{}/{name}", folder.display());
     let images: Vec<String> = ["before", "after"]
@@ -97,6 +91,10 @@ fn variants_table(variants: &[VariantDoc]) -> String {
         text += &format!("| `{written}` | {} |\n", cell(doc));
     }
     text
+}
+
+fn description(schema: &Json) -> &str {
+    schema["description"].as_str().unwrap_or_default()
 }
 
 /// A text in one cell of a table.

@@ -19,7 +19,11 @@ fn blocks<'t>(text: &'t str, kind: &str) -> Vec<&'t str> {
 
 /// The text with one blank in place of each gap, and without the column of times.
 fn without_times(text: &str) -> Vec<String> {
-    let words = |line: &str| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    let words = |line: &str| {
+        line.split_whitespace()
+            .map(str::to_owned)
+            .collect::<Vec<_>>()
+    };
     let row = |line| {
         let mut words = words(line);
         if words.last().is_some_and(|unit| unit == "ms" || unit == "s") {

@@ -157,12 +157,10 @@ impl OneSided {
             .into_par_iter()
             .map(|b| {
                 let mut block = Block::default();
-                for i in b * BLOCK..slots.min((b + 1) * BLOCK) {
-                    let f = FaceId::new(i);
-                    if from.has_face(f) {
-                        for triangle in fan(from, f) {
-                            block.add(&triangle, &hits, to, portion, enough);
-                        }
+                let faces = (b * BLOCK..slots.min((b + 1) * BLOCK)).map(FaceId::new);
+                for f in faces.filter(|&f| from.has_face(f)) {
+                    for triangle in fan(from, f) {
+                        block.add(&triangle, &hits, to, portion, enough);
                     }
                 }
                 block
@@ -249,11 +247,10 @@ impl Block {
         let (mut sum, mut count, mut hint) = (0.0, 0.0, 0);
         for i in 0..n {
             for j in 0..n - i {
-                // The part that points as the triangle does, and the one that points the other way.
-                for (shift, is_inside) in [(third, true), (2.0 * third, i + j + 2 <= n)] {
-                    if !is_inside {
-                        continue;
-                    }
+                // The part that points as the triangle does, and, if it is inside, the one that points the
+                // other way.
+                let n_parts = if i + j + 2 <= n { 2 } else { 1 };
+                for shift in [third, 2.0 * third].into_iter().take(n_parts) {
                     let (u, v) = (f64::from(i) + shift, f64::from(j) + shift);
                     let at = a + (u / f64::from(n)) * (b - a) + (v / f64::from(n)) * (c - a);
                     let hit = to.nearest(at, hint);

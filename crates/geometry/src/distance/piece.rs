@@ -55,18 +55,9 @@ impl Farthest {
 
     pub(super) fn places(&self, to: &Surface) -> (Place, Place) {
         let Sample { at, hit } = self.sample;
-        let from = Place {
-            position: at,
-            on: self.on,
-        };
-        let on = Element::Face(to.triangle(hit.triangle).face);
-        (
-            from,
-            Place {
-                position: hit.point,
-                on,
-            },
-        )
+        let place = |position, on| Place { position, on };
+        let face = to.triangle(hit.triangle).face;
+        (place(at, self.on), place(hit.point, Element::Face(face)))
     }
 }
 

@@ -100,14 +100,7 @@ impl Surface {
         if last - first <= LEAF {
             return;
         }
-        let extent = max - min;
-        let axis = if extent.x >= extent.y && extent.x >= extent.z {
-            0
-        } else if extent.y >= extent.z {
-            1
-        } else {
-            2
-        };
+        let axis = (max - min).max_position();
         let key = |t: &Triangle| t.at[0][axis] + t.at[1][axis] + t.at[2][axis];
         let middle = (last - first) / 2;
         self.triangles[first..last]
@@ -143,18 +136,16 @@ impl Surface {
             if visits > MOST_NODES {
                 return self.nearly_nearest(p, best);
             }
-            let Some(children) = self.open(p, i, &mut best) else {
+            let Some(mut children) = self.open(p, i, &mut best) else {
                 continue;
             };
             // The nearer one is looked at first.
-            let order = if children[0].1 <= children[1].1 {
-                [1, 0]
-            } else {
-                [0, 1]
-            };
-            for child in order {
-                if children[child].1 < best.squared {
-                    stack[height] = children[child];
+            if children[0].1 <= children[1].1 {
+                children.swap(0, 1);
+            }
+            for child in children {
+                if child.1 < best.squared {
+                    stack[height] = child;
                     height += 1;
                 }
             }

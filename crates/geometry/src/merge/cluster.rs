@@ -73,18 +73,26 @@ fn arrange(points: &mut [Point]) {
     }
     // Halves, because the difference of two finite numbers may be infinite.
     let axis = (0.5 * max - 0.5 * min).max_position();
-    let middle = points.len() / 2;
+    let n = points.len();
+    let middle = n / 2;
     points.select_nth_unstable_by(middle, |p, q| {
         let by_coordinate = p.at[axis].total_cmp(&q.at[axis]);
         by_coordinate.then(p.index.cmp(&q.index))
     });
-    let is_large = points.len() > TASK;
     let (low, high) = points.split_at_mut(middle);
-    if is_large {
-        rayon::join(|| arrange(low), || arrange(high));
+    both(n, || arrange(low), || arrange(high));
+}
+
+/// Both halves of some work on `n` points, at once if that is worth a task.
+fn both<T: Send>(
+    n: usize,
+    low: impl FnOnce() -> T + Send,
+    high: impl FnOnce() -> T + Send,
+) -> (T, T) {
+    if n > TASK {
+        rayon::join(low, high)
     } else {
-        arrange(low);
-        arrange(high);
+        (low(), high())
     }
 }
 
@@ -108,15 +116,12 @@ struct Tree<'p> {
 
 impl<'p> Tree<'p> {
     fn of(points: &'p [Point], reach: &Reach) -> Self {
-        let (low, high) = points.split_at(points.len() / 2);
-        let halves = if points.len() <= LEAF {
-            None
-        } else if points.len() > TASK {
-            let (low, high) = rayon::join(|| Self::of(low, reach), || Self::of(high, reach));
-            Some(Box::new([low, high]))
-        } else {
-            Some(Box::new([Self::of(low, reach), Self::of(high, reach)]))
-        };
+        let n = points.len();
+        let halves = (n > LEAF).then(|| {
+            let (low, high) = points.split_at(n / 2);
+            let halves = both(n, || Self::of(low, reach), || Self::of(high, reach));
+            Box::new(<[Self; 2]>::from(halves))
+        });
         let (min, max) = match halves.as_deref() {
             Some([a, b]) => (a.min.min(b.min), a.max.max(b.max)),
             None => bounds(points),
@@ -173,13 +178,8 @@ impl Search<'_> {
     /// Joins what is connected inside a box.
     fn within(&self, tree: &Tree) -> Result<(), Cancelled> {
         if let (false, Some([a, b])) = (tree.is_one, tree.halves.as_deref()) {
-            if tree.points.len() > TASK {
-                let (low, high) = rayon::join(|| self.within(a), || self.within(b));
-                low.and(high)?;
-            } else {
-                self.within(a)?;
-                self.within(b)?;
-            }
+            let (low, high) = both(tree.points.len(), || self.within(a), || self.within(b));
+            low.and(high)?;
             self.between(a, b);
             return Ok(());
         }

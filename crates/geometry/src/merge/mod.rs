@@ -15,7 +15,7 @@ mod cluster;
 mod union_find;
 
 use mesh::{
-    BuildError, BuildReport, Built, CORNER_NORMAL, DVec3, Domain, EdgeId, FaceId, HalfEdgeId, Mesh,
+    BuildError, BuildReport, Built, CORNER_NORMAL, Domain, EdgeId, FaceId, HalfEdgeId, Mesh,
     NonManifold, Sources, VERTEX_NORMAL, VertexId, build,
 };
 use progress::{Cancelled, Progress};
@@ -123,7 +123,7 @@ pub fn merge_clusters(mesh: &mut Mesh, lowest: &[u32]) -> Result<Merged, BuildEr
     );
     let polygons = Polygons::of(mesh, lowest);
     let built = build(
-        polygons.positions.clone(),
+        polygons.kept.iter().map(|&v| mesh.position(v)).collect(),
         &polygons.offsets,
         &polygons.corners,
         NonManifold::Split,
@@ -141,7 +141,6 @@ pub fn merge_clusters(mesh: &mut Mesh, lowest: &[u32]) -> Result<Merged, BuildEr
 struct Polygons {
     /// The vertices that are left, by their old numbers.
     kept: Vec<VertexId>,
-    positions: Vec<DVec3>,
     offsets: Vec<u32>,
     corners: Vec<u32>,
     /// For each corner the half-edge that it was.
@@ -164,7 +163,6 @@ impl Polygons {
                 number[v] = number[low as usize];
             }
         }
-        let positions = kept.iter().map(|&v| mesh.position(v)).collect();
         let mut offsets = vec![0];
         let (mut corners, mut half_edges) = (Vec::new(), Vec::new());
         let mut reduced = 0;
@@ -187,7 +185,6 @@ impl Polygons {
         }
         Self {
             kept,
-            positions,
             offsets,
             corners,
             half_edges,

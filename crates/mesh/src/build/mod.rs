@@ -37,7 +37,7 @@ mod star;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::{EdgeId, FaceId, HalfEdgeId, Mesh};
+use crate::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use assemble::Edges;
 use buckets::Buckets;
 use orient::Orientation;
@@ -69,9 +69,19 @@ pub enum BuildError {
     /// The offsets do not divide the corners into polygons.
     #[error("the offsets of the faces must rise from 0 to the number of corners, {0}")]
     BadOffsets(usize),
-    /// The polygons are not a manifold, and that was to be refused.
-    #[error("the faces are not a manifold: {0}")]
-    NonManifold(String),
+    /// This polygon has a vertex as a corner twice, and that was to be refused.
+    #[error("the faces are not a manifold: face {0} visits a vertex twice")]
+    VisitsTwice(usize),
+    /// More than two polygons have a side between these vertices, or two that run the same way, and that was
+    /// to be refused.
+    #[error(
+        "the faces are not a manifold: the edge {}-{} has more than two faces, or two that run the same way",
+        .0[0], .0[1]
+    )]
+    CrowdedEdge([VertexId; 2]),
+    /// The polygons around this vertex are several fans, and that was to be refused.
+    #[error("the faces are not a manifold: {0} joins faces that share no edge")]
+    PinchedVertex(VertexId),
 }
 
 /// What to do where polygons do not form a manifold.
@@ -84,10 +94,10 @@ pub enum NonManifold {
     /// As [`Split`](Self::Split), but every polygon keeps its orientation: neighbors that run the same
     /// way along an edge are split there.
     SplitAsGiven,
-    /// Turn polygons round where that makes neighbors agree, and return [`BuildError::NonManifold`] if
+    /// Turn polygons round where that makes neighbors agree, and refuse the polygons if
     /// the rest is no manifold.
     Refuse,
-    /// Return [`BuildError::NonManifold`] if the polygons are no manifold as they are.
+    /// Refuse the polygons unless they are a manifold as they are.
     RefuseAsGiven,
 }
 
@@ -169,7 +179,8 @@ impl Mesh {
 ///
 /// # Errors
 ///
-/// As [`Mesh::from_polygons`], and [`BuildError::NonManifold`] if that is asked for.
+/// As [`Mesh::from_polygons`], and [`BuildError::VisitsTwice`], [`BuildError::CrowdedEdge`] or
+/// [`BuildError::PinchedVertex`] if what is not a manifold is to be refused.
 pub fn build(
     positions: Vec<DVec3>,
     offsets: &[u32],
@@ -184,10 +195,7 @@ pub fn build(
         non_manifold,
         NonManifold::Refuse | NonManifold::RefuseAsGiven
     ) {
-        return Err(BuildError::NonManifold(format!(
-            "face {} visits a vertex twice",
-            degenerate[0]
-        )));
+        return Err(BuildError::VisitsTwice(degenerate[0]));
     }
     build_without(positions, offsets, corners, degenerate, non_manifold)
 }
@@ -276,14 +284,11 @@ fn build_clean(
 }
 
 fn refuse(paired: &Paired) -> Result<(), BuildError> {
-    let message = if let Some([v, w]) = paired.crowded.first() {
-        format!("the edge {v}-{w} has more than two faces, or two that run the same way")
-    } else if let Some(v) = paired.pinched.first() {
-        format!("v{v} joins faces that share no edge")
-    } else {
-        return Ok(());
-    };
-    Err(BuildError::NonManifold(message))
+    if let Some(&edge) = paired.crowded.first() {
+        return Err(BuildError::CrowdedEdge(edge));
+    }
+    let pinched = paired.pinched.first().map(|&v| VertexId::new(v as usize));
+    pinched.map_or(Ok(()), |v| Err(BuildError::PinchedVertex(v)))
 }
 
 /// Builds with some polygons turned round, in a corner map as if they were not.

@@ -56,14 +56,12 @@ impl<'a> Polygons<'a> {
 
     #[inline]
     pub(super) fn next(&self, c: u32) -> u32 {
-        let (first, end) = self.ends(c);
-        if c + 1 == end { first } else { c + 1 }
+        self.around(c).1
     }
 
     #[inline]
     pub(super) fn prev(&self, c: u32) -> u32 {
-        let (first, end) = self.ends(c);
-        if c == first { end - 1 } else { c - 1 }
+        self.around(c).0
     }
 
     /// The corners before and after `c` in its polygon.
@@ -160,7 +158,7 @@ pub(super) fn flatten(
 ///
 /// # Errors
 ///
-/// [`BuildError`] for whatever else than [`BuildError::NonManifold`].
+/// [`BuildError`] for input that is not polygons; whether they are a manifold is not checked.
 pub(super) fn check(
     positions: &[DVec3],
     offsets: &[u32],

@@ -11,8 +11,6 @@ mod flow;
 mod parameters;
 mod steps;
 
-pub(crate) use flow::Kind;
-
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -23,7 +21,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use store::{Disk, Store};
 
-use crate::recipe::{OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, located};
+use crate::recipe::{MAX_STEPS, OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, located};
 use crate::schema::{self, Schemas};
 use crate::shape::{self, check_shape};
 use crate::source::Source;
@@ -31,9 +29,6 @@ use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 /// The version of recipes that this program reads.
 pub const VERSION: i128 = 1;
-
-/// The most steps that calls and repetitions may become.
-pub const MAX_STEPS: usize = 100_000;
 
 /// A recipe and what is wrong with it.
 #[derive(Debug)]
@@ -115,6 +110,22 @@ pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Va
         },
         diagnostics,
     }
+}
+
+/// Refuses a text that says that it is of another version: `recipe: 2`.
+pub(crate) fn other_version(root: &Value, kind: &str, expected: i128) -> Option<Diagnostic> {
+    let version = root.field(kind)?;
+    let ValueKind::Number(number) = &version.kind else {
+        return None;
+    };
+    let found = number.to_int().filter(|&found| found != expected)?;
+    let message = format!("this {kind} is of version {found}, expected {expected}");
+    let help = if found > expected {
+        "a newer meshwright can read it"
+    } else {
+        "write 1"
+    };
+    Some(Diagnostic::error(version.span, message).with_help(help))
 }
 
 /// What the texts of one recipe share while they are read.
@@ -206,7 +217,8 @@ impl<'s, 'a> Reader<'s, 'a> {
         self.diagnostics.extend(parsed.diagnostics);
         let nothing = (Vec::new(), Vec::new());
         // The version is read before anything else is interpreted.
-        if !self.version(&root) {
+        if let Some(problem) = other_version(&root, "recipe", VERSION) {
+            self.diagnostics.push(problem);
             return nothing;
         }
         if matches!(root.kind, ValueKind::Error) && !self.diagnostics.is_empty() {
@@ -260,27 +272,6 @@ impl<'s, 'a> Reader<'s, 'a> {
         let scopes = &self.shared.scopes;
         let located = (self.diagnostics.into_iter()).map(|d| located(d, self.scope, scopes));
         self.shared.diagnostics.extend(located);
-    }
-
-    /// Whether the text is of the version that is read here.
-    fn version(&mut self, root: &Value) -> bool {
-        let Some(version) = root.field("recipe") else {
-            return true;
-        };
-        let ValueKind::Number(number) = &version.kind else {
-            return true;
-        };
-        let Some(found) = number.to_int().filter(|&found| found != VERSION) else {
-            return true;
-        };
-        let message = format!("this recipe is of version {found}, expected {VERSION}");
-        let help = if found > VERSION {
-            "a newer meshwright can read it"
-        } else {
-            "write 1"
-        };
-        self.error(version.span, message, help);
-        false
     }
 
     fn needs(&mut self, needs: &Value) {

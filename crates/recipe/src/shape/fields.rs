@@ -83,22 +83,10 @@ impl Checker {
         };
         let values = schema.map_values();
         for (key, value) in entries {
-            let fits = match &key.kind {
-                ValueKind::String(_) => !schema.has_number_keys(),
-                ValueKind::Number(number) => {
-                    number.to_int().is_some_and(|key| schema.allows_key(key))
-                }
-                ValueKind::Error => true,
-                _ => false,
-            };
-            if !fits {
-                let expected = if schema.has_number_keys() {
-                    "a whole number"
-                } else {
-                    "a string `\"..\"`"
-                };
+            let fits = matches!(key.kind, ValueKind::String(_) | ValueKind::Error);
+            if schema.has_text_keys() && !fits {
                 let message = format!(
-                    "expected {expected} as key{}, found {}",
+                    "expected a string `\"..\"` as key{}, found {}",
                     place.of(),
                     key.describe()
                 );

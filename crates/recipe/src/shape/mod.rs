@@ -30,7 +30,6 @@ mod variants;
 pub use nearest::{did_you_mean, nearest};
 pub(crate) use shorthand::Checked;
 
-use crate::upgrade::Rename;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 pub(crate) use schema::Schema;
 use serde::de::DeserializeOwned;
@@ -96,6 +95,26 @@ pub(crate) fn check_step(step: &Value, schema: &Json) -> Checked {
     checker.finish()
 }
 
+/// An older name in a recipe.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rename {
+    /// Its place in the text.
+    pub span: Span,
+    /// The older name.
+    pub from: String,
+    /// The name that stands for it now.
+    pub to: String,
+}
+
+impl Rename {
+    /// What the reader says of it.
+    pub(crate) fn warning(&self) -> Diagnostic {
+        let message = format!("`{}` is called `{}` now", self.from, self.to);
+        Diagnostic::warning(self.span, message)
+            .with_help("meshwright upgrade writes the new name into the recipe")
+    }
+}
+
 /// Where a value stands, for messages.
 #[derive(Clone, Copy, Debug, Default)]
 struct Place<'n> {
@@ -144,8 +163,6 @@ struct Checker {
     diagnostics: Vec<Diagnostic>,
     /// How many more there are than are kept.
     more: usize,
-    /// How many values around this one are tried against several schemas.
-    trials: u32,
     /// Older names that were met.
     renames: Vec<Rename>,
     /// Names that were left out.
@@ -154,9 +171,6 @@ struct Checker {
 
 /// Most problems of one value that are reported one by one.
 const MAX_DIAGNOSTICS: usize = 100;
-
-/// Most trials inside each other: each multiplies the time by the number of alternatives.
-const MAX_TRIALS: u32 = 4;
 
 impl Checker {
     fn finish(mut self) -> Checked {
@@ -229,13 +243,8 @@ impl Checker {
         if let Some(choice) = schema.choice() {
             return self.check_choice(value, schema, &choice, place);
         }
-        match schema.types()[..] {
-            _ if schema.allows_nothing() => {
-                let message = format!("no value is allowed{}", place.of());
-                self.report(value, value.span, message, None);
-            }
-            [] => {}
-            [one, ..] => self.check_type(value, schema, one, place),
+        if let [one, ..] = schema.types()[..] {
+            self.check_type(value, schema, one, place);
         }
     }
 

@@ -13,8 +13,6 @@ pub(crate) struct Schema<'s> {
     name: Option<&'s str>,
     /// Whether the schema stands in `$defs` rather than in its place.
     is_reference: bool,
-    /// Whether it is `false`, which no value fits.
-    never: bool,
 }
 
 /// A choice between variants of an enumeration, or other schemas.
@@ -25,10 +23,8 @@ pub(super) struct Choice<'s> {
     /// Variants with content, whose schemas are read when they are asked for.
     variants: Vec<(&'s str, &'s Json)>,
     root: Option<&'s Json>,
-    /// Anything else, save null.
+    /// Anything else, save null: the type inside an option.
     pub(super) others: Vec<Schema<'s>>,
-    /// Whether `None` is one of the choices.
-    nullable: bool,
 }
 
 /// Most schemas that one takes in: a schema that refers to itself has no end.
@@ -42,20 +38,17 @@ impl<'s> Schema<'s> {
     }
 
     fn new(root: &'s Json, json: &'s Json) -> Self {
-        let (layers, name, is_reference) = (Vec::new(), None, false);
         let mut schema = Self {
             root,
-            layers,
-            name,
-            is_reference,
-            never: false,
+            layers: Vec::new(),
+            name: None,
+            is_reference: false,
         };
         schema.add(json);
         schema
     }
 
     fn add(&mut self, json: &'s Json) {
-        self.never |= json == &Json::Bool(false);
         let Json::Object(layer) = json else { return };
         if self.layers.len() >= MAX_LAYERS {
             return;
@@ -146,10 +139,6 @@ impl<'s> Schema<'s> {
             .map(|json| Self::new(self.root, json))
     }
 
-    pub(super) fn allows_nothing(&self) -> bool {
-        self.never
-    }
-
     /// The types that are allowed, without null if there is another; none for any.
     pub(crate) fn types(&self) -> Vec<&'s str> {
         let mut types: Vec<&str> = match self.all("type").next() {
@@ -211,11 +200,8 @@ impl<'s> Schema<'s> {
                 continue;
             }
             let schema = Self::new(self.root, part);
-            if schema.is_reference {
-                choice.others.push(schema);
-            } else if schema.types() == ["null"] {
-                choice.nullable = true;
-            } else if !schema.add_units(&mut choice) {
+            let is_plain = schema.is_reference || !schema.add_units(&mut choice);
+            if is_plain && schema.types() != ["null"] {
                 choice.others.push(schema);
             }
         }
@@ -266,26 +252,9 @@ impl<'s> Schema<'s> {
         !self.has("properties") && (open || self.has("patternProperties"))
     }
 
-    /// Whether the keys of the map are numbers.
-    pub(super) fn has_number_keys(&self) -> bool {
-        self.has("patternProperties")
-    }
-
-    /// Whether a whole number may be a key. Schemas do not say how large it may be: 64 bits.
-    pub(super) fn allows_key(&self, key: i128) -> bool {
-        let mut patterns = self
-            .all("patternProperties")
-            .filter_map(Json::as_object)
-            .flatten();
-        let unsigned = u64::try_from(key).is_ok();
-        let signed = i64::try_from(key).is_ok();
-        patterns.any(|(pattern, _)| {
-            if pattern.contains('-') {
-                signed
-            } else {
-                unsigned
-            }
-        })
+    /// Whether the keys of the map are texts: schemas say little of others.
+    pub(super) fn has_text_keys(&self) -> bool {
+        !self.has("patternProperties")
     }
 
     /// The schema of the values of a map.
@@ -353,18 +322,9 @@ impl<'s> Schema<'s> {
         if let Some(choice) = self.choice() {
             let names: Vec<&str> = choice.names().collect();
             return match (self.name, choice.others.as_slice()) {
-                (_, [one]) if names.is_empty() => one.expectation(),
-                (_, []) if names.len() <= 6 => format!("one of {}", listed(names)),
-                (Some(name), _) => article(name),
-                (None, others) => {
-                    let others: Vec<String> = others.iter().map(Self::expectation).collect();
-                    let names = (!names.is_empty()).then(|| listed(names));
-                    others
-                        .into_iter()
-                        .chain(names)
-                        .collect::<Vec<_>>()
-                        .join(" or ")
-                }
+                (_, [one, ..]) => one.expectation(),
+                (Some(name), []) if names.len() > 6 => article(name),
+                _ => format!("one of {}", listed(names)),
             };
         }
         match self.types()[..] {

@@ -10,8 +10,7 @@ use std::borrow::Cow;
 use std::cmp::Reverse;
 
 use super::schema::{Choice, Schema};
-use super::{Checker, MAX_TRIALS, Place, did_you_mean};
-use crate::upgrade::Rename;
+use super::{Checker, Place, Rename, did_you_mean};
 use ron_tree::{Call, Diagnostic, Name, Span, Value, ValueKind};
 
 /// A value whose outer name was left out.
@@ -32,14 +31,7 @@ impl Checker {
         choice: &Choice,
         place: Place,
     ) {
-        if self.trials >= MAX_TRIALS {
-            return;
-        }
-        let trial = || Self {
-            trials: self.trials + 1,
-            ..Self::default()
-        };
-        let mut whole = trial();
+        let mut whole = Self::default();
         whole.check_variant(value, schema, choice, place);
         if whole.diagnostics.is_empty() {
             return self.take(whole);
@@ -47,7 +39,7 @@ impl Checker {
         let mut trials = Vec::new();
         for name in choice.names() {
             if let Some(content) = choice.content(name) {
-                let mut trial = trial();
+                let mut trial = Self::default();
                 trial.check(value, &content, place);
                 trials.push((name, content, trial));
             }
@@ -132,6 +124,18 @@ pub(crate) struct Checked {
 }
 
 impl Checked {
+    /// The older names in a step `Name(..)` that was checked, its own among them. `name` is that of its operation
+    /// today.
+    pub(crate) fn renames_in_step(self, run: &Value, name: &str) -> Vec<Rename> {
+        let own = run.name().filter(|(own, _)| *own != name);
+        let own = own.map(|(own, span)| Rename {
+            span,
+            from: own.to_owned(),
+            to: name.to_owned(),
+        });
+        own.into_iter().chain(self.renames).collect()
+    }
+
     /// The value with all names that were left out.
     pub(crate) fn in_full<'v>(&self, value: &'v Value) -> Cow<'v, Value> {
         if self.shorts.is_empty() {

@@ -33,8 +33,6 @@ struct Everything {
     #[serde(default)]
     map: BTreeMap<String, f32>,
     #[serde(default)]
-    numbered: BTreeMap<u64, bool>,
-    #[serde(default)]
     flag: bool,
     #[serde(default)]
     nothing: (),
@@ -170,7 +168,7 @@ const GOOD: &[&str] = &[
     "levels: 1, at: Some((0, 0, 0)), tag: Some(\"a\")",
     "levels: 1, at: None, tag: \"b\", name: \"äöüßäöüß\"",
     "levels: 1, other: Boundary, list: [Area, Angle], grid: (1, 255)",
-    "levels: 1, map: {\"a\": 1.5, \"b\": 2}, numbered: {1: true, 7: false}",
+    "levels: 1, map: {\"a\": 1.5, \"b\": 2}",
     "levels: 1, flag: true, nothing: (), letter: 'x'",
     "levels: 1, nested: (inner: (inner: ())), single: 1e30, signed: -128",
     "levels: 1, size: 18446744073709551615, signed_size: -9223372036854775808",
@@ -286,10 +284,6 @@ fn a_wrong_type_says_what_was_expected_and_found() {
         (
             "map: {a: 1}",
             "a: expected a string `\"..\"` as key for `map`, found `a`",
-        ),
-        (
-            "numbered: {\"1\": true}",
-            "\"1\": expected a whole number as key for `numbered`, found the string \"1\"",
         ),
         (
             "map: {\"k\": true}",
@@ -538,11 +532,10 @@ fn a_parameter_is_named_with_its_value() {
 }
 
 #[test]
-fn schemas_that_are_true_or_false_or_endless_do_no_harm() {
+fn schemas_that_are_true_or_endless_do_no_harm() {
     let value = parse("(a: 1)").value;
 
     assert_eq!(check_shape(&value, &serde_json::json!(true)), []);
-    assert_eq!(check_shape(&value, &serde_json::json!(false)).len(), 1);
     assert_eq!(check_shape(&value, &serde_json::json!({"$ref": "#"})), []);
     assert_eq!(
         check_shape(
@@ -564,31 +557,6 @@ fn thousands_of_errors_are_counted() {
 
     assert_eq!(found.len(), 101);
     assert_eq!(found[100].message, "and 4900 more errors like these");
-}
-
-#[test]
-fn one_of_several_forms_is_enough() {
-    let schema = serde_json::json!({"anyOf": [
-        {"type": "string"},
-        {"type": "object", "properties": {"a": {"type": "integer"}, "b": {"type": "integer"}}},
-    ]});
-    let found = |source| {
-        check_shape(&parse(source).value, &schema)
-            .into_iter()
-            .map(|d| d.message)
-            .collect::<Vec<_>>()
-    };
-
-    assert_eq!(found("\"x\""), [""; 0]);
-    assert_eq!(found("(a: 1)"), [""; 0]);
-    assert_eq!(
-        found("(a: 1.5)"),
-        ["expected a whole number for `a`, found 1.5"]
-    );
-    assert_eq!(
-        found("7"),
-        ["expected a string or named fields `(a: ..)`, found 7"]
-    );
 }
 
 #[test]

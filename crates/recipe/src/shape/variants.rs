@@ -1,7 +1,7 @@
 //! Checks values that are one of several things: variants of enumerations, above all.
 
 use super::schema::{Choice, Schema};
-use super::{Checker, MAX_TRIALS, Place, counted, listed, nearest};
+use super::{Checker, Place, counted, listed, nearest};
 use ron_tree::{Call, Span, Value, ValueKind};
 
 impl Checker {
@@ -15,14 +15,11 @@ impl Checker {
         if schema.is_shorthand() {
             return self.check_shorthand(value, schema, choice, place);
         }
-        let has_variant = value.name().is_some_and(|(name, _)| {
-            choice.names().any(|n| n == name) || schema.variant_by_alias(name).is_some()
-        });
         match choice.others.as_slice() {
             [] => self.check_variant(value, schema, choice, place),
-            _ if has_variant => self.check_variant(value, schema, choice, place),
-            [one] if choice.names().next().is_none() => self.check(value, one, place),
-            others => self.check_alternatives(value, schema, others, place),
+            [one] => self.check(value, one, place),
+            // No type of `serde` has several forms unless it is untagged, which parameters are not.
+            _ => {}
         }
     }
 
@@ -147,44 +144,6 @@ impl Checker {
             Some(format!("the value is {}", schema.expectation()))
         };
         self.report(&call.body, call.body.span, message, help);
-    }
-
-    /// Checks a value against several schemas, one of which it should fit.
-    fn check_alternatives(
-        &mut self,
-        value: &Value,
-        schema: &Schema,
-        others: &[Schema],
-        place: Place,
-    ) {
-        if self.trials >= MAX_TRIALS {
-            return;
-        }
-        let mut closest: Option<Self> = None;
-        for other in others {
-            let mut trial = Self {
-                trials: self.trials + 1,
-                ..Self::default()
-            };
-            trial.check(value, other, place);
-            if trial.diagnostics.is_empty() {
-                return self.take(trial);
-            }
-            // What is wrong inside of the value is closer than a value of the wrong form.
-            let whole = |d: &Self| d.diagnostics.iter().any(|d| d.span == Some(value.span));
-            let closer = closest
-                .as_ref()
-                .is_none_or(|best| whole(best) && !whole(&trial));
-            if closer {
-                closest = Some(trial);
-            }
-        }
-        match closest {
-            Some(best) if best.diagnostics.iter().all(|d| d.span != Some(value.span)) => {
-                self.take(best);
-            }
-            _ => self.mismatch(value, &schema.expectation(), place, None),
-        }
     }
 }
 

@@ -20,11 +20,6 @@ pub(crate) struct Plane {
 }
 
 impl Plane {
-    /// The first of a star: that of face 0.
-    pub(crate) fn first_of(star: &Star) -> Self {
-        Self::of_face(star, 0)
-    }
-
     /// The faces around number `face` up to the next sharp spokes.
     pub(crate) fn of_face(star: &Star, face: usize) -> Self {
         let n = star.spokes.len();
@@ -180,7 +175,7 @@ impl Star {
 
     /// The plane that the neighborhood of a dart flattens into.
     fn dart_tangents(&self) -> [DVec3; 2] {
-        let plane = Plane::first_of(self);
+        let plane = Plane::of_face(self, 0);
         let [along, across] = self.corner_tangents(plane);
         let along = along.normalize_or_zero();
         let normal = along.cross(across).normalize_or_zero();

@@ -181,7 +181,7 @@ impl<'a> At<'a> {
         let n_sharp = star.sharp.iter().filter(|&&s| s > 0.0).count();
         AtVertex {
             position: star.limit(),
-            tangents: star.tangents(Plane::first_of(star)),
+            tangents: star.tangents(Plane::of_face(star, 0)),
             // Both edges of the boundary are sharp.
             is_sharp: n_sharp > if star.is_inner { 1 } else { 2 },
         }

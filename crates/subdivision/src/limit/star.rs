@@ -84,11 +84,6 @@ impl Star {
         self.shrink();
     }
 
-    /// The number of faces around the vertex.
-    pub(crate) fn n_faces(&self) -> usize {
-        self.spokes.len() - usize::from(!self.is_inner)
-    }
-
     /// Whether no sharpness ends on a later level.
     pub(crate) fn is_settled(&self) -> bool {
         let settled = |s: f64| s <= 0.0 || s >= INFINITE;
@@ -105,9 +100,9 @@ impl Star {
     pub(crate) fn refine(&mut self) {
         self.middles.clear();
         if self.loop_weights.is_none() {
-            for i in 0..self.n_faces() {
+            for (i, opposite) in self.opposite.iter().enumerate() {
                 let next = self.spokes[(i + 1) % self.spokes.len()];
-                let corners = self.center + self.spokes[i] + self.opposite[i] + next;
+                let corners = self.center + self.spokes[i] + opposite + next;
                 self.middles.push(0.25 * corners);
             }
         }

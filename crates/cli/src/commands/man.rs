@@ -1,0 +1,23 @@
+//! `meshwright completions` and `meshwright man`: what shells and `man` need to know of the command line.
+
+use clap_complete::Shell;
+use clap_mangen::Man;
+
+use crate::args::help::command;
+use crate::output::print;
+
+/// Prints a completion script.
+pub(crate) fn completions(shell: Shell) -> anyhow::Result<bool> {
+    let mut script = Vec::new();
+    clap_complete::generate(shell, &mut command(), "meshwright", &mut script);
+    print(&String::from_utf8(script)?)?;
+    Ok(true)
+}
+
+/// Prints the manual page.
+pub(crate) fn page() -> anyhow::Result<bool> {
+    let mut page = Vec::new();
+    Man::new(command()).render(&mut page)?;
+    print(&String::from_utf8(page)?)?;
+    Ok(true)
+}

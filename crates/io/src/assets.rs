@@ -154,7 +154,7 @@ impl<'a> Assets<'a> {
             path: path.clone(),
             is_read: true,
         });
-        let because = |error: StoreError| error.into_parts().1;
+        let because = |error: StoreError| error.error;
         let real = self.store.canonical(&path).map_err(because)?;
         let folder = self
             .store

@@ -110,7 +110,7 @@ pub(crate) fn write_bzc(scene: &Scene) -> Result<One, Unwritable> {
     let [object] = scene.objects() else {
         let n = scene.objects().len();
         let message = format!("a .bzc file holds one curve, found {n} objects");
-        return Err(Unwritable::Scene { message });
+        return Err(Unwritable::scene(message));
     };
     let Geometry::Curve(curve) = &object.geometry else {
         return Err(Unwritable::kind("a .bzc file holds a curve", object));

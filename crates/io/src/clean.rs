@@ -1,5 +1,7 @@
 //! Cleaning polygons by the [`Policies`] of the reader, before a mesh is built of them.
 
+use std::sync::atomic::Ordering::Relaxed;
+
 use glam::DVec3;
 use mesh::{Attributes, Domain, Elements, VertexId};
 
@@ -21,41 +23,45 @@ pub(crate) type Kept = Option<Vec<u32>>;
 pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Notes) -> Kept {
     let mut is_corner_kept = vec![];
     let repeated = repeated_corners(polygons, &mut is_corner_kept);
-    let mut is_dropped = vec![false; 0];
-    let mut drop = |faces: Vec<usize>, one: &str, several: &str, notes: &mut Notes| {
-        is_dropped.resize(polygons.n_faces(), false);
-        for &f in &faces {
-            is_dropped[f] = true;
-        }
-        let what = if faces.len() == 1 { one } else { several };
-        let faces = Elements::Faces(faces);
-        let places = polygons.given().places(&faces);
-        notes.elements(NoteKind::Changed, what, faces, places);
-    };
-    if policies.degenerate == Unwanted::Drop {
-        let one = "face without area dropped";
-        drop(
-            degenerate(polygons),
-            one,
+    let unwanted: [(_, fn(&Polygons) -> _, _, _); 2] = [
+        (
+            policies.degenerate,
+            degenerate,
+            "face without area dropped",
             "faces without area dropped",
-            notes,
-        );
+        ),
+        (
+            policies.duplicates,
+            duplicates,
+            "duplicate face dropped",
+            "duplicate faces dropped",
+        ),
+    ];
+    let mut is_dropped = vec![];
+    for (policy, find, one, several) in unwanted {
+        if policy == Unwanted::Drop {
+            let faces: Vec<usize> = find(polygons);
+            is_dropped.resize(polygons.n_faces(), false);
+            for &f in &faces {
+                is_dropped[f] = true;
+            }
+            let what = if faces.len() == 1 { one } else { several };
+            note(polygons, what, Elements::Faces(faces), notes);
+        }
     }
-    if policies.duplicates == Unwanted::Drop {
-        let one = "duplicate face dropped";
-        drop(duplicates(polygons), one, "duplicate faces dropped", notes);
-    }
-    if !repeated.is_empty() {
-        let what = "faces that repeat a corner: taken once";
-        let faces = Elements::Faces(repeated);
-        let places = polygons.given().places(&faces);
-        notes.elements(NoteKind::Changed, what, faces, places);
-    }
+    let what = "faces that repeat a corner: taken once";
+    note(polygons, what, Elements::Faces(repeated), notes);
     let kept = keep(polygons, &is_dropped, &is_corner_kept);
     if policies.isolated == Unwanted::Drop {
         drop_isolated(polygons, notes);
     }
     kept
+}
+
+/// Notes that these elements are changed, and where they are.
+fn note(polygons: &Polygons, what: &str, elements: Elements, notes: &mut Notes) {
+    let places = polygons.given().places(&elements);
+    notes.elements(NoteKind::Changed, what, elements, places);
 }
 
 // ---- Repeated corners --------------------------------------------------------------------------
@@ -217,14 +223,10 @@ pub(crate) fn keep(polygons: &mut Polygons, is_dropped: &[bool], is_corner_kept:
 }
 
 fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
-    let mut is_used = vec![false; polygons.positions.len()];
-    for &v in &polygons.corners {
-        if let Some(used) = is_used.get_mut(v as usize) {
-            *used = true;
-        }
-    }
+    let n = polygons.positions.len();
+    let used = parallel::named(n, &polygons.corners);
     let (kept, isolated): (Vec<u32>, Vec<u32>) =
-        (0..id(is_used.len())).partition(|&v| is_used[v as usize]);
+        (0..id(n)).partition(|&v| used[v as usize].load(Relaxed));
     if isolated.is_empty() {
         return;
     }
@@ -235,9 +237,8 @@ fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
     } else {
         "isolated vertices dropped"
     };
-    let places = polygons.given().places(&vertices);
-    notes.elements(NoteKind::Changed, what, vertices, places);
-    let mut new = vec![u32::MAX; is_used.len()];
+    note(polygons, what, vertices, notes);
+    let mut new = vec![u32::MAX; n];
     for (i, &v) in (0..).zip(&kept) {
         new[v as usize] = i;
     }

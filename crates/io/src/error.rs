@@ -79,8 +79,10 @@ pub enum ReadError {
 
 impl From<StoreError> for ReadError {
     fn from(error: StoreError) -> Self {
-        let (path, source) = error.into_parts();
-        Self::Io { path, source }
+        Self::Io {
+            path: error.path,
+            source: error.error,
+        }
     }
 }
 
@@ -141,24 +143,30 @@ pub enum WriteError {
 
 impl From<StoreError> for WriteError {
     fn from(error: StoreError) -> Self {
-        let (path, source) = error.into_parts();
-        Self::Io { path, source }
+        Self::Io {
+            path: error.path,
+            source: error.error,
+        }
     }
 }
 
 /// Why a scene does not fit a format, before the name of the file is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Unwritable {
-    Object { object: String, message: String },
-    Scene { message: String },
+pub(crate) struct Unwritable {
+    /// The object that does not fit; `None` for the scene as a whole.
+    object: Option<String>,
+    message: String,
 }
 
 impl Unwritable {
-    pub(crate) fn object(object: &str, message: impl Into<String>) -> Self {
-        Self::Object {
-            object: object.to_owned(),
-            message: message.into(),
-        }
+    pub(crate) fn scene(message: String) -> Self {
+        let object = None;
+        Self { object, message }
+    }
+
+    pub(crate) fn object(object: &str, message: String) -> Self {
+        let object = Some(object.to_owned());
+        Self { object, message }
     }
 
     /// An object of another kind than the format `holds`.
@@ -168,14 +176,14 @@ impl Unwritable {
     }
 
     pub(crate) fn in_file(self, path: &Path) -> WriteError {
-        let path = path.to_path_buf();
-        match self {
-            Self::Object { object, message } => WriteError::Object {
+        let (path, message) = (path.to_path_buf(), self.message);
+        match self.object {
+            Some(object) => WriteError::Object {
                 path,
                 object,
                 message,
             },
-            Self::Scene { message } => WriteError::Scene { path, message },
+            None => WriteError::Scene { path, message },
         }
     }
 }

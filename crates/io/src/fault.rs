@@ -74,7 +74,12 @@ pub(crate) struct Place {
 
 impl Place {
     /// Where every text begins.
-    pub(crate) const START: Self = Self { line: 1, column: 1 };
+    pub(crate) const START: Self = Self::of_line(1);
+
+    /// The beginning of a line.
+    pub(crate) const fn of_line(line: usize) -> Self {
+        Self { line, column: 1 }
+    }
 
     pub(crate) fn error(self, message: impl Into<String>) -> Fault {
         Fault {

@@ -28,44 +28,36 @@ pub enum Format {
     Bzc,
 }
 
+/// Every format with its extension and its name, in the order in which messages list them.
+const TABLE: [(Format, &str, &str); 10] = [
+    (Format::Obj, "obj", "OBJ"),
+    (Format::Gltf, "gltf", "glTF"),
+    (Format::Glb, "glb", "GLB"),
+    (Format::Ply, "ply", "PLY"),
+    (Format::Stl, "stl", "STL"),
+    (Format::Off, "off", "OFF"),
+    (Format::Dae, "dae", "COLLADA"),
+    (Format::Mws, "mws", "Meshwright scene"),
+    (Format::Bez, "bez", "Bezier patches"),
+    (Format::Bzc, "bzc", "Bezier curve"),
+];
+
 impl Format {
     /// All formats, in the order in which messages list them.
-    pub const ALL: [Self; 10] = [
-        Self::Obj,
-        Self::Gltf,
-        Self::Glb,
-        Self::Ply,
-        Self::Stl,
-        Self::Off,
-        Self::Dae,
-        Self::Mws,
-        Self::Bez,
-        Self::Bzc,
-    ];
+    pub fn all() -> impl Iterator<Item = Self> {
+        TABLE.into_iter().map(|(format, ..)| format)
+    }
 
     /// The extension of the format's files, in lower case and without the dot.
-    pub const fn extension(self) -> &'static str {
-        match self {
-            Self::Obj => "obj",
-            Self::Gltf => "gltf",
-            Self::Glb => "glb",
-            Self::Ply => "ply",
-            Self::Stl => "stl",
-            Self::Off => "off",
-            Self::Dae => "dae",
-            Self::Mws => "mws",
-            Self::Bez => "bez",
-            Self::Bzc => "bzc",
-        }
+    pub fn extension(self) -> &'static str {
+        TABLE[self as usize].1
     }
 
     /// The format that the extension of `path` names, in upper or lower case; `None` if it is
     /// unknown or missing.
     pub fn from_path(path: &Path) -> Option<Self> {
         let extension = path.extension()?;
-        Self::ALL
-            .into_iter()
-            .find(|format| extension.eq_ignore_ascii_case(format.extension()))
+        Self::all().find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }
 
     /// Whether files of this format can be written, and not only read.
@@ -75,34 +67,23 @@ impl Format {
 
     /// The extensions that can be read as messages list them: `.obj, .gltf, ...`.
     pub fn known() -> String {
-        list(Self::ALL)
+        list(Self::all())
     }
 
     /// The extensions that can be written as messages list them: `.obj, .gltf, ...`.
     pub fn known_to_write() -> String {
-        list(Self::ALL.into_iter().filter(|format| format.is_written()))
+        list(Self::all().filter(|format| format.is_written()))
     }
 }
 
-fn list(formats: impl IntoIterator<Item = Format>) -> String {
-    let extensions = formats.into_iter().map(|f| format!(".{}", f.extension()));
+fn list(formats: impl Iterator<Item = Format>) -> String {
+    let extensions = formats.map(|f| format!(".{}", f.extension()));
     extensions.collect::<Vec<_>>().join(", ")
 }
 
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Obj => "OBJ",
-            Self::Gltf => "glTF",
-            Self::Glb => "GLB",
-            Self::Ply => "PLY",
-            Self::Stl => "STL",
-            Self::Off => "OFF",
-            Self::Dae => "COLLADA",
-            Self::Mws => "Meshwright scene",
-            Self::Bez => "Bezier patches",
-            Self::Bzc => "Bezier curve",
-        })
+        f.write_str(TABLE[*self as usize].2)
     }
 }
 
@@ -123,7 +104,8 @@ mod tests {
 
     #[test]
     fn every_extension_leads_back_to_its_format() {
-        for format in Format::ALL {
+        for format in Format::all() {
+            assert_eq!(TABLE[format as usize].0, format);
             let path = format!("x.{}", format.extension());
             assert_eq!(Format::from_path(Path::new(&path)), Some(format));
         }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use mesh::{Attributes, Column, Connectivity, Domain, Id, Mesh, Rule, Value, Values};
+use mesh::{Attributes, Column, Connectivity, Domain, Mesh, Rule, Value, Values};
 use scene::{Geometry, Object, Scene};
 
 use crate::error::Unwritable;
@@ -60,7 +60,7 @@ pub(crate) fn joined<'a>(
         let message = format!(
             "a {format} file holds one mesh, and all objects together are too large for one"
         );
-        return Err(Unwritable::Scene { message });
+        return Err(Unwritable::scene(message));
     }
     let mut losses_of_all = Losses::of(&name, &mut losses);
     let became = if tags {
@@ -70,7 +70,12 @@ pub(crate) fn joined<'a>(
     };
     let reason = format!("a {format} file holds one mesh{became}");
     losses_of_all.add(None, "name", meshes.len(), reason);
-    let mut mesh = connected(&meshes);
+    let (mut all, mut positions) = (Connectivity::default(), Vec::new());
+    for mesh in &meshes {
+        all.append(mesh.connectivity());
+        positions.extend_from_slice(mesh.positions());
+    }
+    let mut mesh = Mesh::from_arrays(all, positions);
     mesh.set_attributes(appended(scene.objects(), &meshes, &mut losses_of_all));
     if tags {
         tag_objects(&mut mesh, scene.objects(), &meshes, &mut losses_of_all);
@@ -80,33 +85,6 @@ pub(crate) fn joined<'a>(
         name,
         losses,
     })
-}
-
-/// The meshes one behind the other, without attributes.
-fn connected(meshes: &[Cow<Mesh>]) -> Mesh {
-    fn shift<I: Id + PartialEq>(ids: &[I], by: usize) -> impl Iterator<Item = I> + '_ {
-        let shifted = move |&id: &I| {
-            if id == I::NONE {
-                id
-            } else {
-                I::new(id.index() + by)
-            }
-        };
-        ids.iter().map(shifted)
-    }
-    let mut all = Connectivity::default();
-    let mut positions = Vec::new();
-    for mesh in meshes {
-        let c = mesh.connectivity();
-        let (h, v, f) = (all.next.len(), positions.len(), all.face_half_edge.len());
-        all.next.extend(shift(&c.next, h));
-        all.origin.extend(shift(&c.origin, v));
-        all.face.extend(shift(&c.face, f));
-        all.vertex_half_edge.extend(shift(&c.vertex_half_edge, h));
-        all.face_half_edge.extend(shift(&c.face_half_edge, h));
-        positions.extend_from_slice(mesh.positions());
-    }
-    Mesh::from_arrays(all, positions)
 }
 
 fn lens(mesh: &Mesh) -> [usize; 4] {

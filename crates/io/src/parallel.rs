@@ -99,6 +99,19 @@ pub(crate) fn count(n: usize, is: impl Fn(usize) -> bool + Sync) -> usize {
         .sum()
 }
 
+/// For each number below `n` whether it is among the `indices`.
+pub(crate) fn named(n: usize, indices: &[u32]) -> Vec<AtomicBool> {
+    let named: Vec<AtomicBool> = (0..n).map(|_| AtomicBool::new(false)).collect();
+    blocks(indices.len(), |block| {
+        for &index in &indices[block] {
+            if let Some(flag) = named.get(index as usize) {
+                flag.store(true, Relaxed);
+            }
+        }
+    });
+    named
+}
+
 /// Whether it holds for all numbers below `n`.
 pub(crate) fn all(n: usize, is: impl Fn(usize) -> bool + Sync) -> bool {
     let all = AtomicBool::new(true);

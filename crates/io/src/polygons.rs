@@ -3,14 +3,14 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use mesh::{
-    Attribute, Attributes, BuildError, Built, Column, Domain, Elements, FaceId, HalfEdgeId, Mesh,
-    Rule, Value, Values, VertexId,
+    Attribute, Attributes, BuildError, Built, CORNER_NORMAL, Column, Domain, Elements, HalfEdgeId,
+    Id, Mesh, Rule, Value, Values, VertexId,
 };
 use scene::Material;
 
-use crate::clean::{Kept, clean};
+use crate::clean::{Kept, clean, gather};
 use crate::error::ReadError;
 use crate::note::{Given, NoteKind, Notes};
 use crate::{NonManifold, Orientation, Policies, ReadOptions, parallel};
@@ -88,31 +88,44 @@ impl Polygons {
         self.attributes.insert(domain, column);
     }
 
-    /// Adds a known attribute of vertices.
-    pub(crate) fn insert_vertices<T: Value>(
+    /// Adds a known attribute.
+    pub(crate) fn insert_known<I: Id, T: Value>(
         &mut self,
-        attribute: Attribute<VertexId, T>,
+        attribute: Attribute<I, T>,
         values: Vec<T>,
     ) {
-        self.insert(Domain::Vertex, attribute.name, attribute.rule, values);
+        self.insert(I::DOMAIN, attribute.name, attribute.rule, values);
     }
 
-    /// Adds a known attribute of corners.
-    pub(crate) fn insert_corners<T: Value>(
-        &mut self,
-        attribute: Attribute<HalfEdgeId, T>,
-        values: Vec<T>,
-    ) {
-        self.insert(Domain::Corner, attribute.name, attribute.rule, values);
-    }
-
-    /// Adds a known attribute of faces.
-    pub(crate) fn insert_faces<T: Value>(
-        &mut self,
-        attribute: Attribute<FaceId, T>,
-        values: Vec<T>,
-    ) {
-        self.insert(Domain::Face, attribute.name, attribute.rule, values);
+    /// Puts the polygons where a node has them: its placement turns normals too, and turns faces round where it
+    /// mirrors them. Returns how many normals are left out because the placement is flat.
+    pub(crate) fn place(&mut self, to_scene: &DAffine3) -> usize {
+        if *to_scene == DAffine3::IDENTITY {
+            return 0;
+        }
+        parallel::change(&mut self.positions, |p| *p = to_scene.transform_point3(*p));
+        let turn = to_scene.matrix3.inverse().transpose();
+        let mut lost = 0;
+        if let Some(mut column) = self.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
+            if turn.is_finite() {
+                let normals = DVec3::of_mut(&mut column.values).unwrap_or_default();
+                parallel::change(normals, |n| *n = (turn * *n).normalize_or_zero());
+                self.attributes.insert(Domain::Corner, column);
+            } else {
+                lost = column.values.len();
+            }
+        }
+        if to_scene.matrix3.determinant() < 0.0 {
+            let mut order: Vec<u32> = (0..).take(self.corners.len()).collect();
+            for ends in self.offsets.windows(2) {
+                // The first corner stays the first.
+                order[ends[0] as usize + 1..ends[1] as usize].reverse();
+            }
+            let corners = &self.corners;
+            self.corners = order.iter().map(|&c| corners[c as usize]).collect();
+            gather(&mut self.attributes, Domain::Corner, &order);
+        }
+        lost
     }
 
     /// The mesh of these polygons, and their materials. Values of corners become values of vertices where
@@ -151,7 +164,8 @@ impl Polygons {
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")
                 && vertices.column(Domain::Vertex, &column.name).is_none()
-                && let Some(values) = agreed(&built.mesh, &column.values)
+                && let Some(values) =
+                    agreed(&built.mesh, &column.values, |a, b| column.values.same(a, b))
             {
                 (domain, column.values) = (Domain::Vertex, values);
             }
@@ -271,17 +285,21 @@ impl Sources {
     }
 }
 
-/// One value for each vertex, if all its corners have the same; zero where a vertex has none.
-fn agreed(mesh: &Mesh, values: &Values) -> Option<Values> {
+/// The values of vertices, if the corners of each have the `same`; zero where a vertex has no corner.
+pub(crate) fn agreed(
+    mesh: &Mesh,
+    values: &Values,
+    same: impl Fn(usize, usize) -> bool + Sync,
+) -> Option<Values> {
     let corners = |v: usize| {
         mesh.vertex_half_edges(VertexId::new(v))
             .filter(|&h| mesh.face(h).is_some())
             .map(HalfEdgeId::index)
     };
-    let same = parallel::all(mesh.n_vertices(), |v| {
+    let agree = parallel::all(mesh.n_vertices(), |v| {
         let mut corners = corners(v);
         let first = corners.next();
-        first.is_none_or(|first| corners.all(|h| values.same(first, h)))
+        first.is_none_or(|first| corners.all(|h| same(first, h)))
     });
-    same.then(|| values.gather(mesh.n_vertices(), |v| corners(v).next()))
+    agree.then(|| values.gather(mesh.n_vertices(), |v| corners(v).next()))
 }

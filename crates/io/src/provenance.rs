@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use serde::Deserialize;
+use serde_json::Value;
 use store::Store;
 
 use crate::{Format, ReadError, gltf, mws};
@@ -52,20 +52,9 @@ pub fn provenance(store: &dyn Store, path: &Path) -> Result<Option<String>, Read
 
 /// `asset.extras.meshwright` of a glTF document.
 fn of_document(json: &[u8]) -> Option<String> {
-    #[derive(Deserialize)]
-    struct Document {
-        asset: Asset,
-    }
-    #[derive(Deserialize)]
-    struct Asset {
-        extras: Extras,
-    }
-    #[derive(Deserialize)]
-    struct Extras {
-        meshwright: String,
-    }
-    let document: Document = serde_json::from_slice(json).ok()?;
-    Some(document.asset.extras.meshwright)
+    let document: Value = serde_json::from_slice(json).ok()?;
+    let text = document.pointer("/asset/extras/meshwright")?;
+    text.as_str().map(str::to_owned)
 }
 
 /// The international text of a PNG file with the keyword "Software", if it is not compressed.
@@ -125,7 +114,7 @@ mod tests {
         scene
             .insert(Object::mesh("a", shapes::tetrahedron()))
             .unwrap();
-        for format in Format::ALL.into_iter().filter(|f| f.is_written()) {
+        for format in Format::all().filter(|f| f.is_written()) {
             let path = folder.path().join(format!("a.{}", format.extension()));
             if write(&Disk, &path, &scene, &options).is_err() {
                 continue;

@@ -3,9 +3,11 @@
 use std::borrow::Cow;
 
 use glam::DVec2;
-use mesh::{Mesh, Values, VertexId};
+use mesh::{Column, Domain, Mesh, Value, Values};
 
+use crate::loss::Losses;
 use crate::parallel;
+use crate::polygons::agreed;
 
 /// The mesh, or a compact copy if it has dead elements.
 pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
@@ -44,22 +46,30 @@ pub(crate) fn is_byte(x: f64) -> bool {
 
 /// Texture coordinates of vertices, if all corners of each have the same bits; zero where a vertex has no
 /// corner.
-pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &[DVec2]) -> Option<Vec<DVec2>> {
-    let bits = |uv: DVec2| uv.to_array().map(f64::to_bits);
-    let corners = |v: usize| {
-        let corners = mesh.vertex_half_edges(VertexId::new(v));
-        corners
-            .filter(|&h| mesh.face(h).is_some())
-            .map(|h| uvs[h.index()])
-    };
-    let first = |v: usize| corners(v).next().unwrap_or_default();
-    let agree = |v: usize| corners(v).all(|uv| bits(uv) == bits(first(v)));
-    let n = mesh.n_vertices();
-    parallel::all(n, agree).then(|| parallel::collect(n, first))
+pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &Values) -> Option<Values> {
+    let bits = |h: usize| DVec2::of(uvs).map(|uvs| uvs[h].to_array().map(f64::to_bits));
+    agreed(mesh, uvs, |a, b| bits(a) == bits(b))
+}
+
+/// What becomes of numbers for which texts have no word.
+pub(crate) const NOT_FINITE: &str = "not finite: written as 0";
+
+/// The values of a column with zero in place of those that are not finite, which are lost.
+pub(crate) fn finite<'a>(
+    domain: Domain,
+    column: &'a Column,
+    losses: &mut Losses,
+) -> Cow<'a, Values> {
+    let mut values = Cow::Borrowed(&column.values);
+    if !all_finite(&values) {
+        let broken = mend(values.to_mut());
+        losses.add(domain, &column.name, broken, NOT_FINITE);
+    }
+    values
 }
 
 /// Whether all numbers are finite.
-pub(crate) fn all_finite(values: &Values) -> bool {
+fn all_finite(values: &Values) -> bool {
     parallel::all(values.len(), |i| is_finite(values, i))
 }
 

@@ -26,6 +26,29 @@ pub struct Connectivity {
     pub face_half_edge: Vec<HalfEdgeId>,
 }
 
+impl Connectivity {
+    /// Puts the elements of `other` behind these: their ids are shifted by the counts of these.
+    pub fn append(&mut self, other: &Self) {
+        fn push<I: Id + PartialEq>(all: &mut Vec<I>, more: &[I], by: usize) {
+            let shifted = |&id: &I| match id == I::NONE {
+                true => id,
+                false => I::new(id.index() + by),
+            };
+            all.extend(more.iter().map(shifted));
+        }
+        let (h, v, f) = (
+            self.next.len(),
+            self.vertex_half_edge.len(),
+            self.face_half_edge.len(),
+        );
+        push(&mut self.next, &other.next, h);
+        push(&mut self.origin, &other.origin, v);
+        push(&mut self.face, &other.face, f);
+        push(&mut self.vertex_half_edge, &other.vertex_half_edge, h);
+        push(&mut self.face_half_edge, &other.face_half_edge, h);
+    }
+}
+
 /// A half-edge mesh of polygons in space, with attributes.
 ///
 /// Meshes are equal if all their arrays are, dead elements included.

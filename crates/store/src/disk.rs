@@ -20,14 +20,14 @@ impl Store for Disk {
     }
 
     fn read_up_to(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
-        read_plain(path, most).map_err(|error| StoreError::read(path, error))
+        read_plain(path, most).map_err(|error| StoreError::new("read", path, error))
     }
 
     fn read_stream(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
         let mut bytes = Vec::new();
         match File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes)) {
             Ok(_) => Ok(bytes),
-            Err(error) => Err(StoreError::read(path, error)),
+            Err(error) => Err(StoreError::new("read", path, error)),
         }
     }
 
@@ -50,7 +50,7 @@ impl Store for Disk {
 
     fn canonical(&self, path: &Path) -> Result<PathBuf, StoreError> {
         path.canonicalize()
-            .map_err(|error| StoreError::read(path, error))
+            .map_err(|error| StoreError::new("read", path, error))
     }
 
     fn list(&self, folder: &Path) -> Result<Vec<PathBuf>, StoreError> {
@@ -58,13 +58,14 @@ impl Store for Disk {
             let entries = fs::read_dir(folder)?;
             entries.map(|entry| Ok(entry?.path())).collect()
         };
-        let mut paths = entries().map_err(|error| StoreError::list(folder, error))?;
+        let mut paths = entries().map_err(|error| StoreError::new("list", folder, error))?;
         paths.sort();
         Ok(paths)
     }
 
     fn make_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        fs::create_dir_all(folder).map_err(|error| StoreError::folder(folder, error))
+        fs::create_dir_all(folder)
+            .map_err(|error| StoreError::new("make the folder", folder, error))
     }
 
     fn make_temporary(&self, folder: Option<&Path>) -> Result<PathBuf, StoreError> {
@@ -76,23 +77,27 @@ impl Store for Disk {
             .tempdir_in(folder);
         match made {
             Ok(made) => Ok(made.keep()),
-            Err(error) => Err(StoreError::folder(folder, without_temporary_name(error))),
+            Err(error) => Err(StoreError::new(
+                "make the folder",
+                folder,
+                without_temporary_name(error),
+            )),
         }
     }
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        fs::remove_dir_all(folder).map_err(|error| StoreError::write(folder, error))
+        fs::remove_dir_all(folder).map_err(|error| StoreError::new("write", folder, error))
     }
 
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError> {
         check_place(self, path)?;
-        let file = beside(path).map_err(|error| StoreError::write(path, error))?;
+        let file = beside(path).map_err(|error| StoreError::new("write", path, error))?;
         let path = path.to_owned();
         Ok(Box::new(Begun { file, path }))
     }
 
     fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError> {
-        fs::rename(from, to).map_err(|error| StoreError::write(to, error))
+        fs::rename(from, to).map_err(|error| StoreError::new("write", to, error))
     }
 }
 
@@ -100,7 +105,7 @@ impl Store for Disk {
 ///
 /// # Errors
 ///
-/// [`StoreError::Write`] if there is no such file, or it cannot be written; then it is as it was.
+/// [`StoreError`] if there is no such file, or it cannot be written; then it is as it was.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     let replaced = || -> io::Result<()> {
         let real = path.canonicalize()?;
@@ -112,7 +117,7 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
         new.persist(&real)?;
         Ok(())
     };
-    replaced().map_err(|error| StoreError::write(path, error))
+    replaced().map_err(|error| StoreError::new("write", path, error))
 }
 
 /// How the names of the temporary folders of a process begin. They remain only if the process is killed.
@@ -145,7 +150,7 @@ impl NewFile for Begun {
         let Self { file, path } = *self;
         match file.persist(&path) {
             Ok(_) => Ok(()),
-            Err(failed) => Err(StoreError::write(&path, failed.error)),
+            Err(failed) => Err(StoreError::new("write", &path, failed.error)),
         }
     }
 }

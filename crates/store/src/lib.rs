@@ -38,14 +38,14 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError::Read`] if there is no file, it is no plain file, or there is not enough memory for it.
+    /// [`StoreError`] if there is no file, it is no plain file, or there is not enough memory for it.
     fn read_up_to(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError>;
 
     /// The same, from a pipe or a device too: a text may come from one.
     ///
     /// # Errors
     ///
-    /// [`StoreError::Read`] if that cannot be done.
+    /// [`StoreError`] if that cannot be done.
     fn read_stream(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
         self.read_up_to(path, most)
     }
@@ -60,21 +60,21 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError::Read`] if there is nothing under the path.
+    /// [`StoreError`] if there is nothing under the path.
     fn canonical(&self, path: &Path) -> Result<PathBuf, StoreError>;
 
     /// The paths of all files and folders in a folder, sorted.
     ///
     /// # Errors
     ///
-    /// [`StoreError::List`] if there is no such folder, or it cannot be listed.
+    /// [`StoreError`] if there is no such folder, or it cannot be listed.
     fn list(&self, folder: &Path) -> Result<Vec<PathBuf>, StoreError>;
 
     /// Makes a folder and those around it, unless they are there.
     ///
     /// # Errors
     ///
-    /// [`StoreError::Folder`] if that cannot be done.
+    /// [`StoreError`] if that cannot be done.
     fn make_folder(&self, folder: &Path) -> Result<(), StoreError>;
 
     /// Makes an empty folder of a new name that begins with [`temporary_prefix`], inside of `folder` or else where
@@ -82,14 +82,14 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError::Folder`] if that cannot be done.
+    /// [`StoreError`] if that cannot be done.
     fn make_temporary(&self, folder: Option<&Path>) -> Result<PathBuf, StoreError>;
 
     /// Removes a folder with everything in it.
     ///
     /// # Errors
     ///
-    /// [`StoreError::Write`] if something remains.
+    /// [`StoreError`] if something remains.
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError>;
 
     /// Begins a file, in a folder that is there. A file of this name stays as it is until [`NewFile::commit`]; a link
@@ -97,14 +97,14 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError::Write`] if the file cannot be written, or a folder of this name is there.
+    /// [`StoreError`] if the file cannot be written, or a folder of this name is there.
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError>;
 
     /// Moves a file to another name, where it replaces a file.
     ///
     /// # Errors
     ///
-    /// [`StoreError::Write`] with the new name.
+    /// [`StoreError`] with the new name.
     fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError>;
 
     /// Reads a plain file.
@@ -120,12 +120,12 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError::Folder`] or [`StoreError::Write`].
+    /// [`StoreError`] if that cannot be done.
     fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
         self.make_folder(folder_of(path))?;
         let mut file = self.create(path)?;
         file.write_all(bytes)
-            .map_err(|error| StoreError::write(path, error))?;
+            .map_err(|error| StoreError::new("write", path, error))?;
         file.commit()
     }
 
@@ -166,7 +166,7 @@ pub trait NewFile: Write + Send {
     ///
     /// # Errors
     ///
-    /// [`StoreError::Write`]; then the file of this name is as it was.
+    /// [`StoreError`]; then the file of this name is as it was.
     fn commit(self: Box<Self>) -> Result<(), StoreError>;
 }
 
@@ -201,76 +201,27 @@ impl Entry {
 
 /// Why a file or folder could not be read or written.
 #[derive(Debug, thiserror::Error)]
-pub enum StoreError {
-    /// It could not be read.
-    #[error("cannot read {}: {error}", path.display())]
-    Read {
-        /// The file or folder.
-        path: PathBuf,
-        /// What the system said.
-        error: io::Error,
-    },
-    /// It could not be written.
-    #[error("cannot write {}: {error}", path.display())]
-    Write {
-        /// The file or folder.
-        path: PathBuf,
-        /// What the system said.
-        error: io::Error,
-    },
-    /// A folder could not be made.
-    #[error("cannot make the folder {}: {error}", path.display())]
-    Folder {
-        /// The folder.
-        path: PathBuf,
-        /// What the system said.
-        error: io::Error,
-    },
-    /// A folder could not be listed.
-    #[error("cannot list {}: {error}", path.display())]
-    List {
-        /// The folder.
-        path: PathBuf,
-        /// What the system said.
-        error: io::Error,
-    },
+#[error("cannot {what} {}: {error}", path.display())]
+pub struct StoreError {
+    /// What could not be done: `read`, `write`, `make the folder` or `list`.
+    pub what: &'static str,
+    /// The file or folder.
+    pub path: PathBuf,
+    /// What the system said.
+    pub error: io::Error,
 }
 
 impl StoreError {
-    fn read(path: &Path, error: io::Error) -> Self {
+    /// As of [`Store`]s: `what` is a verb such as `read`.
+    pub fn new(what: &'static str, path: &Path, error: io::Error) -> Self {
         let path = path.to_owned();
-        Self::Read { path, error }
-    }
-
-    fn write(path: &Path, error: io::Error) -> Self {
-        let path = path.to_owned();
-        Self::Write { path, error }
-    }
-
-    fn folder(path: &Path, error: io::Error) -> Self {
-        let path = path.to_owned();
-        Self::Folder { path, error }
-    }
-
-    fn list(path: &Path, error: io::Error) -> Self {
-        let path = path.to_owned();
-        Self::List { path, error }
-    }
-
-    /// The path, and what the system said.
-    pub fn into_parts(self) -> (PathBuf, io::Error) {
-        match self {
-            Self::Read { path, error }
-            | Self::Write { path, error }
-            | Self::Folder { path, error }
-            | Self::List { path, error } => (path, error),
-        }
+        Self { what, path, error }
     }
 }
 
 impl From<StoreError> for io::Error {
     fn from(error: StoreError) -> Self {
-        error.into_parts().1
+        error.error
     }
 }
 
@@ -289,14 +240,14 @@ fn check_place(store: &dyn Store, path: &Path) -> Result<(), StoreError> {
         (_, false) => "there is no such folder",
         _ => return Ok(()),
     };
-    Err(StoreError::write(path, io::Error::other(problem)))
+    Err(StoreError::new("write", path, io::Error::other(problem)))
 }
 
 /// All plain files below a folder, sorted.
 ///
 /// # Errors
 ///
-/// [`StoreError::List`] if a folder cannot be listed.
+/// [`StoreError`] if a folder cannot be listed.
 pub fn files_below(store: &dyn Store, folder: &Path) -> Result<Vec<PathBuf>, StoreError> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];

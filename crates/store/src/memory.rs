@@ -69,7 +69,7 @@ impl Store for Memory {
             )),
             None => Err(missing()),
         };
-        read.map_err(|error| StoreError::read(path, error))
+        read.map_err(|error| StoreError::new("read", path, error))
     }
 
     fn entry(&self, path: &Path) -> Option<Entry> {
@@ -91,13 +91,13 @@ impl Store for Memory {
         if self.exists(path) {
             Ok(plain(path))
         } else {
-            Err(StoreError::read(path, missing()))
+            Err(StoreError::new("read", path, missing()))
         }
     }
 
     fn list(&self, folder: &Path) -> Result<Vec<PathBuf>, StoreError> {
         if !self.is_folder(folder) {
-            return Err(StoreError::list(folder, missing()));
+            return Err(StoreError::new("list", folder, missing()));
         }
         let content = self.content();
         let inside = plain(folder);
@@ -114,7 +114,7 @@ impl Store for Memory {
                 Some(Kind::Folder) => {}
                 Some(_) => {
                     let error = io::Error::other("a file of this name is there");
-                    return Err(StoreError::folder(folder, error));
+                    return Err(StoreError::new("make the folder", folder, error));
                 }
                 None => (self.content()).insert(folder.to_owned(), Kind::Folder, Arc::default()),
             }
@@ -159,7 +159,7 @@ impl Store for Memory {
     fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError> {
         let mut content = self.content();
         let stored = content.entries.remove(&plain(from));
-        let stored = stored.ok_or_else(|| StoreError::write(to, missing()))?;
+        let stored = stored.ok_or_else(|| StoreError::new("write", to, missing()))?;
         content.entries.insert(plain(to), stored);
         Ok(())
     }

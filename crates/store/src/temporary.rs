@@ -16,7 +16,7 @@ impl<'s> TemporaryFolder<'s> {
     ///
     /// # Errors
     ///
-    /// [`StoreError::Folder`] if that cannot be done.
+    /// [`StoreError`] if that cannot be done.
     pub fn new(store: &'s dyn Store, inside: Option<&Path>) -> Result<Self, StoreError> {
         let path = store.make_temporary(inside)?;
         Ok(Self { store, path })

@@ -1,11 +1,14 @@
 //! The XML of a COLLADA file: elements by their ids, numbers in their texts, places of errors.
 
 use std::borrow::Cow;
+use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::{Document as Xml, Error, ParsingOptions};
 
+use super::cost;
 use crate::fault::Fault;
+use crate::note::{NoteKind, Notes};
 use crate::text::{MARK, Place, name, number, quoted};
 
 pub(super) type Node<'a> = roxmltree::Node<'a, 'a>;
@@ -114,6 +117,10 @@ pub(super) struct Document<'a> {
     pub(super) ids: BTreeMap<&'a str, Node<'a>>,
     /// How many bytes the text has.
     pub(super) size: usize,
+    /// What was left out or changed, added up by what it is, and the first line of each.
+    tally: RefCell<BTreeMap<(NoteKind, &'static str), (usize, usize)>>,
+    /// How much memory may still be taken. A file may repeat its geometries by instances, but not without end.
+    budget: Cell<usize>,
 }
 
 impl<'a> Document<'a> {
@@ -133,11 +140,51 @@ impl<'a> Document<'a> {
                 ids.entry(id).or_insert(node);
             }
         }
+        let size = xml.input_text().len();
         Ok(Self {
             root,
             ids,
-            size: xml.input_text().len(),
+            size,
+            tally: RefCell::default(),
+            budget: size.saturating_mul(cost::TIMES).max(cost::FREE).into(),
         })
+    }
+
+    pub(super) fn left_out(&self, count: usize, node: Node, what: &'static str) {
+        self.add(NoteKind::LeftOut, count, node, what);
+    }
+
+    pub(super) fn changed(&self, count: usize, node: Node, what: &'static str) {
+        self.add(NoteKind::Changed, count, node, what);
+    }
+
+    fn add(&self, kind: NoteKind, count: usize, node: Node, what: &'static str) {
+        if count > 0 {
+            // The line is looked for only once: that takes time.
+            let mut all = self.tally.borrow_mut();
+            let (sum, _) = all.entry((kind, what)).or_insert_with(|| (0, line(node)));
+            *sum = sum.saturating_add(count);
+        }
+    }
+
+    /// Notes what was left out or changed.
+    pub(super) fn note_all(&self, notes: &mut Notes) {
+        for ((kind, what), (count, line)) in self.tally.take() {
+            notes.add(kind, count, Some(line), what.to_owned());
+        }
+    }
+
+    /// Takes memory out of what the file pays for.
+    ///
+    /// # Errors
+    ///
+    /// If it has used up its share.
+    pub(super) fn take(&self, node: Node, bytes: usize) -> Result<(), Fault> {
+        let message = "the file repeats its polygons far more often than usual for its size";
+        let left = self.budget.get().checked_sub(bytes);
+        self.budget
+            .set(left.ok_or_else(|| error_at(node, message))?);
+        Ok(())
     }
 
     /// The element `kind` that the attribute `key` of `node` refers to as `#id`; `None` if that leads to

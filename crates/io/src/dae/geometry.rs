@@ -6,12 +6,12 @@ use std::rc::Rc;
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{COLOR, CORNER_NORMAL, Domain, UV};
 
+use super::cost;
 use super::document::{
     Document, Node, child, elements, error_at, named, natural, number_of, required, word_error,
 };
 use super::outline::{Outline, shape};
 use super::sources::{Vectors, vectors};
-use super::tally::{Budget, Tally};
 use crate::Polygons;
 use crate::fault::Fault;
 
@@ -35,9 +35,9 @@ impl Surface<'_> {
         let polygons = &self.polygons;
         let columns = polygons.attributes.of(Domain::Corner).len();
         let names: usize = self.symbols.iter().map(|name| name.len()).sum();
-        Budget::VERTEX * polygons.positions.len()
-            + (Budget::CORNER + Budget::VALUE * columns) * polygons.corners.len()
-            + Budget::MATERIAL * self.symbols.len()
+        cost::VERTEX * polygons.positions.len()
+            + (cost::CORNER + cost::VALUE * columns) * polygons.corners.len()
+            + cost::MATERIAL * self.symbols.len()
             + names
     }
 }
@@ -45,7 +45,6 @@ impl Surface<'_> {
 /// Reads geometries; vectors that several of them use are read once.
 pub(super) struct Geometries<'a, 'd> {
     pub(super) document: &'d Document<'a>,
-    pub(super) budget: Budget,
     sources: BTreeMap<(u32, usize), Rc<Vectors>>,
 }
 
@@ -84,12 +83,9 @@ struct Columns {
 }
 
 impl<'a, 'd> Geometries<'a, 'd> {
-    pub(super) fn new(document: &'d Document<'a>, budget: Budget) -> Self {
-        Self {
-            document,
-            budget,
-            sources: BTreeMap::new(),
-        }
+    pub(super) fn new(document: &'d Document<'a>) -> Self {
+        let sources = BTreeMap::new();
+        Self { document, sources }
     }
 
     /// The polygons of a geometry; `None` if it has none.
@@ -97,11 +93,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
     /// # Errors
     ///
     /// What of it is not as it should be.
-    pub(super) fn surface(
-        &mut self,
-        geometry: Node<'a>,
-        tally: &mut Tally,
-    ) -> Result<Option<Surface<'a>>, Fault> {
+    pub(super) fn surface(&mut self, geometry: Node<'a>) -> Result<Option<Surface<'a>>, Fault> {
         let Some(mesh) = child(geometry, "mesh") else {
             return Ok(None);
         };
@@ -113,38 +105,39 @@ impl<'a, 'd> Geometries<'a, 'd> {
             let name = list.tag_name().name();
             if matches!(name, "lines" | "linestrips" | "points") {
                 let count = natural(list, "count")?.unwrap_or(1);
-                tally.left_out(count, list, "lines and points left out");
+                self.document
+                    .left_out(count, list, "lines and points left out");
             }
-            let Some(shape) = shape(list, tally)? else {
+            let Some(shape) = shape(list, self.document)? else {
                 continue;
             };
-            let inputs = self.inputs(list, tally)?;
+            let inputs = self.inputs(list)?;
             if *vertices.get_or_insert(inputs.vertices) != inputs.vertices {
                 let message = "expected the same vertices for all polygons of a mesh";
                 return Err(error_at(list, message));
             }
-            let outline = shape.read(list, inputs.stride, tally)?;
+            let outline = shape.read(list, inputs.stride, self.document)?;
             let n_corners = outline.order.len();
-            self.budget.take(list, n_corners * Budget::CORNER)?;
+            self.document.take(list, n_corners * cost::CORNER)?;
             self.add(list, &inputs, &outline, &mut surface.polygons, &mut columns)?;
             let mut new = 0;
             let symbol = list.attribute("material").map_or(-1, |symbol| {
                 let next = surface.symbols.len();
                 *symbols.entry(symbol).or_insert_with(|| {
                     surface.symbols.push(symbol);
-                    new = Budget::MATERIAL;
+                    new = cost::MATERIAL;
                     i32::try_from(next).unwrap_or(i32::MAX)
                 })
             });
-            self.budget.take(list, new)?;
+            self.document.take(list, new)?;
             surface.symbol_of.resize(surface.polygons.n_faces(), symbol);
         }
         let (Some(vertices), true) = (vertices, surface.polygons.n_faces() > 0) else {
             return Ok(None);
         };
         let positions = self.positions(vertices)?;
-        self.budget
-            .take(vertices, positions.len() * Budget::VERTEX)?;
+        self.document
+            .take(vertices, positions.len() * cost::VERTEX)?;
         let position = |i| DVec3::from_array(positions.get(i, [0.0; 3]));
         surface.polygons.positions = (0..positions.len()).map(position).collect();
         columns.finish(&mut surface.polygons);
@@ -175,15 +168,15 @@ impl<'a, 'd> Geometries<'a, 'd> {
             return Ok(Rc::clone(known));
         }
         let (read, n_numbers) = vectors(self.document, source, names, least)?;
-        let bytes = 8 * read.values.len() + Budget::NUMBER * n_numbers;
-        self.budget.take(source, bytes)?;
+        let bytes = 8 * read.values.len() + cost::NUMBER * n_numbers;
+        self.document.take(source, bytes)?;
         let read = Rc::new(read);
         self.sources.insert(key, Rc::clone(&read));
         Ok(read)
     }
 
     /// The inputs of a list of polygons; those of its vertices stand behind its own.
-    fn inputs(&mut self, list: Node<'a>, tally: &mut Tally) -> Result<Inputs<'a>, Fault> {
+    fn inputs(&self, list: Node<'a>) -> Result<Inputs<'a>, Fault> {
         let mut stride = 0;
         let mut vertex = None;
         let mut others: Vec<Input> = Vec::new();
@@ -203,7 +196,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
                 }),
                 _ => {
                     let what = "inputs left out that are no normals, colors or texture coordinates, or further ones";
-                    tally.left_out(1, input, what);
+                    self.document.left_out(1, input, what);
                 }
             }
             Ok(())
@@ -230,7 +223,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
             add(input, vertex)?;
         }
         // Each list reads them again.
-        self.budget.take(list, Budget::NUMBER * of_vertices.len())?;
+        self.document.take(list, cost::NUMBER * of_vertices.len())?;
         Ok(Inputs {
             stride,
             vertex,
@@ -281,8 +274,8 @@ impl<'a, 'd> Geometries<'a, 'd> {
             };
             let vectors = self.vectors(input.source, names, names.len())?;
             check(input.offset, vectors.len(), what)?;
-            self.budget
-                .take(list, outline.order.len() * Budget::VALUE)?;
+            self.document
+                .take(list, outline.order.len() * cost::VALUE)?;
             let index = index(input.offset).map(|i| i as usize);
             match input.kind {
                 Kind::Normal => {
@@ -317,7 +310,7 @@ impl Columns {
         let n = polygons.corners.len();
         if !self.normals.is_empty() {
             self.normals.resize(n, DVec3::ZERO);
-            polygons.insert_corners(CORNER_NORMAL, self.normals);
+            polygons.insert_known(CORNER_NORMAL, self.normals);
         }
         if !self.colors.is_empty() {
             self.colors.resize(n, DVec4::ONE);

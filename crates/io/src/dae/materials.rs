@@ -7,7 +7,6 @@ use scene::{AlphaMode, Material, Texture};
 use super::document::{
     Document, Node, below, child, elements, error_at, exactly, is, named, number_of, numbers, text,
 };
-use super::tally::Tally;
 use crate::assets::inside_uri;
 use crate::fault::Fault;
 
@@ -28,7 +27,6 @@ pub(super) fn material<'a>(
     document: &Document<'a>,
     node: Node<'a>,
     known: &mut BTreeMap<u32, Material>,
-    tally: &mut Tally,
 ) -> Result<Material, Fault> {
     if let Some(material) = known.get(&number_of(node)) {
         return Ok(material.clone());
@@ -38,11 +36,11 @@ pub(super) fn material<'a>(
     let mut material = Material::new(name);
     if let Some(instance) = child(node, "instance_effect") {
         match document.follow(instance, "url", &["effect"])? {
-            None => tally.left_out(1, instance, "effects in other files left out"),
+            None => document.left_out(1, instance, "effects in other files left out"),
             Some(effect) => {
                 let look = match known.get(&number_of(effect)) {
                     Some(look) => look.clone(),
-                    None => look_of(document, effect, tally)?,
+                    None => look_of(document, effect)?,
                 };
                 known.insert(number_of(effect), look.clone());
                 material = Material {
@@ -57,18 +55,14 @@ pub(super) fn material<'a>(
 }
 
 /// A material without a name that looks as an element `<effect>` says.
-fn look_of<'a>(
-    document: &Document<'a>,
-    effect: Node<'a>,
-    tally: &mut Tally,
-) -> Result<Material, Fault> {
+fn look_of<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material, Fault> {
     let mut material = Material::new("");
     let others = elements(effect).filter(|profile| {
         let name = profile.tag_name().name();
         name.starts_with("profile_") && name != "profile_COMMON"
     });
     let what = "profiles of effects left out that are not common";
-    tally.left_out(others.count(), effect, what);
+    document.left_out(others.count(), effect, what);
     let Some(profile) = child(effect, "profile_COMMON") else {
         return Ok(material);
     };
@@ -90,13 +84,13 @@ fn look_of<'a>(
         name != channel && name != "transparent" && name != "transparency"
     });
     let what = "parameters of effects left out that are no diffuse color and no transparency";
-    tally.left_out(others.count(), shader, what);
+    document.left_out(others.count(), shader, what);
     let look = Look {
         document,
         scopes: [profile, effect],
     };
-    let mut alpha = opacity(&look, shader, tally)?;
-    match look.paint(child(shader, channel), tally)? {
+    let mut alpha = opacity(&look, shader)?;
+    match look.paint(child(shader, channel))? {
         None => {}
         Some(Paint::Picture(path)) => {
             material.base_color_texture = Some(Texture::file(path));
@@ -117,7 +111,7 @@ fn look_of<'a>(
 ///
 /// COLLADA 1.4.1, "Determining transparency": `A_ONE` takes the alpha of the transparent color, `RGB_ZERO` its
 /// luminance the other way round, both times the transparency.
-fn opacity(look: &Look, shader: Node, tally: &mut Tally) -> Result<Option<f64>, Fault> {
+fn opacity(look: &Look, shader: Node) -> Result<Option<f64>, Fault> {
     let transparent = child(shader, "transparent");
     let transparency = match child(shader, "transparency") {
         Some(node) => look.float(node)?,
@@ -126,10 +120,11 @@ fn opacity(look: &Look, shader: Node, tally: &mut Tally) -> Result<Option<f64>, 
     if transparent.is_none() && transparency.is_none() {
         return Ok(None);
     }
-    let color = match look.paint(transparent, tally)? {
+    let color = match look.paint(transparent)? {
         Some(Paint::Color(color)) => color,
         Some(Paint::Picture(_)) => {
-            tally.left_out(1, shader, "pictures of transparency left out");
+            let what = "pictures of transparency left out";
+            look.document.left_out(1, shader, what);
             return Ok(None);
         }
         None => [0.0, 0.0, 0.0, 1.0],
@@ -147,7 +142,7 @@ fn opacity(look: &Look, shader: Node, tally: &mut Tally) -> Result<Option<f64>, 
     // Programs disagree about which end is which, and nobody means a surface that cannot be seen.
     if opacity <= 0.0 {
         let what = "materials made opaque: the file makes them invisible";
-        tally.changed(1, shader, what);
+        look.document.changed(1, shader, what);
         return Ok(None);
     }
     Ok(Some(opacity))
@@ -160,7 +155,7 @@ struct Look<'a, 'd> {
 }
 
 impl<'a> Look<'a, '_> {
-    fn paint(&self, channel: Option<Node>, tally: &mut Tally) -> Result<Option<Paint>, Fault> {
+    fn paint(&self, channel: Option<Node>) -> Result<Option<Paint>, Fault> {
         let Some(channel) = channel else {
             return Ok(None);
         };
@@ -171,7 +166,8 @@ impl<'a> Look<'a, '_> {
             let sid = texture.attribute("texture");
             let path = sid.and_then(|sid| self.picture(sid));
             let what = "textures left out that have no picture file";
-            tally.left_out(usize::from(path.is_none()), texture, what);
+            let is_missing = usize::from(path.is_none());
+            self.document.left_out(is_missing, texture, what);
             return Ok(path.map(Paint::Picture));
         }
         let parameter = self.parameter_of(channel);

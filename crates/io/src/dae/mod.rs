@@ -29,21 +29,19 @@
 //! Document type declarations are refused, so that entities cannot grow; what instances repeat may take
 //! 64 times the size of the file, and 16 MiB in any case.
 
+mod cost;
 mod document;
 mod geometry;
 mod materials;
 mod nodes;
 mod outline;
 mod sources;
-mod tally;
 
 use std::collections::BTreeMap;
 
-use glam::{DAffine3, DVec3};
-use mesh::{CORNER_NORMAL, Domain, MATERIAL, UV, Value};
+use mesh::{CORNER_NORMAL, Domain, MATERIAL, UV};
 use scene::{Material, Texture};
 
-use crate::clean::gather;
 use crate::fault::Fault;
 use crate::note::{Names, Notes};
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
@@ -52,7 +50,6 @@ use crate::{Found, Polygons, Shape};
 use document::{Document, elements, error_at, line, number_of, text};
 use geometry::{Geometries, Surface};
 use nodes::{Placed, placed};
-use tally::{Budget, Tally};
 
 /// Reads the objects of a file from its bytes.
 ///
@@ -88,12 +85,10 @@ fn each_object<T>(
     let text = document::decoded(bytes)?;
     let xml = document::parsed(&text)?;
     let document = Document::new(&xml)?;
-    let mut tally = Tally::default();
     note_asset(&document, notes)?;
-    note_libraries(&document, &mut tally);
-    let mut budget = Budget::of(document.size);
-    let placed = placed(&document, &mut budget, notes, &mut tally)?;
-    let mut geometries = Geometries::new(&document, budget);
+    note_libraries(&document);
+    let placed = placed(&document, notes)?;
+    let mut geometries = Geometries::new(&document);
     let mut surfaces: BTreeMap<u32, Option<Surface>> = BTreeMap::new();
     let mut materials = BTreeMap::new();
     let mut names = Names::default();
@@ -102,29 +97,27 @@ fn each_object<T>(
         let id = number_of(placed.geometry);
         let known = surfaces.contains_key(&id);
         if !known {
-            let surface = geometries.surface(placed.geometry, &mut tally)?;
+            let surface = geometries.surface(placed.geometry)?;
             surfaces.insert(id, surface);
         }
         let Some(Some(surface)) = surfaces.get(&id) else {
             let what = "geometries left out that have no polygons";
-            tally.left_out(1, placed.geometry, what);
+            document.left_out(1, placed.geometry, what);
             continue;
         };
         if known && let Some(instance) = placed.instance {
-            geometries.budget.take(instance, surface.cost())?;
+            document.take(instance, surface.cost())?;
         }
         let object = Object {
             document: &document,
             placed,
             surface,
             materials: &mut materials,
-            tally: &mut tally,
-            budget: &mut geometries.budget,
         };
         let name = names.unique(placed.name(name), notes);
         objects.push(make(name, object)?);
     }
-    tally.into_notes(notes);
+    document.note_all(notes);
     Ok(objects)
 }
 
@@ -135,8 +128,6 @@ struct Object<'a, 'd> {
     surface: &'d Surface<'a>,
     /// Those of materials and effects that were read before, by the numbers of their elements.
     materials: &'d mut BTreeMap<u32, Material>,
-    tally: &'d mut Tally,
-    budget: &'d mut Budget,
 }
 
 impl Object<'_, '_> {
@@ -159,9 +150,10 @@ impl Object<'_, '_> {
 
     /// The polygons in the scene's coordinates, with their materials.
     fn polygons(self) -> Result<Polygons, Fault> {
-        let (mut polygons, lost) = moved(&self.surface.polygons, &self.placed.to_scene);
+        let mut polygons = self.surface.polygons.clone();
+        let lost = polygons.place(&self.placed.to_scene);
         let what = "normals left out: the placement is flat";
-        self.tally.left_out(lost, self.placed.geometry, what);
+        self.document.left_out(lost, self.placed.geometry, what);
         if self.surface.symbols.is_empty() {
             return Ok(polygons);
         }
@@ -175,68 +167,30 @@ impl Object<'_, '_> {
             let node = self.placed.materials.get(symbol).or(same_id);
             let Some(&node) = node else {
                 let what = "names of materials that the file does not define: they are white";
-                self.tally.changed(1, self.placed.geometry, what);
+                self.document.changed(1, self.placed.geometry, what);
                 place_of_symbol.push(next);
                 polygons.materials.push(Material::new(*symbol));
                 continue;
             };
             place_of_symbol.push(*places.entry(number_of(node)).or_insert(next));
             if places[&number_of(node)] == next {
-                let material =
-                    materials::material(self.document, node, self.materials, self.tally)?;
+                let material = materials::material(self.document, node, self.materials)?;
                 polygons.materials.push(material);
             }
         }
         for material in &polygons.materials {
             let path = material.base_color_texture.as_ref().and_then(Texture::path);
             let text = material.name.len() + path.map_or(0, str::len);
-            self.budget.take(self.placed.geometry, text)?;
+            self.document.take(self.placed.geometry, text)?;
         }
         let place = |&symbol: &i32| {
             let symbol = usize::try_from(symbol).ok();
             symbol.map_or(-1, |symbol| place_of_symbol[symbol])
         };
         let values = self.surface.symbol_of.iter().map(place).collect();
-        polygons.insert_faces(MATERIAL, values);
+        polygons.insert_known(MATERIAL, values);
         Ok(polygons)
     }
-}
-
-/// The polygons moved by `to_scene`, and how many normals are lost because a flat placement leaves them without a
-/// direction. A mirror turns polygons inside out: their corners are taken the other way round.
-fn moved(polygons: &Polygons, to_scene: &DAffine3) -> (Polygons, usize) {
-    let mut moved = polygons.clone();
-    let mut lost = 0;
-    if *to_scene == DAffine3::IDENTITY {
-        return (moved, lost);
-    }
-    for position in &mut moved.positions {
-        *position = to_scene.transform_point3(*position);
-    }
-    let turn = to_scene.matrix3.inverse().transpose();
-    if let Some(mut column) = moved.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
-        if turn.is_finite() {
-            for normal in DVec3::of_mut(&mut column.values).into_iter().flatten() {
-                *normal = (turn * *normal).normalize_or_zero();
-            }
-            moved.attributes.insert(Domain::Corner, column);
-        } else {
-            lost = column.values.len();
-        }
-    }
-    if to_scene.matrix3.determinant() < 0.0 {
-        let mut order: Vec<u32> = (0..).take(moved.corners.len()).collect();
-        for ends in moved.offsets.windows(2) {
-            // The first corner stays the first.
-            order[ends[0] as usize + 1..ends[1] as usize].reverse();
-        }
-        moved.corners = order
-            .iter()
-            .map(|&c| polygons.corners[c as usize])
-            .collect();
-        gather(&mut moved.attributes, Domain::Corner, &order);
-    }
-    (moved, lost)
 }
 
 // ---- Notes -------------------------------------------------------------------------------------
@@ -264,7 +218,7 @@ fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
 }
 
 /// Counts what the reader does not look at.
-fn note_libraries(document: &Document, tally: &mut Tally) {
+fn note_libraries(document: &Document) {
     for library in elements(document.root) {
         let what = match library.tag_name().name() {
             "library_animations" | "library_animation_clips" => "animations left out",
@@ -281,6 +235,6 @@ fn note_libraries(document: &Document, tally: &mut Tally) {
             _ => continue,
         };
         let parts = elements(library).filter(|part| !document::is(*part, "asset"));
-        tally.left_out(parts.count(), library, what);
+        document.left_out(parts.count(), library, what);
     }
 }

@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DAffine3, DMat3, DVec3};
 
+use super::cost;
 use super::document::{
     Document, Node, below, child, elements, error_at, exactly, is, line, named, number_of, required,
 };
-use super::tally::{Budget, Tally};
 use crate::fault::Fault;
 use crate::note::Notes;
 
@@ -44,9 +44,7 @@ fn name(node: Node<'_>) -> &str {
 /// What of the nodes is not as it should be.
 pub(super) fn placed<'a>(
     document: &Document<'a>,
-    budget: &mut Budget,
     notes: &mut Notes,
-    tally: &mut Tally,
 ) -> Result<Vec<Placed<'a>>, Fault> {
     let geometries = || {
         let libraries = named(document.root, "library_geometries");
@@ -73,7 +71,7 @@ pub(super) fn placed<'a>(
     let others: Vec<&Node> = scenes.iter().filter(|other| **other != scene).collect();
     let first = others.first().map(|scene| line(**scene));
     notes.left_out(others.len(), first, "other scenes left out");
-    let placed = Walk::of(document, budget).run(scene, tally)?;
+    let placed = Walk::of(document).run(scene)?;
     let used = placed.iter().map(|placed| number_of(placed.geometry));
     let used: BTreeSet<u32> = used.collect();
     let mut unused = geometries().filter(|geometry| !used.contains(&number_of(*geometry)));
@@ -87,7 +85,6 @@ pub(super) fn placed<'a>(
 /// A walk over the nodes of a scene, on a stack of its own: they may be nested as deeply as the file is long.
 struct Walk<'a, 'd> {
     document: &'d Document<'a>,
-    budget: &'d mut Budget,
     /// How many more elements may be looked at: instances can make a small file large.
     steps: usize,
     /// The nodes that the walk is below of.
@@ -102,10 +99,9 @@ enum Step<'a> {
 }
 
 impl<'a, 'd> Walk<'a, 'd> {
-    fn of(document: &'d Document<'a>, budget: &'d mut Budget) -> Self {
+    fn of(document: &'d Document<'a>) -> Self {
         Self {
             document,
-            budget,
             steps: 4 * document.size + 10_000,
             above: BTreeSet::new(),
             placements: BTreeMap::new(),
@@ -113,9 +109,9 @@ impl<'a, 'd> Walk<'a, 'd> {
         }
     }
 
-    fn run(mut self, scene: Node<'a>, tally: &mut Tally) -> Result<Vec<Placed<'a>>, Fault> {
+    fn run(mut self, scene: Node<'a>) -> Result<Vec<Placed<'a>>, Fault> {
         let mut open = Vec::new();
-        self.open_children(scene, DAffine3::IDENTITY, &mut open, tally)?;
+        self.open_children(scene, DAffine3::IDENTITY, &mut open)?;
         while let Some(step) = open.pop() {
             let (node, above) = match step {
                 Step::Leave(id) => {
@@ -128,12 +124,12 @@ impl<'a, 'd> Walk<'a, 'd> {
                 return Err(error_at(node, "the node is below itself"));
             }
             open.push(Step::Leave(number_of(node)));
-            let to_scene = above * self.placement(node, tally)?;
+            let to_scene = above * self.placement(node)?;
             if !to_scene.is_finite() {
                 return Err(error_at(node, "the placement of the node is not finite"));
             }
-            self.place_geometries(node, to_scene, tally)?;
-            self.open_children(node, to_scene, &mut open, tally)?;
+            self.place_geometries(node, to_scene)?;
+            self.open_children(node, to_scene, &mut open)?;
         }
         Ok(self.placed)
     }
@@ -151,7 +147,6 @@ impl<'a, 'd> Walk<'a, 'd> {
         node: Node<'a>,
         to_scene: DAffine3,
         open: &mut Vec<Step<'a>>,
-        tally: &mut Tally,
     ) -> Result<(), Fault> {
         let start = open.len();
         for part in elements(node) {
@@ -161,7 +156,9 @@ impl<'a, 'd> Walk<'a, 'd> {
             } else if is(part, "instance_node") {
                 match self.document.follow(part, "url", &["node"])? {
                     Some(node) => open.push(Step::Enter(node, to_scene)),
-                    None => tally.left_out(1, part, "nodes in other files left out"),
+                    None => self
+                        .document
+                        .left_out(1, part, "nodes in other files left out"),
                 }
             }
         }
@@ -169,12 +166,7 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(())
     }
 
-    fn place_geometries(
-        &mut self,
-        node: Node<'a>,
-        to_scene: DAffine3,
-        tally: &mut Tally,
-    ) -> Result<(), Fault> {
+    fn place_geometries(&mut self, node: Node<'a>, to_scene: DAffine3) -> Result<(), Fault> {
         for instance in elements(node) {
             let geometry = match instance.tag_name().name() {
                 "instance_geometry" => self.document.follow(instance, "url", &["geometry"])?,
@@ -182,13 +174,14 @@ impl<'a, 'd> Walk<'a, 'd> {
                 _ => continue,
             };
             let Some(geometry) = geometry else {
-                tally.left_out(1, instance, "geometries in other files left out");
+                self.document
+                    .left_out(1, instance, "geometries in other files left out");
                 continue;
             };
             // The name of an object is kept in some places.
             let names = name(node).len() + name(geometry).len();
-            self.budget.take(instance, Budget::OBJECT + 8 * names)?;
-            let materials = self.bound_materials(instance, tally)?;
+            self.document.take(instance, cost::OBJECT + 8 * names)?;
+            let materials = self.bound_materials(instance)?;
             self.placed.push(Placed {
                 instance: Some(instance),
                 geometry,
@@ -223,7 +216,6 @@ impl<'a, 'd> Walk<'a, 'd> {
     fn bound_materials(
         &mut self,
         instance: Node<'a>,
-        tally: &mut Tally,
     ) -> Result<BTreeMap<&'a str, Node<'a>>, Fault> {
         let mut materials = BTreeMap::new();
         let Some(list) = below(instance, &["bind_material", "technique_common"]) else {
@@ -231,20 +223,22 @@ impl<'a, 'd> Walk<'a, 'd> {
         };
         for bound in named(list, "instance_material") {
             self.step(bound)?;
-            self.budget.take(bound, Budget::BOUND)?;
+            self.document.take(bound, cost::BOUND)?;
             let symbol = required(bound, "symbol")?;
             match self.document.follow(bound, "target", &["material"])? {
                 Some(material) => {
                     materials.entry(symbol).or_insert(material);
                 }
-                None => tally.left_out(1, bound, "materials in other files left out"),
+                None => self
+                    .document
+                    .left_out(1, bound, "materials in other files left out"),
             }
         }
         Ok(materials)
     }
 
     /// The placement of a node in the node above: its transforms, the first of the file outermost.
-    fn placement(&mut self, node: Node<'a>, tally: &mut Tally) -> Result<DAffine3, Fault> {
+    fn placement(&mut self, node: Node<'a>) -> Result<DAffine3, Fault> {
         if let Some(known) = self.placements.get(&number_of(node)) {
             return Ok(*known);
         }
@@ -257,7 +251,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 "rotate" => DAffine3::from_mat3(rotation(exactly(part)?)),
                 "lookat" => look_at(part)?,
                 "skew" => {
-                    tally.left_out(1, part, "skews of nodes left out");
+                    self.document.left_out(1, part, "skews of nodes left out");
                     continue;
                 }
                 _ => continue,

@@ -1,9 +1,8 @@
 //! How the indices of a list make polygons: triangles, polygons with counted corners, strips and fans.
 
 use super::document::{
-    Node, child, elements, error_at, is, named, natural, push_indices, required,
+    Document, Node, child, elements, error_at, is, named, natural, push_indices, required,
 };
-use super::tally::Tally;
 use crate::fault::Fault;
 
 /// How the indices of a list make polygons.
@@ -17,7 +16,7 @@ pub(super) enum Shape {
 }
 
 /// What kind of polygons a list has; `None` if it has none.
-pub(super) fn shape(list: Node, tally: &mut Tally) -> Result<Option<Shape>, Fault> {
+pub(super) fn shape(list: Node, document: &Document) -> Result<Option<Shape>, Fault> {
     let shape = match list.tag_name().name() {
         "triangles" => Shape::Triangles,
         "polylist" => Shape::Counted,
@@ -31,7 +30,7 @@ pub(super) fn shape(list: Node, tally: &mut Tally) -> Result<Option<Shape>, Faul
         return Err(error_at(list, "expected indices in <p>"));
     }
     if empty {
-        tally.left_out(1, list, "lists of polygons left out that are empty");
+        document.left_out(1, list, "lists of polygons left out that are empty");
         return Ok(None);
     }
     Ok(Some(shape))
@@ -54,7 +53,7 @@ impl Shape {
         self,
         list: Node<'a>,
         stride: usize,
-        tally: &mut Tally,
+        document: &Document,
     ) -> Result<Outline<'a>, Fault> {
         let mut outline = Outline::default();
         let mut holes = 0;
@@ -79,7 +78,7 @@ impl Shape {
             }
             starts.push(outline.indices.len() / stride);
         }
-        tally.left_out(holes, list, "holes of polygons left out");
+        document.left_out(holes, list, "holes of polygons left out");
         let n = outline.indices.len() / stride;
         let lists = starts.windows(2).map(|ends| ends[0]..ends[1]);
         let count = natural(list, "count")?;
@@ -132,7 +131,7 @@ impl Shape {
             }
         };
         let what = "polygons left out that have fewer than 3 corners";
-        tally.left_out(small, list, what);
+        document.left_out(small, list, what);
         if count.is_some_and(|count| count != found) {
             let count = required(list, "count")?;
             let message = format!("expected {count} of them, found {found}");

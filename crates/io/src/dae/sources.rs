@@ -88,11 +88,6 @@ pub(super) fn vectors(
         return Err(error_at(accessor, message));
     }
     let width = components.len();
-    if offset == 0 && stride == width && components.iter().enumerate().all(|(i, &c)| i == c) {
-        let mut values = values;
-        values.truncate(count * width);
-        return Ok((Vectors { width, values }, n_numbers));
-    }
     let starts = (0..count).map(|i| offset + i * stride);
     let picked = starts.flat_map(|start| components.iter().map(move |&c| start + c));
     let values = picked.map(|i| values[i]).collect();

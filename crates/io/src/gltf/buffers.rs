@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
-use std::ops::Range;
 use std::path::Path;
 
 use base64::Engine as _;
@@ -22,13 +21,6 @@ const BIN_CHUNK: &[u8] = b"BIN\0";
 
 /// The bytes before the JSON of a GLB file: its header, and the length and the kind of the first chunk.
 const HEAD: usize = 20;
-
-/// Where the parts of a GLB file lie in its bytes.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Container {
-    pub(super) json: Range<usize>,
-    pub(super) binary: Option<Range<usize>>,
-}
 
 /// The largest JSON chunk of a GLB file that is looked at, in bytes.
 const LARGEST_JSON: u64 = 1 << 30;
@@ -51,17 +43,14 @@ pub(crate) fn document_of(store: &dyn Store, path: &Path) -> Result<Vec<u8>, Rea
     Ok(bytes.split_off(HEAD.min(bytes.len())))
 }
 
-/// Finds the chunks of a GLB file; a file that does not begin as one is JSON as a whole.
+/// The JSON and the binary chunk of a GLB file; a file that does not begin as one is JSON as a whole.
 ///
 /// # Errors
 ///
 /// If the header or the lengths are wrong.
-pub(super) fn container(bytes: &[u8]) -> Result<Container, Fault> {
+pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
     if !bytes.starts_with(MAGIC) {
-        return Ok(Container {
-            json: 0..bytes.len(),
-            binary: None,
-        });
+        return Ok((bytes, None));
     }
     let word = |at: usize| {
         let four = bytes.get(at..).and_then(|rest| rest.first_chunk());
@@ -91,17 +80,12 @@ pub(super) fn container(bytes: &[u8]) -> Result<Container, Fault> {
             let rest = length.saturating_sub(start);
             Fault::byte(at, format!("a chunk says {size} bytes, but {rest} follow"))
         })?;
-        chunks.push((at, &bytes[at + 4..start], start..end));
+        chunks.push((&bytes[at + 4..start], &bytes[start..end]));
         at = end;
     }
-    match chunks.first() {
-        Some((_, kind, json)) if *kind == JSON_CHUNK => {
-            let binary = chunks.get(1).filter(|(_, kind, _)| *kind == BIN_CHUNK);
-            Ok(Container {
-                json: json.clone(),
-                binary: binary.map(|(_, _, range)| range.clone()),
-            })
-        }
+    match chunks[..] {
+        [(JSON_CHUNK, json), (BIN_CHUNK, binary)] => Ok((json, Some(binary))),
+        [(JSON_CHUNK, json), ..] => Ok((json, None)),
         _ => Err(Fault::byte(12, "expected a chunk of JSON first")),
     }
 }
@@ -241,9 +225,8 @@ mod tests {
     #[test]
     fn chunks_are_found() {
         let bytes = glb(&[(JSON_CHUNK, b"{}  "), (BIN_CHUNK, b"abcd"), (b"XXXX", b"")]);
-        let container = container(&bytes).unwrap();
-        assert_eq!(&bytes[container.json], b"{}  ");
-        assert_eq!(&bytes[container.binary.unwrap()], b"abcd");
+        let chunks = container(&bytes).unwrap();
+        assert_eq!(chunks, (&b"{}  "[..], Some(&b"abcd"[..])));
     }
 
     #[test]

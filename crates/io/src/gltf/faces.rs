@@ -11,23 +11,10 @@ use crate::loss::Losses;
 use crate::parallel;
 
 /// Triangles in the order of the faces.
-pub(super) enum Faces {
-    /// All faces of a mesh of so many triangles.
-    All(usize),
-    /// These faces, which are triangles.
-    Triangles(Vec<u32>),
-    /// The corners of triangles that faces were cut into, as vertices of glTF.
-    Cut(Vec<u32>),
-}
-
-impl Faces {
-    pub(super) fn n_triangles(&self) -> usize {
-        match self {
-            Self::All(n) => *n,
-            Self::Triangles(faces) => faces.len(),
-            Self::Cut(corners) => corners.len() / 3,
-        }
-    }
+pub(super) struct Faces {
+    pub(super) n_triangles: usize,
+    /// The corners of the triangles, as vertices of glTF; `None` for all faces of a mesh of triangles.
+    pub(super) corners: Option<Vec<u32>>,
 }
 
 /// The triangles of each material, -1 for none.
@@ -46,17 +33,8 @@ pub(super) fn faces_by_material(
         if exists(m) { m } else { -1 }
     };
     let mut lists: BTreeMap<i32, Vec<u32>> = BTreeMap::new();
-    match materials {
-        None if !has_polygons || mesh.n_faces() == 0 => {}
-        None => {
-            let all = (0..mesh.n_faces()).map(|f| u32::try_from(f).unwrap_or(u32::MAX));
-            lists.insert(-1, all.collect());
-        }
-        Some(materials) => {
-            for (f, &material) in (0..).zip(materials) {
-                lists.entry(of_face(material)).or_default().push(f);
-            }
-        }
+    for (f, &material) in (0..).zip(materials.unwrap_or_default()) {
+        lists.entry(of_face(material)).or_default().push(f);
     }
     let reason = "the object has no such material";
     losses.add(Domain::Face, "material", unknown, reason);
@@ -65,17 +43,27 @@ pub(super) fn faces_by_material(
         let reason = "no face has this material";
         losses.add(None, &material.name, usize::from(!used), reason);
     }
-    if lists.is_empty() && mesh.n_faces() > 0 {
-        return BTreeMap::from([(-1, Faces::All(mesh.n_faces()))]);
+    if materials.is_none() && mesh.n_faces() > 0 {
+        let all = (0..mesh.n_faces()).map(|f| u32::try_from(f).unwrap_or(u32::MAX));
+        lists.insert(
+            -1,
+            if has_polygons {
+                all.collect()
+            } else {
+                Vec::new()
+            },
+        );
     }
+    let is_whole = lists.len() == 1 && !has_polygons;
     let faces = lists.into_iter().map(|(material, list)| {
-        let cut = || Faces::Cut(cut(mesh, split, &list));
+        let corners = (!is_whole).then(|| cut(mesh, split, &list));
+        let n_corners = corners.as_ref().map(Vec::len);
+        let n_triangles = n_corners.map_or(mesh.n_faces(), |n| n / 3);
         (
             material,
-            if has_polygons {
-                cut()
-            } else {
-                Faces::Triangles(list)
+            Faces {
+                n_triangles,
+                corners,
             },
         )
     });

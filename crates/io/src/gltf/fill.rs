@@ -38,10 +38,9 @@ pub(super) fn fill_stream(out: &mut [u8], mesh: &Mesh, split: &Split, stream: &S
 }
 
 pub(super) fn fill_indices(out: &mut [u8], mesh: &Mesh, split: &Split, faces: &Faces, short: bool) {
-    let triangle = |i: usize| match faces {
-        Faces::All(_) => corners(mesh, split, FaceId::new(i)),
-        Faces::Triangles(faces) => corners(mesh, split, FaceId::new(faces[i] as usize)),
-        Faces::Cut(corners) => [corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]],
+    let triangle = |i: usize| match &faces.corners {
+        None => corners(mesh, split, FaceId::new(i)),
+        Some(corners) => [corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]],
     };
     if short {
         let bytes = |v: u32| u16::try_from(v).unwrap_or(u16::MAX).to_le_bytes();

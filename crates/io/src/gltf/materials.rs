@@ -3,15 +3,15 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use scene::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
+use scene::{AlphaMode, Image, Material, Sampler, Texture, TextureTransform};
 use serde::Deserialize;
 use serde_json::Value;
 
 use super::buffers::data_uri;
 use super::document::get;
 use super::surface::{
-    AlphaJson, Extensions, ImageJson, InfoJson, STRENGTH, SamplerJson, TRANSFORM, TransformJson,
-    UNLIT,
+    AlphaJson, Extensions, FILTERS, ImageJson, InfoJson, STRENGTH, SamplerJson, TRANSFORM,
+    TransformJson, UNLIT, WRAPS,
 };
 use super::views::Reader;
 use crate::fault::Fault;
@@ -90,7 +90,7 @@ impl<'a> Materials<'a> {
             }
             Some(AlphaJson::Blend) => AlphaMode::Blend,
         };
-        to.double_sided = from.double_sided;
+        to.double_sided = from.double_sided.unwrap_or_default();
         to.unlit = from.extensions.contains_key(UNLIT);
         self.known.insert(i, to.clone());
         Ok(to)
@@ -128,7 +128,7 @@ impl<'a> Materials<'a> {
         let (transform, uv_set) = transform(&info.extensions, here)?;
         Ok(Some(Texture {
             image,
-            uv_set: uv_set.unwrap_or(info.tex_coord),
+            uv_set: uv_set.or(info.tex_coord).unwrap_or(0),
             sampler,
             transform,
         }))
@@ -184,35 +184,28 @@ pub(super) fn has_scheme(uri: &str) -> bool {
 }
 
 fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, Fault> {
-    use Filter::{Linear, Nearest};
-    let error = |name: &str, found: u32| {
-        let what = format!("found {found}, which is none of the numbers for it");
-        Fault::json(format!("{here}/{name}"), what)
+    fn known<T: Copy>(list: &[(u32, T)], number: u32, pointer: String) -> Result<T, Fault> {
+        let found = list.iter().find(|(known, _)| *known == number);
+        found.map(|&(_, value)| value).ok_or_else(|| {
+            let message = format!("found {number}, which is none of the numbers for it");
+            Fault::json(pointer, message)
+        })
+    }
+    let filter = |number: Option<u32>, list: &[_], name: &str| match number {
+        None => Ok((None, None)),
+        Some(number) => known(list, number, format!("{here}/{name}")),
     };
-    let wrap = |name: &str, number: Option<u32>| match number.unwrap_or(10497) {
-        10497 => Ok(Wrap::Repeat),
-        33648 => Ok(Wrap::Mirror),
-        33071 => Ok(Wrap::Clamp),
-        other => Err(error(name, other)),
+    let wrap = |number: Option<u32>, name: &str| {
+        known(
+            &WRAPS,
+            number.unwrap_or(WRAPS[0].0),
+            format!("{here}/{name}"),
+        )
     };
-    let (minify, mipmap) = match from.min_filter {
-        None => (None, None),
-        Some(9728) => (Some(Nearest), None),
-        Some(9729) => (Some(Linear), None),
-        Some(9984) => (Some(Nearest), Some(Nearest)),
-        Some(9985) => (Some(Linear), Some(Nearest)),
-        Some(9986) => (Some(Nearest), Some(Linear)),
-        Some(9987) => (Some(Linear), Some(Linear)),
-        Some(other) => return Err(error("minFilter", other)),
-    };
-    let magnify = match from.mag_filter {
-        None => None,
-        Some(9728) => Some(Nearest),
-        Some(9729) => Some(Linear),
-        Some(other) => return Err(error("magFilter", other)),
-    };
+    let (minify, mipmap) = filter(from.min_filter, &FILTERS, "minFilter")?;
+    let (magnify, _) = filter(from.mag_filter, &FILTERS[..2], "magFilter")?;
     Ok(Sampler {
-        wrap: [wrap("wrapS", from.wrap_s)?, wrap("wrapT", from.wrap_t)?],
+        wrap: [wrap(from.wrap_s, "wrapS")?, wrap(from.wrap_t, "wrapT")?],
         magnify,
         minify,
         mipmap,

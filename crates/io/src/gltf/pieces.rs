@@ -48,7 +48,7 @@ pub(super) fn container(
         (word(length), word(padded), word(binary.next_multiple_of(4)))
     else {
         let message = format!("a GLB file holds less than 4 GB, the scene needs {length} bytes");
-        return Err(Unwritable::Scene { message });
+        return Err(Unwritable::scene(message));
     };
     let mut out = mesh::zeroed::<u8>(length);
     out[..12].copy_from_slice(&[*b"glTF", 2_u32.to_le_bytes(), all].concat());

@@ -1,13 +1,13 @@
 //! The primitives of a glTF mesh as one list of triangles.
 
+use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
-use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, DVec3, DVec4};
 use gltf_json::accessor::Type;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
-use mesh::{Value, Values};
+use mesh::{Attributes, CORNER, CORNER_NORMAL, Column, Domain, Rule, Value};
 
 use super::document::get;
 use super::names::attribute_name;
@@ -23,8 +23,8 @@ const SMALL: u64 = 16;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
-    /// Named as in a mesh; one value for each vertex. Texture coordinates have v upwards.
-    pub(super) columns: BTreeMap<String, Values>,
+    /// What corners get: one value for each vertex. Texture coordinates have v upwards.
+    pub(super) attributes: Attributes,
     /// Three for each triangle.
     pub(super) corners: Vec<u32>,
     /// For each triangle its material in the document; empty if none has one.
@@ -108,7 +108,8 @@ impl Triangles {
     pub(super) fn cost(&self) -> u64 {
         const VERTEX: usize = 64;
         const CORNER: usize = 48;
-        let values: usize = self.columns.values().map(size_of_value).sum();
+        let columns = self.attributes.of(Domain::Corner).iter();
+        let values: usize = columns.map(|column| column.values.bytes_each()).sum();
         (VERTEX * self.positions.len() + (CORNER + values) * self.corners.len()) as u64
     }
 
@@ -141,9 +142,9 @@ impl Triangles {
         } else {
             self.positions.append(&mut positions);
         }
-        let mut found = BTreeSet::new();
+        let mut own = Attributes::default();
         for (semantic, accessor) in &primitive.attributes {
-            let column = match semantic {
+            let semantic = match semantic {
                 Checked::Valid(Semantic::Positions) => continue,
                 Checked::Valid(semantic) => semantic,
                 Checked::Invalid => {
@@ -151,69 +152,57 @@ impl Triangles {
                     continue;
                 }
             };
-            let at = pointer(&column.to_string());
-            let Some((name, values)) = read_column(reader, column, accessor.value(), &at)? else {
-                seen.attribute(&column.to_string());
+            let at = pointer(&semantic.to_string());
+            let Some(column) = read_column(reader, semantic, accessor.value(), &at)? else {
+                seen.attribute(&semantic.to_string());
                 continue;
             };
-            if values.len() != n {
-                let found = values.len();
+            let found = column.values.len();
+            if found != n {
                 let message =
                     format!("expected {n} elements, one for each position, found {found}");
                 return Err(Fault::json(at, message));
             }
-            if found.contains(&name) {
-                seen.attribute(&(column.to_string() + " of a name that is taken"));
-                continue;
+            let before = self.attributes.column(Domain::Corner, &column.name);
+            let kind = |column: &Column| column.values.type_name();
+            if own.column(Domain::Corner, &column.name).is_some() {
+                seen.attribute(&(semantic.to_string() + " of a name that is taken"));
+            } else if before.is_some_and(|before| kind(before) != kind(&column)) {
+                seen.attribute(&(semantic.to_string() + " of another type"));
+            } else {
+                if before.is_none() && base > 0 {
+                    let zeros = base * column.values.bytes_each();
+                    reader.budget.spend(zeros as u64, &at)?;
+                    seen.partial += 1;
+                }
+                own.insert(Domain::Corner, column);
             }
-            if !self.columns.contains_key(&name) {
-                let before = base * size_of_value(&values);
-                reader.budget.spend(before as u64, &at)?;
-            }
-            if !self.push_column(name.clone(), values, base, seen) {
-                seen.attribute(&(column.to_string() + " of another type"));
-                continue;
-            }
-            found.insert(name);
         }
         // Attributes that only other primitives have.
-        for (name, values) in &mut self.columns {
-            if !found.contains(name) {
-                let more = (base + n - values.len()) * size_of_value(values);
-                reader.budget.spend(SMALL + more as u64, here)?;
-                grow(values, base + n);
+        for column in self.attributes.of(Domain::Corner) {
+            if own.column(Domain::Corner, &column.name).is_none() {
+                let zeros = n * column.values.bytes_each();
+                reader.budget.spend(SMALL + zeros as u64, here)?;
                 seen.partial += 1;
             }
+        }
+        if base == 0 && self.attributes == Attributes::default() {
+            self.attributes = own;
+        } else {
+            let corners = |n| Domain::ALL.map(|d| if d == Domain::Corner { n } else { 0 });
+            self.attributes.append(corners(base), &own, corners(n));
         }
         Ok((first, count))
     }
-
-    /// Appends values behind `base` others; false if those are of another type.
-    fn push_column(&mut self, name: String, values: Values, base: usize, seen: &mut Seen) -> bool {
-        match self.columns.entry(name) {
-            Entry::Vacant(new) if base == 0 => {
-                new.insert(values);
-                true
-            }
-            Entry::Vacant(new) => {
-                let mut all = values.gather(base, |_| None);
-                seen.partial += 1;
-                let same = append(&mut all, values);
-                new.insert(all);
-                same
-            }
-            Entry::Occupied(known) => append(known.into_mut(), values),
-        }
-    }
 }
 
-/// The name and the values of an attribute; `None` if it is not read.
+/// The column of an attribute; `None` if it is not read.
 fn read_column(
     reader: &Reader,
     semantic: &Semantic,
     accessor: usize,
     at: &str,
-) -> Result<Option<(String, Values)>, Fault> {
+) -> Result<Option<Column>, Fault> {
     let Some(name) = attribute_name(semantic) else {
         return Ok(None);
     };
@@ -243,43 +232,12 @@ fn read_column(
         }
         (_, Type::Mat2 | Type::Mat3 | Type::Mat4) => return Ok(None),
     };
-    Ok(Some((name, values)))
-}
-
-/// Appends values, if they are of the same type.
-fn append(all: &mut Values, more: Values) -> bool {
-    match (all, more) {
-        (Values::Float(all), Values::Float(mut more)) => all.append(&mut more),
-        (Values::Vec2(all), Values::Vec2(mut more)) => all.append(&mut more),
-        (Values::Vec3(all), Values::Vec3(mut more)) => all.append(&mut more),
-        (Values::Vec4(all), Values::Vec4(mut more)) => all.append(&mut more),
-        _ => return false,
-    }
-    true
-}
-
-/// The bytes of one of the values.
-fn size_of_value(values: &Values) -> usize {
-    match values {
-        Values::Float(_) => size_of::<f64>(),
-        Values::Vec2(_) => size_of::<DVec2>(),
-        Values::Vec3(_) => size_of::<DVec3>(),
-        Values::Vec4(_) => size_of::<DVec4>(),
-        Values::Int(_) => size_of::<i32>(),
-        Values::Tag(_) => size_of::<bool>(),
-    }
-}
-
-/// Fills values up with zeros. Many primitives may ask for little each.
-fn grow(values: &mut Values, n: usize) {
-    match values {
-        Values::Float(values) => values.resize(n, 0.0),
-        Values::Vec2(values) => values.resize(n, DVec2::ZERO),
-        Values::Vec3(values) => values.resize(n, DVec3::ZERO),
-        Values::Vec4(values) => values.resize(n, DVec4::ZERO),
-        Values::Int(values) => values.resize(n, 0),
-        Values::Tag(values) => values.resize(n, false),
-    }
+    let rule = match name.as_str() {
+        "normal" => CORNER_NORMAL.rule,
+        "corner" => CORNER.rule,
+        _ => Rule::Interpolate,
+    };
+    Ok(Some(Column { name, rule, values }))
 }
 
 /// The triangles of a primitive whose vertices are counted from 0.

@@ -1,10 +1,10 @@
 //! From a glTF document to objects.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::atomic::Ordering::Relaxed;
 
-use glam::{DAffine3, DMat3, DVec3};
-use mesh::{CORNER_NORMAL, Column, Domain, Rule, Values};
+use glam::{DAffine3, DVec3};
+use mesh::Domain;
 use scene::{Material, Texture};
 use serde_json::Value;
 
@@ -16,6 +16,7 @@ use super::nodes::placed_meshes;
 use super::primitives::{Triangles, triangles};
 use super::views::Reader;
 use crate::assets::Assets;
+use crate::clean::gather;
 use crate::fault::Fault;
 use crate::note::{Names, Notes};
 use crate::text::{MARK, Place};
@@ -34,12 +35,11 @@ pub(crate) fn read(
 ) -> Result<Vec<Found>, Fault> {
     // Dropped at the end: the accessors read from it as it is.
     let bytes = bytes.into_boxed_slice();
-    let container = buffers::container(&bytes)?;
-    let json = parse(&bytes[container.json])?;
+    let (json, binary) = buffers::container(&bytes)?;
+    let json = parse(json)?;
     let budget = Budget::of(bytes.len());
     let document = Document::new(&json, &budget, notes)?;
     drop(json);
-    let binary = container.binary.map(|range| &bytes[range]);
     let (buffers, fallbacks) = (&document.buffers, &document.fallbacks);
     let loaded = buffers::load(buffers, fallbacks, binary, &budget, assets)?;
     if document.compressed.iter().any(Option::is_some) {
@@ -144,105 +144,50 @@ fn polygons(
 ) -> Polygons {
     let Triangles {
         positions,
-        columns,
+        attributes,
         corners: mut order,
         materials,
     } = triangles;
-    let Welded {
-        mut positions,
-        vertex_of,
-        unused,
-    } = weld(positions, &order);
+    let n = positions.len();
+    let (positions, vertex_of, unused) = weld(positions, &order);
     notes.left_out(unused, None, "vertices left out: no triangle uses them");
-    let moved = *to_scene != DAffine3::IDENTITY;
-    if moved {
-        parallel::change(&mut positions, |p| *p = to_scene.transform_point3(*p));
-    }
-    // A mirror turns triangles inside out: their corners are taken the other way round.
-    if to_scene.matrix3.determinant() < 0.0 {
-        let (triangles, _) = order.as_chunks_mut::<3>();
-        parallel::change(triangles, |triangle| triangle.swap(1, 2));
-    }
     let mut polygons = Polygons {
         positions,
         offsets: Polygons::even_offsets(order.len() / 3, 3),
+        attributes,
         ..Polygons::default()
     };
-    for (name, values) in columns {
-        let values = values.gather(order.len(), |c| Some(order[c] as usize));
-        let (rule, values) = match (name.as_str(), values) {
-            (_, Values::Vec3(mut normals)) if name == CORNER_NORMAL.name => {
-                if let Some(turn) = normal_matrix(to_scene) {
-                    if moved {
-                        let turned = |normal: DVec3| (turn * normal).normalize_or_zero();
-                        parallel::change(&mut normals, |normal| *normal = turned(*normal));
-                    }
-                    (Rule::Normal, Values::Vec3(normals))
-                } else {
-                    let what = "normals left out: the placement is flat";
-                    notes.left_out(normals.len(), None, what);
-                    continue;
-                }
-            }
-            (_, values) if name == mesh::CORNER.name => (mesh::CORNER.rule, values),
-            (_, values) => (Rule::Interpolate, values),
-        };
-        let column = Column { name, rule, values };
-        polygons.attributes.insert(Domain::Corner, column);
-    }
+    gather(&mut polygons.attributes, Domain::Corner, &order);
     if !materials.is_empty() {
         let place = |f: usize| materials[f].map_or(-1, |m| places[&m]);
         let values = parallel::collect(materials.len(), place);
-        polygons.insert_faces(mesh::MATERIAL, values);
+        polygons.insert_known(mesh::MATERIAL, values);
     }
-    if let Some(vertex_of) = vertex_of {
+    if polygons.positions.len() < n {
         parallel::change(&mut order, |v| *v = vertex_of[*v as usize]);
     }
     polygons.corners = order;
+    let lost = polygons.place(to_scene);
+    notes.left_out(lost, None, "normals left out: the placement is flat");
     polygons
 }
 
-/// The matrix that turns normals: the transposed inverse.
-fn normal_matrix(to_scene: &DAffine3) -> Option<DMat3> {
-    let matrix = to_scene.matrix3.inverse().transpose();
-    matrix.is_finite().then_some(matrix)
-}
-
-struct Welded {
-    positions: Vec<DVec3>,
-    /// For each vertex of the triangles its place in `positions`; `None` if it is its own.
-    vertex_of: Option<Vec<u32>>,
-    unused: usize,
-}
-
-/// Joins vertices at exactly the same position, in the order in which each place comes first, and
-/// leaves out those that no triangle uses.
-fn weld(positions: Vec<DVec3>, corners: &[u32]) -> Welded {
+/// Joins vertices at exactly the same position, in the order in which each place comes first, and leaves out those
+/// that no triangle uses. Returns the positions, the place of each vertex among them, and how many are left out.
+fn weld(mut positions: Vec<DVec3>, corners: &[u32]) -> (Vec<DVec3>, Vec<u32>, usize) {
     let n = positions.len();
-    let used: Vec<AtomicBool> = (0..n).map(|_| AtomicBool::new(false)).collect();
-    parallel::blocks(corners.len(), |block| {
-        for &v in &corners[block] {
-            used[v as usize].store(true, Relaxed);
-        }
-    });
+    let used = parallel::named(n, corners);
     let kept = parallel::filter(n, |v| used[v].load(Relaxed));
     let unused = n - kept.len();
-    if unused == 0 {
-        let (positions, vertex_of) = weld::weld(positions);
-        return Welded {
-            vertex_of: (positions.len() < n).then_some(vertex_of),
-            positions,
-            unused,
-        };
+    if unused > 0 {
+        positions = kept.iter().map(|&v| positions[v]).collect();
     }
-    let (positions, places) = weld::weld(kept.iter().map(|&v| positions[v]).collect());
-    let mut vertex_of = vec![0; n];
-    for (&v, place) in kept.iter().zip(places) {
-        vertex_of[v] = place;
+    let (positions, mut vertex_of) = weld::weld(positions);
+    if unused > 0 {
+        let places = std::mem::replace(&mut vertex_of, vec![0; n]);
+        for (&v, place) in kept.iter().zip(places) {
+            vertex_of[v] = place;
+        }
     }
-    Welded {
-        positions,
-        vertex_of: Some(vertex_of),
-        unused,
-    }
+    (positions, vertex_of, unused)
 }

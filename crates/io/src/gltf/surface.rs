@@ -1,10 +1,11 @@
 //! Materials, textures, samplers and images as the JSON of glTF has them.
 //!
-//! The types of `gltf_json` have no place for the transform of normal and occlusion textures.
+//! Reading and writing share these types: a member that is `None` is not in the document. The types of `gltf_json` have no place for the transform of normal and occlusion textures.
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
+use scene::{Filter, Wrap};
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 pub(super) const TRANSFORM: &str = "KHR_texture_transform";
@@ -13,7 +14,7 @@ pub(super) const UNLIT: &str = "KHR_materials_unlit";
 
 pub(super) type Extensions = BTreeMap<String, Value>;
 
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct MaterialJson {
     pub(super) name: Option<String>,
@@ -24,11 +25,12 @@ pub(super) struct MaterialJson {
     pub(super) emissive_factor: Option<[f64; 3]>,
     pub(super) alpha_mode: Option<AlphaJson>,
     pub(super) alpha_cutoff: Option<f64>,
-    pub(super) double_sided: bool,
+    pub(super) double_sided: Option<bool>,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) extensions: Extensions,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub(super) enum AlphaJson {
     Opaque,
@@ -36,7 +38,7 @@ pub(super) enum AlphaJson {
     Blend,
 }
 
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct PbrJson {
     pub(super) base_color_factor: Option<[f64; 4]>,
@@ -47,22 +49,21 @@ pub(super) struct PbrJson {
 }
 
 /// How a material refers to a texture.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct InfoJson {
     pub(super) index: usize,
-    #[serde(default)]
-    pub(super) tex_coord: u32,
+    pub(super) tex_coord: Option<u32>,
     /// Of a normal texture.
     pub(super) scale: Option<f64>,
     /// Of an occlusion texture.
     pub(super) strength: Option<f64>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) extensions: Extensions,
 }
 
 /// The extension of an [`InfoJson`].
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct TransformJson {
     pub(super) offset: Option<[f64; 2]>,
@@ -71,14 +72,14 @@ pub(super) struct TransformJson {
     pub(super) tex_coord: Option<u32>,
 }
 
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(default)]
 pub(super) struct TextureJson {
     pub(super) sampler: Option<usize>,
     pub(super) source: Option<usize>,
 }
 
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct SamplerJson {
     pub(super) mag_filter: Option<u32>,
@@ -87,10 +88,29 @@ pub(super) struct SamplerJson {
     pub(super) wrap_t: Option<u32>,
 }
 
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct ImageJson {
     pub(super) uri: Option<String>,
     pub(super) mime_type: Option<String>,
     pub(super) buffer_view: Option<usize>,
 }
+
+type Filters = (Option<Filter>, Option<Filter>);
+
+/// The numbers for how pictures are filtered, and between their sizes. Only the first two are for magnifying.
+pub(super) const FILTERS: [(u32, Filters); 6] = [
+    (9728, (Some(Filter::Nearest), None)),
+    (9729, (Some(Filter::Linear), None)),
+    (9984, (Some(Filter::Nearest), Some(Filter::Nearest))),
+    (9985, (Some(Filter::Linear), Some(Filter::Nearest))),
+    (9986, (Some(Filter::Nearest), Some(Filter::Linear))),
+    (9987, (Some(Filter::Linear), Some(Filter::Linear))),
+];
+
+/// The numbers for what is beside a picture; the first is the default.
+pub(super) const WRAPS: [(u32, Wrap); 3] = [
+    (10497, Wrap::Repeat),
+    (33648, Wrap::Mirror),
+    (33071, Wrap::Clamp),
+];

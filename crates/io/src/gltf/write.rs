@@ -48,18 +48,18 @@ pub(crate) fn write(
     let length = writer.pieces.last().map_or(0, Piece::end);
     if u32::try_from(length).is_err() {
         let message = format!("a glTF file holds less than 4 GB, the scene needs {length} bytes");
-        return Err(Unwritable::Scene { message });
+        return Err(Unwritable::scene(message));
     }
     let path = path.to_path_buf();
     if binary {
-        let (json, pieces) = writer.into_json(options, None)?;
+        let (json, pieces) = writer.into_json(options, None);
         let files = vec![(path, container(&json, length, &pieces)?)];
         return Ok(Written { files, losses });
     }
     let binary_path = path.with_extension("bin");
     let name = binary_path.file_name();
     let uri = name.map(|name| percent_encoded(&name.to_string_lossy()));
-    let (json, pieces) = writer.into_json(options, uri)?;
+    let (json, pieces) = writer.into_json(options, uri);
     let mut files = vec![(path, json)];
     if length > 0 {
         let mut bytes = mesh::zeroed(length);

@@ -2,11 +2,14 @@
 
 use std::sync::Arc;
 
-use scene::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
-use serde_json::{Map, Value, json};
+use scene::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform};
+use serde_json::json;
 
 use super::materials::{has_scheme, rounded};
-use super::surface::{STRENGTH, TRANSFORM, UNLIT};
+use super::surface::{
+    AlphaJson, Extensions, FILTERS, ImageJson, InfoJson, MaterialJson, PbrJson, STRENGTH,
+    SamplerJson, TRANSFORM, TextureJson, TransformJson, UNLIT, WRAPS,
+};
 use crate::assets::percent_encoded;
 use crate::loss::Losses;
 
@@ -16,13 +19,13 @@ pub(super) struct MaterialWriter {
     /// The scene's materials that `materials` stand for, with how many texture coordinates they need not
     /// more than.
     known: Vec<Material>,
-    materials: Vec<Value>,
-    textures: Vec<Value>,
-    samplers: Vec<Value>,
+    pub(super) materials: Vec<MaterialJson>,
+    pub(super) textures: Vec<TextureJson>,
+    pub(super) samplers: Vec<SamplerJson>,
     known_images: Vec<Image>,
-    images: Vec<Value>,
-    /// Pictures whose bytes have no view yet.
-    pictures: Vec<(usize, Arc<[u8]>)>,
+    pub(super) images: Vec<ImageJson>,
+    /// Pictures whose bytes have no view yet: their places, and the bytes.
+    pub(super) pictures: Vec<(usize, Arc<[u8]>)>,
     extensions: [bool; 3],
 }
 
@@ -57,38 +60,17 @@ impl MaterialWriter {
         self.materials.len() - 1
     }
 
-    /// Pictures that need a view: the place of each in the document, and its bytes.
-    pub(super) fn take_pictures(&mut self) -> Vec<(usize, Arc<[u8]>)> {
-        std::mem::take(&mut self.pictures)
+    /// The extensions that materials use.
+    pub(super) fn extensions(&self) -> Vec<&'static str> {
+        let all = [TRANSFORM, STRENGTH, UNLIT]
+            .into_iter()
+            .zip(self.extensions);
+        all.filter(|&(_, is)| is).map(|(name, _)| name).collect()
     }
 
-    /// Says where the bytes of a picture lie.
-    pub(super) fn set_view(&mut self, image: usize, view: usize) {
-        self.images[image]["bufferView"] = view.into();
-    }
-
-    /// Adds everything to the document.
-    pub(super) fn insert_into(self, document: &mut Map<String, Value>) {
-        let mut insert = |key: &str, values: Vec<Value>| {
-            if !values.is_empty() {
-                document.insert(key.to_owned(), Value::Array(values));
-            }
-        };
-        let names = [TRANSFORM, STRENGTH, UNLIT];
-        let used = names.iter().zip(self.extensions).filter(|&(_, is)| is);
-        insert(
-            "extensionsUsed",
-            used.map(|(name, _)| json!(name)).collect(),
-        );
-        insert("materials", self.materials);
-        insert("textures", self.textures);
-        insert("samplers", self.samplers);
-        insert("images", self.images);
-    }
-
-    fn json(&mut self, material: &Material, changed: &mut usize) -> Value {
+    fn json(&mut self, material: &Material, changed: &mut usize) -> MaterialJson {
         let plain = Material::new("");
-        let mut extensions = Map::new();
+        let mut extensions = Extensions::new();
         let strength = within(material.emissive_strength, 0.0, f64::MAX, changed);
         if strength != plain.emissive_strength {
             extensions.insert(STRENGTH.to_owned(), json!({ "emissiveStrength": strength }));
@@ -106,102 +88,69 @@ impl MaterialWriter {
         let scale = within(material.normal_scale, f64::MIN, f64::MAX, changed);
         let (alpha_mode, alpha_cutoff) = match material.alpha {
             AlphaMode::Opaque => (None, None),
-            AlphaMode::Mask(cutoff) => (Some("MASK"), Some(within(cutoff, 0.0, f64::MAX, changed))),
-            AlphaMode::Blend => (Some("BLEND"), None),
+            AlphaMode::Mask(cutoff) => {
+                let cutoff = within(cutoff, 0.0, f64::MAX, changed);
+                (Some(AlphaJson::Mask), Some(cutoff))
+            }
+            AlphaMode::Blend => (Some(AlphaJson::Blend), None),
         };
-        let mut texture = |texture: &Option<Texture>, number: &str, value: f64| {
-            let number = (number, (value != 1.0).then(|| value.into()));
-            texture.as_ref().map(|texture| self.info(texture, number))
-        };
-        let pbr = object([
-            (
-                "baseColorFactor",
-                (base_color != plain.base_color).then(|| json!(base_color)),
-            ),
-            (
-                "baseColorTexture",
-                texture(&material.base_color_texture, "", 1.0),
-            ),
+        let mut texture = |texture: &Option<Texture>| texture.as_ref().map(|t| self.info(t));
+        let pbr = PbrJson {
+            base_color_factor: (base_color != plain.base_color).then_some(base_color),
+            base_color_texture: texture(&material.base_color_texture),
             // The default of glTF is metal.
-            ("metallicFactor", Some(metallic.into())),
-            ("roughnessFactor", Some(roughness.into())),
-            (
-                "metallicRoughnessTexture",
-                texture(&material.metallic_roughness_texture, "", 1.0),
-            ),
-        ]);
-        object([
-            ("name", Some(json!(material.name))),
-            ("pbrMetallicRoughness", Some(pbr)),
-            (
-                "normalTexture",
-                texture(&material.normal_texture, "scale", scale),
-            ),
-            (
-                "occlusionTexture",
-                texture(&material.occlusion_texture, "strength", strength),
-            ),
-            (
-                "emissiveTexture",
-                texture(&material.emissive_texture, "", 1.0),
-            ),
-            (
-                "emissiveFactor",
-                (emissive != plain.emissive).then(|| json!(emissive)),
-            ),
-            ("alphaMode", alpha_mode.map(Value::from)),
-            ("alphaCutoff", alpha_cutoff.map(Value::from)),
-            ("doubleSided", material.double_sided.then_some(true.into())),
-            (
-                "extensions",
-                (!extensions.is_empty()).then_some(extensions.into()),
-            ),
-        ])
+            metallic_factor: Some(metallic),
+            roughness_factor: Some(roughness),
+            metallic_roughness_texture: texture(&material.metallic_roughness_texture),
+        };
+        MaterialJson {
+            name: Some(material.name.clone()),
+            pbr_metallic_roughness: Some(pbr),
+            normal_texture: texture(&material.normal_texture).map(|info| InfoJson {
+                scale: (scale != 1.0).then_some(scale),
+                ..info
+            }),
+            occlusion_texture: texture(&material.occlusion_texture).map(|info| InfoJson {
+                strength: (strength != 1.0).then_some(strength),
+                ..info
+            }),
+            emissive_texture: texture(&material.emissive_texture),
+            emissive_factor: (emissive != plain.emissive).then_some(emissive),
+            alpha_mode,
+            alpha_cutoff,
+            double_sided: material.double_sided.then_some(true),
+            extensions,
+        }
     }
 
-    /// What a material says of a texture, with a number of its own.
-    fn info(&mut self, texture: &Texture, number: (&str, Option<Value>)) -> Value {
-        let transform = texture.transform;
-        let extensions = (transform != TextureTransform::default()).then(|| {
-            let TextureTransform {
-                offset,
-                rotation,
-                scale,
-            } = transform;
+    /// What a material says of a texture.
+    fn info(&mut self, texture: &Texture) -> InfoJson {
+        let TextureTransform {
+            offset,
+            rotation,
+            scale,
+        } = texture.transform;
+        let mut extensions = Extensions::new();
+        if texture.transform != TextureTransform::default() {
             let finite = |x: f64| if x.is_nan() { 0.0 } else { rounded(x) };
+            let transform = TransformJson {
+                offset: (offset != [0.0; 2]).then(|| offset.map(finite)),
+                rotation: (rotation != 0.0).then(|| finite(rotation)),
+                scale: (scale != [1.0; 2]).then(|| scale.map(finite)),
+                tex_coord: None,
+            };
+            extensions.insert(TRANSFORM.to_owned(), json!(transform));
             self.extensions[0] = true;
-            let json = object([
-                (
-                    "offset",
-                    (offset != [0.0; 2]).then(|| json!(offset.map(finite))),
-                ),
-                (
-                    "rotation",
-                    (rotation != 0.0).then(|| finite(rotation).into()),
-                ),
-                (
-                    "scale",
-                    (scale != [1.0; 2]).then(|| json!(scale.map(finite))),
-                ),
-            ]);
-            json!({ TRANSFORM: json })
-        });
-        let sampler = (texture.sampler != Sampler::default())
-            .then(|| place_of(&mut self.samplers, sampler(texture.sampler)));
-        let source = self.image(&texture.image);
-        let json = object([
-            ("sampler", sampler.map(Value::from)),
-            ("source", Some(source.into())),
-        ]);
-        object([
-            ("index", Some(place_of(&mut self.textures, json).into())),
-            (
-                "texCoord",
-                (texture.uv_set != 0).then(|| texture.uv_set.into()),
-            ),
-            number,
-            ("extensions", extensions),
-        ])
+        }
+        let is_plain = texture.sampler == Sampler::default();
+        let sampler = (!is_plain).then(|| place_of(&mut self.samplers, sampler(texture.sampler)));
+        let source = Some(self.image(&texture.image));
+        InfoJson {
+            index: place_of(&mut self.textures, TextureJson { sampler, source }),
+            tex_coord: Some(texture.uv_set).filter(|&set| set != 0),
+            extensions,
+            ..InfoJson::default()
+        }
     }
 
     fn image(&mut self, image: &Image) -> usize {
@@ -211,23 +160,17 @@ impl MaterialWriter {
         }
         let place = self.images.len();
         self.known_images.push(image.clone());
-        self.images.push(match image {
-            Image::File(path) => json!({ "uri": uri(path) }),
+        let mut json = ImageJson::default();
+        match image {
+            Image::File(path) => json.uri = Some(uri(path)),
             Image::Embedded { mime, bytes } => {
                 self.pictures.push((place, bytes.clone()));
-                json!({ "mimeType": mime })
+                json.mime_type = Some(mime.clone());
             }
-        });
+        }
+        self.images.push(json);
         place
     }
-}
-
-/// A JSON object with the members that have a value.
-fn object<const N: usize>(members: [(&str, Option<Value>); N]) -> Value {
-    let there = members
-        .into_iter()
-        .filter_map(|(key, value)| Some((key.to_owned(), value?)));
-    Value::Object(there.collect())
 }
 
 /// Takes away the textures that are not to be kept; returns how many.
@@ -259,33 +202,16 @@ fn same(a: &Image, b: &Image) -> bool {
     }
 }
 
-fn sampler(sampler: Sampler) -> Value {
-    use Filter::{Linear, Nearest};
-    let wrap = |wrap| match wrap {
-        Wrap::Repeat => None,
-        Wrap::Mirror => Some(33648.into()),
-        Wrap::Clamp => Some(33071.into()),
-    };
-    let [wrap_s, wrap_t] = sampler.wrap.map(wrap);
-    let magnify = sampler.magnify.map(|filter| match filter {
-        Nearest => 9728,
-        Linear => 9729,
-    });
-    let minify = match (sampler.minify, sampler.mipmap) {
-        (None, None) => None,
-        (Some(Nearest), None) => Some(9728),
-        (Some(Linear), None) => Some(9729),
-        (Some(Nearest), Some(Nearest)) => Some(9984),
-        (Some(Linear) | None, Some(Nearest)) => Some(9985),
-        (Some(Nearest), Some(Linear)) => Some(9986),
-        (Some(Linear) | None, Some(Linear)) => Some(9987),
-    };
-    object([
-        ("magFilter", magnify.map(Value::from)),
-        ("minFilter", minify.map(Value::from)),
-        ("wrapS", wrap_s),
-        ("wrapT", wrap_t),
-    ])
+fn sampler(sampler: Sampler) -> SamplerJson {
+    let filter = |pair| FILTERS.iter().find(|(_, known)| *known == pair);
+    let wrap = |wrap| WRAPS[1..].iter().find(|(_, known)| *known == wrap);
+    let minify = sampler.minify.or(sampler.mipmap.and(Some(Filter::Linear)));
+    SamplerJson {
+        mag_filter: filter((sampler.magnify, None)).map(|&(number, _)| number),
+        min_filter: filter((minify, sampler.mipmap)).map(|&(number, _)| number),
+        wrap_s: wrap(sampler.wrap[0]).map(|&(number, _)| number),
+        wrap_t: wrap(sampler.wrap[1]).map(|&(number, _)| number),
+    }
 }
 
 /// The URI of a picture; one with a scheme is one already.
@@ -308,7 +234,7 @@ fn within(x: f64, low: f64, high: f64, changed: &mut usize) -> f64 {
     rounded(inside)
 }
 
-fn place_of(all: &mut Vec<Value>, one: Value) -> usize {
+fn place_of<T: PartialEq>(all: &mut Vec<T>, one: T) -> usize {
     all.iter()
         .position(|known| *known == one)
         .unwrap_or_else(|| {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{CORNER_NORMAL, Domain, FaceId, HalfEdgeId, Mesh, UV, VERTEX_NORMAL, Values, VertexId};
 
+use super::corner::Counts;
 use super::file::NO_MATERIAL;
 use super::library::{Library, push_name, push_values};
 use super::states::{Before, FaceStates, State, one_word};
@@ -14,6 +15,7 @@ use crate::decimal::push_whole;
 use crate::loss::Losses;
 use crate::parallel;
 use crate::save::Block;
+use crate::writing::NOT_FINITE;
 
 /// The vertices, values or faces of a block.
 const BLOCK: usize = 8192;
@@ -105,14 +107,19 @@ impl<'a> MeshBody<'a> {
     /// What holds behind this mesh.
     pub(super) fn after(&self) -> Before {
         let mut after = self.before;
-        after.counts.positions += self.mesh.n_vertices();
-        after.counts.uvs += count(self.uvs.as_ref());
-        after.counts.normals += count(self.normals.as_ref());
+        for (k, n) in self.counts().into_iter().enumerate() {
+            after.counts[k] += n;
+        }
         if let Some(last) = self.last_face() {
             let state = self.states.of(last);
             (after.material, after.smoothing) = (state.material, state.smoothing);
         }
         after
+    }
+
+    fn counts(&self) -> Counts {
+        let uvs = count(self.uvs.as_ref());
+        [self.mesh.n_vertices(), uvs, count(self.normals.as_ref())]
     }
 
     fn last_face(&self) -> Option<FaceId> {
@@ -121,8 +128,8 @@ impl<'a> MeshBody<'a> {
 
     /// Adds the text of the mesh.
     pub(super) fn add_blocks(self, blocks: &mut Vec<Block<'a>>) {
-        let (n_uvs, n_normals) = (count(self.uvs.as_ref()), count(self.normals.as_ref()));
-        let (n_vertices, n_faces) = (self.mesh.n_vertices(), self.mesh.n_faces());
+        let [n_vertices, n_uvs, n_normals] = self.counts();
+        let n_faces = self.mesh.n_faces();
         let body = Arc::new(self);
         let mut add = |n: usize, push: fn(&Self, &mut Vec<u8>, Range<usize>)| {
             for start in (0..n).step_by(BLOCK) {
@@ -174,7 +181,7 @@ impl<'a> MeshBody<'a> {
     }
 
     fn push_faces(&self, out: &mut Vec<u8>, range: Range<usize>) {
-        let counts = self.before.counts;
+        let [positions, uvs, normals] = self.before.counts;
         let mut before = range.start.checked_sub(1).map(FaceId::new);
         for f in range.map(FaceId::new) {
             if before.is_none_or(|before| !self.states.same(before, f)) {
@@ -192,15 +199,15 @@ impl<'a> MeshBody<'a> {
             out.push(b'f');
             for h in self.mesh.face_half_edges(f) {
                 out.push(b' ');
-                push_whole(out, counts.positions + self.mesh.origin(h).index() + 1);
+                push_whole(out, positions + self.mesh.origin(h).index() + 1);
                 if let Some((_, numbers)) = &self.uvs {
                     out.push(b'/');
-                    push_whole(out, counts.uvs + numbers.number(h) + 1);
+                    push_whole(out, uvs + numbers.number(h) + 1);
                 }
                 if let Some((_, numbers)) = &self.normals {
                     let between: &[u8] = if self.uvs.is_some() { b"/" } else { b"//" };
                     out.extend_from_slice(between);
-                    push_whole(out, counts.normals + numbers.number(h) + 1);
+                    push_whole(out, normals + numbers.number(h) + 1);
                 }
             }
             out.push(b'\n');
@@ -240,7 +247,7 @@ fn lost_colors(colors: &[DVec4], losses: &mut Losses) {
     let broken = parallel::count(n, |v| !colors[v].truncate().is_finite());
     let domain = Domain::Vertex;
     losses.add(domain, "color", translucent, "OBJ has no place for alpha");
-    losses.add(domain, "color", broken, "not finite: written as 0");
+    losses.add(domain, "color", broken, NOT_FINITE);
 }
 
 /// How many different values there are.
@@ -259,8 +266,7 @@ fn numbers<const N: usize>(
         let h = HalfEdgeId::new(h);
         mesh.face(h).is_some() && value(h).iter().any(|x| !x.is_finite())
     });
-    let reason = "not finite: written as 0";
-    losses.add(Domain::Corner, attribute, broken, reason);
+    losses.add(Domain::Corner, attribute, broken, NOT_FINITE);
     let bits = |h| finite(value(h)).map(f64::to_bits);
     CornerNumbers::new(mesh, |a, b| bits(a) == bits(b))
 }

@@ -2,15 +2,13 @@
 
 use super::file::NONE;
 use crate::fault::Fault;
-use crate::text::{Place, quoted};
+use crate::text::{Place, parsed, quoted};
 
-/// The number of one kind of thing, of which corners name one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Counts {
-    pub(super) positions: usize,
-    pub(super) uvs: usize,
-    pub(super) normals: usize,
-}
+/// How many positions, texture coordinates and normals there are.
+pub(super) type Counts = [usize; 3];
+
+/// What a corner has of each of them: always a position.
+pub(super) type Corner = [Option<Index>; 3];
 
 /// What an index refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,9 +32,11 @@ pub(super) enum Limits {
 
 /// One and many.
 type Noun = (&'static str, &'static str);
-const VERTEX: Noun = ("vertex", "vertices");
-const UV: Noun = ("texture coordinate", "texture coordinates");
-const NORMAL: Noun = ("normal", "normals");
+const NOUNS: [Noun; 3] = [
+    ("vertex", "vertices"),
+    ("texture coordinate", "texture coordinates"),
+    ("normal", "normals"),
+];
 
 /// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` is what the text before this place defines, which
 /// negative indices count back from.
@@ -49,25 +49,19 @@ pub(super) fn corner(
     word: &[u8],
     now: Counts,
     limits: Limits,
-) -> Result<(Index, Option<Index>, Option<Index>), Fault> {
-    let mut fields = word.splitn(3, |&byte| byte == b'/');
-    let [v, vt, vn] = [(); 3].map(|()| fields.next().unwrap_or(b""));
-    let read = |field: &[u8], of: fn(Counts) -> usize, noun| {
+) -> Result<Corner, Fault> {
+    let mut corner = [None; 3];
+    for (k, field) in word.splitn(3, |&byte| byte == b'/').enumerate() {
         let limit = match limits {
             Limits::Part => None,
             Limits::Start => Some(NONE as usize),
-            Limits::Whole(counts) => Some(of(counts)),
+            Limits::Whole(counts) => Some(counts[k]),
         };
-        index(place, word, field, of(now), limit, noun)
-    };
-    let optional = |field: &[u8], of, noun| {
-        let given = Some(field).filter(|field| !field.is_empty());
-        given.map(|field| read(field, of, noun)).transpose()
-    };
-    let position = read(v, |counts| counts.positions, VERTEX)?;
-    let uv = optional(vt, |counts| counts.uvs, UV)?;
-    let normal = optional(vn, |counts| counts.normals, NORMAL)?;
-    Ok((position, uv, normal))
+        if k == 0 || !field.is_empty() {
+            corner[k] = Some(index(place, word, field, now[k], limit, NOUNS[k])?);
+        }
+    }
+    Ok(corner)
 }
 
 /// What `field` of the corner `word` stands for. `count` is how many of its kind are defined so far;
@@ -80,7 +74,7 @@ fn index(
     limit: Option<usize>,
     (one, many): Noun,
 ) -> Result<Index, Fault> {
-    let Some(written) = integer(field) else {
+    let Some(written) = parsed::<i64>(field) else {
         return Err(place.expected("a corner such as 1, 1/2, 1//3 or 1/2/3", word));
     };
     if written == 0 {
@@ -89,7 +83,7 @@ fn index(
         return Err(place.error(message));
     }
     if written < 0 {
-        let relative = written + signed(count);
+        let relative = written.saturating_add(i64::try_from(count).unwrap_or(i64::MAX));
         if relative < 0 && limit.is_some() {
             let message = format!(
                 "the corner refers to {one} {written}, but {count} {many} are defined so far"
@@ -113,25 +107,4 @@ fn index(
             Err(place.error(message))
         }
     }
-}
-
-/// A whole number with an optional sign, as long as it fits.
-fn integer(field: &[u8]) -> Option<i64> {
-    let (negative, digits) = match field {
-        [b'-', rest @ ..] => (true, rest),
-        [b'+', rest @ ..] => (false, rest),
-        _ => (false, field),
-    };
-    if digits.is_empty() || digits.len() > 18 {
-        return None;
-    }
-    let value = digits.iter().try_fold(0_i64, |value, byte| {
-        let digit = byte.is_ascii_digit().then(|| i64::from(byte - b'0'));
-        digit.map(|digit| 10 * value + digit)
-    })?;
-    Some(if negative { -value } else { value })
-}
-
-fn signed(count: usize) -> i64 {
-    i64::try_from(count).unwrap_or(i64::MAX)
 }

@@ -23,7 +23,11 @@ pub(super) struct ObjFile {
     pub(super) painted: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
-    pub(super) faces: Faces,
+    /// Polygon i has the corners from `offsets[i]` to `offsets[i + 1]`.
+    pub(super) offsets: Vec<u32>,
+    /// The positions, texture coordinates and normals of corners: [`NONE`] where a corner has none; empty if no
+    /// corner has one.
+    pub(super) corners: [Vec<u32>; 3],
     /// Polylines: line i visits the vertices `line_corners[line_offsets[i]..line_offsets[i + 1]]`.
     pub(super) line_offsets: Vec<u32>,
     pub(super) line_corners: Vec<u32>,
@@ -39,35 +43,6 @@ pub(super) struct ObjFile {
     pub(super) libraries: Vec<(Place, String)>,
     /// What was left out: a count and the first line.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
-}
-
-/// Polygons, as three parallel lists of corners: face i has the corners from `offsets[i]` to
-/// `offsets[i + 1]`.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Faces {
-    pub(super) offsets: Vec<u32>,
-    pub(super) positions: Vec<u32>,
-    /// [`NONE`] where a corner has none; empty if no corner has one.
-    pub(super) uvs: Vec<u32>,
-    /// [`NONE`] where a corner has none; empty if no corner has one.
-    pub(super) normals: Vec<u32>,
-}
-
-impl Default for Faces {
-    fn default() -> Self {
-        Self {
-            offsets: vec![0],
-            positions: Vec::new(),
-            uvs: Vec::new(),
-            normals: Vec::new(),
-        }
-    }
-}
-
-impl Faces {
-    pub(super) fn len(&self) -> usize {
-        self.offsets.len() - 1
-    }
 }
 
 /// What the statements before a face say of it.

@@ -21,27 +21,19 @@ pub(super) fn fits(parts: &[Part]) -> bool {
         if !covers(before, part.reach) {
             return false;
         }
-        let counts = part.counts();
-        before.positions += counts.positions;
-        before.uvs += counts.uvs;
-        before.normals += counts.normals;
-        highest.positions = highest.positions.max(part.highest.positions);
-        highest.uvs = highest.uvs.max(part.highest.uvs);
-        highest.normals = highest.normals.max(part.highest.normals);
-        corners += part.corners.len();
+        for (k, count) in part.counts().into_iter().enumerate() {
+            before[k] += count;
+            highest[k] = highest[k].max(part.highest[k]);
+        }
+        corners += part.n_corners();
         line_corners += part.line_corners.len();
     }
     let most = NONE as usize;
-    let bounds = Counts {
-        positions: most,
-        uvs: most,
-        normals: most,
-    };
-    covers(bounds, before) && covers(before, highest) && corners.max(line_corners) <= most
+    covers([most; 3], before) && covers(before, highest) && corners.max(line_corners) <= most
 }
 
 fn covers(a: Counts, b: Counts) -> bool {
-    a.positions >= b.positions && a.uvs >= b.uvs && a.normals >= b.normals
+    a.iter().zip(b).all(|(a, b)| *a >= b)
 }
 
 /// Joins parts that [`fits`] allows.
@@ -50,25 +42,21 @@ pub(super) fn join(mut parts: Vec<Part>) -> ObjFile {
     states(&parts, &mut file);
     left_out(&mut parts, &mut file);
 
-    let before = |count: fn(&Part) -> usize| starts(parts.iter().map(count));
-    let positions = before(|part| part.positions.len());
-    let uvs = before(|part| part.uvs.len());
-    let normals = before(|part| part.normals.len());
-    let corners = before(|part| part.corners.len());
-    let line_corners = before(|part| part.line_corners.len());
+    let before = |count: &dyn Fn(&Part) -> usize| starts(parts.iter().map(count));
+    let counts = [0, 1, 2].map(|k| before(&|part| part.counts()[k]));
+    let corners = before(&Part::n_corners);
+    let line_corners = before(&|part| part.line_corners.len());
 
     let of_faces = parts.iter_mut().map(|part| &mut part.face_ends);
-    file.faces.offsets = ends(of_faces, &corners);
-    let of_corners = parts.iter_mut().map(|part| &mut part.corners);
-    file.faces.positions = column(of_corners, &positions, &corners);
-    let of_corners = parts.iter_mut().map(|part| &mut part.corner_uvs);
-    file.faces.uvs = column(of_corners, &uvs, &corners);
-    let of_corners = parts.iter_mut().map(|part| &mut part.corner_normals);
-    file.faces.normals = column(of_corners, &normals, &corners);
+    file.offsets = ends(of_faces, &corners);
+    file.corners = [0, 1, 2].map(|k| {
+        let of_corners = parts.iter_mut().map(|part| &mut part.corners[k]);
+        column(of_corners, &counts[k], &corners)
+    });
     let ends_of_lines = parts.iter_mut().map(|part| &mut part.line_ends);
     file.line_offsets = ends(ends_of_lines, &line_corners);
     let of_lines = parts.iter_mut().map(|part| &mut part.line_corners);
-    file.line_corners = column(of_lines, &positions, &line_corners);
+    file.line_corners = column(of_lines, &counts[0], &line_corners);
 
     if parts.iter().any(|part| !part.colors.is_empty()) {
         for part in &mut parts {

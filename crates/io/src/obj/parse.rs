@@ -61,7 +61,7 @@ fn first_unknown(file: &ObjFile) -> Option<Fault> {
     let message = format!(
         "expected a statement of an OBJ file, found {word}, and the file defines no vertex"
     );
-    Some(Place { line, column: 1 }.error(message))
+    Some(Place::of_line(line).error(message))
 }
 
 /// Cuts a text into parts of about `size` bytes: each but the last ends with a line that is not continued.

@@ -27,9 +27,9 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Whether any corner so far has texture coordinates, and a normal.
-    pub(super) fn columns(&self) -> [bool; 2] {
-        [&self.part.corner_uvs, &self.part.corner_normals].map(|column| column.len() > 0)
+    /// Whether any corner so far has a position, texture coordinates, and a normal.
+    pub(super) fn columns(&self) -> [bool; 3] {
+        self.part.corners.each_ref().map(|column| column.len() > 0)
     }
 
     /// Makes a face of the last corners.
@@ -38,7 +38,7 @@ impl<'a> Parser<'a> {
             first_face: self.part.face_ends.len(),
             ..self.now
         };
-        self.part.face_ends.push(to_u32(self.part.corners.len()));
+        self.part.face_ends.push(to_u32(self.part.n_corners()));
         let differs = |last: &PartRun| {
             run != PartRun {
                 first_face: run.first_face,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3, DVec4};
 
-use super::corner::{Counts, Index};
+use super::corner::{Corner, Counts, Index};
 use super::file::{LeftOut, NONE};
 use crate::text::{Place, name};
 
@@ -21,12 +21,9 @@ pub(super) struct Part {
     pub(super) normals: Vec<DVec3>,
     /// For each face how many corners there are up to its end.
     pub(super) face_ends: Vec<u32>,
-    /// The vertices of the corners of faces.
-    pub(super) corners: Indices,
-    /// [`NONE`] where a corner has none; empty if no corner has one.
-    pub(super) corner_uvs: Indices,
-    /// [`NONE`] where a corner has none; empty if no corner has one.
-    pub(super) corner_normals: Indices,
+    /// What the corners of faces have: vertices, and texture coordinates and normals, which are [`NONE`] where a
+    /// corner has none, and empty if no corner has one.
+    pub(super) corners: [Indices; 3],
     /// For each polyline how many corners there are up to its end.
     pub(super) line_ends: Vec<u32>,
     /// The vertices of the corners of polylines.
@@ -56,11 +53,12 @@ pub(super) struct Part {
 impl Part {
     /// How many of each there are.
     pub(super) fn counts(&self) -> Counts {
-        Counts {
-            positions: self.positions.len(),
-            uvs: self.uvs.len(),
-            normals: self.normals.len(),
-        }
+        [self.positions.len(), self.uvs.len(), self.normals.len()]
+    }
+
+    /// How many corners of faces there are.
+    pub(super) fn n_corners(&self) -> usize {
+        self.corners[0].len()
     }
 
     pub(super) fn add_vertex(&mut self, position: DVec3, color: Option<DVec4>) {
@@ -74,31 +72,36 @@ impl Part {
     }
 
     /// Notes what the indices of a corner need.
-    pub(super) fn look_at(&mut self, position: Index, uv: Option<Index>, normal: Option<Index>) {
-        let (highest, reach) = (&mut self.highest, &mut self.reach);
-        note(position, &mut highest.positions, &mut reach.positions);
-        if let Some(uv) = uv {
-            note(uv, &mut highest.uvs, &mut reach.uvs);
-        }
-        if let Some(normal) = normal {
-            note(normal, &mut highest.normals, &mut reach.normals);
+    #[inline]
+    pub(super) fn look_at(&mut self, corner: Corner) {
+        for (k, index) in corner.into_iter().enumerate() {
+            match index {
+                None => {}
+                Some(Index::Absolute(index)) => {
+                    self.highest[k] = self.highest[k].max(index as usize + 1);
+                }
+                Some(Index::Relative(index)) => {
+                    let back = usize::try_from(-index).unwrap_or(0);
+                    self.reach[k] = self.reach[k].max(back);
+                }
+            }
         }
     }
 
-    /// Forgets the last corners of faces.
-    pub(super) fn truncate_corners(&mut self, n: usize, had: [bool; 2]) {
-        self.corners.truncate(n);
-        self.corner_uvs.truncate(if had[0] { n } else { 0 });
-        self.corner_normals.truncate(if had[1] { n } else { 0 });
+    /// Adds a corner of a face.
+    #[inline]
+    pub(super) fn push_corner(&mut self, corner: Corner) {
+        self.look_at(corner);
+        let n = self.n_corners();
+        for (column, index) in self.corners.iter_mut().zip(corner) {
+            column.push_optional(n, index);
+        }
     }
-}
 
-fn note(index: Index, highest: &mut usize, reach: &mut usize) {
-    match index {
-        Index::Absolute(index) => *highest = (*highest).max(index as usize + 1),
-        Index::Relative(index) => {
-            let back = usize::try_from(-index).unwrap_or(0);
-            *reach = (*reach).max(back);
+    /// Forgets the last corners of faces; only some of the columns `had` one before.
+    pub(super) fn truncate_corners(&mut self, n: usize, had: [bool; 3]) {
+        for (column, had) in self.corners.iter_mut().zip(had) {
+            column.truncate(if had { n } else { 0 });
         }
     }
 }

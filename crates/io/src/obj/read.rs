@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
 
 use bytemuck::Zeroable;
@@ -29,7 +28,7 @@ pub(crate) fn read(bytes: &[u8], assets: &mut Assets, notes: &mut Notes) -> Resu
     note_left_out(&file, notes);
     take_paint(&mut file, notes);
     let n_lines = file.line_offsets.len() - 1;
-    if file.faces.len() == 0 && n_lines > 0 {
+    if file.offsets.len() == 1 && n_lines > 0 {
         let lines = polylines(&file, notes);
         return Ok(Shape::Other(Geometry::Polylines(lines)));
     }
@@ -60,51 +59,46 @@ fn take_paint(file: &mut ObjFile, notes: &mut Notes) {
 }
 
 fn polylines(file: &ObjFile, notes: &mut Notes) -> Vec<Vec<DVec3>> {
-    let mut used = vec![false; file.positions.len()];
-    let corners = |w: &[u32]| &file.line_corners[w[0] as usize..w[1] as usize];
-    let mut lines = Vec::with_capacity(file.line_offsets.len() - 1);
-    for line in file.line_offsets.windows(2).map(corners) {
-        for &v in line {
-            used[v as usize] = true;
-        }
-        lines.push(line.iter().map(|&v| file.positions[v as usize]).collect());
-    }
-    let unused = used.iter().filter(|&&used| !used).count();
+    let line = |w: &[u32]| {
+        let corners = file.line_corners[w[0] as usize..w[1] as usize].iter();
+        corners.map(|&v| file.positions[v as usize]).collect()
+    };
+    let unused = unused(file.positions.len(), &file.line_corners);
     notes.left_out(unused, None, "vertices left out: no polyline uses them");
     let colors = file.colors.len();
     notes.left_out(colors, None, "vertex colors left out: polylines have none");
-    lines
+    file.line_offsets.windows(2).map(line).collect()
 }
 
 fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> Polygons {
     let mut polygons = Polygons {
         positions: std::mem::take(&mut file.positions),
-        offsets: std::mem::take(&mut file.faces.offsets),
-        corners: std::mem::take(&mut file.faces.positions),
+        offsets: std::mem::take(&mut file.offsets),
+        corners: std::mem::take(&mut file.corners[0]),
         ..Polygons::default()
     };
     if !file.colors.is_empty() {
-        polygons.insert_vertices(mesh::COLOR, std::mem::take(&mut file.colors));
+        polygons.insert_known(mesh::COLOR, std::mem::take(&mut file.colors));
     }
-    let faces = &file.faces;
+    let [_, of_uvs, of_normals] = &file.corners;
     let what = "texture coordinates (`vt`) left out: no face uses them";
-    notes.left_out(unused(file.uvs.len(), &faces.uvs), None, what);
+    notes.left_out(unused(file.uvs.len(), of_uvs), None, what);
     let what = "normals (`vn`) left out: no face uses them";
-    notes.left_out(unused(file.normals.len(), &faces.normals), None, what);
-    if !faces.uvs.is_empty() {
-        polygons.insert_corners(UV, values(&file.uvs, &faces.uvs));
+    notes.left_out(unused(file.normals.len(), of_normals), None, what);
+    if !of_uvs.is_empty() {
+        polygons.insert_known(UV, values(&file.uvs, of_uvs));
         let what = "face corners without texture coordinate: taken as 0 0";
-        notes.changed(missing(&faces.uvs), None, what);
+        notes.changed(missing(of_uvs), None, what);
     }
-    if !faces.normals.is_empty() {
-        polygons.insert_corners(CORNER_NORMAL, values(&file.normals, &faces.normals));
+    if !of_normals.is_empty() {
+        polygons.insert_known(CORNER_NORMAL, values(&file.normals, of_normals));
         let what = "face corners without normal: taken as 0 0 0";
-        notes.changed(missing(&faces.normals), None, what);
+        notes.changed(missing(of_normals), None, what);
     }
     set_materials(&mut polygons, &file, &materials);
     if file.runs.iter().any(|run| run.smoothing != 0) {
         let values = on_faces(&polygons, &file, |run| run.smoothing);
-        polygons.insert_faces(mesh::SMOOTHING, values);
+        polygons.insert_known(mesh::SMOOTHING, values);
     }
     set_tags(&mut polygons, &file, notes);
     polygons.materials = materials;
@@ -125,12 +119,7 @@ fn missing(indices: &[u32]) -> usize {
 
 /// How many of `n` no index names.
 fn unused(n: usize, indices: &[u32]) -> usize {
-    let used: Vec<AtomicBool> = (0..n).map(|_| AtomicBool::new(false)).collect();
-    parallel::blocks(indices.len(), |block| {
-        for &index in indices[block].iter().filter(|&&index| index != NONE) {
-            used[index as usize].store(true, Relaxed);
-        }
-    });
+    let used = parallel::named(n, indices);
     used.iter().filter(|used| !used.load(Relaxed)).count()
 }
 
@@ -166,7 +155,7 @@ fn set_materials(polygons: &mut Polygons, file: &ObjFile, materials: &[Material]
     let places: Vec<i32> = file.material_names.iter().map(place_of).collect();
     let of_run = |run: &Run| run.material.map_or(-1, |m| places[m]);
     let values = on_faces(polygons, file, of_run);
-    polygons.insert_faces(mesh::MATERIAL, values);
+    polygons.insert_known(mesh::MATERIAL, values);
 }
 
 fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3, DVec4};
 
-use super::corner::{Index, Limits, corner};
+use super::corner::{Corner, Limits, corner};
 use super::file::{LeftOut, NO_MATERIAL, NONE};
 use super::parser::Parser;
 use super::part::{Part, to_u32};
@@ -59,9 +59,18 @@ impl Parser<'_> {
 
     fn statement(&mut self, place: Place, keyword: &[u8]) -> Result<(), Fault> {
         match keyword {
-            b"v" => self.vertex(place)?,
-            b"vt" => self.uv(place)?,
-            b"vn" => self.normal(place)?,
+            b"v" => {
+                let (values, n) = self.numbers("v", place)?;
+                self.vertex(place, values, n)?;
+            }
+            b"vt" => {
+                let (values, n) = self.numbers("vt", place)?;
+                self.uv(place, values, n)?;
+            }
+            b"vn" => {
+                let (values, n) = self.numbers("vn", place)?;
+                self.normal(place, values, n)?;
+            }
             b"f" | b"fo" => return self.face(place),
             b"l" => return self.line(place),
             b"p" => return self.points(place),
@@ -120,8 +129,8 @@ impl Parser<'_> {
 
     // ---- Vertices, texture coordinates, normals ------------------------------------------------
 
-    fn vertex(&mut self, place: Place) -> Result<(), Fault> {
-        let (values, n) = self.numbers::<7>("v", place)?;
+    /// A vertex of the first `n` values.
+    pub(super) fn vertex(&mut self, place: Place, values: [f64; 7], n: usize) -> Result<(), Fault> {
         let [x, y, z, rest @ ..] = values;
         let color = match n {
             3 => None,
@@ -145,8 +154,8 @@ impl Parser<'_> {
         Ok(())
     }
 
-    fn uv(&mut self, place: Place) -> Result<(), Fault> {
-        let ([u, v, w], n) = self.numbers::<3>("vt", place)?;
+    pub(super) fn uv(&mut self, place: Place, values: [f64; 3], n: usize) -> Result<(), Fault> {
+        let [u, v, w] = values;
         if n == 0 {
             return Err(place.error("expected 1 to 3 texture coordinates, found none"));
         }
@@ -156,8 +165,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    fn normal(&mut self, place: Place) -> Result<(), Fault> {
-        let (values, n) = self.numbers::<3>("vn", place)?;
+    pub(super) fn normal(&mut self, place: Place, values: [f64; 3], n: usize) -> Result<(), Fault> {
         if n != 3 {
             return Err(place.error(format!("expected 3 coordinates of a normal, found {n}")));
         }
@@ -205,17 +213,14 @@ impl Parser<'_> {
     // ---- Faces, lines, points ------------------------------------------------------------------
 
     fn face(&mut self, start: Place) -> Result<(), Fault> {
-        let before = self.part.corners.len();
+        let before = self.part.n_corners();
         let had = self.columns();
         while let Some((place, word)) = self.cursor.argument() {
-            let (position, uv, normal) = self.corner(place, word)?;
-            let n = self.part.corners.len();
-            below_none(place, n, "corners")?;
-            self.part.corners.push(position);
-            self.part.corner_uvs.push_optional(n, uv);
-            self.part.corner_normals.push_optional(n, normal);
+            let corner = self.corner(place, word)?;
+            below_none(place, self.part.n_corners(), "corners")?;
+            self.part.push_corner(corner);
         }
-        if self.part.corners.len() - before < 3 {
+        if self.part.n_corners() - before < 3 {
             self.part.truncate_corners(before, had);
             self.leave_out(start, 1, LeftOut::SmallFaces);
         } else {
@@ -227,9 +232,11 @@ impl Parser<'_> {
     fn line(&mut self, start: Place) -> Result<(), Fault> {
         let before = self.part.line_corners.len();
         while let Some((place, word)) = self.cursor.argument() {
-            let (position, ..) = self.corner(place, word)?;
-            below_none(place, self.part.line_corners.len(), "corners of lines")?;
-            self.part.line_corners.push(position);
+            let corner = self.corner(place, word)?;
+            let n = self.part.line_corners.len();
+            below_none(place, n, "corners of lines")?;
+            self.part.look_at(corner);
+            self.part.line_corners.push_optional(n, corner[0]);
         }
         let end = self.part.line_corners.len();
         let n = end - before;
@@ -244,21 +251,16 @@ impl Parser<'_> {
     fn points(&mut self, start: Place) -> Result<(), Fault> {
         let mut n = 0;
         while let Some((place, word)) = self.cursor.argument() {
-            self.corner(place, word)?;
+            let corner = self.corner(place, word)?;
+            self.part.look_at(corner);
             n += 1;
         }
         self.leave_out(start, n, LeftOut::Points);
         Ok(())
     }
 
-    fn corner(
-        &mut self,
-        place: Place,
-        word: &[u8],
-    ) -> Result<(Index, Option<Index>, Option<Index>), Fault> {
-        let corner = corner(place, word, self.part.counts(), self.limits)?;
-        self.part.look_at(corner.0, corner.1, corner.2);
-        Ok(corner)
+    fn corner(&self, place: Place, word: &[u8]) -> Result<Corner, Fault> {
+        corner(place, word, self.part.counts(), self.limits)
     }
 
     // ---- Groups and smoothing ------------------------------------------------------------------

@@ -3,12 +3,11 @@
 //! What is taken here is what [`super::statement`] would make of it; whatever is unusual about a line
 //! leaves it to the general way, from the line's beginning.
 
-use glam::{DVec2, DVec3, DVec4};
-
 use super::corner::Index;
 use super::parser::Parser;
 use crate::decimal::{leading_number, up_to_eight_digits};
-use crate::text::is_blank;
+use crate::fault::Fault;
+use crate::text::{Place, is_blank};
 
 impl Parser<'_> {
     /// Reads the line under the cursor if it is a usual `v`, `vt`, `vn` or `f`.
@@ -16,10 +15,12 @@ impl Parser<'_> {
     pub(super) fn usual_line(&mut self) -> bool {
         let line = self.cursor.ahead();
         let length = match line {
-            [b'v', blank, ..] if is_blank(*blank) => self.usual_vertex(line),
+            [b'v', blank, ..] if is_blank(*blank) => self.usual_numbers(line, 1, Self::vertex),
             [b'f', blank, ..] if is_blank(*blank) => self.usual_face(line),
-            [b'v', b't', blank, ..] if is_blank(*blank) => self.usual_uv(line),
-            [b'v', b'n', blank, ..] if is_blank(*blank) => self.usual_normal(line),
+            [b'v', b't', blank, ..] if is_blank(*blank) => self.usual_numbers(line, 2, Self::uv),
+            [b'v', b'n', blank, ..] if is_blank(*blank) => {
+                self.usual_numbers(line, 2, Self::normal)
+            }
             _ => None,
         };
         let Some(length) = length else { return false };
@@ -27,42 +28,23 @@ impl Parser<'_> {
         true
     }
 
-    fn usual_vertex(&mut self, line: &[u8]) -> Option<usize> {
-        let (values, n, length) = numbers::<7>(line, 1)?;
-        let [x, y, z, r, g, b, a] = values;
-        let color = match n {
-            3 => None,
-            6 => Some(DVec4::new(r, g, b, 1.0)),
-            7 => Some(DVec4::new(r, g, b, a)),
-            _ => return None,
-        };
-        self.part.add_vertex(DVec3::new(x, y, z), color);
-        Some(length)
-    }
-
-    fn usual_uv(&mut self, line: &[u8]) -> Option<usize> {
-        let ([u, v], n, length) = numbers::<2>(line, 2)?;
-        if n == 0 {
-            return None;
-        }
-        self.part.uvs.push(DVec2::new(u, v));
-        Some(length)
-    }
-
-    fn usual_normal(&mut self, line: &[u8]) -> Option<usize> {
-        let (values, n, length) = numbers::<3>(line, 2)?;
-        if n != 3 {
-            return None;
-        }
-        self.part.normals.push(DVec3::from_array(values));
+    #[inline]
+    fn usual_numbers<const N: usize>(
+        &mut self,
+        line: &[u8],
+        at: usize,
+        take: impl Fn(&mut Self, Place, [f64; N], usize) -> Result<(), Fault>,
+    ) -> Option<usize> {
+        let (values, n, length) = numbers(line, at)?;
+        take(self, self.cursor.place(), values, n).ok()?;
         Some(length)
     }
 
     fn usual_face(&mut self, line: &[u8]) -> Option<usize> {
-        let before = self.part.corners.len();
+        let before = self.part.n_corners();
         let had = self.columns();
         let length = self.usual_corners(line);
-        if length.is_none() || self.part.corners.len() - before < 3 {
+        if length.is_none() || self.part.n_corners() - before < 3 {
             self.part.truncate_corners(before, had);
             return None;
         }
@@ -80,28 +62,24 @@ impl Parser<'_> {
             if let Some(length) = line_end(line, at) {
                 return Some(at + length);
             }
-            let (position, next) = index(line, at, now.positions)?;
-            let (mut uv, mut normal) = (None, None);
-            at = next;
-            if line.get(at) == Some(&b'/') {
-                at += 1;
-                if line.get(at) != Some(&b'/') {
-                    let (index, next) = index(line, at, now.uvs)?;
-                    (uv, at) = (Some(index), next);
+            let mut corner = [None; 3];
+            for (k, slot) in corner.iter_mut().enumerate() {
+                if k > 0 {
+                    if line.get(at) != Some(&b'/') {
+                        break;
+                    }
+                    at += 1;
+                    if k == 1 && line.get(at) == Some(&b'/') {
+                        continue;
+                    }
                 }
-                if line.get(at) == Some(&b'/') {
-                    let (index, next) = index(line, at + 1, now.normals)?;
-                    (normal, at) = (Some(index), next);
-                }
+                let (index, next) = index(line, at, now[k])?;
+                (*slot, at) = (Some(index), next);
             }
             if !ends_word(line, at) {
                 return None;
             }
-            self.part.look_at(position, uv, normal);
-            let n = self.part.corners.len();
-            self.part.corners.push(position);
-            self.part.corner_uvs.push_optional(n, uv);
-            self.part.corner_normals.push_optional(n, normal);
+            self.part.push_corner(corner);
         }
     }
 }

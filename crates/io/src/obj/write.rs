@@ -45,12 +45,8 @@ pub(crate) fn write(
     }
 
     let several = scene.objects().len() > 1;
-    let mut text = Text {
-        several,
-        library: &library,
-        blocks: vec![Box::new(move |out| out.extend_from_slice(&head))],
-        before: Before::default(),
-    };
+    let mut blocks: Vec<Block> = vec![Box::new(move |out| out.extend_from_slice(&head))];
+    let mut before = Before::default();
     for (i, object) in scene.objects().iter().enumerate() {
         let mut losses = Losses::of(&object.name, &mut losses);
         if several {
@@ -58,11 +54,16 @@ pub(crate) fn write(
             let renamed = usize::from(*name != object.name);
             losses.add(None, "name", renamed, format!("written as `{name}`"));
             let block = move |out: &mut Vec<u8>| push_name(out, "o", &name);
-            text.blocks.push(Box::new(block));
+            blocks.push(Box::new(block));
         }
         match &shapes[i] {
-            Shape::Mesh(mesh) => text.mesh(mesh, &library.places[i], &mut losses),
-            Shape::Polylines(lines) => text.polylines(lines),
+            Shape::Mesh(mesh) => {
+                let places = &library.places[i];
+                let body = MeshBody::new(mesh, places, several, &library, before, &mut losses);
+                before = body.after();
+                body.add_blocks(&mut blocks);
+            }
+            Shape::Polylines(lines) => polylines(lines, &mut before, &mut blocks),
         }
     }
 
@@ -71,7 +72,7 @@ pub(crate) fn write(
         let bytes = write_library(&library.materials, options.provenance.as_deref());
         files.push((library_path, Content::Bytes(bytes)));
     }
-    files.push((path.to_path_buf(), Content::Blocks(text.blocks)));
+    files.push((path.to_path_buf(), Content::Blocks(blocks)));
     let (files, bytes) = save(store, files)?;
     Ok(WriteReport {
         files,
@@ -100,48 +101,31 @@ impl<'a> Shape<'a> {
     }
 }
 
-/// The text of the file, as blocks that are made when they are written.
-struct Text<'a> {
-    /// Whether there are several objects, so that `o` stands for them and not for tags.
-    several: bool,
-    library: &'a Library,
-    blocks: Vec<Block<'a>>,
-    before: Before,
-}
-
-impl<'a> Text<'a> {
-    fn mesh(&mut self, mesh: &'a Mesh, places: &'a [usize], losses: &mut Losses) {
-        let (several, library, before) = (self.several, self.library, self.before);
-        let body = MeshBody::new(mesh, places, several, library, before, losses);
-        self.before = body.after();
-        body.add_blocks(&mut self.blocks);
+/// Adds the text of polylines.
+fn polylines<'a>(lines: &'a [Vec<DVec3>], before: &mut Before, blocks: &mut Vec<Block<'a>>) {
+    /// The lines of a block.
+    const BLOCK: usize = 1024;
+    for lines in lines.chunks(BLOCK) {
+        blocks.push(Box::new(move |out| {
+            for point in lines.iter().flatten() {
+                push_values(out, "v", &point.to_array());
+            }
+        }));
     }
-
-    fn polylines(&mut self, lines: &'a [Vec<DVec3>]) {
-        /// The lines of a block.
-        const BLOCK: usize = 1024;
-        for lines in lines.chunks(BLOCK) {
-            self.blocks.push(Box::new(move |out| {
-                for point in lines.iter().flatten() {
-                    push_values(out, "v", &point.to_array());
+    for lines in lines.chunks(BLOCK) {
+        let first = before.counts[0];
+        before.counts[0] += lines.iter().map(Vec::len).sum::<usize>();
+        blocks.push(Box::new(move |out| {
+            let mut number = first;
+            for line in lines.iter().filter(|line| !line.is_empty()) {
+                out.push(if line.len() < 2 { b'p' } else { b'l' });
+                for _ in line {
+                    number += 1;
+                    out.push(b' ');
+                    push_whole(out, number);
                 }
-            }));
-        }
-        for lines in lines.chunks(BLOCK) {
-            let before = self.before.counts.positions;
-            self.before.counts.positions += lines.iter().map(Vec::len).sum::<usize>();
-            self.blocks.push(Box::new(move |out| {
-                let mut number = before;
-                for line in lines.iter().filter(|line| !line.is_empty()) {
-                    out.push(if line.len() < 2 { b'p' } else { b'l' });
-                    for _ in line {
-                        number += 1;
-                        out.push(b' ');
-                        push_whole(out, number);
-                    }
-                    out.push(b'\n');
-                }
-            }));
-        }
+                out.push(b'\n');
+            }
+        }));
     }
 }

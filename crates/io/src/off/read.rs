@@ -27,43 +27,13 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     check_encoding(bytes)?;
     let mut cursor = Cursor::new(bytes);
     let header = Header::read(&mut cursor)?;
-    let vertices = vertices(&mut cursor, &header, notes)?;
-    let faces = faces(&mut cursor, &header, notes)?;
-    let (rest, first) = cursor.count_rest();
-    notes.left_out(rest, first, "lines behind the last face left out");
-    let mut polygons = Polygons {
-        positions: vertices.positions,
-        offsets: faces.offsets,
-        corners: faces.corners,
-        ..Polygons::default()
-    };
-    if header.normals {
-        polygons.insert_vertices(VERTEX_NORMAL, vertices.normals);
-    }
-    if header.colors {
-        polygons.insert_vertices(COLOR, vertices.colors.finish());
-    }
+    let mut polygons = Polygons::default();
+    let uvs = vertices(&mut cursor, &header, &mut polygons, notes)?;
+    faces(&mut cursor, &header, &mut polygons, notes)?;
     if header.uvs {
         let corners = polygons.corners.iter();
-        let uvs = corners.map(|&v| vertices.uvs[v as usize]).collect();
-        polygons.insert_corners(UV, uvs);
-    }
-    if faces.n_colored > 0 {
-        let n = polygons.n_faces() - faces.n_colored;
-        notes.changed(n, None, "faces without a color are gray: others have one");
-        let mut colors = faces.colors.finish();
-        colors.resize(polygons.n_faces(), GRAY);
-        for f in faces.plain {
-            colors[f] = GRAY;
-        }
-        polygons.insert(Domain::Face, COLOR.name, Rule::Copy, colors);
-    }
-    if !faces.indices.is_empty() {
-        let mut indices = vec![-1; polygons.n_faces()];
-        for (f, index) in faces.indices {
-            indices[f] = index;
-        }
-        polygons.insert(Domain::Face, COLOR_INDEX, Rule::Copy, indices);
+        let uvs = corners.map(|&v| uvs[v as usize]).collect();
+        polygons.insert_known(UV, uvs);
     }
     Ok(polygons)
 }
@@ -149,23 +119,19 @@ fn check_room(cursor: &Cursor, n: usize, words: usize, what: &str) -> Result<(),
 
 // ---- Vertices ----------------------------------------------------------------------------------
 
-#[derive(Default)]
-struct Vertices {
-    positions: Vec<DVec3>,
-    normals: Vec<DVec3>,
-    colors: Colors,
-    uvs: Vec<DVec2>,
-}
-
-fn vertices(cursor: &mut Cursor, header: &Header, notes: &mut Notes) -> Result<Vertices, Fault> {
+/// Reads the vertices, and returns the texture coordinates of each.
+fn vertices(
+    cursor: &mut Cursor,
+    header: &Header,
+    polygons: &mut Polygons,
+    notes: &mut Notes,
+) -> Result<Vec<DVec2>, Fault> {
     let before = 3 + if header.normals { 3 } else { 0 };
     let behind = if header.uvs { 2 } else { 0 };
     let least = before + behind + if header.colors { 3 } else { 0 };
     check_room(cursor, header.n_vertices, least, "vertices")?;
-    let mut found = Vertices {
-        positions: Vec::with_capacity(header.n_vertices),
-        ..Vertices::default()
-    };
+    polygons.positions.reserve(header.n_vertices);
+    let (mut normals, mut colors, mut uvs) = (Vec::new(), Colors::default(), Vec::new());
     let mut words = Vec::new();
     let (mut extra, mut first_extra) = (0, None);
     for v in 0..header.n_vertices {
@@ -180,29 +146,36 @@ fn vertices(cursor: &mut Cursor, header: &Header, notes: &mut Notes) -> Result<V
             };
             return Err(cursor.place().error(format!("expected {expected}")));
         }
-        found.positions.push(DVec3::from_array(numbers(&words)?));
+        let position = DVec3::from_array(numbers(&words)?);
+        polygons.positions.push(position);
         if header.normals {
-            found.normals.push(DVec3::from_array(numbers(&words[3..])?));
+            normals.push(DVec3::from_array(numbers(&words[3..])?));
         }
         let mut at = before;
         if header.colors {
             let n = (words.len() - before - behind).min(4);
-            found.colors.push(&words[at..at + n])?;
+            colors.push(&words[at..at + n])?;
             at += n;
         }
         if header.uvs {
-            found.uvs.push(DVec2::from_array(numbers(&words[at..])?));
+            uvs.push(DVec2::from_array(numbers(&words[at..])?));
             at += 2;
         }
         if words.len() > at {
             extra += 1;
-            first_extra = first_extra.or(Some(line));
+            first_extra.get_or_insert(line);
         }
         cursor.skip_line();
     }
     let what = "vertices have more numbers than the first line of the file promises: left out";
     notes.left_out(extra, first_extra, what);
-    Ok(found)
+    if header.normals {
+        polygons.insert_known(VERTEX_NORMAL, normals);
+    }
+    if header.colors {
+        polygons.insert_known(COLOR, colors.finish());
+    }
+    Ok(uvs)
 }
 
 /// The first of some words as numbers.
@@ -217,9 +190,8 @@ fn numbers<const N: usize>(words: Words) -> Result<[f64; N], Fault> {
 /// Colors as they are written, until it is known whether they are 255ths.
 #[derive(Default)]
 struct Colors {
-    values: Vec<DVec4>,
-    /// Which of them have no alpha.
-    opaque: Vec<bool>,
+    /// With alpha, where it is given; `None` for a face without a color.
+    values: Vec<Option<(DVec3, Option<f64>)>>,
     fraction: bool,
     above_one: bool,
 }
@@ -227,49 +199,39 @@ struct Colors {
 impl Colors {
     /// Adds a color of three or four words.
     fn push(&mut self, words: Words) -> Result<(), Fault> {
-        let mut color = DVec4::ONE;
-        for (i, &(place, word)) in words.iter().enumerate() {
-            color[i] = number(place, word)?;
+        let [r, g, b, a] = numbers(words)?;
+        for (x, (_, word)) in [r, g, b, a].into_iter().zip(words) {
             self.fraction |= word.iter().any(|byte| matches!(byte, b'.' | b'e' | b'E'));
-            self.above_one |= color[i] > 1.0;
+            self.above_one |= x > 1.0;
         }
-        self.values.push(color);
-        self.opaque.push(words.len() == 3);
+        let alpha = (words.len() == 4).then_some(a);
+        self.values.push(Some((DVec3::new(r, g, b), alpha)));
         Ok(())
     }
 
-    fn finish(mut self) -> Vec<DVec4> {
-        if self.above_one && !self.fraction {
-            for (color, opaque) in self.values.iter_mut().zip(self.opaque) {
-                let alpha = if opaque { 1.0 } else { color.w / 255.0 };
-                *color = (color.truncate() / 255.0).extend(alpha);
-            }
-        }
-        self.values
+    fn finish(self) -> Vec<DVec4> {
+        let is_bytes = self.above_one && !self.fraction;
+        let unit = if is_bytes { 255.0 } else { 1.0 };
+        let color = |(rgb, alpha): (DVec3, Option<f64>)| {
+            (rgb / unit).extend(alpha.map_or(1.0, |alpha| alpha / unit))
+        };
+        let colors = self.values.into_iter();
+        colors.map(|given| given.map_or(GRAY, color)).collect()
     }
 }
 
 // ---- Faces -------------------------------------------------------------------------------------
 
-#[derive(Default)]
-struct Faces {
-    offsets: Vec<u32>,
-    corners: Vec<u32>,
-    /// Empty before the first color.
-    colors: Colors,
-    n_colored: usize,
-    /// Faces without a color behind the first one that has one or before it.
-    plain: Vec<usize>,
-    /// Faces with a place in a map of colors.
-    indices: Vec<(usize, i32)>,
-}
-
-fn faces(cursor: &mut Cursor, header: &Header, notes: &mut Notes) -> Result<Faces, Fault> {
+/// Reads the faces, and counts the lines behind them.
+fn faces(
+    cursor: &mut Cursor,
+    header: &Header,
+    polygons: &mut Polygons,
+    notes: &mut Notes,
+) -> Result<(), Fault> {
     check_room(cursor, header.n_faces, 1, "faces")?;
-    let mut found = Faces {
-        offsets: vec![0],
-        ..Faces::default()
-    };
+    // Both are empty before the first face that has one.
+    let (mut colors, mut indices) = (Colors::default(), Vec::new());
     let (mut small, mut first_small) = (0, None);
     let mut words = Vec::new();
     for i in 0..header.n_faces {
@@ -282,7 +244,7 @@ fn faces(cursor: &mut Cursor, header: &Header, notes: &mut Notes) -> Result<Face
         let degree = parsed(word).filter(|&n| n <= cursor.remaining() / 2 + 1);
         let degree = degree.ok_or_else(|| place.expected("how many corners a face has", word))?;
         let too_many = |_| place.error("expected fewer than 2^32 vertices and corners");
-        let start = found.corners.len();
+        let start = polygons.corners.len();
         for k in 0..degree {
             let (place, word) = cursor.argument().ok_or_else(|| {
                 let message = format!("expected a face of {degree} corners, found {k}");
@@ -292,43 +254,31 @@ fn faces(cursor: &mut Cursor, header: &Header, notes: &mut Notes) -> Result<Face
                 let n = header.n_vertices;
                 return Err(place.expected(format_args!("a vertex from 0 to below {n}"), word));
             };
-            found.corners.push(u32::try_from(v).map_err(too_many)?);
+            polygons.corners.push(u32::try_from(v).map_err(too_many)?);
         }
         words.clear();
         words.extend(std::iter::from_fn(|| cursor.argument()));
         cursor.skip_line();
         if degree < 3 {
             small += 1;
-            first_small = first_small.or(Some(line));
-            found.corners.truncate(start);
+            first_small.get_or_insert(line);
+            polygons.corners.truncate(start);
             continue;
         }
-        let end = u32::try_from(found.corners.len()).map_err(too_many)?;
-        found.offsets.push(end);
-        found.color(&words)?;
-    }
-    let what = "faces with fewer than 3 corners left out";
-    notes.left_out(small, first_small, what);
-    Ok(found)
-}
-
-impl Faces {
-    /// Takes what stands behind the corners of the last face.
-    fn color(&mut self, words: Words) -> Result<(), Fault> {
-        let f = self.offsets.len() - 2;
-        match *words {
-            [_, _, _] | [_, _, _, _] => {
-                self.colors.values.resize(f, DVec4::ONE);
-                self.colors.opaque.resize(f, true);
-                self.colors.push(words)?;
-                self.n_colored += 1;
-                return Ok(());
-            }
+        let f = polygons.n_faces();
+        let end = u32::try_from(polygons.corners.len()).map_err(too_many)?;
+        polygons.offsets.push(end);
+        match words[..] {
             [] => {}
             [(place, word)] => {
-                let index = parsed(word)
-                    .ok_or_else(|| place.expected("a place in a map of colors", word))?;
-                self.indices.push((f, index));
+                let index: Option<i32> = parsed(word);
+                indices.resize(f, -1);
+                indices
+                    .push(index.ok_or_else(|| place.expected("a place in a map of colors", word))?);
+            }
+            [_, _, _] | [_, _, _, _] => {
+                colors.values.resize(f, None);
+                colors.push(&words)?;
             }
             [(place, _), ..] => {
                 let message = format!(
@@ -338,9 +288,23 @@ impl Faces {
                 return Err(place.error(message));
             }
         }
-        self.plain.push(f);
-        Ok(())
     }
+    let what = "faces with fewer than 3 corners left out";
+    notes.left_out(small, first_small, what);
+    let (rest, first) = cursor.count_rest();
+    notes.left_out(rest, first, "lines behind the last face left out");
+    let n_faces = polygons.n_faces();
+    if !colors.values.is_empty() {
+        colors.values.resize(n_faces, None);
+        let n = colors.values.iter().filter(|color| color.is_none()).count();
+        notes.changed(n, None, "faces without a color are gray: others have one");
+        polygons.insert(Domain::Face, COLOR.name, Rule::Copy, colors.finish());
+    }
+    if !indices.is_empty() {
+        indices.resize(n_faces, -1);
+        polygons.insert(Domain::Face, COLOR_INDEX, Rule::Copy, indices);
+    }
+    Ok(())
 }
 
 // ---- Counts ------------------------------------------------------------------------------------

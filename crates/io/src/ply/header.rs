@@ -1,6 +1,5 @@
 //! The header of a PLY file: which elements it has, how many and with which properties.
 
-use std::collections::BTreeSet;
 use std::fmt;
 
 use super::types::Type;
@@ -75,16 +74,20 @@ impl fmt::Display for Property {
 }
 
 impl Element {
+    /// The place of the property of this name, a list or a single value.
+    pub(super) fn find(&self, name: &str, is_list: bool) -> Option<usize> {
+        let is_it = |p: &Property| p.count.is_some() == is_list && p.name == name;
+        self.properties.iter().position(is_it)
+    }
+
     /// The place of the scalar property of this name.
     pub(super) fn scalar(&self, name: &str) -> Option<usize> {
-        let is_it = |p: &Property| p.count.is_none() && p.name == name;
-        self.properties.iter().position(is_it)
+        self.find(name, false)
     }
 
     /// The place of the list property of this name.
     pub(super) fn list(&self, name: &str) -> Option<usize> {
-        let is_it = |p: &Property| p.count.is_some() && p.name == name;
-        self.properties.iter().position(is_it)
+        self.find(name, true)
     }
 }
 
@@ -94,47 +97,63 @@ impl Element {
 ///
 /// The first line that breaks the rules of the format.
 pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
-    let mut lines = Lines::new(bytes);
-    let (place, first) = lines.next().unwrap_or_default().next();
-    if first != b"ply" {
-        return Err(place.expected("`ply`", first));
-    }
+    let start = if bytes.starts_with(MARK) {
+        MARK.len()
+    } else {
+        0
+    };
     let mut encoding = None;
     let mut header = Header {
         encoding: Encoding::Text,
         elements: Vec::new(),
         comments: Vec::new(),
-        length: 0,
+        length: start,
         lines: 0,
     };
-    let mut names = Names::default();
-    loop {
-        let Some(mut words) = lines.next() else {
-            let message = "expected `end_header`, found the end of the file";
-            return Err(lines.place().error(message));
+    let end = line_end(bytes);
+    let lines = bytes[start..].split_inclusive(|&byte| byte == end);
+    for (line, bytes) in (1..).zip(lines) {
+        (header.length, header.lines) = (header.length + bytes.len(), line);
+        let start = Place::of_line(line);
+        let mut words = Words {
+            rest: bytes.strip_suffix(&[end]).unwrap_or(bytes),
+            place: start,
         };
         let (place, keyword) = words.next();
         match keyword {
-            b"comment" => header.comments.push(name(words.rest())),
+            b"ply" if line == 1 => {}
+            _ if line == 1 => return Err(place.expected("`ply`", keyword)),
+            b"comment" => header.comments.push(name(words.rest.trim_ascii())),
             b"format" if encoding.is_some() => {
                 return Err(place.error("expected one line `format`, found a second"));
             }
             b"format" => encoding = Some(format(&mut words)?),
-            b"element" => names.element(&mut header, &mut words)?,
-            b"property" => names.property(&mut header, &mut words, place)?,
-            b"end_header" => break,
+            b"element" => header.add_element(&mut words)?,
+            b"property" => header.add_property(&mut words, place)?,
+            b"end_header" => {
+                let message = "expected a line `format` before the end of the header, found none";
+                header.encoding = encoding.ok_or_else(|| start.error(message))?;
+                return Ok(header);
+            }
             b"" | b"obj_info" => {}
             other => return Err(place.expected("a line of a PLY header", other)),
         }
     }
-    let Some(encoding) = encoding else {
-        let message = "expected a line `format` before the end of the header, found none";
-        return Err(lines.place().error(message));
-    };
-    header.encoding = encoding;
-    header.length = lines.next;
-    header.lines = lines.number;
-    Ok(header)
+    if header.lines == 0 {
+        return Err(Place::START.expected("`ply`", b""));
+    }
+    let message = "expected `end_header`, found the end of the file";
+    Err(Place::of_line(header.lines + 1).error(message))
+}
+
+/// What lines of the header end in, which the first one shows: bytes of the data behind the header may look like
+/// ends of lines.
+fn line_end(bytes: &[u8]) -> u8 {
+    let end = bytes.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+    match end.map(|at| (bytes[at], bytes.get(at + 1))) {
+        Some((b'\r', next)) if next != Some(&b'\n') => b'\r',
+        _ => b'\n',
+    }
 }
 
 fn format(words: &mut Words) -> Result<Encoding, Fault> {
@@ -153,31 +172,23 @@ fn format(words: &mut Words) -> Result<Encoding, Fault> {
     }
 }
 
-/// The names that are taken.
-#[derive(Default)]
-struct Names {
-    elements: BTreeSet<String>,
-    properties: BTreeSet<String>,
-    n_properties: usize,
-}
-
-impl Names {
-    fn element(&mut self, header: &mut Header, words: &mut Words) -> Result<(), Fault> {
+impl Header {
+    fn add_element(&mut self, words: &mut Words) -> Result<(), Fault> {
         let (place, word) = words.named("the name of an element")?;
         let (count_place, count) = words.next();
         let rows =
             parsed(count).ok_or_else(|| count_place.expected("how many there are", count))?;
         words.end()?;
-        if !self.elements.insert(name(word)) {
+        let name = name(word);
+        if self.element(&name).is_some() {
             return Err(place.error(format!("element {} is there already", quoted(word))));
         }
-        if self.elements.len() > MOST_ELEMENTS {
+        if self.elements.len() == MOST_ELEMENTS {
             let message = format!("expected at most {MOST_ELEMENTS} elements, found more");
             return Err(place.error(message));
         }
-        self.properties.clear();
-        header.elements.push(Element {
-            name: name(word),
+        self.elements.push(Element {
+            name,
             rows,
             properties: Vec::new(),
             place,
@@ -185,13 +196,9 @@ impl Names {
         Ok(())
     }
 
-    fn property(
-        &mut self,
-        header: &mut Header,
-        words: &mut Words,
-        keyword: Place,
-    ) -> Result<(), Fault> {
-        let Some(element) = header.elements.last_mut() else {
+    fn add_property(&mut self, words: &mut Words, keyword: Place) -> Result<(), Fault> {
+        let n_properties: usize = self.elements.iter().map(|e| e.properties.len()).sum();
+        let Some(element) = self.elements.last_mut() else {
             let message = "expected an element before its properties, found a property";
             return Err(keyword.error(message));
         };
@@ -208,18 +215,18 @@ impl Names {
         };
         let (place, word) = words.named("the name of a property")?;
         words.end()?;
-        if !self.properties.insert(name(word)) {
+        let name = name(word);
+        if element.properties.iter().any(|p| p.name == name) {
             let element = element.name.escape_debug();
             let message = format!("property {} of `{element}` is there already", quoted(word));
             return Err(place.error(message));
         }
-        self.n_properties += 1;
-        if self.n_properties > MOST_PROPERTIES {
+        if n_properties == MOST_PROPERTIES {
             let message = format!("expected at most {MOST_PROPERTIES} properties, found more");
             return Err(place.error(message));
         }
         element.properties.push(Property {
-            name: name(word),
+            name,
             count,
             value,
             place,
@@ -232,91 +239,24 @@ fn scalar_type((place, word): (Place, &[u8])) -> Result<Type, Fault> {
     Type::parse(word).ok_or_else(|| place.expected("a type such as float, uchar or int32", word))
 }
 
-/// The lines of a header. The end of the first line shows how the others end: bytes of the data behind the
-/// header may look like ends of lines.
-struct Lines<'a> {
-    bytes: &'a [u8],
-    /// Where the next line begins.
-    next: usize,
-    /// The number of the line in hand, from 1.
-    number: usize,
-    /// What a line ends in.
-    end: u8,
-}
-
-impl<'a> Lines<'a> {
-    fn new(bytes: &'a [u8]) -> Self {
-        let end = bytes.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
-        let is_return = |end: usize| bytes[end] == b'\r' && bytes.get(end + 1) != Some(&b'\n');
-        Self {
-            bytes,
-            next: if bytes.starts_with(MARK) {
-                MARK.len()
-            } else {
-                0
-            },
-            number: 0,
-            end: if end.is_some_and(is_return) {
-                b'\r'
-            } else {
-                b'\n'
-            },
-        }
-    }
-
-    /// The words of the next line; `None` at the end of the file.
-    fn next(&mut self) -> Option<Words<'a>> {
-        self.number += 1;
-        let rest = &self.bytes[self.next..];
-        if rest.is_empty() {
-            return None;
-        }
-        let line = rest
-            .split(|&byte| byte == self.end)
-            .next()
-            .unwrap_or_default();
-        self.next = self.bytes.len().min(self.next + line.len() + 1);
-        Some(Words {
-            line,
-            number: self.number,
-            at: 0,
-        })
-    }
-
-    fn place(&self) -> Place {
-        Place {
-            line: self.number,
-            column: 1,
-        }
-    }
-}
-
-#[derive(Default)]
+/// The words of a line.
 struct Words<'a> {
-    line: &'a [u8],
-    number: usize,
-    at: usize,
+    rest: &'a [u8],
+    /// Where `rest` begins.
+    place: Place,
 }
 
 impl<'a> Words<'a> {
     /// The next word, empty at the end of the line.
     fn next(&mut self) -> (Place, &'a [u8]) {
-        let rest = self.line[self.at..].trim_ascii_start();
-        let word = rest
-            .split(u8::is_ascii_whitespace)
-            .next()
-            .unwrap_or_default();
-        let start = self.line.len() - rest.len();
-        self.at = start + word.len();
-        let place = Place {
-            line: self.number.max(1),
-            column: start + 1,
-        };
+        let rest = self.rest.trim_ascii_start();
+        self.place.column += self.rest.len() - rest.len();
+        let place = self.place;
+        let end = rest.iter().position(u8::is_ascii_whitespace);
+        let (word, rest) = rest.split_at(end.unwrap_or(rest.len()));
+        self.place.column += word.len();
+        self.rest = rest;
         (place, word)
-    }
-
-    fn rest(&self) -> &'a [u8] {
-        self.line[self.at..].trim_ascii()
     }
 
     fn named(&mut self, what: &str) -> Result<(Place, &'a [u8]), Fault> {

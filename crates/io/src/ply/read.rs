@@ -7,7 +7,7 @@ use mesh::{COLOR, Column, Domain, Rule, UV, VERTEX_NORMAL, Values};
 
 use super::body::Body;
 use super::columns::{Kind, Source, indices, item_at, numbers, values};
-use super::header::{Element, Header, parse};
+use super::header::{Element, Header, Property, parse};
 use super::marks::Mark;
 use super::roles::{self, Roles};
 use super::strips::triangles_of_strips;
@@ -173,24 +173,7 @@ impl Reader<'_, '_> {
         let mut used = vec![false; element.properties.len()];
         used[corners] = true;
         self.marked(Domain::Face, place, &mut used);
-        for mark in self.marks.clone() {
-            let list = element.list(&mark.property).filter(|&list| !used[list]);
-            let Some(list) = list.filter(|_| mark.domain == Domain::Corner) else {
-                continue;
-            };
-            let per = mark.kind.size();
-            let degrees = self.polygons.offsets.windows(2).enumerate();
-            let fits = fits(mark.kind, element.properties[list].value)
-                && degrees.into_iter().all(|(row, ends)| {
-                    table.count(list, row) == per * (ends[1] - ends[0]) as usize
-                });
-            if fits {
-                used[list] = true;
-                let source = Source::List(list, &self.polygons.offsets);
-                let (values, _) = values(table, source, mark.kind);
-                self.insert(Domain::Corner, &mark.name, mark.rule, values);
-            }
-        }
+        self.marked(Domain::Corner, place, &mut used);
         if let Some(list) = element.list("texcoord").filter(|&list| !used[list]) {
             used[list] = true;
             let source = Source::List(list, &self.polygons.offsets);
@@ -207,21 +190,35 @@ impl Reader<'_, '_> {
     /// The columns that comments describe.
     fn marked(&mut self, domain: Domain, place: usize, used: &mut [bool]) {
         let element = &self.header.elements[place];
-        for mark in self.marks.clone() {
-            let first = element.scalar(&mark.property);
-            let Some(first) = first.filter(|_| mark.domain == domain) else {
+        let table = &self.tables[place];
+        let is_list = domain == Domain::Corner;
+        for mark in self
+            .marks
+            .clone()
+            .iter()
+            .filter(|mark| mark.domain == domain)
+        {
+            let Some(first) = element.find(&mark.property, is_list) else {
                 continue;
             };
-            let range = first..first + mark.kind.size();
+            let size = mark.kind.size();
+            let range = first..first + if is_list { 1 } else { size };
             let properties = element.properties.get(range.clone());
-            let fit = properties.is_some_and(|properties| {
-                let mut all = properties.iter();
-                all.all(|p| p.count.is_none() && fits(mark.kind, p.value))
-            });
+            let is_right = |p: &Property| p.count.is_some() == is_list && fits(mark.kind, p.value);
+            let mut rows = self.polygons.offsets.windows(2).enumerate();
+            let fit = properties.is_some_and(|properties| properties.iter().all(is_right))
+                && (!is_list
+                    || rows.all(|(row, ends)| {
+                        table.count(first, row) == size * (ends[1] - ends[0]) as usize
+                    }));
             if fit && !used[range.clone()].contains(&true) {
                 used[range].fill(true);
-                let source = Source::Scalars(first);
-                let (values, _) = values(&self.tables[place], source, mark.kind);
+                let source = if is_list {
+                    Source::List(first, &self.polygons.offsets)
+                } else {
+                    Source::Scalars(first)
+                };
+                let (values, _) = values(table, source, mark.kind);
                 self.insert(domain, &mark.name, mark.rule, values);
             }
         }

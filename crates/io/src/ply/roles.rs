@@ -22,10 +22,7 @@ impl Roles {
     /// If there are no vertices, or an element has not what it needs to be what its name says.
     pub(super) fn of(header: &Header) -> Result<Self, Fault> {
         let Some((vertex, vertices)) = header.element("vertex") else {
-            let place = Place {
-                line: header.lines,
-                column: 1,
-            };
+            let place = Place::of_line(header.lines);
             return Err(place.error("expected an element `vertex`, found none in the header"));
         };
         let mut position = [0; 3];

@@ -17,7 +17,7 @@ use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
 use crate::parallel;
-use crate::writing::{all_finite, is_byte, mend, push_comment, to_byte, uvs_of_vertices};
+use crate::writing::{finite, is_byte, push_comment, to_byte, uvs_of_vertices};
 use crate::{One, WriteOptions};
 
 /// The file that holds `scene`, little-endian, and what it does not hold.
@@ -44,18 +44,18 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwrit
             losses.add(domain, &column.name, column.values.len(), reason);
             continue;
         }
-        let mut values = Cow::Borrowed(&column.values);
-        if !all_finite(&values) {
-            let broken = mend(values.to_mut());
-            losses.add(domain, &column.name, broken, "not finite: written as 0");
-        }
+        let values = finite(domain, column, &mut losses);
         if domain == Domain::Corner
             && (column.name.as_str(), column.rule) == (UV.name, UV.rule)
-            && let Values::Vec2(uvs) = &*values
+            && let Values::Vec2(_) = &*values
         {
-            match uvs_of_vertices(mesh, uvs) {
-                Some(uvs) => vertices.known(&["s", "t"], Cow::Owned(Values::Vec2(uvs))),
-                None => faces.corner_uvs(values),
+            match uvs_of_vertices(mesh, &values) {
+                Some(uvs) => vertices.known(&["s", "t"], Cow::Owned(uvs)),
+                // As MeshLab does where corners of a vertex differ.
+                None => {
+                    let form = float_for(&values, 2);
+                    faces.values(&["texcoord"], true, values, 2, form);
+                }
             }
         } else {
             to.column(domain, column, values);
@@ -72,14 +72,13 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwrit
 }
 
 /// A table to be written.
+#[derive(Default)]
 struct Element<'a> {
     comments: Vec<String>,
     /// The lines behind the word `property`.
     properties: Vec<String>,
     names: BTreeSet<String>,
     fields: Vec<Field<'a>>,
-    /// The type of counts of lists.
-    count: Type,
     /// The most corners of a face.
     most: usize,
 }
@@ -87,19 +86,15 @@ struct Element<'a> {
 /// What stands in each row.
 enum Field<'a> {
     Positions(&'a [DVec3]),
+    /// The vertices of a face, with the type of their count.
+    Corners(Type),
     Values {
         values: Cow<'a, Values>,
         /// How many components are written: all but the alpha of opaque colors.
         size: usize,
         form: Type,
-    },
-    /// The vertices of a face.
-    Corners,
-    /// The values of the corners of a face, with the type of their count.
-    CornerValues {
-        values: Cow<'a, Values>,
-        form: Type,
-        count: Type,
+        /// The type of the count of a list: the values of the corners of a face.
+        count: Option<Type>,
     },
 }
 
@@ -107,7 +102,7 @@ impl<'a> Element<'a> {
     fn vertices(mesh: &'a Mesh) -> Self {
         let mut new = Self::empty(0);
         for axis in ["x", "y", "z"] {
-            new.scalar(Type::Float64, axis);
+            new.property(None, Type::Float64, axis);
         }
         new.fields.push(Field::Positions(mesh.positions()));
         new
@@ -119,29 +114,46 @@ impl<'a> Element<'a> {
         let mut new = Self::empty(most.into_iter().flatten().max().unwrap_or(0));
         let is_large = mesh.n_vertices() > i32::MAX as usize;
         let index = if is_large { Type::UInt32 } else { Type::Int32 };
-        new.list(new.count, index, "vertex_indices");
-        new.fields.push(Field::Corners);
+        let count = count_type(new.most);
+        new.property(Some(count), index, "vertex_indices");
+        new.fields.push(Field::Corners(count));
         new
     }
 
     fn empty(most: usize) -> Self {
         Self {
-            comments: Vec::new(),
-            properties: Vec::new(),
             names: roles::names().map(str::to_owned).collect(),
-            fields: Vec::new(),
-            count: count_type(most),
             most,
+            ..Self::default()
         }
     }
 
-    fn scalar(&mut self, form: Type, name: &str) {
-        self.properties.push(format!("{} {name}", form.name()));
+    /// Adds a line to the header: of a list, if there is a type for its count.
+    fn property(&mut self, count: Option<Type>, form: Type, name: &str) {
+        let list = count.map_or(String::new(), |count| format!("list {} ", count.name()));
+        self.properties
+            .push(format!("{list}{} {name}", form.name()));
     }
 
-    fn list(&mut self, count: Type, form: Type, name: &str) {
-        let (count, form) = (count.name(), form.name());
-        self.properties.push(format!("list {count} {form} {name}"));
+    /// Adds the first `size` components of values under a name each, or as one list.
+    fn values(
+        &mut self,
+        names: &[impl AsRef<str>],
+        is_list: bool,
+        values: Cow<'a, Values>,
+        size: usize,
+        form: Type,
+    ) {
+        let count = is_list.then(|| count_type(size * self.most));
+        for name in names.iter().take(size) {
+            self.property(count, form, name.as_ref());
+        }
+        self.fields.push(Field::Values {
+            values,
+            size,
+            form,
+            count,
+        });
     }
 
     /// Adds an attribute of vertices, faces or corners.
@@ -170,22 +182,7 @@ impl<'a> Element<'a> {
         } else {
             float_for(&values, size)
         };
-        for name in &names[..size] {
-            self.scalar(form, name);
-        }
-        self.fields.push(Field::Values { values, size, form });
-    }
-
-    /// Adds texture coordinates that differ between the corners of a vertex, as `MeshLab` does.
-    fn corner_uvs(&mut self, values: Cow<'a, Values>) {
-        let form = float_for(&values, 2);
-        let count = count_type(2 * self.most);
-        self.list(count, form, "texcoord");
-        self.fields.push(Field::CornerValues {
-            values,
-            form,
-            count,
-        });
+        self.values(names, false, values, size, form);
     }
 
     /// Adds values under their own name, with a comment where the name and the types do not say
@@ -213,21 +210,7 @@ impl<'a> Element<'a> {
             };
             self.comments.push(mark.text());
         }
-        if is_list {
-            let count = count_type(kind.size() * self.most);
-            self.list(count, form, &names[0]);
-            self.fields.push(Field::CornerValues {
-                values,
-                form,
-                count,
-            });
-        } else {
-            for name in &names {
-                self.scalar(form, name);
-            }
-            let size = kind.size();
-            self.fields.push(Field::Values { values, size, form });
-        }
+        self.values(&names, is_list, values, kind.size(), form);
     }
 
     /// Words for the components of an attribute that no other property has.
@@ -267,7 +250,7 @@ impl<'a> Element<'a> {
             let mut bytes = Vec::with_capacity(rows.len() * 32);
             for row in rows {
                 for field in &self.fields {
-                    field.push(&mut bytes, mesh, row, self.count);
+                    field.push(&mut bytes, mesh, row);
                 }
             }
             bytes
@@ -280,38 +263,41 @@ impl<'a> Element<'a> {
 }
 
 impl Field<'_> {
-    fn push(&self, out: &mut Vec<u8>, mesh: &Mesh, row: usize, count: Type) {
+    fn push(&self, out: &mut Vec<u8>, mesh: &Mesh, row: usize) {
+        let f = FaceId::new(row);
         match self {
             Self::Positions(positions) => {
                 for x in positions[row].to_array() {
                     out.extend_from_slice(&x.to_le_bytes());
                 }
             }
-            Self::Values { values, size, form } => push_value(out, values, row, *size, *form),
-            Self::Corners => {
-                let f = FaceId::new(row);
-                push_count(out, count, mesh.degree(f));
+            Self::Corners(count) => {
+                push_count(out, *count, mesh.degree(f));
                 for v in mesh.face_vertices(f) {
                     push_whole(out, v.index());
                 }
             }
-            Self::CornerValues {
+            Self::Values {
                 values,
+                size,
                 form,
-                count,
+                count: None,
+            } => push_value(out, values, row, *size, *form),
+            Self::Values {
+                values,
+                size,
+                form,
+                count: Some(count),
             } => {
-                let f = FaceId::new(row);
-                let size = Kind::of(values).size();
                 push_count(out, *count, size * mesh.degree(f));
                 for h in mesh.face_half_edges(f) {
-                    push_value(out, values, h.index(), size, *form);
+                    push_value(out, values, h.index(), *size, *form);
                 }
             }
         }
     }
 }
 
-/// One byte where that is enough, as everyone writes it.
 fn count_type(most: usize) -> Type {
     if most < 256 { Type::UInt8 } else { Type::Int32 }
 }

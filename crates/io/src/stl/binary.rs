@@ -3,7 +3,7 @@
 use glam::DVec3;
 use mesh::zeroed;
 
-use super::facets::{Facets, Normals, compare};
+use super::facets::{Facets, compare};
 use crate::fault::Fault;
 use crate::parallel::{self, BLOCK};
 
@@ -35,7 +35,7 @@ pub(super) fn read(facets: &[u8]) -> Result<Facets, Fault> {
         .chunks_mut(3 * BLOCK)
         .zip(facets.chunks(BLOCK * FACET));
     let blocks = parallel::consume(parts, |_, (corners, facets)| {
-        let mut normals = Normals::default();
+        let mut sides = [0; 3];
         let mut colored = 0;
         let mut finite = true;
         for (corners, facet) in corners.chunks_exact_mut(3).zip(facets.chunks_exact(FACET)) {
@@ -43,10 +43,10 @@ pub(super) fn read(facets: &[u8]) -> Result<Facets, Fault> {
             let [a, b, c] = std::array::from_fn(|i| vector(&numbers, 3 + 3 * i));
             corners.copy_from_slice(&[a, b, c]);
             finite &= a.is_finite() & b.is_finite() & c.is_finite();
-            normals.add(compare(vector(&numbers, 0), [a, b, c]));
+            sides[compare(vector(&numbers, 0), [a, b, c]) as usize] += 1;
             colored += usize::from(facet[48..] != [0, 0]);
         }
-        (normals, colored, finite)
+        (sides, colored, finite)
     });
     if let Some(block) = blocks.iter().position(|&(_, _, finite)| !finite) {
         let first = block * BLOCK * FACET;
@@ -62,8 +62,10 @@ pub(super) fn read(facets: &[u8]) -> Result<Facets, Fault> {
         corners,
         ..Facets::default()
     };
-    for (normals, colored, _) in blocks {
-        found.normals.append(normals);
+    for (sides, colored, _) in blocks {
+        for (all, n) in found.sides.iter_mut().zip(sides) {
+            *all += n;
+        }
         found.colored += colored;
     }
     Ok(found)

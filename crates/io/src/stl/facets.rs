@@ -1,5 +1,7 @@
 //! Facets, and how their normals agree with their corners.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 /// Facets as they stand in a file.
@@ -7,32 +9,15 @@ use glam::DVec3;
 pub(super) struct Facets {
     /// Three for each facet.
     pub(super) corners: Vec<DVec3>,
-    pub(super) normals: Normals,
+    /// How many facet normals agree with their corners in each way.
+    pub(super) sides: [usize; 3],
     /// How many facets have attribute bytes.
     pub(super) colored: usize,
-    /// The names of solids, and the first facet of each.
-    pub(super) solids: Vec<(String, usize)>,
+    /// The names of solids, and which facets each has.
+    pub(super) solids: Vec<(String, Range<usize>)>,
 }
 
-/// How facet normals agree with the corners.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Normals {
-    pub(super) turned: usize,
-    pub(super) tilted: usize,
-}
-
-impl Normals {
-    pub(super) fn add(&mut self, side: Side) {
-        self.turned += usize::from(side == Side::Turned);
-        self.tilted += usize::from(side == Side::Tilted);
-    }
-
-    pub(super) fn append(&mut self, other: Self) {
-        self.turned += other.turned;
-        self.tilted += other.tilted;
-    }
-}
-
+/// How a facet normal agrees with the corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Same,

@@ -1,10 +1,11 @@
 //! From the facets of an STL file to polygons.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use mesh::{Domain, Rule};
 
-use super::facets::{Facets, Normals};
+use super::facets::Facets;
 use super::{binary, text};
 use crate::Polygons;
 use crate::fault::Fault;
@@ -72,7 +73,7 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
 
 fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     let n_corners = facets.corners.len();
-    let Normals { turned, tilted } = facets.normals;
+    let [_, tilted, turned] = facets.sides;
     let what = "facet normals left out that point to the other side of their corners";
     notes.changed(turned, None, what);
     let what = "facet normals left out that are not normal to their corners";
@@ -94,7 +95,7 @@ fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
 }
 
 /// Tags for the faces of each solid, if there are several.
-fn set_tags(polygons: &mut Polygons, solids: &[(String, usize)], notes: &mut Notes) {
+fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &mut Notes) {
     if solids.len() < 2 {
         return;
     }
@@ -102,14 +103,12 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, usize)], notes: &mut Not
     let room = most_tags(n_faces);
     let mut columns: BTreeMap<&str, Vec<bool>> = BTreeMap::new();
     let (mut empty, mut too_many) = (0, 0);
-    let starts = solids.iter().skip(1).map(|&(_, first)| first);
-    let ends = starts.chain([n_faces]);
-    for ((name, first), end) in solids.iter().zip(ends) {
-        if *first == end {
+    for (name, facets) in solids {
+        if facets.is_empty() {
             empty += 1;
         } else if columns.len() < room || columns.contains_key(name.as_str()) {
             let marks = columns.entry(name).or_insert_with(|| vec![false; n_faces]);
-            marks[*first..end].fill(true);
+            marks[facets.clone()].fill(true);
         } else {
             too_many += 1;
         }

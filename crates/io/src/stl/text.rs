@@ -17,8 +17,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Facets, Fault> {
     expect(&mut cursor, b"solid")?;
     loop {
         let name = name(&cursor.rest_of_line());
-        found.solids.push((name, found.corners.len() / 3));
+        let first = found.corners.len() / 3;
         solid(&mut cursor, &mut found)?;
+        found.solids.push((name, first..found.corners.len() / 3));
         // The name behind `endsolid` says nothing new.
         cursor.skip_line();
         cursor.skip_white();
@@ -53,7 +54,7 @@ fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), Fault> {
         }
         expect(cursor, b"endloop")?;
         expect(cursor, b"endfacet")?;
-        found.normals.add(compare(normal, corners));
+        found.sides[compare(normal, corners) as usize] += 1;
         found.corners.extend(corners);
     }
 }

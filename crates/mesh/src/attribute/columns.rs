@@ -65,7 +65,13 @@ impl Attributes {
 
     /// The column of this domain and name.
     pub fn column(&self, domain: Domain, name: &str) -> Option<&Column> {
-        self.of(domain).iter().find(|c| c.name == name)
+        self.find(domain, name).ok().map(|i| &self.of(domain)[i])
+    }
+
+    /// Where the column of this name is, or would be: the columns are in order of their names.
+    fn find(&self, domain: Domain, name: &str) -> Result<usize, usize> {
+        self.of(domain)
+            .binary_search_by(|c| c.name.as_str().cmp(name))
     }
 
     pub(crate) fn of_mut(&mut self, domain: Domain) -> &mut [Column] {
@@ -73,16 +79,16 @@ impl Attributes {
     }
 
     pub(crate) fn column_mut(&mut self, domain: Domain, name: &str) -> Option<&mut Column> {
-        self.columns[domain as usize]
-            .iter_mut()
-            .find(|c| c.name == name)
+        let found = self.find(domain, name).ok();
+        found.map(|i| &mut self.columns[domain as usize][i])
     }
 
     /// Puts a column into a domain, in place of one of the same name. Its length must be that of
     /// the domain in the mesh that gets these attributes.
     pub fn insert(&mut self, domain: Domain, column: Column) {
+        let place = self.find(domain, &column.name);
         let columns = &mut self.columns[domain as usize];
-        match columns.binary_search_by(|c| c.name.cmp(&column.name)) {
+        match place {
             Ok(i) => columns[i] = column,
             Err(i) => columns.insert(i, column),
         }
@@ -90,11 +96,8 @@ impl Attributes {
 
     /// Takes a column out.
     pub fn remove(&mut self, domain: Domain, name: &str) -> Option<Column> {
-        let columns = &mut self.columns[domain as usize];
-        columns
-            .iter()
-            .position(|c| c.name == name)
-            .map(|i| columns.remove(i))
+        let found = self.find(domain, name).ok();
+        found.map(|i| self.columns[domain as usize].remove(i))
     }
 
     /// The same columns on a new mesh, each value taken from the element that it came from.

@@ -51,6 +51,14 @@ impl Values {
         each!(self, v => size_of_val(v.as_slice()))
     }
 
+    /// The bytes that one value takes.
+    pub fn bytes_each(&self) -> usize {
+        fn run<T>(_: &[T]) -> usize {
+            size_of::<T>()
+        }
+        each!(self, v => run(v))
+    }
+
     /// The name of the type of the values.
     pub fn type_name(&self) -> &'static str {
         match self {

@@ -116,7 +116,7 @@ fn recorded(
             }
             Ok(_) => "cannot be recorded without the files beside it: write a .glb, .ply or .mws"
                 .to_owned(),
-            Err(error) => format!("cannot be read: {}", error.into_parts().1),
+            Err(error) => format!("cannot be read: {}", error.error),
         }
     };
     Broken::unmet(format!("{}; it {why}", broken.message))

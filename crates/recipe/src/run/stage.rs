@@ -20,7 +20,7 @@ pub(super) fn staging<'a>(settings: &Settings<'a>) -> Result<Option<TemporaryFol
         Err(error) => Err(format!(
             "cannot write to the output folder {}: {}",
             folder.display(),
-            error.into_parts().1
+            error.error
         )),
     }
 }
@@ -35,7 +35,7 @@ pub(super) fn deliver(stage: &Path, files: &Files) -> Result<Vec<PathBuf>, Strin
         let to = files.output.join(relative);
         files.check_links(relative).map_err(|e| e.to_string())?;
         if let Err(error) = files.make_folder_of(&to) {
-            let (_, why) = error.into_parts();
+            let why = error.error;
             return Err(format!("cannot write {}: {why}", to.display()));
         }
         if store.is_folder(&to) {

@@ -1,6 +1,6 @@
 //! The connectivity and the positions of several meshes, one behind the other.
 
-use mesh::{Connectivity, DVec3, Id, Mesh};
+use mesh::{Connectivity, DVec3, Mesh};
 use op::{Context, OpError};
 
 /// The most elements of one kind: ids end at 2^32 - 2.
@@ -32,24 +32,8 @@ pub(crate) fn connected(parts: &[&Mesh], cx: &Context) -> Result<Mesh, OpError> 
     let mut positions: Vec<DVec3> = Vec::with_capacity(n_vertices);
     for (done, part) in (0..).zip(parts) {
         cx.advance("join", done, parts.len() as u64)?;
-        let c = part.connectivity();
-        let (h, v, f) = (all.next.len(), positions.len(), all.face_half_edge.len());
-        all.next.extend(shifted(&c.next, h));
-        all.origin.extend(shifted(&c.origin, v));
-        all.face.extend(shifted(&c.face, f));
-        all.vertex_half_edge.extend(shifted(&c.vertex_half_edge, h));
-        all.face_half_edge.extend(shifted(&c.face_half_edge, h));
+        all.append(part.connectivity());
         positions.extend_from_slice(part.positions());
     }
     Ok(Mesh::from_arrays(all, positions))
-}
-
-fn shifted<I: Id>(ids: &[I], by: usize) -> impl Iterator<Item = I> {
-    ids.iter().map(move |&id| {
-        if id == I::NONE {
-            id
-        } else {
-            I::new(id.index() + by)
-        }
-    })
 }

@@ -18,9 +18,9 @@ fn read(text: &str) -> ObjFile {
 fn polygons_of_any_degree_stay_whole_and_in_order() {
     let file = read("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nf 1 2 3 4\nf 3 2 1\n");
     assert_eq!(file.positions.len(), 5);
-    assert_eq!(file.faces.offsets, [0, 4, 7]);
-    assert_eq!(file.faces.positions, [0, 1, 2, 3, 2, 1, 0]);
-    assert!(file.faces.uvs.is_empty() && file.faces.normals.is_empty());
+    assert_eq!(file.offsets, [0, 4, 7]);
+    assert_eq!(file.corners[0], [0, 1, 2, 3, 2, 1, 0]);
+    assert!(file.corners[1].is_empty() && file.corners[2].is_empty());
 }
 
 #[test]
@@ -31,11 +31,11 @@ fn corners_have_texture_coordinates_and_normals_in_every_combination() {
     ));
     let n = NONE;
     assert_eq!(
-        file.faces.uvs,
+        file.corners[1],
         [n, n, n, 0, 1, n, n, n, n, 0, 1, 1, n, n, 1]
     );
     assert_eq!(
-        file.faces.normals,
+        file.corners[2],
         [n, n, n, n, n, n, 0, 0, 0, 0, 0, 0, n, n, n]
     );
     assert_eq!(file.uvs, [DVec2::new(0.5, 0.0), DVec2::ONE]);
@@ -44,15 +44,12 @@ fn corners_have_texture_coordinates_and_normals_in_every_combination() {
 #[test]
 fn negative_indices_count_back_from_the_line() {
     let file = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 2 2 2\nf -4 -2 -1\n");
-    assert_eq!(file.faces.positions, [0, 1, 2, 0, 2, 3]);
+    assert_eq!(file.corners[0], [0, 1, 2, 0, 2, 3]);
 }
 
 #[test]
 fn vertices_may_come_after_the_faces_that_use_them() {
-    assert_eq!(
-        read(&format!("f 1 2 3\n{TRIANGLE}")).faces.positions,
-        [0, 1, 2]
-    );
+    assert_eq!(read(&format!("f 1 2 3\n{TRIANGLE}")).corners[0], [0, 1, 2]);
 }
 
 #[test]
@@ -78,7 +75,7 @@ fn line_ends_tabs_continuations_and_exponents_are_understood() {
     );
     assert_eq!(file.positions[0], DVec3::new(100.0, -0.25, 3.0));
     assert_eq!(file.positions[1], DVec3::Z);
-    assert_eq!(file.faces.positions, [0, 1, 2]);
+    assert_eq!(file.corners[0], [0, 1, 2]);
     assert!(file.left_out.is_empty(), "{:?}", file.left_out);
 }
 
@@ -237,8 +234,8 @@ fn names_runs_and_relative_indices_go_on_from_part_to_part() {
     );
     assert_parts_do_not_matter(text.as_bytes());
     let file = parse_in_parts(text.as_bytes(), 1).unwrap();
-    assert_eq!(file.faces.len(), 7);
-    assert_eq!(file.faces.positions[3..9], [0, 1, 2, 2, 3, 0]);
+    assert_eq!(file.offsets.len() - 1, 7);
+    assert_eq!(file.corners[0][3..9], [0, 1, 2, 2, 3, 0]);
     assert_eq!(file.line_corners, [3, 2, 0]);
     assert_eq!(file.colors[3], DVec4::new(1.0, 0.0, 0.0, 1.0));
     assert_eq!(file.left_out[&LeftOut::Statement("vp".into())], (2, 22));
@@ -275,11 +272,11 @@ fn a_line_of_ten_megabytes_is_one_face() {
     let n = 1_300_000_u32;
     let text = format!("v 0 0 0\nf{}\nf 1 1 1\n", " 1/1/1".repeat(n as usize));
     let text = format!("vt 0 0\nvn 0 0 1\n{text}");
-    assert_eq!(read(&text).faces.offsets, [0, n, n + 3]);
+    assert_eq!(read(&text).offsets, [0, n, n + 3]);
     let continued = text.replace(" 1/1/1", " \\\n1/1/1");
     assert_eq!(read(&continued), read(&text));
     let comment = format!("v 0 0 0\n#{}\nf 1 1 1", "x".repeat(10 << 20));
-    assert_eq!(read(&comment).faces.len(), 1);
+    assert_eq!(read(&comment).offsets.len() - 1, 1);
 }
 
 #[test]

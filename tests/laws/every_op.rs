@@ -238,7 +238,7 @@ fn known(scene: &Scene) -> Plan {
     };
     let mut plan = Plan::default();
     for object in scene.objects() {
-        assert_eq!(plan.insert(&object.name, planned(object)), []);
+        assert_eq!(plan.insert(&object.name, planned(object)), None);
     }
     plan
 }

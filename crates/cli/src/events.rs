@@ -26,9 +26,11 @@ use std::time::{Duration, Instant};
 
 use op::Progress;
 use recipe::{Listener, Outcome, StepDone};
+use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-use crate::output::{STAMP, origin, problems_json};
+use crate::listener::lock;
+use crate::output::{ProblemJson, STAMP, origin, problems_json};
 use crate::picture_errors::Pictures;
 use engine::Loaded;
 
@@ -46,6 +48,13 @@ pub(crate) struct Events<'a> {
     state: Mutex<State>,
 }
 
+#[derive(Serialize)]
+struct ProblemEvent {
+    event: &'static str,
+    #[serde(flatten)]
+    problem: ProblemJson,
+}
+
 struct State {
     /// The step that runs, from 1.
     number: usize,
@@ -55,7 +64,7 @@ struct State {
 }
 
 impl<'a> Events<'a> {
-    /// Writes the start of a run. `progress` says whether to go on.
+    /// Writes the start of a run, and what is wrong with the recipe. `progress` says whether to go on.
     pub(crate) fn start(loaded: &'a Loaded, progress: &'a dyn Progress) -> Self {
         let now = Instant::now();
         let events = Self {
@@ -80,92 +89,59 @@ impl<'a> Events<'a> {
             "parameters": parameters,
             "steps": loaded.recipe.steps.len(),
         }));
+        events.problems(&loaded.diagnostics);
         events
     }
 
-    /// Writes what went wrong, what was written, and the end.
+    /// Writes what went wrong, what was written, and the end; without an outcome, that of a recipe that cannot run.
     ///
     /// # Errors
     ///
     /// The first line that could not be written.
-    pub(crate) fn end(self, outcome: &Outcome, pictures: Option<&Pictures>) -> io::Result<()> {
-        self.problems(&outcome.failures);
-        if let Some(pictures) = pictures {
-            pictures.warn();
-        }
-        for path in pictures.map(Pictures::paths).unwrap_or_default() {
+    pub(crate) fn end(self, outcome: Option<&Outcome>, pictures: &Pictures) -> io::Result<()> {
+        self.problems(outcome.map_or(&[], |o| &o.failures));
+        pictures.warn();
+        for path in pictures.paths() {
             self.tell(&json!({ "event": "picture", "path": path.display().to_string() }));
         }
-        for path in &outcome.written {
+        for path in outcome.map_or(&[][..], |o| &o.written) {
             self.tell(&json!({ "event": "wrote", "path": path.display().to_string() }));
         }
         self.tell(&json!({
             "event": "end",
-            "succeeded": outcome.succeeded(),
-            "cancelled": outcome.cancelled,
-            "steps": outcome.steps.len(),
-            "expectations": outcome.checked,
-            "digest": outcome.digest.to_string(),
+            "succeeded": outcome.is_some_and(Outcome::succeeded),
+            "cancelled": outcome.is_some_and(|o| o.cancelled),
+            "steps": outcome.map_or(0, |o| o.steps.len()),
+            "expectations": outcome.map_or(0, |o| o.checked),
+            "digest": outcome.map(|o| o.digest.to_string()),
             "milliseconds": milliseconds(self.begin.elapsed()),
         }));
-        self.finish()
-    }
-
-    /// Writes the end of a recipe that cannot run.
-    ///
-    /// # Errors
-    ///
-    /// The first line that could not be written.
-    pub(crate) fn refused(self) -> io::Result<()> {
-        self.problems(&self.loaded.diagnostics);
-        self.tell(&json!({
-            "event": "end",
-            "succeeded": false,
-            "cancelled": false,
-            "steps": 0,
-            "expectations": 0,
-            "digest": null,
-            "milliseconds": milliseconds(self.begin.elapsed()),
-        }));
-        self.finish()
+        lock(&self.state).problem.take().map_or(Ok(()), Err)
     }
 
     /// Writes problems, each as an event.
-    pub(crate) fn problems(&self, diagnostics: &[recipe::Diagnostic]) {
-        let problems = problems_json(diagnostics, &self.loaded.recipe.sources);
-        for problem in problems.as_array().into_iter().flatten() {
-            let mut event = json!({ "event": "problem" });
-            if let (Some(event), Some(problem)) = (event.as_object_mut(), problem.as_object()) {
-                event.extend(problem.clone());
-            }
-            self.tell(&event);
+    fn problems(&self, diagnostics: &[recipe::Diagnostic]) {
+        for problem in problems_json(diagnostics, &self.loaded.recipe.sources) {
+            self.tell(&ProblemEvent {
+                event: "problem",
+                problem,
+            });
         }
     }
 
-    fn finish(self) -> io::Result<()> {
-        let state = self.state.into_inner();
-        let state = state.unwrap_or_else(std::sync::PoisonError::into_inner);
-        state.problem.map_or(Ok(()), Err)
-    }
-
-    fn state(&self) -> std::sync::MutexGuard<'_, State> {
-        let state = self.state.lock();
-        state.unwrap_or_else(std::sync::PoisonError::into_inner)
-    }
-
-    fn tell(&self, event: &Json) {
-        let line = format!("{event}\n");
+    fn tell(&self, event: &impl Serialize) {
         let mut out = io::stdout().lock();
-        let written = out.write_all(line.as_bytes()).and_then(|()| out.flush());
-        if let Err(error) = written {
-            self.state().problem.get_or_insert(error);
+        let written = serde_json::to_string(event).map_err(io::Error::from);
+        let written = written.and_then(|line| out.write_all((line + "\n").as_bytes()));
+        if let Err(error) = written.and_then(|()| out.flush()) {
+            lock(&self.state).problem.get_or_insert(error);
         }
     }
 }
 
 impl Progress for Events<'_> {
     fn advance(&self, what: &str, done: u64, total: u64) -> bool {
-        let mut state = self.state();
+        let mut state = lock(&self.state);
         let (number, is_read) = (state.number, state.problem.is_none());
         let is_due = state.told.elapsed() >= PAUSE;
         if is_due {
@@ -183,7 +159,7 @@ impl Progress for Events<'_> {
 
 impl Listener for Events<'_> {
     fn step_begins(&self, number: usize, label: &str) {
-        self.state().number = number + 1;
+        lock(&self.state).number = number + 1;
         let operation = &self.loaded.recipe.steps[number].name;
         self.tell(&json!({
             "event": "step", "number": number + 1, "label": label, "operation": operation,
@@ -195,10 +171,6 @@ impl Listener for Events<'_> {
     }
 
     fn step_done(&self, number: usize, done: &StepDone) {
-        let refused = done.report.refused.iter().map(|r| {
-            let reason = format!("{:?}", r.reason);
-            json!({ "reason": reason, "count": r.count, "first": r.first })
-        });
         let losses = (done.report.losses.iter())
             .map(|l| json!({ "object": l.object, "name": l.name, "message": l.to_string() }));
         self.tell(&json!({
@@ -209,7 +181,7 @@ impl Listener for Events<'_> {
             "edges": done.edges,
             "faces": done.faces,
             "changed": done.report.changed,
-            "refused": refused.collect::<Vec<_>>(),
+            "refused": done.report.refused,
             "losses": losses.collect::<Vec<_>>(),
             "notes": done.report.notes,
             "digest": done.digest.map(|digest| digest.to_string()),

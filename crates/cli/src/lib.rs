@@ -32,7 +32,7 @@ use engine::Engine;
 use op::Registry;
 
 use args::{Args, Command, WrongUsage};
-use output::complain;
+use output::{complain, print_json};
 
 /// Runs the program with the operations of `registry` and returns its exit code.
 #[expect(
@@ -54,23 +54,9 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Test(args) => commands::test::run(&args, &engine),
         Command::Batch(args) => commands::batch::run(&args, &engine),
         Command::Sweep(args) => commands::sweep::run(&args, &engine),
-        Command::Ops {
-            name,
-            markdown,
-            pictures,
-        } => commands::ops::run(name.as_deref(), markdown, pictures.as_deref(), &registry),
-        Command::Info {
-            file,
-            picture,
-            picture_errors,
-            read,
-            format,
-        } => commands::info::run(&file, picture, &picture_errors, &read, format),
-        Command::Convert {
-            input,
-            read,
-            output,
-        } => commands::convert::run(&input, &read, &output),
+        Command::Ops(args) => commands::ops::run(&args, &registry),
+        Command::Info(args) => commands::info::run(&args),
+        Command::Convert(args) => commands::convert::run(&args),
         Command::Reproduce(args) => commands::reproduce::run(&args, &engine),
         Command::Picture(args) => commands::picture::run(&args, &engine),
         Command::Select(args) => commands::select::run(&args, &engine),
@@ -82,15 +68,10 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Upgrade(args) => commands::upgrade::run(&args, &registry),
         Command::Cache(args) => commands::cache::run(&args),
         Command::Shrink(args) => commands::shrink::run(&args, &engine),
-        Command::Schema => commands::schema::run(&registry),
-        Command::NewOp {
-            name,
-            group,
-            dir,
-            meshwright,
-        } => commands::new_op::run(&name, group.as_deref(), &dir, &meshwright),
+        Command::Schema => print_json(&recipe::schema(&registry)).map(|()| true),
+        Command::NewOp(args) => commands::new_op::run(&args),
     };
-    match done.and_then(|succeeded| flushed().map(|()| succeeded)) {
+    match done.and_then(|succeeded| Ok(io::stdout().flush().map(|()| succeeded)?)) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
@@ -99,10 +80,6 @@ pub fn run(registry: Registry) -> ExitCode {
             ExitCode::from(if error.is::<WrongUsage>() { 2 } else { trouble })
         }
     }
-}
-
-fn flushed() -> anyhow::Result<()> {
-    Ok(io::stdout().flush()?)
 }
 
 /// Whether the reader of our output went away, as `head` does.

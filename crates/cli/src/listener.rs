@@ -1,5 +1,6 @@
 //! Progress on a terminal, and Ctrl-C.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use engine::Cancel;
@@ -25,13 +26,25 @@ pub(crate) fn is_interrupted() -> bool {
     QUIET.is_set()
 }
 
-/// Shows the step at work on a terminal, and nothing in a pipe.
-pub(crate) struct Terminal {
-    bar: ProgressBar,
+/// Locks what no panic can leave half-changed.
+pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Terminal {
+/// Shows the step at work on a terminal, and nothing in a pipe.
+pub(crate) struct Terminal<'a> {
+    bar: ProgressBar,
+    go_on: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl<'a> Terminal<'a> {
+    /// For work that Ctrl-C ends.
     pub(crate) fn new() -> Self {
+        Self::until(&|| true)
+    }
+
+    /// For work that also ends when `go_on` does not hold.
+    pub(crate) fn until(go_on: &'a (dyn Fn() -> bool + Sync)) -> Self {
         // Draws on the standard error, and only if that is a terminal.
         let bar = ProgressBar::new(0);
         if let Ok(style) =
@@ -40,7 +53,7 @@ impl Terminal {
             bar.set_style(style);
         }
         bar.enable_steady_tick(Duration::from_millis(120));
-        Self { bar }
+        Self { bar, go_on }
     }
 
     /// Takes the bar off the screen.
@@ -49,18 +62,18 @@ impl Terminal {
     }
 }
 
-impl Progress for Terminal {
+impl Progress for Terminal<'_> {
     fn advance(&self, what: &str, done: u64, total: u64) -> bool {
         if !self.bar.is_hidden() {
             self.bar.set_message(what.to_owned());
             self.bar.set_length(total.max(1));
             self.bar.set_position(done);
         }
-        !is_interrupted()
+        !is_interrupted() && (self.go_on)()
     }
 }
 
-impl Listener for Terminal {
+impl Listener for Terminal<'_> {
     fn step_begins(&self, number: usize, label: &str) {
         self.bar.set_prefix(format!("{} {label}", number + 1));
         self.bar.set_message(String::new());
@@ -68,26 +81,4 @@ impl Listener for Terminal {
     }
 
     fn step_done(&self, _: usize, _: &StepDone) {}
-}
-
-/// Another listener, and a reason of its own to stop.
-pub(crate) struct Stopping<'a> {
-    pub(crate) listener: &'a (dyn Listener + Sync),
-    pub(crate) go_on: &'a (dyn Fn() -> bool + Sync),
-}
-
-impl Progress for Stopping<'_> {
-    fn advance(&self, what: &str, done: u64, total: u64) -> bool {
-        self.listener.advance(what, done, total) && (self.go_on)()
-    }
-}
-
-impl Listener for Stopping<'_> {
-    fn step_begins(&self, number: usize, label: &str) {
-        self.listener.step_begins(number, label);
-    }
-
-    fn step_done(&self, number: usize, done: &StepDone) {
-        self.listener.step_done(number, done);
-    }
 }

@@ -1,10 +1,12 @@
 //! From the paths on the command line to recipes.
 
 use std::collections::HashSet;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use engine::{Engine, Loaded, Options, Source, Values};
+use walkdir::{DirEntry, WalkDir};
 
 use crate::args::{RecipeArgs, ValueArgs};
 
@@ -22,27 +24,21 @@ pub(crate) fn load_recipe(
     engine: &Engine,
 ) -> anyhow::Result<Loaded> {
     let source = engine.open(path).map_err(anyhow::Error::msg)?;
-    load_text(
-        &source,
-        (&values.set, values.preset.as_deref()),
-        out,
-        budget,
-        engine,
-    )
+    load_text(&source, values, out, budget, engine)
 }
 
 /// The same for a recipe whose text is known; paths among the values are seen from the working directory.
 pub(crate) fn load_text(
     source: &Source,
-    (set, preset): (&[(String, String)], Option<&str>),
+    values: &ValueArgs,
     out: &Path,
     budget: u64,
     engine: &Engine,
 ) -> anyhow::Result<Loaded> {
     let folder = std::env::current_dir().context("cannot tell the working directory")?;
     let values = Values {
-        set,
-        preset,
+        set: &values.set,
+        preset: values.preset.as_deref(),
         folder: Some(&folder),
     };
     let options = Options {
@@ -73,7 +69,7 @@ pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<Found>> {
     let mut found = Vec::new();
     for path in paths {
         if path.is_dir() {
-            search(path, path, &mut found)?;
+            search(path, &mut found)?;
         } else {
             anyhow::ensure!(
                 path.exists(),
@@ -93,30 +89,26 @@ pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<Found>> {
     Ok(found)
 }
 
-fn search(top: &Path, folder: &Path, found: &mut Vec<Found>) -> anyhow::Result<()> {
-    let list = || -> std::io::Result<Vec<(PathBuf, bool)>> {
-        let entries = std::fs::read_dir(folder)?.map(|entry| {
-            let entry = entry?;
-            Ok((entry.path(), entry.file_type()?.is_dir()))
-        });
-        entries.collect()
+fn search(top: &Path, found: &mut Vec<Found>) -> anyhow::Result<()> {
+    let is_meant = |entry: &DirEntry| {
+        let name = entry.file_name().to_string_lossy();
+        let is_assets = entry.file_type().is_dir() && name == "assets";
+        entry.depth() == 0 || !(name.starts_with('.') || is_assets)
     };
-    let mut here = list().with_context(|| format!("cannot list {}", folder.display()))?;
-    here.sort();
-    for (path, is_folder) in here {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        if name.starts_with('.') {
-            continue;
-        }
-        if is_folder {
-            if name != "assets" {
-                search(top, &path, found)?;
-            }
-        } else if path.extension().is_some_and(|e| e == "ron") && !name.ends_with(".sweep.ron") {
-            let own_folder = path.strip_prefix(top).unwrap_or(&path).with_extension("");
+    let entries = WalkDir::new(top).sort_by_file_name().into_iter();
+    for entry in entries.filter_entry(is_meant) {
+        let entry = entry.map_err(|error| {
+            let folder = error.path().unwrap_or(top).display().to_string();
+            anyhow::Error::new(io::Error::from(error)).context(format!("cannot list {folder}"))
+        })?;
+        let path = entry.path();
+        let is_recipe = !entry.file_type().is_dir()
+            && path.extension().is_some_and(|e| e == "ron")
+            && !entry.file_name().to_string_lossy().ends_with(".sweep.ron");
+        if is_recipe {
             found.push(Found {
-                path,
-                own_folder,
+                path: path.to_path_buf(),
+                own_folder: path.strip_prefix(top).unwrap_or(path).with_extension(""),
                 is_named: false,
             });
         }

@@ -7,6 +7,7 @@ use std::path::Path;
 use recipe::{LineIndex, Origin, Outcome, Recipe, Source, StepDone};
 
 use engine::Loaded;
+use serde::Serialize;
 use store::{Disk, NewFile, Store, StoreError, folder_of};
 
 /// What files say of where they come from.
@@ -15,6 +16,11 @@ pub(crate) const STAMP: &str = concat!("meshwright ", env!("CARGO_PKG_VERSION"))
 /// Writes to the standard output. An error that a broken pipe causes is told apart by the caller.
 pub(crate) fn print(text: &str) -> io::Result<()> {
     io::stdout().write_all(text.as_bytes())
+}
+
+/// Prints a report as JSON.
+pub(crate) fn print_json(report: &impl Serialize) -> anyhow::Result<()> {
+    Ok(print(&(serde_json::to_string_pretty(report)? + "\n"))?)
 }
 
 /// Writes to the standard error. If nobody reads that, there is nobody to tell.
@@ -42,24 +48,17 @@ pub(crate) fn show_texts(sources: &[Source], diagnostics: &[recipe::Diagnostic])
 
 /// The steps as a table: counts after each, and its time.
 pub(crate) fn step_table(steps: &[StepDone]) -> String {
-    let mut rows = vec![
-        ["step", "vertices", "edges", "faces", "time"]
-            .map(str::to_owned)
-            .to_vec(),
-    ];
+    let mut rows = vec![heads(["step", "vertices", "edges", "faces", "time"])];
     for (i, step) in steps.iter().enumerate() {
-        let count = |n: usize| grouped(n as u64);
+        let count = |n| grouped(n as u64);
         let time = match step.ran {
             Some(_) => format!("{:.1} ms", step.time.as_secs_f64() * 1e3),
             None => "cached".to_owned(),
         };
-        rows.push(vec![
-            format!("{:>2} {}", i + 1, step.label),
-            count(step.vertices),
-            count(step.edges),
-            count(step.faces),
-            time,
-        ]);
+        let mut row = vec![format!("{:>2} {}", i + 1, step.label)];
+        row.extend([step.vertices, step.edges, step.faces].map(count));
+        row.push(time);
+        rows.push(row);
     }
     table(&rows)
 }
@@ -83,15 +82,17 @@ pub(crate) fn step_notes(steps: &[StepDone]) -> String {
     text
 }
 
+/// The first row of a table.
+pub(crate) fn heads<const N: usize>(heads: [&str; N]) -> Vec<String> {
+    heads.map(str::to_owned).to_vec()
+}
+
 /// Rows in columns: the first to the left, the others to the right.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |c: usize| {
-        rows.iter()
-            .filter_map(|row| row.get(c))
-            .map(|cell| cell.chars().count())
-            .max()
-            .unwrap_or(0)
+        let cells = rows.iter().filter_map(|row| row.get(c));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
     };
     let widths: Vec<usize> = (0..columns).map(width).collect();
     let mut text = String::new();
@@ -131,7 +132,7 @@ pub(crate) fn grouped(n: u64) -> String {
 
 /// Where the value of each parameter comes from: of the recipe, and of those that it calls.
 pub(crate) fn explain(recipe: &Recipe) -> String {
-    let mut rows = vec![["parameter", "value", "from"].map(str::to_owned).to_vec()];
+    let mut rows = vec![heads(["parameter", "value", "from"])];
     for scope in &recipe.scopes {
         let path = recipe.sources[scope.source].path.display();
         for parameter in &scope.parameters {
@@ -139,11 +140,8 @@ pub(crate) fn explain(recipe: &Recipe) -> String {
                 None => parameter.name.clone(),
                 Some(_) => format!("{path}: {}", parameter.name),
             };
-            rows.push(vec![
-                name,
-                parameter.value.to_string(),
-                origin(&parameter.origin),
-            ]);
+            let (value, from) = (parameter.value.to_string(), origin(&parameter.origin));
+            rows.push(vec![name, value, from]);
         }
     }
     let order = "(--set goes before a preset, and a preset before the recipe's default)";
@@ -176,29 +174,37 @@ pub(crate) fn origin(origin: &Origin) -> String {
     }
 }
 
+/// A diagnostic as JSON.
+#[derive(Serialize)]
+pub(crate) struct ProblemJson {
+    severity: &'static str,
+    file: Option<String>,
+    line: Option<usize>,
+    column: Option<usize>,
+    message: String,
+    help: Option<String>,
+}
+
 /// Diagnostics as JSON.
 pub(crate) fn problems_json(
     diagnostics: &[recipe::Diagnostic],
     sources: &[Source],
-) -> serde_json::Value {
+) -> Vec<ProblemJson> {
     let lines: Vec<LineIndex> = sources.iter().map(|s| LineIndex::new(&s.text)).collect();
-    diagnostics
-        .iter()
-        .map(|d| {
-            let place = d
-                .span
-                .and_then(|span| Some(lines.get(d.source)?.position(span.start)));
-            let file = sources.get(d.source).map(|s| s.path.display().to_string());
-            serde_json::json!({
-                "severity": d.severity.name(),
-                "file": file,
-                "line": place.map(|p| p.0),
-                "column": place.map(|p| p.1),
-                "message": d.message,
-                "help": d.help,
-            })
-        })
-        .collect()
+    let problem = |d: &recipe::Diagnostic| {
+        let place = d
+            .span
+            .and_then(|span| Some(lines.get(d.source)?.position(span.start)));
+        ProblemJson {
+            severity: d.severity.name(),
+            file: sources.get(d.source).map(|s| s.path.display().to_string()),
+            line: place.map(|p| p.0),
+            column: place.map(|p| p.1),
+            message: d.message.clone(),
+            help: d.help.clone(),
+        }
+    };
+    diagnostics.iter().map(problem).collect()
 }
 
 /// A text that stays on its line and cannot steer the terminal.

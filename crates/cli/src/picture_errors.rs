@@ -11,31 +11,29 @@ use view::draw_places;
 use view::sheet::{Cell, SheetStyle, sheet};
 
 use crate::args::PictureErrorsArgs;
-use crate::listener::QUIET;
+use crate::listener::{QUIET, lock};
 use crate::output::{STAMP, complain, shown, write_whole};
 
 impl PictureErrorsArgs {
-    /// The pictures of a file, if they are wanted: beside each other, named after it and numbered. Each may take so
-    /// many bytes of memory.
-    pub(crate) fn of(&self, file: &Path, budget: u64) -> Option<Pictures> {
-        let name = file.file_stem().unwrap_or_default();
-        self.named(Path::new(name), budget)
+    /// The pictures of a file: beside each other, named after it and numbered. Each may take so many bytes of memory.
+    pub(crate) fn of(&self, file: &Path, budget: u64) -> Pictures {
+        self.named(Path::new(file.file_stem().unwrap_or_default()), budget)
     }
 
     /// The same with a name that may have folders.
-    pub(crate) fn named(&self, name: &Path, budget: u64) -> Option<Pictures> {
-        let folder = self.picture_errors.as_deref()?;
-        let here = Path::new(".");
-        let base = if folder == here {
-            name.to_path_buf()
-        } else {
-            folder.join(name)
-        };
-        Some(Pictures {
+    pub(crate) fn named(&self, name: &Path, budget: u64) -> Pictures {
+        let base = self.picture_errors.as_deref().map(|folder| {
+            if folder == Path::new(".") {
+                name.to_path_buf()
+            } else {
+                folder.join(name)
+            }
+        });
+        Pictures {
             base,
             budget,
             drawn: Mutex::default(),
-        })
+        }
     }
 }
 
@@ -45,10 +43,11 @@ const MOST: usize = 20;
 /// Larger files are not pictures that a recipe makes.
 const LARGEST: u64 = 64 << 20;
 
-/// Pictures that are drawn during a run.
+/// Pictures that are drawn during a run, if they are wanted.
+#[derive(Default)]
 pub(crate) struct Pictures {
-    /// How their paths begin.
-    base: PathBuf,
+    /// How their paths begin; `None` if nothing is drawn.
+    base: Option<PathBuf>,
     /// The bytes that each may take.
     budget: u64,
     drawn: Mutex<Drawn>,
@@ -67,29 +66,31 @@ struct Drawn {
 impl Pictures {
     /// Draws places of a scene, unless many were drawn before. Why one could not be drawn is told with the others.
     pub(crate) fn draw(&self, scene: &Scene, places: &[Place], caption: &str) {
-        self.add(caption, || self.of_scene(scene, places, caption));
+        let (budget, progress) = (self.budget, &QUIET);
+        self.add(caption, || {
+            Ok(draw_places(scene, places, caption, budget, progress)?)
+        });
     }
 
     /// Draws a failure of a run.
     fn draw_failure(&self, failure: &Failure) {
         let message = &failure.diagnostic.message;
-        self.add(message, || {
-            match failure.found.map(|f| self.of_difference(f)) {
-                None | Some(Ok(None)) => self.of_scene(failure.scene, failure.places, message),
-                Some(image) => image,
-            }
-        });
+        match failure.found.map(|found| self.of_difference(found)) {
+            None | Some(Ok(None)) => self.draw(failure.scene, failure.places, message),
+            Some(image) => self.add(message, || image),
+        }
     }
 
     /// Writes an image, if there is anything to see.
     fn add(&self, caption: &str, draw: impl FnOnce() -> anyhow::Result<Option<Image>>) {
-        let mut drawn = self.drawn();
+        let Some(base) = &self.base else { return };
+        let mut drawn = lock(&self.drawn);
         let number = drawn.files.len() + drawn.problems.len() + 1;
         if number > MOST {
             drawn.further += 1;
             return;
         }
-        let mut path = self.base.clone().into_os_string();
+        let mut path = base.clone().into_os_string();
         path.push(format!("-error-{number}.png"));
         let path = PathBuf::from(path);
         let write = |image: Image| write_whole(&path, &image.to_png(&[("Software", STAMP)])?);
@@ -102,13 +103,13 @@ impl Pictures {
 
     /// The files that were written.
     pub(crate) fn paths(&self) -> Vec<PathBuf> {
-        let drawn = self.drawn();
+        let drawn = lock(&self.drawn);
         drawn.files.iter().map(|(path, _)| path.clone()).collect()
     }
 
     /// Says which pictures there are.
     pub(crate) fn tell(&self) {
-        for (path, caption) in &self.drawn().files {
+        for (path, caption) in &lock(&self.drawn).files {
             complain(&format!("see {}: {}\n", path.display(), shown(caption)));
         }
         self.warn();
@@ -116,27 +117,15 @@ impl Pictures {
 
     /// Says which pictures there are not.
     pub(crate) fn warn(&self) {
-        let drawn = self.drawn();
+        let drawn = lock(&self.drawn);
         for problem in &drawn.problems {
             complain(&format!("warning: a failure was not drawn: {problem}\n"));
         }
         if drawn.further > 0 {
             let n = drawn.further;
-            complain(&format!(
-                "warning: failures behind the first {MOST} were not drawn: {n}\n"
-            ));
+            let what = format!("failures behind the first {MOST} were not drawn: {n}");
+            complain(&format!("warning: {what}\n"));
         }
-    }
-
-    /// A picture of places of a scene, if there is anything to see.
-    fn of_scene(
-        &self,
-        scene: &Scene,
-        places: &[Place],
-        caption: &str,
-    ) -> anyhow::Result<Option<Image>> {
-        let image = draw_places(scene, places, caption, self.budget, &QUIET)?;
-        Ok(image)
     }
 
     /// The picture that was expected, the one that was found, and where they differ; `None` if these are no pictures of
@@ -151,9 +140,8 @@ impl Pictures {
         else {
             return Ok(None);
         };
-        let is_png = golden
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("png"));
+        let ending = golden.extension().unwrap_or_default();
+        let is_png = ending.eq_ignore_ascii_case("png");
         let is_small = std::fs::metadata(golden).is_ok_and(|file| file.len() <= LARGEST);
         if !(is_png && is_small) {
             return Ok(None);
@@ -163,18 +151,10 @@ impl Pictures {
             return Ok(None);
         };
         let difference = difference(&expected, &found, *tolerance);
-        let images = [
-            (Some(&expected), "expected"),
-            (Some(&found), "found"),
-            (difference.as_ref(), "difference"),
-        ];
-        let cells: Vec<Cell> = (images.into_iter())
-            .filter_map(|(image, caption)| {
-                Some(Cell {
-                    image: image?,
-                    caption,
-                })
-            })
+        let images = [Some(&expected), Some(&found), difference.as_ref()];
+        let captions = ["expected", "found", "difference"];
+        let cells: Vec<Cell> = (images.into_iter().zip(captions))
+            .filter_map(|(image, caption)| image.map(|image| Cell { image, caption }))
             .collect();
         // Wide ones stand below each other.
         let is_wide =
@@ -185,18 +165,12 @@ impl Pictures {
         };
         Ok(Some(sheet(&cells, &style, self.budget)?))
     }
-
-    fn drawn(&self) -> std::sync::MutexGuard<'_, Drawn> {
-        let drawn = self.drawn.lock();
-        drawn.unwrap_or_else(std::sync::PoisonError::into_inner)
-    }
 }
 
 /// A listener that draws the failures of a run too.
 pub(crate) struct Picturing<'a> {
     pub(crate) listener: &'a dyn Listener,
-    /// Where to; nowhere if `None`.
-    pub(crate) pictures: Option<&'a Pictures>,
+    pub(crate) pictures: &'a Pictures,
 }
 
 impl Progress for Picturing<'_> {
@@ -219,12 +193,12 @@ impl Listener for Picturing<'_> {
     }
 
     fn failed(&self, failure: &Failure) {
-        if let Some(pictures) = self.pictures {
-            pictures.draw_failure(failure);
+        if self.wants_places() {
+            self.pictures.draw_failure(failure);
         }
     }
 
     fn wants_places(&self) -> bool {
-        self.pictures.is_some()
+        self.pictures.base.is_some()
     }
 }

@@ -64,16 +64,15 @@ impl Protocol {
         let is_inside = is_set("TMUX") || term.starts_with("screen") || term.starts_with("tmux");
         let konsole: u32 = text("KONSOLE_VERSION").parse().unwrap_or(0);
         let iterm = ["iTerm.app", "WezTerm", "mintty"].contains(&program.as_str());
+        let sixel = ["foot", "mlterm", "yaft"]
+            .iter()
+            .any(|t| term.starts_with(t));
         if is_inside {
         } else if is_set("KITTY_WINDOW_ID") || term.contains("kitty") || term.contains("ghostty") {
             return Self::Kitty;
         } else if iterm || text("LC_TERMINAL") == "iTerm2" || konsole >= 220_400 {
             return Self::Iterm;
-        } else if ["foot", "mlterm", "yaft"]
-            .iter()
-            .any(|t| term.starts_with(t))
-            || term.contains("sixel")
-        {
+        } else if sixel || term.contains("sixel") {
             return Self::Sixel;
         }
         match text("COLORTERM").as_str() {
@@ -204,17 +203,10 @@ fn reduced(image: &Image, columns: u32) -> Image {
 /// Pairs of pixels, one above the other; what is less than half opaque is none.
 fn pairs(image: &Image) -> impl Iterator<Item = Vec<[Option<[u8; 3]>; 2]>> {
     let seen = |[r, g, b, a]: [u8; 4]| (a >= 128).then_some([r, g, b]);
-    let rows = image.pixels.chunks(2 * image.width as usize);
-    rows.map(move |rows| {
-        let (above, below) = rows.split_at(image.width as usize);
-        let below = below.iter().map(move |&p| seen(p));
-        let below = below.chain(std::iter::repeat(None));
-        above
-            .iter()
-            .map(move |&p| seen(p))
-            .zip(below)
-            .map(|(p, q)| [p, q])
-            .collect()
+    let width = image.width as usize;
+    image.pixels.chunks(2 * width).map(move |rows| {
+        let below = |x: usize| rows.get(width + x).copied().and_then(seen);
+        (0..width).map(|x| [seen(rows[x]), below(x)]).collect()
     })
 }
 
@@ -254,18 +246,15 @@ fn blocks(image: &Image, all_colors: bool) -> Vec<u8> {
 fn of_xterm([r, g, b]: [u8; 3]) -> u32 {
     const STEPS: [u8; 6] = [0, 95, 135, 175, 215, 255];
     let distance = |p: [u8; 3]| -> u32 {
-        let squares = p
-            .iter()
-            .zip([r, g, b])
-            .map(|(&p, q)| u32::from(p.abs_diff(q)).pow(2));
-        squares.sum()
+        let pairs = p.into_iter().zip([r, g, b]);
+        pairs.map(|(p, q)| u32::from(p.abs_diff(q)).pow(2)).sum()
     };
     let cube = (0..216_usize).map(|i| [STEPS[i / 36], STEPS[i / 6 % 6], STEPS[i % 6]]);
     let grays = (0..24_u8).map(|i| [8 + 10 * i; 3]);
-    let colors = (16..).zip(cube.chain(grays));
-    colors
-        .min_by_key(|&(_, color)| distance(color))
-        .map_or(16, |(i, _)| i)
+    let nearest = (16..)
+        .zip(cube.chain(grays))
+        .min_by_key(|&(_, color)| distance(color));
+    nearest.map_or(16, |(i, _)| i)
 }
 
 fn letters(image: &Image) -> Vec<u8> {

@@ -17,11 +17,7 @@ impl Reader for FileReader {
         let loaded =
             mesh_io::read(&*files.store, path, &options).map_err(|error| error.to_string())?;
         for file in loaded.files {
-            if file.is_read {
-                files.has_read(file.path);
-            } else {
-                files.has_looked_for(file.path);
-            }
+            files.has_used(file.path, file.is_read);
         }
         Ok(loaded.objects)
     }

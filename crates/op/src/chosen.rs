@@ -1,5 +1,7 @@
 //! The objects that a step acts on: those in `on:`, or else all of the kind that its operation works on.
 
+use std::borrow::Cow;
+
 use bezier::Curve;
 use glam::DVec2;
 use scene::{Geometry, Scene};
@@ -92,6 +94,18 @@ pub fn chosen(
             .map_or_else(|| is_wanted(&o.geometry), |on| on.contains(&o.name))
     });
     Ok(chosen.map(|o| o.name.clone()).collect())
+}
+
+/// The objects that a step acts on: those in `on:`, or else all.
+pub fn chosen_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
+    let Some(on) = cx.on else {
+        return Cow::Borrowed(scene);
+    };
+    let mut chosen = Scene::new();
+    for object in scene.objects().iter().filter(|o| on.contains(&o.name)) {
+        chosen.insert(object.clone()).expect("names are unique");
+    }
+    Cow::Owned(chosen)
 }
 
 /// Plans an operation on curves. `change` is called with the number of control points of each and returns what it

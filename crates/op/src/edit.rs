@@ -4,7 +4,7 @@ use mesh::{EdgeId, EditError, Element, FaceId, HalfEdgeId, Mesh, VertexId};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::{Context, OpError, Range, Report};
+use crate::{Context, OpError, Problem, Range, Report};
 
 /// What to do when an edit of a selected element is refused.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
@@ -24,6 +24,26 @@ impl OnRefusal {
         match self {
             Self::Error => selected,
             Self::Skip => selected.or_less(),
+        }
+    }
+
+    /// What is told before the run of an edit that will be refused.
+    pub fn problem(self, message: impl Into<String>) -> Problem {
+        match self {
+            Self::Error => Problem::error(message),
+            Self::Skip => Problem::warning(message),
+        }
+    }
+
+    /// Fails with a refusal, or counts it.
+    ///
+    /// # Errors
+    ///
+    /// `refused` for [`OnRefusal::Error`], and if it is no refusal.
+    pub fn refuse(self, refused: OpError, report: &mut Report) -> Result<(), OpError> {
+        match self {
+            Self::Error => Err(refused),
+            Self::Skip => report.refuse(refused),
         }
     }
 }
@@ -116,7 +136,7 @@ pub fn edit_each<I: Edited>(
             match on_refusal {
                 OnRefusal::Error => return Err(refused()),
                 OnRefusal::Skip => {
-                    report.count_refused(refusal.into(), 1, || refused().to_string())
+                    report.count_refused(refusal.into(), 1, || refused().to_string());
                 }
             }
         } else {

@@ -125,6 +125,15 @@ impl Files {
         self.log.note(FileUse::Read(path.into()));
     }
 
+    /// Says that a file was read, or that it was only looked whether it is there.
+    pub fn has_used(&self, path: PathBuf, is_read: bool) {
+        self.log.note(if is_read {
+            FileUse::Read(path)
+        } else {
+            FileUse::LookedFor(path)
+        });
+    }
+
     /// Says that it was looked whether there is a plain file of this name, without reading it.
     pub fn has_looked_for(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::LookedFor(path.into()));

@@ -58,7 +58,7 @@ mod source;
 mod tag;
 pub mod test;
 
-pub use chosen::{Wanted, change_curves, chosen, plan_curves};
+pub use chosen::{Wanted, change_curves, chosen, chosen_scene, plan_curves};
 pub use context::Context;
 pub use edit::{Edited, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};

@@ -1,7 +1,7 @@
 //! What is known of a scene before anything runs: kinds, counts, attributes and bytes.
 
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use mesh::{CORNER_NORMAL, Domain, Rule, VERTEX_NORMAL};
 
@@ -31,6 +31,11 @@ impl Range {
     /// From 0 to this number.
     pub const fn at_most(max: u64) -> Self {
         Self { min: 0, max }
+    }
+
+    /// From one number to the other.
+    pub const fn between(min: u64, max: u64) -> Self {
+        Self { min, max }
     }
 
     /// Whether the number is known.
@@ -66,6 +71,15 @@ impl Range {
         }
     }
 
+    /// So much less, not below 0: for a number that is known to be finite.
+    #[must_use]
+    pub const fn less(self, n: u64) -> Self {
+        Self {
+            min: self.min.saturating_sub(n),
+            max: self.max.saturating_sub(n),
+        }
+    }
+
     /// The product of two counts.
     #[must_use]
     pub const fn times(self, other: Self) -> Self {
@@ -96,12 +110,12 @@ impl Range {
         }
     }
 
-    /// The lower of two counts.
+    /// The same, but at most `cap`.
     #[must_use]
-    pub fn capped(self, cap: Self) -> Self {
+    pub fn capped(self, cap: u64) -> Self {
         Self {
-            min: self.min.min(cap.min),
-            max: self.max.min(cap.max),
+            min: self.min.min(cap),
+            max: self.max.min(cap),
         }
     }
 }
@@ -144,10 +158,7 @@ impl MeshPlan {
             vertices: Range::ANY,
             edges: Range::ANY,
             faces: Range::ANY,
-            degrees: Range {
-                min: 3,
-                max: u64::MAX,
-            },
+            degrees: Range::between(3, u64::MAX),
             attributes: Vec::new(),
             others: true,
         }
@@ -172,10 +183,7 @@ impl MeshPlan {
             vertices: Range::exactly(mesh.n_vertices() as u64),
             edges: Range::exactly(mesh.n_edges() as u64),
             faces: Range::exactly(mesh.n_faces() as u64),
-            degrees: Range {
-                min: degrees().min().unwrap_or(3),
-                max: degrees().max().unwrap_or(3),
-            },
+            degrees: Range::between(degrees().min().unwrap_or(3), degrees().max().unwrap_or(3)),
             attributes: mesh
                 .attributes()
                 .iter()
@@ -193,6 +201,24 @@ impl MeshPlan {
     /// Whether all faces are triangles for certain.
     pub fn is_triangles(&self) -> bool {
         self.degrees == Range::exactly(3)
+    }
+
+    /// The corners of so many of the faces: all faces together have no more corners than there are half-edges.
+    pub fn corners_of(&self, faces: Range) -> Range {
+        faces.times(self.degrees).capped(self.edges.by(2).max)
+    }
+
+    /// Adds elements.
+    pub fn grow(&mut self, vertices: Range, edges: Range, faces: Range) {
+        self.vertices = self.vertices.plus(vertices);
+        self.edges = self.edges.plus(edges);
+        self.faces = self.faces.plus(faces);
+    }
+
+    /// The message about a vertex of this number, if the mesh cannot have one.
+    pub fn no_vertex(&self, number: u32) -> Option<String> {
+        let n = self.vertices.max;
+        (u64::from(number) >= n).then(|| format!("there is no vertex {number}, only {n} vertices"))
     }
 
     /// Adds an attribute that is there for certain.
@@ -315,48 +341,64 @@ impl Plan {
     }
 
     /// Adds an object; a problem if its name is taken.
-    pub fn insert(&mut self, name: &str, geometry: PlannedGeometry) -> Vec<Problem> {
+    pub fn insert(&mut self, name: &str, geometry: PlannedGeometry) -> Option<Problem> {
         if self.places.is_empty() {
             let names = self.objects.iter().map(|o| o.name.clone());
             self.places = names.zip(0..).collect();
         }
-        if self.object(name).is_some() {
-            let message = format!("an object named \"{name}\" is in the scene already");
-            return vec![Problem::error(message).at(["name"])];
+        let taken = self.taken(name, "name");
+        if taken.is_none() {
+            self.places.insert(name.to_owned(), self.objects.len());
+            self.objects.push(PlannedObject {
+                name: name.to_owned(),
+                geometry,
+            });
         }
-        self.places.insert(name.to_owned(), self.objects.len());
-        self.objects.push(PlannedObject {
-            name: name.to_owned(),
-            geometry,
-        });
-        Vec::new()
+        taken
     }
 
-    /// A problem for each name that no object has, with the names there are. `field` is the parameter
-    /// that names them.
-    pub fn check_names<'n>(
-        &self,
-        names: impl IntoIterator<Item = &'n str>,
-        field: &str,
-    ) -> Vec<Problem> {
-        let known = || {
-            let names = self.objects.iter().map(|o| format!("\"{}\"", o.name));
-            let names: Vec<_> = names.collect();
-            if names.is_empty() {
-                "none".to_owned()
-            } else {
-                names.join(", ")
-            }
+    /// A problem if an object has this name, which `field` gives to another one.
+    pub fn taken(&self, name: &str, field: &str) -> Option<Problem> {
+        self.object(name)?;
+        let message = scene::DuplicateName(name.to_owned()).to_string();
+        Some(Problem::error(message).at([field]))
+    }
+
+    /// A problem if no object has the name, with the names there are. `path` is the parameter that names it.
+    pub fn missing<const N: usize>(&self, name: &str, path: [&str; N]) -> Option<Problem> {
+        if self.incomplete || self.object(name).is_some() {
+            return None;
+        }
+        let known: Vec<_> = (self.objects.iter())
+            .map(|o| format!("\"{}\"", o.name))
+            .collect();
+        let known = match &known[..] {
+            [] => "none".to_owned(),
+            known => known.join(", "),
         };
-        names
-            .into_iter()
-            .filter(|name| !self.incomplete && self.object(name).is_none())
-            .map(|name| {
-                Problem::error(format!("no object is named \"{name}\""))
-                    .at([field])
-                    .help(format!("objects at this point: {}", known()))
-            })
-            .collect()
+        let problem = Problem::error(format!("no object is named \"{name}\"")).at(path);
+        Some(problem.help(format!("objects at this point: {known}")))
+    }
+
+    /// Notes a file that the step writes, and returns what is wrong with its `path`. `check` returns what is wrong
+    /// with its ending.
+    pub fn write(
+        &mut self,
+        cx: &PlanContext,
+        path: &str,
+        check: impl FnOnce(&Path) -> Option<Problem>,
+    ) -> Vec<Problem> {
+        let full = match cx.files.to_write(path) {
+            Ok(full) => full,
+            Err(error) => return vec![Problem::error(error.to_string()).at(["path"])],
+        };
+        let mut problems = Vec::from_iter(check(&full));
+        if self.outputs.contains(&full) {
+            let message = format!("an earlier step writes \"{path}\" too");
+            problems.push(Problem::error(message).at(["path"]));
+        }
+        self.outputs.push(full);
+        problems
     }
 }
 

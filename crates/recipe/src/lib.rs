@@ -34,11 +34,11 @@ mod sweep;
 pub use check::{Forecast, StepForecast, check, mebibytes};
 pub use describe::{FieldDoc, TypeDoc, fields, refusals, types};
 pub use diagnostic::render;
-pub use expect::{Expectation, Found, Measured, Metric, Other, Reader};
+pub use expect::{Expectation, Found, Other, Reader};
 pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};
 pub use params::{Move, Param, ParamError};
-pub use read::{MAX_STEPS, Reading, VERSION, Values, read, read_by};
-pub use recipe::{OnLoss, Origin, Parameter, Placed, Recipe, RecipeStep, Scope};
+pub use read::{Reading, VERSION, Values, read, read_by};
+pub use recipe::{MAX_STEPS, OnLoss, Origin, Parameter, Placed, Recipe, RecipeStep, Scope};
 pub use ron_tree::{Diagnostic, LineIndex, Severity, Span};
 pub use run::{
     CachedRun, Change, Done, Failure, Finding, Listener, Outcome, Settings, Silent, StepCache,
@@ -50,7 +50,10 @@ pub use shape::did_you_mean;
 pub use source::Source;
 pub use stamp::Stamp;
 pub use substitute::substitute;
-pub use sweep::{Axis, Grid, MAX_CELLS, SWEEP_VERSION, Setting, Sweep, SweepReading, read_sweep};
+pub use sweep::{
+    Axis, Grid, MAX_CELLS, Measured, Metric, SWEEP_VERSION, Setting, Sweep, SweepReading,
+    read_sweep,
+};
 
 #[cfg(test)]
 mod tests;

@@ -12,6 +12,9 @@ use crate::params::Param;
 use crate::source::Source;
 use ron_tree::{Diagnostic, Span, Value};
 
+/// The most steps that calls and repetitions may become.
+pub const MAX_STEPS: usize = 100_000;
+
 /// A recipe that was read, as far as it could be.
 #[derive(Debug)]
 pub struct Recipe {
@@ -106,6 +109,27 @@ impl OnLoss {
     /// The first loss that is not allowed.
     pub fn forbidden<'l>(&self, losses: &'l [Loss]) -> Option<&'l Loss> {
         losses.iter().find(|loss| !self.allows(&loss.name))
+    }
+}
+
+/// A step that holds steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Call,
+    Repeat,
+    If,
+}
+
+impl Kind {
+    pub(crate) const ALL: [Self; 3] = [Self::Call, Self::Repeat, Self::If];
+
+    /// The name in recipes.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Call => "Call",
+            Self::Repeat => "Repeat",
+            Self::If => "If",
+        }
     }
 }
 

@@ -9,8 +9,7 @@ use serde_json::{Value as Json, json};
 
 use crate::expect::Expectation;
 use crate::params::Param;
-use crate::read::{Kind, MAX_STEPS};
-use crate::recipe::OnLoss;
+use crate::recipe::{Kind, MAX_STEPS, OnLoss};
 
 /// The operations of a registry and their schemas, each made when it is first asked for: for whoever reads
 /// many recipes, on any number of threads.

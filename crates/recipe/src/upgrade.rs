@@ -9,32 +9,13 @@
 //! by: f64,
 //! ```
 
-use op::{Entry, Registry};
+use op::Registry;
 
 use crate::read::{VERSION, other_version};
 use crate::schema::{self, Schemas};
-use crate::shape::{Checked, check_step, checked};
-use ron_tree::{Diagnostic, LineIndex, Span, Value, ValueKind};
-
-/// An older name in a recipe.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Rename {
-    /// Its place in the text.
-    pub span: Span,
-    /// The older name.
-    pub from: String,
-    /// The name that stands for it now.
-    pub to: String,
-}
-
-impl Rename {
-    /// What the reader says of it.
-    pub(crate) fn warning(&self) -> Diagnostic {
-        let message = format!("`{}` is called `{}` now", self.from, self.to);
-        Diagnostic::warning(self.span, message)
-            .with_help("meshwright upgrade writes the new name into the recipe")
-    }
-}
+pub use crate::shape::Rename;
+use crate::shape::{check_step, checked};
+use ron_tree::{Diagnostic, LineIndex, Value, ValueKind};
 
 /// A recipe in the spelling of today.
 #[derive(Clone, Debug)]
@@ -104,7 +85,7 @@ fn step(written: &Value, schemas: &Schemas, found: &mut Vec<Rename>) {
     let envelope = matches!(written.kind, ValueKind::Struct(_));
     let run = written.field("run").filter(|_| envelope).unwrap_or(written);
     if let Some(entry) = run.name().and_then(|(name, _)| schemas.registry.get(name)) {
-        found.extend(in_step(run, entry, check_step(run, &schemas.of(entry))));
+        found.extend(check_step(run, &schemas.of(entry)).renames_in_step(run, entry.name));
         return;
     }
     for field in written.fields().iter().chain(run.fields()) {
@@ -112,17 +93,6 @@ fn step(written: &Value, schemas: &Schemas, found: &mut Vec<Rename>) {
             step(item, schemas, found);
         }
     }
-}
-
-/// The older names in a step `Name(..)` of this operation that was checked, its own among them.
-pub(crate) fn in_step(run: &Value, entry: &Entry, checked: Checked) -> Vec<Rename> {
-    let own = run.name().filter(|(name, _)| *name != entry.name);
-    let own = own.map(|(name, span)| Rename {
-        span,
-        from: name.to_owned(),
-        to: entry.name.to_owned(),
-    });
-    own.into_iter().chain(checked.renames).collect()
 }
 
 fn expectation(written: &Value, found: &mut Vec<Rename>) {

@@ -9,8 +9,7 @@ use std::slice;
 
 use serde::de::value::BorrowedStrDeserializer;
 use serde::de::{
-    Deserialize, DeserializeOwned, DeserializeSeed, EnumAccess, MapAccess, SeqAccess,
-    VariantAccess, Visitor,
+    DeserializeOwned, DeserializeSeed, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
 };
 use serde::{Deserializer, forward_to_deserialize_any};
 
@@ -200,16 +199,10 @@ impl<'de> Deserializer<'de> for &'de Value {
             ValueKind::String(text) => text,
             _ => return value.expected("a string"),
         };
-        // Recipes hold no bytes, but lists of them.
-        deserialize_byte_buf, visit_byte_buf, value => Vec::deserialize(value)?;
     }
 
     fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
         self.deserialize_str(visitor)
-    }
-
-    fn deserialize_bytes<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
-        self.deserialize_byte_buf(visitor)
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
@@ -309,7 +302,7 @@ impl<'de> Deserializer<'de> for &'de Value {
         self.locate(visitor.visit_unit())
     }
 
-    forward_to_deserialize_any! { identifier }
+    forward_to_deserialize_any! { identifier bytes byte_buf }
 }
 
 /// The items of a list or tuple.

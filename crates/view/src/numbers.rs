@@ -129,20 +129,21 @@ impl ColorBy {
             range,
         });
         let colorings: Vec<Coloring> = colorings.collect();
-        let classes = match map {
-            ColorMap::Classes => classes(&colorings),
-            _ => Vec::new(),
+        let mut shown = Shown {
+            title: self.of.title(),
+            map,
+            range,
+            classes: Vec::new(),
+            legend: self.legend,
         };
-        Ok(Numbers {
-            colorings,
-            shown: Shown {
-                title: self.of.title(),
-                map,
-                range,
-                classes,
-                legend: self.legend,
-            },
-        })
+        if map == ColorMap::Classes {
+            let values = colorings.iter().flat_map(|coloring| &coloring.values);
+            shown
+                .classes
+                .extend(values.filter(|x| x.is_finite()).map(|x| x.floor()));
+            shown.sort_classes();
+        }
+        Ok(Numbers { colorings, shown })
     }
 }
 
@@ -166,25 +167,21 @@ impl Quantity {
     /// One number for each element, by its place, not a number where there is none; `None` if the mesh does
     /// not have this.
     fn values(&self, mesh: &Mesh, others: &[Mesh]) -> Option<(Domain, Vec<f64>)> {
+        let each = |domain, value: &dyn Fn(usize) -> Option<f64>| {
+            let all = 0..mesh.domain_len(domain);
+            let values = all.map(|i| value(i).unwrap_or(f64::NAN));
+            (domain, values.collect())
+        };
         let faces = |value: &dyn Fn(FaceId) -> f64| {
-            let all = (0..mesh.domain_len(Domain::Face)).map(FaceId::new);
-            let value = |f| if mesh.has_face(f) { value(f) } else { f64::NAN };
-            (Domain::Face, all.map(value).collect())
+            let face = |i| Some(FaceId::new(i)).filter(|&f| mesh.has_face(f));
+            each(Domain::Face, &|i| face(i).map(value))
         };
         Some(match self {
-            Self::Valence => {
-                let all = (0..mesh.domain_len(Domain::Vertex)).map(VertexId::new);
-                #[expect(clippy::cast_precision_loss, reason = "a vertex has few edges")]
-                let valence = |v| {
-                    let has = mesh.has_vertex(v);
-                    if has {
-                        mesh.valence(v) as f64
-                    } else {
-                        f64::NAN
-                    }
-                };
-                (Domain::Vertex, all.map(valence).collect())
-            }
+            #[expect(clippy::cast_precision_loss, reason = "a vertex has few edges")]
+            Self::Valence => each(Domain::Vertex, &|i| {
+                let v = VertexId::new(i);
+                mesh.has_vertex(v).then(|| mesh.valence(v) as f64)
+            }),
             Self::SmallestAngle => faces(&|f| {
                 let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
                 angles
@@ -192,12 +189,11 @@ impl Quantity {
                     .to_degrees()
             }),
             Self::Area => faces(&|f| mesh.face_area(f)),
-            Self::DihedralAngle => {
-                let all = (0..mesh.domain_len(Domain::Edge)).map(EdgeId::new);
-                let angle = |e| mesh.has_edge(e).then(|| mesh.dihedral_angle(e)).flatten();
-                let values = all.map(|e| angle(e).map_or(f64::NAN, f64::to_degrees));
-                (Domain::Edge, values.collect())
-            }
+            Self::DihedralAngle => each(Domain::Edge, &|i| {
+                let e = EdgeId::new(i);
+                let angle = mesh.has_edge(e).then(|| mesh.dihedral_angle(e)).flatten();
+                angle.map(f64::to_degrees)
+            }),
             Self::MeanCurvature => (Domain::Vertex, geometry::mean_curvatures(mesh)),
             Self::GaussianCurvature => (Domain::Vertex, geometry::gaussian_curvatures(mesh)),
             Self::Attribute { name, component } => attribute(mesh, name, *component)?,
@@ -285,30 +281,10 @@ fn attribute(mesh: &Mesh, name: &str, component: Option<u32>) -> Option<(Domain,
         Values::Vec2(list) => list.iter().map(|v| of(&v.to_array())).collect(),
         Values::Vec3(list) => list.iter().map(|v| of(&v.to_array())).collect(),
         Values::Vec4(list) => list.iter().map(|v| of(&v.to_array())).collect(),
-        Values::Int(list) => list.iter().map(|&i| of(&[f64::from(i)])).collect(),
-        Values::Tag(list) => list
-            .iter()
-            .map(|&t| of(&[f64::from(u8::from(t))]))
-            .collect(),
+        Values::Int(list) => list.iter().map(|&i| of(&[i.into()])).collect(),
+        Values::Tag(list) => list.iter().map(|&t| of(&[u8::from(t).into()])).collect(),
     };
     Some((domain, values))
-}
-
-/// The values that each have a color of their own, in order.
-fn classes(colorings: &[Coloring]) -> Vec<f64> {
-    let values = colorings.iter().flat_map(|coloring| &coloring.values);
-    sorted(
-        values
-            .filter(|x| x.is_finite())
-            .map(|x| x.floor())
-            .collect(),
-    )
-}
-
-fn sorted(mut values: Vec<f64>) -> Vec<f64> {
-    values.sort_unstable_by(f64::total_cmp);
-    values.dedup();
-    values
 }
 
 impl Shown {
@@ -322,7 +298,12 @@ impl Shown {
             self.range[1] = high;
         }
         self.classes.extend(&other.classes);
-        self.classes = sorted(std::mem::take(&mut self.classes));
+        self.sort_classes();
+    }
+
+    fn sort_classes(&mut self) {
+        self.classes.sort_unstable_by(f64::total_cmp);
+        self.classes.dedup();
     }
 
     /// What the colors mean, if the picture says it.

@@ -58,12 +58,10 @@ pub fn draw_places(
         let (middle, size) = sphere(&first.points);
         let size = size.max(1.2 * around.side).max(0.01 * radius);
         // Not from farther away than the whole.
+        let seen = (1.6 * size).min(radius);
         (
             middle,
-            (1.6 * size)
-                .min(radius)
-                .max(1e-6 * middle.abs().max_element())
-                / TANGENT,
+            seen.max(1e-6 * middle.abs().max_element()) / TANGENT,
         )
     });
     // No camera is that far away.
@@ -201,22 +199,15 @@ fn is_among(
     begin: &HashMap<[u64; 3], Vec<&Place>>,
     is_meant: impl Fn(&&Place) -> bool,
 ) -> bool {
-    let mut half_edges = mesh.face_half_edges(f);
-    half_edges.any(|h| {
-        let places = begin.get(&bits(mesh.position(mesh.origin(h))));
-        places
-            .into_iter()
-            .flatten()
-            .filter(|p| is_meant(p))
-            .any(|place| {
-                let mut at = h;
-                place.points.len() == mesh.degree(f)
-                    && place.points.iter().all(|&p| {
-                        let is_there = mesh.position(mesh.origin(at)) == p;
-                        at = mesh.next(at);
-                        is_there
-                    })
-            })
+    mesh.face_half_edges(f).any(|first| {
+        let places = begin.get(&bits(mesh.position(mesh.origin(first))));
+        let mut places = places.into_iter().flatten().filter(|p| is_meant(p));
+        places.any(|place| {
+            let around = std::iter::successors(Some(first), |&h| Some(mesh.next(h)));
+            let points = around.map(|h| mesh.position(mesh.origin(h)));
+            let n = mesh.degree(f);
+            place.points.len() == n && points.take(n).eq(place.points.iter().copied())
+        })
     })
 }
 
@@ -228,13 +219,10 @@ pub(crate) fn bits(p: DVec3) -> [u64; 3] {
 /// The direction to look from: on the surface, somewhat aside.
 fn direction(normal: DVec3, places: &[Place], center: DVec3) -> DVec3 {
     let aside = DVec3::new(0.5, 0.4, 1.0).normalize();
-    let outwards = places.first().map_or(DVec3::ZERO, |first| {
-        (sphere(&first.points).0 - center).normalize_or_zero()
-    });
-    let mut direction = normal.normalize_or_zero();
-    if direction == DVec3::ZERO {
-        direction = outwards;
-    }
+    let middle = places
+        .first()
+        .map_or(center, |first| sphere(&first.points).0);
+    let direction = normal.normalize_or((middle - center).normalize_or_zero());
     let towards = (direction + 0.45 * aside).normalize_or(aside);
     // Not from straight above: which way is up would turn over.
     let (azimuth, elevation) = angles(towards);
@@ -262,31 +250,36 @@ fn marks(places: &[Place], around: &Around, [width, dot]: [f64; 2], dots: Option
             hidden: 0.0,
         });
     }
-    let mut strokes: Vec<(Vec<DVec3>, Color, f64)> = Vec::new();
+    let mut strokes = Vec::new();
+    let mut stroke = |points: Vec<DVec3>, color: Color, width: f64| {
+        overlays.strokes.push(Stroke {
+            points: points.clone(),
+            color: HALO,
+            width: width + 4.0,
+            hidden: HIDDEN,
+        });
+        strokes.push(Stroke {
+            points,
+            color,
+            width,
+            hidden: HIDDEN,
+        });
+    };
     for place in places {
-        let color = if place.name == Place::EXPECTED {
-            RIGHT
-        } else {
-            WRONG
-        };
+        let is_expected = place.name == Place::EXPECTED;
+        let color = if is_expected { RIGHT } else { WRONG };
         let mut points = place.points.clone();
         let (middle, size) = sphere(&points);
         if points.len() > 2 {
             points.push(points[0]);
         }
         if points.len() > 1 && dots.is_some_and(|below| size < below) {
-            strokes.push((vec![middle], color, dot));
+            stroke(vec![middle], color, dot);
         }
         let width = if points.len() == 1 { dot } else { width };
-        strokes.push((points, color, width));
+        stroke(points, color, width);
     }
-    let halo =
-        |(points, _, width): &(Vec<DVec3>, Color, f64)| stroke(points, HALO, width + 4.0, HIDDEN);
-    overlays.strokes.extend(strokes.iter().map(halo));
-    let marks = strokes
-        .iter()
-        .map(|(points, color, width)| stroke(points, *color, *width, HIDDEN));
-    overlays.strokes.extend(marks);
+    overlays.strokes.extend(strokes);
     overlays
 }
 
@@ -302,35 +295,22 @@ fn beside(direction: DVec3, distance: f64) -> DVec3 {
 fn labels(places: &[Place], beside: DVec3) -> Vec<Label> {
     let named = places.iter().filter(|place| !place.name.is_empty());
     // Names of faces stand in them, others beside a dot or a line.
-    let label = |place: &Place| Label {
-        at: sphere(&place.points).0
-            + if place.points.len() > 2 {
-                DVec3::ZERO
-            } else {
-                beside
-            },
-        text: place.name.clone(),
+    let label = |place: &Place| {
+        let is_face = place.points.len() > 2;
+        let aside = if is_face { DVec3::ZERO } else { beside };
+        Label {
+            at: sphere(&place.points).0 + aside,
+            text: place.name.clone(),
+        }
     };
     named.take(MOST_NAMES).map(label).collect()
-}
-
-fn stroke(points: &[DVec3], color: Color, width: f64, hidden: f64) -> Stroke {
-    Stroke {
-        points: points.to_vec(),
-        color,
-        width,
-        hidden,
-    }
 }
 
 /// The names of the first places, and how many more there are.
 fn names(places: &[Place]) -> String {
     const SHOWN: usize = 8;
-    let names: Vec<&str> = places
-        .iter()
-        .map(|p| p.name.as_str())
-        .filter(|n| !n.is_empty())
-        .collect();
+    let names = places.iter().map(|p| p.name.as_str());
+    let names: Vec<&str> = names.filter(|n| !n.is_empty()).collect();
     let mut text = names[..names.len().min(SHOWN)].join(", ");
     if names.len() > SHOWN {
         text += &format!(" and {} more", names.len() - SHOWN);
@@ -346,11 +326,8 @@ fn sphere(points: &[DVec3]) -> (DVec3, f64) {
     let low = points.iter().fold(first, |a, &b| a.min(b));
     let high = points.iter().fold(first, |a, &b| a.max(b));
     let middle = 0.5 * low + 0.5 * high;
-    let radius = points
-        .iter()
-        .map(|p| p.distance(middle))
-        .fold(0.0, f64::max);
-    (middle, radius)
+    let distances = points.iter().map(|p| p.distance(middle));
+    (middle, distances.fold(0.0, f64::max))
 }
 
 #[cfg(test)]

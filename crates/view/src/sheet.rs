@@ -87,18 +87,10 @@ impl Places {
         };
         let width = cells.iter().map(|c| u64::from(c.image.width)).max();
         let width = width.unwrap_or(0);
-        let rows: Vec<u64> = cells
-            .chunks(columns)
-            .map(|row| {
-                let heights = row.iter().map(|c| u64::from(c.image.height));
-                heights.max().unwrap_or(0)
-            })
-            .collect();
-        let above = if heads.columns.is_empty() {
-            0
-        } else {
-            2 * letters
-        };
+        let height = |row: &[Cell]| row.iter().map(|c| u64::from(c.image.height)).max();
+        let rows = cells.chunks(columns).filter_map(height);
+        let rows: Vec<u64> = rows.collect();
+        let above = u64::from(!heads.columns.is_empty()) * 2 * letters;
         let widths = heads.rows.iter().map(|head| {
             let text = Text::new(Font::Plain, &**head, f64::from(style.letters), style.ink);
             text_width(&text).min(width as f64)
@@ -139,9 +131,8 @@ pub fn sheet_size(
     heads: Heads,
     style: &SheetStyle,
 ) -> Result<(u32, u32), PictureError> {
-    let [width, height] = Places::of(cells, heads, style)
-        .size
-        .map(|side| u32::try_from(side).unwrap_or(u32::MAX));
+    let size = Places::of(cells, heads, style).size;
+    let [width, height] = size.map(|side| u32::try_from(side).unwrap_or(u32::MAX));
     checked_size(width, height)?;
     Ok((width, height))
 }
@@ -193,12 +184,8 @@ pub fn sheet_with_heads(
     for (row, (cells, &high)) in cells.chunks(places.columns).zip(&places.rows).enumerate() {
         if let Some(head) = heads.rows.get(row) {
             let place = DVec2::new(places.beside as f64 / 2.0, top as f64 + high as f64 / 2.0);
-            labels.extend(label(
-                head,
-                style,
-                place + 0.5 * gap as f64 * DVec2::X,
-                places.beside as f64,
-            ));
+            let place = place + 0.5 * gap as f64 * DVec2::X;
+            labels.extend(label(head, style, place, places.beside as f64));
         }
         let mut left = places.beside + gap;
         for (i, cell) in cells.iter().enumerate() {
@@ -347,7 +334,7 @@ mod tests {
     #[test]
     fn captions_stand_below_and_stay_in_their_columns() {
         let image = plain(90, 20, RED);
-        for text in render::figure::ODD_TEXTS
+        for text in render::figure::testing::ODD_TEXTS
             .iter()
             .copied()
             .chain(["a_long_name_".repeat(50).as_str()])
@@ -471,7 +458,7 @@ mod tests {
         let rows: Vec<bool> = (0..60).map(|y| ink(y) > 0).collect();
         let starts = rows.windows(2).filter(|w| !w[0] && w[1]).count();
         assert!(starts >= 2 && !rows[0] && !rows[59], "{rows:?}");
-        for why in render::figure::ODD_TEXTS.iter().copied().chain([
+        for why in render::figure::testing::ODD_TEXTS.iter().copied().chain([
             "",
             &"long ".repeat(10_000),
             &"x".repeat(100_000),

@@ -55,14 +55,11 @@ pub(crate) fn clear(scene: &Scene, place: &Place, preferred: DVec3, near: f64) -
     }
     let best = |limit: f64| {
         let seen = directions.iter().zip(&sight);
-        let seen = seen.filter(|&(_, &sight)| sight >= limit);
-        let towards = |d: &DVec3| d.dot(preferred);
-        seen.map(|(d, _)| *d)
-            .max_by(|a, b| towards(a).total_cmp(&towards(b)))
+        let seen = seen.filter(|&(_, &sight)| sight >= limit).map(|(d, _)| *d);
+        seen.max_by(|a, b| a.dot(preferred).total_cmp(&b.dot(preferred)))
     };
-    best(f64::INFINITY)
-        .or_else(|| best(near))
-        .unwrap_or(preferred)
+    let best = best(f64::INFINITY).or_else(|| best(near));
+    best.unwrap_or(preferred)
 }
 
 fn least(a: Vec<f64>, b: Vec<f64>) -> Vec<f64> {
@@ -95,12 +92,10 @@ fn distance(mesh: &Mesh, f: FaceId, from: DVec3, direction: DVec3) -> f64 {
     let (Some(a), Some(mut b)) = (corners.next(), corners.next()) else {
         return f64::INFINITY;
     };
-    let mut nearest = f64::INFINITY;
-    for c in corners {
-        nearest = nearest.min(triangle([a, b, c], from, direction));
-        b = c;
-    }
-    nearest
+    corners.fold(f64::INFINITY, |nearest, c| {
+        let corners = [a, std::mem::replace(&mut b, c), c];
+        nearest.min(triangle(corners, from, direction))
+    })
 }
 
 /// Möller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997.

@@ -52,17 +52,8 @@ impl MeshOperation for Triangulate {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let cut = self.faces.count(plan);
         // A face of degree d gains d - 3 diagonals, and all together have fewer than corners.
-        let diagonals = cut
-            .times(Range {
-                min: plan.degrees.min.saturating_sub(3),
-                max: plan.degrees.max.saturating_sub(3),
-            })
-            .capped(Range {
-                min: u64::MAX,
-                max: plan.edges.max.saturating_mul(2),
-            });
-        plan.edges = plan.edges.plus(diagonals);
-        plan.faces = plan.faces.plus(diagonals);
+        let diagonals = cut.times(plan.degrees.less(3)).capped(plan.edges.by(2).max);
+        plan.grow(Range::exactly(0), diagonals, diagonals);
         if self.faces == FaceSelection::All {
             plan.degrees = Range::exactly(3);
         } else if cut.max > 0 {

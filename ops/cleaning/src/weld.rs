@@ -48,11 +48,7 @@ impl MeshOperation for Weld {
         plan.edges = plan.edges.or_less();
         plan.faces = plan.faces.or_less();
         // Faces may lose corners, but not below three.
-        plan.degrees.min = plan.degrees.min.min(3);
-        plan.degrees = Range {
-            max: plan.degrees.max.max(3),
-            ..plan.degrees
-        };
+        plan.degrees = plan.degrees.or(Range::exactly(3));
         Vec::new()
     }
 

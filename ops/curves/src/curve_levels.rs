@@ -129,7 +129,7 @@ mod tests {
 
         let mut plan = Plan::default();
         let planned = PlannedGeometry::Curve(Range::exactly(3));
-        assert_eq!(plan.insert("arch", planned), []);
+        assert_eq!(plan.insert("arch", planned), None);
         let cx = PlanContext {
             files: &files,
             on: None,

@@ -113,7 +113,7 @@ mod tests {
         };
         let fields = |points, text| {
             let mut plan = Plan::default();
-            assert_eq!(plan.insert("arch", PlannedGeometry::Curve(points)), []);
+            assert_eq!(plan.insert("arch", PlannedGeometry::Curve(points)), None);
             let problems = step(text).plan(&mut plan, &cx);
             assert_eq!(plan.objects()[0].geometry, PlannedGeometry::Curve(points));
             problems

@@ -110,7 +110,7 @@ mod tests {
         let mut plan = Plan::default();
         assert_eq!(step.plan(&mut plan, &cx).len(), 1);
         let curve = PlannedGeometry::Curve(Range::exactly(3));
-        assert_eq!(plan.insert("arch", curve), []);
+        assert_eq!(plan.insert("arch", curve), None);
         assert_eq!(step.plan(&mut plan, &cx), []);
         assert_eq!(plan.objects()[0].geometry, PlannedGeometry::Polylines);
     }

@@ -155,12 +155,8 @@ impl Tessellate {
             let message = format!("\"{name}\" would have {corners} corners, more than ids");
             return Err(OpError::Parameter(message));
         }
-        let present: u64 = scene
-            .objects()
-            .iter()
-            .filter_map(|o| o.as_mesh())
-            .map(|mesh| mesh.bytes() as u64)
-            .sum();
+        let meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
+        let present: u64 = meshes.map(|mesh| mesh.bytes() as u64).sum();
         let needed = self.planned(patches.len() as u64).bytes().max;
         if present.saturating_add(needed) > cx.budget {
             let budget = cx.budget;
@@ -234,7 +230,7 @@ fn with_copies(mut values: Vec<DVec3>, built: &BuildReport) -> Vec<DVec3> {
 
 fn too_large(error: BezierError) -> OpError {
     match error {
-        BezierError::OutOfMemory { .. } => OpError::Budget(error.to_string()),
+        BezierError::OutOfMemory(_) => OpError::Budget(error.to_string()),
         _ => OpError::Parameter(error.to_string()),
     }
 }

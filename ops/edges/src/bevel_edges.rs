@@ -50,25 +50,15 @@ impl MeshOperation for BevelEdges {
         if done.max > 0 {
             // Four cuts at least. Old vertices go with the first of their edges, and all together have two
             // ends of each edge; new ones have three edges.
-            let cuts = Range {
-                min: done.min.saturating_mul(4),
-                max: plan.edges.by(2).plus(done.by(4)).max,
-            };
+            let cuts = Range::between(done.by(4).min, plan.edges.by(2).plus(done.by(4)).max);
             // A face has as many corners as there are cuts, and later ones can double them.
             let largest = plan.degrees.max.max(plan.edges.max.saturating_add(3));
-            plan.degrees = Range {
-                min: plan.degrees.min.min(4),
-                max: largest.saturating_mul(2),
+            plan.degrees = Range::between(plan.degrees.min.min(4), largest.saturating_mul(2));
+            let without = |gone: u64| Range {
+                min: cuts.min - gone * done.min.min(cuts.min / 4),
+                max: cuts.max.saturating_sub(done.min.saturating_mul(gone)),
             };
-            let grow = |n: Range, gone: u64| {
-                n.plus(Range {
-                    min: cuts.min - gone * done.min.min(cuts.min / 4),
-                    max: cuts.max.saturating_sub(done.min.saturating_mul(gone)),
-                })
-            };
-            plan.vertices = grow(plan.vertices, 2);
-            plan.edges = grow(plan.edges, 1);
-            plan.faces = plan.faces.plus(done);
+            plan.grow(without(2), without(1), done);
         }
         plan.drop_normals();
         Vec::new()

@@ -94,10 +94,8 @@ fn sharpen<I: Id>(
     sharpness: f64,
 ) -> Result<usize, OpError> {
     let name = attribute.name;
-    let mut numbers = match (
-        mesh.get(attribute),
-        mesh.attributes().column(I::DOMAIN, name),
-    ) {
+    let column = mesh.attributes().column(I::DOMAIN, name);
+    let mut numbers = match (mesh.get(attribute), column) {
         (Some(numbers), _) => numbers.to_vec(),
         (None, None) => vec![0.0; mesh.domain_len(I::DOMAIN)],
         (None, Some(column)) => {

@@ -86,11 +86,9 @@ impl MeshOperation for FlipEdges {
                 "FlipEdges turns edges between triangles, but every face has at least {} corners",
                 plan.degrees.min
             );
-            let fails = self.until == Until::Once && self.on_refusal == OnRefusal::Error;
-            let problem = if fails {
-                Problem::error(message)
-            } else {
-                Problem::warning(message)
+            let problem = match self.until {
+                Until::Once => self.on_refusal.problem(message),
+                Until::Delaunay | Until::Valence => Problem::warning(message),
             };
             problems.push(problem.help("cut the faces into triangles first, with Triangulate"));
         }
@@ -126,8 +124,6 @@ impl MeshOperation for FlipEdges {
         })
     }
 }
-
-impl FlipEdges {}
 
 /// Flips edges, and counts the seams that this crossed.
 struct Flips {

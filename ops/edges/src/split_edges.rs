@@ -46,23 +46,12 @@ impl MeshOperation for SplitEdges {
         // Between this many and that many for each split: boundary edges and edges of larger faces
         // give fewer cuts.
         let n = self.edges.count(plan);
-        let each = |least, most| {
-            n.times(Range {
-                min: least,
-                max: most,
-            })
-        };
-        let (cuts, max_degree) = if plan.is_triangles() {
-            (each(1, 2), 3)
-        } else {
+        let cuts = n.times(Range::between(u64::from(plan.is_triangles()), 2));
+        plan.grow(n, n.plus(cuts), cuts);
+        if !plan.is_triangles() {
             // A larger face gains a corner for each of its sides that is split.
-            let doubled = plan.degrees.max.saturating_mul(2);
-            (each(0, 2), doubled)
-        };
-        plan.vertices = plan.vertices.plus(n);
-        plan.edges = plan.edges.plus(n).plus(cuts);
-        plan.faces = plan.faces.plus(cuts);
-        plan.degrees.max = max_degree;
+            plan.degrees.max = plan.degrees.max.saturating_mul(2);
+        }
         Vec::new()
     }
 

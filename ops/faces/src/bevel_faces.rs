@@ -46,21 +46,7 @@ impl MeshOperation for BevelFaces {
     const EXAMPLE: &'static str = "BevelFaces(faces: All, fraction: 0.25, distance: 0.5)";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        let done = self.on_refusal.done(self.faces.count(plan));
-        // All faces together have no more corners than there are half-edges.
-        let half_edges = Range {
-            min: u64::MAX,
-            max: plan.edges.by(2).max,
-        };
-        let corners = done.times(plan.degrees).capped(half_edges);
-        plan.vertices = plan.vertices.plus(corners);
-        plan.edges = plan.edges.plus(corners.by(2));
-        plan.faces = plan.faces.plus(corners);
-        if corners.max > 0 {
-            plan.degrees.min = plan.degrees.min.min(4);
-            plan.degrees.max = plan.degrees.max.max(4);
-        }
-        plan.drop_normals();
+        crate::plan_rings(plan, self.on_refusal.done(self.faces.count(plan)));
         Vec::new()
     }
 

@@ -89,11 +89,8 @@ fn one_by_one(mesh: &mut Mesh, faces: Vec<FaceId>, cx: &Context) -> Result<Repor
                 refused.push((f, refusal));
             }
             if done % 4096 == 4095 {
-                cx.advance(
-                    "delete faces",
-                    (total - left.len() + done) as u64,
-                    total as u64,
-                )?;
+                let done = (total - left.len() + done) as u64;
+                cx.advance("delete faces", done, total as u64)?;
             }
         }
         if refused.is_empty() || refused.len() == left.len() {

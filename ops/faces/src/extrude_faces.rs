@@ -97,15 +97,10 @@ impl MeshOperation for ExtrudeFaces {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         // The rim has no more edges than the faces have sides, and each edge is in it once at most.
         let sides = self.faces.count(plan).times(plan.degrees);
-        let rim = sides.capped(plan.edges).or_less();
-        plan.vertices = plan.vertices.plus(rim);
-        plan.edges = plan.edges.plus(rim.by(2));
-        plan.faces = plan.faces.plus(rim);
+        let rim = sides.capped(plan.edges.max).or_less();
+        plan.grow(rim, rim.by(2), rim);
         if rim.max > 0 {
-            plan.degrees = Range {
-                min: plan.degrees.min.min(4),
-                max: plan.degrees.max.max(4),
-            };
+            plan.degrees = plan.degrees.or(Range::exactly(4));
         }
         plan.drop_normals();
         if let Some(tag) = &self.tag {

@@ -7,7 +7,7 @@ mod inset_faces;
 mod poke_faces;
 mod split_faces;
 
-use op::Registry;
+use op::{MeshPlan, Range, Registry};
 
 pub use bevel_faces::BevelFaces;
 pub use delete_faces::DeleteFaces;
@@ -26,4 +26,14 @@ pub fn register(registry: Registry) -> Registry {
         .with::<ExtrudeFaces>()
         .with::<InsetFaces>()
         .with::<BevelFaces>()
+}
+
+/// Plans a ring of faces of four corners around each of so many faces, which get smaller.
+fn plan_rings(plan: &mut MeshPlan, faces: Range) {
+    let corners = plan.corners_of(faces);
+    plan.grow(corners, corners.by(2), corners);
+    if corners.max > 0 {
+        plan.degrees = plan.degrees.or(Range::exactly(4));
+    }
+    plan.drop_normals();
 }

@@ -43,29 +43,16 @@ impl MeshOperation for PokeFaces {
     const EXAMPLE: &'static str = "PokeFaces()";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
-        let chosen = self.faces.count(plan);
-        let n = self.on_refusal.done(chosen);
-        // All faces together have no more corners than there are half-edges.
-        let corners = n.times(plan.degrees).capped(Range {
-            min: u64::MAX,
-            max: plan.edges.max.saturating_mul(2),
-        });
-        let cuts = Range {
-            min: n.min.saturating_mul(plan.degrees.min.saturating_sub(1)),
-            max: n
-                .max
-                .saturating_mul(plan.degrees.max.saturating_sub(1))
-                .min(corners.max),
-        };
+        let n = self.on_refusal.done(self.faces.count(plan));
+        let corners = plan.corners_of(n);
+        let cuts = n.times(plan.degrees.less(1)).capped(corners.max);
         if n.max > 0 {
             plan.degrees.min = 3;
         }
         if n.min >= plan.faces.max {
             plan.degrees.max = 3;
         }
-        plan.vertices = plan.vertices.plus(n);
-        plan.edges = plan.edges.plus(corners);
-        plan.faces = plan.faces.plus(cuts);
+        plan.grow(n, corners, cuts);
         if self.distance != Distance::default() {
             plan.drop_normals();
         }

@@ -37,18 +37,14 @@ impl MeshOperation for SplitFaces {
     const EXAMPLE: &'static str = "SplitFaces(between: [])";
 
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
+        let problem = self.problem(plan);
         let n = self.between.len() as u64;
-        let cuts = match self.on_refusal {
-            OnRefusal::Error => Range::exactly(n),
-            OnRefusal::Skip => Range::at_most(n),
-        };
-        let problems = self.problems(plan);
-        plan.edges = plan.edges.plus(cuts);
-        plan.faces = plan.faces.plus(cuts);
+        let cuts = self.on_refusal.done(Range::exactly(n));
+        plan.grow(Range::exactly(0), cuts, cuts);
         if n > 0 {
             plan.degrees.min = 3;
         }
-        problems
+        Vec::from_iter(problem)
     }
 
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
@@ -66,26 +62,19 @@ impl MeshOperation for SplitFaces {
 }
 
 impl SplitFaces {
-    /// Cuts that are known to be refused.
-    fn problems(&self, plan: &MeshPlan) -> Vec<Problem> {
-        let mut messages = Vec::new();
-        let missing = |&(v, w): &(u32, u32)| u64::from(v.max(w)) >= plan.vertices.max;
-        if plan.is_triangles() && !self.between.is_empty() {
-            messages.push("every face is a triangle and has no corners to cut between".to_owned());
-        } else if let Some((v, w)) = self.between.iter().copied().find(missing) {
-            let n = plan.vertices.max;
-            messages.push(format!(
-                "there is no vertex {}, only {n} vertices",
-                v.max(w)
-            ));
-        } else if let Some((v, _)) = self.between.iter().find(|(v, w)| v == w) {
-            messages.push(format!("a cut needs two vertices, not {v} twice"));
-        }
-        let problem = |message| match self.on_refusal {
-            OnRefusal::Error => Problem::error(message).at(["between"]),
-            OnRefusal::Skip => Problem::warning(message).at(["between"]),
+    /// A cut that is known to be refused.
+    fn problem(&self, plan: &MeshPlan) -> Option<Problem> {
+        let mut cuts = self.between.iter();
+        let message = if plan.is_triangles() && !self.between.is_empty() {
+            Some("every face is a triangle and has no corners to cut between".to_owned())
+        } else {
+            let missing = cuts.clone().find_map(|(v, w)| plan.no_vertex(*v.max(w)));
+            let twice =
+                |(v, w)| (v == w).then(|| format!("a cut needs two vertices, not {v} twice"));
+            missing.or_else(|| cuts.find_map(|&cut| twice(cut)))
         };
-        messages.into_iter().map(problem).collect()
+        let problem = self.on_refusal.problem(message?);
+        Some(problem.at(["between"]))
     }
 }
 

@@ -81,11 +81,7 @@ impl Operation for Load {
         let loaded = mesh_io::read(&*cx.files().store, &path, &self.options())
             .map_err(|error| OpError::File(error.to_string()))?;
         for file in loaded.files {
-            if file.is_read {
-                cx.files().has_read(file.path);
-            } else {
-                cx.files().has_looked_for(file.path);
-            }
+            cx.files().has_used(file.path, file.is_read);
         }
         let mut report = Report::changed(loaded.objects.len());
         for object in loaded.objects {
@@ -94,13 +90,11 @@ impl Operation for Load {
                 let message = format!("\"{}\" takes {bytes} bytes, over the budget", object.name);
                 return Err(OpError::Budget(message));
             }
-            scene
-                .insert(object)
-                .map_err(|error| OpError::Object(error.to_string()))?;
+            let inserted = scene.insert(object);
+            inserted.map_err(|error| OpError::Object(error.to_string()))?;
         }
-        report
-            .notes
-            .extend(loaded.notes.iter().map(ToString::to_string));
+        let notes = loaded.notes.iter().map(ToString::to_string);
+        report.notes.extend(notes);
         cx.advance("read", 1, 1)?;
         Ok(report)
     }
@@ -120,10 +114,8 @@ impl Load {
             };
             let field = if self.name.is_some() { "name" } else { "path" };
             let taken = plan.insert(&object.name, geometry);
-            problems.extend(taken.into_iter().map(|p| {
-                p.at([field])
-                    .help("give another name with `name`, or rename the first")
-            }));
+            let help = "give another name with `name`, or rename the first";
+            problems.extend(taken.map(|p| p.at([field]).help(help)));
         }
         problems
     }
@@ -133,16 +125,10 @@ impl Load {
 /// twice, and splitting may add vertices and edges.
 fn planned(peek: &PeekMesh) -> MeshPlan {
     let mut plan = MeshPlan {
-        vertices: Range {
-            min: 0,
-            max: peek.vertices.saturating_add(peek.corners),
-        },
+        vertices: Range::at_most(peek.vertices.saturating_add(peek.corners)),
         edges: Range::at_most(peek.corners),
         faces: Range::at_most(peek.faces),
-        degrees: Range {
-            min: 3,
-            max: peek.max_degree.max(3),
-        },
+        degrees: Range::between(3, peek.max_degree.max(3)),
         attributes: Vec::new(),
         others: true,
     };

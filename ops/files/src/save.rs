@@ -2,7 +2,7 @@
 
 use mesh_io::{Format, WriteOptions};
 use op::prelude::*;
-use op::{Loss, Operation};
+use op::{Loss, Operation, chosen_scene};
 
 /// Writes objects to a file below the output folder.
 ///
@@ -24,28 +24,18 @@ impl Operation for Save {
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        let path = match cx.files.to_write(&self.path) {
-            Ok(path) => path,
-            Err(error) => return vec![Problem::error(error.to_string()).at(["path"])],
-        };
-        let mut problems = Vec::new();
-        let format = Format::from_path(&path);
-        if !format.is_some_and(Format::is_written) {
-            let message = match format {
+        let mut problems = plan.write(cx, &self.path, |path| {
+            let message = match Format::from_path(path) {
+                Some(format) if format.is_written() => return None,
                 Some(format) => format!("{format} files are only read, not written"),
                 None => format!("no format is known for \"{}\"", self.path),
             };
             let help = format!("endings that can be written: {}", Format::known_to_write());
-            problems.push(Problem::error(message).at(["path"]).help(help));
-        }
-        if plan.outputs.contains(&path) {
-            let message = format!("an earlier step writes \"{}\" too", self.path);
-            problems.push(Problem::error(message).at(["path"]));
-        }
+            Some(Problem::error(message).at(["path"]).help(help))
+        });
         if plan.objects().is_empty() && !plan.incomplete {
             problems.push(Problem::error("there is nothing to save at this point"));
         }
-        plan.outputs.push(path);
         problems
     }
 
@@ -54,12 +44,7 @@ impl Operation for Save {
         let failed = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
         let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
         cx.files().make_folder_of(&path).map_err(|e| failed(&e))?;
-        let mut chosen = Scene::new();
-        for object in scene.objects() {
-            if cx.on.is_none_or(|on| on.contains(&object.name)) {
-                chosen.insert(object.clone()).expect("names are unique");
-            }
-        }
+        let chosen = chosen_scene(scene, cx);
         let options = WriteOptions {
             provenance: cx.files().provenance.clone(),
         };

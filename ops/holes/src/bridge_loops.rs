@@ -44,25 +44,17 @@ impl MeshOperation for BridgeLoops {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         for (field, v) in [("first", self.first), ("second", self.second)] {
-            if u64::from(v) >= plan.vertices.max {
-                let n = plan.vertices.max;
-                let message = format!("there is no vertex {v}, only {n} vertices");
-                problems.push(Problem::error(message).at([field]));
-            }
+            let missing = plan.no_vertex(v).map(Problem::error);
+            problems.extend(missing.map(|p| p.at([field])));
         }
         if self.first == self.second {
             let message = "`first` and `second` must be on two holes, but are one vertex";
             problems.push(Problem::error(message).at(["second"]));
         }
         // As many as the longer hole has edges; the other has two or more.
-        let band = Range {
-            min: 2,
-            max: plan.edges.max,
-        };
-        plan.edges = plan.edges.plus(band);
-        plan.faces = plan.faces.plus(band);
-        plan.degrees.min = plan.degrees.min.min(3);
-        plan.degrees.max = plan.degrees.max.max(4);
+        let band = Range::between(2, plan.edges.max);
+        plan.grow(Range::exactly(0), band, band);
+        plan.degrees = plan.degrees.or(Range::between(3, 4));
         plan.drop_normals();
         problems
     }

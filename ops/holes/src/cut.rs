@@ -39,10 +39,8 @@ impl MeshOperation for Cut {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let n = self.edges.count(plan);
         let cut = self.on_refusal.done(n);
-        plan.edges = plan.edges.plus(cut);
         // A vertex gets at most one copy for each cut that ends there.
-        let copies = Range::at_most(n.max.saturating_mul(2));
-        plan.vertices = plan.vertices.plus(copies);
+        plan.grow(n.by(2).or_less(), cut, Range::exactly(0));
         Vec::new()
     }
 
@@ -85,10 +83,7 @@ impl Cut {
             let (v, w) = (v.min(w).index(), v.max(w).index());
             let message = format!("Between({v}, {w}) {message}");
             let refused = OpError::refused(refusal.into(), message).about([e]);
-            match self.on_refusal {
-                OnRefusal::Error => return Err(refused),
-                OnRefusal::Skip => report.refuse(refused)?,
-            }
+            self.on_refusal.refuse(refused, report)?;
         }
         Ok(allowed)
     }

@@ -67,18 +67,18 @@ impl MeshOperation for FillHoles {
                 plan.degrees.max = plan.degrees.max.max(corners.min(plan.edges.max));
             }
             Cover::Triangles => {
-                plan.faces = plan.faces.plus(Range::at_most(plan.edges.max));
-                plan.edges = plan.edges.plus(Range::at_most(plan.edges.max));
+                let most = plan.edges.or_less();
+                plan.grow(Range::exactly(0), most, most);
             }
         }
         plan.degrees.min = plan.degrees.min.min(3);
         for attribute in &mut plan.attributes {
-            let is_normal = [
-                (Domain::Vertex, VERTEX_NORMAL.name),
-                (Domain::Corner, CORNER_NORMAL.name),
-            ]
-            .contains(&(attribute.domain, &attribute.name));
-            attribute.certain &= !is_normal;
+            let normal = match attribute.domain {
+                Domain::Vertex => VERTEX_NORMAL.name,
+                Domain::Corner => CORNER_NORMAL.name,
+                Domain::Edge | Domain::Face => continue,
+            };
+            attribute.certain &= attribute.name != normal;
         }
         Vec::new()
     }

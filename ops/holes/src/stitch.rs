@@ -48,10 +48,7 @@ impl MeshOperation for Stitch {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         plan.vertices.min = plan.vertices.min.min(1);
         // An edge is glued to one other at most.
-        plan.edges = Range {
-            min: plan.edges.min.div_ceil(2),
-            ..plan.edges
-        };
+        plan.edges.min = plan.edges.min.div_ceil(2);
         Vec::new()
     }
 
@@ -62,10 +59,7 @@ impl MeshOperation for Stitch {
             let [v, w] = [mesh.origin(h), mesh.target(h)].map(mesh::VertexId::index);
             let message = format!("several boundary edges lie on Between({v}, {w})");
             let refused = OpError::refused(Refusal::NonManifold, message).about([h.edge()]);
-            match self.on_refusal {
-                OnRefusal::Error => return Err(refused),
-                OnRefusal::Skip => report.refuse(refused)?,
-            }
+            self.on_refusal.refuse(refused, &mut report)?;
         }
         if pairs.is_empty() {
             return Ok(report.note("no two boundary edges lie on each other alone"));

@@ -27,11 +27,11 @@ impl Operation for Copy {
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let Some(object) = plan.object(&self.from) else {
-            return plan.check_names([self.from.as_str()], "from");
+            return Vec::from_iter(plan.missing(&self.from, ["from"]));
         };
         let geometry = object.geometry.clone();
-        let problems = plan.insert(&self.to, geometry).into_iter();
-        problems.map(|p| p.at(["to"])).collect()
+        let taken = plan.insert(&self.to, geometry);
+        Vec::from_iter(taken.map(|p| p.at(["to"])))
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
@@ -104,7 +104,7 @@ mod tests {
         };
         let mut plan = Plan::default();
         let cube = PlannedGeometry::Mesh(MeshPlan::of(&shapes::cube()));
-        assert_eq!(plan.insert("head", cube.clone()), []);
+        assert_eq!(plan.insert("head", cube.clone()), None);
         assert_eq!(
             step(r#"(from: "head", to: "twin")"#).plan(&mut plan, &cx),
             []

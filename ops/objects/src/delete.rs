@@ -25,9 +25,7 @@ impl Operation for Delete {
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         for (i, name) in self.objects.iter().enumerate() {
-            let place = i.to_string();
-            let missing = plan.check_names([name.as_str()], "objects");
-            problems.extend(missing.into_iter().map(|p| p.at(["objects", &place])));
+            problems.extend(plan.missing(name, ["objects", &i.to_string()]));
             plan.objects_mut().retain(|o| o.name != *name);
         }
         problems
@@ -87,7 +85,7 @@ mod tests {
             budget: u64::MAX,
         };
         let mut plan = Plan::default();
-        assert_eq!(plan.insert("a", PlannedGeometry::Polylines), []);
+        assert_eq!(plan.insert("a", PlannedGeometry::Polylines), None);
         let problems = step(r#"(objects: ["a", "d"])"#).plan(&mut plan, &cx);
         assert_eq!(problems.len(), 1);
         assert_eq!(problems[0].path, ["objects", "1"]);

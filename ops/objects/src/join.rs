@@ -14,8 +14,8 @@ use std::sync::Arc;
 
 use mesh::Domain;
 use op::prelude::*;
-use op::{Operation, PlannedAttribute, check_name, named_object};
-use scene::{Geometry, Object};
+use op::{Operation, PlannedAttribute, PlannedObject, check_name, named_object};
+use scene::Object;
 
 /// Joins meshes into one.
 ///
@@ -54,10 +54,7 @@ impl Operation for Join {
         for (i, name) in self.objects.iter().enumerate() {
             let at = i.to_string();
             match plan.object(name).map(|o| &o.geometry) {
-                None => {
-                    let missing = plan.check_names([name.as_str()], "objects").into_iter();
-                    problems.extend(missing.map(|p| p.at(["objects", &at])));
-                }
+                None => problems.extend(plan.missing(name, ["objects", &at])),
                 Some(PlannedGeometry::Mesh(mesh)) => parts.push(mesh.clone()),
                 Some(other) => {
                     let message = not_a_mesh(name, other.kind());
@@ -65,9 +62,8 @@ impl Operation for Join {
                 }
             }
         }
-        if plan.object(&self.name).is_some() && !self.objects.contains(&self.name) {
-            let message = scene::DuplicateName(self.name.clone()).to_string();
-            problems.push(Problem::error(message).at(["name"]));
+        if !self.objects.contains(&self.name) {
+            problems.extend(plan.taken(&self.name, "name"));
         }
         if !problems.is_empty() {
             return problems;
@@ -78,24 +74,19 @@ impl Operation for Join {
             return problems;
         }
         let joined = self.joined_plan(&parts);
-        let largest = joined
-            .edges
-            .by(2)
-            .min
-            .max(joined.vertices.min)
-            .max(joined.faces.min);
+        let counts = [joined.edges.by(2), joined.vertices, joined.faces];
+        let largest = counts.map(|n| n.min).into_iter().fold(0, u64::max);
         if largest > parts::MAX_ELEMENTS {
             problems.push(Problem::error(parts::too_many(largest)));
         }
         let first = &self.objects[0];
         let objects = plan.objects_mut();
         objects.retain(|o| o.name == *first || !self.objects.contains(&o.name));
-        let object = objects
-            .iter_mut()
-            .find(|o| o.name == *first)
-            .expect("checked above");
-        object.name.clone_from(&self.name);
-        object.geometry = PlannedGeometry::Mesh(joined);
+        let object = objects.iter_mut().find(|o| o.name == *first);
+        *object.expect("checked above") = PlannedObject {
+            name: self.name.clone(),
+            geometry: PlannedGeometry::Mesh(joined),
+        };
         problems
     }
 
@@ -106,14 +97,12 @@ impl Operation for Join {
         if !self.objects.contains(&self.name) {
             check_name(scene, &self.name)?;
         }
-        let mut parts: Vec<&Object> = Vec::new();
-        for name in &self.objects {
+        let part = |name: &String| {
             let object = named_object(scene, name)?;
-            if object.as_mesh().is_none() {
-                return Err(OpError::Object(not_a_mesh(name, object.geometry.kind())));
-            }
-            parts.push(object);
-        }
+            let no_mesh = || OpError::Object(not_a_mesh(name, object.geometry.kind()));
+            object.as_mesh().map(|_| object).ok_or_else(no_mesh)
+        };
+        let parts: Vec<&Object> = self.objects.iter().map(part).collect::<Result<_, _>>()?;
         let (joined, report) = self.joined(&parts, cx)?;
 
         // All is checked: the first part becomes the result and the others go.
@@ -145,17 +134,12 @@ impl Join {
 
     /// The result of parts that are meshes.
     fn joined(&self, parts: &[&Object], cx: &Context) -> Result<(Object, Report), OpError> {
-        let meshes: Vec<&Mesh> = parts
-            .iter()
-            .filter_map(|o| o.as_mesh())
-            .map(Arc::as_ref)
-            .collect();
+        let meshes = parts.iter().filter_map(|o| o.as_mesh());
+        let meshes: Vec<&Mesh> = meshes.map(Arc::as_ref).collect();
         let bytes: usize = meshes.iter().map(|m| m.bytes()).sum();
-        if bytes as u64 > cx.budget {
-            let message = format!(
-                "the result takes {bytes} bytes, the budget is {}",
-                cx.budget
-            );
+        let budget = cx.budget;
+        if bytes as u64 > budget {
+            let message = format!("the result takes {bytes} bytes, the budget is {budget}");
             return Err(OpError::Budget(message));
         }
         let mut joined = parts::connected(&meshes, cx)?;
@@ -165,32 +149,22 @@ impl Join {
         if self.tag_parts {
             attributes::tag_parts(&mut joined, parts, &mut report);
         }
-        let geometry = Geometry::Mesh(Arc::new(joined));
-        Ok((
-            Object {
-                name: self.name.clone(),
-                geometry,
-                materials,
-            },
-            report,
-        ))
+        let object = Object {
+            materials,
+            ..Object::mesh(&self.name, joined)
+        };
+        Ok((object, report))
     }
 
     fn joined_plan(&self, parts: &[MeshPlan]) -> MeshPlan {
         let mut joined = parts[0].clone();
         for part in &parts[1..] {
-            joined.vertices = joined.vertices.plus(part.vertices);
-            joined.edges = joined.edges.plus(part.edges);
-            joined.faces = joined.faces.plus(part.faces);
+            joined.grow(part.vertices, part.edges, part.faces);
             joined.others |= part.others;
-            joined.degrees.min = joined.degrees.min.min(part.degrees.min);
-            joined.degrees.max = joined.degrees.max.max(part.degrees.max);
+            joined.degrees = joined.degrees.or(part.degrees);
             for a in &part.attributes {
-                if !joined
-                    .attributes
-                    .iter()
-                    .any(|b| (b.domain, &b.name) == (a.domain, &a.name))
-                {
+                let is_same = |b: &PlannedAttribute| (b.domain, &b.name) == (a.domain, &a.name);
+                if !joined.attributes.iter().any(is_same) {
                     joined.attributes.push(a.clone());
                 }
             }

@@ -25,19 +25,16 @@ impl Operation for Rename {
     const EXAMPLE: &'static str = r#"Rename(from: "mesh", to: "new")"#;
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
-        let problems = plan.check_names([self.from.as_str()], "from");
-        if !problems.is_empty() {
-            return problems;
+        let mut problem = plan.missing(&self.from, ["from"]);
+        if problem.is_none() && self.from != self.to {
+            problem = plan.taken(&self.to, "to");
         }
-        if self.from != self.to && plan.object(&self.to).is_some() {
-            let message = scene::DuplicateName(self.to.clone()).to_string();
-            return vec![Problem::error(message).at(["to"])];
+        if problem.is_none()
+            && let Some(object) = plan.objects_mut().iter_mut().find(|o| o.name == self.from)
+        {
+            object.name.clone_from(&self.to);
         }
-        let objects = plan.objects_mut().iter_mut();
-        objects
-            .filter(|o| o.name == self.from)
-            .for_each(|o| o.name.clone_from(&self.to));
-        Vec::new()
+        Vec::from_iter(problem)
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
@@ -98,7 +95,7 @@ mod tests {
         };
         let mut plan = Plan::default();
         for name in ["a", "b"] {
-            assert_eq!(plan.insert(name, PlannedGeometry::Polylines), []);
+            assert_eq!(plan.insert(name, PlannedGeometry::Polylines), None);
         }
         assert_eq!(
             step(r#"(from: "d", to: "c")"#).plan(&mut plan, &cx)[0].path,

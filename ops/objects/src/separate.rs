@@ -57,7 +57,7 @@ impl Operation for Separate {
 
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let Some(place) = plan.objects().iter().position(|o| o.name == self.object) else {
-            return plan.check_names([self.object.as_str()], "object");
+            return Vec::from_iter(plan.missing(&self.object, ["object"]));
         };
         let PlannedGeometry::Mesh(mesh) = &plan.objects()[place].geometry else {
             let kind = plan.objects()[place].geometry.kind();
@@ -81,10 +81,8 @@ impl Operation for Separate {
             return vec![Problem::error(message).at(["count"])];
         }
         let names: Vec<String> = (1..=count).map(|i| self.name(i)).collect();
-        let taken = |name: &&String| plan.object(name).is_some();
-        if let Some(name) = names.iter().find(taken) {
-            let message = scene::DuplicateName(name.clone()).to_string();
-            return vec![Problem::error(message).at(["object"])];
+        if let Some(taken) = names.iter().find_map(|name| plan.taken(name, "object")) {
+            return vec![taken];
         }
         let mut objects = names.into_iter().map(|name| PlannedObject {
             name,
@@ -97,11 +95,8 @@ impl Operation for Separate {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         let object = named_object(scene, &self.object)?;
-        let Some(mesh) = object.as_mesh() else {
-            let message = not_a_mesh(&self.object, object.geometry.kind());
-            return Err(OpError::Object(message));
-        };
-        let mesh = Arc::clone(mesh);
+        let no_mesh = || OpError::Object(not_a_mesh(&self.object, object.geometry.kind()));
+        let mesh = Arc::clone(object.as_mesh().ok_or_else(no_mesh)?);
         cx.advance("separate", 0, 2)?;
         let parts = self.by.parts(&mesh)?;
         if parts.is_empty() {
@@ -150,7 +145,7 @@ impl By {
                 };
                 marks
                     .iter()
-                    .map(|&is_marked| usize::from(!is_marked))
+                    .map(|is_marked| usize::from(!is_marked))
                     .collect()
             }
         };
@@ -183,17 +178,16 @@ impl Separate {
 
     /// Columns that a part has lost because it was cut off.
     fn losses(&self, whole: &Mesh, parts: &[Mesh]) -> Vec<Loss> {
-        let columns = whole.attributes().iter();
-        let is_lost = |domain, name: &str| {
-            let lacks = |part: &Mesh| part.attributes().column(domain, name).is_none();
+        let columns = whole
+            .attributes()
+            .iter()
+            .map(|(domain, c)| (domain, &c.name));
+        let lost = columns.filter(|(domain, name)| {
+            let lacks = |part: &Mesh| part.attributes().column(*domain, name).is_none();
             parts.iter().any(lacks)
-        };
-        columns
-            .filter(|(domain, column)| is_lost(*domain, &column.name))
-            .map(|(domain, column)| {
-                let reason = "Separate cuts between faces";
-                Loss::attribute(&self.object, domain, &column.name, reason)
-            })
+        });
+        let reason = "Separate cuts between faces";
+        lost.map(|(domain, name)| Loss::attribute(&self.object, domain, name, reason))
             .collect()
     }
 

@@ -88,9 +88,8 @@ impl Transform {
     /// Changes one object. The report counts its points.
     fn change(&self, name: &str, geometry: &mut Geometry, map: &Map) -> Result<Report, OpError> {
         let too_large = || {
-            OpError::Parameter(format!(
-                "the coordinates of \"{name}\" would be too large for numbers"
-            ))
+            let message = format!("the coordinates of \"{name}\" would be too large for numbers");
+            OpError::Parameter(message)
         };
         match geometry {
             Geometry::Mesh(mesh) => {
@@ -107,29 +106,24 @@ impl Transform {
                 let mut report = Report::changed(mesh.n_vertices());
                 if map.mirrors() {
                     let columns = mesh.attributes().iter();
-                    let lost = columns.filter(|(_, c)| c.rule == Rule::Drop);
                     let reason = "a mirror turns the faces over";
-                    report.losses = lost
-                        .map(|(domain, c)| Loss::attribute(name, domain, &c.name, reason))
-                        .collect();
+                    let lost = columns.filter(|(_, c)| c.rule == Rule::Drop);
+                    let lost = lost.map(|(d, c)| Loss::attribute(name, d, &c.name, reason));
+                    report.losses.extend(lost);
                     mesh.reverse();
                     mesh.compact();
                 }
                 Ok(report)
             }
             Geometry::Patches(patches) => {
-                let points = patches
-                    .iter()
-                    .flat_map(|patch| patch.points().as_flattened());
+                let points = patches.iter().flat_map(|p| p.points().as_flattened());
                 let center = self.center(points.copied());
                 for patch in &mut *patches {
                     let points = patch.points().map(|row| row.map(|p| map.point(p, center)));
-                    let moved = Patch::new(points).map_err(|_| too_large())?;
-                    *patch = if map.mirrors() {
-                        moved.transposed()
-                    } else {
-                        moved
-                    };
+                    *patch = Patch::new(points).map_err(|_| too_large())?;
+                    if map.mirrors() {
+                        *patch = patch.transposed();
+                    }
                 }
                 Ok(Report::changed(16 * patches.len()))
             }
@@ -219,19 +213,16 @@ impl Operation for Transform {
 
 /// Turns the values of all columns that hold normals.
 fn turn_normals(mesh: &mut Mesh, map: &Map) {
-    let normals: Vec<_> = mesh
-        .attributes()
-        .iter()
-        .filter(|(_, column)| column.rule == Rule::Normal)
-        .map(|(domain, column)| (domain, column.name.clone()))
+    let columns = mesh.attributes().iter();
+    let normals = columns.filter(|(_, column)| column.rule == Rule::Normal);
+    let normals: Vec<_> = normals
+        .map(|(domain, c)| (domain, c.name.clone()))
         .collect();
     for (domain, name) in normals {
         let mut column = mesh.remove_column(domain, &name).expect("listed above");
         if let Values::Vec3(values) = &mut column.values {
-            values
-                .par_iter_mut()
-                .with_min_len(4096)
-                .for_each(|n| *n = map.normal(*n));
+            let normals = values.par_iter_mut().with_min_len(4096);
+            normals.for_each(|n| *n = map.normal(*n));
         }
         mesh.insert_column(domain, column);
     }

@@ -98,22 +98,11 @@ impl Operation for CurveFigure {
     const TAKES_ON: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        match cx.files.to_write(&self.path) {
-            Ok(path) => {
-                if Format::of(&path).is_none() {
-                    let message = format!("no format of figures is known for \"{}\"", self.path);
-                    let help = "endings that can be written: .svg, .png";
-                    problems.push(Problem::error(message).at(["path"]).help(help));
-                }
-                if plan.outputs.contains(&path) {
-                    let message = format!("an earlier step writes \"{}\" too", self.path);
-                    problems.push(Problem::error(message).at(["path"]));
-                }
-                plan.outputs.push(path);
-            }
-            Err(error) => problems.push(Problem::error(error.to_string()).at(["path"])),
-        }
+        let mut problems = plan.write(cx, &self.path, |path| {
+            let unknown = Problem::error(self.no_format()).at(["path"]);
+            let help = "endings that can be written: .svg, .png";
+            Format::of(path).is_none().then(|| unknown.help(help))
+        });
         problems.extend(self.plan_curves(plan, cx));
         problems
     }
@@ -121,35 +110,33 @@ impl Operation for CurveFigure {
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("draw", 0, 1)?;
         let failed = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
-        let path = cx
-            .files()
-            .to_write(&self.path)
-            .map_err(|error| failed(&error))?;
+        let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
         let figure = self.figure(scene, cx)?;
         let stamp = cx.files().provenance.as_deref();
         let bytes = match Format::of(&path) {
             Some(Format::Svg) => figure.finish(stamp).into_bytes(),
             Some(Format::Png) => self.png(&figure, stamp, cx.budget)?,
             None => {
-                let message = format!("no format of figures is known for \"{}\"", self.path);
-                return Err(OpError::Parameter(message));
+                return Err(OpError::Parameter(self.no_format()));
             }
         };
-        cx.files()
-            .store
-            .write(&path, &bytes)
-            .map_err(|error| failed(&error))?;
+        let store = &cx.files().store;
+        store.write(&path, &bytes).map_err(|e| failed(&e))?;
         cx.advance("draw", 1, 1)?;
         Ok(Report::changed(0))
     }
 }
 
 impl CurveFigure {
+    fn no_format(&self) -> String {
+        format!("no format of figures is known for \"{}\"", self.path)
+    }
+
     /// What is wrong with the objects.
     fn plan_curves(&self, plan: &Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         let before = self.before.as_deref();
-        problems.extend(plan.check_names(before, "before"));
+        problems.extend(before.and_then(|name| plan.missing(name, ["before"])));
         let most = if self.t.is_empty() {
             MAX_DRAWN
         } else {
@@ -205,21 +192,23 @@ impl CurveFigure {
     /// The figure of the chosen curves.
     fn figure(&self, scene: &Scene, cx: &Context) -> Result<Svg, OpError> {
         let chosen: Vec<&Object> = match cx.on {
-            Some(on) => on
-                .iter()
-                .map(|name| named_object(scene, name))
-                .collect::<Result<_, _>>()?,
-            None => scene
-                .objects()
-                .iter()
-                .filter(|o| matches!(o.geometry, Geometry::Curve(_)))
-                .filter(|o| self.before.as_ref() != Some(&o.name))
-                .collect(),
+            Some(on) => {
+                let objects = on.iter().map(|name| named_object(scene, name));
+                objects.collect::<Result<_, _>>()?
+            }
+            None => {
+                let curves = scene.objects().iter();
+                let curves = curves.filter(|o| matches!(o.geometry, Geometry::Curve(_)));
+                curves
+                    .filter(|o| self.before.as_ref() != Some(&o.name))
+                    .collect()
+            }
         };
-        let before = match &self.before {
-            Some(name) => Some(curve(named_object(scene, name)?)?),
-            None => None,
-        };
+        let before = self
+            .before
+            .as_ref()
+            .map(|name| curve(named_object(scene, name)?));
+        let before = before.transpose()?;
         let parameters: Vec<Option<f64>> = if self.t.is_empty() {
             vec![None]
         } else {

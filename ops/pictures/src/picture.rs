@@ -8,13 +8,12 @@ mod colors;
 #[cfg(test)]
 mod tests;
 
-use std::borrow::Cow;
 use std::fmt::Display;
 use std::path::{Component, Path};
 
 use op::{
     Context, Count, Elements, Files, OpError, Operation, Plan, PlanContext, Problem, Progress,
-    Report, Seconds, Selected,
+    Report, Seconds, Selected, chosen_scene,
 };
 use render::animation::{Timing, to_apng, to_gif};
 use render::{Camera, Color, Image, LARGEST_SIDE, Overlays, PictureError, Style};
@@ -188,7 +187,9 @@ impl Picture {
         }
     }
 
-    /// Draws a scene: the images of a turntable, else one. The notes say what is not shown as the scene has it.
+    /// Draws scenes side by side, in one scale, each with a caption unless that is empty: the images of a turntable,
+    /// else one. With an extent, cameras that fit see all of it, and numbers have the colors for all, without a legend,
+    /// as that is [the same](Extent::legend) for all. The notes say what is not shown as the scenes have it.
     ///
     /// # Errors
     ///
@@ -196,24 +197,30 @@ impl Picture {
     /// the images need more memory than `cx` allows; those of the selections; [`OpError::Cancelled`].
     pub fn draw(
         &self,
-        scene: &Scene,
-        cx: &mut Context,
-    ) -> Result<(Vec<Image>, Vec<String>), OpError> {
-        self.draw_beside(&[(scene, "")], cx)
-    }
-
-    /// The same for several scenes side by side, in one scale, each with a caption unless that is empty.
-    ///
-    /// # Errors
-    ///
-    /// As [`draw`](Self::draw).
-    pub fn draw_beside(
-        &self,
         scenes: &[(&Scene, &str)],
+        within: Option<&Extent>,
         cx: &mut Context,
     ) -> Result<(Vec<Image>, Vec<String>), OpError> {
         self.in_order()?;
-        self.images(scenes, None, cx)
+        let mut color_by = self.color_by.clone();
+        if let (Some(color_by), Some(extent)) = (&mut color_by, within) {
+            color_by.range = color_by.range.or(extent.range());
+            color_by.legend = false;
+        }
+        cx.advance("draw", 0, 1)?;
+        let chosen: Vec<_> = (scenes.iter())
+            .map(|(scene, caption)| (chosen_scene(scene, cx), *caption))
+            .collect();
+        let (mut subjects, mut notes) = (Vec::new(), Vec::new());
+        for (scene, caption) in &chosen {
+            let (subject, more) = self.subject(scene, caption, color_by.as_ref(), true, cx)?;
+            subjects.push(subject);
+            notes.extend(more);
+        }
+        notes.dedup();
+        let shot = self.shot(cx.budget);
+        let images = shot.draw(&subjects, within, cx.progress());
+        Ok((images.map_err(failed)?, notes))
     }
 
     /// What a scene takes up of the picture, to draw it beside others that are not in memory with it: see [`Extent`].
@@ -223,31 +230,10 @@ impl Picture {
     /// As [`draw`](Self::draw).
     pub fn extent(&self, scene: &Scene, cx: &mut Context) -> Result<Extent, OpError> {
         self.in_order()?;
-        let scene = chosen(scene, cx.on);
+        let scene = chosen_scene(scene, cx);
         // Images of materials change nothing of where things are.
-        let (subject, _) = self.subject(&scene, "", &mut |_, _| None, cx)?;
+        let (subject, _) = self.subject(&scene, "", self.color_by.as_ref(), false, cx)?;
         self.shot(cx.budget).extent(subject).map_err(failed)
-    }
-
-    /// Draws a scene so that all of `extent` is seen by cameras that fit, and its numbers in the colors for all;
-    /// without a legend, as that is [the same](Extent::legend) for all.
-    ///
-    /// # Errors
-    ///
-    /// As [`draw`](Self::draw).
-    pub fn draw_within(
-        &self,
-        scene: &Scene,
-        extent: &Extent,
-        cx: &mut Context,
-    ) -> Result<(Vec<Image>, Vec<String>), OpError> {
-        self.in_order()?;
-        let mut picture = self.clone();
-        if let Some(color_by) = &mut picture.color_by {
-            color_by.range = color_by.range.or(extent.range());
-            color_by.legend = false;
-        }
-        picture.images(&[(scene, "")], Some(extent), cx)
     }
 
     fn shot(&self, budget: u64) -> Shot<'_> {
@@ -261,40 +247,16 @@ impl Picture {
         }
     }
 
-    /// Draws scenes side by side. The parameters are in order.
-    fn images(
-        &self,
-        scenes: &[(&Scene, &str)],
-        within: Option<&Extent>,
-        cx: &mut Context,
-    ) -> Result<(Vec<Image>, Vec<String>), OpError> {
-        cx.advance("draw", 0, 1)?;
-        let folder = self.images.as_deref();
-        let chosen: Vec<_> = (scenes.iter())
-            .map(|(scene, caption)| (chosen(scene, cx.on), *caption))
-            .collect();
-        let (mut subjects, mut notes) = (Vec::new(), Vec::new());
-        for (scene, caption) in &chosen {
-            let mut images = |files: &Files, path: &str| read_image(files, folder, path);
-            let (subject, more) = self.subject(scene, caption, &mut images, cx)?;
-            subjects.push(subject);
-            notes.extend(more);
-        }
-        notes.dedup();
-        let shot = self.shot(cx.budget);
-        let images = shot.draw(&subjects, within, cx.progress());
-        Ok((images.map_err(failed)?, notes))
-    }
-
     /// A scene with what is marked in it and its numbers, and notes on what is not shown.
     fn subject<'s>(
         &self,
         scene: &'s Scene,
         caption: &'s str,
-        images: &mut dyn FnMut(&Files, &str) -> Option<Vec<u8>>,
+        color_by: Option<&ColorBy>,
+        has_images: bool,
         cx: &mut Context,
     ) -> Result<(Subject<'s>, Vec<String>), OpError> {
-        let numbers = match &self.color_by {
+        let numbers = match color_by {
             Some(by) => {
                 let others = colors::others(by, cx)?;
                 Some(by.numbers(scene, &others).map_err(failed)?)
@@ -305,10 +267,11 @@ impl Picture {
         let first = (self.highlight.iter()).map(|of| (of, MARK, self.highlight_width));
         let marks = self.marks.iter().map(|m| (&m.of, m.color, m.width));
         for (of, color, width) in first.chain(marks) {
-            for object in scene.objects() {
-                let Some(mesh) = object.as_mesh() else {
-                    continue;
-                };
+            for (object, mesh) in scene
+                .objects()
+                .iter()
+                .filter_map(|o| Some((o, o.as_mesh()?)))
+            {
                 cx.materials = object.materials.iter().map(|m| m.name.clone()).collect();
                 let selected = of.resolve(mesh, cx);
                 cx.materials.clear();
@@ -317,18 +280,15 @@ impl Picture {
                     Selected::Edges(list) => render::Elements::Edges(list),
                     Selected::Faces(list) => render::Elements::Faces(list),
                 };
-                let marked = marked(
-                    &object.name,
-                    elements,
-                    color,
-                    width,
-                    self.size.map(Count::get),
-                );
+                let size = self.size.map(Count::get);
+                let marked = marked(&object.name, elements, color, width, size);
                 overlays.highlights.push(marked);
             }
         }
         let mut notes: Vec<String> = self.unmarked(scene).into_iter().collect();
-        let mut images = |path: &str| images(cx.files(), path);
+        let folder = self.images.as_deref();
+        let read = |path: &str| read_image(cx.files(), folder, path);
+        let mut images = |path: &str| if has_images { read(path) } else { None };
         let subject = Subject::new(scene, caption, &self.style, overlays, numbers, &mut images);
         let (subject, missing) = subject.map_err(failed)?;
         let note = |why| format!("an image of a material is not shown: {why}");
@@ -397,16 +357,7 @@ impl Operation for Picture {
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = self.problems();
-        match cx.files.to_write(&self.path) {
-            Ok(path) => {
-                if plan.outputs.contains(&path) {
-                    let message = format!("an earlier step writes \"{}\" too", self.path);
-                    problems.push(Problem::error(message).at(["path"]));
-                }
-                plan.outputs.push(path);
-            }
-            Err(error) => problems.push(Problem::error(error.to_string()).at(["path"])),
-        }
+        problems.extend(plan.write(cx, &self.path, |_| None));
         if let Some(color_by) = &self.color_by {
             problems.extend(colors::plan(color_by, plan, cx));
         }
@@ -421,7 +372,7 @@ impl Operation for Picture {
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         let of_file = |error: &dyn Display| OpError::File(error.to_string());
         let path = cx.files().to_write(&self.path).map_err(|e| of_file(&e))?;
-        let (images, notes) = self.draw(scene, cx)?;
+        let (images, notes) = self.draw(&[(scene, "")], None, cx)?;
         let stamp = cx.files().provenance.clone();
         let bytes = self.encode(&images, stamp.as_deref(), cx.progress());
         let bytes = bytes.map_err(failed)?;
@@ -432,20 +383,6 @@ impl Operation for Picture {
             ..Report::default()
         })
     }
-}
-
-/// The objects that the step was told to act on.
-fn chosen<'s>(scene: &'s Scene, on: Option<&[String]>) -> Cow<'s, Scene> {
-    let Some(on) = on else {
-        return Cow::Borrowed(scene);
-    };
-    let mut chosen = Scene::new();
-    for object in scene.objects() {
-        if on.contains(&object.name) {
-            chosen.insert(object.clone()).expect("names are unique");
-        }
-    }
-    Cow::Owned(chosen)
 }
 
 /// The bytes of an image that a material names, if it is a file in the folder or in a folder in it.

@@ -42,28 +42,13 @@ impl Cylinder {
     fn source(&self) -> Source<'_> {
         let n = u64::from(self.around.get());
         let (caps, degrees) = if self.caps {
-            (
-                2,
-                Range {
-                    min: n.min(4),
-                    max: n.max(4),
-                },
-            )
+            (2, Range::exactly(4).or(Range::exactly(n)))
         } else {
             (0, Range::exactly(4))
         };
-        Source::new(
-            &self.name,
-            MeshPlan::counted(2 * n, 3 * n, n + caps, degrees),
-        )
-        .placed(
-            [
-                self.radius.get(),
-                self.radius.get(),
-                self.height.get() / 2.0,
-            ],
-            self.center,
-        )
+        let counts = MeshPlan::counted(2 * n, 3 * n, n + caps, degrees);
+        let (radius, height) = (self.radius.get(), self.height.get());
+        Source::new(&self.name, counts).placed([radius, radius, height / 2.0], self.center)
     }
 }
 

@@ -52,11 +52,8 @@ impl Polygons {
         places.sort_by_key(|&i| face[i]);
         let n = self.points.len();
         let missing = (0..face.len()).find(|&i| face[i] as usize >= n);
-        let twice = places
-            .windows(2)
-            .filter(|w| face[w[0]] == face[w[1]])
-            .map(|w| w[1])
-            .min();
+        let twice = places.windows(2).filter(|w| face[w[0]] == face[w[1]]);
+        let twice = twice.map(|w| w[1]).min();
         let (i, what) = match (missing, twice) {
             (Some(i), _) => (i, format!("which is not there: there are {n} points")),
             (None, Some(i)) => (i, "which it has already".to_owned()),
@@ -90,10 +87,8 @@ impl Operation for Polygons {
     fn plan(&self, plan: &mut Plan, _: &PlanContext) -> Vec<Problem> {
         let (mut source, _, done) = self.source();
         if !done.is_clean() {
-            let message = format!(
-                "the faces are no manifold as they stand: {}",
-                done.summary()
-            );
+            let summary = done.summary();
+            let message = format!("the faces are no manifold as they stand: {summary}");
             source = source.with(Problem::warning(message).at(["faces"]));
         }
         source.plan(plan)

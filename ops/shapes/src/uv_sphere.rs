@@ -42,10 +42,7 @@ impl UvSphere {
         let on_circles = around.saturating_mul(circles);
         let faces = around.saturating_mul(rings);
         let edges = on_circles.saturating_add(faces);
-        let degrees = Range {
-            min: 3,
-            max: if rings > 2 { 4 } else { 3 },
-        };
+        let degrees = Range::between(3, if rings > 2 { 4 } else { 3 });
         let counts = MeshPlan::counted(on_circles.saturating_add(2), edges, faces, degrees);
         Source::new(&self.name, counts).placed([self.radius.get(); 3], self.center)
     }

@@ -60,14 +60,9 @@ impl MeshOperation for Bisect {
         // A line crosses the sides of a face at most as often as there are, and cuts it half as often.
         let per_face = plan.degrees.max / 2;
         let crossings = plan.edges.or_less();
-        let cuts = plan.faces.by(per_face).capped(crossings).or_less();
-        plan.vertices = plan.vertices.plus(crossings);
-        plan.edges = plan.edges.plus(crossings).plus(cuts);
-        plan.faces = plan.faces.plus(cuts);
-        plan.degrees = Range {
-            min: 3,
-            max: plan.degrees.max.saturating_add(per_face),
-        };
+        let cuts = plan.faces.by(per_face).capped(crossings.max).or_less();
+        plan.grow(crossings, crossings.plus(cuts), cuts);
+        plan.degrees = Range::between(3, plan.degrees.max.saturating_add(per_face));
         if self.keep != Keep::Both {
             // Copies are made for fans that meet in a vertex, at most one for each edge.
             plan.vertices = plan.vertices.plus(plan.edges).or_less();
@@ -101,10 +96,8 @@ impl MeshOperation for Bisect {
         for f in kept {
             part_of_face[f.index()] = 0;
         }
-        let part = geometry::parts(mesh, &part_of_face)
-            .pop()
-            .unwrap_or_else(|| nothing(mesh));
-        mesh.replace(part);
+        let part = geometry::parts(mesh, &part_of_face).pop();
+        mesh.replace(part.unwrap_or_else(|| nothing(mesh)));
         let gone = n_faces - mesh.n_faces();
         Ok(Report::changed(cut.edges.len()).note(format!("faces on the other side: {gone}")))
     }

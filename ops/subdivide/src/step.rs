@@ -127,10 +127,8 @@ impl Step<'_> {
         change(&mut plan.faces, end.faces.0);
         if self.faces.is_some() && !scheme.needs_triangles() {
             // Faces beside get corners on their sides.
-            plan.degrees = Range {
-                min: plan.degrees.min.min(4),
-                max: plan.degrees.max.saturating_mul(1 << levels),
-            };
+            plan.degrees.min = plan.degrees.min.min(4);
+            plan.degrees.max = plan.degrees.max.saturating_mul(1 << levels);
         } else {
             change(&mut plan.degrees, degrees);
         }
@@ -257,16 +255,11 @@ fn planned(plan: &MeshPlan) -> Size<Planned> {
         let columns = plan.attributes.iter().filter(|a| a.domain == domain);
         16 * columns.count() as u64
     });
-    let most_corners = plan.edges.by(2).max;
-    let corners = plan.faces.times(plan.degrees);
     Size {
         vertices: Planned(plan.vertices),
         edges: Planned(plan.edges),
         faces: Planned(plan.faces),
-        corners: Planned(corners.capped(Range {
-            min: u64::MAX,
-            max: most_corners,
-        })),
+        corners: Planned(plan.corners_of(plan.faces)),
         isolated: Planned(plan.vertices.or_less()),
         with_two_edges: Planned(plan.vertices.or_less()),
         attributes,
@@ -278,10 +271,7 @@ fn degrees_after(scheme: Scheme, degrees: Range) -> Range {
     match scheme {
         Scheme::CatmullClark | Scheme::Midpoint(Split::Quads) => Range::exactly(4),
         // Faces around vertices have as many corners as those have edges.
-        Scheme::DooSabin => Range {
-            min: 3,
-            max: u64::MAX,
-        },
+        Scheme::DooSabin => Range::between(3, u64::MAX),
         _ => degrees,
     }
 }

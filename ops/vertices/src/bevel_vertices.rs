@@ -48,22 +48,12 @@ impl MeshOperation for BevelVertices {
         let done = self.on_refusal.done(self.vertices.count(plan));
         if done.max > 0 {
             // Each edge is cut at both ends at most, and each vertex has three.
-            let cuts = Range {
-                min: done.min.saturating_mul(3),
-                max: plan.edges.by(2).max,
-            };
-            plan.vertices = plan.vertices.plus(Range {
-                min: done.min.saturating_mul(2),
-                max: cuts.max.saturating_sub(done.min),
-            });
+            let cuts = Range::between(done.by(3).min, plan.edges.by(2).max);
             // A face has as many corners as its vertex had edges; others gain one for each corner.
             let gained = plan.degrees.by(2).max;
-            plan.degrees = Range {
-                min: 3,
-                max: gained.max(plan.edges.max),
-            };
-            plan.edges = plan.edges.plus(cuts);
-            plan.faces = plan.faces.plus(done);
+            plan.degrees = Range::between(3, gained.max(plan.edges.max));
+            let new = Range::between(done.by(2).min, cuts.max.saturating_sub(done.min));
+            plan.grow(new, cuts, done);
         }
         plan.drop_normals();
         Vec::new()

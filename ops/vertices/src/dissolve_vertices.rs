@@ -48,15 +48,9 @@ impl MeshOperation for DissolveVertices {
         let n = self.on_refusal.done(chosen);
         plan.vertices = plan.vertices.minus(n);
         // At least one edge goes with each vertex; some face with its sides is always left.
-        plan.edges = Range {
-            min: plan.edges.min.min(3),
-            max: plan.edges.minus(n).max,
-        };
+        plan.edges = Range::between(plan.edges.min.min(3), plan.edges.minus(n).max);
         plan.faces.min = plan.faces.min.min(1);
-        plan.degrees = Range {
-            min: 3,
-            max: plan.edges.max.saturating_mul(2).max(3),
-        };
+        plan.degrees = Range::between(3, plan.edges.by(2).max.max(3));
         Vec::new()
     }
 

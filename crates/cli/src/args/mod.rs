@@ -9,7 +9,7 @@ mod run;
 
 use std::path::PathBuf;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
 pub(crate) use cache::{CacheAction, CacheArgs, CacheCommandArgs, CacheFolder};
 pub(crate) use look::{DiffArgs, Kind, SelectArgs};
@@ -43,39 +43,11 @@ pub(crate) enum Command {
     /// Run one recipe with many values of its parameters, and measure what comes out
     Sweep(SweepArgs),
     /// List the operations, or show one of them
-    Ops {
-        /// The operation to show
-        name: Option<String>,
-        /// Print the whole reference as Markdown
-        #[arg(long, conflicts_with = "name")]
-        markdown: bool,
-        /// With what the recipes in this folder draw: `NAME/before.png` and `NAME/after.png` of `NAME.ron`
-        #[arg(long, requires = "markdown", value_name = "FOLDER")]
-        pictures: Option<PathBuf>,
-    },
+    Ops(OpsArgs),
     /// Show what a file holds
-    Info {
-        /// A mesh, patch or curve file
-        file: PathBuf,
-        /// Show a small picture too: in pixels where the terminal can, else in characters
-        #[arg(long)]
-        picture: bool,
-        #[command(flatten)]
-        picture_errors: PictureErrorsArgs,
-        #[command(flatten)]
-        read: ReadArgs,
-        #[arg(long, value_enum, default_value_t)]
-        format: Format,
-    },
+    Info(InfoArgs),
     /// Read a file and write it in another format
-    Convert {
-        /// The file to read
-        input: PathBuf,
-        #[command(flatten)]
-        read: ReadArgs,
-        /// The file to write; its ending chooses the format
-        output: PathBuf,
-    },
+    Convert(ConvertArgs),
     /// Run the recipes that wrote files again, and compare the bytes
     ///
     /// A file says which recipe wrote it, with which parameters and from which inputs. The recipe is looked
@@ -97,24 +69,64 @@ pub(crate) enum Command {
     Schema,
     /// Write a new operation, a working sample with its test and its picture: a crate of its own, or with `--in` a file of
     /// a group
-    NewOp {
-        /// The name of the operation in camel case, such as `InflateFaces`
-        name: String,
-        /// Write a file into this group of operations, such as `faces`, in place of a crate
-        #[arg(long = "in", value_name = "GROUP")]
-        group: Option<String>,
-        /// Where to write the crate; for a group the root of Meshwright's workspace
-        #[arg(long, default_value = ".")]
-        dir: PathBuf,
-        /// The root of Meshwright's workspace, which the crate depends on
-        #[arg(
-            long,
-            default_value = ".",
-            conflicts_with = "group",
-            value_name = "DIR"
-        )]
-        meshwright: PathBuf,
-    },
+    NewOp(NewOpArgs),
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct OpsArgs {
+    /// The operation to show
+    pub(crate) name: Option<String>,
+    /// Print the whole reference as Markdown
+    #[arg(long, conflicts_with = "name")]
+    pub(crate) markdown: bool,
+    /// With what the recipes in this folder draw: `NAME/before.png` and `NAME/after.png` of `NAME.ron`
+    #[arg(long, requires = "markdown", value_name = "FOLDER")]
+    pub(crate) pictures: Option<PathBuf>,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct InfoArgs {
+    /// A mesh, patch or curve file
+    pub(crate) file: PathBuf,
+    /// Show a small picture too: in pixels where the terminal can, else in characters
+    #[arg(long)]
+    pub(crate) picture: bool,
+    #[command(flatten)]
+    pub(crate) picture_errors: PictureErrorsArgs,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct ConvertArgs {
+    /// The file to read
+    pub(crate) input: PathBuf,
+    #[command(flatten)]
+    pub(crate) read: ReadArgs,
+    /// The file to write; its ending chooses the format
+    pub(crate) output: PathBuf,
+}
+
+#[derive(Debug, ClapArgs)]
+pub(crate) struct NewOpArgs {
+    /// The name of the operation in camel case, such as `InflateFaces`
+    pub(crate) name: String,
+    /// Write a file into this group of operations, such as `faces`, in place of a crate
+    #[arg(long = "in", value_name = "GROUP")]
+    pub(crate) group: Option<String>,
+    /// Where to write the crate; for a group the root of Meshwright's workspace
+    #[arg(long, default_value = ".")]
+    pub(crate) dir: PathBuf,
+    /// The root of Meshwright's workspace, which the crate depends on
+    #[arg(
+        long,
+        default_value = ".",
+        conflicts_with = "group",
+        value_name = "DIR"
+    )]
+    pub(crate) meshwright: PathBuf,
 }
 
 /// An invalid combination of arguments, found after they were read: exit code 2.
@@ -139,23 +151,21 @@ fn assignment(text: &str) -> Result<(String, String), String> {
 }
 
 fn size(text: &str) -> Result<u64, String> {
-    let digits = text
-        .find(|c: char| !c.is_ascii_digit())
-        .unwrap_or(text.len());
-    let (number, unit) = text.split_at(digits);
+    let digits = text.find(|c: char| !c.is_ascii_digit());
+    let (number, unit) = text.split_at(digits.unwrap_or(text.len()));
     let shift = match unit.trim() {
-        "" | "B" => 0,
-        "KiB" | "K" => 10,
-        "MiB" | "M" => 20,
-        "GiB" | "G" => 30,
-        "TiB" | "T" => 40,
-        _ => return Err("expected a size such as 512MiB or 8GiB".to_owned()),
+        "" | "B" => Some(0),
+        "KiB" | "K" => Some(10),
+        "MiB" | "M" => Some(20),
+        "GiB" | "G" => Some(30),
+        "TiB" | "T" => Some(40),
+        _ => None,
     };
-    number
-        .parse::<u64>()
-        .ok()
-        .and_then(|n| n.checked_mul(1 << shift))
-        .ok_or_else(|| "expected a size such as 512MiB or 8GiB".to_owned())
+    let number = number.parse::<u64>().ok();
+    let size = number
+        .zip(shift)
+        .and_then(|(n, shift)| n.checked_mul(1 << shift));
+    size.ok_or_else(|| "expected a size such as 512MiB or 8GiB".to_owned())
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use clap::Args as ClapArgs;
 use super::{CacheArgs, Format, PictureErrorsArgs, assignment, size};
 
 /// The values of a recipe's parameters.
-#[derive(Debug, Default, ClapArgs)]
+#[derive(Clone, Debug, Default, ClapArgs)]
 pub(crate) struct ValueArgs {
     /// Set a parameter of the recipe
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]

@@ -6,7 +6,7 @@ use recipe::mebibytes;
 
 use crate::args::{CacheAction, CacheCommandArgs, Format};
 use crate::cache::folder;
-use crate::output::{grouped, print};
+use crate::output::{grouped, print, print_json};
 
 pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
     let cache = Cache::new(folder(&args.folder)?, LIMIT, "");
@@ -17,21 +17,17 @@ pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
     };
     let size = size.with_context(|| format!("cannot use the cache folder {shown}"))?;
     if args.format == Format::Json {
-        let report = serde_json::json!({
+        print_json(&serde_json::json!({
             "folder": shown,
             "action": if word == "holds" { "info" } else { "clear" },
             "bytes": size.bytes,
             "steps": size.steps,
             "blobs": size.blobs,
-        });
-        print(&format!("{report:#}\n"))?;
+        }))?;
         return Ok(true);
     }
-    let (bytes, steps, blobs) = (
-        mebibytes(size.bytes),
-        grouped(size.steps),
-        grouped(size.blobs),
-    );
+    let [steps, blobs] = [size.steps, size.blobs].map(grouped);
+    let bytes = mebibytes(size.bytes);
     print(&format!(
         "folder  {shown}\n{word}  {bytes}: {steps} steps, {blobs} arrays and files\n"
     ))?;

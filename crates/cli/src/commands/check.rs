@@ -3,11 +3,14 @@
 use engine::Engine;
 use op::Range;
 use recipe::mebibytes;
+use serde_json::json;
 
 use super::run::refuse;
 use crate::args::{CheckArgs, Format};
 use crate::loading::load;
-use crate::output::{counted, explain, grouped, print, problems_json, show, table};
+use crate::output::{
+    counted, explain, grouped, heads, print, print_json, problems_json, show, table,
+};
 
 pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
     let loaded = load(&args.recipe, engine)?;
@@ -20,29 +23,21 @@ pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
     }
     let steps = &loaded.forecast.steps;
     if json {
-        let range = |r: Range| serde_json::json!({ "min": r.min, "max": (r.max < u64::MAX).then_some(r.max) });
-        let forecast: Vec<_> = steps
-            .iter()
-            .map(|s| {
-                serde_json::json!({
-                    "step": s.label, "vertices": range(s.vertices), "edges": range(s.edges),
-                    "faces": range(s.faces), "bytes": range(s.bytes),
-                })
+        let range = |r: Range| json!({ "min": r.min, "max": (r.max < u64::MAX).then_some(r.max) });
+        let forecast = steps.iter().map(|s| {
+            json!({
+                "step": s.label, "vertices": range(s.vertices), "edges": range(s.edges),
+                "faces": range(s.faces), "bytes": range(s.bytes),
             })
-            .collect();
-        let report = serde_json::json!({
-            "recipe": loaded.path, "succeeded": true, "forecast": forecast,
-            "warnings": problems_json(&loaded.diagnostics, &loaded.recipe.sources),
         });
-        print(&format!("{report:#}\n"))?;
+        print_json(&json!({
+            "recipe": loaded.path, "succeeded": true, "forecast": forecast.collect::<Vec<_>>(),
+            "warnings": problems_json(&loaded.diagnostics, &loaded.recipe.sources),
+        }))?;
         return Ok(true);
     }
     show(&loaded, &loaded.diagnostics);
-    let mut rows = vec![
-        ["step", "vertices", "edges", "faces", "memory"]
-            .map(str::to_owned)
-            .to_vec(),
-    ];
+    let mut rows = vec![heads(["step", "vertices", "edges", "faces", "memory"])];
     for (i, step) in steps.iter().enumerate() {
         let mut row = vec![format!("{:>2} {}", i + 1, step.label)];
         row.extend([step.vertices, step.edges, step.faces].map(|r| range(r, grouped)));

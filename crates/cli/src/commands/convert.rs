@@ -1,20 +1,18 @@
 //! `meshwright convert`: reads a file and writes it in another format.
 
-use std::path::Path;
-
-use crate::args::ReadArgs;
+use crate::args::ConvertArgs;
 use crate::output::{STAMP, print};
 use crate::scenes::read_file;
 
-pub(crate) fn run(input: &Path, read: &ReadArgs, output: &Path) -> anyhow::Result<bool> {
-    let (scene, notes) = read_file(input, &read.options())?;
+pub(crate) fn run(args: &ConvertArgs) -> anyhow::Result<bool> {
+    let (scene, notes) = read_file(&args.input, &args.read.options())?;
     for note in &notes {
         print(&format!("{note}\n"))?;
     }
     let options = mesh_io::WriteOptions {
         provenance: Some(STAMP.to_owned()),
     };
-    let report = mesh_io::write(&store::Disk, output, &scene, &options)
+    let report = mesh_io::write(&store::Disk, &args.output, &scene, &options)
         .map_err(|error| anyhow::anyhow!("{error}"))?;
     for loss in &report.losses {
         print(&format!("{loss}\n"))?;

@@ -3,14 +3,14 @@
 use engine::{Engine, Stop};
 use geometry::distance::{Distance, OneSided};
 use recipe::compare::{
-    AttributeDifference, ColumnDifference, Connectivity, Counts, Difference, MeshDifference,
+    AttributeDifference, ColumnDifference, Connectivity, Counts, Difference, MeshDifference, Moved,
     ObjectDifference,
 };
 use serde_json::{Value as Json, json};
 
 use super::diff_runs;
 use crate::args::{DiffArgs, Format, ValueArgs};
-use crate::output::{grouped, print, table};
+use crate::output::{grouped, print, print_json, table};
 use crate::scenes::find;
 
 pub(crate) fn run(args: &DiffArgs, engine: &Engine) -> anyhow::Result<bool> {
@@ -24,7 +24,7 @@ pub(crate) fn run(args: &DiffArgs, engine: &Engine) -> anyhow::Result<bool> {
     let equal = difference.is_within(args.tolerance);
     if args.format == Format::Json {
         let objects: Vec<Json> = difference.objects.iter().map(object_json).collect();
-        let report = json!({
+        print_json(&json!({
             "first": args.first.display().to_string(),
             "second": args.second.display().to_string(),
             "equal": equal,
@@ -33,15 +33,12 @@ pub(crate) fn run(args: &DiffArgs, engine: &Engine) -> anyhow::Result<bool> {
             "only_first": difference.only_first,
             "only_second": difference.only_second,
             "objects": objects,
-        });
-        print(&format!("{report:#}\n"))?;
+        }))?;
         return Ok(equal);
     }
     let files = [&args.first, &args.second].map(|path| path.display().to_string());
-    for (names, file) in [&difference.only_first, &difference.only_second]
-        .into_iter()
-        .zip(&files)
-    {
+    let only = [&difference.only_first, &difference.only_second];
+    for (names, file) in only.into_iter().zip(&files) {
         for name in names {
             print(&format!("{name}: only in {file}\n"))?;
         }
@@ -77,10 +74,8 @@ fn object_text(object: &ObjectDifference, files: &[String; 2]) -> String {
         Some(mesh) => text += &mesh_text(mesh, files),
         None => text += "  points differ\n",
     }
-    for (names, file) in [&object.materials_only_first, &object.materials_only_second]
-        .into_iter()
-        .zip(files)
-    {
+    let only = [&object.materials_only_first, &object.materials_only_second];
+    for (names, file) in only.into_iter().zip(files) {
         for name in names {
             text += &format!("  material {name}: only in {file}\n");
         }
@@ -113,13 +108,10 @@ fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
     if mesh.connectivity == Connectivity::Same {
         let moved = match &mesh.moved {
             None => "the same".to_owned(),
-            Some(m) => format!(
-                "{} of {} differ, {} by {}",
-                grouped(m.count as u64),
-                grouped(mesh.counts[0].vertices as u64),
-                m.vertex,
-                m.by
-            ),
+            Some(m) => {
+                let [n, all] = [m.count, mesh.counts[0].vertices].map(|n| grouped(n as u64));
+                format!("{n} of {all} differ, {} by {}", m.vertex, m.by)
+            }
         };
         line("positions", &moved);
     }
@@ -149,16 +141,13 @@ const FACTS: [(&str, Show); 8] = [
     ("components", |c| grouped(c.components as u64)),
     ("boundary loops", |c| grouped(c.boundary_loops as u64)),
     ("area", |c| c.area.to_string()),
-    ("volume", |c| {
-        if c.boundary_loops == 0 {
-            c.volume.to_string()
-        } else {
-            "open".to_owned()
-        }
+    ("volume", |c| match c.boundary_loops {
+        0 => c.volume.to_string(),
+        _ => "open".to_owned(),
     }),
-    ("bounds", |c| {
-        c.bounds
-            .map_or("none".to_owned(), |[min, max]| format!("{min} to {max}"))
+    ("bounds", |c| match c.bounds {
+        Some([min, max]) => format!("{min} to {max}"),
+        None => "none".to_owned(),
     }),
 ];
 
@@ -177,9 +166,7 @@ fn column_text(attribute: &AttributeDifference, files: &[String; 2]) -> String {
         ColumnDifference::None => "the same".to_owned(),
         ColumnDifference::OnlyFirst => format!("only in {}", files[0]),
         ColumnDifference::OnlySecond => format!("only in {}", files[1]),
-        ColumnDifference::Types([a, b]) => {
-            format!("{a} in {}, {b} in {}", files[0], files[1])
-        }
+        ColumnDifference::Types([a, b]) => format!("{a} in {}, {b} in {}", files[0], files[1]),
         ColumnDifference::Rules => "edits treat it in another way".to_owned(),
         ColumnDifference::Unknown => "in both, for other elements".to_owned(),
         ColumnDifference::Values { count, by, element } => {
@@ -203,9 +190,7 @@ fn object_json(object: &ObjectDifference) -> Json {
     });
     if let Some(mesh) = &object.mesh {
         let attributes: Vec<Json> = mesh.attributes.iter().map(attribute_json).collect();
-        let moved = mesh
-            .moved
-            .map(|m| json!({ "count": m.count, "vertex": m.vertex.index(), "by": m.by }));
+        let moved = |m: Moved| json!({ "count": m.count, "vertex": m.vertex.index(), "by": m.by });
         let distance = mesh.distance.as_ref().map(|d| {
             json!({
                 "largest": d.largest(), "at_most": d.at_most(), "mean": d.mean(),
@@ -219,7 +204,7 @@ fn object_json(object: &ObjectDifference) -> Json {
                 Connectivity::Reordered => "reordered",
                 Connectivity::Different => "different",
             },
-            "moved": moved,
+            "moved": mesh.moved.map(moved),
             "attributes": attributes,
             "distance": distance,
         });

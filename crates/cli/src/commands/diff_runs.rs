@@ -6,7 +6,7 @@ use anyhow::Context as _;
 use serde_json::{Map, Value as Json, json};
 
 use crate::args::{Format, WrongUsage};
-use crate::output::print;
+use crate::output::{print, print_json};
 
 /// What may differ between runs of one recipe: times, what was taken from earlier runs, where it ran.
 const APART: [&str; 4] = ["milliseconds", "cached", "ran_because", "file"];
@@ -37,10 +37,9 @@ pub(crate) fn run(first: &Path, second: &Path, format: Format) -> anyhow::Result
             let one = |(what, a, b): &Differing| json!({ "what": what, "first": a, "second": b });
             differing.iter().map(one).collect()
         };
-        let report = json!({
+        print_json(&json!({
             "equal": equal, "at": place, "differs": list(&differing), "parameters": list(&parameters),
-        });
-        print(&format!("{report:#}\n"))?;
+        }))?;
         return Ok(equal);
     }
     let mut text = String::new();

@@ -8,42 +8,32 @@ use mesh_io::{Note, NoteKind};
 use op::Place;
 use ops_pictures::Picture;
 use scene::{Geometry, Object, Scene};
+use serde_json::json;
 
-use crate::args::{Format, PictureErrorsArgs, ReadArgs};
+use crate::args::{Format, InfoArgs};
 use crate::commands::picture::draw_found;
-use crate::output::{counted, grouped, print};
-use crate::picture_errors::Pictures;
+use crate::output::{counted, grouped, print, print_json};
 use crate::scenes::{Found, read_file};
 use crate::terminal_picture;
 
-pub(crate) fn run(
-    path: &Path,
-    picture: bool,
-    picture_errors: &PictureErrorsArgs,
-    read: &ReadArgs,
-    format: Format,
-) -> anyhow::Result<bool> {
-    let (scene, notes) = read_file(path, &read.options())?;
-    let pictures = picture_errors.of(path, BUDGET);
-    if let Some(pictures) = &pictures {
-        for note in &notes {
-            let places = places(note);
-            if !places.is_empty() {
-                pictures.draw(&scene, &places, &note.to_string());
-            }
+pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
+    let path = &args.file;
+    let (scene, notes) = read_file(path, &args.read.options())?;
+    let pictures = args.picture_errors.of(path, BUDGET);
+    for note in &notes {
+        let places = places(note);
+        if !places.is_empty() {
+            pictures.draw(&scene, &places, &note.to_string());
         }
     }
-    if format == Format::Json {
-        if let Some(pictures) = &pictures {
-            pictures.warn();
-        }
+    if args.format == Format::Json {
+        pictures.warn();
         let objects: Vec<_> = scene.objects().iter().map(object_json).collect();
         let notes: Vec<_> = notes.iter().map(note_json).collect();
-        let pictures = pictures.as_ref().map(Pictures::paths).unwrap_or_default();
-        let info = serde_json::json!({
-            "file": path.display().to_string(), "objects": objects, "notes": notes, "pictures": pictures,
-        });
-        print(&format!("{info:#}\n"))?;
+        print_json(&json!({
+            "file": path.display().to_string(), "objects": objects, "notes": notes,
+            "pictures": pictures.paths(),
+        }))?;
         return Ok(true);
     }
     for object in scene.objects() {
@@ -55,10 +45,8 @@ pub(crate) fn run(
     for note in &notes {
         print(&format!("note: {note}\n"))?;
     }
-    if let Some(pictures) = &pictures {
-        pictures.tell();
-    }
-    if picture {
+    pictures.tell();
+    if args.picture {
         show(path, scene)?;
     }
     Ok(true)
@@ -72,14 +60,12 @@ fn places(note: &Note) -> Vec<Place> {
         Some(Elements::Faces(list)) => list.iter().map(|f| format!("face {f}")).collect(),
         None => Vec::new(),
     };
-    let places = names.into_iter().zip(&note.places);
-    places
-        .map(|(name, points)| Place {
-            object: String::new(),
-            name,
-            points: points.clone(),
-        })
-        .collect()
+    let place = |(name, points): (String, &Vec<_>)| Place {
+        object: String::new(),
+        name,
+        points: points.clone(),
+    };
+    names.into_iter().zip(&note.places).map(place).collect()
 }
 
 /// Shows a picture of a scene in the terminal.
@@ -94,23 +80,21 @@ fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
 
 /// A note as a sentence, and its parts; all elements, where the sentence names a few.
 fn note_json(note: &Note) -> serde_json::Value {
-    let mut json = serde_json::json!({
+    let mut json = json!({
         "text": note.to_string(),
         "left_out": note.kind == NoteKind::LeftOut,
         "file": note.path.display().to_string(),
         "line": note.line,
         "count": note.count,
     });
-    let elements = note.elements.as_ref().map(|elements| match elements {
-        Elements::Vertices(list) => ("vertices", list.iter().map(|v| v.index().into()).collect()),
-        Elements::Edges(list) => (
-            "edges",
-            list.iter().map(|e| e.map(VertexId::index).into()).collect(),
-        ),
-        Elements::Faces(list) => ("faces", list.iter().map(|&f| f.into()).collect()),
-    });
-    if let Some((kind, list)) = elements {
-        json[kind] = serde_json::Value::Array(list);
+    let index = |v: &VertexId| v.index();
+    match &note.elements {
+        Some(Elements::Vertices(list)) => json["vertices"] = list.iter().map(index).collect(),
+        Some(Elements::Edges(list)) => {
+            json["edges"] = list.iter().map(|e| e.each_ref().map(index)).collect();
+        }
+        Some(Elements::Faces(list)) => json["faces"] = list.iter().copied().collect(),
+        None => {}
     }
     json
 }
@@ -120,13 +104,11 @@ fn facts(object: &Object) -> Vec<(&'static str, String)> {
         Geometry::Mesh(mesh) => mesh_facts(object, mesh),
         Geometry::Patches(patches) => vec![("patches", grouped(patches.len() as u64))],
         Geometry::Curve(curve) => vec![("control points", grouped(curve.points().len() as u64))],
-        Geometry::Polylines(lines) => vec![
-            ("polylines", grouped(lines.len() as u64)),
-            (
-                "points",
-                grouped(lines.iter().map(Vec::len).sum::<usize>() as u64),
-            ),
-        ],
+        Geometry::Polylines(lines) => {
+            let points: usize = lines.iter().map(Vec::len).sum();
+            let counts = [("polylines", lines.len()), ("points", points)];
+            counts.map(|(what, n)| (what, grouped(n as u64))).to_vec()
+        }
     }
 }
 
@@ -149,17 +131,11 @@ fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
         .iter()
         .map(|(domain, c)| format!("{domain} {} ({})", c.name, c.values.type_name()))
         .collect();
+    let (n_faces, degrees) = (count(mesh.n_faces()), histogram(&degrees, "corners"));
     let mut facts = vec![
         ("vertices", count(mesh.n_vertices())),
         ("edges", count(mesh.n_edges())),
-        (
-            "faces",
-            format!(
-                "{} ({})",
-                count(mesh.n_faces()),
-                histogram(&degrees, "corners")
-            ),
-        ),
+        ("faces", format!("{n_faces} ({degrees})")),
         ("valences", histogram(&geometry::valences(mesh), "edges")),
         ("closed", closed),
         ("components", count(geometry::n_components(mesh))),
@@ -189,10 +165,8 @@ fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
 
 /// Counts by number: `12 of 3, 6 of 4 corners`; at most eight of them.
 fn histogram(counts: &[usize], what: &str) -> String {
-    let mut parts: Vec<String> = counts
-        .iter()
-        .enumerate()
-        .filter(|(_, n)| **n > 0)
+    let found = counts.iter().enumerate().filter(|(_, n)| **n > 0);
+    let mut parts: Vec<String> = found
         .map(|(number, n)| format!("{} of {number}", grouped(*n as u64)))
         .collect();
     if parts.is_empty() {
@@ -206,7 +180,7 @@ fn histogram(counts: &[usize], what: &str) -> String {
 }
 
 fn object_json(object: &Object) -> serde_json::Value {
-    let mut json = serde_json::json!({ "name": object.name, "kind": object.geometry.kind() });
+    let mut json = json!({ "name": object.name, "kind": object.geometry.kind() });
     let more = match &object.geometry {
         Geometry::Mesh(mesh) => {
             let attributes: Vec<String> = mesh
@@ -214,7 +188,7 @@ fn object_json(object: &Object) -> serde_json::Value {
                 .iter()
                 .map(|(d, c)| format!("{d} {}", c.name))
                 .collect();
-            serde_json::json!({
+            json!({
                 "vertices": mesh.n_vertices(),
                 "edges": mesh.n_edges(),
                 "faces": mesh.n_faces(),

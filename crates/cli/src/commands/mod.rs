@@ -12,7 +12,6 @@ pub(crate) mod ops;
 pub(crate) mod picture;
 pub(crate) mod reproduce;
 pub(crate) mod run;
-pub(crate) mod schema;
 pub(crate) mod select;
 pub(crate) mod shrink;
 pub(crate) mod sweep;

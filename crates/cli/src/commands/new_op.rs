@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf, absolute};
 
 use anyhow::{Context as _, bail, ensure};
 
+use crate::args::NewOpArgs;
 use crate::output::print;
 
 const OPERATION: &str = include_str!("new_op/operation.rs.txt");
@@ -26,20 +27,15 @@ const TYPES: &str = "Context DVec3 Deserialize JsonSchema Mesh MeshOperation Mes
 /// Files with their texts.
 type Files = Vec<(PathBuf, String)>;
 
-/// Writes the operation `name` into `group` of the workspace in `dir`, or, without one, a crate in `dir` that
-/// depends on the workspace `meshwright`.
-pub(crate) fn run(
-    name: &str,
-    group: Option<&str>,
-    dir: &Path,
-    meshwright: &Path,
-) -> anyhow::Result<bool> {
-    let snake = checked(name)?;
+/// Writes an operation into a group of the workspace in `dir`, or, without one, a crate in `dir` that depends on
+/// the workspace `meshwright`.
+pub(crate) fn run(args: &NewOpArgs) -> anyhow::Result<bool> {
+    let (name, snake) = (&args.name, checked(&args.name)?);
     let fill = |text: &str| text.replace("{Name}", name).replace("{name}", &snake);
     // Everything is prepared before anything is written.
-    let (files, next) = match group {
-        Some(group) => in_group(group, &snake, dir, fill)?,
-        None => of_its_own(&snake, dir, meshwright, fill)?,
+    let (files, next) = match &args.group {
+        Some(group) => in_group(group, &snake, &args.dir, fill)?,
+        None => of_its_own(&snake, &args.dir, &args.meshwright, fill)?,
     };
     let mut text = String::new();
     for (path, content) in files {
@@ -76,11 +72,8 @@ fn in_group(
         fs::read_to_string(&list).with_context(|| format!("cannot read {}", list.display()))?;
     let text = insert_sorted(&text, "mod ", &fill("mod {name};"))?;
     let text = insert_sorted(&text, "pub use ", &fill("pub use {name}::{Name};"))?;
-    let text = insert_last(
-        &text,
-        "        .with::<",
-        &fill("        .with::<{Name}>()"),
-    )?;
+    let with = fill("        .with::<{Name}>()");
+    let text = insert_last(&text, "        .with::<", &with)?;
     let next = format!(
         "next: cargo test -p meshwright-ops-{group}\nits picture: cargo run -- test \
          ops/all/pictures/{snake}.ron --out ops/all/pictures\n"
@@ -105,12 +98,9 @@ fn of_its_own(
     ensure!(!folder.exists(), "{} is there already", folder.display());
     let meshwright = absolute(meshwright)?;
     let path = pathdiff::diff_paths(&meshwright, absolute(&folder)?).unwrap_or(meshwright);
-    let manifest = MANIFEST
-        .replace("{kebab}", &snake.replace('_', "-"))
-        .replace(
-            "{meshwright}",
-            &path.display().to_string().replace('\\', "/"),
-        );
+    let path = path.display().to_string().replace('\\', "/");
+    let manifest = MANIFEST.replace("{kebab}", &snake.replace('_', "-"));
+    let manifest = manifest.replace("{meshwright}", &path);
     let next = format!(
         "next: cd {} && cargo test && cargo run -- run picture.ron\n",
         folder.display()
@@ -176,9 +166,9 @@ fn insert_sorted(text: &str, prefix: &str, line: &str) -> anyhow::Result<String>
 
 /// Puts a line behind the last of those that begin with `prefix`.
 fn insert_last(text: &str, prefix: &str, line: &str) -> anyhow::Result<String> {
+    let missing = || format!("found no line that begins with `{}`", prefix.trim());
     let last = text.lines().rfind(|l| l.starts_with(prefix));
-    let last =
-        last.with_context(|| format!("found no line that begins with `{}`", prefix.trim()))?;
+    let last = last.with_context(missing)?;
     Ok(text.replacen(&format!("{last}\n"), &format!("{last}\n{line}\n"), 1))
 }
 

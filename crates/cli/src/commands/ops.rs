@@ -4,50 +4,52 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use anyhow::Context as _;
 use op::{Entry, Registry};
 use recipe::{FieldDoc, TypeDoc, did_you_mean, fields, step_kinds, types};
 use serde_json::Value as Json;
 
 use super::new_op::snake_case;
-use crate::output::{print, table};
+use crate::args::OpsArgs;
+use crate::output::print;
 
-pub(crate) fn run(
-    name: Option<&str>,
-    markdown: bool,
-    pictures: Option<&Path>,
-    registry: &Registry,
-) -> anyhow::Result<bool> {
-    if markdown {
-        print(&reference(registry, pictures))?;
-        return Ok(true);
+pub(crate) fn run(args: &OpsArgs, registry: &Registry) -> anyhow::Result<bool> {
+    print(&match &args.name {
+        _ if args.markdown => reference(registry, args.pictures.as_deref()),
+        None => list(registry),
+        Some(name) => shown(name, registry)?,
+    })?;
+    Ok(true)
+}
+
+/// A line for each operation.
+fn list(registry: &Registry) -> String {
+    let mut text = String::new();
+    for e in registry.entries() {
+        text += &format!("{:<20} {}\n", e.name, e.summary);
     }
-    let Some(name) = name else {
-        let mut rows: Vec<Vec<String>> = registry
-            .entries()
-            .iter()
-            .map(|e| vec![format!("{:<20} {}", e.name, e.summary)])
-            .collect();
-        rows.extend(step_kinds().iter().map(|(name, schema)| {
-            let doc = schema["description"].as_str().unwrap_or_default();
-            vec![format!("{name:<20} {doc}")]
-        }));
-        print(&table(&rows))?;
-        return Ok(true);
-    };
+    for (name, schema) in step_kinds() {
+        text += &format!("{name:<20} {}\n", description(&schema));
+    }
+    text
+}
+
+/// What is said of one operation.
+fn shown(name: &str, registry: &Registry) -> anyhow::Result<String> {
     if let Some((name, schema)) = step_kinds().into_iter().find(|(kind, _)| *kind == name) {
-        print(&format!("{name}: {}", described(&schema)))?;
-        return Ok(true);
+        return Ok(format!("{name}: {}", described(&schema)));
     }
-    let Some(entry) = registry.get(name) else {
+    let entry = registry.get(name).with_context(|| {
         let known = registry.entries().iter().map(|e| e.name);
         let known = known.chain(step_kinds().into_iter().map(|(name, _)| name));
-        anyhow::bail!(
-            "there is no operation `{name}`: {}",
-            did_you_mean(name, known)
-        );
-    };
-    print(&detail(entry))?;
-    Ok(true)
+        let help = did_you_mean(name, known);
+        format!("there is no operation `{name}`: {help}")
+    })?;
+    Ok(detail(entry))
+}
+
+fn description(schema: &Json) -> &str {
+    schema["description"].as_str().unwrap_or_default()
 }
 
 fn detail(entry: &Entry) -> String {
@@ -68,8 +70,8 @@ fn detail(entry: &Entry) -> String {
 /// The description and the parameters.
 fn described(schema: &Json) -> String {
     let mut text = String::new();
-    if let Some(description) = schema.get("description").and_then(|d| d.as_str()) {
-        text += &format!("{description}\n");
+    if schema["description"].is_string() {
+        text += &format!("{}\n", description(schema));
     }
     let fields = fields(schema);
     if fields.is_empty() {
@@ -122,23 +124,19 @@ fn reference(registry: &Registry, pictures: Option<&Path>) -> String {
         "# Operations\n\nMade by `meshwright ops --markdown` from the operations themselves.\n\n"
             .to_owned();
     for entry in registry.entries() {
-        text += &format!(
-            "- [{0}](#{1}): {2}\n",
-            entry.name,
-            entry.name.to_lowercase(),
-            entry.summary
-        );
+        let (name, anchor) = (entry.name, entry.name.to_lowercase());
+        text += &format!("- [{name}](#{anchor}): {}\n", entry.summary);
     }
     let mut used: BTreeMap<String, TypeDoc> = BTreeMap::new();
     for entry in registry.entries() {
         let schema = entry.schema();
         text += &format!("\n## {}\n\n", entry.name);
-        if let Some(description) = schema.get("description").and_then(|d| d.as_str()) {
-            text += &format!("{description}\n\n");
+        if schema["description"].is_string() {
+            text += &format!("{}\n\n", description(&schema));
         }
         text += &format!("```ron\n{}\n```\n\n", entry.example);
         if let Some(folder) = pictures {
-            text += &shown(entry.name, folder);
+            text += &images(entry.name, folder);
         }
         let fields = fields(&schema);
         if fields.is_empty() {
@@ -150,11 +148,8 @@ fn reference(registry: &Registry, pictures: Option<&Path>) -> String {
     }
     text += "\n# Steps that hold steps\n";
     for (name, schema) in step_kinds() {
-        let doc = schema["description"].as_str().unwrap_or_default();
-        text += &format!(
-            "\n## {name}\n\n{doc}.\n\n{}",
-            fields_table(&fields(&schema))
-        );
+        let (doc, table) = (description(&schema), fields_table(&fields(&schema)));
+        text += &format!("\n## {name}\n\n{doc}.\n\n{table}");
     }
     text += "\n# Types of parameters\n";
     for t in used.values() {
@@ -171,7 +166,7 @@ fn reference(registry: &Registry, pictures: Option<&Path>) -> String {
 }
 
 /// The pictures of an operation side by side, with the recipe that draws them.
-fn shown(operation: &str, folder: &Path) -> String {
+fn images(operation: &str, folder: &Path) -> String {
     let name = snake_case(operation);
     let recipe = format!("{}/{name}", folder.display());
     let images: Vec<String> = ["before", "after"]

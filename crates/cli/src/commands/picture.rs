@@ -20,10 +20,8 @@ use crate::scenes::{Found, find};
 use engine::{BUDGET, Engine, Stop};
 
 pub(crate) fn run(args: &PictureArgs, engine: &Engine) -> anyhow::Result<bool> {
-    let files: Vec<PathBuf> = inputs::list(&args.files)?
-        .into_iter()
-        .map(|input| PathBuf::from(input.path))
-        .collect();
+    let inputs = inputs::list(&args.files)?.into_iter();
+    let files: Vec<PathBuf> = inputs.map(|input| PathBuf::from(input.path)).collect();
     if files.len() > 1 && !args.sheet {
         let message = format!("these are {} files: --sheet puts them on one", files.len());
         return Err(WrongUsage(message).into());
@@ -54,11 +52,8 @@ pub(crate) fn write_images(picture: &Picture, images: &[Image], path: &Path) -> 
 fn out(args: &PictureArgs, first: &Path) -> PathBuf {
     args.out.clone().unwrap_or_else(|| {
         let ending = if args.turntable { "gif" } else { "png" };
-        let name = if args.sheet {
-            Path::new("sheet")
-        } else {
-            Path::new(first.file_stem().unwrap_or_default())
-        };
+        let stem = first.file_stem().unwrap_or_default();
+        let name = if args.sheet { "sheet".as_ref() } else { stem };
         PathBuf::from(format!("{}.{ending}", name.display()))
     })
 }
@@ -103,32 +98,26 @@ fn fields(args: &DrawArgs, out: &Path, usual: [u32; 2], further: Vec<String>) ->
     let mut fields = vec![format!("path: {}", string_literal(&path))];
     let [width, height] = args.size.unwrap_or(usual);
     fields.push(format!("size: ({width}, {height})"));
-    let more = format!(
-        "{}{}",
-        if args.orthographic {
-            ", projection: Orthographic"
-        } else {
-            ""
-        },
-        if args.z_up { ", up: Z" } else { "" },
-    );
-    let camera = |from: &String| format!("Fit(from: {from}{more})");
+    let given = |is_given: bool, field: &str| is_given.then(|| field.to_owned());
+    let projection = given(args.orthographic, "projection: Orthographic");
+    let more = projection.into_iter().chain(given(args.z_up, "up: Z"));
+    let camera = |from: Option<&String>| {
+        let from = from.map(|from| format!("from: {from}"));
+        let fields: Vec<String> = from.into_iter().chain(more.clone()).collect();
+        format!("Fit({})", fields.join(", "))
+    };
     match &args.from[..] {
-        [] if more.is_empty() => {}
-        [] => fields.push(format!("camera: Fit({})", &more[2..])),
-        [one] => fields.push(format!("camera: {}", camera(one))),
+        [] if !args.orthographic && !args.z_up => {}
+        [] | [_] => fields.push(format!("camera: {}", camera(args.from.first()))),
         many => {
-            let cameras: Vec<String> = many.iter().map(camera).collect();
+            let cameras: Vec<String> = many.iter().map(|from| camera(Some(from))).collect();
             fields.push(format!("views: [{}]", cameras.join(", ")));
         }
     }
     let mut style = Vec::new();
     style.extend(args.shading.iter().map(|s| format!("shading: {s}")));
-    style.extend(args.wireframe.then(|| "wireframe: ()".to_owned()));
-    style.extend(
-        args.transparent
-            .then(|| "background: Transparent".to_owned()),
-    );
+    style.extend(given(args.wireframe, "wireframe: ()"));
+    style.extend(given(args.transparent, "background: Transparent"));
     if !style.is_empty() {
         fields.push(format!("style: ({})", style.join(", ")));
     }
@@ -198,7 +187,7 @@ pub(crate) fn draw_found(
     let scenes: Vec<_> = (founds.iter())
         .map(|(found, caption)| (&found.scene, *caption))
         .collect();
-    let drawn = picture.draw_beside(&scenes, &mut cx);
+    let drawn = picture.draw(&scenes, None, &mut cx);
     terminal.clear();
     let (images, notes) = drawn.with_context(|| format!("cannot draw {}", path.display()))?;
     for note in notes {
@@ -225,10 +214,8 @@ fn on_sheet(
             Err(error) => {
                 complain(&format!("error: {error:#}\n"));
                 all_are_there = false;
-                {
-                    let [width, height] = picture.size.map(op::Count::get);
-                    Image::filled(width, height, [0; 4])?
-                }
+                let [width, height] = picture.size.map(op::Count::get);
+                Image::filled(width, height, [0; 4])?
             }
         };
         drawn.push((image, path.display().to_string()));
@@ -262,10 +249,7 @@ pub(crate) fn write_png(image: &Image, path: &Path, say: bool) -> anyhow::Result
 
 fn write(path: &Path, bytes: &[u8], image: &Image) -> anyhow::Result<()> {
     write_whole(path, bytes)?;
-    let (width, height) = (image.width, image.height);
-    print(&format!(
-        "wrote {}, {width} x {height} pixels\n",
-        path.display()
-    ))?;
-    Ok(())
+    let (path, width, height) = (path.display(), image.width, image.height);
+    let said = print(&format!("wrote {path}, {width} x {height} pixels\n"));
+    Ok(said?)
 }

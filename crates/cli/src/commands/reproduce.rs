@@ -153,7 +153,7 @@ impl Again {
 
     /// Prints whether the run has written the bytes of `file`.
     fn compare(&self, file: &Path, stamp: Option<&Stamp>) -> anyhow::Result<bool> {
-        let shown = file.display();
+        let (shown, recipe) = (file.display(), &self.loaded.path);
         let bytes = fs::read(file).with_context(|| format!("cannot read {shown}"))?;
         let name = file.file_name().unwrap_or_default();
         let mut of_name = None;
@@ -161,20 +161,14 @@ impl Again {
             let again = fs::read(path)?;
             if again == bytes {
                 let digest = &stamp::digest(&Disk, file)?;
-                print(&format!(
-                    "{shown} is reproduced by {}, digest {digest}\n",
-                    self.loaded.path
-                ))?;
-                return Ok(true);
+                let text = format!("{shown} is reproduced by {recipe}, digest {digest}\n");
+                return Ok(print(&text).map(|()| true)?);
             }
             if path.file_name() == Some(name) {
                 of_name = Some((path, again));
             }
         }
-        complain(&format!(
-            "{shown} is not reproduced by {}:\n",
-            self.loaded.path
-        ));
+        complain(&format!("{shown} is not reproduced by {recipe}:\n"));
         match of_name {
             Some((path, again)) => {
                 let at = bytes.iter().zip(&again).position(|(a, b)| a != b);
@@ -199,17 +193,13 @@ impl Again {
         };
         let mut reasons = Vec::new();
         let now = Stamp::new(&self.loaded.recipe, &self.loaded.forecast.inputs, &Disk);
-        if now.program != stamp.program {
-            reasons.push(format!(
-                "it was written by {}, this is {}",
-                stamp.program, now.program
-            ));
+        let [then, here] = [&stamp.program, &now.program];
+        if then != here {
+            reasons.push(format!("it was written by {then}, this is {here}"));
         }
-        if now.recipe != stamp.recipe {
-            reasons.push(format!(
-                "the recipe has changed: {} then, {} now",
-                stamp.recipe, now.recipe
-            ));
+        let [then, here] = [&stamp.recipe, &now.recipe];
+        if then != here {
+            reasons.push(format!("the recipe has changed: {then} then, {here} now"));
         }
         let inputs = |stamp: &Stamp| stamp.run.clone().unwrap_or_default().inputs;
         let (then, now) = (inputs(stamp), inputs(&now));

@@ -9,10 +9,11 @@ use crate::args::{Format, RunArgs};
 use crate::cache;
 use crate::capsule;
 use crate::events::Events;
-use crate::listener::{Stopping, Terminal, catch_interrupts};
+use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::load;
 use crate::output::{
-    complain, counted, explain, explain_steps, print, problems_json, show, step_notes, step_table,
+    complain, counted, explain, explain_steps, print, print_json, problems_json, show, step_notes,
+    step_table,
 };
 use crate::picture_errors::{Pictures, Picturing};
 
@@ -21,30 +22,21 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
     let mut loaded = load_to_run(args, engine)?;
     let cache = cache::open(&args.cache)?;
     catch_interrupts();
-    let pictures = args
-        .picture_errors
-        .of(&args.recipe.recipe, args.recipe.budget);
-    let drawn = pictures.as_ref();
-    let Some(outcome) = execute(args, &loaded, cache.as_ref(), drawn, &|| true)? else {
+    let pictures = (args.picture_errors).of(&args.recipe.recipe, args.recipe.budget);
+    let Some(outcome) = execute(args, &loaded, cache.as_ref(), &pictures, &|| true)? else {
         return Ok(false);
     };
     if args.recipe.format == Format::Human {
-        tell(args, &loaded, &outcome, drawn)?;
+        tell(args, &loaded, &outcome, &pictures)?;
     }
     let number = outcome.steps.len();
     if let Some(folder) = &args.capsule
         && !outcome.cancelled
         && number < loaded.recipe.steps.len()
     {
-        let message = outcome.failures.last().map(|f| f.message.clone());
+        let message = outcome.failures.last().map_or("", |f| f.message.as_str());
         let scene = capsule::scene_before(&mut loaded, number)?;
-        capsule::write(
-            &loaded,
-            number,
-            &message.unwrap_or_default(),
-            &scene,
-            folder,
-        )?;
+        capsule::write(&loaded, number, message, &scene, folder)?;
         let path = folder.join("recipe.ron");
         complain(&format!(
             "see it fail again with: meshwright run {}\n",
@@ -78,7 +70,7 @@ pub(crate) fn execute(
     args: &RunArgs,
     loaded: &Loaded,
     cache: Option<&Cache>,
-    pictures: Option<&Pictures>,
+    pictures: &Pictures,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> anyhow::Result<Option<Outcome>> {
     let json = args.recipe.format == Format::Json;
@@ -87,7 +79,7 @@ pub(crate) fn execute(
     }
     if loaded.has_errors() {
         if json {
-            Events::start(loaded, &op::NoProgress).refused()?;
+            Events::start(loaded, &op::NoProgress).end(None, &Pictures::default())?;
         } else {
             refuse(loaded, json)?;
         }
@@ -101,31 +93,20 @@ pub(crate) fn execute(
         keep_outputs: true,
         cache: caching.as_ref().map(|caching| caching as _),
     };
-    let terminal = Terminal::new();
-    let stopping = Stopping {
-        listener: &terminal,
-        go_on,
+    let terminal = Terminal::until(go_on);
+    let events = json.then(|| Events::start(loaded, &terminal));
+    let listener = Picturing {
+        listener: events.as_ref().map_or(&terminal, |events| events as _),
+        pictures,
     };
-    let outcome;
-    if json {
-        let events = Events::start(loaded, &stopping);
-        events.problems(&loaded.diagnostics);
-        let listener = Picturing {
-            listener: &events,
-            pictures,
-        };
-        outcome = loaded.run(run, &listener);
-        terminal.clear();
-        events.end(&outcome, pictures)?;
-    } else {
-        let listener = Picturing {
-            listener: &stopping,
-            pictures,
-        };
-        outcome = loaded.run(run, &listener);
-        terminal.clear();
+    let outcome = loaded.run(run, &listener);
+    terminal.clear();
+    if let Some(events) = events {
+        events.end(Some(&outcome), pictures)?;
     }
-    warn_of_cache(&outcome);
+    if let Some(problem) = &outcome.cache_problem {
+        complain(&cache::warning(problem));
+    }
     Ok(Some(outcome))
 }
 
@@ -134,7 +115,7 @@ pub(crate) fn tell(
     args: &RunArgs,
     loaded: &Loaded,
     outcome: &Outcome,
-    pictures: Option<&Pictures>,
+    pictures: &Pictures,
 ) -> anyhow::Result<()> {
     if !outcome.steps.is_empty() {
         print(&step_table(&outcome.steps))?;
@@ -144,9 +125,7 @@ pub(crate) fn tell(
     }
     print(&step_notes(&outcome.steps))?;
     show(loaded, &outcome.failures);
-    if let Some(pictures) = pictures {
-        pictures.tell();
-    }
+    pictures.tell();
     for path in &outcome.written {
         print(&format!("wrote {}\n", path.display()))?;
     }
@@ -172,20 +151,13 @@ pub(crate) fn tell(
     Ok(())
 }
 
-fn warn_of_cache(outcome: &Outcome) {
-    if let Some(problem) = &outcome.cache_problem {
-        complain(&cache::warning(problem));
-    }
-}
-
 /// Shows what is wrong with a recipe that cannot run.
 pub(crate) fn refuse(loaded: &Loaded, json: bool) -> anyhow::Result<bool> {
     if json {
         let problems = problems_json(&loaded.diagnostics, &loaded.recipe.sources);
-        let report = serde_json::json!({
+        print_json(&serde_json::json!({
             "recipe": loaded.path, "succeeded": false, "failures": problems,
-        });
-        print(&format!("{report:#}\n"))?;
+        }))?;
         return Ok(false);
     }
     show(loaded, &loaded.diagnostics);

@@ -1,6 +1,6 @@
 //! `meshwright select`: shows the elements that a selection matches.
 
-use mesh::{EdgeId, Mesh, VertexId};
+use mesh::{EdgeId, FaceId, Mesh, VertexId};
 use op::{ElementKind, Elements, Selected};
 use ops_pictures::Picture;
 use recipe::{Source, read_selection, resolve};
@@ -9,7 +9,7 @@ use serde_json::{Value as Json, json};
 
 use crate::args::{Format, Kind, SelectArgs, WrongUsage};
 use crate::commands::picture::{draw_found, write_images};
-use crate::output::{complain, grouped, print};
+use crate::output::{complain, grouped, print, print_json};
 use crate::scenes::find;
 use engine::{Engine, Stop};
 
@@ -37,14 +37,15 @@ pub(crate) fn run(args: &SelectArgs, engine: &Engine) -> anyhow::Result<bool> {
         selected.push((object, mesh, chosen));
     }
     match (args.format, args.count) {
-        (Format::Json, _) => print_json(args, &elements, &selected)?,
+        (Format::Json, _) => print_json(&json(args, &elements, &selected))?,
         (Format::Human, true) => {
             let count: usize = selected.iter().map(|(_, _, chosen)| chosen.len()).sum();
             print(&format!("{count}\n"))?;
         }
         (Format::Human, false) => {
             for (object, mesh, chosen) in &selected {
-                print_elements(args, object, mesh, chosen)?;
+                let word = elements.kind().word();
+                print(&elements_text(args, object, mesh, chosen, word))?;
             }
         }
     }
@@ -90,24 +91,16 @@ fn total(mesh: &Mesh, chosen: &Selected) -> usize {
     }
 }
 
-fn word(chosen: &Selected) -> &'static str {
-    match chosen {
-        Selected::Vertices(_) => ElementKind::Vertices,
-        Selected::Edges(_) => ElementKind::Edges,
-        Selected::Faces(_) => ElementKind::Faces,
-    }
-    .word()
-}
-
-fn print_elements(
+fn elements_text(
     args: &SelectArgs,
     object: &Object,
     mesh: &Mesh,
     chosen: &Selected,
-) -> anyhow::Result<()> {
+    word: &str,
+) -> String {
     let count = |n: usize| grouped(n as u64);
     let (n, all, name) = (chosen.len(), total(mesh, chosen), &object.name);
-    let mut text = format!("{name}: {} of {} {}\n", count(n), count(all), word(chosen));
+    let mut text = format!("{name}: {} of {} {word}\n", count(n), count(all));
     let shown = if args.all { n } else { n.min(args.first) };
     for i in 0..shown {
         text += &match chosen {
@@ -120,10 +113,8 @@ fn print_elements(
                 format!("  Between({v}, {w})\n")
             }
             Selected::Faces(list) => {
-                let vertices: Vec<String> = mesh
-                    .face_vertices(list[i])
-                    .map(|v| v.index().to_string())
-                    .collect();
+                let vertices = corners(mesh, list[i]).map(|v| v.to_string());
+                let vertices: Vec<String> = vertices.collect();
                 format!("  {}  of {}\n", list[i].index(), vertices.join(" "))
             }
         };
@@ -131,7 +122,7 @@ fn print_elements(
     if shown < n {
         text += &format!("  and {} more: --all shows them\n", count(n - shown));
     }
-    Ok(print(&text)?)
+    text
 }
 
 /// The vertices of an edge, as `Between` names it.
@@ -139,49 +130,39 @@ fn ends(mesh: &Mesh, e: EdgeId) -> [usize; 2] {
     mesh.edge_vertices(e).map(VertexId::index)
 }
 
+/// The vertices of a face.
+fn corners(mesh: &Mesh, f: FaceId) -> impl Iterator<Item = usize> {
+    mesh.face_vertices(f).map(VertexId::index)
+}
+
 /// All elements, without a limit: nobody reads this line by line.
-fn print_json(
-    args: &SelectArgs,
-    elements: &Elements,
-    selected: &[(&Object, &Mesh, Selected)],
-) -> anyhow::Result<()> {
-    let objects: Vec<Json> = selected
-        .iter()
-        .map(|(object, mesh, chosen)| {
-            let mut json = json!({
-                "name": object.name, "count": chosen.len(), "total": total(mesh, chosen),
-            });
-            if !args.count {
-                json["elements"] = listed(mesh, chosen).into();
-            }
-            json
-        })
-        .collect();
-    let report = json!({
+fn json(args: &SelectArgs, elements: &Elements, selected: &[(&Object, &Mesh, Selected)]) -> Json {
+    let objects = selected.iter().map(|(object, mesh, chosen)| {
+        let mut json = json!({
+            "name": object.name, "count": chosen.len(), "total": total(mesh, chosen),
+        });
+        if !args.count {
+            json["elements"] = listed(mesh, chosen);
+        }
+        json
+    });
+    json!({
         "file": args.file.display().to_string(),
         "of": elements.kind().word(),
         "count": selected.iter().map(|(_, _, chosen)| chosen.len()).sum::<usize>(),
-        "objects": objects,
-    });
-    Ok(print(&format!("{report:#}\n"))?)
+        "objects": objects.collect::<Json>(),
+    })
 }
 
-fn listed(mesh: &Mesh, chosen: &Selected) -> Vec<Json> {
+fn listed(mesh: &Mesh, chosen: &Selected) -> Json {
+    let vertex =
+        |&v: &VertexId| json!({ "vertex": v.index(), "position": mesh.position(v).to_array() });
+    let edge = |&e: &EdgeId| json!({ "vertices": ends(mesh, e) });
+    let face =
+        |&f: &FaceId| json!({ "face": f.index(), "vertices": corners(mesh, f).collect::<Json>() });
     match chosen {
-        Selected::Vertices(list) => list
-            .iter()
-            .map(|&v| json!({ "vertex": v.index(), "position": mesh.position(v).to_array() }))
-            .collect(),
-        Selected::Edges(list) => list
-            .iter()
-            .map(|&e| json!({ "vertices": ends(mesh, e) }))
-            .collect(),
-        Selected::Faces(list) => list
-            .iter()
-            .map(|&f| {
-                let vertices: Vec<usize> = mesh.face_vertices(f).map(VertexId::index).collect();
-                json!({ "face": f.index(), "vertices": vertices })
-            })
-            .collect(),
+        Selected::Vertices(list) => list.iter().map(vertex).collect(),
+        Selected::Edges(list) => list.iter().map(edge).collect(),
+        Selected::Faces(list) => list.iter().map(face).collect(),
     }
 }

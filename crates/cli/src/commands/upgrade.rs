@@ -44,10 +44,8 @@ fn one(path: &Path, only_check: bool, registry: &Registry) -> anyhow::Result<boo
         }
     };
     for (line, rename) in &upgraded.renames {
-        print(&format!(
-            "{shown}:{line}: {} -> {}\n",
-            rename.from, rename.to
-        ))?;
+        let (from, to) = (&rename.from, &rename.to);
+        print(&format!("{shown}:{line}: {from} -> {to}\n"))?;
     }
     if !only_check && upgraded.text != *source.text {
         store::replace(path, upgraded.text.as_bytes())?;

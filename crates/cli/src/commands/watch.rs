@@ -7,19 +7,20 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use anyhow::Context as _;
 use engine::Engine;
 use notify::{RecursiveMode, Watcher as _};
+use recipe::Outcome;
 use store::folder_of;
 
 use super::run::{execute, load_to_run, start_threads, tell};
 use crate::args::{Format, RunArgs};
 use crate::cache;
-use crate::listener::{catch_interrupts, is_interrupted};
+use crate::listener::{catch_interrupts, is_interrupted, lock};
 use crate::output::{complain, print};
 use engine::Loaded;
 
@@ -45,32 +46,26 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
                     let _ = changes.follow(&folder);
                 }
                 let go_on = || !changes.is_waiting();
-                let pictures = args
-                    .picture_errors
-                    .of(&args.recipe.recipe, args.recipe.budget);
-                let drawn = pictures.as_ref();
-                let outcome = execute(args, &loaded, cache.as_ref(), drawn, &go_on)?;
-                if let Some(pictures) = drawn {
-                    changes.ignore(&pictures.paths());
-                }
+                let pictures = (args.picture_errors).of(&args.recipe.recipe, args.recipe.budget);
+                let outcome = execute(args, &loaded, cache.as_ref(), &pictures, &go_on)?;
+                changes.ignore(&pictures.paths());
                 if let Some(outcome) = &outcome {
                     changes.ignore(&outcome.written);
                 }
                 let is_overtaken = outcome.as_ref().is_some_and(|o| o.cancelled);
-                // What comes out of the cache as a whole is what was shown before.
-                let is_old = outcome
-                    .as_ref()
-                    .is_some_and(|o| o.succeeded() && o.steps.iter().all(|s| s.ran.is_none()));
-                let now: Vec<_> = (loaded.recipe.sources.iter())
-                    .map(|source| source.text.clone())
-                    .collect();
+                let now = loaded.recipe.sources.iter().map(|s| s.text.clone());
+                let now: Vec<_> = now.collect();
                 let is_same = texts.as_ref() == Some(&now);
+                // What comes out of the cache as a whole is what was shown before.
+                let is_old = |o: &Outcome| {
+                    is_same && o.succeeded() && o.steps.iter().all(|s| s.ran.is_none())
+                };
                 if let Some(outcome) = outcome
                     && is_human
                     && !is_overtaken
-                    && !(is_old && is_same)
+                    && !is_old(&outcome)
                 {
-                    tell(args, &loaded, &outcome, drawn)?;
+                    tell(args, &loaded, &outcome, &pictures)?;
                 }
                 texts = (!is_overtaken).then_some(now);
             }
@@ -127,9 +122,8 @@ impl Changes {
         let failed = || format!("cannot watch {}", folder.display());
         let real = folder.canonicalize().with_context(failed)?;
         if !self.folders.contains(&real) {
-            self.watcher
-                .watch(&real, RecursiveMode::NonRecursive)
-                .with_context(failed)?;
+            let watched = self.watcher.watch(&real, RecursiveMode::NonRecursive);
+            watched.with_context(failed)?;
             self.folders.insert(real);
         }
         Ok(())
@@ -194,8 +188,4 @@ impl Changes {
             !name.starts_with(".meshwright-") && !own.contains(path) && !path.is_dir()
         })
     }
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -145,7 +145,7 @@ impl Select for EdgeSelection {
     fn count(&self, plan: &MeshPlan) -> Range {
         match self {
             Self::Between(..) => Range::exactly(1),
-            Self::Longest { count, of } => of.count(plan).capped(Range::exactly(u64::from(*count))),
+            Self::Longest { count, of } => of.count(plan).capped(u64::from(*count)),
             _ => self.shared().count(plan.edges, plan),
         }
     }

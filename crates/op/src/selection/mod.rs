@@ -246,12 +246,12 @@ impl<S: Select> Shared<'_, S> {
         match self {
             Self::All => all,
             Self::Random { count, of, .. } | Self::Nearest { count, of, .. } => {
-                of.count(plan).capped(Range::exactly(u64::from(*count)))
+                of.count(plan).capped(u64::from(*count))
             }
             Self::Expect { count, .. } => Range::exactly(u64::from(*count)),
             Self::And(parts) => parts
                 .iter()
-                .fold(all, |sum, part| sum.capped(part.count(plan).or_less()))
+                .fold(all, |sum, part| sum.capped(part.count(plan).max))
                 .or_less(),
             _ => all.or_less(),
         }

@@ -118,7 +118,7 @@ fn plan_step(
     let on = step.on_names();
     let mut unknown = false;
     for (name, span) in step.on.iter().flatten() {
-        for problem in plan.check_names([name.as_str()], "on") {
+        if let Some(problem) = plan.missing(name, ["on"]) {
             diagnostics.push(diagnostic(&problem, *span));
             unknown = true;
         }
@@ -219,8 +219,10 @@ fn expected(
             placed.span,
         ));
     }
-    let problems = plan.check_names(names, "on");
-    found.extend(problems.iter().map(|p| diagnostic(p, placed.span)));
+    let missing = names
+        .into_iter()
+        .filter_map(|name| plan.missing(name, ["on"]));
+    found.extend(missing.map(|p| diagnostic(&p, placed.span)));
     attributes.expected(placed, plan, &mut found);
     found
 }
@@ -316,18 +318,16 @@ impl Known {
     }
 
     fn forecast(&self, step: &RecipeStep, is_incomplete: bool) -> StepForecast {
-        let or_more = |count: Range| match is_incomplete {
-            true => Range {
-                max: u64::MAX,
-                ..count
-            },
-            false => count,
+        let unknown = if is_incomplete {
+            Range::ANY
+        } else {
+            Range::exactly(0)
         };
         StepForecast {
             label: step.label().to_owned(),
-            vertices: or_more(self.vertices),
-            edges: or_more(self.edges),
-            faces: or_more(self.faces),
+            vertices: self.vertices.plus(unknown),
+            edges: self.edges.plus(unknown),
+            faces: self.faces.plus(unknown),
             bytes: self.bytes,
         }
     }

@@ -1,7 +1,6 @@
 //! Expectations: what must hold for the scene after a step or at the end.
 
 mod check;
-mod metric;
 mod output;
 mod places;
 mod same;
@@ -15,7 +14,6 @@ use op::{EdgeSelection, Elements, FaceSelection, Vector, VertexSelection};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use metric::{Measured, Metric};
 pub(crate) use output::golden;
 pub(crate) use same::same_faces;
 pub use subject::{Broken, Found, Reader, Subject};

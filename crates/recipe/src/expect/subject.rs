@@ -132,7 +132,7 @@ pub struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    pub(super) fn objects(&self) -> Result<Vec<&'a Object>, String> {
+    pub(crate) fn objects(&self) -> Result<Vec<&'a Object>, String> {
         let Some(on) = self.on else {
             return Ok(self.scene.objects().iter().collect());
         };
@@ -152,7 +152,7 @@ impl<'a> Subject<'a> {
             .collect())
     }
 
-    pub(super) fn one_mesh(&self) -> Result<(&'a Object, &'a Mesh), String> {
+    pub(crate) fn one_mesh(&self) -> Result<(&'a Object, &'a Mesh), String> {
         match self.meshes()?[..] {
             [one] => Ok(one),
             ref meshes => {
@@ -164,7 +164,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    pub(super) fn sum<T: std::iter::Sum>(&self, term: impl Fn(&Mesh) -> T) -> Result<T, String> {
+    pub(crate) fn sum<T: std::iter::Sum>(&self, term: impl Fn(&Mesh) -> T) -> Result<T, String> {
         Ok(self.meshes()?.into_iter().map(|(_, mesh)| term(mesh)).sum())
     }
 
@@ -182,7 +182,7 @@ impl<'a> Subject<'a> {
     }
 
     /// All points: vertices of meshes and points of polylines, patches and curves.
-    pub(super) fn points(&self) -> Result<Vec<DVec3>, String> {
+    pub(crate) fn points(&self) -> Result<Vec<DVec3>, String> {
         let mut points = Vec::new();
         for object in self.objects()? {
             match &object.geometry {
@@ -199,7 +199,7 @@ impl<'a> Subject<'a> {
         Ok(points)
     }
 
-    pub(super) fn other(&self, other: &Other) -> Result<Arc<Mesh>, String> {
+    pub(crate) fn other(&self, other: &Other) -> Result<Arc<Mesh>, String> {
         match other {
             Other::Object(name) => {
                 let object = self
@@ -287,7 +287,7 @@ impl<'a> Subject<'a> {
     }
 
     /// The smallest corner angle of the faces of a selection, in degrees, and the face that has it.
-    pub(super) fn smallest_angle(&self, of: &FaceSelection) -> Result<(f64, FaceId), Broken> {
+    pub(crate) fn smallest_angle(&self, of: &FaceSelection) -> Result<(f64, FaceId), Broken> {
         let mut smallest = (f64::INFINITY, FaceId::NONE);
         self.each_selected(of, |mesh, f| {
             let angle = least_angle(mesh, f);

@@ -14,9 +14,9 @@ use std::path::Path;
 
 use store::Store;
 
-use super::{Draft, MAX_STEPS, Reader, real, take_items};
+use super::{Draft, Reader, real, take_items};
 use crate::params::{Move, Param};
-use crate::recipe::{Origin, Scope};
+use crate::recipe::{Kind, MAX_STEPS, Origin, Scope};
 use crate::schema;
 use crate::shape::{check_shape, check_step, did_you_mean};
 use crate::source::Source;
@@ -27,27 +27,6 @@ const MAX_CALLS: usize = 32;
 
 /// Reading a text takes as long as so many steps.
 const PRICE_OF_CALL: usize = 20;
-
-/// A step that holds steps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    Call,
-    Repeat,
-    If,
-}
-
-impl Kind {
-    pub(crate) const ALL: [Self; 3] = [Self::Call, Self::Repeat, Self::If];
-
-    /// The name in recipes.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Call => "Call",
-            Self::Repeat => "Repeat",
-            Self::If => "If",
-        }
-    }
-}
 
 /// The kind of a step, if it is one that holds steps.
 pub(super) fn kind(written: &Value) -> Option<Kind> {

@@ -11,8 +11,6 @@ mod flow;
 mod parameters;
 mod steps;
 
-pub(crate) use flow::Kind;
-
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
@@ -23,7 +21,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use store::{Disk, Store};
 
-use crate::recipe::{OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, located};
+use crate::recipe::{MAX_STEPS, OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, located};
 use crate::schema::{self, Schemas};
 use crate::shape::{self, check_shape};
 use crate::source::Source;
@@ -31,9 +29,6 @@ use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 /// The version of recipes that this program reads.
 pub const VERSION: i128 = 1;
-
-/// The most steps that calls and repetitions may become.
-pub const MAX_STEPS: usize = 100_000;
 
 /// A recipe and what is wrong with it.
 #[derive(Debug)]

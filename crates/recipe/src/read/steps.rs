@@ -5,11 +5,10 @@ use std::sync::Arc;
 use op::{Entry, Refusal, Step};
 use serde::Deserialize;
 
-use super::{Draft, Kind, MAX_STEPS, Reader, flow};
-use crate::recipe::{OnLoss, RecipeStep};
+use super::{Draft, Reader, flow};
+use crate::recipe::{Kind, MAX_STEPS, OnLoss, RecipeStep};
 use crate::schema;
-use crate::shape::{check_shape, check_step, did_you_mean, unread};
-use crate::upgrade::{self, Rename};
+use crate::shape::{Rename, check_shape, check_step, did_you_mean, unread};
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
 impl Reader<'_, '_> {
@@ -100,7 +99,7 @@ impl Reader<'_, '_> {
             return None;
         }
         let parsed = entry.parse(&checked.in_full(run));
-        let renames = upgrade::in_step(run, entry, checked);
+        let renames = checked.renames_in_step(run, entry.name);
         self.diagnostics.extend(renames.iter().map(Rename::warning));
         match parsed {
             Ok(step) => Some(step.into()),

@@ -30,7 +30,6 @@ mod variants;
 pub use nearest::{did_you_mean, nearest};
 pub(crate) use shorthand::Checked;
 
-use crate::upgrade::Rename;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 pub(crate) use schema::Schema;
 use serde::de::DeserializeOwned;
@@ -94,6 +93,26 @@ pub(crate) fn check_step(step: &Value, schema: &Json) -> Checked {
         _ => checker.check(step, &schema, Place::default()),
     }
     checker.finish()
+}
+
+/// An older name in a recipe.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rename {
+    /// Its place in the text.
+    pub span: Span,
+    /// The older name.
+    pub from: String,
+    /// The name that stands for it now.
+    pub to: String,
+}
+
+impl Rename {
+    /// What the reader says of it.
+    pub(crate) fn warning(&self) -> Diagnostic {
+        let message = format!("`{}` is called `{}` now", self.from, self.to);
+        Diagnostic::warning(self.span, message)
+            .with_help("meshwright upgrade writes the new name into the recipe")
+    }
 }
 
 /// Where a value stands, for messages.

@@ -10,8 +10,7 @@ use std::borrow::Cow;
 use std::cmp::Reverse;
 
 use super::schema::{Choice, Schema};
-use super::{Checker, Place, did_you_mean};
-use crate::upgrade::Rename;
+use super::{Checker, Place, Rename, did_you_mean};
 use ron_tree::{Call, Diagnostic, Name, Span, Value, ValueKind};
 
 /// A value whose outer name was left out.
@@ -125,6 +124,18 @@ pub(crate) struct Checked {
 }
 
 impl Checked {
+    /// The older names in a step `Name(..)` that was checked, its own among them. `name` is that of its operation
+    /// today.
+    pub(crate) fn renames_in_step(self, run: &Value, name: &str) -> Vec<Rename> {
+        let own = run.name().filter(|(own, _)| *own != name);
+        let own = own.map(|(own, span)| Rename {
+            span,
+            from: own.to_owned(),
+            to: name.to_owned(),
+        });
+        own.into_iter().chain(self.renames).collect()
+    }
+
     /// The value with all names that were left out.
     pub(crate) fn in_full<'v>(&self, value: &'v Value) -> Cow<'v, Value> {
         if self.shorts.is_empty() {

@@ -18,6 +18,7 @@
 //! product of the lists of `over` in the order of the text, the last one changing first; the lists of
 //! `zip` go together and change before those of `over`.
 
+mod metric;
 mod values;
 
 use std::ops::Range;
@@ -25,12 +26,13 @@ use std::path::Path;
 
 use serde_json::json;
 
-use crate::expect::Metric;
 use crate::read::other_version;
 use crate::recipe::Parameter;
 use crate::schema;
 use crate::shape::{self, check_shape, did_you_mean};
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
+
+pub use metric::{Measured, Metric};
 
 /// The version of sweeps that this program reads.
 pub const SWEEP_VERSION: i128 = 1;

@@ -37,23 +37,18 @@ impl Region {
     /// The unit vector along the sum of the area vectors of the faces; `None` if they cancel out, as those
     /// of a closed part do, up to rounding.
     pub(crate) fn normal(&self, mesh: &Mesh) -> Option<DVec3> {
-        let (sum, area) = self
-            .faces
-            .iter()
-            .map(|&f| mesh.area_vector(f))
-            .fold((DVec3::ZERO, 0.0), |(sum, area), a| {
-                (sum + a, area + a.length())
-            });
+        let (mut sum, mut area) = (DVec3::ZERO, 0.0);
+        for vector in self.faces.iter().map(|&f| mesh.area_vector(f)) {
+            sum += vector;
+            area += vector.length();
+        }
         (sum.length() > 1e-12 * area).then(|| sum.normalize_or_zero())
     }
 
     /// The corners of the faces, each once, in order of their ids.
     pub(crate) fn vertices(&self, mesh: &Mesh) -> Vec<VertexId> {
-        let mut vertices: Vec<_> = self
-            .faces
-            .iter()
-            .flat_map(|&f| mesh.face_vertices(f))
-            .collect();
+        let corners = self.faces.iter().flat_map(|&f| mesh.face_vertices(f));
+        let mut vertices: Vec<_> = corners.collect();
         vertices.sort_unstable();
         vertices.dedup();
         vertices

@@ -30,14 +30,12 @@ enum Others {
 
 impl Pairs {
     pub(crate) fn of(mesh: &Mesh, distance: f64, cx: &Context) -> Result<Self, OpError> {
-        let rims: Vec<Rim> = mesh
-            .half_edges()
-            .filter(|&h| mesh.face(h).is_none())
-            .map(|half_edge| Rim {
-                half_edge,
-                ends: [mesh.origin(half_edge), mesh.target(half_edge)].map(|v| mesh.position(v)),
-            })
-            .collect();
+        let rim = |h| Rim {
+            half_edge: h,
+            ends: [mesh.origin(h), mesh.target(h)].map(|v| mesh.position(v)),
+        };
+        let outer = mesh.half_edges().filter(|&h| mesh.face(h).is_none());
+        let rims: Vec<Rim> = outer.map(rim).collect();
         let grid = Grid::of(&rims, distance);
         let total = rims.len() as u64;
         cx.advance("find edges that lie on each other", 0, total)?;

@@ -27,9 +27,8 @@ pub(crate) fn merged_materials(parts: &[&Object]) -> (Vec<Material>, Vec<Vec<i32
 /// `report.losses`, and which part gets zero values into `report.notes`.
 pub(crate) fn appended(parts: &[&Object], numbers: &[Vec<i32>], report: &mut Report) -> Attributes {
     let meshes = || {
-        parts
-            .iter()
-            .filter_map(|o| Some((*o, o.as_mesh()?.as_ref())))
+        let parts = parts.iter();
+        parts.filter_map(|o| Some((*o, o.as_mesh()?.as_ref())))
     };
     let mut columns: Vec<Attributes> = meshes().map(|(_, m)| m.attributes().clone()).collect();
     renumber_materials(&mut columns, numbers, meshes().map(|(_, m)| m.n_faces()));
@@ -43,9 +42,8 @@ pub(crate) fn appended(parts: &[&Object], numbers: &[Vec<i32>], report: &mut Rep
         let part_len = lens(mesh);
         for (domain, name) in all.append(len, part, part_len) {
             let reason = "a part before it has one of that name with values of another type";
-            report
-                .losses
-                .push(Loss::attribute(&object.name, domain, &name, reason));
+            let loss = Loss::attribute(&object.name, domain, &name, reason);
+            report.losses.push(loss);
         }
         len = [0, 1, 2, 3].map(|d| len[d] + part_len[d]);
     }
@@ -64,25 +62,16 @@ fn renumber_materials(
         rule: MATERIAL.rule,
         values,
     };
-    let of = |a: &Attributes| {
-        a.column(Domain::Face, MATERIAL.name)
-            .map(|c| c.values.clone())
-    };
-    if !columns
-        .iter()
-        .any(|a| matches!(of(a), Some(Values::Int(_))))
-    {
+    let of = |a: &Attributes| Some(a.column(Domain::Face, MATERIAL.name)?.values.clone());
+    let has_materials = |a: &Attributes| matches!(of(a), Some(Values::Int(_)));
+    if !columns.iter().any(has_materials) {
         return;
     }
     for ((attributes, numbers), n) in columns.iter_mut().zip(numbers).zip(n_faces) {
         let values = match of(attributes) {
             None => vec![-1; n],
             Some(Values::Int(old)) => {
-                let new = |i: i32| {
-                    usize::try_from(i)
-                        .ok()
-                        .and_then(|i| numbers.get(i).copied())
-                };
+                let new = |i: i32| numbers.get(usize::try_from(i).ok()?).copied();
                 old.into_iter().map(|i| new(i).unwrap_or(-1)).collect()
             }
             Some(_) => continue,
@@ -101,9 +90,8 @@ fn leave_out_normals(columns: &mut [Attributes], parts: &[&Object], report: &mut
         let reason = format!("\"{}\" has none to join it with", parts[without].name);
         for (attributes, object) in columns.iter_mut().zip(parts) {
             if attributes.remove(domain, &name).is_some() {
-                report
-                    .losses
-                    .push(Loss::attribute(&object.name, domain, &name, &*reason));
+                let loss = Loss::attribute(&object.name, domain, &name, &*reason);
+                report.losses.push(loss);
             }
         }
     }
@@ -148,11 +136,8 @@ pub(crate) fn tag_parts(joined: &mut Mesh, parts: &[&Object], report: &mut Repor
     for object in parts {
         let end = first + object.as_mesh().map_or(0, |mesh| mesh.n_faces());
         let name = object.name.clone();
-        let mut marks = match joined
-            .attributes()
-            .column(Domain::Face, &name)
-            .map(|c| &c.values)
-        {
+        let column = joined.attributes().column(Domain::Face, &name);
+        let mut marks = match column.map(|c| &c.values) {
             None => vec![false; joined.n_faces()],
             Some(Values::Tag(marks)) => marks.clone(),
             Some(_) => {

@@ -6,7 +6,7 @@ use mesh::{
     Attribute, DVec2, DVec3, FaceId, HalfEdgeId, MATERIAL, Mesh, Rule, UV, VERTEX_NORMAL, VertexId,
 };
 use op::Range;
-use scene::Material;
+use scene::{Geometry, Material};
 
 fn step(text: &str) -> Join {
     op::test::read(text).unwrap()
@@ -242,7 +242,7 @@ fn planned(scene: &Scene) -> Plan {
         let geometry = object.as_mesh().map_or(PlannedGeometry::Polylines, |m| {
             PlannedGeometry::Mesh(MeshPlan::of(m))
         });
-        assert_eq!(plan.insert(&object.name, geometry), []);
+        assert_eq!(plan.insert(&object.name, geometry), None);
     }
     plan
 }

@@ -208,7 +208,7 @@ fn a_curve_does_not_leave_its_plane() {
         let mut plan = Plan::default();
         assert_eq!(
             plan.insert("a", PlannedGeometry::Curve(Range::exactly(3))),
-            []
+            None
         );
         let problems = step(text).plan(&mut plan, &cx);
         assert_eq!(

@@ -1,8 +1,7 @@
 //! What colors by quantity need before they are drawn.
 
-use std::path::Path;
-
 use mesh::Mesh;
+use mesh_io::ReadOptions;
 use op::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem};
 use view::{ColorBy, Quantity, no_attribute, there_are};
 
@@ -18,9 +17,8 @@ pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Probl
     match &by.of {
         Quantity::DistanceTo(path) => {
             let full = cx.files.to_read(path);
-            if let Err(error) =
-                mesh_io::peek(&*cx.files.store, &full, &mesh_io::ReadOptions::default())
-            {
+            let peek = mesh_io::peek(&*cx.files.store, &full, &ReadOptions::default());
+            if let Err(error) = peek {
                 problems.push(Problem::error(error.to_string()).at(["color_by", "of"]));
             }
             plan.inputs.push(full);
@@ -47,27 +45,14 @@ pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Probl
 
 /// The meshes that they measure to.
 pub(crate) fn others(by: &ColorBy, cx: &Context) -> Result<Vec<Mesh>, OpError> {
-    match &by.of {
-        Quantity::DistanceTo(path) => meshes_of(path, cx),
-        _ => Ok(Vec::new()),
-    }
-}
-
-/// The meshes of a file.
-fn meshes_of(path: &str, cx: &Context) -> Result<Vec<Mesh>, OpError> {
+    let Quantity::DistanceTo(path) = &by.of else {
+        return Ok(Vec::new());
+    };
     let full = cx.files().to_read(path);
-    let loaded = mesh_io::read(
-        &*cx.files().store,
-        Path::new(&full),
-        &mesh_io::ReadOptions::default(),
-    )
-    .map_err(|error| OpError::File(error.to_string()))?;
+    let loaded = mesh_io::read(&*cx.files().store, &full, &ReadOptions::default());
+    let loaded = loaded.map_err(|error| OpError::File(error.to_string()))?;
     for file in loaded.files {
-        if file.is_read {
-            cx.files().has_read(file.path);
-        } else {
-            cx.files().has_looked_for(file.path);
-        }
+        cx.files().has_used(file.path, file.is_read);
     }
     let meshes: Vec<Mesh> = (loaded.objects.iter())
         .filter_map(|object| object.as_mesh().map(|mesh| (**mesh).clone()))

@@ -203,7 +203,7 @@ fn a_scene_without_anything_is_an_empty_picture() {
     let files = Files::default();
     let mut cx = Context::new(&NoProgress, &files);
     let (images, notes) = picture("path: \"a.png\"")
-        .draw(&Scene::new(), &mut cx)
+        .draw(&[(&Scene::new(), "")], None, &mut cx)
         .unwrap();
     assert!(images[0].pixels.iter().all(|p| *p == [255; 4]) && notes.is_empty());
 }
@@ -216,7 +216,7 @@ fn a_mark_on_what_is_no_mesh_is_told_to_mark_nothing() {
     let files = Files::default();
     let mut cx = Context::new(&NoProgress, &files);
     let mut notes = |fields: &str, scene: &Scene| {
-        let (_, notes) = picture(fields).draw(scene, &mut cx).unwrap();
+        let (_, notes) = picture(fields).draw(&[(scene, "")], None, &mut cx).unwrap();
         notes
     };
     for marked in ["highlight: Vertices(All)", "marks: [(of: Edges(All))]"] {
@@ -277,13 +277,16 @@ fn scenes_within_an_extent_are_drawn_as_side_by_side() {
         let picture = picture(fields);
         let mut extent = picture.extent(&cube, &mut cx()).unwrap();
         extent.join(picture.extent(&torus, &mut cx()).unwrap());
-        let one = picture.draw_within(&cube, &extent, &mut cx()).unwrap().0;
+        let one = picture
+            .draw(&[(&cube, "")], Some(&extent), &mut cx())
+            .unwrap()
+            .0;
         // Seen from as far away as the torus, which is larger: not as alone, unless the camera does not fit.
-        let alone = picture.draw(&cube, &mut cx()).unwrap().0;
+        let alone = picture.draw(&[(&cube, "")], None, &mut cx()).unwrap().0;
         assert_eq!(one != alone, !fields.contains("LookAt"), "{fields}");
         if picture.views.is_empty() && picture.color_by.is_none() {
             let beside = [(&cube, "a"), (&torus, "b")];
-            let both = &picture.draw_beside(&beside, &mut cx()).unwrap().0[0];
+            let both = &picture.draw(&beside, None, &mut cx()).unwrap().0[0];
             let left: Vec<[u8; 4]> = (0..24)
                 .flat_map(|y| both.pixels[y * 64..y * 64 + 32].to_vec())
                 .collect();

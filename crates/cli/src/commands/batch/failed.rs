@@ -15,11 +15,8 @@ pub(super) fn folder(out: &Path) -> PathBuf {
 /// The file of one failure: the name of the input, short enough for every file system, and what tells
 /// inputs of one name apart.
 fn path(batch: &Batch, file: &Input) -> PathBuf {
-    let name = file
-        .relative
-        .file_name()
-        .unwrap_or_default()
-        .to_string_lossy();
+    let name = file.relative.file_name().unwrap_or_default();
+    let name = name.to_string_lossy();
     let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '.' | '-' | '_');
     let plain = |c: char| if is_plain(c) { c } else { '_' };
     let name: String = name.chars().map(plain).take(50).collect();
@@ -29,11 +26,8 @@ fn path(batch: &Batch, file: &Input) -> PathBuf {
 
 /// Writes the failure of a file; `text` is the whole of what is to be said of it.
 pub(super) fn write(batch: &Batch, file: &Input, row: &Row, text: &str) -> anyhow::Result<()> {
-    let step = row
-        .step
-        .as_ref()
-        .map(|s| format!(" at {s}"))
-        .unwrap_or_default();
+    let step = row.step.as_ref().map(|s| format!(" at {s}"));
+    let step = step.unwrap_or_default();
     let again = command(batch, file);
     let folder = std::env::current_dir().unwrap_or_default();
     let text = format!(
@@ -52,22 +46,19 @@ pub(super) fn remove(batch: &Batch, file: &Input) {
 
 /// The command that runs the recipe on this file alone.
 fn command(batch: &Batch, file: &Input) -> String {
-    let args = batch.args;
-    let mut words = vec!["meshwright".to_owned(), "run".to_owned()];
-    words.push(batch.path.display().to_string());
-    if let Some(preset) = &args.values.preset {
-        words.extend(["--preset".to_owned(), preset.clone()]);
+    let values = &batch.args.values;
+    let recipe = batch.path.display().to_string();
+    let mut words = vec!["meshwright".to_owned(), "run".to_owned(), recipe];
+    let mut option = |name: &str, value: String| words.extend([name.to_owned(), value]);
+    if let Some(preset) = &values.preset {
+        option("--preset", preset.clone());
     }
-    let set = args
-        .values
-        .set
-        .iter()
-        .map(|(name, value)| (name.as_str(), value.as_str()));
-    for (name, value) in set.chain([(batch.param.as_str(), file.path.as_str())]) {
-        words.extend(["--set".to_owned(), format!("{name}={value}")]);
+    let input = (batch.param.clone(), file.path.clone());
+    for (name, value) in values.set.iter().chain([&input]) {
+        option("--set", format!("{name}={value}"));
     }
-    words.extend(["--out".to_owned(), batch.out(file).display().to_string()]);
-    words.extend(["--budget".to_owned(), args.many.budget.to_string()]);
+    option("--out", batch.out(file).display().to_string());
+    option("--budget", batch.args.many.budget.to_string());
     let quoted: Vec<_> = words.iter().map(|word| quoted(word)).collect();
     quoted.join(" ")
 }

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context as _;
 use serde::{Deserialize, Serialize};
 
-use super::row::Row;
+use super::row::{Row, json_lines};
 
 /// A row and what it depends on.
 #[derive(Clone, Debug, Deserialize, Serialize)]
@@ -40,7 +40,7 @@ pub(super) struct Journal {
     path: PathBuf,
     file: File,
     /// What was done before, by the path of the input.
-    known: HashMap<String, Entry>,
+    pub(super) known: HashMap<String, Entry>,
     /// The processes that wrote it before.
     pub(super) processes: Vec<u32>,
 }
@@ -50,12 +50,8 @@ impl Journal {
     pub(super) fn open(path: PathBuf) -> anyhow::Result<Self> {
         let opened = (|| {
             std::fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
-            let options = OpenOptions::new()
-                .read(true)
-                .write(true)
-                .create(true)
-                .truncate(false)
-                .clone();
+            let mut options = OpenOptions::new();
+            options.read(true).write(true).create(true).truncate(false);
             let mut file = options.open(&path)?;
             if !file.metadata()?.is_file() {
                 return Err(std::io::Error::other("it is no file"));
@@ -85,36 +81,21 @@ impl Journal {
             known,
             processes,
         };
-        journal.append(&[Begin {
+        journal.note(&[Begin {
             meshwright: env!("CARGO_PKG_VERSION").to_owned(),
             process: std::process::id(),
         }])?;
         Ok(journal)
     }
 
-    /// What is known of an input.
-    pub(super) fn known(&self, input: &str) -> Option<&Entry> {
-        self.known.get(input)
-    }
-
     /// Takes note of files that are done.
-    pub(super) fn note(&mut self, entries: &[Entry]) -> anyhow::Result<()> {
-        self.append(entries)
-    }
-
-    fn append(&mut self, lines: &[impl Serialize]) -> anyhow::Result<()> {
-        if lines.is_empty() {
+    pub(super) fn note(&mut self, entries: &[impl Serialize]) -> anyhow::Result<()> {
+        if entries.is_empty() {
             return Ok(());
         }
-        let mut text = Vec::new();
-        for line in lines {
-            serde_json::to_writer(&mut text, line)?;
-            text.push(b'\n');
-        }
-        let written = self
-            .file
-            .write_all(&text)
-            .and_then(|()| self.file.sync_data());
+        let text = json_lines(entries)?;
+        let written = self.file.write_all(&text);
+        let written = written.and_then(|()| self.file.sync_data());
         written.with_context(|| format!("cannot write the journal {}", self.path.display()))
     }
 }
@@ -141,12 +122,12 @@ mod tests {
             bytes.extend(serde_json::to_vec(&entry("c")).unwrap().iter().take(torn));
             std::fs::write(&path, bytes).unwrap();
             let mut journal = Journal::open(path.clone()).unwrap();
-            assert_eq!(journal.known("a\n\"é").unwrap().row, row("a\n\"é"));
-            assert_eq!(journal.known("b").unwrap().key, "key of b");
-            assert!(journal.known("c").is_none());
+            assert_eq!(journal.known["a\n\"é"].row, row("a\n\"é"));
+            assert_eq!(journal.known["b"].key, "key of b");
+            assert!(!journal.known.contains_key("c"));
             journal.note(&[entry("d")]).unwrap();
             let journal = Journal::open(path.clone()).unwrap();
-            assert!(journal.known("b").is_some() && journal.known("d").is_some());
+            assert!(journal.known.contains_key("b") && journal.known.contains_key("d"));
             assert_eq!(journal.processes.len(), 2);
         }
     }

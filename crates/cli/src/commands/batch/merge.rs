@@ -17,18 +17,7 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<bool> {
     for path in &args.merge {
         reports.push((path.as_path(), Report::read(path)?));
     }
-    let joined = match join(&reports)? {
-        Ok(joined) => joined,
-        Err(contradictions) => {
-            for contradiction in &contradictions {
-                complain(&format!("error: {contradiction}\n"));
-            }
-            let n = contradictions.len();
-            bail!(
-                "{n} contradictions, no report was written: leave out the reports that are not true any more"
-            );
-        }
-    };
+    let joined = join(&reports)?;
     joined.write(target)?;
     let header = &joined.header;
     for missing in &header.missing_shards {
@@ -54,8 +43,8 @@ fn parts(reports: &[(&Path, Report)]) -> Option<u32> {
     shards.map(|shard| shard.of).next()
 }
 
-/// Joins reports; `Err` within `Ok` are rows that contradict each other.
-fn join(reports: &[(&Path, Report)]) -> anyhow::Result<Result<Report, Vec<String>>> {
+/// Joins reports, and says which rows contradict each other.
+fn join(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     let Some((first_path, first)) = reports.first() else {
         bail!("expected a report to join");
     };
@@ -70,7 +59,7 @@ fn join(reports: &[(&Path, Report)]) -> anyhow::Result<Result<Report, Vec<String
         );
     }
     let mut rows: BTreeMap<&str, (&Path, &Row)> = BTreeMap::new();
-    let mut contradictions = Vec::new();
+    let mut contradictions = 0;
     for (path, report) in reports {
         for row in &report.rows {
             match rows.get(row.input.as_str()) {
@@ -79,14 +68,17 @@ fn join(reports: &[(&Path, Report)]) -> anyhow::Result<Result<Report, Vec<String
                 Some((_, earlier)) if earlier.state == State::Skipped => {
                     rows.insert(&row.input, (path, row));
                 }
-                Some((other, earlier)) if !earlier.is_same(row) => contradictions.push(format!(
-                    "{} is {} in {} and {} in {}",
-                    shown(&row.input),
-                    account(earlier),
-                    other.display(),
-                    account(row),
-                    path.display()
-                )),
+                Some((other, earlier)) if !earlier.is_same(row) => {
+                    contradictions += 1;
+                    complain(&format!(
+                        "error: {} is {} in {} and {} in {}\n",
+                        shown(&row.input),
+                        account(earlier),
+                        other.display(),
+                        account(row),
+                        path.display()
+                    ));
+                }
                 Some(_) => {}
                 None => {
                     rows.insert(&row.input, (path, row));
@@ -94,16 +86,15 @@ fn join(reports: &[(&Path, Report)]) -> anyhow::Result<Result<Report, Vec<String
             }
         }
     }
-    if !contradictions.is_empty() {
-        return Ok(Err(contradictions));
-    }
+    ensure!(
+        contradictions == 0,
+        "{contradictions} contradictions, no report was written: leave out the reports that are not true any more"
+    );
     let missing = parts(reports).map_or(Vec::new(), |of| {
         let has = |index: u32| {
-            let shards = reports.iter().map(|(_, r)| r.header.shard);
+            let mut shards = reports.iter().map(|(_, r)| r.header.shard);
             // A report of everything has every part.
-            shards
-                .into_iter()
-                .any(|s| s.is_none_or(|s| s.index == index))
+            shards.any(|s| s.is_none_or(|s| s.index == index))
         };
         (1..=of).filter(|&index| !has(index)).collect()
     });
@@ -113,7 +104,7 @@ fn join(reports: &[(&Path, Report)]) -> anyhow::Result<Result<Report, Vec<String
         ..first.header.clone()
     };
     let rows = rows.into_values().map(|(_, row)| row.clone()).collect();
-    Ok(Ok(Report::new(header, rows)))
+    Ok(Report::new(header, rows))
 }
 
 /// What tells two batches apart.

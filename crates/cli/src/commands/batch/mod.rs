@@ -18,7 +18,7 @@ mod merge;
 mod plan;
 mod row;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -27,12 +27,12 @@ use recipe::{InOrder, JobEnd, Jobs, Outcome};
 
 use crate::args::BatchArgs;
 use crate::listener::{QUIET, catch_interrupts, is_interrupted};
-use crate::many::{CHECKED_AHEAD, all, first_error, panicked};
+use crate::many::{self, CHECKED_AHEAD, Ended, all, first_error};
 use crate::output::{print, shown};
 use engine::{Loaded, Run};
 use inputs::Input;
 use journal::{Entry, Journal};
-use plan::{Batch, Planned};
+use plan::Batch;
 use row::{Form, Output, Report, Row, State};
 
 pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
@@ -42,9 +42,8 @@ pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
     if !args.merge.is_empty() {
         return merge::run(args);
     }
-    let batch = match Batch::plan(args, engine)? {
-        Planned::Batch(batch) => batch,
-        Planned::Refused => return Ok(false),
+    let Some(batch) = Batch::plan(args, engine)? else {
+        return Ok(false);
     };
     catch_interrupts();
     let mut journal = Journal::open(batch.journal())?;
@@ -95,7 +94,7 @@ enum Task {
 }
 
 /// What came of a file.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 struct Done {
     row: Row,
     /// What the row depends on; `None` if it is not to be noted.
@@ -109,8 +108,7 @@ impl Done {
     fn silent(row: Row) -> Self {
         Self {
             row,
-            key: None,
-            text: String::new(),
+            ..Self::default()
         }
     }
 }
@@ -130,24 +128,23 @@ impl<'b> Chunk<'b> {
     ) -> anyhow::Result<Self> {
         let limits = batch.args.many.limits();
         let ends = all(files.len(), limits, |i| {
-            let known = journal.known(&files[i].path);
+            let known = journal.known.get(&files[i].path);
             check(batch, files[i], known)
         })?;
-        let task = |(end, file): (JobEnd<Task>, &&Input)| match end {
-            JobEnd::Done(task) => task,
-            JobEnd::Panicked(message) => Task::Fail(failure(file, panicked(&message))),
-            JobEnd::NotRun => Task::Keep(Row::not_done(&file.path, State::Skipped, None)),
+        let task = |(end, file): (Ended<Task>, &&Input)| {
+            end.unwrap_or_else(|panicked| Task::Fail(without_result(file, panicked)))
         };
+        let tasks = ends.into_iter().zip(files).map(task).collect();
         Ok(Self {
             batch,
             files,
-            tasks: ends.into_iter().zip(files).map(task).collect(),
+            tasks,
         })
     }
 
     /// How many were done before.
     fn count_kept(&self) -> usize {
-        let is_kept = |task: &&Task| matches!(task, Task::Keep(row) if row.state != State::Skipped);
+        let is_kept = |task: &&Task| matches!(task, Task::Keep(_));
         self.tasks.iter().filter(is_kept).count()
     }
 
@@ -216,14 +213,10 @@ impl<'b> Chunk<'b> {
     }
 
     fn done(&self, i: usize, end: JobEnd<Done>) -> Done {
-        match end {
-            JobEnd::Done(done) => done,
-            JobEnd::Panicked(message) => failure(self.files[i], panicked(&message)),
-            JobEnd::NotRun => Done::silent(match &self.tasks[i] {
-                Task::Keep(row) => row.clone(),
-                _ => Row::not_done(&self.files[i].path, State::Skipped, None),
-            }),
-        }
+        many::result(end).unwrap_or_else(|panicked| match &self.tasks[i] {
+            Task::Keep(row) => Done::silent(row.clone()),
+            Task::Run(..) | Task::Fail(_) => without_result(self.files[i], panicked),
+        })
     }
 
     /// Puts what ended into the journal and the folder of failures.
@@ -291,6 +284,14 @@ fn failure(file: &Input, message: String) -> Done {
     }
 }
 
+/// What came of a file whose job panicked, with a message, or was not begun.
+fn without_result(file: &Input, panicked: Option<String>) -> Done {
+    match panicked {
+        Some(message) => failure(file, message),
+        None => Done::silent(Row::not_done(&file.path, State::Skipped, None)),
+    }
+}
+
 /// The row of a file that was run.
 fn row(path: &str, loaded: &Loaded, outcome: &Outcome) -> Row {
     let state = match (outcome.succeeded(), outcome.cancelled) {
@@ -315,14 +316,11 @@ fn row(path: &str, loaded: &Loaded, outcome: &Outcome) -> Row {
     row.edges = last.map(|step| step.edges);
     row.faces = last.map(|step| step.faces);
     row.digest = Some(outcome.digest.to_string());
-    row.outputs = outcome
-        .written
-        .iter()
-        .map(|path| Output {
-            bytes: path.metadata().map_or(0, |m| m.len()),
-            path: path.display().to_string(),
-        })
-        .collect();
+    let output = |path: &PathBuf| Output {
+        bytes: path.metadata().map_or(0, |m| m.len()),
+        path: path.display().to_string(),
+    };
+    row.outputs = outcome.written.iter().map(output).collect();
     row
 }
 
@@ -331,29 +329,16 @@ fn line(row: &Row) -> String {
     let input = shown(&row.input);
     match row.state {
         State::Ok => {
-            let digest = row.digest.as_deref().unwrap_or_default();
-            format!(
-                "ok     {input} ({:.0} ms, digest {digest})\n",
-                row.seconds * 1e3
-            )
+            let (time, digest) = (row.seconds * 1e3, row.digest.as_deref());
+            let digest = digest.unwrap_or_default();
+            format!("ok     {input} ({time:.0} ms, digest {digest})\n")
         }
         State::Failed => {
-            let step = row
-                .step
-                .as_ref()
-                .map(|s| format!("{s}: "))
-                .unwrap_or_default();
+            let step = row.step.as_ref().map(|s| format!("{s}: "));
+            let step = step.unwrap_or_default();
             let message = row.message.as_deref().unwrap_or_default();
             format!("FAILED {input}: {step}{}\n", shown(message))
         }
         State::Skipped => String::new(),
-    }
-}
-
-/// Where a batch keeps its journal.
-fn journal_path(out: &Path, shard: Option<crate::args::Shard>) -> PathBuf {
-    match shard {
-        None => out.join("batch.jsonl"),
-        Some(shard) => out.join(format!("batch-{}-of-{}.jsonl", shard.index, shard.of)),
     }
 }

@@ -1,6 +1,6 @@
 //! What a batch will do: the recipe, the files, and where each file's outputs go.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 use std::path::{Path, PathBuf, absolute};
 
 use anyhow::{bail, ensure};
@@ -8,9 +8,8 @@ use engine::Engine;
 use recipe::{Other, Param, Parameter, Source, did_you_mean};
 
 use super::inputs::{self, Input};
-use super::journal_path;
 use super::row::Header;
-use crate::args::{BatchArgs, Shard};
+use crate::args::BatchArgs;
 use crate::commands::run::refuse;
 use crate::loading::load_text;
 use engine::Loaded;
@@ -30,24 +29,20 @@ pub(super) struct Batch<'a> {
     inputs: Vec<Input>,
 }
 
-/// What came of planning.
-pub(super) enum Planned<'a> {
-    Batch(Batch<'a>),
-    /// The recipe cannot run on any file, which was said.
-    Refused,
-}
-
 impl<'a> Batch<'a> {
-    /// Reads the recipe, lists the files, and finds outputs that two files would write.
-    pub(super) fn plan(args: &'a BatchArgs, engine: &'a Engine<'a>) -> anyhow::Result<Planned<'a>> {
+    /// Reads the recipe, lists the files, and finds outputs that two files would write. `None` if the recipe cannot
+    /// run on any file, which was said.
+    pub(super) fn plan(
+        args: &'a BatchArgs,
+        engine: &'a Engine<'a>,
+    ) -> anyhow::Result<Option<Self>> {
         let path = args.recipe.as_deref().unwrap_or(Path::new(""));
         let source = Source::open(path).map_err(anyhow::Error::msg)?;
-        let values = (&args.values.set[..], args.values.preset.as_deref());
         // On the file that the recipe names itself, which may well be missing.
-        let loaded = load_text(&source, values, &args.out, args.many.budget, engine)?;
+        let loaded = load_text(&source, &args.values, &args.out, args.many.budget, engine)?;
         if !loaded.is_read {
             refuse(&loaded, false)?;
-            return Ok(Planned::Refused);
+            return Ok(None);
         }
         let param = parameter(args, loaded.recipe.parameters())?;
         let batch = Self {
@@ -60,7 +55,7 @@ impl<'a> Batch<'a> {
             inputs: inputs::list(&args.inputs)?,
         };
         batch.check_outputs()?;
-        Ok(Planned::Batch(batch))
+        Ok(Some(batch))
     }
 
     /// Finds outputs that two files would write, and those that would overwrite a file that is read.
@@ -70,24 +65,17 @@ impl<'a> Batch<'a> {
     fn check_outputs(&self) -> anyhow::Result<()> {
         let [stem, name] = ["\u{1}", "\u{1}.\u{2}"];
         let marked = self.load_at(name, &self.args.out)?;
-        let outputs = marked.forecast.outputs.iter();
-        let outputs: Vec<&Path> = outputs
-            .map(|path| path.strip_prefix(&self.args.out).unwrap_or(path))
-            .collect();
+        let below = |path: &PathBuf| path.strip_prefix(&self.args.out).unwrap_or(path).to_owned();
+        let outputs: Vec<PathBuf> = marked.forecast.outputs.iter().map(below).collect();
 
         let place = |path: &Path| absolute(path).unwrap_or_else(|_| path.to_path_buf());
-        let read: HashMap<PathBuf, &Input> = self
-            .inputs
-            .iter()
-            .map(|file| (place(Path::new(&file.path)), file))
-            .collect();
+        let places = self.inputs.iter().map(|file| place(Path::new(&file.path)));
+        let read: HashMap<PathBuf, &Input> = places.zip(&self.inputs).collect();
         let mut writers: HashMap<PathBuf, &Input> = HashMap::new();
         for file in &self.inputs {
             let path = Path::new(&file.path);
-            let part = |part: Option<&std::ffi::OsStr>| {
-                part.unwrap_or_default().to_string_lossy().into_owned()
-            };
-            let (own_stem, own_name) = (part(path.file_stem()), part(path.file_name()));
+            let parts = [path.file_stem(), path.file_name()];
+            let [own_stem, own_name] = parts.map(|part| part.unwrap_or_default().to_string_lossy());
             for output in &outputs {
                 let output = output.to_string_lossy();
                 let output = output.replace(name, &own_name).replace(stem, &own_stem);
@@ -129,8 +117,12 @@ impl<'a> Batch<'a> {
         self.inputs.iter().filter(is_mine).collect()
     }
 
+    /// Where its journal is kept.
     pub(super) fn journal(&self) -> PathBuf {
-        journal_path(&self.args.out, self.args.shard)
+        self.args.out.join(match self.args.shard {
+            None => "batch.jsonl".to_owned(),
+            Some(shard) => format!("batch-{}-of-{}.jsonl", shard.index, shard.of),
+        })
     }
 
     /// Reads and checks the recipe for a file.
@@ -139,11 +131,10 @@ impl<'a> Batch<'a> {
     }
 
     fn load_at(&self, path: &str, out: &Path) -> anyhow::Result<Loaded> {
-        let args = self.args;
-        let mut set = args.values.set.clone();
-        set.push((self.param.clone(), path.to_owned()));
-        let values = (&set[..], args.values.preset.as_deref());
-        load_text(&self.source, values, out, args.many.budget, self.engine)
+        let mut values = self.args.values.clone();
+        values.set.push((self.param.clone(), path.to_owned()));
+        let budget = self.args.many.budget;
+        load_text(&self.source, &values, out, budget, self.engine)
     }
 
     /// The digest of everything that the row of a file depends on; `None` if a file that is read cannot
@@ -157,15 +148,9 @@ impl<'a> Batch<'a> {
         };
         part(env!("CARGO_PKG_VERSION").as_bytes());
         part(self.digest.as_bytes());
-        part(
-            self.args
-                .values
-                .preset
-                .as_deref()
-                .unwrap_or_default()
-                .as_bytes(),
-        );
-        for (name, value) in &self.args.values.set {
+        let values = &self.args.values;
+        part(values.preset.as_deref().unwrap_or_default().as_bytes());
+        for (name, value) in &values.set {
             part(name.as_bytes());
             part(value.as_bytes());
         }
@@ -185,9 +170,8 @@ impl<'a> Batch<'a> {
         for path in loaded.forecast.inputs.iter().cloned().chain(compared) {
             part(path.as_os_str().as_encoded_bytes());
             let mut content = blake3::Hasher::new();
-            content
-                .update_reader(std::fs::File::open(&path).ok()?)
-                .ok()?;
+            let file = std::fs::File::open(&path).ok()?;
+            content.update_reader(file).ok()?;
             part(content.finalize().as_bytes());
         }
         Some(hasher.finalize().to_hex()[..32].to_owned())
@@ -198,20 +182,14 @@ impl<'a> Batch<'a> {
         if processes.is_empty() {
             return;
         }
-        let stale: Vec<String> = processes
-            .iter()
-            .map(|p| store::temporary_prefix(*p))
-            .collect();
+        let stale = processes.iter().map(|p| store::temporary_prefix(*p));
+        let stale: Vec<String> = stale.collect();
         let mut folders = vec![self.args.out.clone()];
         if self.args.folders {
             folders.extend(self.mine().into_iter().map(|file| self.out(file)));
         }
-        for entry in folders
-            .iter()
-            .filter_map(|f| std::fs::read_dir(f).ok())
-            .flatten()
-        {
-            let Ok(entry) = entry else { continue };
+        let lists = folders.iter().filter_map(|f| std::fs::read_dir(f).ok());
+        for entry in lists.flatten().flatten() {
             let name = entry.file_name();
             if stale.iter().any(|p| name.to_string_lossy().starts_with(p)) {
                 // What cannot be removed is in nobody's way.
@@ -233,34 +211,20 @@ impl<'a> Batch<'a> {
             recipe: self.path.display().to_string(),
             recipe_digest: self.digest.clone(),
             preset: self.args.values.preset.clone(),
-            set: self
-                .args
-                .values
-                .set
-                .iter()
-                .cloned()
-                .collect::<BTreeMap<_, _>>(),
-            shard: self
-                .args
-                .shard
-                .filter(|shard| *shard != Shard { index: 1, of: 1 }),
+            set: self.args.values.set.iter().cloned().collect(),
+            shard: self.args.shard.filter(|shard| shard.of > 1),
             listed: self.inputs.len(),
             listed_digest: listed.finalize().to_hex()[..32].to_owned(),
-            missing_shards: Vec::new(),
-            ok: 0,
-            failed: 0,
-            skipped: 0,
+            ..Header::default()
         }
     }
 }
 
 /// The name of the parameter that gets the files.
 fn parameter(args: &BatchArgs, parameters: &[Parameter]) -> anyhow::Result<String> {
-    let paths: Vec<&str> = parameters
-        .iter()
-        .filter(|p| matches!(p.param, Param::Path { .. }))
-        .map(|p| p.name.as_str())
-        .collect();
+    let is_path = |p: &&Parameter| matches!(p.param, Param::Path { .. });
+    let paths = parameters.iter().filter(is_path);
+    let paths: Vec<&str> = paths.map(|p| p.name.as_str()).collect();
     let name = match (&args.param, paths.as_slice()) {
         (Some(name), _) => {
             let Some(parameter) = parameters.iter().find(|p| p.name == *name) else {

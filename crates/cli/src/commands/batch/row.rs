@@ -36,7 +36,7 @@ use crate::many::csv_line;
 use crate::output::write_whole;
 
 /// What became of one file.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct Row {
     pub(super) input: String,
     pub(super) state: State,
@@ -51,11 +51,12 @@ pub(super) struct Row {
     pub(super) seconds: f64,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum State {
     Ok,
     Failed,
+    #[default]
     Skipped,
 }
 
@@ -72,34 +73,23 @@ impl Row {
         Self {
             input: input.to_owned(),
             state,
-            step: None,
             message,
-            vertices: None,
-            edges: None,
-            faces: None,
-            digest: None,
-            losses: Vec::new(),
-            outputs: Vec::new(),
-            seconds: 0.0,
+            ..Self::default()
         }
     }
 
     /// The same, whatever the time it took.
     pub(super) fn is_same(&self, other: &Self) -> bool {
-        let seconds = self.seconds;
-        *self
-            == Self {
-                seconds,
-                ..other.clone()
-            }
+        let mut other = other.clone();
+        other.seconds = self.seconds;
+        *self == other
     }
 
     /// Whether the outputs are still there with the sizes that they had.
     pub(super) fn has_outputs(&self) -> bool {
         self.outputs.iter().all(|output| {
-            Path::new(&output.path)
-                .metadata()
-                .is_ok_and(|m| m.is_file() && m.len() == output.bytes)
+            let file = Path::new(&output.path).metadata();
+            file.is_ok_and(|m| m.is_file() && m.len() == output.bytes)
         })
     }
 
@@ -139,7 +129,7 @@ impl State {
 }
 
 /// What the rows are about.
-#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct Header {
     pub(super) batch: u32,
     pub(super) meshwright: String,
@@ -211,12 +201,8 @@ impl Report {
             }
             Form::Json => [serde_json::to_vec_pretty(self)?, b"\n".to_vec()].concat(),
             Form::JsonLines => {
-                let mut text = serde_json::to_vec(&self.header)?;
-                text.push(b'\n');
-                for row in &self.rows {
-                    serde_json::to_writer(&mut text, row)?;
-                    text.push(b'\n');
-                }
+                let mut text = json_lines(&[&self.header])?;
+                text.extend(json_lines(&self.rows)?);
                 text
             }
         };
@@ -248,6 +234,16 @@ impl Report {
     }
 }
 
+/// Values as JSON, each on its own line.
+pub(super) fn json_lines(values: &[impl Serialize]) -> serde_json::Result<Vec<u8>> {
+    let mut text = Vec::new();
+    for value in values {
+        serde_json::to_writer(&mut text, value)?;
+        text.push(b'\n');
+    }
+    Ok(text)
+}
+
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
@@ -276,10 +272,7 @@ pub(super) mod tests {
             shard: Some(Shard { index: 2, of: 3 }),
             listed: 9,
             listed_digest: "l".to_owned(),
-            missing_shards: Vec::new(),
-            ok: 0,
-            failed: 0,
-            skipped: 0,
+            ..Header::default()
         };
         Report::new(header, vec![row("a, \"b\"\nc.obj"), row("é.obj")])
     }

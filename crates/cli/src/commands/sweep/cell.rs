@@ -5,14 +5,14 @@ use std::path::PathBuf;
 
 use ::cache::{Cache, Caching};
 use engine::{Engine, FileReader, Loaded, Run};
-use recipe::{Grid, JobEnd, Measured, Metric, Outcome, Source, Span};
+use recipe::{Grid, Measured, Metric, Outcome, Source, Span};
 use scene::Scene;
 use view::Extent;
 
-use crate::args::SweepArgs;
+use crate::args::{SweepArgs, ValueArgs};
 use crate::listener::QUIET;
 use crate::loading::load_text;
-use crate::many::{all, first_error, panicked};
+use crate::many::{Ended, all, first_error, interrupted};
 
 /// All cells.
 pub(super) struct Cells<'a> {
@@ -65,26 +65,12 @@ pub(super) struct Seen {
 }
 
 impl CellResult {
-    pub(super) fn of(end: JobEnd<Self>) -> Self {
-        match end {
-            JobEnd::Done(result) => result,
-            JobEnd::Panicked(message) => Self::failed(panicked(&message)),
-            JobEnd::NotRun => Self::not_run(),
-        }
-    }
-
-    fn failed(error: String) -> Self {
-        Self {
-            error: Some(error),
+    pub(super) fn of(end: Ended<Self>) -> Self {
+        end.unwrap_or_else(|error| Self {
+            is_not_run: error.is_none(),
+            error,
             ..Self::default()
-        }
-    }
-
-    fn not_run() -> Self {
-        Self {
-            is_not_run: true,
-            ..Self::default()
-        }
+        })
     }
 }
 
@@ -95,11 +81,7 @@ impl Cells<'_> {
             self.load(cells.start + i)
                 .map_err(|error| format!("{error:#}"))
         })?;
-        let task = |end| match end {
-            JobEnd::Done(loaded) => Task(loaded),
-            JobEnd::Panicked(message) => Task(Err(panicked(&message))),
-            JobEnd::NotRun => Task(Err("interrupted".to_owned())),
-        };
+        let task = |end: Ended<_>| Task(end.unwrap_or_else(|e| Err(interrupted(e))));
         Ok(ends.into_iter().map(task).collect())
     }
 
@@ -107,54 +89,48 @@ impl Cells<'_> {
         let grid = self.grid;
         let shared = grid.set.iter().map(|(name, setting)| (name, setting));
         let own = grid.parameters.iter().zip(&grid.cells[i]);
-        let set: Vec<(String, String)> = shared
-            .chain(own)
-            .map(|(name, setting)| (name.clone(), setting.text.clone()))
-            .collect();
+        let all = shared.chain(own);
+        let values = ValueArgs {
+            set: all
+                .map(|(name, setting)| (name.clone(), setting.text.clone()))
+                .collect(),
+            preset: None,
+        };
         let out = match &self.args.keep_outputs {
             Some(folder) => folder.join((i + 1).to_string()),
             None => "out".into(),
         };
         let budget = self.args.many.budget;
-        let mut loaded = load_text(self.source, (&set, None), &out, budget, self.engine)?;
+        let mut loaded = load_text(self.source, &values, &out, budget, self.engine)?;
         if !self.expects {
             loaded.recipe.expectations.clear();
         }
         Ok(loaded)
     }
 
-    pub(super) fn run(&self, task: &Task) -> CellResult {
-        let loaded = match &task.0 {
-            Ok(loaded) => loaded,
-            Err(error) => return CellResult::failed(error.clone()),
-        };
+    /// Runs a cell; an error is as that of [`outcome`](Self::outcome).
+    pub(super) fn run(&self, task: &Task) -> Ended<CellResult> {
+        let loaded = task.0.as_ref().map_err(|error| Some(error.clone()))?;
         if loaded.has_errors() {
-            return CellResult::failed(first_error(&loaded.diagnostics));
+            return Err(Some(first_error(&loaded.diagnostics)));
         }
-        let mut outcome = match self.outcome(loaded, self.args.keep_outputs.is_some()) {
-            Ok(outcome) => outcome,
-            Err(Some(error)) => return CellResult::failed(error),
-            Err(None) => return CellResult::not_run(),
-        };
+        let mut outcome = self.outcome(loaded, self.args.keep_outputs.is_some())?;
         let measure = |(metric, _): &(Metric, Span)| {
             let measured = metric.measure(&outcome, &loaded.files, &FileReader);
-            measured.map_err(|problem| format!("{metric:?}: {problem}"))
+            measured.map_err(|problem| Some(format!("{metric:?}: {problem}")))
         };
-        let measures = match self.keep.iter().map(measure).collect() {
-            Ok(measures) => measures,
-            Err(error) => return CellResult::failed(error),
-        };
+        let measures = self.keep.iter().map(measure).collect::<Result<_, _>>()?;
         let seen = self.see.zip(outcome.scene.take());
-        CellResult {
+        Ok(CellResult {
             measures: Some(measures),
             outputs: outcome.written,
             seen: seen.map(|(see, scene)| see(scene, loaded.forecast.peak_bytes())),
             ..CellResult::default()
-        }
+        })
     }
 
     /// How the run of a cell that is checked ended, if it succeeded; else its error, or none if Ctrl-C ended it.
-    fn outcome(&self, loaded: &Loaded, keeps: bool) -> Result<Outcome, Option<String>> {
+    fn outcome(&self, loaded: &Loaded, keeps: bool) -> Ended<Outcome> {
         let cache = self.cache.map(|cache| Caching {
             cache,
             recipe: None,
@@ -165,22 +141,17 @@ impl Cells<'_> {
             cache: cache.as_ref().map(|caching| caching as _),
         };
         let outcome = loaded.run(run, &QUIET);
-        if outcome.cancelled {
-            return Err(None);
+        if outcome.succeeded() && !outcome.cancelled {
+            return Ok(outcome);
         }
-        if !outcome.succeeded() {
-            return Err(Some(first_error(&outcome.failures)));
-        }
-        Ok(outcome)
+        Err((!outcome.cancelled).then(|| first_error(&outcome.failures)))
     }
 
     /// The scene of a cell that has run before, made again.
     pub(super) fn scene(&self, i: usize) -> Result<Scene, String> {
         let loaded = self.load(i).map_err(|error| format!("{error:#}"))?;
-        let outcome = self.outcome(&loaded, false);
-        let outcome = outcome.map_err(|e| e.unwrap_or_else(|| "interrupted".to_owned()))?;
-        outcome
-            .scene
-            .ok_or_else(|| "the scene stayed in the cache".to_owned())
+        let outcome = self.outcome(&loaded, false).map_err(interrupted)?;
+        let missing = || "the scene stayed in the cache".to_owned();
+        outcome.scene.ok_or_else(missing)
     }
 }

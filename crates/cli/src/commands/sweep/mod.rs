@@ -31,20 +31,19 @@ use std::path::Path;
 use anyhow::ensure;
 use engine::Engine;
 use recipe::{
-    Diagnostic, Grid, InOrder, Jobs, Measured, Metric, Other, Setting, Severity, Source, Sweep,
-    read_sweep,
+    Diagnostic, Grid, Measured, Metric, Other, Setting, Severity, Source, Sweep, read_sweep,
 };
 use scene::Scene;
-use serde_json::{Map, Value as Json, json};
+use serde_json::{Value as Json, json};
 
-use crate::args::{Format, SweepArgs};
+use crate::args::{Format, SweepArgs, ValueArgs};
 use crate::cache;
 use crate::commands::picture::write_png;
 use crate::commands::run::refuse;
-use crate::listener::{catch_interrupts, is_interrupted};
+use crate::listener::catch_interrupts;
 use crate::loading::load_text;
-use crate::many::{CHECKED_AHEAD, csv_line};
-use crate::output::{complain, counted, print, show_texts, shown, table, write_whole};
+use crate::many::{CHECKED_AHEAD, csv_line, in_order};
+use crate::output::{complain, counted, print, print_json, show_texts, shown, table, write_whole};
 use cell::{CellResult, Cells};
 use engine::Loaded;
 use sheet::{Sheet, kept_bytes};
@@ -89,20 +88,9 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
     let mut results = Vec::with_capacity(count);
     for first in (0..count).step_by(CHECKED_AHEAD) {
         let tasks = cells.check(first..count.min(first + CHECKED_AHEAD))?;
-        let jobs = Jobs {
-            count: tasks.len(),
-            bytes: |i: usize| tasks[i].bytes(),
-            stop: is_interrupted,
-            work: |i: usize| cells.run(&tasks[i]),
-        };
-        let mut order = InOrder::default();
-        jobs.run(limits, |ended| {
-            for (i, end) in ended {
-                order.put(i, end);
-            }
-            while let Some((_, end)) = order.take() {
-                results.push(CellResult::of(end));
-            }
+        let (bytes, run) = (|i: usize| tasks[i].bytes(), |i: usize| cells.run(&tasks[i]));
+        in_order(tasks.len(), limits, bytes, run, |_, end| {
+            results.push(CellResult::of(end.and_then(|result| result)));
         })?;
     }
     // What is measured is not lost if it cannot be drawn.
@@ -134,11 +122,8 @@ fn write_sheet(
             shown(error)
         ));
     }
-    write_png(
-        &drawn.image,
-        sheet.path(),
-        cells.args.format == Format::Human,
-    )?;
+    let says = cells.args.format == Format::Human;
+    write_png(&drawn.image, sheet.path(), says)?;
     Ok(drawn.errors.is_empty())
 }
 
@@ -167,7 +152,13 @@ impl Plan {
             if path.is_file() {
                 let recipe = Source::open(&path).map_err(anyhow::Error::msg)?;
                 let out = args.keep_outputs.as_deref().unwrap_or(Path::new("out"));
-                let loaded = load_text(&recipe, (&[], None), out, args.many.budget, engine)?;
+                let loaded = load_text(
+                    &recipe,
+                    &ValueArgs::default(),
+                    out,
+                    args.many.budget,
+                    engine,
+                )?;
                 if !loaded.is_read {
                     show_texts(&[source], &diagnostics);
                     return refuse(&loaded, args.format == Format::Json).map(|_| None);
@@ -204,9 +195,9 @@ impl Plan {
     /// What is kept, as it is written in the sweep.
     fn names(&self) -> Vec<String> {
         let keep = self.sweep.keep.iter();
-        let written = keep.map(|(_, span)| span.of(&self.source.text));
-        written
-            .map(|text| text.split_whitespace().collect::<Vec<_>>().join(" "))
+        let words = keep.map(|(_, span)| span.of(&self.source.text).split_whitespace());
+        words
+            .map(|words| words.collect::<Vec<_>>().join(" "))
             .collect()
     }
 }
@@ -232,16 +223,15 @@ fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Resu
     let rows = rows(plan, results);
     let is_json = |path: &Path| path.extension().is_some_and(|e| e == "json");
     if let Some(path) = &args.out {
-        let bytes = if is_json(path) {
-            format!("{:#}\n", object(args, plan, results, succeeded)).into_bytes()
+        let text: String = if is_json(path) {
+            format!("{:#}\n", object(args, plan, results, succeeded))
         } else {
-            let lines = rows.iter().map(|row| csv_line(row));
-            lines.collect::<String>().into_bytes()
+            rows.iter().map(|row| csv_line(row)).collect()
         };
-        write_whole(path, &bytes)?;
+        write_whole(path, text.as_bytes())?;
     }
     if args.format == Format::Json {
-        print(&format!("{:#}\n", object(args, plan, results, succeeded)))?;
+        print_json(&object(args, plan, results, succeeded))?;
         return Ok(succeeded);
     }
     print(&table(&on_a_terminal(rows)))?;
@@ -259,14 +249,13 @@ fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Resu
     }
     let unheld = plan.loaded.recipe.expectations.len();
     if unheld > 0 && !plan.sweep.expects {
-        let (was, them) = if unheld == 1 {
-            ("was", "it")
-        } else {
-            ("were", "them")
+        let (was, them) = match unheld {
+            1 => ("was", "it"),
+            _ => ("were", "them"),
         };
+        let what = counted(unheld, "expectation");
         summary += &format!(
-            "; the {} of the recipe {was} not held, write `expect: true` to hold {them}",
-            counted(unheld, "expectation")
+            "; the {what} of the recipe {was} not held, write `expect: true` to hold {them}"
         );
     }
     print(&format!("{summary}\n"))?;
@@ -321,11 +310,8 @@ fn on_a_terminal(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
             let error = row.pop().unwrap_or_default();
             let mut row: Vec<String> = row.iter().map(|text| short(text)).collect();
             if error != "error" && !error.is_empty() {
-                row.push(if error == "not run" {
-                    error
-                } else {
-                    "FAILED".to_owned()
-                });
+                let is_not_run = error == "not run";
+                row.push(if is_not_run { error } else { "FAILED".into() });
             }
             row
         })
@@ -334,41 +320,31 @@ fn on_a_terminal(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
 
 fn object(args: &SweepArgs, plan: &Plan, results: &[CellResult], succeeded: bool) -> Json {
     let named = |names: &[String], values: &mut dyn Iterator<Item = Json>| -> Json {
-        let map: Map<String, Json> = names.iter().cloned().zip(values).collect();
-        Json::Object(map)
+        names.iter().cloned().zip(values).collect()
     };
     let grid = &plan.grid;
     let names = plan.names();
-    let cells: Vec<Json> = grid
-        .cells
-        .iter()
-        .zip(results)
-        .enumerate()
-        .map(|(i, (cell, result))| {
-            let measures = result.measures.as_ref();
-            json!({
-                "cell": i + 1,
-                "parameters": named(&grid.parameters, &mut cell.iter().map(Setting::json)),
-                "measures": measures.map(|m| named(&names, &mut m.iter().map(measured))),
-                "outputs": result.outputs,
-                "error": result.error,
-            })
+    let rows = grid.cells.iter().zip(results).zip(1..);
+    let cells = rows.map(|((cell, result), i)| {
+        let measures = result.measures.as_ref();
+        json!({
+            "cell": i,
+            "parameters": named(&grid.parameters, &mut cell.iter().map(Setting::json)),
+            "measures": measures.map(|m| named(&names, &mut m.iter().map(measured))),
+            "outputs": result.outputs,
+            "error": result.error,
         })
-        .collect();
-    let (set, values): (Vec<String>, Vec<Json>) = grid
-        .set
-        .iter()
-        .map(|(name, setting)| (name.clone(), setting.json()))
-        .unzip();
+    });
+    let set = grid.set.iter();
     json!({
         "sweep": args.sweep.display().to_string(),
         "recipe": plan.recipe.path.display().to_string(),
         "succeeded": succeeded,
-        "set": named(&set, &mut values.into_iter()),
+        "set": set.map(|(name, setting)| (name.clone(), setting.json())).collect::<Json>(),
         "parameters": grid.parameters,
         "keep": names,
         "sheet": args.sheet.as_ref().map(|path| path.display().to_string()),
-        "cells": cells,
+        "cells": cells.collect::<Json>(),
     })
 }
 

@@ -14,9 +14,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use anyhow::ensure;
 use op::{Context, Files};
 use ops_pictures::Picture;
-use recipe::{Axis, InOrder, JobEnd, Jobs, Metric};
+use recipe::{Axis, Metric};
 use render::figure::label::filled;
-use render::figure::legend::{Corner, Legend, draw_legend, legend_figure};
+use render::figure::legend::{Legend, draw_legend, legend_figure};
 use render::figure::{Color, Font};
 use render::{Image, PictureError};
 use scene::Scene;
@@ -28,7 +28,7 @@ use super::{Plan, short};
 use crate::args::{SweepArgs, WrongUsage};
 use crate::commands::picture::{SHEET_CELL, check_names, parameters};
 use crate::listener::{QUIET, is_interrupted};
-use crate::many::panicked;
+use crate::many::{in_order, interrupted};
 
 /// Most lines below a cell: its values, and what is kept of it.
 const LINES: [usize; 2] = [2, 3];
@@ -61,10 +61,8 @@ impl<'a> Sheet<'a> {
         let Some(path) = &args.sheet else {
             return Ok(None);
         };
-        if !path
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("png"))
-        {
+        let ending = path.extension().unwrap_or_default();
+        if !ending.eq_ignore_ascii_case("png") {
             let message = format!("{}: expected an image that ends in .png", path.display());
             return Err(WrongUsage(message).into());
         }
@@ -89,11 +87,8 @@ impl<'a> Sheet<'a> {
     /// The size of the image of each cell.
     fn cell_size(&self) -> [u32; 2] {
         let views = self.picture.views.len().max(1);
-        let columns = self
-            .picture
-            .columns
-            .map_or(4, |n| n.get() as usize)
-            .min(views);
+        let columns = self.picture.columns.map_or(4, |n| n.get() as usize);
+        let columns = columns.min(views);
         let of = |side: u32, n: usize| side.saturating_mul(u32::try_from(n).unwrap_or(u32::MAX));
         let [width, height] = self.picture.size.map(op::Count::get);
         [of(width, columns), of(height, views.div_ceil(columns))]
@@ -167,52 +162,37 @@ impl<'a> Sheet<'a> {
         }
         let [width, height] = self.cell_size();
         let pixels = u64::from(width) * u64::from(height);
-        let jobs = Jobs {
-            count: results.len(),
-            bytes: |i: usize| match &results[i].seen {
-                Some(seen) if seen.scene.is_none() => seen.bytes.saturating_add(256 * pixels),
-                Some(_) => 256 * pixels,
-                None => 0,
-            },
-            stop: is_interrupted,
-            work: |i: usize| self.image(cells, i, &results[i], &extent),
+        let bytes = |i: usize| match &results[i].seen {
+            Some(seen) if seen.scene.is_none() => seen.bytes.saturating_add(256 * pixels),
+            Some(_) => 256 * pixels,
+            None => 0,
         };
+        let draw = |i: usize| self.image(cells, i, &results[i], &extent);
         let (mut errors, mut notes, mut images) = (Vec::new(), BTreeSet::new(), Vec::new());
-        let (mut order, mut stopped) = (InOrder::default(), false);
-        let place = |why: &str| {
-            let style = SheetStyle {
-                ink: RED,
-                ..self.style()
-            };
-            notice(why, [width, height], &style)
+        let mut stopped = false;
+        let style = SheetStyle {
+            ink: RED,
+            ..self.style()
         };
-        jobs.run(self.args.many.limits(), |ended| {
-            for (i, end) in ended {
-                order.put(i, end);
-            }
-            while let Some((i, end)) = order.take() {
-                let drawn = match end {
-                    JobEnd::Done(drawn) => drawn,
-                    JobEnd::Panicked(message) => Err(panicked(&message)),
-                    JobEnd::NotRun => {
-                        stopped = true;
-                        return;
+        let limits = self.args.many.limits();
+        in_order(results.len(), limits, bytes, draw, |i, end| {
+            let drawn = end.unwrap_or_else(|panicked| {
+                stopped |= panicked.is_none();
+                Err(interrupted(panicked))
+            });
+            images.push(match drawn {
+                Ok((image, more)) => {
+                    notes.extend(more);
+                    Ok(image)
+                }
+                Err(error) => {
+                    let image = notice(&error, [width, height], &style);
+                    if results[i].error.is_none() {
+                        errors.push((i, error));
                     }
-                };
-                images.push(match drawn {
-                    Ok((image, more)) => {
-                        notes.extend(more);
-                        Ok(image)
-                    }
-                    Err(error) => {
-                        let image = place(&error);
-                        if results[i].error.is_none() {
-                            errors.push((i, error));
-                        }
-                        image
-                    }
-                });
-            }
+                    image
+                }
+            });
         })?;
         ensure!(
             !stopped && !is_interrupted(),
@@ -256,7 +236,9 @@ impl<'a> Sheet<'a> {
             again = cells.scene(i)?;
             &again
         };
-        let drawn = self.picture.draw_within(scene, extent, &mut self.context());
+        let drawn = self
+            .picture
+            .draw(&[(scene, "")], Some(extent), &mut self.context());
         let (mut images, notes) = drawn.map_err(|error| error.to_string())?;
         Ok((images.remove(0), notes))
     }
@@ -277,7 +259,7 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
         clippy::cast_sign_loss,
         reason = "a legend is no larger than its words"
     )]
-    let [width, height] = [figure.width(), figure.height()].map(|side| (side + FREE).ceil() as u32);
+    let [width, height] = [figure.width, figure.height].map(|side| (side + FREE).ceil() as u32);
     let mut wide = Image::filled(
         sheet.width.saturating_add(width),
         sheet.height.max(height),
@@ -287,7 +269,7 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     for (to, from) in rows.zip(sheet.pixels.chunks_exact(sheet.width as usize)) {
         to[..from.len()].copy_from_slice(from);
     }
-    draw_legend(&mut wide, legend, Corner::TopRight, 1.0);
+    draw_legend(&mut wide, legend, 1.0);
     Ok(wide)
 }
 
@@ -299,8 +281,8 @@ pub(super) fn kept_bytes(budget: u64) -> u64 {
 /// Where cells stand on a sheet, in their order from left to right and from top to bottom.
 struct Layout {
     columns: usize,
-    /// The values that rows and columns share, if those are all that change.
-    heads: Option<[Vec<String>; 2]>,
+    /// The values that rows and columns share, if those are all that change; else none.
+    heads: [Vec<String>; 2],
 }
 
 /// A row is not broken up to here.
@@ -311,42 +293,29 @@ impl Layout {
         let grid = &plan.grid;
         let n = grid.cells.len();
         let changing: Vec<&Axis> = grid.axes.iter().filter(|axis| axis.len > 1).collect();
-        match (columns, &changing[..]) {
-            (Some(columns), _) => Self {
-                columns: columns as usize,
-                heads: None,
-            },
+        let mut heads = <[Vec<String>; 2]>::default();
+        let columns = match (columns, &changing[..]) {
+            (Some(columns), _) => columns as usize,
             (None, [rows, columns]) => {
                 // The last one changes first.
                 let row = |i: usize| values(plan, rows, i * columns.len).join(", ");
                 let column = |i: usize| values(plan, columns, i).join(", ");
-                Self {
-                    columns: columns.len,
-                    heads: Some([
-                        (0..rows.len).map(row).collect(),
-                        (0..columns.len).map(column).collect(),
-                    ]),
-                }
+                heads[0].extend((0..rows.len).map(row));
+                heads[1].extend((0..columns.len).map(column));
+                columns.len
             }
-            (None, [.., last]) if changing.len() > 2 && last.len <= 2 * LONG_ROW => Self {
-                columns: last.len,
-                heads: None,
-            },
+            (None, [.., last]) if changing.len() > 2 && last.len <= 2 * LONG_ROW => last.len,
             _ => {
                 // As square as a long list can be, in rows of one length.
                 let widest = LONG_ROW.max(n.isqrt());
-                Self {
-                    columns: n.div_ceil(n.div_ceil(widest).max(1)),
-                    heads: None,
-                }
+                n.div_ceil(n.div_ceil(widest).max(1))
             }
-        }
+        };
+        Self { columns, heads }
     }
 
     fn heads(&self) -> Heads<'_> {
-        let Some([rows, columns]) = &self.heads else {
-            return Heads::default();
-        };
+        let [rows, columns] = &self.heads;
         Heads { columns, rows }
     }
 
@@ -362,7 +331,7 @@ impl Layout {
             lines
         };
         let mut lines = Vec::new();
-        if self.heads.is_none() {
+        if self.heads[0].is_empty() {
             let changing = plan.grid.axes.iter().filter(|axis| axis.len > 1);
             let parts: Vec<String> = changing.flat_map(|a| values(plan, a, cell)).collect();
             lines = fill(&parts, LINES[0]);

@@ -32,16 +32,16 @@ use std::time::{Duration, Instant};
 use ::cache::Cache;
 use anyhow::ensure;
 use engine::{Engine, Loaded, Run};
-use recipe::{Diagnostic, InOrder, JobEnd, Jobs};
+use recipe::Diagnostic;
 use serde_json::{Value as Json, json};
 
 use super::test_update::renew;
-use crate::args::{Format, TestArgs};
+use crate::args::{Format, TestArgs, ValueArgs};
 use crate::cache;
-use crate::listener::{QUIET, catch_interrupts, is_interrupted};
+use crate::listener::{QUIET, catch_interrupts};
 use crate::loading::{Found, load_text, recipes};
-use crate::many::{all, panicked};
-use crate::output::{complain, counted, print, problems_json, show, write_whole};
+use crate::many::{Ended, all, in_order, interrupted};
+use crate::output::{complain, counted, print, print_json, problems_json, show, write_whole};
 use crate::picture_errors::{Pictures, Picturing};
 
 pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
@@ -51,24 +51,22 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     let tests = tests(&recipes, args, engine)?;
     let cache = cache::open(&args.cache)?;
 
-    let jobs = Jobs {
-        count: tests.len(),
-        bytes: |i: usize| tests[i].bytes(),
-        stop: is_interrupted,
-        work: |i: usize| tests[i].run(args, cache.as_ref()),
-    };
-    let (mut order, mut results, mut printed) = (InOrder::default(), Vec::new(), Ok(()));
-    jobs.run(args.many.limits(), |ended| {
-        for (i, end) in ended {
-            order.put(i, end);
+    let run = |i: usize| tests[i].run(args, cache.as_ref());
+    let bytes = |i: usize| tests[i].bytes();
+    let (mut results, mut printed) = (Vec::new(), Ok(()));
+    in_order(tests.len(), args.many.limits(), bytes, run, |i, end| {
+        let result = end.unwrap_or_else(|panicked| TestResult {
+            state: match panicked {
+                Some(_) => State::Failed,
+                None => State::NotRun,
+            },
+            message: panicked,
+            ..TestResult::default()
+        });
+        if args.format == Format::Human && printed.is_ok() {
+            printed = tests[i].show(&result);
         }
-        while let Some((i, end)) = order.take() {
-            let result = TestResult::of(end);
-            if args.format == Format::Human && printed.is_ok() {
-                printed = tests[i].show(&result);
-            }
-            results.push(result);
-        }
+        results.push(result);
     })?;
     printed?;
     if let Some(problem) = cache.as_ref().and_then(Cache::problem) {
@@ -84,18 +82,15 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     let unexpecting = count(State::NoExpectations);
     if args.format == Format::Json {
         let rows = tests.iter().zip(&results);
-        print(&format!(
-            "{:#}\n",
-            json!({
-                "succeeded": failed == 0 && not_run == 0 && passed > 0,
-                "passed": passed,
-                "failed": failed,
-                "no_expectations": unexpecting,
-                "called_by_others": called,
-                "not_run": not_run,
-                "recipes": rows.map(|(test, result)| test.json(result)).collect::<Vec<_>>(),
-            })
-        ))?;
+        print_json(&json!({
+            "succeeded": failed == 0 && not_run == 0 && passed > 0,
+            "passed": passed,
+            "failed": failed,
+            "no_expectations": unexpecting,
+            "called_by_others": called,
+            "not_run": not_run,
+            "recipes": rows.map(|(test, result)| test.json(result)).collect::<Vec<_>>(),
+        }))?;
     } else {
         let mut summary = format!("{passed} passed, {failed} failed");
         if unexpecting > 0 {
@@ -167,7 +162,13 @@ fn load(found: &Found, args: &TestArgs, engine: &Engine) -> anyhow::Result<Loade
         None => "out".into(),
     };
     let source = engine.open(&found.path).map_err(anyhow::Error::msg)?;
-    load_text(&source, (&[], None), &out, args.many.budget, engine)
+    load_text(
+        &source,
+        &ValueArgs::default(),
+        &out,
+        args.many.budget,
+        engine,
+    )
 }
 
 /// A recipe to test.
@@ -180,15 +181,11 @@ struct Test<'a> {
 }
 
 impl<'a> Test<'a> {
-    fn new(found: &'a Found, loaded: JobEnd<anyhow::Result<Loaded>>) -> Self {
-        let loaded = match loaded {
-            JobEnd::Done(loaded) => loaded.map_err(|error| format!("{error:#}")),
-            JobEnd::Panicked(message) => Err(panicked(&message)),
-            JobEnd::NotRun => Err("interrupted".to_owned()),
-        };
+    fn new(found: &'a Found, loaded: Ended<anyhow::Result<Loaded>>) -> Self {
+        let loaded = loaded.map_err(interrupted);
         Self {
             found,
-            loaded,
+            loaded: loaded.and_then(|loaded| loaded.map_err(|error| format!("{error:#}"))),
             is_part: false,
         }
     }
@@ -208,7 +205,7 @@ impl<'a> Test<'a> {
         let begin = Instant::now();
         let loaded = match &self.loaded {
             Ok(loaded) => loaded,
-            Err(message) => return TestResult::failed(Vec::new(), Some(message.clone())),
+            Err(message) => return TestResult::failed(&[], Some(message.clone())),
         };
         // What a part of other recipes needs from them is missing when it is checked alone.
         if loaded.is_read && (self.is_part || !expects(loaded)) {
@@ -219,22 +216,22 @@ impl<'a> Test<'a> {
             };
             return TestResult {
                 state,
-                ..TestResult::failed(Vec::new(), None)
+                ..TestResult::default()
             };
         }
         if loaded.has_errors() {
-            return TestResult::failed(loaded.diagnostics.clone(), None);
+            return TestResult::failed(&loaded.diagnostics, None);
         }
-        // What --update mends is no failure.
-        let pictures = (!args.update)
-            .then(|| {
-                args.picture_errors
-                    .named(&self.found.own_folder, loaded.budget)
-            })
-            .flatten();
+        let pictures = if args.update {
+            // What it mends is no failure.
+            Pictures::default()
+        } else {
+            let name = &self.found.own_folder;
+            args.picture_errors.named(name, loaded.budget)
+        };
         let listener = Picturing {
             listener: &QUIET,
-            pictures: pictures.as_ref(),
+            pictures: &pictures,
         };
         let caching = cache.map(|cache| cache::using(cache, &self.found.path));
         let run = Run {
@@ -247,7 +244,7 @@ impl<'a> Test<'a> {
             match renew(&self.found.path, loaded, &mut outcome) {
                 Ok(lines) => changes = lines,
                 Err(error) => {
-                    return TestResult::failed(outcome.failures, Some(format!("{error:#}")));
+                    return TestResult::failed(&outcome.failures, Some(format!("{error:#}")));
                 }
             }
         }
@@ -297,20 +294,18 @@ impl<'a> Test<'a> {
         if let Ok(loaded) = &self.loaded {
             show(loaded, &result.diagnostics);
         }
-        if let Some(pictures) = &result.pictures {
-            pictures.tell();
-        }
+        result.pictures.tell();
         Ok(())
     }
 
     fn json(&self, result: &TestResult) -> Json {
-        let mut failures = match &self.loaded {
-            Ok(loaded) => problems_json(&result.diagnostics, &loaded.recipe.sources),
-            Err(_) => json!([]),
-        };
-        if let (Some(message), Some(list)) = (&result.message, failures.as_array_mut()) {
-            list.push(json!({ "severity": "error", "message": message }));
+        let mut failures: Vec<Json> = Vec::new();
+        if let Ok(loaded) = &self.loaded {
+            let problems = problems_json(&result.diagnostics, &loaded.recipe.sources);
+            failures.extend(problems.iter().map(|problem| json!(problem)));
         }
+        let message = result.message.iter();
+        failures.extend(message.map(|m| json!({ "severity": "error", "message": m })));
         json!({
             "recipe": self.found.path.display().to_string(),
             "state": result.state.name(),
@@ -319,7 +314,7 @@ impl<'a> Test<'a> {
             "milliseconds": result.time.as_secs_f64() * 1e3,
             "changes": result.changes,
             "failures": failures,
-            "pictures": result.pictures.as_ref().map(Pictures::paths).unwrap_or_default(),
+            "pictures": result.pictures.paths(),
         })
     }
 }
@@ -330,9 +325,10 @@ fn expects(loaded: &Loaded) -> bool {
     !recipe.expectations.is_empty() || recipe.steps.iter().any(|step| step.refused.is_some())
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum State {
     Passed,
+    #[default]
     Failed,
     NoExpectations,
     Called,
@@ -352,6 +348,7 @@ impl State {
 }
 
 /// How a test ended.
+#[derive(Default)]
 struct TestResult {
     state: State,
     /// How many expectations were held against the scene.
@@ -365,33 +362,17 @@ struct TestResult {
     diagnostics: Vec<Diagnostic>,
     /// What is wrong beside that.
     message: Option<String>,
-    /// The pictures of what is wrong, if they are wanted.
-    pictures: Option<Pictures>,
+    /// The pictures of what is wrong.
+    pictures: Pictures,
 }
 
 impl TestResult {
-    fn of(end: JobEnd<Self>) -> Self {
-        match end {
-            JobEnd::Done(result) => result,
-            JobEnd::Panicked(message) => Self::failed(Vec::new(), Some(panicked(&message))),
-            JobEnd::NotRun => Self {
-                state: State::NotRun,
-                ..Self::failed(Vec::new(), None)
-            },
-        }
-    }
-
     /// A recipe that was not run.
-    fn failed(diagnostics: Vec<Diagnostic>, message: Option<String>) -> Self {
+    fn failed(diagnostics: &[Diagnostic], message: Option<String>) -> Self {
         Self {
-            state: State::Failed,
-            expectations: 0,
-            digest: None,
-            time: Duration::ZERO,
-            changes: Vec::new(),
-            diagnostics,
+            diagnostics: diagnostics.to_vec(),
             message,
-            pictures: None,
+            ..Self::default()
         }
     }
 }

@@ -7,8 +7,7 @@ use op::{FaceSelection, Files};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::subject::Subject;
-use super::{Other, Reader};
+use crate::expect::{Other, Reader, Subject};
 use crate::run::Outcome;
 use geometry::distance::Distance;
 

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::Counts;
+
 /// Why a curve, a patch or a tessellation was refused.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum BezierError {
@@ -38,36 +40,17 @@ pub enum BezierError {
         /// How many control points there are.
         count: usize,
     },
-    /// A parameter that is infinite or no number.
-    #[error("expected a finite parameter, found {t}")]
-    BadParameter {
-        /// The parameter.
-        t: f64,
-    },
     /// A tessellation with no segments.
     #[error("expected at least 1 segment per side, found 0")]
     NoSegments,
     /// A tessellation that does not fit ids of 32 bits. Numbers beyond 64 bits are given as the
     /// largest that fits.
     #[error(
-        "expected at most {} of each, found {vertices} vertices, {faces} faces and {corners} \
-         face corners",
-        u32::MAX
+        "expected at most {} of each, found {} vertices, {} faces and {} face corners",
+        u32::MAX, .0.vertices, .0.faces, .0.corners
     )]
-    TooManyElements {
-        /// How many vertices there would be.
-        vertices: u64,
-        /// How many faces there would be.
-        faces: u64,
-        /// How many face corners there would be.
-        corners: u64,
-    },
+    TooManyElements(Counts),
     /// The system has no memory for a tessellation of this size.
-    #[error("not enough memory for {vertices} vertices and {faces} faces")]
-    OutOfMemory {
-        /// How many vertices there would be.
-        vertices: u64,
-        /// How many faces there would be.
-        faces: u64,
-    },
+    #[error("not enough memory for {} vertices and {} faces", .0.vertices, .0.faces)]
+    OutOfMemory(Counts),
 }

@@ -1,5 +1,5 @@
-//! Bezier curves and patches: de Casteljau's algorithm, derivatives, exact normals, subdivision
-//! of curves, and tessellation of patches into polygons.
+//! Bezier curves and patches: de Casteljau's algorithm, derivatives, exact normals, and tessellation of
+//! patches into polygons.
 //!
 //! The crate knows numbers only: no meshes, no files, no operations.
 //!
@@ -21,13 +21,11 @@
 //! ```
 //! use bezier::{Curve, DVec2, DVec3, Faces, Patch, counts, tessellate};
 //!
-//! // A curve, the construction of its middle point, and its two halves.
+//! // A curve, and the construction of its middle point.
 //! let arch = Curve::new(vec![DVec2::ZERO, DVec2::new(0.0, 4.0), DVec2::new(4.0, 4.0)])?;
 //! let levels = arch.levels(0.5);
 //! assert_eq!(levels[1], [DVec2::new(0.0, 2.0), DVec2::new(2.0, 4.0)]);
 //! assert_eq!(levels[2], [arch.point(0.5)]);
-//! let (left, right) = arch.split(0.5)?;
-//! assert_eq!(left.point(1.0), right.point(0.0));
 //!
 //! // A hill over a square, in triangles.
 //! let height = [0.0, 1.0, 1.0, 0.0];
@@ -48,14 +46,14 @@
 //! - Newell, "The utilization of procedure models in digital image synthesis", 1975: the teapot,
 //!   whose lid and bottom have the collapsed sides that every Bezier program meets first.
 
-#[cfg(test)]
-mod bernstein;
 mod collapse;
 pub mod curve;
 mod error;
 #[cfg(test)]
 mod fixtures;
 pub mod normal;
+#[cfg(test)]
+mod oracle;
 pub mod patch;
 pub mod polygons;
 pub mod tessellate;

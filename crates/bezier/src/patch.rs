@@ -116,18 +116,13 @@ impl Patch {
     ///
     /// These are the sizes against which derivatives are called zero.
     pub(crate) fn reach(&self) -> DVec2 {
-        let mut reach = DVec2::ZERO;
-        for row in &self.points {
-            for pair in row.windows(2) {
-                reach.x = reach.x.max(size(pair[1] - pair[0]));
-            }
-        }
-        for rows in self.points.windows(2) {
-            for (p, q) in rows[0].iter().zip(&rows[1]) {
-                reach.y = reach.y.max(size(*q - *p));
-            }
-        }
-        reach
+        let along = |patch: &Self| {
+            let pairs = patch.points.iter().flat_map(|row| row.windows(2));
+            pairs
+                .map(|pair| size(pair[1] - pair[0]))
+                .fold(0.0, f64::max)
+        };
+        DVec2::new(along(self), along(&self.transposed()))
     }
 
     /// The derivatives at a pair of weights.
@@ -154,14 +149,7 @@ pub(crate) fn cubic(p: [DVec3; 4], w: Weights) -> DVec3 {
     match w.end() {
         Some(0) => p[0],
         Some(_) => p[3],
-        None => {
-            let q = [
-                w.blend(p[0], p[1]),
-                w.blend(p[1], p[2]),
-                w.blend(p[2], p[3]),
-            ];
-            quadratic(q, w)
-        }
+        None => quadratic([0, 1, 2].map(|i| w.blend(p[i], p[i + 1])), w),
     }
 }
 
@@ -193,8 +181,8 @@ fn taylor(p: [DVec3; 4], w: Weights) -> [DVec3; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bernstein;
     use crate::fixtures::{Lcg, assert_close};
+    use crate::oracle;
 
     #[test]
     fn points_and_derivatives_agree_with_the_bernstein_form() {
@@ -203,7 +191,7 @@ mod tests {
             let patch = random.patch();
             for _ in 0..20 {
                 let (u, v) = (random.unit(), random.unit());
-                let [point, by_u, by_v] = bernstein::patch(patch.points(), u, v);
+                let [point, by_u, by_v] = oracle::patch(patch.points(), u, v);
                 let (du, dv) = patch.derivatives(u, v);
                 assert_close(patch.point(u, v), point, 1e-12);
                 assert_close(du, by_u, 1e-12);

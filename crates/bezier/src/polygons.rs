@@ -25,15 +25,10 @@ pub struct Tessellation {
     pub offsets: Vec<u32>,
     /// The vertices of all faces, face after face, counter-clockwise.
     pub indices: Vec<u32>,
-    /// The patch of every face, counted from 0 in the order of tessellation.
-    pub patch_of_face: Vec<u32>,
     /// How many patches were tessellated, with those that gave nothing.
     pub patches: u32,
     /// The patches that gave nothing because they have no area.
     pub empty_patches: Vec<u32>,
-    /// How many sides of the patches were one point and became one vertex, not counting the sides
-    /// of empty patches.
-    pub collapsed_sides: u64,
 }
 
 impl Default for Tessellation {
@@ -44,10 +39,8 @@ impl Default for Tessellation {
             uvs: Vec::new(),
             offsets: vec![0],
             indices: Vec::new(),
-            patch_of_face: Vec::new(),
             patches: 0,
             empty_patches: Vec::new(),
-            collapsed_sides: 0,
         }
     }
 }
@@ -55,7 +48,7 @@ impl Default for Tessellation {
 impl Tessellation {
     /// How many faces there are.
     pub fn face_count(&self) -> usize {
-        self.patch_of_face.len()
+        self.offsets.len() - 1
     }
 
     /// The vertices of the faces in order, each counter-clockwise.
@@ -67,20 +60,15 @@ impl Tessellation {
 
     /// Makes room for `counts` more elements, so that filling them in cannot fail.
     pub(crate) fn reserve(&mut self, counts: Counts) -> Result<(), BezierError> {
-        let Counts {
-            vertices,
-            faces,
-            corners,
-        } = counts;
-        let room = |count: u64| usize::try_from(count).unwrap_or(usize::MAX);
+        let all = [counts.vertices, counts.faces, counts.corners];
+        let [vertices, faces, corners] = all.map(|n| usize::try_from(n).unwrap_or(usize::MAX));
         self.positions
-            .try_reserve(room(vertices))
-            .and_then(|()| self.normals.try_reserve(room(vertices)))
-            .and_then(|()| self.uvs.try_reserve(room(vertices)))
-            .and_then(|()| self.offsets.try_reserve(room(faces)))
-            .and_then(|()| self.patch_of_face.try_reserve(room(faces)))
-            .and_then(|()| self.indices.try_reserve(room(corners)))
-            .map_err(|_| BezierError::OutOfMemory { vertices, faces })
+            .try_reserve(vertices)
+            .and_then(|()| self.normals.try_reserve(vertices))
+            .and_then(|()| self.uvs.try_reserve(vertices))
+            .and_then(|()| self.offsets.try_reserve(faces))
+            .and_then(|()| self.indices.try_reserve(corners))
+            .map_err(|_| BezierError::OutOfMemory(counts))
     }
 
     /// What is there already.
@@ -115,7 +103,6 @@ impl Tessellation {
         if distinct.clone().count() >= 3 {
             self.indices.extend(distinct.map(|k| face[k]));
             self.offsets.push(self.indices.len() as u32);
-            self.patch_of_face.push(self.patches);
         }
     }
 }
@@ -143,17 +130,9 @@ impl Counts {
 
     /// Refuses counts that do not fit 32 bits.
     pub(crate) fn check(&self) -> Result<(), BezierError> {
-        let Self {
-            vertices,
-            faces,
-            corners,
-        } = *self;
-        if vertices.max(faces).max(corners) > u64::from(u32::MAX) {
-            return Err(BezierError::TooManyElements {
-                vertices,
-                faces,
-                corners,
-            });
+        let most = self.vertices.max(self.faces).max(self.corners);
+        if most > u64::from(u32::MAX) {
+            return Err(BezierError::TooManyElements(*self));
         }
         Ok(())
     }

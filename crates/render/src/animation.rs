@@ -251,7 +251,7 @@ mod tests {
     fn texts_and_comments_of_any_kind_do_no_harm() {
         let frame = Image::filled(2, 2, [9, 9, 9, 255]).unwrap();
         let long = "long ".repeat(200);
-        for text in crate::figure::ODD_TEXTS
+        for text in crate::figure::testing::ODD_TEXTS
             .iter()
             .copied()
             .chain([long.as_str()])

@@ -43,28 +43,22 @@ pub fn compare(
     tolerance: u8,
 ) -> Result<Option<String>, PictureError> {
     let (mut found, mut expected) = (Frames::new(found, 0)?, Frames::new(expected, 1)?);
-    let [width, height] = expected.size();
-    if found.size() != expected.size() {
-        let [w, h] = found.size();
-        return Ok(Some(format!(
-            "expected {width} x {height} pixels, found {w} x {h}"
-        )));
+    let [[width, height], [w, h]] = [&expected, &found].map(|f| f.reader.info().size().into());
+    if [w, h] != [width, height] {
+        let message = format!("expected {width} x {height} pixels, found {w} x {h}");
+        return Ok(Some(message));
     }
-    let n = expected.count();
-    if found.count() != n {
-        return Ok(Some(format!(
-            "expected {n} images, found {}",
-            found.count()
-        )));
+    let [n, n_found] = [&expected, &found].map(Frames::count);
+    if n_found != n {
+        return Ok(Some(format!("expected {n} images, found {n_found}")));
     }
     let mut differing = Differing::default();
     for frame in 0..n {
         let (found, expected) = (found.next()?, expected.next()?);
         if found.control != expected.control {
-            return Ok(Some(format!(
-                "image {} is shown at another place or for another time",
-                frame + 1
-            )));
+            let number = frame + 1;
+            let message = format!("image {number} is shown at another place or for another time");
+            return Ok(Some(message));
         }
         let width = expected.width.max(1);
         for (i, (a, b)) in found.pixels.iter().zip(&expected.pixels).enumerate() {
@@ -98,18 +92,17 @@ impl Differing {
     fn message(&self, n_frames: u32) -> Option<String> {
         let [frame, x, y] = self.first?;
         let (n, total, most) = (self.n, self.total, self.most);
-        let image = if n_frames > 1 {
-            format!(" of image {}", frame + 1)
-        } else {
-            String::new()
+        let image = match n_frames {
+            1 => String::new(),
+            _ => format!(" of image {}", frame + 1),
         };
-        Some(if n == 1 {
-            format!("1 of {total} pixels differs, by {most} of 255, at ({x}, {y}){image}")
-        } else {
-            format!(
-                "{n} of {total} pixels differ, by at most {most} of 255; the first is at ({x}, {y}){image}"
-            )
-        })
+        let (differ, by, at) = match n {
+            1 => ("pixels differs", "by", ", at"),
+            _ => ("pixels differ", "by at most", "; the first is at"),
+        };
+        Some(format!(
+            "{n} of {total} {differ}, {by} {most} of 255{at} ({x}, {y}){image}"
+        ))
     }
 }
 
@@ -123,8 +116,8 @@ struct Frames<'b> {
 struct Frame {
     pixels: Vec<[u8; 4]>,
     width: usize,
-    /// Where, how long and how it is shown, in an animation.
-    control: Option<([u32; 4], [u32; 2], [u32; 2])>,
+    /// Where, how and how long it is shown, in an animation.
+    control: Option<([u32; 6], [u16; 2])>,
 }
 
 impl<'b> Frames<'b> {
@@ -132,10 +125,6 @@ impl<'b> Frames<'b> {
         let reader = decoder(bytes).read_info();
         let reader = reader.map_err(|error| unreadable(file, &error))?;
         Ok(Self { reader, file })
-    }
-
-    fn size(&self) -> [u32; 2] {
-        self.reader.info().size().into()
     }
 
     fn count(&self) -> u32 {
@@ -151,10 +140,9 @@ impl<'b> Frames<'b> {
         let info = info.map_err(|error| unreadable(self.file, &error))?;
         bytes.truncate(info.buffer_size());
         let control = self.reader.info().frame_control.map(|c| {
-            let place = [c.x_offset, c.y_offset, c.width, c.height];
-            let time = [c.delay_num, c.delay_den].map(u32::from);
-            let way = [c.dispose_op as u32, c.blend_op as u32];
-            (place, time, way)
+            let [dispose, blend] = [c.dispose_op as u32, c.blend_op as u32];
+            let place = [c.x_offset, c.y_offset, c.width, c.height, dispose, blend];
+            (place, [c.delay_num, c.delay_den])
         });
         Ok(Frame {
             width: info.width as usize,

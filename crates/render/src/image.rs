@@ -94,10 +94,8 @@ impl Image {
         let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
         decoder.decode_headers().map_err(failed)?;
         // A side of a JPEG file has 16 bits; one without pixels is refused.
-        let (width, height) = decoder
-            .info()
-            .map_or((0, 0), |info| (info.width, info.height));
-        let (width, height) = (u32::from(width), u32::from(height));
+        let info = decoder.info();
+        let [width, height] = info.map_or([0; 2], |i| [i.width, i.height].map(u32::from));
         checked_size(width, height)?;
         let bytes = decoder.decode().map_err(failed)?;
         let pixels = bytes.as_chunks().0.iter();

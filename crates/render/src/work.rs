@@ -1,7 +1,6 @@
 //! How far a picture is, when several threads draw it.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use progress::Progress;
 use rayon::prelude::*;
@@ -19,8 +18,8 @@ pub(crate) struct Work<'a> {
     progress: &'a dyn Progress,
     what: &'static str,
     total: u64,
-    done: Mutex<u64>,
-    is_cancelled: AtomicBool,
+    /// `None` once it is cancelled.
+    done: Mutex<Option<u64>>,
 }
 
 impl<'a> Work<'a> {
@@ -30,8 +29,7 @@ impl<'a> Work<'a> {
             progress,
             what,
             total: total.max(1),
-            done: Mutex::new(0),
-            is_cancelled: AtomicBool::new(false),
+            done: Mutex::new(Some(0)),
         }
     }
 
@@ -41,19 +39,10 @@ impl<'a> Work<'a> {
     ///
     /// [`PictureError::Cancelled`] if the listener cancels; ever after, once it has.
     pub(crate) fn add(&self, amount: u64) -> Result<(), PictureError> {
-        if self.is_cancelled.load(Ordering::Relaxed) {
-            return Err(PictureError::Cancelled);
-        }
-        let mut done = match self.done.lock() {
-            Ok(done) => done,
-            Err(poisoned) => poisoned.into_inner(),
-        };
-        *done = done.saturating_add(amount).min(self.total);
-        if self.progress.advance(self.what, *done, self.total) {
-            return Ok(());
-        }
-        self.is_cancelled.store(true, Ordering::Relaxed);
-        Err(PictureError::Cancelled)
+        let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+        let sum = done.map(|done| done.saturating_add(amount).min(self.total));
+        *done = sum.filter(|&sum| self.progress.advance(self.what, sum, self.total));
+        done.map(drop).ok_or(PictureError::Cancelled)
     }
 }
 

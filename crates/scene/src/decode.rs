@@ -6,12 +6,12 @@ use std::sync::Arc;
 use bezier::{BezierError, Curve, Patch};
 use bytemuck::{AnyBitPattern, NoUninit};
 use glam::DVec3;
-use mesh::{Column, Connectivity, Defect, Domain, Mesh, Rule, Values};
+use mesh::{Column, Connectivity, Defect, Domain, Mesh, Values};
 
-use crate::digest::{FORM, MORE};
+use crate::digest::{FILTERS, FORM, MORE, RULES, TEXTURES, WRAPS};
 use crate::{
-    AlphaMode, DuplicateName, Filter, Geometry, Image, Material, Object, Sampler, Scene, Texture,
-    TextureTransform, Wrap,
+    AlphaMode, DuplicateName, Geometry, Image, Material, Object, Sampler, Scene, Texture,
+    TextureTransform,
 };
 
 /// Where the long arrays are that [`Scene::encode_apart`] took out.
@@ -121,6 +121,19 @@ impl<'a> Decoder<'a> {
         std::str::from_utf8(self.take(n)?).map_err(|_| DecodeError::Expected("a text in UTF-8"))
     }
 
+    /// One of several things that are written as their names.
+    fn one_of<T: Copy>(
+        &mut self,
+        all: &[(&str, T)],
+        expected: &'static str,
+    ) -> Result<T, DecodeError> {
+        let name = self.text()?;
+        let found = all.iter().find(|(other, _)| *other == name);
+        found
+            .map(|(_, value)| *value)
+            .ok_or(DecodeError::Expected(expected))
+    }
+
     /// An array of numbers, or of structs of numbers of `width` bytes each.
     fn array<T: AnyBitPattern + NoUninit>(&mut self, width: usize) -> Result<Vec<T>, DecodeError> {
         let n = usize::try_from(self.len()?).map_err(|_| DecodeError::Truncated)?;
@@ -157,35 +170,33 @@ impl<'a> Decoder<'a> {
             .map_err(|_| DecodeError::Expected("another number of numbers"))
     }
 
+    /// A number of things, one after another.
+    fn list<T>(
+        &mut self,
+        mut next: impl FnMut(&mut Self) -> Result<T, DecodeError>,
+    ) -> Result<Vec<T>, DecodeError> {
+        // Not reserved: the number may be any.
+        let n = self.len()?;
+        (0..n).try_fold(Vec::new(), |mut list, _| {
+            list.push(next(self)?);
+            Ok(list)
+        })
+    }
+
     fn object(&mut self) -> Result<Object, DecodeError> {
         let name = self.text()?.to_owned();
-        let mut materials = Vec::new();
-        for _ in 0..self.len()? {
-            materials.push(self.material()?);
-        }
+        let materials = self.list(Self::material)?;
         let geometry = match self.text()? {
             "mesh" => Geometry::Mesh(Arc::new(self.mesh()?)),
             "patches" => {
-                let mut patches = Vec::new();
-                for _ in 0..self.len()? {
-                    let points: Vec<DVec3> = self.array(8)?;
-                    let mut rows = [[DVec3::ZERO; 4]; 4];
-                    if points.len() != 16 {
-                        return Err(DecodeError::Expected("16 points of a patch"));
-                    }
-                    rows.as_flattened_mut().copy_from_slice(&points);
-                    patches.push(Patch::new(rows)?);
-                }
-                Geometry::Patches(patches)
+                let points = |d: &mut Self| match d.array::<DVec3>(8)?.as_chunks() {
+                    (&[a, b, c, e], []) => Ok(Patch::new([a, b, c, e])?),
+                    _ => Err(DecodeError::Expected("16 points of a patch")),
+                };
+                Geometry::Patches(self.list(points)?)
             }
             "curve" => Geometry::Curve(Curve::new(self.array(8)?)?),
-            "polylines" => {
-                let mut lines = Vec::new();
-                for _ in 0..self.len()? {
-                    lines.push(self.array(8)?);
-                }
-                Geometry::Polylines(lines)
-            }
+            "polylines" => Geometry::Polylines(self.list(|d| d.array(8))?),
             _ => return Err(DecodeError::Expected("a kind of geometry")),
         };
         Ok(Object {
@@ -212,15 +223,8 @@ impl<'a> Decoder<'a> {
         }
         self.len()?;
         for _ in 0..self.len()? {
-            let slot = match self.text()? {
-                "base color texture" => &mut m.base_color_texture,
-                "metallic roughness texture" => &mut m.metallic_roughness_texture,
-                "normal texture" => &mut m.normal_texture,
-                "occlusion texture" => &mut m.occlusion_texture,
-                "emissive texture" => &mut m.emissive_texture,
-                _ => return Err(DecodeError::Expected("a texture of a material")),
-            };
-            *slot = Some(self.texture()?);
+            let slot = self.one_of(&TEXTURES, "a texture of a material")?;
+            *slot(&mut m) = Some(self.texture()?);
         }
         for _ in 0..self.len()? {
             let name = self.text()?;
@@ -253,18 +257,8 @@ impl<'a> Decoder<'a> {
             },
             _ => return Err(DecodeError::Expected("a picture")),
         };
-        let wrap = |code| match code {
-            0 => Ok(Wrap::Repeat),
-            1 => Ok(Wrap::Mirror),
-            2 => Ok(Wrap::Clamp),
-            _ => Err(DecodeError::Expected("how a texture is wrapped")),
-        };
-        let filter = |code| match code {
-            0 => Ok(None),
-            1 => Ok(Some(Filter::Nearest)),
-            2 => Ok(Some(Filter::Linear)),
-            _ => Err(DecodeError::Expected("how a texture is filtered")),
-        };
+        let wrap = |code| coded(&WRAPS, code, "how a texture is wrapped");
+        let filter = |code| coded(&FILTERS, code, "how a texture is filtered");
         let codes = self.array::<u32>(4)?;
         let &[uv_set, u, v, magnify, minify, mipmap] = &codes[..] else {
             return Err(DecodeError::Expected("how a texture is sampled"));
@@ -314,20 +308,10 @@ impl<'a> Decoder<'a> {
             .text()?
             .split_once(' ')
             .ok_or(DecodeError::Expected("a domain and a name"))?;
-        let domain = match domain {
-            "vertex" => Domain::Vertex,
-            "corner" => Domain::Corner,
-            "edge" => Domain::Edge,
-            "face" => Domain::Face,
-            _ => return Err(DecodeError::Expected("a domain")),
-        };
-        let rule = match self.text()? {
-            "interpolate" => Rule::Interpolate,
-            "normal" => Rule::Normal,
-            "copy" => Rule::Copy,
-            "drop" => Rule::Drop,
-            _ => return Err(DecodeError::Expected("a rule")),
-        };
+        let mut domains = Domain::ALL.into_iter();
+        let domain = domains.find(|d| d.to_string() == domain);
+        let domain = domain.ok_or(DecodeError::Expected("a domain"))?;
+        let rule = self.one_of(&RULES, "a rule")?;
         let values = match self.text()? {
             "number" => Values::Float(self.array(8)?),
             "2 numbers" => Values::Vec2(self.array(8)?),
@@ -344,6 +328,12 @@ impl<'a> Decoder<'a> {
         };
         Ok((domain, column))
     }
+}
+
+/// The value with a number in a list that has all values.
+fn coded<T: Copy>(all: &[T], code: u32, expected: &'static str) -> Result<T, DecodeError> {
+    let value = all.get(code as usize).copied();
+    value.ok_or(DecodeError::Expected(expected))
 }
 
 fn marks(bytes: &[u8]) -> Result<Vec<bool>, DecodeError> {

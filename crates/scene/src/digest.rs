@@ -65,22 +65,25 @@ impl Scene {
 
     /// Hands the canonical form to `sink`, piece by piece.
     pub fn encode(&self, sink: &mut impl FnMut(&[u8])) {
-        self.encode_to(&mut Together(sink));
+        self.encode_to(&mut |bytes, _| sink(bytes));
     }
 
     /// The canonical form without the contents of arrays of at least `long` bytes, which go to `array`, each
     /// whole, in their order. [`decode`](Self::decode) puts both together again.
     pub fn encode_apart(&self, long: usize, array: &mut dyn FnMut(&[u8])) -> Vec<u8> {
-        let mut sink = Apart {
-            rest: Vec::new(),
-            long,
-            array,
-        };
-        self.encode_to(&mut sink);
-        sink.rest
+        let mut rest = Vec::new();
+        self.encode_to(&mut |bytes, is_array| {
+            if is_array && bytes.len() >= long {
+                array(bytes);
+            } else {
+                rest.extend_from_slice(bytes);
+            }
+        });
+        rest
     }
 
-    fn encode_to(&self, sink: &mut impl Sink) {
+    /// Hands the canonical form to `sink`, which is told whether the bytes are the content of an array.
+    fn encode_to(&self, sink: &mut dyn FnMut(&[u8], bool)) {
         let mut encoder = Encoder { sink };
         encoder.text(FORM);
         encoder.len(self.objects().len());
@@ -95,58 +98,71 @@ pub(crate) const FORM: &str = "meshwright scene 1";
 /// Stands where the length of a text would be, before what else a material has.
 pub(crate) const MORE: u64 = u64::MAX;
 
-/// Takes the canonical form.
-trait Sink {
-    /// Some bytes.
-    fn bytes(&mut self, bytes: &[u8]);
-    /// The content of an array.
-    fn array(&mut self, bytes: &[u8]);
+/// The textures of a material that are written with their names.
+pub(crate) const TEXTURES: [(&str, fn(&mut Material) -> &mut Option<Texture>); 5] = [
+    ("base color texture", |m| &mut m.base_color_texture),
+    ("metallic roughness texture", |m| {
+        &mut m.metallic_roughness_texture
+    }),
+    ("normal texture", |m| &mut m.normal_texture),
+    ("occlusion texture", |m| &mut m.occlusion_texture),
+    ("emissive texture", |m| &mut m.emissive_texture),
+];
+
+/// The names of rules.
+pub(crate) const RULES: [(&str, Rule); 4] = [
+    ("interpolate", Rule::Interpolate),
+    ("normal", Rule::Normal),
+    ("copy", Rule::Copy),
+    ("drop", Rule::Drop),
+];
+
+/// How a texture goes on beyond its edge; the place is the number of each.
+pub(crate) const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp];
+
+/// How pixels of a texture are mixed; the place is the number of each.
+pub(crate) const FILTERS: [Option<Filter>; 3] = [None, Some(Filter::Nearest), Some(Filter::Linear)];
+
+/// The number of a value in a list that has all values.
+fn code<T: PartialEq>(all: &[T], value: &T) -> u32 {
+    (0..)
+        .zip(all)
+        .find_map(|(i, one)| (one == value).then_some(i))
+        .unwrap_or(0)
 }
 
-struct Together<'a, F>(&'a mut F);
-
-impl<F: FnMut(&[u8])> Sink for Together<'_, F> {
-    fn bytes(&mut self, bytes: &[u8]) {
-        (self.0)(bytes);
-    }
-
-    fn array(&mut self, bytes: &[u8]) {
-        (self.0)(bytes);
-    }
+/// What a material has beside textures and the numbers that are always written.
+fn numbers(m: &Material) -> [(&'static str, Vec<f64>); 7] {
+    let flag = |is: bool| vec![f64::from(u8::from(is))];
+    let alpha = match m.alpha {
+        AlphaMode::Opaque => vec![0.0],
+        AlphaMode::Mask(cutoff) => vec![1.0, cutoff],
+        AlphaMode::Blend => vec![2.0],
+    };
+    [
+        ("normal scale", vec![m.normal_scale]),
+        ("occlusion strength", vec![m.occlusion_strength]),
+        ("emissive", m.emissive.to_vec()),
+        ("emissive strength", vec![m.emissive_strength]),
+        ("alpha", alpha),
+        ("double sided", flag(m.double_sided)),
+        ("unlit", flag(m.unlit)),
+    ]
 }
 
-struct Apart<'a> {
-    rest: Vec<u8>,
-    long: usize,
-    array: &'a mut dyn FnMut(&[u8]),
+struct Encoder<'a> {
+    /// Takes bytes, and whether they are the content of an array.
+    sink: &'a mut dyn FnMut(&[u8], bool),
 }
 
-impl Sink for Apart<'_> {
-    fn bytes(&mut self, bytes: &[u8]) {
-        self.rest.extend_from_slice(bytes);
-    }
-
-    fn array(&mut self, bytes: &[u8]) {
-        if bytes.len() < self.long {
-            self.bytes(bytes);
-        } else {
-            (self.array)(bytes);
-        }
-    }
-}
-
-struct Encoder<'a, S> {
-    sink: &'a mut S,
-}
-
-impl<S: Sink> Encoder<'_, S> {
+impl Encoder<'_> {
     fn len(&mut self, n: usize) {
-        self.sink.bytes(&(n as u64).to_le_bytes());
+        (self.sink)(&(n as u64).to_le_bytes(), false);
     }
 
     fn text(&mut self, text: &str) {
         self.len(text.len());
-        self.sink.bytes(text.as_bytes());
+        (self.sink)(text.as_bytes(), false);
     }
 
     /// An array of numbers, or of structs of numbers of `width` bytes each.
@@ -154,13 +170,13 @@ impl<S: Sink> Encoder<'_, S> {
         self.len(values.len());
         let bytes: &[u8] = bytemuck::cast_slice(values);
         if cfg!(target_endian = "little") {
-            self.sink.array(bytes);
+            (self.sink)(bytes, true);
         } else {
             let mut turned = bytes.to_vec();
             for number in turned.chunks_exact_mut(width) {
                 number.reverse();
             }
-            self.sink.array(&turned);
+            (self.sink)(&turned, true);
         }
     }
 
@@ -196,71 +212,30 @@ impl<S: Sink> Encoder<'_, S> {
         let path = m.base_color_texture.as_ref().and_then(Texture::path);
         self.text(path.unwrap_or(""));
 
-        let plain = Material::new("");
+        let mut plain = Material::new("");
         // A transparent color has always meant a transparent surface.
-        let usual = if m.base_color[3] < 1.0 {
-            AlphaMode::Blend
-        } else {
-            AlphaMode::Opaque
+        if m.base_color[3] < 1.0 {
+            plain.alpha = AlphaMode::Blend;
+        }
+        let mut more = m.clone();
+        more.base_color_texture.take_if(|t| is_path(t));
+        let texture = |(name, of): (_, fn(&mut Material) -> &mut Option<Texture>)| {
+            Some((name, of(&mut more).take()?))
         };
-        let base_color = m.base_color_texture.as_ref();
-        let textures = [
-            ("base color texture", base_color.filter(|&t| !is_path(t))),
-            (
-                "metallic roughness texture",
-                m.metallic_roughness_texture.as_ref(),
-            ),
-            ("normal texture", m.normal_texture.as_ref()),
-            ("occlusion texture", m.occlusion_texture.as_ref()),
-            ("emissive texture", m.emissive_texture.as_ref()),
-        ];
-        let textures = textures
-            .into_iter()
-            .filter_map(|(name, t)| Some((name, t?)));
-        let alpha = match m.alpha {
-            AlphaMode::Opaque => vec![0.0],
-            AlphaMode::Mask(cutoff) => vec![1.0, cutoff],
-            AlphaMode::Blend => vec![2.0],
-        };
-        let flag = |is| vec![f64::from(u8::from(is))];
-        let numbers = [
-            (
-                "normal scale",
-                vec![m.normal_scale],
-                m.normal_scale != plain.normal_scale,
-            ),
-            (
-                "occlusion strength",
-                vec![m.occlusion_strength],
-                m.occlusion_strength != plain.occlusion_strength,
-            ),
-            (
-                "emissive",
-                m.emissive.to_vec(),
-                m.emissive != plain.emissive,
-            ),
-            (
-                "emissive strength",
-                vec![m.emissive_strength],
-                m.emissive_strength != plain.emissive_strength,
-            ),
-            ("alpha", alpha, m.alpha != usual),
-            ("double sided", flag(m.double_sided), m.double_sided),
-            ("unlit", flag(m.unlit), m.unlit),
-        ];
-        let numbers = numbers.into_iter().filter(|&(_, _, differs)| differs);
-        let (textures, numbers): (Vec<_>, Vec<_>) = (textures.collect(), numbers.collect());
+        let textures: Vec<_> = TEXTURES.into_iter().filter_map(texture).collect();
+        let numbers = numbers(m).into_iter().zip(numbers(&plain));
+        let numbers: Vec<_> = numbers.filter(|(own, usual)| own != usual).collect();
         if textures.is_empty() && numbers.is_empty() {
             return;
         }
-        self.sink.bytes(&MORE.to_le_bytes());
+        (self.sink)(&MORE.to_le_bytes(), false);
         self.len(textures.len());
         for (name, texture) in textures {
             self.text(name);
-            self.texture(texture);
+            self.texture(&texture);
         }
         self.len(numbers.len());
-        for (name, values, _) in numbers {
+        for ((name, values), _) in numbers {
             self.text(name);
             self.array(&values, 8);
         }
@@ -284,17 +259,9 @@ impl<S: Sink> Encoder<'_, S> {
             minify,
             mipmap,
         } = texture.sampler;
-        let wrap = wrap.map(|wrap| match wrap {
-            Wrap::Repeat => 0,
-            Wrap::Mirror => 1,
-            Wrap::Clamp => 2,
-        });
-        let filter = [magnify, minify, mipmap].map(|filter| match filter {
-            None => 0,
-            Some(Filter::Nearest) => 1,
-            Some(Filter::Linear) => 2,
-        });
-        self.array(&[&[texture.uv_set], &wrap[..], &filter].concat(), 4);
+        let [u, v] = wrap.map(|wrap| code(&WRAPS, &wrap));
+        let [magnify, minify, mipmap] = [magnify, minify, mipmap].map(|f| code(&FILTERS, &f));
+        self.array(&[texture.uv_set, u, v, magnify, minify, mipmap], 4);
         let TextureTransform {
             offset: [u, v],
             rotation,
@@ -323,12 +290,8 @@ impl<S: Sink> Encoder<'_, S> {
         self.len(mesh.attributes().iter().count());
         for (domain, column) in mesh.attributes().iter() {
             self.text(&format!("{domain} {}", column.name));
-            self.text(match column.rule {
-                Rule::Interpolate => "interpolate",
-                Rule::Normal => "normal",
-                Rule::Copy => "copy",
-                Rule::Drop => "drop",
-            });
+            let (rule, _) = RULES[code(&RULES.map(|(_, rule)| rule), &column.rule) as usize];
+            self.text(rule);
             self.text(column.values.type_name());
             match &column.values {
                 Values::Float(v) => self.array(v, 8),

@@ -334,7 +334,7 @@ mod tests {
     #[test]
     fn captions_stand_below_and_stay_in_their_columns() {
         let image = plain(90, 20, RED);
-        for text in render::figure::ODD_TEXTS
+        for text in render::figure::testing::ODD_TEXTS
             .iter()
             .copied()
             .chain(["a_long_name_".repeat(50).as_str()])
@@ -458,7 +458,7 @@ mod tests {
         let rows: Vec<bool> = (0..60).map(|y| ink(y) > 0).collect();
         let starts = rows.windows(2).filter(|w| !w[0] && w[1]).count();
         assert!(starts >= 2 && !rows[0] && !rows[59], "{rows:?}");
-        for why in render::figure::ODD_TEXTS.iter().copied().chain([
+        for why in render::figure::testing::ODD_TEXTS.iter().copied().chain([
             "",
             &"long ".repeat(10_000),
             &"x".repeat(100_000),

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use progress::Progress;
 use render::figure::label::{Label, draw_labels};
-use render::figure::legend::{Corner, Legend, draw_legend};
+use render::figure::legend::{Legend, draw_legend};
 use render::{
     Camera, Drawing, Image, Overlays, PictureError, Style, View, build, bytes_needed, render,
 };
@@ -196,7 +196,7 @@ impl Shot<'_> {
         if let Some(legend) = subject.shown.as_ref().and_then(Shown::legend) {
             // As large as letters are in a picture of usual size.
             let scale = (f64::from(self.size[1]) / 720.0).clamp(0.5, 8.0);
-            draw_legend(&mut image, &legend, Corner::TopRight, scale);
+            draw_legend(&mut image, &legend, scale);
         }
         Ok(image)
     }

@@ -228,7 +228,7 @@ fn with_copies(mut values: Vec<DVec3>, built: &BuildReport) -> Vec<DVec3> {
 
 fn too_large(error: BezierError) -> OpError {
     match error {
-        BezierError::OutOfMemory { .. } => OpError::Budget(error.to_string()),
+        BezierError::OutOfMemory(_) => OpError::Budget(error.to_string()),
         _ => OpError::Parameter(error.to_string()),
     }
 }

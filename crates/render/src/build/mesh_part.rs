@@ -11,7 +11,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use scene::Object;
 
-use super::{Builder, Coloring, Elements, fits, normals};
+use super::{Builder, Coloring, Elements, normals};
 use crate::PictureError;
 use crate::color::{Color, narrow};
 use crate::drawing::{Channel, Part, Surface};
@@ -31,9 +31,6 @@ impl<'s> Builder<'s, '_> {
     ) -> Result<(), PictureError> {
         let colorings = &self.overlays.colorings;
         let coloring = colorings.iter().find(|c| c.object == object.name);
-        if let Some(coloring) = coloring {
-            fits(object, mesh, coloring)?;
-        }
         let normals = self.normals(mesh);
         let (colors, materials, material_of_face) = self.colors(object, mesh, color, coloring);
         let uvs = uvs(mesh, &materials);

@@ -6,9 +6,9 @@ mod normals;
 mod others;
 mod surface;
 
-use ::mesh::{EdgeId, FaceId, Mesh, VertexId};
+use ::mesh::{EdgeId, FaceId, VertexId};
 use glam::DVec3;
-use scene::{Geometry, Object, Scene};
+use scene::{Geometry, Scene};
 
 use crate::PictureError;
 use crate::color::Color;
@@ -43,15 +43,26 @@ pub struct Stroke {
 }
 
 impl Overlays {
-    /// Whether all objects that are named are meshes of the scene.
+    /// Whether all objects that are named are meshes of the scene, and have as many elements as there are numbers.
     fn check(&self, scene: &Scene) -> Result<(), PictureError> {
-        let highlights = self.highlights.iter().map(|h| &h.object);
-        for name in highlights.chain(self.colorings.iter().map(|c| &c.object)) {
-            let geometry = scene.object(name).map(|o| &o.geometry);
-            if !matches!(geometry, Some(Geometry::Mesh(_))) {
-                let found = geometry.map_or("nothing of this name", Geometry::kind);
-                return Err(PictureError::Style(format!(
+        let mesh = |name: &str| match scene.object(name).map(|o| &o.geometry) {
+            Some(Geometry::Mesh(mesh)) => Ok(mesh),
+            other => {
+                let found = other.map_or("nothing of this name", Geometry::kind);
+                Err(PictureError::Style(format!(
                     "expected a mesh \"{name}\" to show elements of, found {found}"
+                )))
+            }
+        };
+        for highlight in &self.highlights {
+            mesh(&highlight.object)?;
+        }
+        for c in &self.colorings {
+            let (expected, found) = (mesh(&c.object)?.domain_len(c.domain), c.values.len());
+            if expected != found {
+                return Err(PictureError::Style(format!(
+                    "expected {expected} numbers, one for each {} of \"{}\", found {found}",
+                    c.domain, c.object
                 )));
             }
         }
@@ -183,16 +194,4 @@ pub fn extent(scene: &Scene) -> Option<(DVec3, f64)> {
     }
     let each = |f: &mut dyn FnMut(DVec3)| corners.iter().for_each(|&p| f(p));
     (!corners.is_empty()).then(|| crate::camera::sphere(&each))
-}
-
-/// The overlay of an object that is a mesh.
-fn fits(object: &Object, mesh: &Mesh, coloring: &Coloring) -> Result<(), PictureError> {
-    let (expected, found) = (mesh.domain_len(coloring.domain), coloring.values.len());
-    if expected == found {
-        return Ok(());
-    }
-    Err(PictureError::Style(format!(
-        "expected {expected} numbers, one for each {} of \"{}\", found {found}",
-        coloring.domain, object.name
-    )))
 }

@@ -99,7 +99,7 @@ pub fn filled(parts: &[&str], between: &str, font: Font, size: f64, width: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::figure::ODD_TEXTS;
+    use crate::figure::testing::ODD_TEXTS;
 
     const BLACK: Color = [0, 0, 0, 255];
 

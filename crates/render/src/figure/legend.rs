@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::label::text_width;
 use super::pixels::draw;
-use super::svg::{Anchor, Color, Font, Paint, Svg, Text};
+use super::svg::{Color, Font, Paint, Svg, Text};
 use crate::Image;
 use crate::color::whole;
 
@@ -33,20 +33,6 @@ pub struct Legend {
     pub scale: Scale,
 }
 
-/// Where in an image something stands.
-#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
-pub enum Corner {
-    /// Above, on the left.
-    TopLeft,
-    /// Above, on the right.
-    #[default]
-    TopRight,
-    /// Below, on the left.
-    BottomLeft,
-    /// Below, on the right.
-    BottomRight,
-}
-
 const TEXT: Color = [0x1f, 0x29, 0x37, 255];
 const LINE: Color = [0x6b, 0x72, 0x80, 255];
 
@@ -68,20 +54,14 @@ const ROW: f64 = 21.0;
 /// A list shows no more entries.
 const MOST_ENTRIES: usize = 24;
 
-/// Draws a legend into a corner of an image, `scale` times its plain size of about 100 x 200 pixels. A list of more
+/// Draws a legend into the upper right corner of an image, `scale` times its plain size of about 100 x 200 pixels. A list of more
 /// than 24 entries says how many are not shown. What has no room in the image is cut off.
-pub fn draw_legend(image: &mut Image, legend: &Legend, corner: Corner, scale: f64) {
+pub fn draw_legend(image: &mut Image, legend: &Legend, scale: f64) {
     let size = DVec2::new(f64::from(image.width), f64::from(image.height)) / scale;
     let own = measured(legend);
     let gap = 10.0;
     let far = (size - own - DVec2::splat(gap)).max(DVec2::ZERO);
-    let near = DVec2::splat(gap).min(far);
-    let place = match corner {
-        Corner::TopLeft => near,
-        Corner::TopRight => DVec2::new(far.x, near.y),
-        Corner::BottomLeft => DVec2::new(near.x, far.y),
-        Corner::BottomRight => far,
-    };
+    let place = DVec2::new(far.x, far.y.min(gap));
     let mut svg = Svg::new(size.x, size.y);
     write(&mut svg, legend, place.round(), own);
     draw(image, &svg, scale);
@@ -107,7 +87,7 @@ fn plain(text: &str) -> Text {
 fn words(scale: &Scale) -> Vec<String> {
     match scale {
         Scale::Continuous { low, high, .. } => {
-            ticks(*low, *high, 6).into_iter().map(|t| t.name).collect()
+            ticks(*low, *high).into_iter().map(|t| t.name).collect()
         }
         Scale::Discrete(entries) => {
             let shown = entries.iter().take(MOST_ENTRIES);
@@ -186,34 +166,33 @@ fn write_bar(svg: &mut Svg, corner: DVec2, [low, high]: [f64; 2], colors: &[Colo
         y += strip;
     }
     svg.rectangle(corner, BAR.into(), &Paint::stroke(LINE, 0.75));
-    for tick in ticks(low, high, 6) {
+    for tick in ticks(low, high) {
         let at = corner + DVec2::new(width, (1.0 - tick.share) * height);
         svg.polyline(&[at, at + DVec2::X * 5.0], &Paint::stroke(LINE, 1.0));
         let place = at + DVec2::new(9.0, LETTERS * 0.36);
-        svg.text(place, &plain(&tick.name).anchored(Anchor::Start));
+        svg.text(place, &plain(&tick.name));
     }
 }
 
 /// A number on an axis.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tick {
+struct Tick {
     /// The number.
-    pub value: f64,
+    value: f64,
     /// How far it is along the axis, from 0 to 1.
-    pub share: f64,
+    share: f64,
     /// The number as text: all on one axis have the same number of decimals.
-    pub name: String,
+    name: String,
 }
 
-/// Nice numbers from `low` to `high`, about `most` of them: multiples of 1, 2 or 5 times a power of ten (Heckbert,
+/// Nice numbers from `low` to `high`, about six of them: multiples of 1, 2 or 5 times a power of ten (Heckbert,
 /// "Nice numbers for graph labels", Graphics Gems, 1990). One in the middle if both ends are the same, none if they
 /// are not finite or `low` is above `high`.
-pub fn ticks(low: f64, high: f64, most: u32) -> Vec<Tick> {
+fn ticks(low: f64, high: f64) -> Vec<Tick> {
     if !(low.is_finite() && high.is_finite() && low <= high) {
         return Vec::new();
     }
-    let span = high - low;
-    let steps = f64::from(most.max(2) - 1);
+    let (span, steps) = (high - low, 5.0);
     let rough = if span.is_finite() {
         span / steps
     } else {
@@ -222,12 +201,10 @@ pub fn ticks(low: f64, high: f64, most: u32) -> Vec<Tick> {
     // Ends that are nearly the same leave no room for numbers between.
     let largest = low.abs().max(high.abs());
     if rough <= largest * 1e-14 {
-        let name = number_name(low);
-        let share = 0.5;
         return vec![Tick {
             value: low,
-            share,
-            name,
+            share: 0.5,
+            name: number_name(low),
         }];
     }
     #[expect(clippy::cast_possible_truncation, reason = "from -324 to 308")]
@@ -298,7 +275,7 @@ mod tests {
     use super::*;
 
     fn names(low: f64, high: f64) -> Vec<String> {
-        ticks(low, high, 6).into_iter().map(|t| t.name).collect()
+        ticks(low, high).into_iter().map(|t| t.name).collect()
     }
 
     #[test]
@@ -329,7 +306,7 @@ mod tests {
         ];
         for low in ends {
             for high in ends {
-                let found = ticks(low, high, 6);
+                let found = ticks(low, high);
                 assert_eq!(found.is_empty(), low > high, "{low} {high}");
                 assert!(found.len() <= 12, "{low} {high}");
                 assert!(found.iter().all(|t| (0.0..=1.0).contains(&t.share)));
@@ -343,7 +320,7 @@ mod tests {
             }
         }
         for (low, high) in [(f64::NAN, 1.0), (0.0, f64::INFINITY), (2.0, 1.0)] {
-            assert_eq!(ticks(low, high, 6), []);
+            assert_eq!(ticks(low, high), []);
         }
         assert_eq!(names(2.5, 2.5), ["2.5"]);
     }
@@ -361,11 +338,17 @@ mod tests {
     }
 
     #[test]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a legend is some hundred pixels wide"
+    )]
     fn the_bar_runs_through_its_colors_from_below() {
         let mut image = Image::filled(300, 300, [0, 255, 0, 255]).unwrap();
-        draw_legend(&mut image, &bar(), Corner::TopLeft, 1.0);
+        draw_legend(&mut image, &bar(), 1.0);
+        let left = 300 - 10 - measured(&bar()).x as usize;
         let column = |x: usize| (0..300).map(move |y| y * 300 + x);
-        let reds: Vec<u8> = column(30)
+        let reds: Vec<u8> = column(left + 20)
             .map(|i| image.pixels[i])
             .filter(|p| p[1] == 0 && p[0].abs_diff(255 - p[2]) <= 1)
             .map(|p| p[0])
@@ -382,16 +365,9 @@ mod tests {
             scale: Scale::Discrete(words(n).collect()),
         };
         for legend in [bar(), list(0), list(3), list(100)] {
-            for corner in [
-                Corner::TopLeft,
-                Corner::TopRight,
-                Corner::BottomLeft,
-                Corner::BottomRight,
-            ] {
-                for side in [1, 20, 400] {
-                    let mut image = Image::filled(side, side, [0, 0, 0, 255]).unwrap();
-                    draw_legend(&mut image, &legend, corner, 1.0);
-                }
+            for side in [1, 20, 400] {
+                let mut image = Image::filled(side, side, [0, 0, 0, 255]).unwrap();
+                draw_legend(&mut image, &legend, 1.0);
             }
         }
         assert_eq!(words_of(&list(100)).last().unwrap(), "and 76 more");

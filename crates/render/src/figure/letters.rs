@@ -59,7 +59,6 @@ pub(super) fn line(place: DVec2, text: &Text) -> Line {
         + match text.anchor {
             Anchor::Start => 0.0,
             Anchor::Middle => -width / 2.0,
-            Anchor::End => -width,
         };
     let origin = Transform::from_translate(narrow(place.x), narrow(place.y));
     let mut paths = Vec::new();

@@ -36,7 +36,7 @@ pub fn pixels(svg: &Svg, scale: f64, background: [u8; 4]) -> Result<Image, Pictu
 /// [`PictureError::Size`] if a side is not from 1 to [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
 pub fn pixel_size(svg: &Svg, scale: f64) -> Result<(u32, u32), PictureError> {
     // A number that is none, or below zero, becomes 0 and is refused.
-    let [width, height] = [svg.width(), svg.height()].map(|x| whole_u32((x * scale).round()));
+    let [width, height] = [svg.width, svg.height].map(|x| whole_u32((x * scale).round()));
     checked_size(width, height)?;
     Ok((width, height))
 }
@@ -94,23 +94,18 @@ impl Drawn {
     /// What is drawn of an element, from below to above.
     fn of(element: &Element) -> Vec<Self> {
         match element {
-            Element::Shape {
-                shape,
-                fill,
-                stroke,
-                dashes,
-            } => {
-                let dashes = dashes.iter().copied().map(narrow).collect();
+            Element::Shape(shape, paint) => {
+                let dashes = paint.dashes.iter().copied().map(narrow).collect();
                 let dash = StrokeDash::new(dashes, 0.0);
-                let stroke = stroke.map(|pen| stroked(pen, LineCap::Round, dash));
+                let stroke = paint.stroke.map(|pen| stroked(pen, LineCap::Round, dash));
                 let drawn = |path| Self {
                     path,
-                    fill: *fill,
+                    fill: paint.fill,
                     stroke,
                 };
                 outline(shape).map(drawn).into_iter().collect()
             }
-            Element::Text { place, text } => {
+            Element::Text(place, text) => {
                 let paths = letters::line(*place, text).paths;
                 let halo = text.halo.map(|(color, width)| {
                     stroked((color, number(width * 2.0)), LineCap::Butt, None)
@@ -128,7 +123,7 @@ impl Drawn {
                     .filter(|d| d.fill.is_some() || d.stroke.is_some())
                     .collect()
             }
-            Element::Open { .. } | Element::Close => Vec::new(),
+            Element::Open(_) | Element::Close => Vec::new(),
         }
     }
 
@@ -279,7 +274,7 @@ mod tests {
 
     #[test]
     fn every_text_is_drawn_without_harm() {
-        for text in crate::figure::ODD_TEXTS {
+        for text in crate::figure::testing::ODD_TEXTS {
             let mut svg = Svg::new(200.0, 30.0);
             let line = Text::new(Font::Plain, *text, 16.0, BLACK).with_halo(WHITE, 2.0);
             svg.text(DVec2::new(4.0, 20.0), &line);

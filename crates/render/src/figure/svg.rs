@@ -10,16 +10,16 @@ pub type Color = [u8; 4];
 
 /// How a shape is filled and outlined.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Paint<'a> {
+pub struct Paint {
     /// The color inside; none if nothing is filled.
     pub fill: Option<Color>,
     /// The color and the width, in pixels, of the outline.
     pub stroke: Option<(Color, f64)>,
     /// The lengths of dashes and gaps in pixels; a solid outline if empty.
-    pub dashes: &'a [f64],
+    pub dashes: &'static [f64],
 }
 
-impl Paint<'_> {
+impl Paint {
     /// Filled with this color.
     pub const fn fill(color: Color) -> Self {
         Self {
@@ -36,6 +36,13 @@ impl Paint<'_> {
             stroke: Some((color, width)),
             dashes: &[],
         }
+    }
+
+    /// The same, with an outline in dashes.
+    #[must_use]
+    pub const fn with_dashes(mut self, dashes: &'static [f64]) -> Self {
+        self.dashes = dashes;
+        self
     }
 
     /// The same, outlined.
@@ -134,8 +141,6 @@ pub enum Anchor {
     Start,
     /// The middle.
     Middle,
-    /// The end.
-    End,
 }
 
 /// A line of text.
@@ -193,19 +198,10 @@ pub type Command = (char, Vec<DVec2>);
 /// What a document is made of. All numbers are rounded as they are written.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Element {
-    Shape {
-        shape: Shape,
-        fill: Option<Color>,
-        stroke: Option<(Color, f64)>,
-        dashes: Vec<f64>,
-    },
-    Text {
-        place: DVec2,
-        text: Text,
-    },
-    Open {
-        id: String,
-    },
+    Shape(Shape, Paint),
+    Text(DVec2, Text),
+    /// Begins a group with this id.
+    Open(String),
     Close,
 }
 
@@ -220,8 +216,10 @@ pub(super) enum Shape {
 /// An SVG document: what is drawn later lies above.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Svg {
-    width: f64,
-    height: f64,
+    /// Pixels from left to right.
+    pub width: f64,
+    /// Pixels from top to bottom.
+    pub height: f64,
     pub(super) elements: Vec<Element>,
 }
 
@@ -233,16 +231,6 @@ impl Svg {
             height,
             elements: Vec::new(),
         }
-    }
-
-    /// Pixels from left to right.
-    pub fn width(&self) -> f64 {
-        self.width
-    }
-
-    /// Pixels from top to bottom.
-    pub fn height(&self) -> f64 {
-        self.height
     }
 
     /// An axis-aligned rectangle with the corner `corner` at its top left.
@@ -266,34 +254,27 @@ impl Svg {
 
     /// A path.
     pub fn path(&mut self, path: &[Command], paint: &Paint) {
-        let path = path
-            .iter()
-            .map(|(letter, points)| (*letter, all_rounded(points)));
-        self.shape(Shape::Path(path.collect()), paint);
+        let round = |(letter, points): &Command| (*letter, all_rounded(points));
+        self.shape(Shape::Path(path.iter().map(round).collect()), paint);
     }
 
     /// A line of text at `place`, its base line at the height of `place`.
     pub fn text(&mut self, place: DVec2, text: &Text) {
-        self.elements.push(Element::Text {
-            place: rounded(place),
-            text: text.clone(),
-        });
+        let element = Element::Text(rounded(place), text.clone());
+        self.elements.push(element);
     }
 
     /// A group with an id: what `draw` draws.
     pub fn group(&mut self, id: &str, draw: impl FnOnce(&mut Self)) {
-        self.elements.push(Element::Open { id: id.to_owned() });
+        self.elements.push(Element::Open(id.to_owned()));
         draw(self);
         self.elements.push(Element::Close);
     }
 
     fn shape(&mut self, shape: Shape, paint: &Paint) {
-        self.elements.push(Element::Shape {
-            shape,
-            fill: paint.fill,
-            stroke: paint.stroke.map(|(color, width)| (color, number(width))),
-            dashes: paint.dashes.iter().copied().map(number).collect(),
-        });
+        let mut paint = *paint;
+        paint.stroke = paint.stroke.map(|(color, width)| (color, number(width)));
+        self.elements.push(Element::Shape(shape, paint));
     }
 
     /// The document as a text. `provenance` says where it comes from, as its metadata.
@@ -309,16 +290,11 @@ impl Svg {
         for element in &self.elements {
             let mut line = |depth, text: &str| xml += &format!("{:1$}{text}\n", "", 2 * depth);
             match element {
-                Element::Shape {
-                    shape,
-                    fill,
-                    stroke,
-                    dashes,
-                } => {
-                    let paint = paint_attributes(*fill, *stroke, dashes);
-                    line(depth, &format!("<{}{paint}/>", shape.attributes()));
+                Element::Shape(shape, paint) => {
+                    let (shape, paint) = (shape.attributes(), paint.attributes());
+                    line(depth, &format!("<{shape}{paint}/>"));
                 }
-                Element::Text { place, text } => {
+                Element::Text(place, text) => {
                     // Outline and letters are two elements: `paint-order` is not known everywhere.
                     if let Some((color, width)) = text.halo {
                         let stroke = format!(
@@ -331,7 +307,7 @@ impl Svg {
                     let fill = paint_attribute("fill", text.color);
                     line(depth, &letters(*place, text, fill.trim_start()));
                 }
-                Element::Open { id } => {
+                Element::Open(id) => {
                     let id = escaped(id).replace('"', "&quot;");
                     line(depth, &format!("<g id=\"{id}\">"));
                     depth += 1;
@@ -379,7 +355,6 @@ fn letters(place: DVec2, text: &Text, attributes: &str) -> String {
     let anchor = match text.anchor {
         Anchor::Start => "",
         Anchor::Middle => " text-anchor=\"middle\"",
-        Anchor::End => " text-anchor=\"end\"",
     };
     let mut runs = String::new();
     let mut raised = 0.0;
@@ -405,22 +380,24 @@ fn letters(place: DVec2, text: &Text, attributes: &str) -> String {
     )
 }
 
-fn paint_attributes(fill: Option<Color>, stroke: Option<(Color, f64)>, dashes: &[f64]) -> String {
-    let mut attributes = match fill {
-        Some(color) => paint_attribute("fill", color),
-        None => " fill=\"none\"".to_owned(),
-    };
-    if let Some((color, width)) = stroke {
-        attributes += &paint_attribute("stroke", color);
-        attributes += &format!(
-            " stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\""
-        );
-        if !dashes.is_empty() {
-            let dashes: Vec<String> = dashes.iter().map(ToString::to_string).collect();
-            attributes += &format!(" stroke-dasharray=\"{}\"", dashes.join(" "));
+impl Paint {
+    fn attributes(&self) -> String {
+        let mut attributes = match self.fill {
+            Some(color) => paint_attribute("fill", color),
+            None => " fill=\"none\"".to_owned(),
+        };
+        if let Some((color, width)) = self.stroke {
+            attributes += &paint_attribute("stroke", color);
+            attributes += &format!(
+                " stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\""
+            );
+            if !self.dashes.is_empty() {
+                let dashes: Vec<String> = self.dashes.iter().map(ToString::to_string).collect();
+                attributes += &format!(" stroke-dasharray=\"{}\"", dashes.join(" "));
+            }
         }
+        attributes
     }
-    attributes
 }
 
 /// ` name="#rrggbb"`, and the opacity unless the color is opaque.
@@ -475,7 +452,7 @@ mod tests {
 
     #[test]
     fn every_text_is_well_formed_and_comes_back() {
-        for text in crate::figure::ODD_TEXTS {
+        for text in crate::figure::testing::ODD_TEXTS {
             let mut svg = Svg::new(100.0, 50.0);
             let line = Text::new(Font::Plain, *text, 12.0, BLACK).with_halo([255; 4], 2.0);
             svg.group(text, |svg| svg.text(DVec2::new(3.0, 20.0), &line));

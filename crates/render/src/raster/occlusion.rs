@@ -212,10 +212,8 @@ fn step(texels: f32) -> i32 {
 /// Draws a triangle into a depth map: the texels whose middles it covers.
 fn fill(depths: &mut [[f32; 2]], side: usize, [a, b, c]: [Place; 3]) {
     let range = |i: usize| {
-        let (min, max) = (
-            a.at[i].min(b.at[i]).min(c.at[i]),
-            a.at[i].max(b.at[i]).max(c.at[i]),
-        );
+        let [p, q, r] = [a, b, c].map(|corner| corner.at[i]);
+        let (min, max) = (p.min(q).min(r), p.max(q).max(r));
         (min + STEPS / 2 - 1) / STEPS..(max + STEPS / 2) / STEPS
     };
     let (columns, rows) = (range(0), range(1));

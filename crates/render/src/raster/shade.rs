@@ -124,10 +124,8 @@ impl<'a> Shader<'a> {
         for part in &drawing.parts {
             firsts.push(next);
             let n = u32::try_from(part.triangles.len()).unwrap_or(u32::MAX);
-            next = [
-                next[0].saturating_add(n),
-                next[1].saturating_add(part.n_faces),
-            ];
+            next[0] = next[0].saturating_add(n);
+            next[1] = next[1].saturating_add(part.n_faces);
         }
         let occlusion = (look.has_occlusion() && drawing.n_triangles() > 0)
             .then(|| Occlusion::new(drawing, size, map_done))

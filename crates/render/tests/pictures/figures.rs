@@ -10,7 +10,7 @@ use bezier::{Curve, DVec2};
 use render::Image;
 use render::figure::construction::{Layout, Panel, construction};
 use render::figure::label::{Label, draw_labels};
-use render::figure::legend::{Corner, Legend, Scale, draw_legend};
+use render::figure::legend::{Legend, Scale, draw_legend};
 use render::figure::pixels;
 
 const WHITE: [u8; 4] = [255; 4];
@@ -76,13 +76,15 @@ fn legends_and_labels() {
             colors: (0..=255).map(|i| [i, 128, 255 - i, 255]).collect(),
         },
     };
-    draw_legend(&mut image, &bar, Corner::TopRight, 1.0);
+    draw_legend(&mut image, &bar, 1.0);
     let entry = |name: &str, red| (name.to_owned(), [red, 80, 60, 255]);
     let list = Legend {
         title: String::new(),
         scale: Scale::Discrete(vec![entry("Größe", 0), entry("нос", 250)]),
     };
-    draw_legend(&mut image, &list, Corner::BottomLeft, 1.5);
+    let mut below = Image::filled(140, 110, [180, 190, 200, 255]).unwrap();
+    draw_legend(&mut below, &list, 1.5);
+    image.place(&below, [0, 130]);
     let label = |x, text: &str| Label::new(DVec2::new(x, 40.0), text, 13.0, BLACK);
     draw_labels(&mut image, &[label(30.0, "17"), label(70.5, "f3")]);
     golden("legends", &image);

@@ -1,7 +1,8 @@
 use super::*;
+use crate::{Filter, Wrap};
 use geometry::shapes;
 use glam::{DVec2, DVec4};
-use mesh::{FaceId, HalfEdgeId, VertexId};
+use mesh::{FaceId, HalfEdgeId, Rule, VertexId};
 use proptest::prelude::*;
 use std::collections::VecDeque;
 

@@ -16,7 +16,7 @@ use op::{Context, Files};
 use ops_pictures::Picture;
 use recipe::{Axis, Metric};
 use render::figure::label::filled;
-use render::figure::legend::{Corner, Legend, draw_legend, legend_figure};
+use render::figure::legend::{Legend, draw_legend, legend_figure};
 use render::figure::{Color, Font};
 use render::{Image, PictureError};
 use scene::Scene;
@@ -259,7 +259,7 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
         clippy::cast_sign_loss,
         reason = "a legend is no larger than its words"
     )]
-    let [width, height] = [figure.width(), figure.height()].map(|side| (side + FREE).ceil() as u32);
+    let [width, height] = [figure.width, figure.height].map(|side| (side + FREE).ceil() as u32);
     let mut wide = Image::filled(
         sheet.width.saturating_add(width),
         sheet.height.max(height),
@@ -269,7 +269,7 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     for (to, from) in rows.zip(sheet.pixels.chunks_exact(sheet.width as usize)) {
         to[..from.len()].copy_from_slice(from);
     }
-    draw_legend(&mut wide, legend, Corner::TopRight, 1.0);
+    draw_legend(&mut wide, legend, 1.0);
     Ok(wide)
 }
 

@@ -38,10 +38,11 @@ impl Frame {
         let center = low / 2.0 + high / 2.0;
         let half_box = high / 2.0 - low / 2.0;
         let half = half_box.max_element();
-        let shares = if half > 0.0 {
-            half_box / half
-        } else {
+        let is_point = half <= 0.0;
+        let shares = if is_point {
             DVec2::ZERO
+        } else {
+            half_box / half
         };
         let pixels = (inner / 2.0 / shares.x).min(inner * TALLEST / 2.0 / shares.y);
         let pixels = if pixels.is_finite() { pixels } else { 0.0 };

@@ -21,6 +21,8 @@ mod panel;
 mod placing;
 mod trace;
 
+use std::fmt::Debug;
+
 use bezier::Curve;
 use glam::DVec2;
 
@@ -173,7 +175,7 @@ pub fn construction(panels: &[Panel], layout: &Layout) -> Result<Svg, PictureErr
     let drawings: f64 = rows.iter().map(|row| row.height).sum();
     let height = drawings + key::height(&key);
     let mut svg = Svg::new(layout.width.round(), height.round());
-    let size = DVec2::new(svg.width(), svg.height());
+    let size = DVec2::new(svg.width, svg.height);
     svg.rectangle(DVec2::ZERO, size, &Paint::fill(WHITE));
     let mut top = 0.0;
     for row in &rows {
@@ -209,7 +211,7 @@ impl<'p, 'c> Row<'p, 'c> {
         let frames: Vec<Frame> = panels.iter().map(|p| Frame::of(p, inner)).collect();
         let has_title = panels.iter().any(|p| p.title.is_some() || p.t.is_some());
         let title = if has_title { TITLE * zoom } else { 0.0 };
-        let highest = frames.iter().fold(0.0, |h: f64, f| h.max(f.height()));
+        let highest = frames.iter().map(Frame::height).fold(0.0, f64::max);
         Self {
             panels,
             frames,
@@ -220,42 +222,34 @@ impl<'p, 'c> Row<'p, 'c> {
 }
 
 fn check(panels: &[Panel]) -> Result<(), PictureError> {
-    let refused = |message: String| Err(PictureError::Style(message));
-    if !(1..=MAX_PANELS).contains(&panels.len()) {
-        let n = panels.len();
-        return refused(format!(
-            "expected 1 to {MAX_PANELS} pictures of curves, found {n}"
-        ));
-    }
-    for panel in panels {
-        let most = if panel.t.is_some() {
-            MAX_CONSTRUCTED
-        } else {
-            MAX_DRAWN
-        };
-        for (curve, most) in [(Some(panel.curve), most), (panel.before, MAX_DRAWN)] {
-            let n = curve.map_or(0, |c| c.points().len());
-            if n > most {
-                return refused(format!(
-                    "expected a curve of at most {most} control points, found {n}"
-                ));
-            }
-        }
-        if let Some(t) = panel.t
-            && !(0.0..=1.0).contains(&t)
-        {
-            return refused(format!("expected a parameter from 0 to 1, found {t:?}"));
-        }
-    }
-    let points = |panel: &Panel| match (panel.curve.points().len(), panel.t) {
-        (n, Some(_)) => n * (n + 1) / 2,
-        (n, None) => n,
+    let expect = |holds: bool, expected: &str, found: &dyn Debug| {
+        let message = || PictureError::Style(format!("expected {expected}, found {found:?}"));
+        holds.then_some(()).ok_or_else(message)
     };
-    let n: usize = panels.iter().map(points).sum();
-    if n > MAX_POINTS {
-        return refused(format!("expected at most {MAX_POINTS} points, found {n}"));
+    let n = panels.len();
+    let expected = format!("1 to {MAX_PANELS} pictures of curves");
+    expect((1..=MAX_PANELS).contains(&n), &expected, &n)?;
+    let mut n_points = 0;
+    for panel in panels {
+        let n = panel.curve.points().len();
+        let (most, points) = match panel.t {
+            Some(_) => (MAX_CONSTRUCTED, n * (n + 1) / 2),
+            None => (MAX_DRAWN, n),
+        };
+        n_points += points;
+        let n_before = panel.before.map_or(0, |c| c.points().len());
+        for (n, most) in [(n, most), (n_before, MAX_DRAWN)] {
+            let expected = format!("a curve of at most {most} control points");
+            expect(n <= most, &expected, &n)?;
+        }
+        let t = panel.t.unwrap_or(0.0);
+        expect((0.0..=1.0).contains(&t), "a parameter from 0 to 1", &t)?;
     }
-    Ok(())
+    expect(
+        n_points <= MAX_POINTS,
+        &format!("at most {MAX_POINTS} points"),
+        &n_points,
+    )
 }
 
 #[cfg(test)]

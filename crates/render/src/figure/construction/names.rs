@@ -50,11 +50,8 @@ pub(super) fn draw(
             let runs = vec![Run::new(Font::Letter, "b"), Run::subscript(i.to_string())];
             let along = |j: usize| (p - points[j]).normalize_or_zero();
             let away = along(i.saturating_sub(1)) + along((i + 1).min(n));
-            let away = if away.length() < 0.1 {
-                p - middle
-            } else {
-                away
-            };
+            let is_straight = away.length() < 0.1;
+            let away = if is_straight { p - middle } else { away };
             names.write(p, runs, TEXT, 1.0, away);
         }
     }
@@ -98,11 +95,8 @@ fn obstacles(
         let pairs = line.windows(2).map(|pair| [pair[0], pair[1]]);
         placing.segments.extend(pairs);
     }
-    for line in std::iter::once(points).chain(between()) {
-        placing
-            .discs
-            .extend(line.iter().map(|&p| (p, RADIUS * zoom)));
-    }
+    let all = points.iter().chain(between().flatten());
+    placing.discs = all.map(|&p| (p, RADIUS * zoom)).collect();
     placing
 }
 

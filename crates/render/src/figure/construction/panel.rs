@@ -75,10 +75,7 @@ pub(super) fn draw(
 /// A curve as it was: dashed and faint, with arrows to where its control points went.
 fn draw_before(svg: &mut Svg, before: &Curve<DVec2>, now: &Curve<DVec2>, zoom: f64) {
     svg.group("before", |svg| {
-        let dashed = |width, dashes| Paint {
-            dashes,
-            ..Paint::stroke(FAINT, width)
-        };
+        let dashed = |width, dashes| Paint::stroke(FAINT, width).with_dashes(dashes);
         svg.polyline(before.points(), &dashed(1.4, &[2.0, 5.0]));
         svg.path(&trace(before), &dashed(2.4, &[7.0, 6.0]));
         for &p in before.points() {

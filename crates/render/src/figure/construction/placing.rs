@@ -56,23 +56,17 @@ impl Placing {
     /// How much a label hides there: pixels of lines, and more for points and other labels.
     fn cost(&self, middle: DVec2, half: DVec2) -> f64 {
         let around = half + DVec2::splat(2.0);
-        let lines: f64 = self
-            .segments
-            .iter()
-            .map(|&segment| length_inside(segment, middle, around))
-            .sum();
+        let segments = self.segments.iter();
+        let lines: f64 = segments.map(|&s| length_inside(s, middle, around)).sum();
         let near = |&&(p, radius): &&(DVec2, f64)| {
             ((p - middle).abs() - half).max(DVec2::ZERO).length() < radius + 1.0
         };
         let points = self.discs.iter().filter(near).count() as f64;
-        let labels: f64 = self
-            .boxes
-            .iter()
-            .map(|[other, half_other]| {
-                let shared = (around + *half_other - (middle - *other).abs()).max(DVec2::ZERO);
-                shared.x * shared.y
-            })
-            .sum();
+        let shared = |[other, half_other]: &[DVec2; 2]| {
+            let shared = (around + *half_other - (middle - *other).abs()).max(DVec2::ZERO);
+            shared.x * shared.y
+        };
+        let labels: f64 = self.boxes.iter().map(shared).sum();
         let [low, high] = self.area;
         let outside = (low - (middle - half))
             .max(middle + half - high)

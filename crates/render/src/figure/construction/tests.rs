@@ -88,7 +88,7 @@ fn every_point_of_every_level_stands_where_the_curve_has_it() {
 #[test]
 fn a_figure_is_well_formed_and_says_where_it_comes_from() {
     let curve = cubic();
-    for title in crate::figure::ODD_TEXTS {
+    for title in crate::figure::testing::ODD_TEXTS {
         let panel = Panel {
             title: Some(title),
             before: Some(&curve),
@@ -138,7 +138,7 @@ fn degenerate_curves_are_drawn_inside_the_figure() {
                     ..Layout::default()
                 };
                 let svg = construction(&panels, &layout).unwrap();
-                let size = DVec2::new(svg.width(), svg.height());
+                let size = DVec2::new(svg.width, svg.height);
                 assert!(size.y > 20.0 && size.y < 2000.0);
                 for p in circles(&svg.finish(None)) {
                     assert!(

@@ -76,10 +76,7 @@ pub(crate) fn joined<'a>(
         positions.extend_from_slice(mesh.positions());
     }
     let mut mesh = Mesh::from_arrays(all, positions);
-    mesh.set_attributes(appended(scene.objects(), &meshes, &mut losses_of_all));
-    if tags {
-        tag_objects(&mut mesh, scene.objects(), &meshes, &mut losses_of_all);
-    }
+    mesh.set_attributes(appended(scene.objects(), &meshes, tags, &mut losses_of_all));
     Ok(Joined {
         mesh: Cow::Owned(mesh),
         name,
@@ -91,8 +88,14 @@ fn lens(mesh: &Mesh) -> [usize; 4] {
     Domain::ALL.map(|domain| mesh.domain_len(domain))
 }
 
-/// The columns one behind the other; the numbers of materials go on from object to object.
-fn appended(objects: &[Object], meshes: &[Cow<Mesh>], losses: &mut Losses) -> Attributes {
+/// The columns one behind the other; the numbers of materials go on from object to object. Faces get the tag of
+/// their object if there are `tags`.
+fn appended(
+    objects: &[Object],
+    meshes: &[Cow<Mesh>],
+    tags: bool,
+    losses: &mut Losses,
+) -> Attributes {
     let mut all = Attributes::default();
     let mut len = [0; 4];
     let mut n_materials = 0;
@@ -113,6 +116,19 @@ fn appended(objects: &[Object], meshes: &[Cow<Mesh>], losses: &mut Losses) -> At
             };
             attributes.insert(Domain::Face, column);
         }
+        let name = format!("{OBJECT_TAG}{}", object.name);
+        let known = attributes.column(Domain::Face, &name);
+        if tags && known.is_some_and(|known| !matches!(known.values, Values::Tag(_))) {
+            let reason = "another attribute has this name";
+            losses.add(Domain::Face, &name, mesh.n_faces(), reason);
+        } else if tags {
+            let column = Column {
+                name,
+                rule: Rule::Copy,
+                values: Values::Tag(vec![true; mesh.n_faces()]),
+            };
+            attributes.insert(Domain::Face, column);
+        }
         let own = i32::try_from(object.materials.len()).unwrap_or(i32::MAX);
         n_materials = n_materials.saturating_add(own);
         let part = lens(mesh);
@@ -123,32 +139,4 @@ fn appended(objects: &[Object], meshes: &[Cow<Mesh>], losses: &mut Losses) -> At
         len = std::array::from_fn(|i| len[i] + part[i]);
     }
     all
-}
-
-fn tag_objects(mesh: &mut Mesh, objects: &[Object], meshes: &[Cow<Mesh>], losses: &mut Losses) {
-    let mut first = 0;
-    for (object, part) in objects.iter().zip(meshes) {
-        let own = first..first + part.n_faces();
-        first = own.end;
-        let name = format!("{OBJECT_TAG}{}", object.name);
-        let mut marks = match mesh.attributes().column(Domain::Face, &name) {
-            None => vec![false; mesh.n_faces()],
-            Some(Column {
-                values: Values::Tag(marks),
-                ..
-            }) => marks.clone(),
-            Some(_) => {
-                let reason = "another attribute has this name";
-                losses.add(Domain::Face, &name, own.len(), reason);
-                continue;
-            }
-        };
-        marks[own].fill(true);
-        let column = Column {
-            name,
-            rule: Rule::Copy,
-            values: Values::Tag(marks),
-        };
-        mesh.insert_column(Domain::Face, column);
-    }
 }

@@ -143,15 +143,7 @@ impl Polygons {
     ) -> Result<(Mesh, Vec<Material>), ReadError> {
         let kept = clean(&mut self, options.policies, notes);
         let n_positions = self.positions.len();
-        let mut built = build_mesh(
-            path,
-            self.positions,
-            &self.offsets,
-            &self.corners,
-            options.policies,
-            &kept,
-            notes,
-        )?;
+        let mut built = self.build(path, options.policies, &kept, notes)?;
         if self.attributes.iter().next().is_none() {
             return Ok((built.mesh, self.materials));
         }
@@ -173,57 +165,57 @@ impl Polygons {
         }
         Ok((built.mesh, self.materials))
     }
-}
 
-/// Builds a mesh of polygons; see [`mesh::build()`]. `kept` says which polygons of the file they are.
-///
-/// # Errors
-///
-/// If there are too many, or they are no manifold and the policies refuse that.
-fn build_mesh(
-    path: &Path,
-    positions: Vec<DVec3>,
-    offsets: &[u32],
-    corners: &[u32],
-    policies: Policies,
-    kept: &Kept,
-    notes: &mut Notes,
-) -> Result<Built, ReadError> {
-    let policy = match (policies.non_manifold, policies.orientation) {
-        (NonManifold::Split, Orientation::Orient) => mesh::NonManifold::Split,
-        (NonManifold::Split, Orientation::Keep) => mesh::NonManifold::SplitAsGiven,
-        (NonManifold::Refuse, Orientation::Orient) => mesh::NonManifold::Refuse,
-        (NonManifold::Refuse, Orientation::Keep) => mesh::NonManifold::RefuseAsGiven,
-    };
-    let in_file = |f: usize| kept.as_ref().map_or(f, |kept| kept[f] as usize);
-    let built = mesh::build(positions, offsets, corners, policy).map_err(|mut source| {
-        if let BuildError::NoSuchVertex { face, .. } = &mut source {
-            *face = in_file(*face);
-        }
-        ReadError::Mesh {
-            path: path.to_path_buf(),
-            source,
-        }
-    })?;
-    // Copies of vertices come behind the vertices that were given.
-    let given = Given {
-        positions: built.mesh.positions(),
-        offsets,
-        corners,
-    };
-    let dropped = built.report.dropped();
-    let changed = built.report.repairs().into_iter();
-    for (repair, kind) in (changed.map(|repair| (repair, NoteKind::Changed)))
-        .chain(dropped.map(|dropped| (dropped, NoteKind::LeftOut)))
-    {
-        let places = given.places(&repair.elements);
-        let elements = match repair.elements {
-            Elements::Faces(faces) => Elements::Faces(faces.into_iter().map(in_file).collect()),
-            others => others,
+    /// Builds a mesh of polygons; see [`mesh::build()`]. `kept` says which polygons of the file they are.
+    ///
+    /// # Errors
+    ///
+    /// If there are too many, or they are no manifold and the policies refuse that.
+    fn build(
+        &mut self,
+        path: &Path,
+        policies: Policies,
+        kept: &Kept,
+        notes: &mut Notes,
+    ) -> Result<Built, ReadError> {
+        let positions = std::mem::take(&mut self.positions);
+        let (offsets, corners) = (&self.offsets, &self.corners);
+        let policy = match (policies.non_manifold, policies.orientation) {
+            (NonManifold::Split, Orientation::Orient) => mesh::NonManifold::Split,
+            (NonManifold::Split, Orientation::Keep) => mesh::NonManifold::SplitAsGiven,
+            (NonManifold::Refuse, Orientation::Orient) => mesh::NonManifold::Refuse,
+            (NonManifold::Refuse, Orientation::Keep) => mesh::NonManifold::RefuseAsGiven,
         };
-        notes.elements(kind, repair.what, elements, places);
+        let in_file = |f: usize| kept.as_ref().map_or(f, |kept| kept[f] as usize);
+        let built = mesh::build(positions, offsets, corners, policy).map_err(|mut source| {
+            if let BuildError::NoSuchVertex { face, .. } = &mut source {
+                *face = in_file(*face);
+            }
+            ReadError::Mesh {
+                path: path.to_path_buf(),
+                source,
+            }
+        })?;
+        // Copies of vertices come behind the vertices that were given.
+        let given = Given {
+            positions: built.mesh.positions(),
+            offsets,
+            corners,
+        };
+        let dropped = built.report.dropped();
+        let changed = built.report.repairs().into_iter();
+        for (repair, kind) in (changed.map(|repair| (repair, NoteKind::Changed)))
+            .chain(dropped.map(|dropped| (dropped, NoteKind::LeftOut)))
+        {
+            let places = given.places(&repair.elements);
+            let elements = match repair.elements {
+                Elements::Faces(faces) => Elements::Faces(faces.into_iter().map(in_file).collect()),
+                others => others,
+            };
+            notes.elements(kind, repair.what, elements, places);
+        }
+        Ok(built)
     }
-    Ok(built)
 }
 
 /// For each element that was built the one of the input that it takes its values from.

@@ -79,6 +79,16 @@ impl Report {
         self
     }
 
+    /// Adds a line that says how many of something there are, unless there are none.
+    #[must_use]
+    pub fn count(self, what: &str, n: usize) -> Self {
+        if n > 0 {
+            self.note(format!("{what}: {n}"))
+        } else {
+            self
+        }
+    }
+
     /// Counts edits that were refused for this reason. Only the first of a reason is asked for its message.
     pub(crate) fn count_refused(
         &mut self,

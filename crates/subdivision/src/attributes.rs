@@ -15,6 +15,8 @@ use crate::topology::{Place, Topology, linear, linear_value};
 /// Where the values of the next level come from.
 pub(crate) struct From<'a> {
     pub(crate) mesh: &'a Mesh,
+    /// The next level, without attributes.
+    pub(crate) finer: &'a Mesh,
     pub(crate) topology: &'a dyn Topology,
     pub(crate) masks: &'a dyn AnyMasks,
     /// How creases fade; `None` hands their numbers on.
@@ -37,13 +39,13 @@ impl From<'_> {
     /// - faces: parts of an old one as that.
     ///
     /// Columns of [`Rule::Normal`] and [`Rule::Drop`] are left out. Sharpness fades.
-    pub(crate) fn attributes(&self, finer: &Mesh, meter: &Meter) -> Result<Attributes, Cancelled> {
+    pub(crate) fn attributes(&self, meter: &Meter) -> Result<Attributes, Cancelled> {
         let mut new = Attributes::default();
         let columns = self.mesh.attributes().iter();
         for (domain, column) in columns.filter(|(_, c)| is_carried(c)) {
             // Asks whether to go on.
             meter.add(0)?;
-            let n = finer.domain_len(domain);
+            let n = self.finer.domain_len(domain);
             let values = match domain {
                 Domain::Vertex => self.vertex_values(column, n, meter)?,
                 Domain::Corner => self.corner_values(column, n, meter)?,
@@ -106,7 +108,7 @@ impl From<'_> {
 
     fn corner_values(&self, column: &Column, n: usize, meter: &Meter) -> Result<Values, Cancelled> {
         if column.rule == Rule::Copy {
-            return Ok(gathered(column, n, &|i| match self.topology.corner(i) {
+            return Ok(gathered(column, n, &|i| match self.corner(i) {
                 Place::At(h) => Some(h.index()),
                 _ => None,
             }));
@@ -120,7 +122,11 @@ impl From<'_> {
         }
         Ok(column
             .values
-            .blend(n, |i, add| linear(self.mesh, self.topology.corner(i), add)))
+            .blend(n, |i, add| linear(self.mesh, self.corner(i), add)))
+    }
+
+    fn corner(&self, i: usize) -> Place {
+        self.topology.corner(self.finer.connectivity(), i)
     }
 
     fn smooth_corners(
@@ -137,7 +143,7 @@ impl From<'_> {
             _ => true,
         };
         computed(n, meter, |i| {
-            let place = self.topology.corner(i);
+            let place = self.corner(i);
             if is_smoothed(place) {
                 field.value(place)
             } else {

@@ -248,10 +248,9 @@ impl Topology for DooSabin<'_> {
         links::connectivity(self, meter)
     }
 
-    fn corner(&self, i: usize) -> Place {
-        let Link(origin, _, face) = Links::edge(self, i / 2)[i % 2];
-        match self.source(origin.index()) {
-            _ if face == FaceId::NONE => Place::Outside,
+    fn corner(&self, finer: &Connectivity, i: usize) -> Place {
+        match self.source(finer.origin[i].index()) {
+            _ if finer.face[i] == FaceId::NONE => Place::Outside,
             Source::Corner(h) => Place::Pulled(h),
             Source::Near(h) => near(self.mesh, h, 4),
             Source::Isolated(_) => Place::Outside,

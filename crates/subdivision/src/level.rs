@@ -91,12 +91,13 @@ pub(crate) fn build(
     if mesh.attributes().iter().next().is_some() {
         let from = attributes::From {
             mesh,
+            finer: &finer,
             topology,
             masks,
             sharpness: rules.scheme.has_creases().then_some(sharpness),
             rules,
         };
-        let attributes = from.attributes(&finer, meter)?;
+        let attributes = from.attributes(meter)?;
         finer.set_attributes(attributes);
     }
     Ok(finer)

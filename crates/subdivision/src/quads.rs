@@ -170,7 +170,7 @@ impl Topology for Quads<'_> {
         split_edges(self.mesh, added, |h| self.parts(h), rest, meter)
     }
 
-    fn corner(&self, i: usize) -> Place {
+    fn corner(&self, _: &Connectivity, i: usize) -> Place {
         let n_halves = 4 * self.n_edges;
         if i < n_halves {
             return place(self.mesh, i);

@@ -321,13 +321,12 @@ impl Topology for Sqrt3<'_> {
 
     /// A triangle around a flipped edge lies in two old faces. At the old vertex it has the value of the one
     /// whose number it has, and at the centers those of theirs.
-    fn corner(&self, i: usize) -> Place {
+    fn corner(&self, finer: &Connectivity, i: usize) -> Place {
         let mesh = self.mesh;
-        let Link(origin, _, face) = Links::edge(self, i / 2)[i % 2];
-        if face == FaceId::NONE {
+        let Some(face) = finer.face[i].some() else {
             return Place::Outside;
-        }
-        match self.source(origin.index()) {
+        };
+        match self.source(finer.origin[i].index()) {
             Source::Old(v) => {
                 let mut sides = mesh.face_half_edges(FaceId::new(face.index() / 3));
                 let h = sides.find(|&h| mesh.origin(h) == v);

@@ -10,8 +10,8 @@ pub(crate) trait Topology: Sync {
     /// The connectivity of the next level.
     fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled>;
 
-    /// Where the corner of new half-edge `i` lies in the old mesh.
-    fn corner(&self, i: usize) -> Place;
+    /// Where the corner of half-edge `i` of the next level lies in the old mesh.
+    fn corner(&self, finer: &Connectivity, i: usize) -> Place;
 
     /// The old vertex that new vertex `i` is, if any. By default old vertices come first, and a number above
     /// theirs is none.

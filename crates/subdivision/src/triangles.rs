@@ -97,7 +97,7 @@ impl Topology for Triangles<'_> {
         split_edges(self.0, added, |h| self.parts(h), rest, meter)
     }
 
-    fn corner(&self, i: usize) -> Place {
+    fn corner(&self, _: &Connectivity, i: usize) -> Place {
         let n_halves = 4 * self.0.n_edges();
         if i < n_halves {
             return place(self.0, i);

@@ -90,19 +90,11 @@ impl MeshOperation for Triangulate {
         cx.advance("triangulate", 2, 3)?;
         mesh.replace(assemble::assemble(mesh, &cuts, diagonals));
 
-        let mut report = Report::changed(n_cut);
         let fans = cuts.iter().filter(|cut| cut.is_fan()).count();
-        if fans > 0 {
-            report = report.note(format!(
-                "faces without area or with crossing sides, cut into fans: {fans}"
-            ));
-        }
-        if doubles > 0 {
-            report = report.note(format!(
-                "diagonals between vertices that share another edge: {doubles}"
-            ));
-        }
-        Ok(report)
+        let of_fans = "faces without area or with crossing sides, cut into fans";
+        let of_doubles = "diagonals between vertices that share another edge";
+        let report = Report::changed(n_cut).count(of_fans, fans);
+        Ok(report.count(of_doubles, doubles))
     }
 }
 

@@ -60,10 +60,7 @@ impl MeshOperation for Weld {
         let n = merged.vertices;
         let vertices = if n == 1 { "vertex" } else { "vertices" };
         let mut report = Report::changed(n).note(format!("merged {n} {vertices}"));
-        if merged.smaller_faces > 0 {
-            let n = merged.smaller_faces;
-            report = report.note(format!("faces that lost corners: {n}"));
-        }
+        report = report.count("faces that lost corners", merged.smaller_faces);
         if !merged.report.is_clean() {
             report = report.note(merged.report.summary());
         }

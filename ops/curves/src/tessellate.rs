@@ -211,9 +211,7 @@ impl Tessellate {
         if self.normals {
             let normals = with_copies(cut.normals, &built);
             let without = normals.iter().filter(|&&n| n == DVec3::ZERO).count();
-            if without > 0 {
-                report = report.note(format!("vertices where the patch has no normal: {without}"));
-            }
+            report = report.count("vertices where the patch has no normal", without);
             mesh.set(VERTEX_NORMAL, normals);
         }
         Ok((mesh, report))

@@ -94,17 +94,14 @@ impl MeshOperation for FillHoles {
         if let Some(most) = self.max_edges {
             holes.retain(|&h| mesh.loop_half_edges(h).count() <= most.get() as usize);
         }
-        let mut report = edit_each(mesh, &holes, self.on_refusal, "fill", cx, |mesh, h| {
+        let left = chosen - holes.len();
+        let report = edit_each(mesh, &holes, self.on_refusal, "fill", cx, |mesh, h| {
             self.fill(mesh, h)
         })?;
         if report.changed > 0 {
             mesh.remove_normals();
         }
-        if chosen > holes.len() {
-            let n = chosen - holes.len();
-            report = report.note(format!("holes with more edges than `max_edges`: {n}"));
-        }
-        Ok(report)
+        Ok(report.count("holes with more edges than `max_edges`", left))
     }
 }
 

@@ -116,12 +116,9 @@ impl Operation for Separate {
 
         let mut report = Report::changed(parts.len());
         report.losses = self.losses(&mesh, &parts);
-        let isolated = mesh.n_isolated_vertices();
-        if isolated > 0 {
-            report = report.note(format!("vertices without a face, left out: {isolated}"));
-        }
         self.replace(scene, &names, parts);
-        Ok(report)
+        let isolated = mesh.n_isolated_vertices();
+        Ok(report.count("vertices without a face, left out", isolated))
     }
 }
 

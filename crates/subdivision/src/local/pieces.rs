@@ -244,7 +244,7 @@ impl Topology for Pieces<'_> {
         Ok(drawing.new)
     }
 
-    fn corner(&self, i: usize) -> Place {
+    fn corner(&self, _: &Connectivity, i: usize) -> Place {
         let Some(inner) = (i / 2).checked_sub(self.on_edges.len()) else {
             let e = self.on_edges.of[i / 2];
             let h = e.half_edges()[i % 2];

@@ -6,7 +6,6 @@ use std::fs;
 use std::path::PathBuf;
 
 use engine::{Engine, Options, Run, Silent, Source};
-use serde_json::Value as Json;
 
 use crate::{assert_none, root};
 
@@ -66,7 +65,7 @@ fn problem(engine: &Engine, text: &str, read: bool) -> Option<String> {
         return None;
     }
     let outcome = loaded.run(Run::default(), &Silent);
-    (!outcome.succeeded()).then(|| format!("{:?}", outcome.failure))
+    (!outcome.succeeded()).then(|| format!("{:?}", outcome.failures))
 }
 
 #[test]
@@ -108,27 +107,13 @@ fn examples(chapter: &str) -> Vec<(String, String)> {
     all
 }
 
-/// The names of the variants of a definition.
-fn variants(definition: &str) -> Vec<String> {
-    let schema = recipe::schema(&ops_all::registry());
-    let definition = &schema["$defs"][definition];
-    let choices = definition["oneOf"].as_array().expect("a choice");
-    let name = |choice: &Json| {
-        let required = choice["required"][0].as_str();
-        required
-            .or_else(|| choice["const"].as_str())
-            .map(str::to_owned)
-    };
-    choices.iter().filter_map(name).collect()
-}
-
 #[test]
 fn every_selection_and_expectation_has_an_example_that_can_be_read() {
     let registry = ops_all::registry();
     let engine = Engine::new(&registry);
     let mut failures = Vec::new();
     let mut try_one = |expectation: &str| {
-        let text = format!("(recipe: 1, steps: [Cube()], expect: [\n{expectation}\n])");
+        let text = format!("(recipe: 1, steps: [Cube(name: \"a\")], expect: [\n{expectation}\n])");
         failures.extend(problem(&engine, &text, true));
     };
     let selections = examples("selections.md");
@@ -146,22 +131,25 @@ fn every_selection_and_expectation_has_an_example_that_can_be_read() {
         try_one(code);
     }
     for (kind, heading) in [
-        ("Expectation.VertexSelection", "Vertices"),
-        ("Expectation.EdgeSelection", "Edges"),
-        ("Expectation.FaceSelection", "Faces"),
+        ("VertexSelection", "Vertices"),
+        ("EdgeSelection", "Edges"),
+        ("FaceSelection", "Faces"),
     ] {
-        for name in variants(kind) {
+        let types = recipe::selections();
+        let selection = types.iter().find(|t| t.name == kind);
+        for variant in &selection.expect("a kind of selections").variants {
             let is_there = |(at, code): &(String, String)| {
-                (at == heading || at.starts_with("For all")) && code.starts_with(&name)
+                (at == heading || at.starts_with("For all")) && code.starts_with(&variant.name)
             };
             if !selections.iter().any(is_there) {
-                failures.push(format!("selections.md has no example of {kind} {name}"));
+                failures.push(format!("selections.md: no {kind} {}", variant.name));
             }
         }
     }
-    for name in variants("Expectation") {
-        if !expectations.iter().any(|(_, code)| code.starts_with(&name)) {
-            failures.push(format!("expectations.md has no example of {name}"));
+    for variant in recipe::expectations() {
+        let is_there = |(_, code): &(String, String)| code.starts_with(&variant.name);
+        if !expectations.iter().any(is_there) {
+            failures.push(format!("expectations.md: no {}", variant.name));
         }
     }
     assert_none(&failures);

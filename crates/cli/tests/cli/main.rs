@@ -7,6 +7,7 @@ mod diff;
 mod files;
 mod folder;
 mod interrupt;
+mod new;
 mod new_op;
 mod ops;
 mod outputs;

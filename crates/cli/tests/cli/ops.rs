@@ -24,10 +24,10 @@ fn one_operation_is_shown_with_its_parameters() {
         "SplitEdges (version 1): ",
         "Parameters:\n",
         "  edges: EdgeSelection",
-        "Between(.., ..)",
         "  at: number above 0.0 below 1.0 = 0.5\n",
         "  on_refusal: ",
-        "Takes `on: [\"name\", ..]`",
+        "`meshwright ops --selections` lists the selections.",
+        "`on: [\"name\", ..]` chooses objects.",
         "Example: SplitEdges(",
     ]);
     Folder::new().run("ops Repeat").with_code(0).prints(&[
@@ -35,6 +35,51 @@ fn one_operation_is_shown_with_its_parameters() {
         "  times: ",
         "  steps: ",
     ]);
+}
+
+#[test]
+fn selections_are_described_by_themselves() {
+    let folder = Folder::new();
+    folder.run("ops --selections").with_code(0).prints(&[
+        "EdgeSelection: ",
+        "EdgeLoop(..)",
+        // A text of several lines is whole.
+        "along the\n",
+        "boundary from an edge of it.",
+        "VertexSelection: ",
+    ]);
+    let operation = folder.run("ops SplitEdges").stdout;
+    assert!(!operation.contains("EdgeLoop"), "{operation}");
+}
+
+#[test]
+fn an_expectation_is_shown_with_its_fields() {
+    let folder = Folder::new();
+    let list = folder.run("expectations").with_code(0);
+    list.prints(&["Objects(", "Manifold ", "Not(..)"]);
+    folder.run("expectations Area").with_code(0).prints(&[
+        "Area(eq: .., min: .., max: .., tolerance: ..)\n",
+        "Fields:\n",
+        "  tolerance: number from 0.0 = 1e-9\n",
+    ]);
+    let unknown = folder.run("expectations Aera").with_code(1);
+    assert_eq!(
+        unknown.stderr,
+        "error: there is no expectation `Aera`: did you mean `Area`?\n"
+    );
+}
+
+#[test]
+fn completions_and_the_manual_page_name_the_commands() {
+    let folder = Folder::new();
+    for shell in ["bash", "fish", "zsh", "powershell", "elvish"] {
+        let arguments = format!("completions {shell}");
+        folder.run(&arguments).with_code(0).prints(&["picture"]);
+    }
+    folder
+        .run("man")
+        .with_code(0)
+        .prints(&[".TH meshwright 1", "picture"]);
 }
 
 #[test]

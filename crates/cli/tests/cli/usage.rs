@@ -7,7 +7,7 @@ fn wrong_usage_is_exit_code_2_and_nothing_runs() {
     let folder =
         Folder::with_recipe("(recipe: 1, steps: [Cube(name: \"a\"), Save(path: \"a.obj\")])");
     for (arguments, message) in [
-        ("", "Usage: meshwright"),
+        ("", "meshwright new part"),
         ("runn recipe.ron", "unrecognized subcommand 'runn'"),
         ("run", "<RECIPE>"),
         ("run recipe.ron --fast", "unexpected argument '--fast'"),
@@ -34,18 +34,26 @@ fn help_and_version_are_exit_code_0() {
     let commands = [
         "run",
         "check",
+        "watch",
         "test",
-        "batch",
-        "sweep",
-        "ops",
         "info",
-        "convert",
-        "reproduce",
+        "picture",
         "select",
         "diff",
-        "upgrade",
+        "convert",
+        "batch",
+        "sweep",
+        "new",
+        "ops",
+        "expectations",
         "schema",
+        "upgrade",
+        "reproduce",
+        "shrink",
+        "cache",
         "new-op",
+        "completions",
+        "man",
     ];
     folder.run("--help").with_code(0).prints(&commands);
     for command in commands {

@@ -283,7 +283,8 @@ impl<'a> Shader<'a> {
         open: f32,
         surface: Option<&Surface>,
     ) -> [f32; 3] {
-        let seen = |v: DVec3| DVec3::from(self.view.axes().map(|axis| v.dot(axis)));
+        let [x, y, z] = self.view.axes();
+        let seen = |v: DVec3| DVec3::new(v.dot(x), v.dot(y), v.dot(z));
         let n = seen(normal);
         if self.look.shading == Shading::Matcap {
             return matcap(color, n, open);
@@ -312,6 +313,9 @@ impl<'a> Shader<'a> {
 /// The normal that light falls on, of length 1.
 fn normal(part: &Part, triangle: usize, spot: &Spot) -> DVec3 {
     let given = part.normals.at(part, triangle, spot.weights);
+    if given == [0.0; 3] {
+        return spot.normal;
+    }
     let given = DVec3::from(given.map(f64::from)).normalize_or_zero();
     if given == DVec3::ZERO {
         return spot.normal;

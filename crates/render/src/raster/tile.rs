@@ -88,6 +88,11 @@ impl Tile {
         let Some(setup) = Setup::new(flat, self) else {
             return;
         };
+        let [x0, y0, x1, y1] = setup.limits;
+        // Many small triangles lie between the middles of pixels.
+        if x0 > x1 || y0 > y1 {
+            return;
+        }
         // In 32 bits the arithmetic is exact for triangles of less than 64 pixels: 32 to each side.
         let first = flat[0].at;
         let is_near = |c: &Corner| (0..2).all(|i| c.at[i].abs_diff(first[i]) < 1 << 13);
@@ -126,7 +131,7 @@ impl Tile {
     )]
     fn fill<T: Number>(&mut self, id: u32, setup: &Setup, mask: u16) {
         let [x0, y0, x1, y1] = setup.limits;
-        let edges = setup.edges.map(|edge| edge.map(T::of));
+        let edges = setup.edges.map(Edge::of::<T>);
         // What each edge changes from the middle of a pixel to its samples.
         let mut aside = edges.map(|[a, b, _]| {
             PLACES.map(|[x, y]| a * T::of(i64::from(x)) + b * T::of(i64::from(y)))
@@ -197,6 +202,20 @@ impl Number for i32 {
     }
 }
 
+/// An edge: a x + b y + c is not negative inside, seen from the first corner of its triangle.
+#[derive(Clone, Copy)]
+struct Edge {
+    a: i64,
+    b: i64,
+    c: i64,
+}
+
+impl Edge {
+    fn of<T: Number>(self) -> [T; 3] {
+        [self.a, self.b, self.c].map(T::of)
+    }
+}
+
 /// The bits of the samples for which something holds.
 pub(super) fn mask_of(mut holds: impl FnMut(usize) -> bool) -> u16 {
     (0..SAMPLES).fold(0, |mask, k| mask | u16::from(holds(k)) << k)
@@ -204,8 +223,7 @@ pub(super) fn mask_of(mut holds: impl FnMut(usize) -> bool) -> u16 {
 
 /// What filling a triangle needs.
 struct Setup {
-    /// a, b and c of each edge: a x + b y + c is not negative inside, seen from the first corner.
-    edges: [[i64; 3]; 3],
+    edges: [Edge; 3],
     /// The first and the last pixel to look at, from left to right and from top to bottom.
     limits: [u32; 4],
     /// The first corner.
@@ -249,7 +267,11 @@ impl Setup {
             let (a, b) = (s[1] - t[1], t[0] - s[0]);
             let c = -(a * s[0] + b * s[1]);
             let is_mine = a > 0 || (a == 0 && b > 0);
-            [a, b, if is_mine { c } else { c - 1 }]
+            Edge {
+                a,
+                b,
+                c: if is_mine { c } else { c - 1 },
+            }
         };
         let [dp, dq] = [p, q].map(|c| f64::from(c.depth) - f64::from(o.depth));
         let [ux, uy, vx, vy] = [u[0], u[1], v[0], v[1]].map(|x| x as f64);
@@ -269,7 +291,7 @@ impl Setup {
     fn is_inside(&self, x: u32, y: u32, sample: usize) -> bool {
         let (from, aside) = (self.from(x, y), PLACES[sample].map(i64::from));
         let [x, y] = [from[0] + aside[0], from[1] + aside[1]];
-        self.edges.iter().all(|[a, b, c]| a * x + b * y + c >= 0)
+        self.edges.iter().all(|e| e.a * x + e.b * y + e.c >= 0)
     }
 
     /// The middle of a pixel, from the first corner.

@@ -30,9 +30,12 @@ impl Connectivity {
     /// Puts the elements of `other` behind these: their ids are shifted by the counts of these.
     pub fn append(&mut self, other: &Self) {
         fn push<I: Id + PartialEq>(all: &mut Vec<I>, more: &[I], by: usize) {
-            let shifted = |&id: &I| match id == I::NONE {
-                true => id,
-                false => I::new(id.index() + by),
+            let shifted = |&id: &I| {
+                if id == I::NONE {
+                    id
+                } else {
+                    I::new(id.index() + by)
+                }
             };
             all.extend(more.iter().map(shifted));
         }

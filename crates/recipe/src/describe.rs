@@ -110,7 +110,7 @@ pub fn expectations() -> Vec<VariantDoc> {
 /// The kinds of selections and the region that some of them name.
 pub fn selections() -> Vec<TypeDoc> {
     let mut all = types(crate::schema::expectation());
-    all.retain(|t| t.is_selection());
+    all.retain(TypeDoc::is_selection);
     all
 }
 

@@ -98,8 +98,11 @@ pub(crate) const FORM: &str = "meshwright scene 1";
 /// Stands where the length of a text would be, before what else a material has.
 pub(crate) const MORE: u64 = u64::MAX;
 
+/// A name of the canonical form, and the field of a material that it stands for.
+type NamedTexture = (&'static str, fn(&mut Material) -> &mut Option<Texture>);
+
 /// The textures of a material that are written with their names.
-pub(crate) const TEXTURES: [(&str, fn(&mut Material) -> &mut Option<Texture>); 5] = [
+pub(crate) const TEXTURES: [NamedTexture; 5] = [
     ("base color texture", |m| &mut m.base_color_texture),
     ("metallic roughness texture", |m| {
         &mut m.metallic_roughness_texture

@@ -191,18 +191,15 @@ impl CurveFigure {
 
     /// The figure of the chosen curves.
     fn figure(&self, scene: &Scene, cx: &Context) -> Result<Svg, OpError> {
-        let chosen: Vec<&Object> = match cx.on {
-            Some(on) => {
-                let objects = on.iter().map(|name| named_object(scene, name));
-                objects.collect::<Result<_, _>>()?
-            }
-            None => {
-                let curves = scene.objects().iter();
-                let curves = curves.filter(|o| matches!(o.geometry, Geometry::Curve(_)));
-                curves
-                    .filter(|o| self.before.as_ref() != Some(&o.name))
-                    .collect()
-            }
+        let chosen: Vec<&Object> = if let Some(on) = cx.on {
+            let objects = on.iter().map(|name| named_object(scene, name));
+            objects.collect::<Result<_, _>>()?
+        } else {
+            let curves = scene.objects().iter();
+            let curves = curves.filter(|o| matches!(o.geometry, Geometry::Curve(_)));
+            curves
+                .filter(|o| self.before.as_ref() != Some(&o.name))
+                .collect()
         };
         let before = self
             .before

@@ -38,9 +38,8 @@ fn without_times(text: &str) -> Vec<String> {
 fn the_recipe_of_the_readme_prints_what_the_readme_shows() {
     let readme = repository("README.md");
     let recipe = blocks(&readme, "ron")[0];
-    let (printed, mistake) = match blocks(&readme, "text")[..] {
-        [printed, mistake, ..] => (printed, mistake),
-        _ => panic!("the README shows an output and a mistake"),
+    let [printed, mistake, ..] = blocks(&readme, "text")[..] else {
+        panic!("the README shows an output and a mistake");
     };
     let model = repository("scenes/assets/teapot.bez");
     let folder = Folder::new()

@@ -111,6 +111,9 @@ fn place_at(text: &str, at: usize) -> Place {
     }
 }
 
+/// The count of each kind of note, and the line of the first.
+type Tally = BTreeMap<(NoteKind, &'static str), (usize, usize)>;
+
 /// A file with its elements in order of their ids.
 pub(super) struct Document<'a> {
     pub(super) root: Node<'a>,
@@ -118,7 +121,7 @@ pub(super) struct Document<'a> {
     /// How many bytes the text has.
     pub(super) size: usize,
     /// What was left out or changed, added up by what it is, and the first line of each.
-    tally: RefCell<BTreeMap<(NoteKind, &'static str), (usize, usize)>>,
+    tally: RefCell<Tally>,
     /// How much memory may still be taken. A file may repeat its geometries by instances, but not without end.
     budget: Cell<usize>,
 }

@@ -59,7 +59,7 @@ pub(crate) fn write(
     let binary_path = path.with_extension("bin");
     let name = binary_path.file_name();
     let uri = name.map(|name| percent_encoded(&name.to_string_lossy()));
-    let (json, pieces) = writer.into_json(options, uri);
+    let (json, pieces) = writer.into_json(options, uri.as_deref());
     let mut files = vec![(path, json)];
     if length > 0 {
         let mut bytes = mesh::zeroed(length);

@@ -32,7 +32,7 @@ impl<'a> Writer<'a> {
     pub(super) fn into_json(
         self,
         options: &WriteOptions,
-        uri: Option<String>,
+        uri: Option<&str>,
     ) -> (Vec<u8>, Vec<Piece<'a>>) {
         let length = self.pieces.last().map_or(0, Piece::end);
         let nodes: Vec<usize> = (0..self.nodes.len()).collect();

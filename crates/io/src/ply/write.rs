@@ -49,13 +49,12 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwrit
             && (column.name.as_str(), column.rule) == (UV.name, UV.rule)
             && let Values::Vec2(_) = &*values
         {
-            match uvs_of_vertices(mesh, &values) {
-                Some(uvs) => vertices.known(&["s", "t"], Cow::Owned(uvs)),
+            if let Some(uvs) = uvs_of_vertices(mesh, &values) {
+                vertices.known(&["s", "t"], Cow::Owned(uvs));
+            } else {
                 // As MeshLab does where corners of a vertex differ.
-                None => {
-                    let form = float_for(&values, 2);
-                    faces.values(&["texcoord"], true, values, 2, form);
-                }
+                let form = float_for(&values, 2);
+                faces.values(&["texcoord"], true, values, 2, form);
             }
         } else {
             to.column(domain, column, values);

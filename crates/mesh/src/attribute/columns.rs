@@ -207,7 +207,9 @@ impl Column {
         if matches!(self.rule, Rule::Interpolate | Rule::Normal) {
             let weight = 1.0 / from.len().max(1) as f64;
             let mean = self.values.blend(1, |_, add| {
-                from.iter().for_each(|i| add(i.index(), weight));
+                for i in from {
+                    add(i.index(), weight);
+                }
             });
             self.values.set(to.index(), &mean);
             self.normalize(to.index());

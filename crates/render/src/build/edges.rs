@@ -173,10 +173,10 @@ impl Builder<'_, '_> {
         let labels = &mut self.drawing.labels;
         match ids {
             Ids::Vertices => {
-                labels.extend(mesh.vertices().map(|v| label(v.index(), mesh.position(v))))
+                labels.extend(mesh.vertices().map(|v| label(v.index(), mesh.position(v))));
             }
             Ids::Faces => {
-                labels.extend(mesh.faces().map(|f| label(f.index(), mesh.face_center(f))))
+                labels.extend(mesh.faces().map(|f| label(f.index(), mesh.face_center(f))));
             }
         }
         Ok(())

@@ -79,7 +79,7 @@ impl Occlusion {
             .map(|i| {
                 let z = direction(i);
                 let x = z.any_orthonormal_vector();
-                let axes = [x, z.cross(x), z].map(|axis| axis.as_vec3());
+                let axes = [x, z.cross(x), z].map(DVec3::as_vec3);
                 let mut depths = vec![[f32::NEG_INFINITY; 2]; side * side];
                 let mut places = Vec::new();
                 for (part, (triangles, has_small)) in drawing.parts.iter().zip(&drawn) {

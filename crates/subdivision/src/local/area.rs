@@ -44,12 +44,11 @@ impl AreaMasks<'_> {
         let Some(new) = i.checked_sub(n_vertices) else {
             return pieces.moves(i).then_some(i);
         };
-        match pieces.middles.get(new) {
-            Some(e) => pieces.smooths(e).then_some(n_vertices + e.index()),
-            None => {
-                let f = pieces.centers.get(new - pieces.middles.len())?;
-                Some(n_vertices + n_edges + f.index())
-            }
+        if let Some(e) = pieces.middles.get(new) {
+            pieces.smooths(e).then_some(n_vertices + e.index())
+        } else {
+            let f = pieces.centers.get(new - pieces.middles.len())?;
+            Some(n_vertices + n_edges + f.index())
         }
     }
 }

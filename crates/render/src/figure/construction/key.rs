@@ -41,8 +41,9 @@ pub(super) fn entries(panels: &[Panel], width: f64) -> Vec<Vec<Entry>> {
         }
     }
     for (line, end) in &mut lines {
-        line.iter_mut()
-            .for_each(|entry| entry.left += (width - *end) / 2.0);
+        for entry in line {
+            entry.left += (width - *end) / 2.0;
+        }
     }
     lines.into_iter().map(|(line, _)| line).collect()
 }

@@ -21,8 +21,11 @@ mkdir "$out/src/pictures" && cp -r ops/all/pictures/. "$out/src/pictures"
 pages=$(sed -n 's|^- \[\([A-Za-z0-9]*\)\](#.*|  - [\1](operations/\1.md)|p' ops/README.md)
 awk -v pages="$pages\n  - [Types of parameters](operations/types.md)" '
     { print } /\(operations.md\)/ { print pages }
+    /\(files.md\)/ { print "  - [What comes back](kept.md)" }
 ' book/src/SUMMARY.md > "$out/src/SUMMARY.md"
-sed -i 's|#include ../../|#include ../../../|' "$out"/src/*.md
+# On the pages of the repository these links lead to its files.
+cp crates/io/src/kept.md "$out/src/kept.md"
+sed -i -e 's|(../../crates/io/src/kept.md)|(kept.md)|' -e 's|(../../ops/README.md#reasons-for-refused)|(operations/types.md#reasons-for-refused)|' "$out"/src/*.md
 # Pictures from elsewhere in the repository are copied beside the chapters.
 for image in $(grep -oh '](\.\./\.\./[^)]*png' "$out"/src/*.md | sed 's|](../../||'); do
     mkdir -p "$out/src/images/$(dirname "$image")"

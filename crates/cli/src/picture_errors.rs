@@ -15,7 +15,7 @@ use crate::listener::{QUIET, lock};
 use crate::output::{STAMP, complain, shown, write_whole};
 
 impl PictureErrorsArgs {
-    /// The pictures of a file: beside each other, named after it and numbered. Each may take so many bytes of memory.
+    /// The numbered pictures of a file, and the memory that each may use, in bytes.
     pub(crate) fn of(&self, file: &Path, budget: u64) -> Pictures {
         self.named(Path::new(file.file_stem().unwrap_or_default()), budget)
     }

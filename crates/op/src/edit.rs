@@ -27,7 +27,7 @@ impl OnRefusal {
         }
     }
 
-    /// What is told before the run of an edit that will be refused.
+    /// The problem to report from `plan` for an edit that will be refused.
     pub fn problem(self, message: impl Into<String>) -> Problem {
         match self {
             Self::Error => Problem::error(message),

@@ -203,7 +203,7 @@ impl MeshPlan {
         self.degrees == Range::exactly(3)
     }
 
-    /// The corners of so many of the faces: all faces together have no more corners than there are half-edges.
+    /// The number of corners of `faces` of the faces, at most two for each edge of the mesh.
     pub fn corners_of(&self, faces: Range) -> Range {
         faces.times(self.degrees).capped(self.edges.by(2).max)
     }

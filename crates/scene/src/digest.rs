@@ -82,7 +82,7 @@ impl Scene {
         rest
     }
 
-    /// Hands the canonical form to `sink`, which is told whether the bytes are the content of an array.
+    /// Passes the canonical form to `sink`, with a flag that is true if the bytes are the content of an array.
     fn encode_to(&self, sink: &mut dyn FnMut(&[u8], bool)) {
         let mut encoder = Encoder { sink };
         encoder.text(FORM);

@@ -105,7 +105,7 @@ impl Store for Disk {
 ///
 /// # Errors
 ///
-/// [`StoreError`] if there is no such file, or it cannot be written; then it is as it was.
+/// [`StoreError`] if the file does not exist or cannot be written. The file is then unchanged.
 pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     let replaced = || -> io::Result<()> {
         let real = path.canonicalize()?;

@@ -38,7 +38,7 @@ pub trait Store: Debug + Send + Sync {
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if there is no file, it is no plain file, or there is not enough memory for it.
+    /// [`StoreError`] if the file does not exist, is not a regular file, or does not fit into memory.
     fn read_up_to(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError>;
 
     /// The same, from a pipe or a device too: a text may come from one.

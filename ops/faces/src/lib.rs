@@ -28,7 +28,7 @@ pub fn register(registry: Registry) -> Registry {
         .with::<BevelFaces>()
 }
 
-/// Plans a ring of faces of four corners around each of so many faces, which get smaller.
+/// Plans a ring of quads around each of `faces` faces, which become smaller.
 fn plan_rings(plan: &mut MeshPlan, faces: Range) {
     let corners = plan.corners_of(faces);
     plan.grow(corners, corners.by(2), corners);

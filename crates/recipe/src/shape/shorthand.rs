@@ -149,7 +149,7 @@ impl Checked {
 
 /// Puts names around the values in `value` that stand where these were left out.
 fn complete(value: &mut Value, shorts: &[Short]) {
-    // The outermost of the values of a place is the one that was held against the schema.
+    // Of several values at one place, the outermost is the one that was checked against the schema.
     match shorts.iter().find(|short| short.span == value.span) {
         Some(short) => *value = in_full(value, &short.name),
         None => value.for_each_part(|part| complete(part, shorts)),

@@ -160,7 +160,7 @@ fn every_operation_that_the_scenes_use_can_be_cached() {
         let (_, outcome) = run(&path, Some(&cache));
         for step in &outcome.steps {
             // A large output that is written in no time is written again.
-            let fine = matches!(step.ran, None | Some(recipe::Why::NotKept));
+            let fine = matches!(step.ran, None | Some(recipe::RerunReason::NotKept));
             assert!(fine, "{}, {}: {:?}", path.display(), step.label, step.ran);
         }
     }

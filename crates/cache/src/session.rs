@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use op::{FileUse, Files};
-use recipe::{CachedRun, Done, Finding, Placed, RecipeStep, Why, mebibytes};
+use recipe::{CachedRun, Done, Finding, RecipeExpectation, RecipeStep, RerunReason, mebibytes};
 use scene::{Digest, Geometry, Scene};
 
 use super::{Caching, SMALL, SPEED, evict};
@@ -28,7 +28,7 @@ struct Position {
     is_dirty: bool,
     digest: Option<Digest>,
     /// Why the scene could not be brought back.
-    lost: Option<Why>,
+    lost: Option<RerunReason>,
 }
 
 /// A run with a cache.
@@ -55,11 +55,11 @@ impl CachedRun for Session<'_> {
         budget: u64,
         files: &Files,
         stage: Option<&Path>,
-    ) -> Result<Finding, Why> {
+    ) -> Result<Finding, RerunReason> {
         self.made_of = None;
-        let before = self.last().state.ok_or(Why::NoState)?;
+        let before = self.last().state.ok_or(RerunReason::NoState)?;
         let program = &self.caching.cache.program;
-        let made_of = Ingredients::of(step, program, budget, before).ok_or(Why::New)?;
+        let made_of = Ingredients::of(step, program, budget, before).ok_or(RerunReason::New)?;
         let key = made_of.key();
         let found = self.look_up(key, &made_of, files, stage);
         let record = match found {
@@ -68,7 +68,11 @@ impl CachedRun for Session<'_> {
                 self.made_of = Some(made_of);
                 let keeps_state = matches!(
                     why,
-                    Why::Earlier(..) | Why::Order | Why::Provenance | Why::Outputs | Why::NotKept
+                    RerunReason::Earlier(..)
+                        | RerunReason::Order
+                        | RerunReason::Provenance
+                        | RerunReason::Outputs
+                        | RerunReason::NotKept
                 );
                 if !keeps_state {
                     self.changed = Some((self.positions.len(), step.label().to_owned()));
@@ -144,7 +148,13 @@ impl CachedRun for Session<'_> {
         self.positions.push(position);
     }
 
-    fn ran_again(&mut self, place: usize, label: &str, scene: &Scene, time: Duration) -> Why {
+    fn ran_again(
+        &mut self,
+        place: usize,
+        label: &str,
+        scene: &Scene,
+        time: Duration,
+    ) -> RerunReason {
         self.since += time;
         if let Some(stored) = self.keep(scene, place, label)
             && let Some(position) = self.positions.get_mut(place)
@@ -154,7 +164,7 @@ impl CachedRun for Session<'_> {
             store(self.folder, *key, record.clone());
         }
         let lost = self.positions.get_mut(place).and_then(|p| p.lost.take());
-        lost.unwrap_or(Why::NotKept)
+        lost.unwrap_or(RerunReason::NotKept)
     }
 
     fn bring(&mut self, from: usize, to: usize) -> Option<(usize, Scene)> {
@@ -197,12 +207,12 @@ impl CachedRun for Session<'_> {
         step.is_some_and(|(_, record)| record.same)
     }
 
-    fn holds(&mut self, placed: &Placed, files: &Files) -> bool {
+    fn holds(&mut self, placed: &RecipeExpectation, files: &Files) -> bool {
         let step = self.positions.last().and_then(|p| p.step.as_ref());
         step.is_some_and(|(_, record)| holds(&record.held, placed, files, &mut self.eyes))
     }
 
-    fn held(&mut self, placed: &Placed, uses: &[FileUse]) {
+    fn held(&mut self, placed: &RecipeExpectation, uses: &[FileUse]) {
         if let Some(held) = Held::new(placed, uses, &mut self.eyes)
             && let Some(position) = self.positions.last_mut()
             && let Some((_, record)) = &mut position.step
@@ -275,10 +285,10 @@ impl<'a> Session<'a> {
         made_of: &Ingredients,
         files: &Files,
         stage: Option<&Path>,
-    ) -> Result<Record, Why> {
+    ) -> Result<Record, RerunReason> {
         let records = load(self.folder, key).map_err(|why| match why {
             Unusable::Missing => self.history.why(made_of, self.changed.clone()),
-            Unusable::Damaged(how) => Why::Damaged(how),
+            Unusable::Damaged(how) => RerunReason::Damaged(how),
         })?;
         let mut first = None;
         for record in records {
@@ -287,23 +297,28 @@ impl<'a> Session<'a> {
                 Err(why) => _ = first.get_or_insert(why),
             }
         }
-        Err(first.unwrap_or(Why::Gone))
+        Err(first.unwrap_or(RerunReason::Gone))
     }
 
     /// Whether the record is what the step would do now. Its outputs are then in their places.
-    fn fits(&mut self, record: &Record, files: &Files, stage: Option<&Path>) -> Result<(), Why> {
+    fn fits(
+        &mut self,
+        record: &Record,
+        files: &Files,
+        stage: Option<&Path>,
+    ) -> Result<(), RerunReason> {
         if !record.read.are_asked_for_in(files) {
-            return Err(Why::Folder);
+            return Err(RerunReason::Folder);
         }
         if let Some((path, change)) = self.eyes.changed(&record.read.files) {
-            return Err(Why::File(path, change));
+            return Err(RerunReason::File(path, change));
         }
         let Some(outputs) = &record.outputs else {
             return Ok(());
         };
         // It stands in the files only, and nobody may want them.
         if stage.is_some() && outputs.provenance != files.provenance {
-            return Err(Why::Provenance);
+            return Err(RerunReason::Provenance);
         }
         let is_asked = |(path, relative): &(String, PathBuf)| {
             files
@@ -311,16 +326,16 @@ impl<'a> Session<'a> {
                 .is_ok_and(|to| to == files.output.join(relative))
         };
         if !outputs.asked.iter().all(is_asked) {
-            return Err(Why::Outputs);
+            return Err(RerunReason::Outputs);
         }
         let Some(stage) = stage else { return Ok(()) };
-        let written = outputs.files.as_ref().ok_or(Why::NotKept)?;
+        let written = outputs.files.as_ref().ok_or(RerunReason::NotKept)?;
         // First all of them beside their places: what is there stays if one of them is damaged.
         let part = |i: usize| stage.join(format!(".part-{i}"));
         let mut restored = written.iter().enumerate().try_for_each(|(i, file)| {
             if !is_below(&file.path) {
                 let how = "a path leads out of the output folder";
-                return Err(Why::Damaged(how.to_owned()));
+                return Err(RerunReason::Damaged(how.to_owned()));
             }
             restore_file(self.folder, &file.content, &part(i)).map_err(lost)
         });
@@ -406,16 +421,16 @@ fn is_below(path: &Path) -> bool {
 }
 
 /// Moves a file to its place.
-fn put(from: &Path, to: &Path) -> Result<(), Why> {
+fn put(from: &Path, to: &Path) -> Result<(), RerunReason> {
     let folder = to.parent().map_or(Ok(()), std::fs::create_dir_all);
     let moved = folder.and_then(|()| std::fs::rename(from, to));
-    moved.map_err(|error| Why::Damaged(format!("{}: {error}", to.display())))
+    moved.map_err(|error| RerunReason::Damaged(format!("{}: {error}", to.display())))
 }
 
-fn lost(why: Unusable) -> Why {
+fn lost(why: Unusable) -> RerunReason {
     match why {
-        Unusable::Missing => Why::Gone,
-        Unusable::Damaged(how) => Why::Damaged(how),
+        Unusable::Missing => RerunReason::Gone,
+        Unusable::Damaged(how) => RerunReason::Damaged(how),
     }
 }
 

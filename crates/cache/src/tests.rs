@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
-use recipe::{Outcome, Reader, Settings, Silent, Why};
+use recipe::{Outcome, Reader, RerunReason, Settings, Silent};
 
 use self::operations::{registry, steps};
 use crate::{Cache, Caching};
@@ -392,7 +392,7 @@ fn outputs_come_from_the_cache_with_the_same_bytes() {
     // What is written may say from which recipe it is.
     let edited = text.replace("by: 1", "by: 2");
     let ran = place.ran(&edited);
-    assert_eq!(ran[0], (2, Why::Provenance.to_string()));
+    assert_eq!(ran[0], (2, RerunReason::Provenance.to_string()));
     assert_eq!(ran[1].0, 3);
     place.keep_outputs = false;
     let other = text.replace("by: 1", "by: 3");

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use recipe::Why;
+use recipe::RerunReason;
 use serde::{Deserialize, Serialize};
 
 use crate::folder::{Folder, Hash, Kind};
@@ -60,7 +60,7 @@ impl History {
 
     /// Why a step has another key than in the last run; `ran` is the last earlier step that ran in this one, with
     /// its number.
-    pub(crate) fn why(&self, now: &Ingredients, ran: Option<(usize, String)>) -> Why {
+    pub(crate) fn why(&self, now: &Ingredients, ran: Option<(usize, String)>) -> RerunReason {
         let here = self.now.len();
         let is_it = |past: &&Past| {
             past.made_of.operation == now.operation && past.made_of.stream == now.stream
@@ -71,38 +71,40 @@ impl History {
         let same_operation = |past: &&Past| past.made_of.operation == now.operation;
         let past = past.or_else(|| self.past.get(here).filter(same_operation));
         let Some(Past { made_of, unknown }) = past else {
-            return Why::New;
+            return RerunReason::New;
         };
         let why = made_of.differs(now, ran);
         why.unwrap_or_else(|| match unknown {
-            Some((path, why)) => Why::Unknown(path.clone(), why.clone()),
-            None => Why::Gone,
+            Some((path, why)) => RerunReason::Unknown(path.clone(), why.clone()),
+            None => RerunReason::Gone,
         })
     }
 }
 
 impl Ingredients {
     /// In what the step of now differs from this one.
-    fn differs(&self, now: &Self, ran: Option<(usize, String)>) -> Option<Why> {
+    fn differs(&self, now: &Self, ran: Option<(usize, String)>) -> Option<RerunReason> {
         Some(if self.program != now.program {
-            Why::Program
+            RerunReason::Program
         } else if self.version != now.version {
-            Why::Version {
+            RerunReason::Version {
                 from: self.version,
                 to: now.version,
             }
         } else if self.parameters != now.parameters {
-            Why::Parameters(changes(&self.parameters, &now.parameters))
+            RerunReason::Parameters(changes(&self.parameters, &now.parameters))
         } else if self.on != now.on {
-            Why::On
+            RerunReason::On
         } else if self.stream != now.stream {
-            Why::Id
+            RerunReason::Id
         } else if self.refused != now.refused {
-            Why::Refused
+            RerunReason::Refused
         } else if self.budget != now.budget {
-            Why::Budget
+            RerunReason::Budget
         } else if self.before != now.before {
-            ran.map_or(Why::Order, |(number, label)| Why::Earlier(number, label))
+            ran.map_or(RerunReason::Order, |(number, label)| {
+                RerunReason::Earlier(number, label)
+            })
         } else {
             return None;
         })

@@ -51,7 +51,7 @@ pub(crate) fn load_text(
 
 /// A recipe that was found.
 #[derive(Debug, PartialEq, Eq)]
-pub(crate) struct Found {
+pub(crate) struct RecipeFile {
     /// Its path.
     pub(crate) path: PathBuf,
     /// The folder below another one that is its own: its path in the folder that was searched, without
@@ -65,7 +65,7 @@ pub(crate) struct Found {
 ///
 /// Hidden ones, folders named `assets` and links to folders are passed over; so are files of other
 /// kinds, `*.sweep.ron`.
-pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<Found>> {
+pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<RecipeFile>> {
     let mut found = Vec::new();
     for path in paths {
         if path.is_dir() {
@@ -77,7 +77,7 @@ pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<Found>> {
                 path.display()
             );
             let own_folder = path.file_stem().map(PathBuf::from).unwrap_or_default();
-            found.push(Found {
+            found.push(RecipeFile {
                 path: path.clone(),
                 own_folder,
                 is_named: true,
@@ -89,7 +89,7 @@ pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<Found>> {
     Ok(found)
 }
 
-fn search(top: &Path, found: &mut Vec<Found>) -> anyhow::Result<()> {
+fn search(top: &Path, found: &mut Vec<RecipeFile>) -> anyhow::Result<()> {
     let is_meant = |entry: &DirEntry| {
         let name = entry.file_name().to_string_lossy();
         let is_assets = entry.file_type().is_dir() && name == "assets";
@@ -106,7 +106,7 @@ fn search(top: &Path, found: &mut Vec<Found>) -> anyhow::Result<()> {
             && path.extension().is_some_and(|e| e == "ron")
             && !entry.file_name().to_string_lossy().ends_with(".sweep.ron");
         if is_recipe {
-            found.push(Found {
+            found.push(RecipeFile {
                 path: path.to_path_buf(),
                 own_folder: path.strip_prefix(top).unwrap_or(path).with_extension(""),
                 is_named: false,

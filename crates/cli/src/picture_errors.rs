@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
-use op::{Place, Progress};
-use recipe::{Failure, Found, Listener, StepDone};
+use op::{ErrorLocation, Progress};
+use recipe::{ActualValue, Failure, Listener, StepDone};
 use render::{Image, difference};
 use scene::Scene;
 use view::draw_places;
@@ -65,7 +65,7 @@ struct Drawn {
 
 impl Pictures {
     /// Draws places of a scene, unless many were drawn before. Why one could not be drawn is told with the others.
-    pub(crate) fn draw(&self, scene: &Scene, places: &[Place], caption: &str) {
+    pub(crate) fn draw(&self, scene: &Scene, places: &[ErrorLocation], caption: &str) {
         let (budget, progress) = (self.budget, &QUIET);
         self.add(caption, || {
             Ok(draw_places(scene, places, caption, budget, progress)?)
@@ -130,8 +130,8 @@ impl Pictures {
 
     /// The picture that was expected, the one that was found, and where they differ; `None` if these are no pictures of
     /// one image.
-    fn of_difference(&self, found: &Found) -> anyhow::Result<Option<Image>> {
-        let Found::File {
+    fn of_difference(&self, found: &ActualValue) -> anyhow::Result<Option<Image>> {
+        let ActualValue::File {
             golden,
             bytes,
             tolerance,

@@ -13,7 +13,7 @@ use crate::loading::load_recipe;
 use crate::output::{complain, show};
 
 /// A scene, and what it takes to ask it as a step would.
-pub(crate) struct Found {
+pub(crate) struct SceneAtStep {
     pub(crate) scene: Scene,
     /// What keys random choices: that of the step that the recipe stopped before.
     pub(crate) stream: String,
@@ -31,7 +31,7 @@ pub(crate) fn find(
     values: &ValueArgs,
     stop: Stop,
     engine: &Engine,
-) -> anyhow::Result<Found> {
+) -> anyhow::Result<SceneAtStep> {
     if is_recipe(path) {
         return run(path, values, stop, engine);
     }
@@ -46,7 +46,7 @@ pub(crate) fn find(
     for note in &notes {
         complain(&format!("note: {note}\n"));
     }
-    Ok(Found {
+    Ok(SceneAtStep {
         scene,
         stream: String::new(),
     })
@@ -64,7 +64,12 @@ pub(crate) fn read_file(path: &Path, options: &ReadOptions) -> anyhow::Result<(S
     Ok((scene, loaded.notes))
 }
 
-fn run(path: &Path, values: &ValueArgs, stop: Stop, engine: &Engine) -> anyhow::Result<Found> {
+fn run(
+    path: &Path,
+    values: &ValueArgs,
+    stop: Stop,
+    engine: &Engine,
+) -> anyhow::Result<SceneAtStep> {
     let shown = path.display();
     let mut loaded = load_recipe(path, values, Path::new("out"), BUDGET, engine)?;
     show(&loaded, &loaded.diagnostics);
@@ -78,7 +83,7 @@ fn run(path: &Path, values: &ValueArgs, stop: Stop, engine: &Engine) -> anyhow::
     show(&loaded, &outcome.failures);
     anyhow::ensure!(!outcome.cancelled, "interrupted");
     anyhow::ensure!(outcome.succeeded(), "{shown} failed");
-    Ok(Found {
+    Ok(SceneAtStep {
         scene: outcome.scene.expect("a run without a cache has its scene"),
         stream,
     })

@@ -6,7 +6,7 @@ use glam::DVec3;
 use mesh::{Attributes, Domain, Elements, VertexId};
 
 use crate::note::{NoteKind, Notes};
-use crate::{Policies, Polygons, Unwanted, parallel};
+use crate::{CleanupPolicy, Policies, Polygons, parallel};
 
 /// A face is degenerate if its area is below this share of the square of its longest side: what rounding
 /// leaves of an area of zero.
@@ -39,7 +39,7 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
     ];
     let mut is_dropped = vec![];
     for (policy, find, one, several) in unwanted {
-        if policy == Unwanted::Drop {
+        if policy == CleanupPolicy::Drop {
             let faces: Vec<usize> = find(polygons);
             is_dropped.resize(polygons.n_faces(), false);
             for &f in &faces {
@@ -52,7 +52,7 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
     let what = "faces that repeat a corner: taken once";
     note(polygons, what, Elements::Faces(repeated), notes);
     let kept = keep(polygons, &is_dropped, &is_corner_kept);
-    if policies.isolated == Unwanted::Drop {
+    if policies.isolated == CleanupPolicy::Drop {
         drop_isolated(polygons, notes);
     }
     kept
@@ -308,8 +308,8 @@ mod tests {
     #[test]
     fn clean_polygons_stay_as_they_are() {
         let all = Policies {
-            degenerate: Unwanted::Drop,
-            duplicates: Unwanted::Drop,
+            degenerate: CleanupPolicy::Drop,
+            duplicates: CleanupPolicy::Drop,
             ..Policies::default()
         };
         let faces: &[&[u32]] = &[&[0, 1, 3], &[1, 2, 5]];
@@ -334,7 +334,7 @@ mod tests {
     #[test]
     fn faces_without_area_are_dropped_with_their_values() {
         let policies = Policies {
-            degenerate: Unwanted::Drop,
+            degenerate: CleanupPolicy::Drop,
             ..Policies::default()
         };
         let (polygons, kept, notes) = cleaned(&[&[0, 1, 2], &[0, 1, 3]], policies);
@@ -348,7 +348,7 @@ mod tests {
     #[test]
     fn of_duplicates_either_way_round_the_first_is_kept() {
         let policies = Policies {
-            duplicates: Unwanted::Drop,
+            duplicates: CleanupPolicy::Drop,
             ..Policies::default()
         };
         let faces: &[&[u32]] = &[
@@ -367,7 +367,7 @@ mod tests {
     #[test]
     fn isolated_vertices_are_dropped_and_the_others_close_up() {
         let policies = Policies {
-            isolated: Unwanted::Drop,
+            isolated: CleanupPolicy::Drop,
             ..Policies::default()
         };
         let (polygons, _, notes) = cleaned(&[&[0, 1, 5]], policies);

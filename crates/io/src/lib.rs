@@ -91,7 +91,7 @@ pub use format::Format;
 pub use loss::Loss;
 pub use note::{Note, NoteKind};
 pub use peek::{Peek, PeekGeometry, PeekMesh, PeekObject};
-pub use policy::{NonManifold, Orientation, Policies, Unwanted};
+pub use policy::{CleanupPolicy, NonManifold, Orientation, Policies};
 pub use polygons::Polygons;
 pub use provenance::provenance;
 

@@ -15,12 +15,12 @@ pub struct Policies {
     /// Neighbors that run the same way along the edge between them.
     pub orientation: Orientation,
     /// Faces with the same vertices as an earlier one in the same circular order, either way round.
-    pub duplicates: Unwanted,
+    pub duplicates: CleanupPolicy,
     /// Faces without area: below 1e-14 of the square of their longest side, which is what rounding leaves
     /// of zero.
-    pub degenerate: Unwanted,
+    pub degenerate: CleanupPolicy,
     /// Vertices that no face uses.
-    pub isolated: Unwanted,
+    pub isolated: CleanupPolicy,
 }
 
 /// What to do where faces do not form a manifold.
@@ -48,7 +48,7 @@ pub enum Orientation {
 /// What to do with elements that may be of no use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
-pub enum Unwanted {
+pub enum CleanupPolicy {
     /// Keep them.
     #[default]
     Keep,

@@ -37,7 +37,7 @@ pub const SMOOTHING: Attribute<FaceId, i32> = Attribute::new("smoothing", Rule::
 /// The sharpness of an edge, from 0 (smooth) to 10 (infinitely sharp).
 pub const CREASE: Attribute<EdgeId, f64> = Attribute::new("crease", Rule::Copy);
 /// The sharpness of a vertex, from 0 (smooth) to 10 (infinitely sharp).
-pub const CORNER: Attribute<VertexId, f64> = Attribute::new("corner", Rule::Copy);
+pub const VERTEX_SHARPNESS: Attribute<VertexId, f64> = Attribute::new("corner", Rule::Copy);
 
 /// What an edit does with the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,7 +11,7 @@ use crate::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem, Range
 
 /// How the messages of an operation speak of the kind of objects that it works on.
 #[derive(Clone, Copy, Debug)]
-pub struct Wanted {
+pub struct TargetKind {
     /// The name of the operation.
     pub operation: &'static str,
     /// What it does: `changes meshes`.
@@ -22,7 +22,7 @@ pub struct Wanted {
     pub help: &'static str,
 }
 
-impl Wanted {
+impl TargetKind {
     const fn curves(operation: &'static str) -> Self {
         Self {
             operation,
@@ -116,7 +116,7 @@ pub fn plan_curves(
     cx: &PlanContext,
     change: impl Fn(Range) -> (PlannedGeometry, Vec<Problem>),
 ) -> Vec<Problem> {
-    Wanted::curves(operation).plan(plan, cx, |geometry| {
+    TargetKind::curves(operation).plan(plan, cx, |geometry| {
         let PlannedGeometry::Curve(points) = *geometry else {
             return None;
         };
@@ -142,7 +142,7 @@ pub fn change_curves(
     for (done, name) in (1..).zip(&names) {
         let (geometry, _) = scene.parts_mut(name).expect("a name of the scene");
         let Geometry::Curve(curve) = geometry else {
-            let message = Wanted::curves(operation).another(name, geometry.kind());
+            let message = TargetKind::curves(operation).another(name, geometry.kind());
             return Err(OpError::Object(message));
         };
         *geometry = change(curve)?;

@@ -6,7 +6,7 @@ use progress::Cancelled;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::Place;
+use crate::ErrorLocation;
 
 /// The reasons for which an edit or a selection is refused, as recipes name them in `refused:`.
 #[derive(
@@ -118,7 +118,7 @@ pub enum OpError {
         /// The elements that it is about, of the mesh as it was then.
         elements: Vec<Element>,
         /// Where they were.
-        places: Vec<Place>,
+        places: Vec<ErrorLocation>,
     },
     /// A parameter has a value that the scene does not allow.
     #[error("{0}")]
@@ -200,14 +200,14 @@ impl OpError {
         } = &mut self
         {
             let found = elements.iter();
-            let found = found.filter_map(|&element| Place::of(object, mesh, element));
-            *places = found.take(Place::MOST).collect();
+            let found = found.filter_map(|&element| ErrorLocation::of(object, mesh, element));
+            *places = found.take(ErrorLocation::MOST).collect();
         }
         self
     }
 
     /// Where the elements are that a refusal is about.
-    pub fn places(&self) -> &[Place] {
+    pub fn places(&self) -> &[ErrorLocation] {
         match self {
             Self::Refused { places, .. } => places,
             _ => &[],

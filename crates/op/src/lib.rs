@@ -45,10 +45,10 @@ mod chosen;
 mod context;
 mod edit;
 mod error;
+mod error_location;
 mod files;
 mod operation;
 mod parameter;
-mod place;
 mod plan;
 pub mod prelude;
 mod registry;
@@ -58,10 +58,11 @@ mod source;
 mod tag;
 pub mod test;
 
-pub use chosen::{Wanted, change_curves, chosen, chosen_scene, plan_curves};
+pub use chosen::{TargetKind, change_curves, chosen, chosen_scene, plan_curves};
 pub use context::Context;
 pub use edit::{Edited, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};
+pub use error_location::ErrorLocation;
 pub use files::{FileError, FileLog, FileUse, Files};
 pub use operation::{MeshOperation, Operation};
 pub use parameter::{
@@ -69,7 +70,6 @@ pub use parameter::{
     Fraction, Length, Levels, OutOfRange, PositiveFactor, PositiveLength, Seconds, Sharpness, Turn,
     Vector,
 };
-pub use place::Place;
 pub use plan::{
     MeshPlan, Plan, PlanContext, PlannedAttribute, PlannedGeometry, PlannedObject, Problem, Range,
 };

@@ -10,8 +10,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::{
-    Context, Loss, MeshPlan, OpError, Plan, PlanContext, PlannedGeometry, Problem, Report, Wanted,
-    chosen,
+    Context, Loss, MeshPlan, OpError, Plan, PlanContext, PlannedGeometry, Problem, Report,
+    TargetKind, chosen,
 };
 
 /// An operation that changes one mesh. Over a scene it acts on every mesh, or on those named in `on:`.
@@ -118,8 +118,8 @@ impl<T: MeshOperation> Operation for T {
     }
 }
 
-const fn wanted<T: MeshOperation>() -> Wanted {
-    Wanted {
+const fn wanted<T: MeshOperation>() -> TargetKind {
+    TargetKind {
         operation: <T as MeshOperation>::NAME,
         does: "changes meshes",
         none: "no mesh to change",

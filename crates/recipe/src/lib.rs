@@ -36,15 +36,17 @@ pub use describe::{
     FieldDoc, TypeDoc, VariantDoc, expectations, fields, refusals, selections, types,
 };
 pub use diagnostic::render;
-pub use expect::{Expectation, Found, Other, Reader};
+pub use expect::{ActualValue, Expectation, Other, Reader};
 pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};
 pub use params::{Move, Param, ParamError};
 pub use read::{Reading, VERSION, Values, read, read_by};
-pub use recipe::{MAX_STEPS, OnLoss, Origin, Parameter, Placed, Recipe, RecipeStep, Scope};
+pub use recipe::{
+    MAX_STEPS, OnLoss, Origin, Parameter, Recipe, RecipeExpectation, RecipeStep, Scope,
+};
 pub use ron_tree::{Diagnostic, LineIndex, Severity, Span};
 pub use run::{
-    CachedRun, Change, Done, Failure, Finding, Listener, Outcome, Settings, Silent, StepCache,
-    StepDone, Unmet, Why, run, run_from,
+    CachedRun, Change, Done, Failure, Finding, Listener, Outcome, RerunReason, Settings, Silent,
+    StepCache, StepDone, UnmetExpectation, run, run_from,
 };
 pub use schema::{Schemas, schema, step_kinds};
 pub use select::{read_selection, read_step, resolve};

@@ -29,7 +29,7 @@ pub struct Recipe {
     /// Its steps in the order in which they run: calls, repetitions and choices are done.
     pub steps: Vec<RecipeStep>,
     /// What must hold, in the order of the steps that it comes after.
-    pub expectations: Vec<Placed>,
+    pub expectations: Vec<RecipeExpectation>,
 }
 
 /// A text with values for its parameters: the recipe itself, or one call of another.
@@ -187,7 +187,7 @@ impl RecipeStep {
 
 /// An expectation and where it belongs.
 #[derive(Clone, Debug)]
-pub struct Placed {
+pub struct RecipeExpectation {
     /// The step after which it must hold, by its place in the list; at the end if `None`.
     pub after: Option<usize>,
     /// The objects that are meant; all if `None`.

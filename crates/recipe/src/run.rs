@@ -15,20 +15,20 @@ mod stage;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
-use op::{Context, FileLog, Files, OpError, Place, Progress, Refusal, Report};
+use op::{Context, ErrorLocation, FileLog, Files, OpError, Progress, Refusal, Report};
 use scene::{Digest, Geometry, Scene};
 use web_time::Instant;
 
 use crate::check::forbidden;
-use crate::expect::{Found, Reader, Subject};
+use crate::expect::{ActualValue, Reader, Subject};
 use crate::recipe::{Recipe, RecipeStep};
 use before::Before;
 use ron_tree::Diagnostic;
 use stage::{deliver, listing, staging, written};
 
-pub use cache::{CachedRun, Change, Done, Finding, StepCache, Why};
+pub use cache::{CachedRun, Change, Done, Finding, RerunReason, StepCache};
 pub use listener::{Failure, Listener, Silent, StepDone};
-pub use outcome::{Outcome, Unmet};
+pub use outcome::{Outcome, UnmetExpectation};
 
 /// What a run needs beside its recipe.
 #[derive(Clone, Copy)]
@@ -129,7 +129,7 @@ struct Runner<'a> {
     n_done: usize,
     steps: Vec<StepDone>,
     failures: Vec<Diagnostic>,
-    unmet: Vec<Unmet>,
+    unmet: Vec<UnmetExpectation>,
     cancelled: bool,
     checked: usize,
 }
@@ -137,7 +137,7 @@ struct Runner<'a> {
 /// Why a step failed, and the places that it is about.
 pub(crate) struct Fault {
     pub(crate) message: String,
-    places: Vec<Place>,
+    places: Vec<ErrorLocation>,
 }
 
 /// Why a run goes no further: it was cancelled, or a failure was reported.
@@ -208,7 +208,7 @@ impl Runner<'_> {
                 Err(why) => why,
             }
         } else {
-            Why::NoCache
+            RerunReason::NoCache
         };
         self.bring(i, listener)?;
         let session = self.session.as_ref();
@@ -311,7 +311,7 @@ impl Runner<'_> {
         &mut self,
         scope: usize,
         failure: Diagnostic,
-        (places, found): (&[Place], Option<&Found>),
+        (places, found): (&[ErrorLocation], Option<&ActualValue>),
         listener: &dyn Listener,
     ) {
         let diagnostic = self.recipe.located(failure, scope);
@@ -376,7 +376,7 @@ impl Runner<'_> {
                     let place = self.failures.len();
                     let found = broken.found.as_ref();
                     self.fail(placed.scope, failure, (&places, found), listener);
-                    self.unmet.push(Unmet {
+                    self.unmet.push(UnmetExpectation {
                         expectation: i,
                         failure: place,
                         found: broken.found,
@@ -428,7 +428,7 @@ pub(crate) fn attempt(
     budget: u64,
     progress: &dyn Progress,
 ) -> Result<(Report, Option<Refusal>), Option<Fault>> {
-    let fault = |message: String, places: &[Place]| {
+    let fault = |message: String, places: &[ErrorLocation]| {
         let places = places.to_vec();
         Err(Some(Fault { message, places }))
     };

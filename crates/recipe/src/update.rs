@@ -8,9 +8,9 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use crate::expect::Found;
+use crate::expect::ActualValue;
 use crate::recipe::Recipe;
-use crate::run::{Outcome, Unmet};
+use crate::run::{Outcome, UnmetExpectation};
 use ron_tree::{Diagnostic, LineIndex, Span, Value, ValueKind, string_literal};
 
 /// A recipe with its recorded values renewed.
@@ -100,14 +100,17 @@ pub fn update(recipe: &Recipe, outcome: &Outcome) -> Update {
 
 /// The expectations that do not hold, together with those that stand at the same place in the text: in a
 /// repetition one of each turn, `None` for a turn in which it holds.
-fn in_the_text<'o>(recipe: &Recipe, outcome: &'o Outcome) -> Vec<Vec<Option<&'o Unmet>>> {
+fn in_the_text<'o>(
+    recipe: &Recipe,
+    outcome: &'o Outcome,
+) -> Vec<Vec<Option<&'o UnmetExpectation>>> {
     let mut unmet = vec![None; recipe.expectations.len()];
     for broken in &outcome.unmet {
         if let Some(slot) = unmet.get_mut(broken.expectation) {
             *slot = Some(broken);
         }
     }
-    let mut places: BTreeMap<_, Vec<Option<&Unmet>>> = BTreeMap::new();
+    let mut places: BTreeMap<_, Vec<Option<&UnmetExpectation>>> = BTreeMap::new();
     for (placed, unmet) in recipe.expectations.iter().zip(unmet) {
         if placed.after.is_none_or(|i| i < outcome.steps.len()) {
             let place = (placed.scope, placed.span);
@@ -122,7 +125,7 @@ fn in_the_text<'o>(recipe: &Recipe, outcome: &'o Outcome) -> Vec<Vec<Option<&'o 
 fn renewal<'t>(
     tree: &'t Value,
     recipe: &Recipe,
-    turns: &[Option<&Unmet>],
+    turns: &[Option<&UnmetExpectation>],
 ) -> Result<(&'t Value, Fix), String> {
     let broken = turns.iter().flatten().next().ok_or(NOT_RECORDED)?;
     let placed = recipe
@@ -135,7 +138,7 @@ fn renewal<'t>(
     }
     let value = expectation_at(tree, placed.span).ok_or(NOT_RECORDED)?;
     let fix = fix(value, broken.found.as_ref())?;
-    let is_same = |turn: &Unmet| turn.found == broken.found;
+    let is_same = |turn: &UnmetExpectation| turn.found == broken.found;
     if !turns.iter().all(|turn| turn.is_some_and(is_same)) {
         let help = "the turns of a repetition find different values, so it is not updated";
         return Err(help.to_owned());
@@ -168,24 +171,24 @@ struct Fix {
 }
 
 /// What makes the expectation record what was found, or why that cannot be done.
-fn fix(expectation: &Value, found: Option<&Found>) -> Result<Fix, String> {
+fn fix(expectation: &Value, found: Option<&ActualValue>) -> Result<Fix, String> {
     let found = found.ok_or(NOT_RECORDED)?;
     let recorded = |field: &str| -> Result<&Value, String> {
         let value = expectation.field(field).ok_or(NOT_RECORDED)?;
         Ok(value.some().unwrap_or(value))
     };
     match found {
-        Found::Count(n) => {
+        ActualValue::Count(n) => {
             let value = recorded("eq")?;
             let text = grouped_like(&n.to_string(), number_text(value)?);
             Ok(Fix::one(value, text))
         }
-        Found::Number(x) => {
+        ActualValue::Number(x) => {
             let value = recorded("eq")?;
             let text = float_like(*x, number_text(value)?)?;
             Ok(Fix::one(value, text))
         }
-        Found::Digest(digest) => {
+        ActualValue::Digest(digest) => {
             let ValueKind::Call(call) = &expectation.kind else {
                 return Err(NOT_RECORDED.to_owned());
             };
@@ -193,17 +196,17 @@ fn fix(expectation: &Value, found: Option<&Found>) -> Result<Fix, String> {
             not_from_parameter(value)?;
             Ok(Fix::one(value, string_literal(digest)))
         }
-        Found::File { golden, bytes, .. } => Ok(Fix {
+        ActualValue::File { golden, bytes, .. } => Ok(Fix {
             edits: Vec::new(),
             file: Some((golden.clone(), bytes.clone())),
             shown: format!("{} is written", golden.display()),
         }),
-        Found::Position { at, tolerance } => {
+        ActualValue::Position { at, tolerance } => {
             // With every coordinate off by no more than this, the place is near enough.
             let edits = vector(recorded("is")?, at.to_array(), 0.5 * tolerance)?;
             Fix::several(edits, format!("({}, {}, {})", at.x, at.y, at.z))
         }
-        Found::Bounds {
+        ActualValue::Bounds {
             min,
             max,
             tolerance,

@@ -249,7 +249,7 @@ pub struct View {
 
 /// A point seen by a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
+pub struct ScreenPoint {
     /// Pixels from the left and from the top.
     pub at: DVec2,
     /// Grows with distance, and is linear over the picture for points of a plane.
@@ -320,7 +320,7 @@ impl View {
     }
 
     /// Where a point is seen; `None` if it is behind the camera.
-    pub fn see(&self, p: DVec3) -> Option<Seen> {
+    pub fn see(&self, p: DVec3) -> Option<ScreenPoint> {
         let v = self.turned(p);
         (v.z >= self.near).then(|| self.project(v))
     }
@@ -348,13 +348,13 @@ impl View {
     }
 
     /// Where something is seen that is not behind the camera.
-    pub(crate) fn project(&self, v: DVec3) -> Seen {
+    pub(crate) fn project(&self, v: DVec3) -> ScreenPoint {
         let (shrink, depth) = if self.is_perspective {
             (self.scale / v.z, -1.0 / v.z)
         } else {
             (self.scale, v.z)
         };
-        Seen {
+        ScreenPoint {
             at: self.middle + DVec2::new(v.x * shrink, -v.y * shrink),
             depth,
         }
@@ -373,7 +373,7 @@ impl View {
         }
     }
 
-    /// The depth, in the sense of [`Seen::depth`], of the plane through `p` with the normal `n` at a place of
+    /// The depth, in the sense of [`ScreenPoint::depth`], of the plane through `p` with the normal `n` at a place of
     /// the picture; `None` if the plane is seen from its edge.
     pub(crate) fn plane_depth(&self, p: DVec3, n: DVec3, at: DVec2) -> Option<f64> {
         let (origin, direction) = self.ray(at);

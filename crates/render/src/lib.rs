@@ -59,7 +59,7 @@ mod work;
 use progress::NoProgress;
 
 pub use build::{Coloring, Elements, Highlight, Overlays, PALETTE, Stroke, build, extent};
-pub use camera::{Camera, Projection, Seen, Side, Up, View};
+pub use camera::{Camera, Projection, ScreenPoint, Side, Up, View};
 pub use color::{Color, NAMES, NoColor, to_linear, to_srgb};
 pub use colormap::ColorMap;
 pub use difference::{compare, difference};

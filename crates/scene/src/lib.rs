@@ -6,8 +6,8 @@
 
 mod decode;
 mod digest;
+mod error_location;
 mod material;
-mod place;
 
 use std::sync::Arc;
 
@@ -17,8 +17,8 @@ use mesh::Mesh;
 
 pub use decode::{Arrays, DecodeError, NoArrays};
 pub use digest::Digest;
+pub use error_location::ErrorLocation;
 pub use material::{AlphaMode, Filter, Image, Material, Sampler, Texture, TextureTransform, Wrap};
-pub use place::Place;
 
 /// Objects in the order in which they were made.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,7 +1,8 @@
 //! The attributes of the next level.
 
 use mesh::{
-    Attributes, CORNER, CREASE, Column, DVec2, DVec3, DVec4, Domain, Mesh, Rule, Value, Values,
+    Attributes, CREASE, Column, DVec2, DVec3, DVec4, Domain, Mesh, Rule, VERTEX_SHARPNESS, Value,
+    Values,
 };
 use progress::{Cancelled, Meter};
 
@@ -61,7 +62,7 @@ impl From<'_> {
         if column.rule == Rule::Copy {
             let n_old = self.mesh.n_vertices();
             return match (&self.sharpness, &column.values) {
-                (Some(_), Values::Float(old)) if column.name == CORNER.name => {
+                (Some(_), Values::Float(old)) if column.name == VERTEX_SHARPNESS.name => {
                     let fade = |i: usize| match old.get(i) {
                         Some(&s) if self.topology.moves(i) => decreased(s.max(0.0)),
                         other => other.copied().unwrap_or_default(),

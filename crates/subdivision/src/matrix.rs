@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use mesh::{Attributes, CORNER, CREASE, Domain, Mesh};
+use mesh::{Attributes, CREASE, Domain, Mesh, VERTEX_SHARPNESS};
 use progress::{Cancelled, Meter, Progress};
 use rayon::prelude::*;
 
@@ -166,7 +166,10 @@ pub fn subdivision_matrix(
 /// Takes all attributes away that do not shape the surface.
 fn keep_sharpness(mesh: &mut Mesh) {
     let mut kept = Attributes::default();
-    for (domain, name) in [(Domain::Edge, CREASE.name), (Domain::Vertex, CORNER.name)] {
+    for (domain, name) in [
+        (Domain::Edge, CREASE.name),
+        (Domain::Vertex, VERTEX_SHARPNESS.name),
+    ] {
         if let Some(column) = mesh.attributes().column(domain, name) {
             kept.insert(domain, column.clone());
         }

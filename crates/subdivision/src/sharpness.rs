@@ -16,7 +16,7 @@
 //!
 //! Edges of the boundary are infinitely sharp.
 
-use mesh::{CORNER, CREASE, EdgeId, HalfEdgeId, Mesh, VertexId};
+use mesh::{CREASE, EdgeId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, VertexId};
 
 use crate::parallel::any;
 use crate::rules::{Boundary, Creasing, Rules};
@@ -157,7 +157,7 @@ impl<'a> Sharpness<'a> {
             boundary: rules.boundary,
             creasing: rules.creasing,
             edges: mesh.get(CREASE).and_then(used),
-            vertices: mesh.get(CORNER).and_then(used),
+            vertices: mesh.get(VERTEX_SHARPNESS).and_then(used),
         }
     }
 

@@ -23,7 +23,7 @@ use crate::size::Size;
 ///
 /// Vertex attributes are smoothed with the weights of the positions; corner values by
 /// [`Rules::face_varying`]; parts of an edge or a face take the values of the whole. Normals are left out,
-/// because they would be wrong. Sharpness ([`mesh::CREASE`], [`mesh::CORNER`]) shapes Loop and Catmull-Clark
+/// because they would be wrong. Sharpness ([`mesh::CREASE`], [`mesh::VERTEX_SHARPNESS`]) shapes Loop and Catmull-Clark
 /// surfaces and fades with the levels; other schemes hand it on.
 ///
 /// Progress is reported from the threads that work.

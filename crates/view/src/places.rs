@@ -10,7 +10,7 @@ use render::{
     Camera, Color, Elements, Highlight, Image, Label, Lines, Overlays, PictureError, Projection,
     Side, Stroke, Style, Up, extent,
 };
-use scene::{Place, Scene};
+use scene::{ErrorLocation, Scene};
 
 use crate::sheet::{Cell, SheetStyle, sheet};
 use crate::shot::{Shot, Subject};
@@ -45,7 +45,7 @@ const TANGENT: f64 = 0.221_694_662_642_939_43;
 /// As [`Shot::draw`].
 pub fn draw_places(
     scene: &Scene,
-    places: &[Place],
+    places: &[ErrorLocation],
     caption: &str,
     budget: u64,
     progress: &dyn Progress,
@@ -151,9 +151,9 @@ struct Around {
 }
 
 impl Around {
-    fn of(scene: &Scene, places: &[Place]) -> Self {
+    fn of(scene: &Scene, places: &[ErrorLocation]) -> Self {
         let mut around = Self::default();
-        let mut begin: HashMap<[u64; 3], Vec<&Place>> = HashMap::new();
+        let mut begin: HashMap<[u64; 3], Vec<&ErrorLocation>> = HashMap::new();
         for place in places {
             if let [first, _, _, ..] = place.points[..] {
                 begin.entry(bits(first)).or_default().push(place);
@@ -167,7 +167,8 @@ impl Around {
                 continue;
             };
             around.n_faces += mesh.n_faces();
-            let is_meant = |place: &&Place| place.object.is_empty() || place.object == object.name;
+            let is_meant =
+                |place: &&ErrorLocation| place.object.is_empty() || place.object == object.name;
             let first = places.first().filter(is_meant).map(|_| &points);
             let mut faces = Vec::new();
             for f in mesh.faces() {
@@ -196,8 +197,8 @@ impl Around {
 fn is_among(
     mesh: &Mesh,
     f: FaceId,
-    begin: &HashMap<[u64; 3], Vec<&Place>>,
-    is_meant: impl Fn(&&Place) -> bool,
+    begin: &HashMap<[u64; 3], Vec<&ErrorLocation>>,
+    is_meant: impl Fn(&&ErrorLocation) -> bool,
 ) -> bool {
     mesh.face_half_edges(f).any(|first| {
         let places = begin.get(&bits(mesh.position(mesh.origin(first))));
@@ -217,7 +218,7 @@ pub(crate) fn bits(p: DVec3) -> [u64; 3] {
 }
 
 /// The direction to look from: on the surface, somewhat aside.
-fn direction(normal: DVec3, places: &[Place], center: DVec3) -> DVec3 {
+fn direction(normal: DVec3, places: &[ErrorLocation], center: DVec3) -> DVec3 {
     let aside = DVec3::new(0.5, 0.4, 1.0).normalize();
     let middle = places
         .first()
@@ -239,7 +240,12 @@ fn angles(direction: DVec3) -> (f64, f64) {
 }
 
 /// The places in a strong color: lines and dots of these sizes in pixels; a dot too on what is smaller than `dots`.
-fn marks(places: &[Place], around: &Around, [width, dot]: [f64; 2], dots: Option<f64>) -> Overlays {
+fn marks(
+    places: &[ErrorLocation],
+    around: &Around,
+    [width, dot]: [f64; 2],
+    dots: Option<f64>,
+) -> Overlays {
     let mut overlays = Overlays::default();
     for (object, faces) in &around.faces {
         overlays.highlights.push(Highlight {
@@ -266,7 +272,7 @@ fn marks(places: &[Place], around: &Around, [width, dot]: [f64; 2], dots: Option
         });
     };
     for place in places {
-        let is_expected = place.name == Place::EXPECTED;
+        let is_expected = place.name == ErrorLocation::EXPECTED;
         let color = if is_expected { RIGHT } else { WRONG };
         let mut points = place.points.clone();
         let (middle, size) = sphere(&points);
@@ -292,10 +298,10 @@ fn beside(direction: DVec3, distance: f64) -> DVec3 {
 }
 
 /// The names of the first places.
-fn labels(places: &[Place], beside: DVec3) -> Vec<Label> {
+fn labels(places: &[ErrorLocation], beside: DVec3) -> Vec<Label> {
     let named = places.iter().filter(|place| !place.name.is_empty());
     // Names of faces stand in them, others beside a dot or a line.
-    let label = |place: &Place| {
+    let label = |place: &ErrorLocation| {
         let is_face = place.points.len() > 2;
         let aside = if is_face { DVec3::ZERO } else { beside };
         Label {
@@ -307,7 +313,7 @@ fn labels(places: &[Place], beside: DVec3) -> Vec<Label> {
 }
 
 /// The names of the first places, and how many more there are.
-fn names(places: &[Place]) -> String {
+fn names(places: &[ErrorLocation]) -> String {
     const SHOWN: usize = 8;
     let names = places.iter().map(|p| p.name.as_str());
     let names: Vec<&str> = names.filter(|n| !n.is_empty()).collect();

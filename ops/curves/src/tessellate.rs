@@ -16,7 +16,7 @@ use std::sync::Arc;
 use bezier::{BezierError, Patch, Tessellation, counts, tessellate_patch};
 use mesh::{BuildReport, Built, DVec2, DVec3, Domain, NonManifold, UV, VERTEX_NORMAL};
 use op::prelude::*;
-use op::{Operation, Wanted, chosen};
+use op::{Operation, TargetKind, chosen};
 use scene::Geometry;
 
 /// Turns Bezier patches into a mesh.
@@ -70,7 +70,7 @@ const fn eight() -> Count<1, 4096> {
     Count::literal(8)
 }
 
-const WANTED: Wanted = Wanted {
+const WANTED: TargetKind = TargetKind {
     operation: "Tessellate",
     does: "cuts patches",
     none: "no patches to cut",

@@ -10,7 +10,7 @@
 //!
 //! The numbers are those of DeRose, Kass and Truong, "Subdivision Surfaces in Character Animation", 1998.
 
-use mesh::{Attribute, CORNER, CREASE, Domain, Id};
+use mesh::{Attribute, CREASE, Domain, Id, VERTEX_SHARPNESS};
 use op::prelude::*;
 
 /// Makes edges and vertices sharp for subdivision.
@@ -51,7 +51,7 @@ impl MeshOperation for Crease {
             plan.provide(Domain::Edge, CREASE.name);
         }
         if self.vertices.is_some() {
-            plan.provide(Domain::Vertex, CORNER.name);
+            plan.provide(Domain::Vertex, VERTEX_SHARPNESS.name);
         }
         problems
     }
@@ -71,7 +71,7 @@ impl MeshOperation for Crease {
             changed += sharpen(mesh, CREASE, &edges, self.sharpness.get())?;
         }
         if let Some(vertices) = vertices {
-            changed += sharpen(mesh, CORNER, &vertices, self.sharpness.get())?;
+            changed += sharpen(mesh, VERTEX_SHARPNESS, &vertices, self.sharpness.get())?;
         }
         cx.advance("crease", 1, 1)?;
         Ok(Report::changed(changed))
@@ -135,7 +135,7 @@ mod tests {
         let crease = step("(edges: Sharp(above: 40), sharpness: 2.5)");
         let (mesh, report) = try_applied(&crease, cube.clone()).unwrap();
         assert_eq!(mesh.get(CREASE).unwrap(), [2.5; 12]);
-        assert_eq!(mesh.get(CORNER), None);
+        assert_eq!(mesh.get(VERTEX_SHARPNESS), None);
         assert_eq!(report, Report::changed(12));
         assert_eq!(mesh.positions(), cube.positions());
     }
@@ -161,7 +161,7 @@ mod tests {
         let (mesh, report) = try_applied(&crease, shapes::grid(2, 1)).unwrap();
         let sum = |numbers: &[f64]| numbers.iter().sum::<f64>();
         assert_eq!(sum(mesh.get(CREASE).unwrap()), 3.0 * 6.0);
-        assert_eq!(sum(mesh.get(CORNER).unwrap()), 3.0 * 4.0);
+        assert_eq!(sum(mesh.get(VERTEX_SHARPNESS).unwrap()), 3.0 * 4.0);
         assert_eq!(report.changed, 10);
     }
 

@@ -2,7 +2,7 @@
 
 use mesh::Domain;
 use mesh_io::{
-    NonManifold, Orientation, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions, Unwanted,
+    CleanupPolicy, NonManifold, Orientation, Peek, PeekGeometry, PeekMesh, Policies, ReadOptions,
 };
 use op::Operation;
 use op::prelude::*;
@@ -30,13 +30,13 @@ pub struct Load {
     pub orientation: Orientation,
     /// What to do with faces that have the vertices of an earlier one, either way round.
     #[serde(default)]
-    pub duplicates: Unwanted,
+    pub duplicates: CleanupPolicy,
     /// What to do with faces without area.
     #[serde(default)]
-    pub degenerate: Unwanted,
+    pub degenerate: CleanupPolicy,
     /// What to do with vertices that no face uses.
     #[serde(default)]
-    pub isolated: Unwanted,
+    pub isolated: CleanupPolicy,
     /// Whether to fail where something of the file would be left out.
     #[serde(default)]
     pub strict: bool,

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mesh::{CORNER, CREASE, DVec2, DVec3, Mesh, UV, VertexId};
+use mesh::{CREASE, DVec2, DVec3, Mesh, UV, VERTEX_SHARPNESS, VertexId};
 use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split};
 
 /// A case or a result: lines of a word and what belongs to it.
@@ -116,7 +116,7 @@ pub(super) fn mesh_of(case: &Lines) -> Mesh {
     for (v, sharpness) in case.corners() {
         corners[v.index()] = sharpness;
     }
-    mesh.set(CORNER, corners);
+    mesh.set(VERTEX_SHARPNESS, corners);
 
     let uvs = case.uvs();
     if !uvs.is_empty() {

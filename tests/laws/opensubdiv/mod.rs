@@ -5,7 +5,7 @@ mod case;
 
 use std::collections::BTreeMap;
 
-use mesh::{CORNER, CREASE, DVec2, DVec3, EdgeId, FaceId, Mesh, UV, VertexId};
+use mesh::{CREASE, DVec2, DVec3, EdgeId, FaceId, Mesh, UV, VERTEX_SHARPNESS, VertexId};
 use op::NoProgress;
 use subdivision::{Rules, Scheme, subdivide};
 
@@ -129,7 +129,7 @@ fn sharpness_differs(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Ve
         failures.push(format!("{wrong} edges have another sharpness"));
     }
 
-    let column = mesh.get(CORNER).unwrap_or_default();
+    let column = mesh.get(VERTEX_SHARPNESS).unwrap_or_default();
     let differs = |v: &VertexId| {
         let wanted = corners.get(&partners[v.index()]).copied().unwrap_or(0.0);
         let here = column.get(v.index()).copied().unwrap_or(0.0);
@@ -293,7 +293,10 @@ fn a_wrong_mesh_is_found_out() {
     };
     assert_eq!(wrong(|mesh| mesh.positions_mut()[7].x += 1e-5), 1);
     assert_eq!(wrong(|mesh| mesh.get_mut(UV).unwrap()[40].x += 1e-5), 1);
-    assert_eq!(wrong(|mesh| mesh.get_mut(CORNER).unwrap()[9] += 1e-5), 1);
+    assert_eq!(
+        wrong(|mesh| mesh.get_mut(VERTEX_SHARPNESS).unwrap()[9] += 1e-5),
+        1
+    );
     assert_eq!(wrong(|mesh| mesh.get_mut(CREASE).unwrap().fill(1.0)), 1);
     assert_eq!(
         wrong(|mesh| drop(mesh.remove_column(mesh::Domain::Corner, "uv"))),

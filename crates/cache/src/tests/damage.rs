@@ -98,8 +98,8 @@ fn a_scene_that_is_lost_is_made_again_and_said_so() {
     }
     let outcome = place.run(&text.replace("Lift(by: 2)", "Lift(by: 3)"));
     let whys: Vec<_> = outcome.steps.iter().map(|step| step.ran.clone()).collect();
-    assert_eq!(whys[0], Some(Why::Gone));
-    assert_eq!(whys[1], Some(Why::Gone));
+    assert_eq!(whys[0], Some(RerunReason::Gone));
+    assert_eq!(whys[1], Some(RerunReason::Gone));
     assert!(
         outcome
             .cache_notes

@@ -1,7 +1,7 @@
 //! How files of meshes are read.
 
 use clap::Args as ClapArgs;
-use mesh_io::{NonManifold, Orientation, Policies, ReadOptions, Unwanted};
+use mesh_io::{CleanupPolicy, NonManifold, Orientation, Policies, ReadOptions};
 use serde::de::value::StrDeserializer;
 use serde::de::{DeserializeOwned, IntoDeserializer};
 
@@ -18,14 +18,14 @@ pub(crate) struct ReadArgs {
     #[arg(long, default_value = "Orient", value_name = "POLICY", value_parser = policy::<Orientation>)]
     orientation: Orientation,
     /// Faces with the vertices of an earlier one: Keep or Drop
-    #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<Unwanted>)]
-    duplicates: Unwanted,
+    #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<CleanupPolicy>)]
+    duplicates: CleanupPolicy,
     /// Faces without area: Keep or Drop
-    #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<Unwanted>)]
-    degenerate: Unwanted,
+    #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<CleanupPolicy>)]
+    degenerate: CleanupPolicy,
     /// Vertices that no face uses: Keep or Drop
-    #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<Unwanted>)]
-    isolated: Unwanted,
+    #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<CleanupPolicy>)]
+    isolated: CleanupPolicy,
 }
 
 impl ReadArgs {

@@ -226,7 +226,7 @@ fn counts_json(counts: &Counts) -> Json {
 }
 
 fn side_json(side: &OneSided) -> Json {
-    let place = |place: &geometry::distance::Place| json!({ "on": place.on.to_string(), "position": place.position.to_array() });
+    let place = |place: &geometry::distance::SurfacePoint| json!({ "on": place.on.to_string(), "position": place.position.to_array() });
     json!({
         "largest": side.largest, "at_most": side.at_most, "mean": side.mean,
         "from": place(&side.from), "to": place(&side.to),

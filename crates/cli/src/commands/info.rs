@@ -5,7 +5,7 @@ use std::path::Path;
 use engine::BUDGET;
 use mesh::{Elements, Mesh, VertexId};
 use mesh_io::{Note, NoteKind};
-use op::Place;
+use op::ErrorLocation;
 use ops_pictures::Picture;
 use scene::{Geometry, Object, Scene};
 use serde_json::json;
@@ -13,7 +13,7 @@ use serde_json::json;
 use crate::args::{Format, InfoArgs};
 use crate::commands::picture::draw_found;
 use crate::output::{counted, grouped, print, print_json};
-use crate::scenes::{Found, read_file};
+use crate::scenes::{SceneAtStep, read_file};
 use crate::terminal_picture;
 
 pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
@@ -53,14 +53,14 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
 }
 
 /// The elements that a note is about, as a picture shows them.
-fn places(note: &Note) -> Vec<Place> {
+fn places(note: &Note) -> Vec<ErrorLocation> {
     let names: Vec<String> = match &note.elements {
         Some(Elements::Vertices(list)) => list.iter().map(ToString::to_string).collect(),
         Some(Elements::Edges(list)) => list.iter().map(|[v, w]| format!("{v}-{w}")).collect(),
         Some(Elements::Faces(list)) => list.iter().map(|f| format!("face {f}")).collect(),
         None => Vec::new(),
     };
-    let place = |(name, points): (String, &Vec<_>)| Place {
+    let place = |(name, points): (String, &Vec<_>)| ErrorLocation {
         object: String::new(),
         name,
         points: points.clone(),
@@ -73,7 +73,7 @@ fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
     let stream = String::new();
     let mut picture = Picture::new("info.png");
     picture.size = [640, 480].map(op::Count::literal);
-    let images = draw_found(&picture, path, &[(Found { scene, stream }, "")], &[])?;
+    let images = draw_found(&picture, path, &[(SceneAtStep { scene, stream }, "")], &[])?;
     terminal_picture::show(&images[0])?;
     Ok(())
 }

@@ -16,7 +16,7 @@ use crate::args::{DrawArgs, PictureArgs, WrongUsage};
 use crate::commands::batch::inputs;
 use crate::listener::{QUIET, Terminal, catch_interrupts};
 use crate::output::{STAMP, complain, print, write_whole};
-use crate::scenes::{Found, find};
+use crate::scenes::{SceneAtStep, find};
 use engine::{BUDGET, Engine, Stop};
 
 pub(crate) fn run(args: &PictureArgs, engine: &Engine) -> anyhow::Result<bool> {
@@ -137,7 +137,7 @@ fn draw(
     path: &Path,
     engine: &Engine,
 ) -> anyhow::Result<Vec<Image>> {
-    let scene = |stop| -> anyhow::Result<Found> {
+    let scene = |stop| -> anyhow::Result<SceneAtStep> {
         find(path, &args.read.options(), &args.values, stop, engine)
     };
     let stop = |after, before| Stop { after, before };
@@ -171,7 +171,7 @@ pub(crate) fn check_names(on: &[String], scenes: &[&Scene]) -> anyhow::Result<()
 pub(crate) fn draw_found(
     picture: &Picture,
     path: &Path,
-    founds: &[(Found, &str)],
+    founds: &[(SceneAtStep, &str)],
     on: &[String],
 ) -> anyhow::Result<Vec<Image>> {
     // As a step would: what is read lies beside the file or the recipe.

@@ -49,14 +49,14 @@ pub struct OneSided {
     /// there is no area.
     pub mean: f64,
     /// Where the largest one begins.
-    pub from: Place,
+    pub from: SurfacePoint,
     /// Where it ends: the nearest point of the other surface.
-    pub to: Place,
+    pub to: SurfacePoint,
 }
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct SurfacePoint {
     /// Where it is.
     pub position: DVec3,
     /// The vertex or face that it lies on.
@@ -120,7 +120,7 @@ pub fn diagonal(a: &Mesh, b: &Mesh) -> f64 {
     }
 }
 
-impl std::fmt::Display for Place {
+impl std::fmt::Display for SurfacePoint {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} at {}", self.on, self.position)
     }

@@ -3,7 +3,7 @@
 use mesh::{DVec3, Element, FaceId};
 use rayon::prelude::*;
 
-use super::Place;
+use super::SurfacePoint;
 use super::surface::{Hit, Surface};
 use super::triangle::between_segments;
 
@@ -53,9 +53,9 @@ impl Farthest {
         }
     }
 
-    pub(super) fn places(&self, to: &Surface) -> (Place, Place) {
+    pub(super) fn places(&self, to: &Surface) -> (SurfacePoint, SurfacePoint) {
         let Sample { at, hit } = self.sample;
-        let place = |position, on| Place { position, on };
+        let place = |position, on| SurfacePoint { position, on };
         let face = to.triangle(hit.triangle).face;
         (place(at, self.on), place(hit.point, Element::Face(face)))
     }

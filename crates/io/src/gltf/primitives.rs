@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, DVec4};
 use gltf_json::accessor::Type;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
-use mesh::{Attributes, CORNER, CORNER_NORMAL, Column, Domain, Rule, Value};
+use mesh::{Attributes, CORNER_NORMAL, Column, Domain, Rule, VERTEX_SHARPNESS, Value};
 
 use super::document::get;
 use super::names::attribute_name;
@@ -234,7 +234,7 @@ fn read_column(
     };
     let rule = match name.as_str() {
         "normal" => CORNER_NORMAL.rule,
-        "corner" => CORNER.rule,
+        "corner" => VERTEX_SHARPNESS.rule,
         _ => Rule::Interpolate,
     };
     Ok(Some(Column { name, rule, values }))

@@ -47,7 +47,7 @@ fn attributes_of_any_name_and_size_come_back_the_same() {
             "_uv",
             numbers().map(DVec4::splat).collect(),
         );
-        mesh.set(mesh::CORNER, numbers().collect());
+        mesh.set(mesh::VERTEX_SHARPNESS, numbers().collect());
         let uvs: Vec<DVec2> = mesh.get(UV).unwrap().iter().map(|uv| uv.yx()).collect();
         add_column(&mut mesh, Domain::Corner, "uv1", uvs);
         let mut stress = vec![DVec3::ZERO; mesh.n_half_edges()];

@@ -3,8 +3,8 @@
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{
-    COLOR, CORNER, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Mesh, Rule, TANGENT, UV,
-    VERTEX_NORMAL, Values,
+    COLOR, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Mesh, Rule, TANGENT, UV, VERTEX_NORMAL,
+    VERTEX_SHARPNESS, Values,
 };
 use mesh_io::{Polygons, ReadOptions, WriteOptions};
 use scene::{Material, Object};
@@ -53,7 +53,7 @@ pub(crate) fn rich() -> Mesh {
         COLOR,
         (0..9).map(|i| DVec4::splat(f64::from(i) / 255.0)).collect(),
     );
-    mesh.set(CORNER, vertices(&|i| i / 3.0));
+    mesh.set(VERTEX_SHARPNESS, vertices(&|i| i / 3.0));
     let float = |rule, values| (rule, Values::Float(values));
     for (name, (rule, values)) in [
         ("quality", float(Rule::Interpolate, vertices(&|i| i / 7.0))),
@@ -255,7 +255,7 @@ fn what_a_file_does_not_hold_is_a_loss() {
     let folder = Folder::new();
     let mut mesh = shapes::cube();
     mesh.set(CREASE, vec![1.0; 12]);
-    mesh.set(CORNER, vec![f64::NAN; 8]);
+    mesh.set(VERTEX_SHARPNESS, vec![f64::NAN; 8]);
     let path = folder.path("a.ply");
     let report = write(&path, [Object::mesh("a", mesh)]);
     let lost: Vec<_> = report

@@ -10,7 +10,7 @@ use mesh::Domain;
 use op::{Loss, MeshPlan, Plan, PlannedAttribute, PlannedGeometry, PlannedObject};
 
 use crate::expect::Expectation;
-use crate::recipe::{OnLoss, Placed, RecipeStep};
+use crate::recipe::{OnLoss, RecipeExpectation, RecipeStep};
 use crate::shape::did_you_mean;
 use ron_tree::{Diagnostic, Span, Value, ValueKind};
 
@@ -88,7 +88,12 @@ impl Attributes {
     }
 
     /// Reports an expected attribute that cannot be there.
-    pub(super) fn expected(&self, placed: &Placed, plan: &Plan, found: &mut Vec<Diagnostic>) {
+    pub(super) fn expected(
+        &self,
+        placed: &RecipeExpectation,
+        plan: &Plan,
+        found: &mut Vec<Diagnostic>,
+    ) {
         let Expectation::HasAttribute { domain, name } = &placed.that else {
             return;
         };

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use op::{Files, Plan, PlanContext, Problem, Range};
 
 use crate::expect::{Other, golden};
-use crate::recipe::{Placed, Recipe, RecipeStep};
+use crate::recipe::{Recipe, RecipeExpectation, RecipeStep};
 use crate::shape::did_you_mean;
 use ron_tree::{Diagnostic, Span, field_span};
 
@@ -194,7 +194,7 @@ pub fn mebibytes(bytes: u64) -> String {
 
 /// What is wrong with an expectation at this point.
 fn expected(
-    placed: &Placed,
+    placed: &RecipeExpectation,
     plan: &Plan,
     attributes: &Attributes,
     files: &[Files],

@@ -5,7 +5,7 @@ use op::{Elements, Files};
 use scene::Object;
 
 use super::places::double_edges;
-use super::subject::{Broken, Ends, Found, Subject, fails_unless, near, selected, within};
+use super::subject::{ActualValue, Ends, Subject, Violation, fails_unless, near, selected, within};
 use super::{Expectation, output, same, symmetry};
 use geometry::distance::{Distance, TOLERANCE, diagonal};
 
@@ -16,10 +16,10 @@ impl Expectation {
     ///
     /// What was expected and what was found.
     #[expect(clippy::too_many_lines, reason = "one arm for each expectation")]
-    pub fn hold(&self, subject: Subject) -> Result<(), Broken> {
+    pub fn hold(&self, subject: Subject) -> Result<(), Violation> {
         match self {
             Self::Not(inner) => match inner.hold(subject) {
-                Ok(()) => Err(Broken::unmet(format!(
+                Ok(()) => Err(Violation::unmet(format!(
                     "expected {inner} not to hold, but it does"
                 ))),
                 Err(broken) if broken.is_unknown => Err(broken.message.into()),
@@ -31,7 +31,7 @@ impl Expectation {
                     return Ok(());
                 }
                 let message = format!("expected the digest {expected}, found {found}");
-                Err(Broken::recorded(message, Found::Digest(found)))
+                Err(Violation::recorded(message, ActualValue::Digest(found)))
             }
             Self::Output {
                 path,
@@ -98,7 +98,7 @@ impl Expectation {
                 let open = mesh.edges().find(|&e| mesh.is_boundary_edge(e));
                 open.map_or(Ok(()), |e| {
                     let edge = Ends(mesh, e);
-                    Err(Broken::unmet(format!(
+                    Err(Violation::unmet(format!(
                         "expected no boundary, but {name} has one at {edge}"
                     )))
                 })
@@ -145,7 +145,7 @@ impl Expectation {
             } => {
                 let (_, mesh) = subject.one_mesh()?;
                 let other = subject.other(r#as)?;
-                same::check(mesh, &other, *tolerance, *connectivity).map_err(Broken::unmet)
+                same::check(mesh, &other, *tolerance, *connectivity).map_err(Violation::unmet)
             }
             Self::DistanceTo { other, below } => {
                 let (_, mesh) = subject.one_mesh()?;
@@ -176,7 +176,7 @@ impl Expectation {
     }
 }
 
-fn count(of: &Elements, object: &Object, mesh: &Mesh, files: &Files) -> Result<u64, Broken> {
+fn count(of: &Elements, object: &Object, mesh: &Mesh, files: &Files) -> Result<u64, Violation> {
     let n = match of {
         Elements::Vertices(s) => selected(s, object, mesh, files)?.len(),
         Elements::Edges(s) => selected(s, object, mesh, files)?.len(),
@@ -187,12 +187,12 @@ fn count(of: &Elements, object: &Object, mesh: &Mesh, files: &Files) -> Result<u
 
 /// Whether the Hausdorff distance is below a limit for certain: what could be on either side of it is measured
 /// as finely as it takes.
-fn distance_below(mesh: &Mesh, other: &Mesh, below: f64) -> Result<(), Broken> {
+fn distance_below(mesh: &Mesh, other: &Mesh, below: f64) -> Result<(), Violation> {
     let size = diagonal(mesh, other);
     let tolerance = (TOLERANCE * size).min(1e-3 * below).max(1e-12 * size);
     let Some(found) = Distance::between(mesh, other, Some(tolerance)) else {
         let message = format!("expected a distance below {below}, but a mesh has no faces");
-        return Err(Broken::unmet(message));
+        return Err(Violation::unmet(message));
     };
     fails_unless(found.at_most() < below, || {
         let (largest, worst) = (found.largest(), found.worst());
@@ -211,17 +211,17 @@ fn distance_below(mesh: &Mesh, other: &Mesh, below: f64) -> Result<(), Broken> {
     })
 }
 
-fn manifold(name: &str, mesh: &Mesh) -> Result<(), Broken> {
+fn manifold(name: &str, mesh: &Mesh) -> Result<(), Violation> {
     // All threads ask first: naming what is wrong takes longer.
     if !mesh.is_valid()
         && let Some(defect) = mesh.defects().first()
     {
         let message = format!("expected a manifold, but in {name} {defect}");
-        return Err(Broken::unmet(message));
+        return Err(Violation::unmet(message));
     }
     double_edges(mesh).first().map_or(Ok(()), |&e| {
         let [v, w] = mesh.edge_vertices(e);
-        Err(Broken::unmet(format!(
+        Err(Violation::unmet(format!(
             "expected a manifold, but in {name} several edges join {v} and {w}"
         )))
     })

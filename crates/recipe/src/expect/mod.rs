@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 pub(crate) use output::golden;
 pub(crate) use same::same_faces;
-pub use subject::{Broken, Found, Reader, Subject};
+pub use subject::{ActualValue, Reader, Subject, Violation};
 pub use symmetry::Group;
 
 /// What must hold for a scene. Where it speaks of the mesh, it means all meshes together, or those of

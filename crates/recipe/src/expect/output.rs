@@ -9,7 +9,7 @@ use op::Files;
 use scene::{Digest, Object, Scene};
 use store::TemporaryFolder;
 
-use super::subject::{Broken, Found, Subject, fails_unless};
+use super::subject::{ActualValue, Subject, Violation, fails_unless};
 
 /// The bytes of a larger file are not kept to renew what it is held against.
 const LARGEST: u64 = 64 << 20;
@@ -67,14 +67,14 @@ pub(super) fn check(
     path: &str,
     beside: &str,
     tolerance: u8,
-) -> Result<(), Broken> {
+) -> Result<(), Violation> {
     let files = subject.files;
     let written = files.to_write(path).map_err(|error| error.to_string())?;
     let golden = golden(files, beside)?;
     if !files.store.is_file(&written) {
         return Err(format!("no step has written \"{path}\" so far").into());
     }
-    let after_colon = |broken: Broken| Broken {
+    let after_colon = |broken: Violation| Violation {
         message: format!(": {}", broken.message),
         ..broken
     };
@@ -94,12 +94,12 @@ pub(super) fn check(
 
 /// The same with what is found in place of the golden file, if that can be said in one file.
 fn recorded(
-    mut broken: Broken,
+    mut broken: Violation,
     written: &Path,
     golden: &Path,
     tolerance: u8,
     subject: Subject,
-) -> Broken {
+) -> Violation {
     let store = &subject.files.store;
     let why = if store.len(written).is_none_or(|len| len > LARGEST) {
         "is too large to be recorded".to_owned()
@@ -107,7 +107,7 @@ fn recorded(
         match store.read(written) {
             Ok(bytes) if stands_alone(written, golden, &bytes, subject) => {
                 let golden = golden.to_path_buf();
-                broken.found = Some(Found::File {
+                broken.found = Some(ActualValue::File {
                     golden,
                     bytes,
                     tolerance,
@@ -119,7 +119,7 @@ fn recorded(
             Err(error) => format!("cannot be read: {}", error.error),
         }
     };
-    Broken::unmet(format!("{}; it {why}", broken.message))
+    Violation::unmet(format!("{}; it {why}", broken.message))
 }
 
 /// Whether a file says the same without those beside it, such as the materials of an OBJ file, under the name of
@@ -147,7 +147,7 @@ fn compare_pictures(
     golden: &Path,
     tolerance: u8,
     subject: Subject,
-) -> Result<(), Broken> {
+) -> Result<(), Violation> {
     let bytes = |path| {
         let bytes = subject.files.store.read(path);
         bytes.map_err(|error| error.to_string())
@@ -156,11 +156,11 @@ fn compare_pictures(
     let differs = subject
         .reader
         .compare_pictures((written, &now), (golden, &then), tolerance)?;
-    differs.map_or(Ok(()), |message| Err(Broken::unmet(message)))
+    differs.map_or(Ok(()), |message| Err(Violation::unmet(message)))
 }
 
 /// What is other in files that are no pictures.
-fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Broken> {
+fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violation> {
     let (reader, files) = (subject.reader, subject.files);
     // What is no file of objects is a file of bytes.
     if let Ok(now) = reader.objects(written, files) {
@@ -179,7 +179,7 @@ fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Broken
         return Ok(());
     }
     let at = now.iter().zip(&then).position(|(a, b)| a != b);
-    Err(Broken::unmet(match at {
+    Err(Violation::unmet(match at {
         Some(at) => {
             let line = then[..at].split(|b| *b == b'\n').count();
             format!("byte {at}, in line {line}, is the first that differs")

@@ -2,7 +2,7 @@
 
 use geometry::distance::Distance;
 use mesh::{DVec3, EdgeId, Element, FaceId, Mesh, VertexId};
-use op::{Elements, Place, Select};
+use op::{Elements, ErrorLocation, Select};
 use scene::Object;
 
 use super::same::Points;
@@ -10,9 +10,9 @@ use super::subject::{Subject, least_angle, selected};
 use super::{Expectation, symmetry};
 
 impl Expectation {
-    /// The places in the scene that break the expectation, at most [`Place::MOST`]. None if it is not about
+    /// The places in the scene that break the expectation, at most [`ErrorLocation::MOST`]. None if it is not about
     /// elements, and for the contrary of another one.
-    pub fn places(&self, subject: Subject) -> Vec<Place> {
+    pub fn places(&self, subject: Subject) -> Vec<ErrorLocation> {
         let mut places = Vec::new();
         for (object, mesh) in subject.meshes().unwrap_or_default() {
             let found = Meant {
@@ -21,7 +21,7 @@ impl Expectation {
                 mesh,
             };
             places.extend(found.places(self));
-            places.truncate(Place::MOST);
+            places.truncate(ErrorLocation::MOST);
         }
         if let Self::Point {
             line, index, is, ..
@@ -46,7 +46,7 @@ struct Meant<'a> {
 }
 
 impl Meant<'_> {
-    fn places(&self, expectation: &Expectation) -> Vec<Place> {
+    fn places(&self, expectation: &Expectation) -> Vec<ErrorLocation> {
         let mesh = self.mesh;
         match expectation {
             Expectation::Closed | Expectation::BoundaryLoops { .. } => {
@@ -122,7 +122,7 @@ impl Meant<'_> {
         measure: impl Fn(S::Id) -> Option<T>,
         min: Option<T>,
         max: Option<T>,
-    ) -> Vec<Place>
+    ) -> Vec<ErrorLocation>
     where
         S::Id: Into<Element>,
     {
@@ -130,16 +130,16 @@ impl Meant<'_> {
         self.named(self.selected(of).into_iter().filter(is_off))
     }
 
-    fn named<E: Into<Element>>(&self, elements: impl IntoIterator<Item = E>) -> Vec<Place> {
+    fn named<E: Into<Element>>(&self, elements: impl IntoIterator<Item = E>) -> Vec<ErrorLocation> {
         let places = elements.into_iter();
         places
-            .filter_map(|element| Place::of(&self.object.name, self.mesh, element))
-            .take(Place::MOST)
+            .filter_map(|element| ErrorLocation::of(&self.object.name, self.mesh, element))
+            .take(ErrorLocation::MOST)
             .collect()
     }
 
     /// The vertices of either mesh that lie on none of the other.
-    fn unlike(&self, other: &Mesh, tolerance: f64) -> Vec<Place> {
+    fn unlike(&self, other: &Mesh, tolerance: f64) -> Vec<ErrorLocation> {
         let (these, others) = (Points::new(self.mesh), Points::new(other));
         let mut places = self.named(self.mesh.vertices().filter(|&v| {
             let p = self.mesh.position(v);
@@ -147,14 +147,14 @@ impl Meant<'_> {
         }));
         let missing = other.vertices().map(|v| other.position(v));
         // Some of either.
-        places.truncate(Place::MOST / 2);
+        places.truncate(ErrorLocation::MOST / 2);
         let missing = missing.filter(|&p| !these.any_near(p, tolerance));
-        places.extend(missing.map(expected).take(Place::MOST / 2));
+        places.extend(missing.map(expected).take(ErrorLocation::MOST / 2));
         places
     }
 
     /// Where two surfaces are farthest apart: the place of this one, and the way to or from the other.
-    fn farthest(&self, found: &Distance) -> Vec<Place> {
+    fn farthest(&self, found: &Distance) -> Vec<ErrorLocation> {
         let worst = found.worst();
         let on = if found.is_worst_forth() {
             worst.from.on
@@ -162,7 +162,7 @@ impl Meant<'_> {
             worst.to.on
         };
         let mut places = self.named([on]);
-        places.push(Place {
+        places.push(ErrorLocation {
             object: self.object.name.clone(),
             name: String::new(),
             points: vec![worst.from.position, worst.to.position],
@@ -176,8 +176,8 @@ fn within<T: PartialOrd + Copy>(found: T, min: Option<T>, max: Option<T>) -> boo
 }
 
 /// Where something is that has no name.
-fn point(at: DVec3) -> Place {
-    Place {
+fn point(at: DVec3) -> ErrorLocation {
+    ErrorLocation {
         object: String::new(),
         name: String::new(),
         points: vec![at],
@@ -185,9 +185,9 @@ fn point(at: DVec3) -> Place {
 }
 
 /// Where something should be.
-fn expected(at: DVec3) -> Place {
-    Place {
-        name: Place::EXPECTED.to_owned(),
+fn expected(at: DVec3) -> ErrorLocation {
+    ErrorLocation {
+        name: ErrorLocation::EXPECTED.to_owned(),
         ..point(at)
     }
 }

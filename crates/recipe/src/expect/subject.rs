@@ -39,16 +39,16 @@ pub trait Reader: Sync {
 
 /// An expectation that does not hold.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Broken {
+pub struct Violation {
     /// What was expected and what was found, in one line.
     pub message: String,
     /// What was found, if a value that the expectation records is another one.
-    pub found: Option<Found>,
+    pub found: Option<ActualValue>,
     /// Whether nothing could be compared: then the contrary does not hold either.
     pub(super) is_unknown: bool,
 }
 
-impl Broken {
+impl Violation {
     /// The scene is not as expected.
     pub(super) fn unmet(message: impl Into<String>) -> Self {
         Self {
@@ -59,7 +59,7 @@ impl Broken {
     }
 
     /// A value that the recipe records is another one in the scene.
-    pub(super) fn recorded(message: String, found: Found) -> Self {
+    pub(super) fn recorded(message: String, found: ActualValue) -> Self {
         Self {
             found: Some(found),
             ..Self::unmet(message)
@@ -67,7 +67,7 @@ impl Broken {
     }
 }
 
-impl From<String> for Broken {
+impl From<String> for Violation {
     fn from(message: String) -> Self {
         Self {
             is_unknown: true,
@@ -76,7 +76,7 @@ impl From<String> for Broken {
     }
 }
 
-impl From<&str> for Broken {
+impl From<&str> for Violation {
     fn from(message: &str) -> Self {
         message.to_owned().into()
     }
@@ -84,7 +84,7 @@ impl From<&str> for Broken {
 
 /// What was found in place of a value that an expectation records.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Found {
+pub enum ActualValue {
     /// A whole number, in place of `eq`.
     Count(i128),
     /// A number, in place of `eq`.
@@ -170,8 +170,8 @@ impl<'a> Subject<'a> {
 
     pub(super) fn each_mesh(
         &self,
-        ask: impl Fn(&str, &Mesh) -> Result<(), Broken>,
-    ) -> Result<(), Broken> {
+        ask: impl Fn(&str, &Mesh) -> Result<(), Violation>,
+    ) -> Result<(), Violation> {
         let meshes = self.meshes()?;
         if meshes.is_empty() {
             return Err("expected a mesh, found none".into());
@@ -221,7 +221,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    pub(super) fn bounds(&self, min: Vector, max: Vector, tolerance: f64) -> Result<(), Broken> {
+    pub(super) fn bounds(&self, min: Vector, max: Vector, tolerance: f64) -> Result<(), Violation> {
         let points = self.points()?;
         let Some(&first) = points.first() else {
             return Err("expected points, found none".into());
@@ -234,20 +234,20 @@ impl<'a> Subject<'a> {
         }
         let (min, max) = (DVec3::from(min), DVec3::from(max));
         let message = format!("expected bounds from {min} to {max}, found {low} to {high}");
-        let found = Found::Bounds {
+        let found = ActualValue::Bounds {
             min: low,
             max: high,
             tolerance,
         };
-        Err(Broken::recorded(message, found))
+        Err(Violation::recorded(message, found))
     }
 
     /// Asks about every element of a selection, of which there must be one.
     pub(super) fn each_selected<S: Select>(
         &self,
         of: &S,
-        mut ask: impl FnMut(&Mesh, S::Id) -> Result<(), Broken>,
-    ) -> Result<(), Broken> {
+        mut ask: impl FnMut(&Mesh, S::Id) -> Result<(), Violation>,
+    ) -> Result<(), Violation> {
         let mut is_empty = true;
         for (object, mesh) in self.meshes()? {
             for id in selected(of, object, mesh, self.files)? {
@@ -266,7 +266,7 @@ impl<'a> Subject<'a> {
         &self,
         of: &EdgeSelection,
         [min, max, reaches]: [Option<f64>; 3],
-    ) -> Result<(), Broken> {
+    ) -> Result<(), Violation> {
         let mut largest: Option<f64> = None;
         self.each_selected(of, |mesh, e| {
             let Some(angle) = mesh.dihedral_angle(e).map(f64::to_degrees) else {
@@ -287,7 +287,7 @@ impl<'a> Subject<'a> {
     }
 
     /// The smallest corner angle of the faces of a selection, in degrees, and the face that has it.
-    pub(crate) fn smallest_angle(&self, of: &FaceSelection) -> Result<(f64, FaceId), Broken> {
+    pub(crate) fn smallest_angle(&self, of: &FaceSelection) -> Result<(f64, FaceId), Violation> {
         let mut smallest = (f64::INFINITY, FaceId::NONE);
         self.each_selected(of, |mesh, f| {
             let angle = least_angle(mesh, f);
@@ -303,7 +303,7 @@ impl<'a> Subject<'a> {
         &self,
         of: &FaceSelection,
         bounds: [Option<f64>; 3],
-    ) -> Result<(), Broken> {
+    ) -> Result<(), Violation> {
         let (object, mesh) = self.one_mesh()?;
         let chosen = selected(of, object, mesh, self.files)?;
         let mut areas: Vec<f64> = mesh.faces().map(|f| mesh.face_area(f)).collect();
@@ -321,7 +321,7 @@ impl<'a> Subject<'a> {
         of: &VertexSelection,
         is: DVec3,
         tolerance: f64,
-    ) -> Result<(), Broken> {
+    ) -> Result<(), Violation> {
         let (object, mesh) = self.one_mesh()?;
         let chosen = selected(of, object, mesh, self.files)?;
         let [v] = chosen[..] else {
@@ -360,11 +360,11 @@ impl<'a> Subject<'a> {
         index: u32,
         is: DVec3,
         tolerance: f64,
-    ) -> Result<(), Broken> {
+    ) -> Result<(), Violation> {
         let lines = self.polylines()?;
         let Some(&found) = lines.get(line as usize).and_then(|l| l.get(index as usize)) else {
             let message = format!("there is no point {index} on a polyline {line}");
-            return Err(Broken::unmet(message));
+            return Err(Violation::unmet(message));
         };
         found_at(found, is, tolerance, || {
             format!("point {index} of polyline {line}")
@@ -379,11 +379,11 @@ pub(super) fn selected<S: Select>(
     object: &Object,
     mesh: &Mesh,
     files: &Files,
-) -> Result<Vec<S::Id>, Broken> {
+) -> Result<Vec<S::Id>, Violation> {
     let mut cx = Context::new(&NoProgress, files);
     cx.materials = object.materials.iter().map(|m| m.name.clone()).collect();
     selection.resolve(mesh, &cx).map_err(|error| match error {
-        OpError::Refused { message, .. } => Broken::unmet(message),
+        OpError::Refused { message, .. } => Violation::unmet(message),
         other => other.to_string().into(),
     })
 }
@@ -409,19 +409,22 @@ fn found_at(
     is: DVec3,
     tolerance: f64,
     what: impl FnOnce() -> String,
-) -> Result<(), Broken> {
+) -> Result<(), Violation> {
     if at.distance(is) <= tolerance {
         return Ok(());
     }
     let message = format!("expected {} at {is}, found it at {at}", what());
-    Err(Broken::recorded(message, Found::Position { at, tolerance }))
+    Err(Violation::recorded(
+        message,
+        ActualValue::Position { at, tolerance },
+    ))
 }
 
-pub(super) fn fails_unless(holds: bool, message: impl FnOnce() -> String) -> Result<(), Broken> {
+pub(super) fn fails_unless(holds: bool, message: impl FnOnce() -> String) -> Result<(), Violation> {
     if holds {
         Ok(())
     } else {
-        Err(Broken::unmet(message()))
+        Err(Violation::unmet(message()))
     }
 }
 
@@ -429,13 +432,13 @@ pub(super) fn within<T: PartialOrd + fmt::Display + Copy + Into<i128>>(
     what: impl fmt::Display,
     found: T,
     bounds: [Option<T>; 3],
-) -> Result<(), Broken> {
+) -> Result<(), Violation> {
     let is_equal = bounds[0].is_none_or(|n| found == n);
     bounded(
         found,
         bounds,
         is_equal,
-        Found::Count(found.into()),
+        ActualValue::Count(found.into()),
         |word, n| {
             let what = what.to_string();
             let what = counted(&what, n.into());
@@ -463,11 +466,15 @@ pub(super) fn near(
     found: f64,
     bounds: [Option<f64>; 3],
     tolerance: f64,
-) -> Result<(), Broken> {
+) -> Result<(), Violation> {
     let is_equal = bounds[0].is_none_or(|x| (found - x).abs() <= tolerance);
-    bounded(found, bounds, is_equal, Found::Number(found), |word, x| {
-        format!("expected {what} of {word}{x}, found {found}")
-    })
+    bounded(
+        found,
+        bounds,
+        is_equal,
+        ActualValue::Number(found),
+        |word, x| format!("expected {what} of {word}{x}, found {found}"),
+    )
 }
 
 /// Fails with the first of the bounds `eq`, `min` and `max` that is broken. Only where `eq` alone is broken, recording
@@ -476,18 +483,18 @@ fn bounded<T: PartialOrd + Copy>(
     found: T,
     [eq, min, max]: [Option<T>; 3],
     is_equal: bool,
-    recorded: Found,
+    recorded: ActualValue,
     message: impl Fn(&str, T) -> String,
-) -> Result<(), Broken> {
+) -> Result<(), Violation> {
     let is_high_enough = min.is_none_or(|min| found >= min);
     let is_low_enough = max.is_none_or(|max| found <= max);
     match (eq, min, max) {
-        (Some(eq), ..) if !is_equal => Err(Broken {
+        (Some(eq), ..) if !is_equal => Err(Violation {
             found: (is_high_enough && is_low_enough).then_some(recorded),
-            ..Broken::unmet(message("", eq))
+            ..Violation::unmet(message("", eq))
         }),
-        (_, Some(min), _) if !is_high_enough => Err(Broken::unmet(message("at least ", min))),
-        (.., Some(max)) if !is_low_enough => Err(Broken::unmet(message("at most ", max))),
+        (_, Some(min), _) if !is_high_enough => Err(Violation::unmet(message("at least ", min))),
+        (.., Some(max)) if !is_low_enough => Err(Violation::unmet(message("at most ", max))),
         _ => Ok(()),
     }
 }

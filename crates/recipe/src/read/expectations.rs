@@ -2,7 +2,7 @@
 
 use super::Reader;
 use crate::expect::Expectation;
-use crate::recipe::Placed;
+use crate::recipe::RecipeExpectation;
 use crate::schema;
 use crate::shape::{check_shape, did_you_mean};
 use ron_tree::{Value, ValueKind};
@@ -10,7 +10,10 @@ use ron_tree::{Value, ValueKind};
 impl Reader<'_, '_> {
     /// `Name(..)`, or `(after: "id", on: [..], that: Name(..) or a list of them)`. Returns the id of the steps behind
     /// which it must hold; `None` stands for the end of the text.
-    pub(super) fn expectation(&mut self, mut value: Value) -> (Option<String>, Vec<Placed>) {
+    pub(super) fn expectation(
+        &mut self,
+        mut value: Value,
+    ) -> (Option<String>, Vec<RecipeExpectation>) {
         if !self.fill(&mut value) {
             return (None, Vec::new());
         }
@@ -44,7 +47,7 @@ impl Reader<'_, '_> {
         (after.map(|(_, id)| id.to_owned()), placed)
     }
 
-    fn placed(&mut self, value: &Value, on: Option<Vec<String>>) -> Option<Placed> {
+    fn placed(&mut self, value: &Value, on: Option<Vec<String>>) -> Option<RecipeExpectation> {
         let that: Expectation = self.typed(value, schema::expectation())?;
         if let Some(problem) = that.problem() {
             let help = match that.output() {
@@ -54,7 +57,7 @@ impl Reader<'_, '_> {
             self.error(value.span, problem, help);
             return None;
         }
-        Some(Placed {
+        Some(RecipeExpectation {
             after: None,
             on,
             that,

@@ -21,7 +21,9 @@ use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use store::{Disk, Store};
 
-use crate::recipe::{MAX_STEPS, OnLoss, Parameter, Placed, Recipe, RecipeStep, Scope, located};
+use crate::recipe::{
+    MAX_STEPS, OnLoss, Parameter, Recipe, RecipeExpectation, RecipeStep, Scope, located,
+};
 use crate::schema::{self, Schemas};
 use crate::shape::{self, check_shape};
 use crate::source::Source;
@@ -90,7 +92,7 @@ pub fn read_by(schemas: &Schemas, store: &dyn Store, source: &Source, values: Va
     let mut expectations = Vec::new();
     for (i, draft) in drafts.into_iter().enumerate() {
         steps.push(draft.step);
-        let then = draft.then.into_iter().map(|placed| Placed {
+        let then = draft.then.into_iter().map(|placed| RecipeExpectation {
             after: Some(i),
             ..placed
         });
@@ -154,7 +156,7 @@ struct Draft {
     /// The ids of this text whose work ends with the step.
     ends: Vec<String>,
     /// What must hold after it.
-    then: Vec<Placed>,
+    then: Vec<RecipeExpectation>,
 }
 
 /// The items of a list, which leaves it empty; none if it is no list.
@@ -210,7 +212,7 @@ impl<'s, 'a> Reader<'s, 'a> {
 
     /// Reads the text. `values` gives the parameters their values when they are declared. Returns the steps,
     /// and what must hold at the end.
-    fn text(&mut self, values: impl FnOnce(&mut Self)) -> (Vec<Draft>, Vec<Placed>) {
+    fn text(&mut self, values: impl FnOnce(&mut Self)) -> (Vec<Draft>, Vec<RecipeExpectation>) {
         let text = self.source.text.clone();
         let parsed = ron_tree::parse(&text);
         let mut root = parsed.value;

@@ -8,7 +8,7 @@ use op::{FileUse, Files, Refusal, Report};
 use scene::{Digest, Scene};
 use serde::{Deserialize, Serialize};
 
-use crate::recipe::{Placed, RecipeStep};
+use crate::recipe::{RecipeExpectation, RecipeStep};
 
 /// A cache of steps, set up for runs of one recipe.
 pub trait StepCache: fmt::Debug + Sync {
@@ -30,13 +30,19 @@ pub trait CachedRun {
         budget: u64,
         files: &Files,
         stage: Option<&Path>,
-    ) -> Result<Finding, Why>;
+    ) -> Result<Finding, RerunReason>;
 
     /// Keeps what step `number`, counted from 1, has done, which was not found.
     fn ran(&mut self, number: usize, label: &str, files: &Files, done: &Done);
 
     /// Takes note that the step that leads to a place ran once more for its scene, and says why.
-    fn ran_again(&mut self, place: usize, label: &str, scene: &Scene, time: Duration) -> Why;
+    fn ran_again(
+        &mut self,
+        place: usize,
+        label: &str,
+        scene: &Scene,
+        time: Duration,
+    ) -> RerunReason;
 
     /// The last place from `from` up to `to` at which the scene can be brought back, and that scene.
     fn bring(&mut self, from: usize, to: usize) -> Option<(usize, Scene)>;
@@ -45,10 +51,10 @@ pub trait CachedRun {
     fn is_same(&self, place: usize) -> bool;
 
     /// Whether an expectation is known to hold for the current scene.
-    fn holds(&mut self, placed: &Placed, files: &Files) -> bool;
+    fn holds(&mut self, placed: &RecipeExpectation, files: &Files) -> bool;
 
     /// Takes note that an expectation holds for the current scene.
-    fn held(&mut self, placed: &Placed, uses: &[FileUse]);
+    fn held(&mut self, placed: &RecipeExpectation, uses: &[FileUse]);
 
     /// The digest of the current scene, if it is known.
     fn digest(&self) -> Option<Digest>;
@@ -99,7 +105,7 @@ pub struct Done<'a> {
 
 /// Why a step ran. Shown as the end of a sentence that begins with "because".
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Why {
+pub enum RerunReason {
     /// There is no cache.
     #[error("there is no cache")]
     NoCache,

@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use op::{Place, Progress, Refusal, Report};
+use op::{ErrorLocation, Progress, Refusal, Report};
 use scene::{Digest, Scene};
 
-use super::cache::{Finding, Why};
-use crate::expect::Found;
+use super::cache::{Finding, RerunReason};
+use crate::expect::ActualValue;
 use crate::recipe::RecipeStep;
 use ron_tree::Diagnostic;
 
@@ -43,9 +43,9 @@ pub struct Failure<'a> {
     /// The scene at that time; before a step that failed.
     pub scene: &'a Scene,
     /// The places in the scene that it is about, if any are known.
-    pub places: &'a [Place],
+    pub places: &'a [ErrorLocation],
     /// What was found in place of a value that an expectation records.
-    pub found: Option<&'a Found>,
+    pub found: Option<&'a ActualValue>,
 }
 
 /// What a step left behind.
@@ -68,11 +68,16 @@ pub struct StepDone {
     /// How long it took.
     pub time: Duration,
     /// Why it ran; `None` if its result was taken from the cache.
-    pub ran: Option<Why>,
+    pub ran: Option<RerunReason>,
 }
 
 impl StepDone {
-    pub(super) fn new(step: &RecipeStep, what: Finding, time: Duration, ran: Option<Why>) -> Self {
+    pub(super) fn new(
+        step: &RecipeStep,
+        what: Finding,
+        time: Duration,
+        ran: Option<RerunReason>,
+    ) -> Self {
         let [vertices, edges, faces] = what.counts;
         Self {
             label: step.label().to_owned(),

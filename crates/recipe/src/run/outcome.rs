@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use scene::{Digest, Scene};
 
 use super::listener::StepDone;
-use crate::expect::Found;
+use crate::expect::ActualValue;
 use ron_tree::Diagnostic;
 
 /// How a run ended.
@@ -18,7 +18,7 @@ pub struct Outcome {
     /// What went wrong: one failed step, or expectations that do not hold.
     pub failures: Vec<Diagnostic>,
     /// The expectations that do not hold.
-    pub unmet: Vec<Unmet>,
+    pub unmet: Vec<UnmetExpectation>,
     /// Whether the run was cancelled.
     pub cancelled: bool,
     /// How many expectations were held against the scene.
@@ -37,13 +37,13 @@ pub struct Outcome {
 
 /// An expectation that does not hold.
 #[derive(Clone, Debug)]
-pub struct Unmet {
+pub struct UnmetExpectation {
     /// Its place in [`Recipe::expectations`](crate::Recipe::expectations).
     pub expectation: usize,
     /// The place of what is told of it in [`Outcome::failures`].
     pub failure: usize,
     /// What was found, if a value that it records is another one.
-    pub found: Option<Found>,
+    pub found: Option<ActualValue>,
 }
 
 impl Outcome {

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use mesh::DVec3;
-use op::{Files, Place, Progress};
+use op::{ErrorLocation, Files, Progress};
 use scene::{Digest, Scene};
 use tempfile::TempDir;
 
@@ -364,7 +364,7 @@ fn a_step_that_panics_fails_the_run_and_nothing_is_written() {
 
 /// Remembers the message, the places, and the scene's digest of each failure.
 #[derive(Default)]
-struct Failures(Mutex<Vec<(String, Vec<Place>, Digest)>>);
+struct Failures(Mutex<Vec<(String, Vec<ErrorLocation>, Digest)>>);
 
 impl Progress for Failures {
     fn advance(&self, _: &str, _: u64, _: u64) -> bool {
@@ -387,7 +387,7 @@ impl Listener for Failures {
     }
 }
 
-fn failures(text: &str) -> (Outcome, Vec<(String, Vec<Place>, Digest)>) {
+fn failures(text: &str) -> (Outcome, Vec<(String, Vec<ErrorLocation>, Digest)>) {
     let reading = read(text);
     assert_eq!(reading.diagnostics, [], "{text}");
     let folder = folder();

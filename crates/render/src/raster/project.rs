@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use crate::color::narrow;
 use crate::work::each;
-use crate::{Seen, View};
+use crate::{ScreenPoint, View};
 
 /// Steps of the grid for a pixel, as a power of two.
 pub(super) const GRID_BITS: i32 = 8;
@@ -22,7 +22,7 @@ const FAR: f64 = 32_768.0;
 pub(super) struct Corner {
     /// Steps of the grid from the left and from the top.
     pub(super) at: [i32; 2],
-    /// See [`Seen::depth`].
+    /// See [`ScreenPoint::depth`].
     pub(super) depth: f32,
 }
 
@@ -41,7 +41,7 @@ impl Corner {
     }
 
     /// The nearest point of the grid.
-    fn new(seen: Seen) -> Self {
+    fn new(seen: ScreenPoint) -> Self {
         let at = seen.at.to_array().map(|x| {
             let x = (x.clamp(-FAR, FAR) * f64::from(GRID) + 0.5).floor();
             #[expect(clippy::cast_possible_truncation, reason = "within the limits above")]

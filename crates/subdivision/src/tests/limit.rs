@@ -1,7 +1,7 @@
 //! The limit surface: the same from every level, and where known surfaces lie.
 
 use geometry::shapes;
-use mesh::{CORNER, CREASE, DVec3, Mesh, VertexId};
+use mesh::{CREASE, DVec3, Mesh, VERTEX_SHARPNESS, VertexId};
 use progress::NoProgress;
 
 use crate::fixtures;
@@ -36,7 +36,10 @@ fn sharpened() -> Vec<(String, Mesh)> {
             let at = [0.0, 0.0, 0.0, 0.0, 1.5, 0.0, 0.0, 0.0, 10.0];
             let at: &[f64] = if i > 1 { &at } else { &[0.0] };
             let n = mesh.n_vertices();
-            mesh.set(CORNER, at.iter().copied().cycle().take(n).collect());
+            mesh.set(
+                VERTEX_SHARPNESS,
+                at.iter().copied().cycle().take(n).collect(),
+            );
             meshes.push((format!("{name} {i}"), mesh));
         }
     }
@@ -148,7 +151,7 @@ fn is_corner(mesh: &Mesh, rules: Rules, v: VertexId) -> bool {
         mesh.is_boundary_edge(h.edge()) || mesh.get(CREASE).unwrap()[h.edge().index()] > 0.0
     });
     let is_rim = mesh.is_boundary_vertex(v);
-    let at = mesh.get(CORNER).unwrap()[v.index()];
+    let at = mesh.get(VERTEX_SHARPNESS).unwrap()[v.index()];
     let fixed = is_rim
         && match rules.boundary {
             Boundary::EdgesOnly => false,

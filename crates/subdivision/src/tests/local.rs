@@ -3,7 +3,7 @@
 mod values;
 
 use geometry::shapes;
-use mesh::{COLOR, CORNER, CREASE, DVec2, DVec3, DVec4, FaceId, MATERIAL, Mesh, UV};
+use mesh::{COLOR, CREASE, DVec2, DVec3, DVec4, FaceId, MATERIAL, Mesh, UV, VERTEX_SHARPNESS};
 use progress::NoProgress;
 
 use crate::fixtures::{self, sheet};
@@ -60,7 +60,10 @@ fn dressed(mut mesh: Mesh) -> Mesh {
         (0..mesh.n_edges()).map(|e| (e % 4) as f64 * 0.9).collect(),
     );
     let corner = |v: usize| if v.is_multiple_of(5) { 1.5 } else { 0.0 };
-    mesh.set(CORNER, (0..mesh.n_vertices()).map(corner).collect());
+    mesh.set(
+        VERTEX_SHARPNESS,
+        (0..mesh.n_vertices()).map(corner).collect(),
+    );
     mesh.set(MATERIAL, (0..).take(mesh.n_faces()).collect());
     mesh
 }

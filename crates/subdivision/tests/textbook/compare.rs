@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use mesh::{COLOR, CORNER, CREASE, DVec2, DVec3, DVec4, Mesh, UV, VertexId};
+use mesh::{COLOR, CREASE, DVec2, DVec3, DVec4, Mesh, UV, VERTEX_SHARPNESS, VertexId};
 
 use crate::polygons::{Polygons, edge};
 
@@ -26,7 +26,7 @@ pub(crate) fn mesh_of(polygons: &Polygons) -> Mesh {
     };
     let crease: Vec<f64> = mesh.edges().map(sharpness).collect();
     mesh.set(CREASE, crease);
-    mesh.set(CORNER, polygons.corner.clone());
+    mesh.set(VERTEX_SHARPNESS, polygons.corner.clone());
     let colors: Vec<DVec4> = mesh.positions().iter().map(|p| p.extend(1.0)).collect();
     mesh.set(COLOR, colors);
     if let Some(charts) = &polygons.charts {
@@ -110,7 +110,7 @@ fn sharpness_difference(
     place: &BTreeMap<VertexId, usize>,
 ) -> Option<String> {
     let differs = |found: f64, expected: f64| (found - expected).abs() > TOLERANCE;
-    let (Some(crease), Some(corner)) = (mesh.get(CREASE), mesh.get(CORNER)) else {
+    let (Some(crease), Some(corner)) = (mesh.get(CREASE), mesh.get(VERTEX_SHARPNESS)) else {
         return Some("a column is gone".to_owned());
     };
     for e in mesh.edges() {

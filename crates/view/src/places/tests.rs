@@ -7,7 +7,7 @@ use scene::Object;
 
 use super::*;
 
-fn drawn(scene: &Scene, places: &[Place], caption: &str) -> Option<Image> {
+fn drawn(scene: &Scene, places: &[ErrorLocation], caption: &str) -> Option<Image> {
     draw_places(scene, places, caption, 1 << 30, &NoProgress).unwrap()
 }
 
@@ -38,7 +38,7 @@ fn a_place_is_marked_in_the_whole_scene_and_large_from_near() {
         let scene = scene(mesh);
         let mesh = scene.objects()[0].as_mesh().unwrap();
         for element in every_kind(mesh) {
-            let place = Place::of("mesh", mesh, element).unwrap();
+            let place = ErrorLocation::of("mesh", mesh, element).unwrap();
 
             let image = drawn(&scene, &[place], "what is wrong").unwrap();
 
@@ -56,7 +56,7 @@ fn a_place_on_the_far_side_is_seen_too() {
     let scene = scene(shapes::uv_sphere(24, 12));
     let mesh = scene.objects()[0].as_mesh().unwrap();
     for v in mesh.vertices().step_by(37) {
-        let place = Place::of("mesh", mesh, v).unwrap();
+        let place = ErrorLocation::of("mesh", mesh, v).unwrap();
         let image = drawn(&scene, &[place], "").unwrap();
         assert!(count(&image, WRONG, 0..image.width / 2) >= 30, "{v}");
     }
@@ -65,9 +65,9 @@ fn a_place_on_the_far_side_is_seen_too() {
 #[test]
 fn where_something_should_be_has_a_color_of_its_own() {
     let scene = scene(shapes::cube());
-    let expected = Place {
+    let expected = ErrorLocation {
         object: String::new(),
-        name: Place::EXPECTED.to_owned(),
+        name: ErrorLocation::EXPECTED.to_owned(),
         points: vec![DVec3::splat(1.2)],
     };
 
@@ -82,7 +82,7 @@ fn without_places_only_the_scene_is_drawn_and_nothing_of_an_empty_one() {
     let scene = scene(shapes::cube());
     let one = drawn(&scene, &[], "a caption").unwrap();
     let mesh = scene.objects()[0].as_mesh().unwrap();
-    let place = Place::of("mesh", mesh, mesh.vertices().next().unwrap()).unwrap();
+    let place = ErrorLocation::of("mesh", mesh, mesh.vertices().next().unwrap()).unwrap();
     let two = drawn(&scene, &[place], "a caption").unwrap();
 
     assert!(two.width > 2 * SIZE[0] && one.width < 2 * SIZE[0]);
@@ -96,7 +96,7 @@ fn a_scene_of_one_point_and_places_far_away_can_be_drawn() {
     let lines = scene::Geometry::Polylines(point);
     scene.insert(Object::new("point", lines)).unwrap();
     for at in [DVec3::ZERO, DVec3::splat(1e300), DVec3::splat(-1e-300)] {
-        let place = Place {
+        let place = ErrorLocation {
             object: "point".to_owned(),
             name: "p".to_owned(),
             points: vec![at],
@@ -109,8 +109,8 @@ fn a_scene_of_one_point_and_places_far_away_can_be_drawn() {
 fn many_places_are_drawn_with_the_same_bytes_on_any_number_of_threads() {
     let scene = scene(shapes::torus(40, 20, 2.0, 0.5));
     let mesh = scene.objects()[0].as_mesh().unwrap();
-    let places: Vec<Place> = (mesh.faces())
-        .filter_map(|f| Place::of("mesh", mesh, f))
+    let places: Vec<ErrorLocation> = (mesh.faces())
+        .filter_map(|f| ErrorLocation::of("mesh", mesh, f))
         .collect();
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

@@ -39,7 +39,7 @@ use super::test_update::renew;
 use crate::args::{Format, TestArgs, ValueArgs};
 use crate::cache;
 use crate::listener::{QUIET, catch_interrupts};
-use crate::loading::{Found, load_text, recipes};
+use crate::loading::{RecipeFile, load_text, recipes};
 use crate::many::{Ended, all, in_order, interrupted};
 use crate::output::{complain, counted, print, print_json, problems_json, show, write_whole};
 use crate::picture_errors::{Pictures, Picturing};
@@ -114,7 +114,7 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
 
 /// Reads and checks the recipes, and chooses those that were asked for.
 fn tests<'a>(
-    recipes: &'a [Found],
+    recipes: &'a [RecipeFile],
     args: &TestArgs,
     engine: &Engine,
 ) -> anyhow::Result<Vec<Test<'a>>> {
@@ -156,7 +156,7 @@ fn tests<'a>(
     Ok(tests)
 }
 
-fn load(found: &Found, args: &TestArgs, engine: &Engine) -> anyhow::Result<Loaded> {
+fn load(found: &RecipeFile, args: &TestArgs, engine: &Engine) -> anyhow::Result<Loaded> {
     let out = match &args.out {
         Some(out) => out.join(&found.own_folder),
         None => "out".into(),
@@ -173,7 +173,7 @@ fn load(found: &Found, args: &TestArgs, engine: &Engine) -> anyhow::Result<Loade
 
 /// A recipe to test.
 struct Test<'a> {
-    found: &'a Found,
+    found: &'a RecipeFile,
     /// What runs it; or why it cannot even be read.
     loaded: Result<Loaded, String>,
     /// Whether it was found beside recipes that call it, which hold its expectations then.
@@ -181,7 +181,7 @@ struct Test<'a> {
 }
 
 impl<'a> Test<'a> {
-    fn new(found: &'a Found, loaded: Ended<anyhow::Result<Loaded>>) -> Self {
+    fn new(found: &'a RecipeFile, loaded: Ended<anyhow::Result<Loaded>>) -> Self {
         let loaded = loaded.map_err(interrupted);
         Self {
             found,

@@ -6,8 +6,8 @@ use bezier::{Curve, Patch};
 use geometry::shapes;
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{
-    COLOR, CORNER, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Mesh, Rule, SMOOTHING, TANGENT,
-    UV, VERTEX_NORMAL, Value, Values, VertexId,
+    COLOR, CORNER_NORMAL, CREASE, Column, Domain, MATERIAL, Mesh, Rule, SMOOTHING, TANGENT, UV,
+    VERTEX_NORMAL, VERTEX_SHARPNESS, Value, Values, VertexId,
 };
 use scene::{AlphaMode, Geometry, Image, Material, Object, Texture};
 
@@ -287,7 +287,7 @@ fn attributes() -> Vec<Feature> {
         feature(
             "sharp vertices",
             key(Vertex, "corner"),
-            with(Vertex, "corner", CORNER.rule, number),
+            with(Vertex, "corner", VERTEX_SHARPNESS.rule, number),
         ),
         feature(
             "tags of faces",

@@ -2,7 +2,7 @@
 
 use geometry::shapes;
 use mesh::{DVec3, EdgeId, VertexId};
-use op::{Files, Place};
+use op::{ErrorLocation, Files};
 use scene::Scene;
 
 use super::counts::with_double_edges;
@@ -10,7 +10,7 @@ use super::{cube, expectation, lines, of, scene};
 use crate::expect::Subject;
 use crate::tests::objects;
 
-fn places(scene: &Scene, text: &str) -> Vec<Place> {
+fn places(scene: &Scene, text: &str) -> Vec<ErrorLocation> {
     let files = Files::default();
     let octahedron = scene::Object::mesh("octahedron", shapes::octahedron());
     let reader = objects(|_, _| Ok(vec![octahedron.clone()]));
@@ -100,7 +100,7 @@ fn what_should_be_elsewhere_has_two_places() {
     assert_eq!(found[0].name, "v0");
     assert_eq!(
         (&*found[1].name, found[1].points[0]),
-        (Place::EXPECTED, DVec3::splat(5.0))
+        (ErrorLocation::EXPECTED, DVec3::splat(5.0))
     );
 
     let found = places(&lines(), "Point(index: 2, is: (0, 0, 9))");
@@ -114,7 +114,7 @@ fn vertices_without_a_partner_are_named_on_both_sides() {
 
     let found = places(&scene, "Same(as: File(\"octahedron.obj\"))");
 
-    let expected = found.iter().filter(|p| p.name == Place::EXPECTED);
+    let expected = found.iter().filter(|p| p.name == ErrorLocation::EXPECTED);
     assert_eq!((found.len(), expected.count()), (14, 6));
 }
 

@@ -1,7 +1,7 @@
 //! Attributes where some of the faces are refined.
 
 use geometry::shapes;
-use mesh::{COLOR, CORNER, CREASE, DVec2, DVec3, FaceId, HalfEdgeId, MATERIAL, Mesh, UV};
+use mesh::{COLOR, CREASE, DVec2, DVec3, FaceId, HalfEdgeId, MATERIAL, Mesh, UV, VERTEX_SHARPNESS};
 
 use super::{LOOP, MIDPOINT, cases, dressed, refined, with_faces_numbered};
 use crate::{FaceVarying, Rules, fixtures};
@@ -86,9 +86,9 @@ fn creases_reach_as_far_as_before_and_fade_where_they_shape() {
 #[test]
 fn corners_fade_where_they_can_move() {
     for (name, mut mesh, faces) in cases() {
-        mesh.set(CORNER, vec![2.0; mesh.n_vertices()]);
+        mesh.set(VERTEX_SHARPNESS, vec![2.0; mesh.n_vertices()]);
         let new = refined(&mesh, &faces, LOOP, 1);
-        let corner = new.get(CORNER).unwrap();
+        let corner = new.get(VERTEX_SHARPNESS).unwrap();
         for v in mesh.vertices().filter(|_| faces.contains(&true)) {
             let is_inside = mesh.vertex_faces(v).all(|f| faces[f.index()]);
             let expected = if is_inside { 1.0 } else { 2.0 };

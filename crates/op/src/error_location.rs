@@ -1,6 +1,6 @@
 //! Places in a scene that errors of operations are about.
 
-pub use scene::Place;
+pub use scene::ErrorLocation;
 
 #[cfg(test)]
 mod tests {
@@ -40,7 +40,7 @@ mod tests {
     }
 
     /// The error of the operation on a tetrahedron, and the places that it leaves.
-    fn refused(edges: &[usize]) -> (OpError, Vec<Place>) {
+    fn refused(edges: &[usize]) -> (OpError, Vec<ErrorLocation>) {
         let mut scene = Scene::new();
         let mesh = shapes::tetrahedron();
         scene.insert(Object::mesh("mesh", mesh)).unwrap();
@@ -74,7 +74,7 @@ mod tests {
         };
         let expected = [v.into(), w.into(), Element::Edge(refused_edge)];
         assert_eq!(error.elements(), expected);
-        let expected = expected.map(|e| Place::of("mesh", &mesh, e).unwrap());
+        let expected = expected.map(|e| ErrorLocation::of("mesh", &mesh, e).unwrap());
         assert_eq!(places, expected);
         let [v, w] = mesh.edge_vertices(refused_edge).map(VertexId::index);
         let message = error.to_string();

@@ -4,7 +4,7 @@ use mesh::{DVec3, Element, Mesh};
 
 /// An element as it was when an error named it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct ErrorLocation {
     /// The object that it is in.
     pub object: String,
     /// What it is called, as `e7`; empty for a place that has no name.
@@ -13,7 +13,7 @@ pub struct Place {
     pub points: Vec<DVec3>,
 }
 
-impl Place {
+impl ErrorLocation {
     /// Of so many elements that an error is about it is kept where they are.
     pub const MOST: usize = 10_000;
 

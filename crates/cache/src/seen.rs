@@ -98,9 +98,9 @@ impl Eyes {
         let (mut read, mut looked_for, mut asked) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
         for file in uses {
             match file {
-                FileUse::Asked { path, full } => asked.push((path.clone(), full.clone())),
+                FileUse::Requested { path, full } => asked.push((path.clone(), full.clone())),
                 FileUse::Read(path) => _ = read.insert(path),
-                FileUse::LookedFor(path) => _ = looked_for.insert(path),
+                FileUse::ExistenceChecked(path) => _ = looked_for.insert(path),
                 FileUse::Written { .. } => {}
             }
         }

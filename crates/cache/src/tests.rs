@@ -66,7 +66,8 @@ impl Operation for FromFile {
         let path = cx.files().to_read(&self.path);
         if self.tells {
             cx.files().has_read(path.as_path());
-            cx.files().has_looked_for(path.with_extension("beside"));
+            cx.files()
+                .has_checked_existence(path.with_extension("beside"));
         }
         let text = fs::read_to_string(&path).unwrap_or_else(|_| "1".to_owned());
         let n = text.trim().parse().unwrap_or(1);

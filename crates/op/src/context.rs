@@ -1,25 +1,25 @@
-//! What an operation runs in: progress, cancellation, the random stream, files, the budget.
+//! The context that an operation runs in: progress, cancellation, the random stream, files, the memory budget.
 
 use progress::Progress;
 
 use crate::{Files, OpError};
 
-/// What an operation runs in.
+/// The context that an operation runs in.
 pub struct Context<'a> {
     progress: &'a dyn Progress,
     files: &'a Files,
-    /// The objects that the step was told to act on; `None` for all that it can.
+    /// The objects named in the step's `on:`; `None` if the step acts on all objects that it supports.
     pub on: Option<&'a [String]>,
-    /// Keys the random streams of the step: its id, or the name of its operation.
+    /// The key of the step's random streams: the step's id, or the name of its operation.
     pub stream: &'a str,
-    /// How many bytes meshes may take.
+    /// The memory budget of meshes, in bytes.
     pub budget: u64,
-    /// The names of the materials of the object at work, for selections.
+    /// The names of the materials of the object that is being changed, for selections.
     pub materials: Vec<String>,
 }
 
 impl<'a> Context<'a> {
-    /// A context without a choice of objects and without a budget.
+    /// Creates a context without a choice of objects and without a memory budget.
     pub fn new(progress: &'a dyn Progress, files: &'a Files) -> Self {
         Self {
             progress,
@@ -36,17 +36,17 @@ impl<'a> Context<'a> {
     ///
     /// # Errors
     ///
-    /// [`OpError::Cancelled`] if the run is to stop. Return it at once.
+    /// [`OpError::Cancelled`] if the run was cancelled. The operation returns this error at once.
     pub fn advance(&self, what: &str, done: u64, total: u64) -> Result<(), OpError> {
         Ok(self.progress.report(what, done, total)?)
     }
 
-    /// What a long computation outside of operations takes.
+    /// Returns the progress, for long computations outside of this crate.
     pub fn progress(&self) -> &'a dyn Progress {
         self.progress
     }
 
-    /// Where files are read and written.
+    /// Returns the files of the run: where files are read and written.
     pub fn files(&self) -> &Files {
         self.files
     }

@@ -10,15 +10,15 @@ use crate::{Context, OpError, Problem, Range, Report};
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum OnRefusal {
-    /// Fail; the mesh is as it was before the step.
+    /// Fail. The mesh stays as it was before the step.
     #[default]
     Error,
-    /// Leave that element as it is, count it, and go on.
+    /// Leave the element unchanged, count the refusal, and continue.
     Skip,
 }
 
 impl OnRefusal {
-    /// How many of so many selected elements are edited: all, or perhaps fewer where refusals are skipped.
+    /// Returns how many of the `selected` elements are edited: all, or at most all if refusals are skipped.
     #[must_use]
     pub fn done(self, selected: Range) -> Range {
         match self {
@@ -27,7 +27,7 @@ impl OnRefusal {
         }
     }
 
-    /// The problem to report from `plan` for an edit that will be refused.
+    /// Returns the problem that `plan` reports for an edit that will be refused: an error or a warning.
     pub fn problem(self, message: impl Into<String>) -> Problem {
         match self {
             Self::Error => Problem::error(message),
@@ -35,11 +35,11 @@ impl OnRefusal {
         }
     }
 
-    /// Fails with a refusal, or counts it.
+    /// Returns the refusal as an error, or counts it in the report.
     ///
     /// # Errors
     ///
-    /// `refused` for [`OnRefusal::Error`], and if it is no refusal.
+    /// Returns `refused` for [`OnRefusal::Error`], and whenever `refused` is not a refusal.
     pub fn refuse(self, refused: OpError, report: &mut Report) -> Result<(), OpError> {
         match self {
             Self::Error => Err(refused),
@@ -55,7 +55,7 @@ pub enum Seams {
     /// Refuse the edit.
     #[default]
     Refuse,
-    /// Edit all the same. Each corner keeps the values of one side.
+    /// Edit anyway. Each corner keeps the values of one side of the seam.
     Drop,
 }
 
@@ -68,18 +68,18 @@ impl From<Seams> for mesh::Seams {
     }
 }
 
-/// What an edit is done to.
-pub trait Edited: Copy {
-    /// The elements that it is.
+/// An element, or a pair of elements, that an edit changes.
+pub trait EditTarget: Copy {
+    /// Returns the elements.
     fn elements(self) -> Vec<Element>;
 
-    /// Asks the processor to fetch what the edits after the `at`-th will touch.
+    /// Asks the processor to prefetch the memory that the edits after number `at` will access.
     fn fetch_ahead(_: &Mesh, _: &[Self], _at: usize) {}
 }
 
-macro_rules! edited {
+macro_rules! edit_target {
     ($($id:ty),*) => {
-        $(impl Edited for $id {
+        $(impl EditTarget for $id {
             fn elements(self) -> Vec<Element> {
                 vec![self.into()]
             }
@@ -87,9 +87,9 @@ macro_rules! edited {
     };
 }
 
-edited!(VertexId, HalfEdgeId, FaceId);
+edit_target!(VertexId, HalfEdgeId, FaceId);
 
-impl Edited for EdgeId {
+impl EditTarget for EdgeId {
     fn elements(self) -> Vec<Element> {
         vec![self.into()]
     }
@@ -100,22 +100,22 @@ impl Edited for EdgeId {
     }
 }
 
-impl<E: Edited> Edited for [E; 2] {
+impl<E: EditTarget> EditTarget for [E; 2] {
     fn elements(self) -> Vec<Element> {
         self.into_iter().flat_map(E::elements).collect()
     }
 }
 
-/// Edits the elements one after another, each judged at its moment.
+/// Edits the elements in order. Each edit is checked against the mesh as edited so far.
 ///
-/// The report counts the edits that were done and, for [`OnRefusal::Skip`], those that were refused, by
-/// reason. Elements that an earlier edit removed count as refused.
+/// The report counts the edits and, for [`OnRefusal::Skip`], the refused edits by reason. Elements that an
+/// earlier edit removed count as refused.
 ///
 /// # Errors
 ///
-/// [`OpError::Cancelled`], and the first refusal for [`OnRefusal::Error`]. The mesh is then edited in
-/// part: operations return the error, and their driver takes the edits back.
-pub fn edit_each<I: Edited>(
+/// [`OpError::Cancelled`], and the first refusal for [`OnRefusal::Error`]. The mesh may then be partly
+/// edited: the operation returns the error, and its caller rolls the edits back.
+pub fn edit_each<I: EditTarget>(
     mesh: &mut Mesh,
     elements: &[I],
     on_refusal: OnRefusal,

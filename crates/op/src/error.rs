@@ -8,57 +8,57 @@ use serde::{Deserialize, Serialize};
 
 use crate::ErrorLocation;
 
-/// The reasons for which an edit or a selection is refused, as recipes name them in `refused:`.
+/// The reasons for refusing an edit or a selection. Recipes name them in `refused:`.
 #[derive(
     Clone, Copy, Debug, Deserialize, Eq, JsonSchema, Ord, PartialEq, PartialOrd, Serialize,
 )]
 #[serde(deny_unknown_fields)]
 pub enum Refusal {
-    /// An edge is on the boundary and the edit needs a face on both sides.
+    /// An edge or a vertex is on the boundary, and the edit needs faces on all sides.
     Boundary,
-    /// An edge has a face on both sides and the edit needs one of the boundary.
+    /// An edge has a face on both sides, and the edit needs a boundary edge.
     NotBoundary,
-    /// The edit is for triangles only.
+    /// A face is not a triangle, and the edit supports only triangles.
     NotTriangle,
-    /// Both triangles at an edge have the same opposite vertex.
+    /// Both triangles of an edge have the same opposite vertex.
     SameOpposite,
     /// One face lies on both sides of an edge.
     SameFace,
-    /// Two vertices would get a second edge between them.
+    /// Two vertices would be joined by a second edge.
     DuplicateEdge,
     /// A vertex has too few edges.
     FewEdges,
     /// A face has too few corners.
     FewCorners,
-    /// A face would have a vertex as a corner twice.
+    /// A face would have the same vertex at two corners.
     RepeatedVertex,
-    /// Nothing would be left of the faces around an edge.
+    /// No face would remain around an edge.
     Vanishes,
-    /// The ends of an edge have a neighbour in common outside the faces beside it, so that they cannot
-    /// become one.
+    /// The ends of an edge have a common neighbour that is not a corner of the two faces beside the edge, so the
+    /// ends cannot be merged.
     Link,
-    /// An edge inside the surface joins two places of the boundary, so that its ends cannot become one.
+    /// An edge inside the surface joins two boundary vertices, so its ends cannot be merged.
     JoinsBoundaries,
     /// Corner attributes differ between the two sides of an edge.
     Seam,
-    /// A place on an edge is not strictly between its ends.
+    /// A position on an edge is not strictly between its ends.
     OutsideEdge,
-    /// A coordinate or length is not finite or out of its range.
+    /// A coordinate or length is not finite or outside its range.
     BadNumber,
-    /// The faces around a vertex would fall into two fans.
+    /// The faces around a vertex would be separated into two fans.
     Pinch,
-    /// The faces are only a part of their component.
+    /// The faces are only a part of their connected component.
     PartOfComponent,
-    /// Elements do not lie to each other as the edit needs it: a path with a gap, corners of two faces,
-    /// one element named twice, or none.
+    /// The elements do not have the relation that the edit needs: a path has a gap, two corners belong to
+    /// different faces, an element is named twice, or no element is named.
     WrongPlace,
-    /// A vertex, edge or face that was named is not there, or is not there any more.
+    /// A named vertex, edge, face, tag or material does not exist, or no longer exists.
     Missing,
-    /// A selection did not match as many elements as was expected.
+    /// A selection did not match the expected number of elements.
     Expectation,
-    /// The result would not be a manifold.
+    /// The result would not be manifold.
     NonManifold,
-    /// The mesh has as many elements as ids can number.
+    /// The mesh has the largest supported number of elements.
     Full,
 }
 
@@ -102,7 +102,7 @@ impl From<EditError> for Refusal {
     }
 }
 
-/// Why an operation failed. The scene is as it was before the step.
+/// Why an operation failed. The scene stays as it was before the step.
 #[derive(Debug, thiserror::Error)]
 pub enum OpError {
     /// The run was cancelled.
@@ -113,17 +113,17 @@ pub enum OpError {
     Refused {
         /// The reason.
         reason: Refusal,
-        /// The reason with the elements.
+        /// The reason in words, with the elements.
         message: String,
-        /// The elements that it is about, of the mesh as it was then.
+        /// The elements that caused the refusal, as ids of the mesh at the time of the refusal.
         elements: Vec<Element>,
-        /// Where they were.
+        /// The locations of the elements.
         places: Vec<ErrorLocation>,
     },
     /// A parameter has a value that the scene does not allow.
     #[error("{0}")]
     Parameter(String),
-    /// An object is not there, is there already, or is of the wrong kind.
+    /// An object does not exist, exists already, or is of the wrong kind.
     #[error("{0}")]
     Object(String),
     /// The polygons do not form a mesh.
@@ -138,7 +138,7 @@ pub enum OpError {
 }
 
 impl OpError {
-    /// A refusal with its message.
+    /// Creates a refusal with a message and without elements.
     pub fn refused(reason: Refusal, message: impl Into<String>) -> Self {
         Self::Refused {
             reason,
@@ -148,8 +148,8 @@ impl OpError {
         }
     }
 
-    /// The refusal of an edit of a mesh that was to be done to `edited`. Edges are told as recipes name them,
-    /// by their vertices.
+    /// Creates the error for a refused edit of the elements `edited`. Its message names edges as recipes do, by
+    /// their vertices.
     pub fn refused_edit(refusal: EditError, mesh: &Mesh, edited: &[Element]) -> Self {
         let between = |element: Element| {
             let Element::Edge(e) = element else {
@@ -163,7 +163,7 @@ impl OpError {
         let mut message = refusal.to_string();
         let mut elements = refusal.elements();
         for edge in elements.iter().filter_map(|&named| between(named)) {
-            message += &format!("; it is {edge}");
+            message += &format!("; the edge is {edge}");
         }
         for &element in edited {
             if !elements.contains(&element) {
@@ -175,7 +175,7 @@ impl OpError {
         Self::refused(refusal.into(), message).about(elements)
     }
 
-    /// The same error about these elements, if it is a refusal.
+    /// Sets the elements of the error, if it is a refusal.
     #[must_use]
     pub fn about<E: Into<Element>>(mut self, about: impl IntoIterator<Item = E>) -> Self {
         if let Self::Refused { elements, .. } = &mut self {
@@ -184,7 +184,7 @@ impl OpError {
         self
     }
 
-    /// The elements that a refusal is about.
+    /// Returns the elements that caused a refusal.
     pub fn elements(&self) -> &[Element] {
         match self {
             Self::Refused { elements, .. } => elements,
@@ -192,21 +192,22 @@ impl OpError {
         }
     }
 
-    /// The same error with the places of its elements in an object.
+    /// Adds the locations of the elements in the object `object`, if the error is a refusal.
     #[must_use]
     pub(crate) fn placed(mut self, object: &str, mesh: &Mesh) -> Self {
         if let Self::Refused {
             elements, places, ..
         } = &mut self
         {
-            let found = elements.iter();
-            let found = found.filter_map(|&element| ErrorLocation::of(object, mesh, element));
-            *places = found.take(ErrorLocation::MOST).collect();
+            let locations = elements
+                .iter()
+                .filter_map(|&element| ErrorLocation::of(object, mesh, element));
+            *places = locations.take(ErrorLocation::MOST).collect();
         }
         self
     }
 
-    /// Where the elements are that a refusal is about.
+    /// Returns the locations of the elements that caused a refusal.
     pub fn places(&self) -> &[ErrorLocation] {
         match self {
             Self::Refused { places, .. } => places,

@@ -1,4 +1,4 @@
-//! Places in a scene that errors of operations are about.
+//! Locations in a scene that errors of operations refer to.
 
 pub use scene::ErrorLocation;
 
@@ -16,7 +16,7 @@ mod tests {
         PlanContext, Problem, Report, edit_each,
     };
 
-    /// Splits the first edge, and then flips the edges of these numbers.
+    /// Splits the first edge, and then flips the edges with these numbers.
     #[derive(Debug, Deserialize, JsonSchema, Serialize)]
     struct SplitAndFlip {
         edges: Vec<usize>,
@@ -39,7 +39,7 @@ mod tests {
         }
     }
 
-    /// The error of the operation on a tetrahedron, and the places that it leaves.
+    /// Returns the error of the operation on a tetrahedron, and the locations in it.
     fn refused(edges: &[usize]) -> (OpError, Vec<ErrorLocation>) {
         let mut scene = Scene::new();
         let mesh = shapes::tetrahedron();
@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn the_elements_of_a_refusal_are_where_they_were_when_it_came_up() {
+    fn locations_of_a_refusal_are_those_at_the_time_of_the_refusal() {
         let mut mesh = shapes::tetrahedron();
         mesh.split_edge(EdgeId::new(0), 0.25).unwrap();
         let refused_edge = mesh
@@ -67,7 +67,7 @@ mod tests {
 
         let (error, places) = refused(&[refused_edge.index()]);
 
-        // The two vertices that are joined already, and the edge that was to be flipped.
+        // The two vertices that are already joined, and the edge whose flip is refused.
         let Some(EditError::DuplicateEdge(v, w)) = mesh.clone().flip_edge(refused_edge).err()
         else {
             panic!("{error}");
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn an_element_that_is_not_there_has_no_place() {
+    fn an_element_that_does_not_exist_has_no_location() {
         let (error, places) = refused(&[999]);
 
         assert_eq!(error.elements(), [EdgeId::new(999).into()]);

@@ -1,11 +1,11 @@
-//! Where a recipe reads and writes.
+//! The files of a run: which paths a recipe may read and write, and a log of their use.
 //!
-//! A recipe reads relative to its own folder. It writes only below the output folder, wherever the
-//! path in the recipe points: a path that leads out of it is refused.
+//! Paths of input files are relative to the folder of the recipe. Output files are always inside the output
+//! folder: a path that leads out of it is refused.
 //!
-//! What operations ask for here is noted, for whoever wants to know what a step depends on: the cache
-//! of steps. An operation that reads a file says which files that were with [`Files::has_read`]; one that
-//! only asks for a path may have read anything beside it, and is run anew each time.
+//! All uses of files are logged, so that the step cache knows the dependencies of a step. An operation that
+//! reads files reports each of them with [`Files::has_read`]. If an operation requests a path and reports no
+//! file, its dependencies are unknown, and the step is never taken from the cache.
 
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -20,74 +20,74 @@ pub enum FileError {
         "the output path \"{0}\" must stay inside the output folder: no \"..\", no absolute path"
     )]
     Outside(String),
-    /// The path names no file.
-    #[error("the output path \"{0}\" names no file")]
+    /// The path does not end with a file name.
+    #[error("the output path \"{0}\" does not end with a file name")]
     NoName(String),
-    /// A placeholder that is not a path parameter.
-    #[error("unknown placeholder {{{0}}} in \"{1}\", known are: {2}")]
+    /// A placeholder does not name a path parameter.
+    #[error("unknown placeholder {{{0}}} in \"{1}\"; known placeholders: {2}")]
     Placeholder(String, String, String),
-    /// A link inside the output folder leads out of it.
+    /// The path leads out of the output folder through a symbolic link.
     #[error("\"{0}\" leads out of the output folder through a link")]
     Link(String),
 }
 
-/// The files of a run: the folders, and the texts that stand for placeholders in output paths.
+/// The files of a run: the folders, and the values of the placeholders in output paths.
 #[derive(Clone, Debug)]
 pub struct Files {
-    /// Where files are read and written; the disk by default.
+    /// Where files are read and written. Defaults to the disk.
     pub store: Arc<dyn Store>,
     /// The folder of the recipe.
     pub input: PathBuf,
     /// The output folder.
     pub output: PathBuf,
-    /// For `{model.stem}` in an output path: ("model.stem", "cow").
+    /// Names and values of placeholders: ("model.stem", "cow") for `{model.stem}` in an output path.
     pub placeholders: Vec<(String, String)>,
-    /// A line that says where the outputs come from, for formats that can carry it.
+    /// A line with the provenance of the outputs, for formats that can store it.
     pub provenance: Option<String>,
-    /// What was asked for.
+    /// The uses of files so far.
     pub log: FileLog,
 }
 
-/// What was asked for of files, in order. Copies share one list.
+/// A log of the uses of files, in order. Clones share one list.
 #[derive(Clone, Debug, Default)]
 pub struct FileLog(Arc<Mutex<Vec<FileUse>>>);
 
-/// Something that was done with a file.
+/// One use of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FileUse {
-    /// Its path was asked for, to read it.
-    Asked {
-        /// As the recipe has it.
+    /// The path of an input file was requested.
+    Requested {
+        /// The path as written in the recipe.
         path: String,
-        /// As [`Files::to_read`] gave it.
+        /// The path that [`Files::to_read`] returned.
         full: PathBuf,
     },
-    /// Its content was read.
+    /// The file was read.
     Read(PathBuf),
-    /// It was only looked whether there is a plain file of this name.
-    LookedFor(PathBuf),
-    /// A path to write was asked for.
+    /// The operation checked whether a regular file of this name exists, without reading it.
+    ExistenceChecked(PathBuf),
+    /// The path of an output file was requested.
     Written {
-        /// As the recipe has it, with placeholders.
+        /// The path as written in the recipe, with placeholders.
         path: String,
-        /// Below the output folder.
+        /// The path relative to the output folder.
         relative: PathBuf,
     },
 }
 
 impl FileLog {
-    /// Adds a line.
+    /// Adds an entry.
     pub fn note(&self, file: FileUse) {
         self.lock().push(file);
     }
 
-    /// Takes all lines out.
+    /// Removes all entries and returns them.
     pub fn take(&self) -> Vec<FileUse> {
         std::mem::take(&mut self.lock())
     }
 
     fn lock(&self) -> std::sync::MutexGuard<'_, Vec<FileUse>> {
-        // A list of whole lines, even after a panic.
+        // A panic while the lock is held leaves no partial entry.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -106,11 +106,11 @@ impl Default for Files {
 }
 
 impl Files {
-    /// The path of a file to read: `path` seen from the recipe's folder. Whoever reads it says so with
-    /// [`has_read`](Self::has_read).
+    /// Returns the path of an input file: `path` relative to the folder of the recipe. The caller reports the
+    /// reading with [`has_read`](Self::has_read).
     pub fn to_read(&self, path: &str) -> PathBuf {
         let full = self.input.join(path);
-        let file = FileUse::Asked {
+        let file = FileUse::Requested {
             path: path.to_owned(),
             full: full.clone(),
         };
@@ -118,46 +118,46 @@ impl Files {
         full
     }
 
-    /// Says that a file was read: `path` as [`to_read`](Self::to_read) gave it, and each file that was read
-    /// because the first one names it. A step that says this for every path that it has asked for can be
-    /// kept in a cache; its result must depend on the contents of no other files.
+    /// Logs that a file was read: a path that [`to_read`](Self::to_read) returned, or a file that such a file
+    /// refers to. A step can be cached if it calls this for every requested path. Its result must then not
+    /// depend on the contents of other files.
     pub fn has_read(&self, path: impl Into<PathBuf>) {
         self.log.note(FileUse::Read(path.into()));
     }
 
-    /// Says that a file was read, or that it was only looked whether it is there.
+    /// Logs that a file was read or, if `is_read` is false, that its existence was checked.
     pub fn has_used(&self, path: PathBuf, is_read: bool) {
         self.log.note(if is_read {
             FileUse::Read(path)
         } else {
-            FileUse::LookedFor(path)
+            FileUse::ExistenceChecked(path)
         });
     }
 
-    /// Says that it was looked whether there is a plain file of this name, without reading it.
-    pub fn has_looked_for(&self, path: impl Into<PathBuf>) {
-        self.log.note(FileUse::LookedFor(path.into()));
+    /// Logs that the existence of a regular file of this name was checked, without reading it.
+    pub fn has_checked_existence(&self, path: impl Into<PathBuf>) {
+        self.log.note(FileUse::ExistenceChecked(path.into()));
     }
 
-    /// Makes the folders around a file to write.
+    /// Creates the missing folders of an output file.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if that cannot be done.
+    /// [`StoreError`] if a folder cannot be created.
     pub fn make_folder_of(&self, path: &Path) -> Result<(), StoreError> {
         self.store.make_folder(store::folder_of(path))
     }
 
-    /// The path of a file to write: `path` below the output folder, placeholders filled in.
+    /// Returns the path of an output file: `path` with its placeholders replaced, inside the output folder.
     ///
     /// # Errors
     ///
-    /// [`FileError`] if the path leaves the output folder, names no file or has an unknown
-    /// placeholder.
+    /// [`FileError`] if the path leads out of the output folder, does not end with a file name, or has an
+    /// unknown placeholder.
     pub fn to_write(&self, path: &str) -> Result<PathBuf, FileError> {
         let filled = self.fill(path)?;
         let relative = Path::new(&filled);
-        // A drive or a backslash means something on some systems only: refused on all.
+        // Drives and backslashes have a meaning on some systems only, so they are refused on all systems.
         let plain = relative
             .components()
             .all(|c| matches!(c, Component::Normal(_)));
@@ -181,7 +181,7 @@ impl Files {
         let mut rest = path;
         while let Some((before, after)) = rest.split_once('{') {
             filled.push_str(before);
-            let (name, behind) = after.split_once('}').unwrap_or((after, ""));
+            let (name, remainder) = after.split_once('}').unwrap_or((after, ""));
             let Some((_, text)) = self.placeholders.iter().find(|(known, _)| known == name) else {
                 let known: Vec<_> = self
                     .placeholders
@@ -196,13 +196,13 @@ impl Files {
                 return Err(FileError::Placeholder(name.into(), path.into(), known));
             };
             filled.push_str(text);
-            rest = behind;
+            rest = remainder;
         }
         filled.push_str(rest);
         Ok(filled)
     }
 
-    /// Refuses a path whose existing folders lead out of the output folder through a link.
+    /// Refuses a path whose existing folders lead out of the output folder through a symbolic link.
     ///
     /// # Errors
     ///
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn outputs_stay_below_the_output_folder() {
+    fn outputs_stay_inside_the_output_folder() {
         assert_eq!(
             files().to_write("a/b.glb"),
             Ok(PathBuf::from("out/a/b.glb"))
@@ -256,19 +256,19 @@ mod tests {
     }
 
     #[test]
-    fn placeholders_are_filled_in() {
+    fn placeholders_are_replaced() {
         assert_eq!(
             files().to_write("{model.stem}.obj"),
             Ok(PathBuf::from("out/cow.obj"))
         );
         assert_eq!(
             files().to_write("{mdel}.obj").unwrap_err().to_string(),
-            "unknown placeholder {mdel} in \"{mdel}.obj\", known are: {model.stem}"
+            "unknown placeholder {mdel} in \"{mdel}.obj\"; known placeholders: {model.stem}"
         );
     }
 
     #[test]
-    fn inputs_are_seen_from_the_recipe() {
+    fn input_paths_are_relative_to_the_recipe() {
         assert_eq!(
             files().to_read("assets/a.obj"),
             PathBuf::from("recipes/assets/a.obj")
@@ -276,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_asked_for_is_noted_once_in_all_copies() {
+    fn clones_share_one_log() {
         let files = files();
         let copy = files.clone();
         let path = copy.to_read("a.obj");
@@ -286,11 +286,11 @@ mod tests {
             path: "{model.stem}.obj".into(),
             relative: "cow.obj".into(),
         };
-        let asked = FileUse::Asked {
+        let requested = FileUse::Requested {
             path: "a.obj".into(),
             full: path.clone(),
         };
-        let expected = [asked, FileUse::Read(path), written];
+        let expected = [requested, FileUse::Read(path), written];
         assert_eq!(files.log.take(), expected);
         assert_eq!(copy.log.take(), []);
     }

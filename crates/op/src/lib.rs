@@ -1,9 +1,9 @@
-//! What an operation is, and all that operations share: their registry, the context that they run in,
-//! plans, reports, errors, selections and parameter types. No operation lives here.
+//! The traits that operations implement, and everything that operations share: the registry, the context
+//! that they run in, plans, reports, errors, selections and parameter types. This crate contains no operation.
 //!
-//! An operation is a struct whose fields are its parameters. Most change one mesh and implement
-//! [`MeshOperation`]; the choice of objects (`on:`), loss reports and a rollback on errors come for free. Those
-//! that see the whole scene implement [`Operation`].
+//! An operation is a struct whose fields are its parameters. Most operations change one mesh and implement
+//! [`MeshOperation`]. The trait then provides the choice of objects (`on:`), the reports of losses and the
+//! rollback after an error. Operations that need the whole scene implement [`Operation`].
 //!
 //! ```
 //! use mesh::DVec3;
@@ -13,7 +13,7 @@
 //! #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 //! #[serde(deny_unknown_fields)]
 //! pub struct Lift {
-//!     /// How far, in scene units; below 0 it sinks.
+//!     /// The distance, in scene units. A negative distance lowers the vertices.
 //!     pub distance: Distance,
 //! }
 //!
@@ -41,7 +41,6 @@
 //! assert_eq!(lifted.position(lifted.vertices().next().unwrap()), DVec3::new(0.0, 0.0, 2.0));
 //! ```
 
-mod chosen;
 mod context;
 mod edit;
 mod error;
@@ -56,11 +55,11 @@ mod report;
 mod selection;
 mod source;
 mod tag;
+mod targets;
 pub mod test;
 
-pub use chosen::{TargetKind, change_curves, chosen, chosen_scene, plan_curves};
 pub use context::Context;
-pub use edit::{Edited, OnRefusal, Seams, edit_each};
+pub use edit::{EditTarget, OnRefusal, Seams, edit_each};
 pub use error::{OpError, Refusal};
 pub use error_location::ErrorLocation;
 pub use files::{FileError, FileLog, FileUse, Files};
@@ -81,3 +80,4 @@ pub use selection::{
 };
 pub use source::{Source, check_name, named_object};
 pub use tag::{BadTagName, TagName, tag};
+pub use targets::{TargetKind, change_curves, plan_curves, target_names, target_scene};

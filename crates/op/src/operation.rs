@@ -11,67 +11,66 @@ use serde::de::DeserializeOwned;
 
 use crate::{
     Context, Loss, MeshPlan, OpError, Plan, PlanContext, PlannedGeometry, Problem, Report,
-    TargetKind, chosen,
+    TargetKind, target_names,
 };
 
-/// An operation that changes one mesh. Over a scene it acts on every mesh, or on those named in `on:`.
+/// An operation that changes one mesh. In a scene it acts on every mesh, or on the meshes named in `on:`.
 pub trait MeshOperation:
     Debug + Send + Sync + Serialize + DeserializeOwned + JsonSchema + 'static
 {
     /// The name of the step in recipes: the name of the struct.
     const NAME: &'static str;
-    /// Changes whenever the same parameters and input can give another result.
+    /// The version of the results. It changes whenever the same parameters and input can give a different result.
     const VERSION: u32 = 1;
-    /// One line for lists: what it does, without a full stop.
+    /// One line for lists: what the operation does, without a full stop.
     const SUMMARY: &'static str;
-    /// A step as recipes write it, for the documentation and the tests: `Weld(distance: 0.001)`.
+    /// An example step as in a recipe, for the documentation and the tests: `Weld(distance: 0.001)`.
     const EXAMPLE: &'static str;
-    /// Names that recipes used for it before.
+    /// Earlier names of the operation, which recipes may still use.
     const ALIASES: &'static [&'static str] = &[];
 
-    /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns what is wrong.
-    /// Runs before any geometry, so it must not take time.
+    /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns the problems.
+    /// Runs before any geometry exists and must be fast.
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem>;
 
     /// Changes the mesh, which is dense. Calls [`Context::advance`] before its first change. An operation
-    /// that computes a new mesh puts it in place with [`Mesh::replace`].
+    /// that computes a new mesh stores it with [`Mesh::replace`].
     ///
     /// # Errors
     ///
-    /// [`OpError`]. The mesh may then be changed in part: the driver, which has opened the journal of
-    /// the mesh, takes that back.
+    /// [`OpError`]. The mesh may then be partly changed: the caller, which has opened the journal of the
+    /// mesh, rolls the changes back.
     fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError>;
 }
 
-/// An operation that sees the whole scene.
+/// An operation that works on the whole scene.
 pub trait Operation:
     Debug + Send + Sync + Serialize + DeserializeOwned + JsonSchema + 'static
 {
     /// The name of the step in recipes: the name of the struct.
     const NAME: &'static str;
-    /// Changes whenever the same parameters and input can give another result.
+    /// The version of the results. It changes whenever the same parameters and input can give a different result.
     const VERSION: u32 = 1;
-    /// One line for lists: what it does, without a full stop.
+    /// One line for lists: what the operation does, without a full stop.
     const SUMMARY: &'static str;
-    /// A step as recipes write it, for the documentation and the tests: `Weld(distance: 0.001)`.
+    /// An example step as in a recipe, for the documentation and the tests: `Weld(distance: 0.001)`.
     const EXAMPLE: &'static str;
-    /// Names that recipes used for it before.
+    /// Earlier names of the operation, which recipes may still use.
     const ALIASES: &'static [&'static str] = &[];
-    /// Whether a step of it may choose objects with `on:`.
+    /// Whether a step may choose objects with `on:`.
     const TAKES_ON: bool = false;
-    /// Whether it leaves the scene as it was when it fails. Otherwise the runner keeps the meshes from
-    /// before the step, and the operation changes copies.
+    /// Whether the operation leaves the scene unchanged when it fails. If not, the runner keeps the meshes
+    /// from before the step, and the operation changes copies.
     const ATOMIC: bool = false;
 
-    /// Changes `plan` as [`apply`](Self::apply) will change the scene, and returns what is wrong.
+    /// Changes `plan` as [`apply`](Self::apply) will change the scene, and returns the problems.
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem>;
 
     /// Changes the scene, whose meshes are dense. Calls [`Context::advance`] before its first change.
     ///
     /// # Errors
     ///
-    /// [`OpError`]. The scene may then be changed in part: the runner goes back to the scene from
-    /// before the step.
+    /// [`OpError`]. The scene may then be partly changed: the runner restores the scene from before the step.
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError>;
 }
 
@@ -85,14 +84,14 @@ impl<T: MeshOperation> Operation for T {
     const ATOMIC: bool = true;
 
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
-        wanted::<T>().plan(plan, cx, |geometry| match geometry {
+        target_kind::<T>().plan(plan, cx, |geometry| match geometry {
             PlannedGeometry::Mesh(mesh) => Some(MeshOperation::plan(self, mesh, cx)),
             _ => None,
         })
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        let names = chosen(scene, cx, |g| matches!(g, Geometry::Mesh(_)))?;
+        let names = target_names(scene, cx, |g| matches!(g, Geometry::Mesh(_)))?;
         let mut report = Report::default();
         let mut changes = Vec::new();
         for name in &names {
@@ -110,7 +109,7 @@ impl<T: MeshOperation> Operation for T {
             }
         }
         for (name, change) in changes {
-            // The notes may hold a whole mesh: they go before compacting needs memory.
+            // The change may contain a whole mesh: its memory is freed before compacting allocates.
             drop(change);
             mesh_mut(scene, name)?.compact();
         }
@@ -118,7 +117,7 @@ impl<T: MeshOperation> Operation for T {
     }
 }
 
-const fn wanted<T: MeshOperation>() -> TargetKind {
+const fn target_kind<T: MeshOperation>() -> TargetKind {
     TargetKind {
         operation: <T as MeshOperation>::NAME,
         does: "changes meshes",
@@ -127,7 +126,7 @@ const fn wanted<T: MeshOperation>() -> TargetKind {
     }
 }
 
-/// Applies an operation to one object. After an error its mesh is as it was before.
+/// Applies an operation to one object. After an error the mesh of the object is unchanged.
 fn apply_to<T: MeshOperation>(
     operation: &T,
     scene: &mut Scene,
@@ -136,17 +135,17 @@ fn apply_to<T: MeshOperation>(
 ) -> Result<(Report, Change), OpError> {
     let (geometry, materials) = scene.parts_mut(name).expect("a name of the scene");
     let Geometry::Mesh(mesh) = geometry else {
-        let message = wanted::<T>().another(name, geometry.kind());
+        let message = target_kind::<T>().wrong_kind_message(name, geometry.kind());
         return Err(OpError::Object(message));
     };
     cx.materials = materials.iter().map(|m| m.name.clone()).collect();
     let before = columns(mesh);
-    // A copy if somebody else holds the mesh too.
+    // Copies the mesh if it is shared.
     let mesh = Arc::make_mut(mesh);
     mesh.begin();
     let done = operation.apply(mesh, cx);
     cx.materials.clear();
-    // An operation that assigned a mesh instead of replacing it has lost the journal.
+    // An operation that assigns a mesh instead of calling `Mesh::replace` discards the journal.
     let is_recording = mesh.is_recording();
     let mut report = match done {
         Ok(report) => report,
@@ -162,7 +161,7 @@ fn apply_to<T: MeshOperation>(
     let after = columns(mesh);
     let lost = before.into_iter().filter(|column| !after.contains(column));
     for (domain, column) in lost {
-        let reason = format!("{} cannot carry it", <T as MeshOperation>::NAME);
+        let reason = format!("{} cannot preserve it", <T as MeshOperation>::NAME);
         report
             .losses
             .push(Loss::attribute(name, domain, &column, reason));
@@ -173,7 +172,7 @@ fn apply_to<T: MeshOperation>(
 fn mesh_mut<'s>(scene: &'s mut Scene, name: &str) -> Result<&'s mut Mesh, OpError> {
     match scene.parts_mut(name) {
         Some((Geometry::Mesh(mesh), _)) => Ok(Arc::make_mut(mesh)),
-        _ => Err(OpError::Object(format!("\"{name}\" is no mesh any more"))),
+        _ => Err(OpError::Object(format!("\"{name}\" is no longer a mesh"))),
     }
 }
 

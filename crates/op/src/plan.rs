@@ -1,4 +1,4 @@
-//! What is known of a scene before anything runs: kinds, counts, attributes and bytes.
+//! The plan of a scene: what is known before anything runs, such as kinds of objects, counts, attributes and bytes.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -7,17 +7,17 @@ use mesh::{CORNER_NORMAL, Domain, Rule, VERTEX_NORMAL};
 
 use crate::Files;
 
-/// A count that lies between two numbers, both included.
+/// A range of possible counts, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Range {
-    /// The lowest that it can be.
+    /// The lowest possible count.
     pub min: u64,
-    /// The highest that it can be; `u64::MAX` if nothing is known.
+    /// The highest possible count; `u64::MAX` if it is unknown.
     pub max: u64,
 }
 
 impl Range {
-    /// Any number.
+    /// Any count.
     pub const ANY: Self = Self {
         min: 0,
         max: u64::MAX,
@@ -33,22 +33,22 @@ impl Range {
         Self { min: 0, max }
     }
 
-    /// From one number to the other.
+    /// From `min` to `max`.
     pub const fn between(min: u64, max: u64) -> Self {
         Self { min, max }
     }
 
-    /// Whether the number is known.
+    /// Whether only one count is possible.
     pub const fn is_exact(self) -> bool {
         self.min == self.max
     }
 
-    /// Whether the number can be `n`.
+    /// Whether the count can be `n`.
     pub const fn contains(self, n: u64) -> bool {
         self.min <= n && n <= self.max
     }
 
-    /// The sum of two counts.
+    /// Returns the range of the sum of two counts.
     #[must_use]
     pub const fn plus(self, other: Self) -> Self {
         Self {
@@ -57,7 +57,7 @@ impl Range {
         }
     }
 
-    /// This count without another one, not below 0.
+    /// Returns the range of the difference of two counts, at least 0.
     #[must_use]
     pub const fn minus(self, other: Self) -> Self {
         let max = if self.max == u64::MAX {
@@ -71,7 +71,7 @@ impl Range {
         }
     }
 
-    /// So much less, not below 0: for a number that is known to be finite.
+    /// Returns the range of this count reduced by `n`, at least 0. The highest count must be known.
     #[must_use]
     pub const fn less(self, n: u64) -> Self {
         Self {
@@ -80,7 +80,7 @@ impl Range {
         }
     }
 
-    /// The product of two counts.
+    /// Returns the range of the product of two counts.
     #[must_use]
     pub const fn times(self, other: Self) -> Self {
         Self {
@@ -89,19 +89,19 @@ impl Range {
         }
     }
 
-    /// So many times this count.
+    /// Returns the range of `n` times this count.
     #[must_use]
     pub const fn by(self, n: u64) -> Self {
         self.times(Self::exactly(n))
     }
 
-    /// From 0 to the highest that it can be: some of the elements are gone.
+    /// Returns the range from 0 to the highest count, for elements of which some can be missing.
     #[must_use]
     pub const fn or_less(self) -> Self {
         Self::at_most(self.max)
     }
 
-    /// One count or the other.
+    /// Returns the smallest range that contains both ranges.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {
@@ -110,7 +110,7 @@ impl Range {
         }
     }
 
-    /// The same, but at most `cap`.
+    /// Returns the range with both ends limited to at most `cap`.
     #[must_use]
     pub fn capped(self, cap: u64) -> Self {
         Self {
@@ -120,39 +120,39 @@ impl Range {
     }
 }
 
-/// What is known of an attribute.
+/// The plan of an attribute.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannedAttribute {
-    /// Its domain.
+    /// The domain.
     pub domain: Domain,
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// Whether it is there for certain.
+    /// Whether the attribute certainly exists.
     pub certain: bool,
 }
 
-/// What is known of a mesh.
+/// The plan of a mesh.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MeshPlan {
-    /// How many vertices it has.
+    /// The number of vertices.
     pub vertices: Range,
-    /// How many edges.
+    /// The number of edges.
     pub edges: Range,
-    /// How many faces.
+    /// The number of faces.
     pub faces: Range,
-    /// How many corners its faces have: the lowest and the highest degree.
+    /// The degrees of the faces: the lowest and the highest number of corners.
     pub degrees: Range,
-    /// Its attributes.
+    /// The known attributes.
     pub attributes: Vec<PlannedAttribute>,
-    /// Whether it may have other attributes, as a mesh from a file has.
-    pub others: bool,
+    /// Whether the mesh can have attributes that are not listed, like a mesh from a file.
+    pub has_unlisted_attributes: bool,
 }
 
-/// The bytes of a value of an attribute.
-const VALUE: Range = Range { min: 1, max: 32 };
+/// The size of one attribute value, in bytes: from 1 for a tag to 32.
+const ATTRIBUTE_VALUE_BYTES: Range = Range { min: 1, max: 32 };
 
 impl MeshPlan {
-    /// A mesh of which nothing is known.
+    /// Creates the plan of a mesh of which nothing is known.
     pub const fn unknown() -> Self {
         Self {
             vertices: Range::ANY,
@@ -160,11 +160,11 @@ impl MeshPlan {
             faces: Range::ANY,
             degrees: Range::between(3, u64::MAX),
             attributes: Vec::new(),
-            others: true,
+            has_unlisted_attributes: true,
         }
     }
 
-    /// A mesh of known counts, without attributes.
+    /// Creates the plan of a mesh of known counts and without attributes.
     pub const fn counted(vertices: u64, edges: u64, faces: u64, degrees: Range) -> Self {
         Self {
             vertices: Range::exactly(vertices),
@@ -172,11 +172,11 @@ impl MeshPlan {
             faces: Range::exactly(faces),
             degrees,
             attributes: Vec::new(),
-            others: false,
+            has_unlisted_attributes: false,
         }
     }
 
-    /// What is known of an existing mesh: everything.
+    /// Creates the exact plan of an existing mesh.
     pub fn of(mesh: &mesh::Mesh) -> Self {
         let degrees = || mesh.faces().map(|f| mesh.degree(f) as u64);
         Self {
@@ -190,20 +190,20 @@ impl MeshPlan {
                 .map(|(domain, c)| PlannedAttribute {
                     domain,
                     name: c.name.clone(),
-                    // An edit that changes connectivity drops such a column.
+                    // An edit that changes connectivity drops a column with this rule.
                     certain: c.rule != Rule::Drop,
                 })
                 .collect(),
-            others: false,
+            has_unlisted_attributes: false,
         }
     }
 
-    /// Whether all faces are triangles for certain.
+    /// Whether all faces are certainly triangles.
     pub fn is_triangles(&self) -> bool {
         self.degrees == Range::exactly(3)
     }
 
-    /// The number of corners of `faces` of the faces, at most two for each edge of the mesh.
+    /// Returns the number of corners of `faces` faces: at most two for each edge of the mesh.
     pub fn corners_of(&self, faces: Range) -> Range {
         faces.times(self.degrees).capped(self.edges.by(2).max)
     }
@@ -215,13 +215,20 @@ impl MeshPlan {
         self.faces = self.faces.plus(faces);
     }
 
-    /// The message about a vertex of this number, if the mesh cannot have one.
-    pub fn no_vertex(&self, number: u32) -> Option<String> {
+    /// Returns an error message if the mesh certainly has no vertex with this number.
+    pub fn missing_vertex_message(&self, number: u32) -> Option<String> {
         let n = self.vertices.max;
-        (u64::from(number) >= n).then(|| format!("there is no vertex {number}, only {n} vertices"))
+        let limit = if self.vertices.is_exact() {
+            ""
+        } else {
+            "at most "
+        };
+        let noun = if n == 1 { "vertex" } else { "vertices" };
+        (u64::from(number) >= n)
+            .then(|| format!("vertex {number} does not exist: the mesh has {limit}{n} {noun}"))
     }
 
-    /// Adds an attribute that is there for certain.
+    /// Adds an attribute that certainly exists.
     pub fn provide(&mut self, domain: Domain, name: &str) {
         self.drop_attribute(domain, name);
         self.attributes.push(PlannedAttribute {
@@ -231,19 +238,19 @@ impl MeshPlan {
         });
     }
 
-    /// Takes an attribute out.
+    /// Removes an attribute.
     pub fn drop_attribute(&mut self, domain: Domain, name: &str) {
         self.attributes
             .retain(|a| a.domain != domain || a.name != name);
     }
 
-    /// Takes the normals of vertices and corners out: for operations that change the shape.
+    /// Removes the normals of vertices and corners. For operations that change the shape.
     pub fn drop_normals(&mut self) {
         self.drop_attribute(Domain::Vertex, VERTEX_NORMAL.name);
         self.drop_attribute(Domain::Corner, CORNER_NORMAL.name);
     }
 
-    /// The bytes that the mesh takes. A value of an attribute takes from 1 byte, a tag, to 32.
+    /// Returns the size of the mesh in bytes.
     pub fn bytes(&self) -> Range {
         let count = |domain| match domain {
             Domain::Vertex => self.vertices,
@@ -257,26 +264,26 @@ impl MeshPlan {
             .plus(self.edges.by(24))
             .plus(self.faces.by(4));
         self.attributes.iter().fold(connectivity, |sum, a| {
-            sum.plus(count(a.domain).times(VALUE))
+            sum.plus(count(a.domain).times(ATTRIBUTE_VALUE_BYTES))
         })
     }
 }
 
-/// What is known of the shape of an object.
+/// The plan of the geometry of an object.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PlannedGeometry {
     /// A mesh.
     Mesh(MeshPlan),
-    /// Bezier patches; how many.
+    /// Bezier patches, with their number.
     Patches(Range),
-    /// A Bezier curve; how many control points.
+    /// A Bezier curve, with its number of control points.
     Curve(Range),
     /// Polylines.
     Polylines,
 }
 
 impl PlannedGeometry {
-    /// The word for this kind of geometry.
+    /// Returns the word for this kind of geometry.
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Mesh(_) => "mesh",
@@ -287,68 +294,71 @@ impl PlannedGeometry {
     }
 }
 
-/// What is known of an object.
+/// The plan of an object.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlannedObject {
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// Its shape.
+    /// The geometry.
     pub geometry: PlannedGeometry,
 }
 
-/// What is known of a scene at one point of a recipe. Steps change it as they will change the scene.
+/// The plan of a scene at one point of a recipe. Each step changes the plan as it will change the scene.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
     objects: Vec<PlannedObject>,
-    /// The place of each name; empty since objects were changed.
-    places: HashMap<String, usize>,
+    /// The index of the object with each name. Cleared when objects are changed.
+    index_by_name: HashMap<String, usize>,
     is_edited: bool,
-    /// Files that are read so far.
+    /// The files that the steps so far read.
     pub inputs: Vec<PathBuf>,
-    /// Files that are written so far.
+    /// The files that the steps so far write.
     pub outputs: Vec<PathBuf>,
-    /// Whether a step before this one could not be read or planned: objects may be missing here that
-    /// will be there.
+    /// Whether an earlier step could not be read or planned. The scene can then have objects that are missing
+    /// in the plan.
     pub incomplete: bool,
 }
 
 impl Plan {
-    /// The objects, in order.
+    /// Returns the objects, in order.
     pub fn objects(&self) -> &[PlannedObject] {
         &self.objects
     }
 
-    /// The same, to be changed. A new object is added with [`insert`](Self::insert), which takes no time in
-    /// proportion to the others.
+    /// Returns the objects for changes. To add an object, use [`insert`](Self::insert), whose time does not grow
+    /// with the number of objects.
     pub fn objects_mut(&mut self) -> &mut Vec<PlannedObject> {
         self.is_edited = true;
-        self.places.clear();
+        self.index_by_name.clear();
         &mut self.objects
     }
 
-    /// Whether there was a call of [`objects_mut`](Self::objects_mut) since the last one of this method. Otherwise
-    /// objects were added at the end, and the others are as they were.
+    /// Returns whether [`objects_mut`](Self::objects_mut) was called since the last call of this method. If not,
+    /// the only changes are new objects at the end.
     pub fn take_edited(&mut self) -> bool {
         std::mem::take(&mut self.is_edited)
     }
 
-    /// The object of this name.
+    /// Returns the object with this name.
     pub fn object(&self, name: &str) -> Option<&PlannedObject> {
-        if self.places.len() < self.objects.len() {
+        if self.index_by_name.len() < self.objects.len() {
             return self.objects.iter().find(|o| o.name == name);
         }
-        self.places.get(name).map(|&place| &self.objects[place])
+        self.index_by_name
+            .get(name)
+            .map(|&place| &self.objects[place])
     }
 
-    /// Adds an object; a problem if its name is taken.
+    /// Adds an object, or returns a problem if the name is taken.
     pub fn insert(&mut self, name: &str, geometry: PlannedGeometry) -> Option<Problem> {
-        if self.places.is_empty() {
+        if self.index_by_name.is_empty() {
             let names = self.objects.iter().map(|o| o.name.clone());
-            self.places = names.zip(0..).collect();
+            self.index_by_name = names.zip(0..).collect();
         }
         let taken = self.taken(name, "name");
         if taken.is_none() {
-            self.places.insert(name.to_owned(), self.objects.len());
+            self.index_by_name
+                .insert(name.to_owned(), self.objects.len());
             self.objects.push(PlannedObject {
                 name: name.to_owned(),
                 geometry,
@@ -357,14 +367,14 @@ impl Plan {
         taken
     }
 
-    /// A problem if an object has this name, which `field` gives to another one.
+    /// Returns a problem if an object already has this name. `field` is the parameter with the name.
     pub fn taken(&self, name: &str, field: &str) -> Option<Problem> {
         self.object(name)?;
         let message = scene::DuplicateName(name.to_owned()).to_string();
         Some(Problem::error(message).at([field]))
     }
 
-    /// A problem if no object has the name, with the names there are. `path` is the parameter that names it.
+    /// Returns a problem with the known names if no object has this name. `path` is the parameter with the name.
     pub fn missing<const N: usize>(&self, name: &str, path: [&str; N]) -> Option<Problem> {
         if self.incomplete || self.object(name).is_some() {
             return None;
@@ -380,8 +390,8 @@ impl Plan {
         Some(problem.help(format!("objects at this point: {known}")))
     }
 
-    /// Notes a file that the step writes, and returns what is wrong with its `path`. `check` returns what is wrong
-    /// with its ending.
+    /// Adds a file that the step writes, and returns the problems of its `path`. `check` returns the problem of
+    /// the file name extension.
     pub fn write(
         &mut self,
         cx: &PlanContext,
@@ -394,7 +404,7 @@ impl Plan {
         };
         let mut problems = Vec::from_iter(check(&full));
         if self.outputs.contains(&full) {
-            let message = format!("an earlier step writes \"{path}\" too");
+            let message = format!("an earlier step already writes \"{path}\"");
             problems.push(Problem::error(message).at(["path"]));
         }
         self.outputs.push(full);
@@ -402,33 +412,34 @@ impl Plan {
     }
 }
 
-/// What a step is planned in.
+/// The context that a step is planned in.
 #[derive(Clone, Copy, Debug)]
 pub struct PlanContext<'a> {
     /// Where files are read and written.
     pub files: &'a Files,
-    /// The objects that the step was told to act on; `None` for all that it can. They exist.
+    /// The objects named in the step's `on:`, all of which exist; `None` if the step acts on all objects that it
+    /// supports.
     pub on: Option<&'a [String]>,
-    /// How many bytes meshes may take.
+    /// The memory budget of meshes, in bytes.
     pub budget: u64,
 }
 
-/// Something wrong with a step, found before anything runs.
+/// A problem of a step, found before anything runs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// What is wrong: lower case, no full stop.
     pub message: String,
-    /// What to do about it.
+    /// How to solve it.
     pub help: Option<String>,
-    /// The parameter that it is about: names of fields and variants and numbers of items, from the
-    /// outside in. Empty for the whole step.
+    /// The path of the parameter: names of fields and variants and indices of items, from the outside in.
+    /// Empty if the problem concerns the whole step.
     pub path: Vec<String>,
-    /// Whether the recipe can run all the same.
+    /// Whether the recipe can run anyway.
     pub is_warning: bool,
 }
 
 impl Problem {
-    /// An error about the whole step.
+    /// Creates an error that concerns the whole step.
     pub fn error(message: impl Into<String>) -> Self {
         Self {
             message: message.into(),
@@ -438,7 +449,7 @@ impl Problem {
         }
     }
 
-    /// A warning about the whole step.
+    /// Creates a warning that concerns the whole step.
     pub fn warning(message: impl Into<String>) -> Self {
         Self {
             is_warning: true,
@@ -446,14 +457,14 @@ impl Problem {
         }
     }
 
-    /// The same, about this parameter.
+    /// Sets the path of the parameter.
     #[must_use]
     pub fn at<const N: usize>(mut self, path: [&str; N]) -> Self {
         self.path = path.map(str::to_owned).to_vec();
         self
     }
 
-    /// The same, with a way out.
+    /// Sets the help: how to solve the problem.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());

@@ -1,5 +1,5 @@
-//! What nearly every operation names: `use op::prelude::*;`. [`Operation`](crate::Operation) is not among it: every
-//! [`MeshOperation`] is one too, and `Self::NAME` would be that of either.
+//! The items that nearly every operation uses: `use op::prelude::*;`. [`Operation`](crate::Operation) is not
+//! included: every [`MeshOperation`] also implements it, and `Self::NAME` would be ambiguous.
 
 pub use mesh::Mesh;
 pub use scene::Scene;

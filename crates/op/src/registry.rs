@@ -1,4 +1,4 @@
-//! The list of operations that a program knows.
+//! The registry: the list of operations that a program supports.
 
 use std::fmt;
 
@@ -11,32 +11,32 @@ use schemars::{Schema, SchemaGenerator};
 
 use crate::{Context, OpError, Operation, Plan, PlanContext, Problem, Report};
 
-/// Two operations have one name.
+/// Two operations have the same name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("two operations are named {0}: rename one, or register the second with `with_override`")]
 pub struct DuplicateOperation(pub String);
 
-/// The operations that a program knows, in the order in which they were registered.
+/// The operations that a program supports, in the order in which they were registered.
 #[derive(Clone, Debug, Default)]
 pub struct Registry {
     entries: Vec<Entry>,
     clash: Option<DuplicateOperation>,
 }
 
-/// One operation: what the parser, the help, the schema and the runner need of it.
+/// One operation, with the data for the parser, the help, the schema and the runner.
 #[derive(Clone)]
 pub struct Entry {
     /// The name of the step in recipes.
     pub name: &'static str,
     /// The version of its results.
     pub version: u32,
-    /// One line: what it does.
+    /// One line: what the operation does.
     pub summary: &'static str,
-    /// A step of it, as recipes write it.
+    /// An example step, as in a recipe.
     pub example: &'static str,
-    /// Names that recipes used for it before.
+    /// Earlier names of the operation, which recipes may still use.
     pub aliases: &'static [&'static str],
-    /// Whether a step of it may choose objects with `on:`.
+    /// Whether a step may choose objects with `on:`.
     pub takes_on: bool,
     schema: fn() -> Schema,
     schema_in: fn(&mut SchemaGenerator) -> Schema,
@@ -71,22 +71,22 @@ impl Entry {
         }
     }
 
-    /// The JSON schema of the parameters, with their documentation.
+    /// Returns the JSON schema of the parameters, with their documentation.
     pub fn schema(&self) -> serde_json::Value {
         (self.schema)().to_value()
     }
 
-    /// A reference to the same schema, which stands among the definitions of `generator`.
+    /// Adds the schema to the definitions of `generator` and returns a reference to it.
     pub fn schema_in(&self, generator: &mut SchemaGenerator) -> serde_json::Value {
         (self.schema_in)(generator).to_value()
     }
 
-    /// Reads a step `Name(levels: 2)`, whatever the name, or only its parameters `(levels: 2)`. A name alone stands for
-    /// a name with nothing in brackets.
+    /// Reads a step `Name(levels: 2)` or only its parameters `(levels: 2)`. The name is not checked. `Name` without
+    /// parentheses is the same as `Name()`.
     ///
     /// # Errors
     ///
-    /// Why the parameters are none of this operation, with the place.
+    /// Why these are not parameters of this operation, with the location.
     pub fn parse(&self, step: &Value) -> Result<Box<dyn Step>, ron_tree::Error> {
         match &step.kind {
             ValueKind::Call(call) => (self.parse)(&call.body),
@@ -95,23 +95,23 @@ impl Entry {
         }
     }
 
-    /// Reads parameters `(levels: 2)` with the crate `ron`: the judge of what [`parse`](Self::parse) accepts.
+    /// Reads parameters `(levels: 2)` with the crate `ron`. Tests compare [`parse`](Self::parse) with it.
     ///
     /// # Errors
     ///
-    /// Why the text holds no parameters of this operation.
+    /// Why the text does not contain parameters of this operation.
     pub fn parse_by_ron(&self, parameters: &str) -> SpannedResult<Box<dyn Step>> {
         (self.parse_by_ron)(parameters)
     }
 }
 
 impl Registry {
-    /// No operations.
+    /// Creates a registry without operations.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds an operation. Of two with one name [`check`](Self::check) reports the clash.
+    /// Adds an operation. If its name is taken, [`check`](Self::check) reports the conflict.
     #[must_use]
     pub fn with<T: Operation>(mut self) -> Self {
         let entry = Entry::of::<T>();
@@ -126,7 +126,7 @@ impl Registry {
         self
     }
 
-    /// Adds an operation in place of the one that has its name, if there is one.
+    /// Adds an operation and removes the operation with the same name, if one exists.
     #[must_use]
     pub fn with_override<T: Operation>(mut self) -> Self {
         self.entries
@@ -134,27 +134,27 @@ impl Registry {
         self.with::<T>()
     }
 
-    /// Adds a group of operations: `register` adds each of them.
+    /// Adds a group of operations, each of which is added by `register`.
     #[must_use]
     pub fn with_group(self, register: fn(Self) -> Self) -> Self {
         register(self)
     }
 
-    /// Whether every name is there once.
+    /// Checks that no name is used twice.
     ///
     /// # Errors
     ///
-    /// [`DuplicateOperation`] for the first clash.
+    /// [`DuplicateOperation`] for the first name that is used twice.
     pub fn check(&self) -> Result<(), DuplicateOperation> {
         self.clash.clone().map_or(Ok(()), Err)
     }
 
-    /// All operations in the order in which they were registered.
+    /// Returns all operations in the order in which they were registered.
     pub fn entries(&self) -> &[Entry] {
         &self.entries
     }
 
-    /// The operation of this name, or that had it before.
+    /// Returns the operation with this name or this earlier name.
     pub fn get(&self, name: &str) -> Option<&Entry> {
         self.entries
             .iter()
@@ -162,9 +162,9 @@ impl Registry {
     }
 }
 
-/// An operation with its parameters, its type erased.
+/// An operation with its parameters, as a trait object.
 pub trait Step: fmt::Debug + Send + Sync {
-    /// The name of the operation.
+    /// Returns the name of the operation.
     fn name(&self) -> &'static str;
     /// See [`Operation::VERSION`].
     fn version(&self) -> u32;
@@ -178,7 +178,7 @@ pub trait Step: fmt::Debug + Send + Sync {
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError>;
     /// See [`Operation::ATOMIC`].
     fn is_atomic(&self) -> bool;
-    /// The parameters in their canonical form: RON with every default written out.
+    /// Returns the parameters in canonical form: RON with every default written out.
     fn canonical(&self) -> String;
 }
 

@@ -1,4 +1,4 @@
-//! What a step did.
+//! The report of a step.
 
 use std::fmt;
 
@@ -7,40 +7,40 @@ use serde::{Deserialize, Serialize};
 
 use crate::{OpError, Refusal};
 
-/// What a step did: what it changed, what was refused, what was lost, and anything worth a line.
+/// The report of a step: what it changed, which edits were refused, what was lost, and notes.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Report {
-    /// How many elements were edited or made.
+    /// The number of elements that were changed or created.
     pub changed: u64,
     /// Edits that were refused and skipped, by reason.
     pub refused: Vec<Refused>,
-    /// Attributes and other things that are gone.
+    /// Attributes and other data that were lost.
     pub losses: Vec<Loss>,
-    /// Other facts, each one line.
+    /// Other facts, one line each.
     pub notes: Vec<String>,
 }
 
-/// Refused edits of one reason.
+/// The edits that were refused for one reason.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Refused {
     /// The reason.
     pub reason: Refusal,
-    /// How many.
+    /// The number of refused edits.
     pub count: u64,
-    /// The message of the first.
+    /// The message of the first refused edit.
     pub first: String,
 }
 
-/// Something that a step or a file format could not keep.
+/// Data that a step or a file format could not preserve.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub struct Loss {
-    /// The object that lost it.
+    /// The object that lost the data.
     pub object: String,
-    /// What it was, by the name that a recipe allows it to be lost by: that of an attribute.
+    /// The name of the lost data, such as the name of an attribute. Recipes use it to allow the loss.
     pub name: String,
-    /// What it was, in words.
+    /// The lost data in words.
     pub what: String,
-    /// Why it is gone.
+    /// Why it was lost.
     pub reason: String,
 }
 
@@ -51,7 +51,7 @@ impl fmt::Display for Loss {
 }
 
 impl Loss {
-    /// The loss of an attribute.
+    /// Creates the loss of an attribute.
     pub fn attribute(object: &str, domain: Domain, name: &str, reason: impl Into<String>) -> Self {
         let what = format!("the {domain} attribute \"{name}\"");
         Self {
@@ -64,7 +64,7 @@ impl Loss {
 }
 
 impl Report {
-    /// A report of so many changed elements.
+    /// Creates a report of `n` changed elements.
     pub fn changed(n: usize) -> Self {
         Self {
             changed: n as u64,
@@ -72,14 +72,14 @@ impl Report {
         }
     }
 
-    /// Adds a line.
+    /// Adds a note.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.notes.push(note.into());
         self
     }
 
-    /// Adds a line that says how many of something there are, unless there are none.
+    /// Adds the note `what: n`, unless `n` is 0.
     #[must_use]
     pub fn count(self, what: &str, n: usize) -> Self {
         if n > 0 {
@@ -89,7 +89,7 @@ impl Report {
         }
     }
 
-    /// Counts edits that were refused for this reason. Only the first of a reason is asked for its message.
+    /// Counts edits that were refused for this reason. `first` is called only for the first edit of a reason.
     pub(crate) fn count_refused(
         &mut self,
         reason: Refusal,
@@ -106,11 +106,11 @@ impl Report {
         }
     }
 
-    /// Counts a refused edit. Returns the error itself if it is not a refusal.
+    /// Counts a refused edit.
     ///
     /// # Errors
     ///
-    /// Any error but [`OpError::Refused`].
+    /// Returns `error` unless it is [`OpError::Refused`].
     pub fn refuse(&mut self, error: OpError) -> Result<(), OpError> {
         let OpError::Refused {
             reason, message, ..
@@ -122,7 +122,7 @@ impl Report {
         Ok(())
     }
 
-    /// Adds what another part of the step did.
+    /// Adds the report of another part of the step.
     pub fn merge(&mut self, other: Self) {
         self.changed += other.changed;
         for refused in other.refused {

@@ -1,4 +1,4 @@
-//! What operations over a scene share: sources, which make an object, and names.
+//! Helpers of operations that work on a whole scene: sources, which create an object, and checks of object names.
 
 use glam::DVec3;
 use mesh::Mesh;
@@ -6,13 +6,13 @@ use scene::{Object, Scene};
 
 use crate::{Context, MeshPlan, OpError, Plan, PlannedGeometry, Problem, Report, Vector};
 
-/// The most edges of a mesh that is built from polygons: its faces have two corners at an edge, and
-/// each corner may need two half-edges, whose ids end at 2^32 - 2.
+/// The largest number of edges of a mesh that is built from polygons. An edge belongs to at most two corners, each
+/// corner can need two half-edges, and the largest id of a half-edge is 2^32 - 2.
 const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 
-/// A mesh that a step makes: the name of its object, its counts, and what is wrong with the parameters.
+/// A mesh that a step creates: the name of its object, its counts, and the problems of the parameters.
 ///
-/// An operation describes its source once and hands it to both of its methods:
+/// An operation describes its source once and uses it in both of its methods:
 ///
 /// ```
 /// use geometry::shapes;
@@ -40,7 +40,7 @@ pub struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// A mesh of these counts for a new object of this name.
+    /// Creates a source for a new object with this name and a mesh with these counts.
     pub fn new(name: &'a str, counts: MeshPlan) -> Self {
         let source = Self {
             name,
@@ -51,7 +51,7 @@ impl<'a> Source<'a> {
         };
         if source.counts.edges.min > MAX_EDGES {
             let message = format!(
-                "a mesh of {} edges is more than ids can number: at most {MAX_EDGES}",
+                "the mesh would have {} edges, but at most {MAX_EDGES} are supported",
                 source.counts.edges.min
             );
             return source.with(Problem::error(message));
@@ -59,8 +59,8 @@ impl<'a> Source<'a> {
         source
     }
 
-    /// The same mesh, its coordinates multiplied by a factor for each axis, above zero, and then moved
-    /// from the origin to `center`, the parameter of that name.
+    /// Multiplies the coordinates by a factor above 0 for each axis, and then moves the mesh from the origin to
+    /// `center`, the parameter of that name.
     #[must_use]
     pub fn placed(mut self, scale: [f64; 3], center: Vector) -> Self {
         self.scale = scale.into();
@@ -68,7 +68,7 @@ impl<'a> Source<'a> {
         self
     }
 
-    /// The same, with one more problem.
+    /// Adds a problem.
     #[must_use]
     pub fn with(mut self, problem: Problem) -> Self {
         self.problems.push(problem);
@@ -82,13 +82,13 @@ impl<'a> Source<'a> {
         problems
     }
 
-    /// Adds the object to a scene, behind the others. `make` is called when everything is checked.
+    /// Adds the object at the end of a scene. `make` is called after all checks.
     ///
     /// # Errors
     ///
-    /// [`OpError::Parameter`] for the first problem, and if a coordinate is too large for a number;
-    /// [`OpError::Object`] if the name is taken; [`OpError::Budget`] if the mesh would be larger than
-    /// the budget of `cx` or than ids can number; [`OpError::Cancelled`]. The scene is unchanged.
+    /// [`OpError::Parameter`] for the first problem, and if a coordinate overflows;
+    /// [`OpError::Object`] if the name is taken; [`OpError::Budget`] if the mesh would exceed the memory budget of
+    /// `cx` or the largest supported number of edges; [`OpError::Cancelled`]. The scene is unchanged.
     pub fn insert(
         self,
         scene: &mut Scene,
@@ -107,7 +107,10 @@ impl<'a> Source<'a> {
         check_name(scene, self.name)?;
         let bytes = self.counts.bytes().min;
         if bytes > cx.budget {
-            let message = format!("the mesh takes {bytes} bytes, the budget is {}", cx.budget);
+            let message = format!(
+                "the mesh takes {bytes} bytes, but the budget is {}",
+                cx.budget
+            );
             return Err(OpError::Budget(message));
         }
         cx.advance("make", 0, 1)?;
@@ -117,7 +120,7 @@ impl<'a> Source<'a> {
         }
         if mesh.positions().iter().any(|p| !p.is_finite()) {
             return Err(OpError::Parameter(
-                "the coordinates are too large for numbers".into(),
+                "a coordinate is too large to be a finite number".into(),
             ));
         }
         let report = Report::changed(mesh.n_faces());
@@ -133,7 +136,7 @@ impl<'a> Source<'a> {
 ///
 /// # Errors
 ///
-/// [`OpError::Object`] if one has.
+/// [`OpError::Object`] if an object has this name.
 pub fn check_name(scene: &Scene, name: &str) -> Result<(), OpError> {
     match scene.object(name) {
         None => Ok(()),
@@ -143,11 +146,11 @@ pub fn check_name(scene: &Scene, name: &str) -> Result<(), OpError> {
     }
 }
 
-/// The object of this name.
+/// Returns the object with this name.
 ///
 /// # Errors
 ///
-/// [`OpError::Object`] if there is none.
+/// [`OpError::Object`] if no object has this name.
 pub fn named_object<'s>(scene: &'s Scene, name: &str) -> Result<&'s Object, OpError> {
     scene
         .object(name)
@@ -179,13 +182,13 @@ mod tests {
 
         let mut scene = Scene::new();
         insert(Source::new("a", square()), &mut scene, u64::MAX).unwrap();
-        let again = insert(Source::new("a", square()), &mut scene, u64::MAX);
-        assert!(matches!(again, Err(OpError::Object(_))));
+        let second = insert(Source::new("a", square()), &mut scene, u64::MAX);
+        assert!(matches!(second, Err(OpError::Object(_))));
         assert_eq!(scene.objects().len(), 1);
     }
 
     #[test]
-    fn a_mesh_beyond_the_budget_or_the_ids_is_never_made() {
+    fn a_mesh_that_exceeds_the_budget_or_the_ids_is_never_made() {
         let mut scene = Scene::new();
         let files = Files::default();
         let mut cx = Context::new(&NoProgress, &files);

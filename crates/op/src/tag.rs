@@ -1,4 +1,4 @@
-//! Tags: what the operations share that mark elements.
+//! Tags: helpers of the operations that mark elements.
 
 use mesh::{Column, Domain, Id, Mesh, Rule, Values};
 use schemars::JsonSchema;
@@ -6,41 +6,43 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Context, OpError, Select};
 
-/// The name of a tag: not empty, and without blanks around it.
+/// The name of a tag. It must not be empty and must not start or end with whitespace.
 #[derive(Clone, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(try_from = "String", into = "String")]
 #[schemars(inline)]
 pub struct TagName(String);
 
-/// A text that is no name of a tag.
+/// An invalid name of a tag.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a tag needs a name without blanks around it, not \"{0}\"")]
+#[error(
+    "the name of a tag must not be empty and must not start or end with whitespace, found \"{0}\""
+)]
 pub struct BadTagName(String);
 
 impl TagName {
-    /// The name as it is written.
+    /// Returns the name.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// Which elements of a mesh have the tag; none if there is no such tag.
+    /// Returns one flag for each element of a mesh: whether it has the tag. If the tag does not exist, no flag is set.
     ///
     /// # Errors
     ///
-    /// [`OpError::Parameter`] if the name is that of an attribute of another type.
+    /// [`OpError::Parameter`] if an attribute of a different type has this name.
     pub fn marks(&self, mesh: &Mesh, domain: Domain) -> Result<Vec<bool>, OpError> {
         let Self(name) = self;
         match mesh.attributes().column(domain, name).map(|c| &c.values) {
             None => Ok(vec![false; mesh.domain_len(domain)]),
             Some(Values::Tag(marks)) => Ok(marks.clone()),
             Some(other) => Err(OpError::Parameter(format!(
-                "the {domain} attribute \"{name}\" is no tag: it holds {}",
+                "the {domain} attribute \"{name}\" is not a tag: its type is {}",
                 other.type_name()
             ))),
         }
     }
 
-    /// Gives the tag to the marked elements, and to no others.
+    /// Tags the marked elements and removes the tag from all others.
     pub fn write(&self, mesh: &mut Mesh, domain: Domain, marks: Vec<bool>) {
         let (name, rule, values) = (self.0.clone(), Rule::Copy, Values::Tag(marks));
         mesh.insert_column(domain, Column { name, rule, values });
@@ -64,12 +66,12 @@ impl From<TagName> for String {
     }
 }
 
-/// Marks the selected elements, and no others, with a tag. A tag of this name that is there already is
-/// replaced. Returns how many elements are marked now and were not, or the other way round.
+/// Tags the selected elements and removes the tag from all others. Returns the number of elements that gained or lost
+/// the tag.
 ///
 /// # Errors
 ///
-/// As [`Select::resolve`]; [`OpError::Parameter`] if the name is that of an attribute of another type.
+/// As [`Select::resolve`]; [`OpError::Parameter`] if an attribute of a different type has this name.
 pub fn tag<S: Select>(
     mesh: &mut Mesh,
     name: &TagName,
@@ -94,7 +96,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_that_no_tag_can_have_are_refused() {
+    fn invalid_names_are_refused() {
         for name in ["", " a", "a "] {
             let refused = TagName::try_from(name.to_owned()).unwrap_err();
             assert!(refused.to_string().ends_with(&format!("\"{name}\"")));

@@ -1,4 +1,4 @@
-//! Running one operation in a test.
+//! Helpers for tests that run one operation.
 
 use mesh::Mesh;
 use scene::{Object, Scene};
@@ -8,14 +8,14 @@ use crate::{
     PlannedGeometry, Problem, Refusal, Report,
 };
 
-/// Reads the parameters of an operation as recipes write them: `(levels: 2)`.
+/// Reads the parameters of an operation as in a recipe: `(levels: 2)`.
 pub use ron_tree::from_str as read;
 
-/// The mesh after `operation`.
+/// Returns the mesh after `operation`.
 ///
 /// # Panics
 ///
-/// If the operation fails, or leaves a mesh that breaks an invariant.
+/// If the operation fails, or the resulting mesh breaks an invariant.
 #[expect(clippy::needless_pass_by_value, reason = "reads better in tests")]
 pub fn applied(operation: &impl Operation, mesh: Mesh) -> Mesh {
     try_applied(operation, mesh.clone())
@@ -23,15 +23,15 @@ pub fn applied(operation: &impl Operation, mesh: Mesh) -> Mesh {
         .0
 }
 
-/// The mesh after `operation`, and its report.
+/// Returns the mesh after `operation`, and the report.
 ///
 /// # Errors
 ///
-/// What the operation returns.
+/// The error of the operation.
 ///
 /// # Panics
 ///
-/// If the operation leaves a mesh that breaks an invariant.
+/// If the resulting mesh breaks an invariant.
 pub fn try_applied(operation: &impl Operation, mesh: Mesh) -> Result<(Mesh, Report), OpError> {
     let mut scene = Scene::new();
     scene
@@ -46,11 +46,11 @@ pub fn try_applied(operation: &impl Operation, mesh: Mesh) -> Result<(Mesh, Repo
     Ok((mesh.as_ref().clone(), report))
 }
 
-/// Runs `operation` on a scene, in the working directory and without a budget.
+/// Runs `operation` on a scene, in the working directory and without a memory budget.
 ///
 /// # Errors
 ///
-/// What the operation returns.
+/// The error of the operation.
 pub fn run(operation: &impl Operation, scene: &mut Scene) -> Result<Report, OpError> {
     let files = Files {
         input: ".".into(),
@@ -60,12 +60,12 @@ pub fn run(operation: &impl Operation, scene: &mut Scene) -> Result<Report, OpEr
     operation.apply(scene, &mut Context::new(&NoProgress, &files))
 }
 
-/// The one mesh that a source makes in an empty scene.
+/// Returns the mesh that a source creates in an empty scene.
 ///
 /// # Panics
 ///
-/// If the operation fails, makes another number of objects, its plan has problems or other counts than
-/// the mesh, or the mesh breaks an invariant.
+/// If the operation fails, does not create exactly one object, its plan has problems or differs from the mesh, or
+/// the mesh breaks an invariant.
 pub fn made(operation: &impl Operation) -> Mesh {
     let files = Files::default();
     let mut plan = Plan::default();
@@ -92,7 +92,7 @@ pub fn made(operation: &impl Operation) -> Mesh {
     mesh.as_ref().clone()
 }
 
-/// What `operation` says of a mesh before it runs: the plan after it, and the problems.
+/// Plans `operation` on a mesh. Returns the plan of the resulting mesh, and the problems.
 pub fn planned(operation: &impl MeshOperation, mesh: &Mesh) -> (MeshPlan, Vec<Problem>) {
     let files = Files::default();
     let cx = PlanContext {
@@ -105,23 +105,23 @@ pub fn planned(operation: &impl MeshOperation, mesh: &Mesh) -> (MeshPlan, Vec<Pr
     (plan, problems)
 }
 
-/// The mesh after `operation`, whose counts and degrees were planned.
+/// Returns the mesh after `operation`, and checks its counts and degrees against the plan.
 ///
 /// # Panics
 ///
-/// As [`applied`], and if they are outside of the plan.
+/// As [`applied`], and if a count or degree is outside of its planned range.
 pub fn applied_as_planned(operation: &impl MeshOperation, mesh: &Mesh) -> Mesh {
     let new = applied(operation, mesh.clone());
     assert!(is_as_planned(operation, mesh, &new), "the plan holds");
     new
 }
 
-/// The numbers of vertices, edges and faces.
+/// Returns the numbers of vertices, edges and faces.
 pub fn counts(mesh: &Mesh) -> [usize; 3] {
     [mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()]
 }
 
-/// Whether the counts and degrees of `after`, which `operation` made of `before`, are within its plan.
+/// Whether the counts and degrees of `after`, the result of `operation` on `before`, are within the plan.
 pub fn is_as_planned(operation: &impl MeshOperation, before: &Mesh, after: &Mesh) -> bool {
     let (plan, _) = planned(operation, before);
     plan.vertices.contains(after.n_vertices() as u64)
@@ -132,11 +132,11 @@ pub fn is_as_planned(operation: &impl MeshOperation, before: &Mesh, after: &Mesh
             .all(|f| plan.degrees.contains(after.degree(f) as u64))
 }
 
-/// The reason for which `operation` is refused.
+/// Returns the reason why `operation` is refused.
 ///
 /// # Panics
 ///
-/// If it is done, or fails in another way.
+/// If the operation succeeds, or fails for a reason that is not a refusal.
 pub fn refused(operation: &impl Operation, mesh: Mesh) -> Refusal {
     match try_applied(operation, mesh) {
         Err(OpError::Refused { reason, .. }) => reason,

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use bezier::{BezierError, Patch, Tessellation, counts, tessellate_patch};
 use mesh::{BuildReport, Built, DVec2, DVec3, Domain, NonManifold, UV, VERTEX_NORMAL};
 use op::prelude::*;
-use op::{Operation, TargetKind, chosen};
+use op::{Operation, TargetKind, target_names};
 use scene::Geometry;
 
 /// Turns Bezier patches into a mesh.
@@ -95,12 +95,12 @@ impl Operation for Tessellate {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         cx.advance("tessellate", 0, 1)?;
-        let names = chosen(scene, cx, |g| matches!(g, Geometry::Patches(_)))?;
+        let names = target_names(scene, cx, |g| matches!(g, Geometry::Patches(_)))?;
         let mut report = Report::default();
         for name in &names {
             let (geometry, _) = scene.parts_mut(name).expect("named above");
             let Geometry::Patches(patches) = geometry else {
-                let message = WANTED.another(name, geometry.kind());
+                let message = WANTED.wrong_kind_message(name, geometry.kind());
                 return Err(OpError::Object(message));
             };
             let patches = std::mem::take(patches);
@@ -129,7 +129,7 @@ impl Tessellate {
             faces: at_most(faces),
             degrees,
             attributes: Vec::new(),
-            others: false,
+            has_unlisted_attributes: false,
         };
         if self.uvs {
             plan.provide(Domain::Corner, UV.name);

@@ -68,7 +68,9 @@ impl SplitFaces {
         let message = if plan.is_triangles() && !self.between.is_empty() {
             Some("every face is a triangle and has no corners to cut between".to_owned())
         } else {
-            let missing = cuts.clone().find_map(|(v, w)| plan.no_vertex(*v.max(w)));
+            let missing = cuts
+                .clone()
+                .find_map(|(v, w)| plan.missing_vertex_message(*v.max(w)));
             let twice =
                 |(v, w)| (v == w).then(|| format!("a cut needs two vertices, not {v} twice"));
             missing.or_else(|| cuts.find_map(|&cut| twice(cut)))

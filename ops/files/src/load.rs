@@ -130,7 +130,7 @@ fn planned(peek: &PeekMesh) -> MeshPlan {
         faces: Range::at_most(peek.faces),
         degrees: Range::between(3, peek.max_degree.max(3)),
         attributes: Vec::new(),
-        others: true,
+        has_unlisted_attributes: true,
     };
     let mut perhaps = |there: bool, domain, name: &str| {
         if there {
@@ -249,15 +249,15 @@ mod tests {
         assert_eq!(
             files.log.take(),
             [
-                FileUse::Asked {
+                FileUse::Requested {
                     path: "a.obj".into(),
                     full: path("a.obj"),
                 },
                 FileUse::Read(path("a.obj")),
-                FileUse::LookedFor(path("not")),
+                FileUse::ExistenceChecked(path("not")),
                 FileUse::Read(path("not")),
-                FileUse::LookedFor(path("not there.mtl")),
-                FileUse::LookedFor(path("there.mtl")),
+                FileUse::ExistenceChecked(path("not there.mtl")),
+                FileUse::ExistenceChecked(path("there.mtl")),
                 FileUse::Read(path("there.mtl")),
             ]
         );

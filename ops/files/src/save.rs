@@ -2,7 +2,7 @@
 
 use mesh_io::{Format, WriteOptions};
 use op::prelude::*;
-use op::{Loss, Operation, chosen_scene};
+use op::{Loss, Operation, target_scene};
 
 /// Writes objects to a file below the output folder.
 ///
@@ -44,7 +44,7 @@ impl Operation for Save {
         let failed = |error: &dyn std::fmt::Display| OpError::File(error.to_string());
         let path = cx.files().to_write(&self.path).map_err(|e| failed(&e))?;
         cx.files().make_folder_of(&path).map_err(|e| failed(&e))?;
-        let chosen = chosen_scene(scene, cx);
+        let chosen = target_scene(scene, cx);
         let options = WriteOptions {
             provenance: cx.files().provenance.clone(),
         };

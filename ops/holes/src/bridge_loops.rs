@@ -44,7 +44,7 @@ impl MeshOperation for BridgeLoops {
     fn plan(&self, plan: &mut MeshPlan, _: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         for (field, v) in [("first", self.first), ("second", self.second)] {
-            let missing = plan.no_vertex(v).map(Problem::error);
+            let missing = plan.missing_vertex_message(v).map(Problem::error);
             problems.extend(missing.map(|p| p.at([field])));
         }
         if self.first == self.second {

@@ -160,7 +160,7 @@ impl Join {
         let mut joined = parts[0].clone();
         for part in &parts[1..] {
             joined.grow(part.vertices, part.edges, part.faces);
-            joined.others |= part.others;
+            joined.has_unlisted_attributes |= part.has_unlisted_attributes;
             joined.degrees = joined.degrees.or(part.degrees);
             for a in &part.attributes {
                 let is_same = |b: &PlannedAttribute| (b.domain, &b.name) == (a.domain, &a.name);

@@ -19,7 +19,7 @@ use bezier::{Curve, Patch};
 use glam::DVec3;
 use mesh::{Rule, Values};
 use op::prelude::*;
-use op::{Loss, Operation, chosen};
+use op::{Loss, Operation, target_names};
 use rayon::prelude::*;
 use scene::Geometry;
 
@@ -198,7 +198,7 @@ impl Operation for Transform {
     }
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
-        let names = chosen(scene, cx, |_| true)?;
+        let names = target_names(scene, cx, |_| true)?;
         let map = Map::new(self);
         let mut report = Report::default();
         cx.advance("transform", 0, names.len() as u64)?;

@@ -13,7 +13,7 @@ use std::path::{Component, Path};
 
 use op::{
     Context, Count, Elements, Files, OpError, Operation, Plan, PlanContext, Problem, Progress,
-    Report, Seconds, Selected, chosen_scene,
+    Report, Seconds, Selected, target_scene,
 };
 use render::animation::{Timing, to_apng, to_gif};
 use render::{Camera, Color, Image, LARGEST_SIDE, Overlays, PictureError, Style};
@@ -209,7 +209,7 @@ impl Picture {
         }
         cx.advance("draw", 0, 1)?;
         let chosen: Vec<_> = (scenes.iter())
-            .map(|(scene, caption)| (chosen_scene(scene, cx), *caption))
+            .map(|(scene, caption)| (target_scene(scene, cx), *caption))
             .collect();
         let (mut subjects, mut notes) = (Vec::new(), Vec::new());
         for (scene, caption) in &chosen {
@@ -230,7 +230,7 @@ impl Picture {
     /// As [`draw`](Self::draw).
     pub fn extent(&self, scene: &Scene, cx: &mut Context) -> Result<Extent, OpError> {
         self.in_order()?;
-        let scene = chosen_scene(scene, cx);
+        let scene = target_scene(scene, cx);
         // Images of materials change nothing of where things are.
         let (subject, _) = self.subject(&scene, "", self.color_by.as_ref(), false, cx)?;
         self.shot(cx.budget).extent(subject).map_err(failed)
@@ -399,7 +399,7 @@ fn read_image(files: &Files, folder: Option<&str>, path: &str) -> Option<Vec<u8>
         files.has_read(&full);
         files.store.read(&full).ok()
     } else {
-        files.has_looked_for(&full);
+        files.has_checked_existence(&full);
         None
     }
 }

@@ -80,7 +80,7 @@ mod tests {
         let error = try_applied(&step("(name: \"weight\", vertices: All)"), mesh).unwrap_err();
         assert_eq!(
             error.to_string(),
-            "the vertex attribute \"weight\" is no tag: it holds number"
+            "the vertex attribute \"weight\" is not a tag: its type is number"
         );
     }
 }

@@ -91,7 +91,7 @@ fn a_wrong_selection_is_shown_with_its_place_and_advice() {
     folder
         .run_all(&["select", "cube.obj", "Vertices([8])"])
         .with_code(1)
-        .complains(&["there is no vertex 8, only 8 vertices"]);
+        .complains(&["vertex 8 does not exist: the mesh has 8 vertices"]);
     folder
         .run_all(&["select", "cube.obj", "Tagged(\"nose\")", "--of", "faces"])
         .with_code(1)

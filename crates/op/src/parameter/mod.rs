@@ -1,7 +1,7 @@
-//! Types of parameters that operations share.
+//! Parameter types that operations share.
 //!
-//! A parameter that has a range has it in its type: a value outside is refused when the recipe is read, its
-//! schema says so, and an operation never checks it again.
+//! The range of a parameter is part of its type. A value outside of the range is an error when the recipe is
+//! read, the schema of the type contains the range, and operations do not check the range again.
 
 mod number;
 mod turn;

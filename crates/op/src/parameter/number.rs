@@ -22,18 +22,19 @@ impl fmt::Display for OutOfRange {
         if !value.is_finite() {
             return write!(f, "expected a finite number, found {value}");
         }
-        write!(f, "the value is {value}, expected ")?;
+        f.write_str("expected ")?;
         match (limits.min, limits.max) {
             (Included(min), _) if *value < min => write!(f, "at least {min}"),
             (Excluded(min), _) if *value <= min => write!(f, "more than {min}"),
             (_, Included(max)) => write!(f, "at most {max}"),
             (_, Excluded(max)) => write!(f, "less than {max}"),
-            (_, Unbounded) => write!(f, "another"),
-        }
+            (_, Unbounded) => write!(f, "a different number"),
+        }?;
+        write!(f, ", found {value}")
     }
 }
 
-/// The range of a number, which is finite in any case.
+/// The range of a number. The number must also be finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Limits {
     min: Bound<f64>,
@@ -84,11 +85,11 @@ macro_rules! numbers {
         impl $name {
             const LIMITS: Limits = Limits { min: $min, max: $max };
 
-            /// The number as a value of this type.
+            /// Creates a value of this type.
             ///
             /// # Errors
             ///
-            /// If it is outside the range or not finite.
+            /// If the number is outside the range or not finite.
             pub const fn new(value: f64) -> Result<Self, OutOfRange> {
                 match Self::LIMITS.check(value) {
                     Ok(value) => Ok(Self(value)),
@@ -96,11 +97,11 @@ macro_rules! numbers {
                 }
             }
 
-            /// A number that the source code writes out.
+            /// Creates a value of this type from a literal in the source code.
             ///
             /// # Panics
             ///
-            /// If it is outside the range or not finite.
+            /// If the number is outside the range or not finite.
             pub const fn literal(value: f64) -> Self {
                 match Self::new(value) {
                     Ok(number) => number,
@@ -108,7 +109,7 @@ macro_rules! numbers {
                 }
             }
 
-            /// The number.
+            /// Returns the number.
             pub const fn get(self) -> f64 {
                 self.0
             }
@@ -147,26 +148,27 @@ macro_rules! numbers {
 }
 
 numbers! {
-    /// A part of a whole that is neither nothing nor all: strictly between 0 and 1.
+    /// A fraction from 0 to 1, exclusive.
     Fraction: Excluded(0.0), Excluded(1.0);
-    /// A part of a whole, or a place along something: from 0 to 1.
+    /// A fraction from 0 to 1, inclusive.
     ClosedFraction: Included(0.0), Included(1.0);
-    /// A length in scene units; may be 0.
+    /// A length in scene units, at least 0.
     #[derive(Default)]
     Length: Included(0.0), Unbounded;
     /// A length in scene units, above 0.
     PositiveLength: Excluded(0.0), Unbounded;
-    /// For how many levels of subdivision an edge or a vertex stays sharp: from 0 to 10, which is for ever.
+    /// For how many levels of subdivision an edge or a vertex stays sharp: from 0 to 10. At 10 it stays sharp at
+    /// every level.
     #[derive(Default)]
     Sharpness: Included(0.0), Included(10.0);
-    /// How long an animation takes, in seconds: from 0.1 to 600.
+    /// The duration of an animation, in seconds: from 0.1 to 600.
     Seconds: Included(0.1), Included(600.0);
     /// A factor above 0.
     PositiveFactor: Excluded(0.0), Unbounded;
-    /// How far to go in a direction, in scene units; below 0 the other way.
+    /// A distance along a direction, in scene units. A negative distance goes in the opposite direction.
     #[derive(Default)]
     Distance: Unbounded, Unbounded;
-    /// An angle in degrees, any number of turns.
+    /// An angle in degrees. May be more than a full turn.
     #[derive(Default)]
     Angle: Unbounded, Unbounded;
     /// An angle between two directions, in degrees: from 0 to 180.
@@ -179,7 +181,7 @@ numbers! {
 #[serde(try_from = "u32", into = "u32")]
 pub struct Count<const MIN: u32, const MAX: u32 = { u32::MAX }>(u32);
 
-/// How often meshes are subdivided.
+/// A number of subdivision levels.
 pub type Levels = Count<0, 16>;
 
 impl<const MIN: u32, const MAX: u32> Count<MIN, MAX> {
@@ -191,11 +193,11 @@ impl<const MIN: u32, const MAX: u32> Count<MIN, MAX> {
         max: Included(MAX as f64),
     };
 
-    /// The number as a value of this type.
+    /// Creates a value of this type.
     ///
     /// # Errors
     ///
-    /// If it is outside the range.
+    /// If the number is outside the range.
     pub const fn new(value: u32) -> Result<Self, OutOfRange> {
         match Self::LIMITS.check(value as f64) {
             Ok(_) => Ok(Self(value)),
@@ -203,11 +205,11 @@ impl<const MIN: u32, const MAX: u32> Count<MIN, MAX> {
         }
     }
 
-    /// A number that the source code writes out.
+    /// Creates a value of this type from a literal in the source code.
     ///
     /// # Panics
     ///
-    /// If it is outside the range.
+    /// If the number is outside the range.
     pub const fn literal(value: u32) -> Self {
         match Self::new(value) {
             Ok(number) => number,
@@ -215,7 +217,7 @@ impl<const MIN: u32, const MAX: u32> Count<MIN, MAX> {
         }
     }
 
-    /// The number.
+    /// Returns the number.
     pub const fn get(self) -> u32 {
         self.0
     }
@@ -263,31 +265,22 @@ mod tests {
     }
 
     #[test]
-    fn only_numbers_of_the_range_are_made() {
+    fn numbers_outside_of_the_range_are_refused() {
         for (made, expected) in [
             (message(Fraction::new(0.5)), "good"),
-            (
-                message(Fraction::new(0.0)),
-                "the value is 0, expected more than 0",
-            ),
-            (
-                message(Fraction::new(1.0)),
-                "the value is 1, expected less than 1",
-            ),
+            (message(Fraction::new(0.0)), "expected more than 0, found 0"),
+            (message(Fraction::new(1.0)), "expected less than 1, found 1"),
             (message(ClosedFraction::new(0.0)), "good"),
             (message(ClosedFraction::new(1.0)), "good"),
             (
                 message(ClosedFraction::new(1.5)),
-                "the value is 1.5, expected at most 1",
+                "expected at most 1, found 1.5",
             ),
             (message(Length::new(0.0)), "good"),
-            (
-                message(Length::new(-1.0)),
-                "the value is -1, expected at least 0",
-            ),
+            (message(Length::new(-1.0)), "expected at least 0, found -1"),
             (
                 message(PositiveLength::new(0.0)),
-                "the value is 0, expected more than 0",
+                "expected more than 0, found 0",
             ),
             (
                 message(PositiveFactor::new(f64::INFINITY)),
@@ -300,17 +293,11 @@ mod tests {
             (message(Distance::new(-3.0)), "good"),
             (
                 message(AngleBetween::new(181.0)),
-                "the value is 181, expected at most 180",
+                "expected at most 180, found 181",
             ),
             (message(Levels::new(16)), "good"),
-            (
-                message(Levels::new(17)),
-                "the value is 17, expected at most 16",
-            ),
-            (
-                message(Count::<3>::new(2)),
-                "the value is 2, expected at least 3",
-            ),
+            (message(Levels::new(17)), "expected at most 16, found 17"),
+            (message(Count::<3>::new(2)), "expected at least 3, found 2"),
             (message(Count::<3>::new(u32::MAX)), "good"),
         ] {
             assert_eq!(made, expected);
@@ -318,21 +305,18 @@ mod tests {
     }
 
     #[test]
-    fn recipes_read_and_write_them_as_plain_numbers() {
+    fn numbers_are_read_and_written_without_their_type() {
         assert_eq!(ron::from_str("0.25"), Ok(Fraction::literal(0.25)));
         assert_eq!(ron::from_str("2"), Ok(PositiveLength::literal(2.0)));
         assert_eq!(ron::from_str("Some(3)"), Ok(Some(Count::<1>::literal(3))));
         assert_eq!(ron::to_string(&Fraction::literal(0.25)).unwrap(), "0.25");
         assert_eq!(ron::to_string(&Levels::literal(2)).unwrap(), "2");
         let refused = ron::from_str::<Count<3>>("2").unwrap_err();
-        assert_eq!(
-            refused.code.to_string(),
-            "the value is 2, expected at least 3"
-        );
+        assert_eq!(refused.code.to_string(), "expected at least 3, found 2");
     }
 
     #[test]
-    fn the_schema_says_the_range() {
+    fn the_schema_contains_the_range() {
         let schema = |schema: Schema| {
             let mut json = schema.to_value();
             json.as_object_mut()

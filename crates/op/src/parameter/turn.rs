@@ -1,4 +1,4 @@
-//! Turns around the coordinate axes.
+//! Rotations around the coordinate axes.
 
 use geometry::sin_cos_degrees;
 use glam::{DMat3, DVec3};
@@ -7,20 +7,20 @@ use serde::{Deserialize, Serialize};
 
 use super::{Angle, Axis};
 
-/// One turn around an axis.
+/// A rotation around an axis.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Turn {
     /// The direction of the axis.
     pub axis: Axis,
-    /// In degrees, counter-clockwise seen from the tip of the axis. Multiples of 90 are exact.
+    /// The angle in degrees, counter-clockwise when the axis points towards the viewer. Multiples of 90 are exact.
     #[serde(alias = "degrees")]
     #[schemars(extend("aliases" = ["degrees"]))]
     pub angle: Angle,
 }
 
 impl Turn {
-    /// The matrix of the turn.
+    /// Returns the rotation matrix.
     pub fn matrix(self) -> DMat3 {
         let (s, c) = sin_cos_degrees(self.angle.get());
         let [x, y, z] = match self.axis {
@@ -31,7 +31,7 @@ impl Turn {
         DMat3::from_cols(x, y, z)
     }
 
-    /// The matrix of several turns, one after the other.
+    /// Returns the matrix of several rotations, applied in order.
     pub fn all(turns: &[Self]) -> DMat3 {
         turns
             .iter()
@@ -44,7 +44,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn turns_follow_the_right_hand() {
+    fn rotations_follow_the_right_hand_rule() {
         for (axis, from, to) in [
             (Axis::X, DVec3::Y, DVec3::Z),
             (Axis::Y, DVec3::Z, DVec3::X),

@@ -1,4 +1,4 @@
-//! Three numbers: points, directions, factors.
+//! Parameters of three numbers: points, directions, scale factors.
 
 use std::borrow::Cow;
 
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename = "Vector")]
 struct Coordinates(f64, f64, f64);
 
-/// Three numbers that are no value of their type.
+/// Three numbers that are not a valid value of their type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("expected finite {0}")]
 pub struct BadVector(&'static str);
@@ -24,11 +24,11 @@ macro_rules! vectors {
         pub struct $name(DVec3);
 
         impl $name {
-            /// The numbers as a value of this type.
+            /// Creates a value of this type.
             ///
             /// # Errors
             ///
-            /// If they are none.
+            /// If the numbers are not a valid value of this type.
             pub const fn new($x: f64, $y: f64, $z: f64) -> Result<Self, BadVector> {
                 if $x.is_finite() && $y.is_finite() && $z.is_finite() && $good {
                     Ok(Self(DVec3::new($x, $y, $z)))
@@ -37,19 +37,19 @@ macro_rules! vectors {
                 }
             }
 
-            /// Numbers that the source code writes out.
+            /// Creates a value of this type from literals in the source code.
             ///
             /// # Panics
             ///
-            /// If they are no value of this type.
+            /// If the numbers are not a valid value of this type.
             pub const fn literal(x: f64, y: f64, z: f64) -> Self {
                 match Self::new(x, y, z) {
                     Ok(vector) => vector,
-                    Err(_) => panic!("the numbers are no value of their type"),
+                    Err(_) => panic!("the numbers are not a valid value of their type"),
                 }
             }
 
-            /// The three numbers.
+            /// Returns the three numbers.
             pub const fn get(self) -> DVec3 {
                 self.0
             }
@@ -95,9 +95,9 @@ vectors! {
     /// A point or a direction: `(x, y, z)`, in scene units.
     #[derive(Default)]
     Vector(x, y, z): true, "coordinates";
-    /// A direction `(x, y, z)` of any length but 0.
+    /// A direction `(x, y, z)`. Its length does not matter but must not be 0.
     Direction(x, y, z): x != 0.0 || y != 0.0 || z != 0.0, "coordinates that are not all 0";
-    /// Factors along x, y and z, none of them 0; a negative one mirrors.
+    /// Scale factors along x, y and z. No factor may be 0; a negative factor mirrors.
     Factors(x, y, z): x != 0.0 && y != 0.0 && z != 0.0, "factors that are not 0";
 }
 
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_vectors_of_the_type_are_made() {
+    fn invalid_vectors_are_refused() {
         assert_eq!(
             ron::from_str("(1, 0, 2)"),
             Ok(Vector::literal(1.0, 0.0, 2.0))

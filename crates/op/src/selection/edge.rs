@@ -6,61 +6,64 @@ use super::{FaceSelection, Select, VertexSelection, lowest, marks, named_vertex,
 use crate::{AngleBetween, Context, Length, MeshPlan, OpError, Range, Refusal};
 
 selection! {
-    /// Which edges.
+    /// A selection of edges.
     EdgeSelection(
         "edges",
-        inside: "Edges whose vertices all lie in a region, its surface included.",
+        inside: "Edges whose vertices all lie in a region or on its surface.",
         shares: "a vertex",
-        nearest: "Those whose middles are nearest to a point; of equal distances the lower numbers."
+        nearest: "The edges whose midpoints are nearest to a point. Ties go to the lower numbers."
     ) {
-        /// Edges with a face on one side only.
+        /// Boundary edges: edges with a face on one side only.
         Boundary,
-        /// The edge between two vertices, by their numbers; refused if there is none.
+        /// The edge between two vertices, given by their numbers. Refused if no edge joins them.
         Between(u32, u32),
-        /// Edges whose faces turn by more than an angle.
+        /// Edges whose two faces meet at more than an angle.
         Sharp {
-            /// In degrees, from 0 (flat) to 180. Boundary edges have no angle and are never sharp.
+            /// The angle between the normals of the two faces, in degrees, from 0 (flat) to 180. Boundary edges have
+            /// no angle and are never sharp.
             above: AngleBetween,
         },
-        /// Edges whose faces turn by less than an angle.
+        /// Edges whose two faces meet at less than an angle.
         Flat {
-            /// In degrees, from 0 (flat) to 180. Boundary edges have no angle and are never flat.
+            /// The angle between the normals of the two faces, in degrees, from 0 (flat) to 180. Boundary edges have
+            /// no angle and are never flat.
             below: AngleBetween,
         },
         /// Edges longer than a length.
         Longer {
-            /// In scene units.
+            /// The length, in scene units.
             than: Length,
         },
         /// Edges shorter than a length.
         Shorter {
-            /// In scene units.
+            /// The length, in scene units.
             than: Length,
         },
-        /// Edges of these faces.
+        /// The edges of these faces.
         EdgesOf(FaceSelection),
-        /// Edges with an end in these vertices.
+        /// Edges with at least one end in these vertices.
         EdgesAround(VertexSelection),
         /// Edges with both ends in these vertices.
         EdgesWithin(VertexSelection),
-        /// These, and those that go on straight from one of them: across vertices with four edges inside the mesh,
-        /// and along the boundary from an edge of it.
+        /// These edges and the edge loops through them. A loop goes straight across vertices inside the mesh that
+        /// have four edges. From a boundary edge it goes along the boundary.
         EdgeLoop(Box<Self>),
-        /// These, and those across from them in faces with four corners, and so on.
+        /// These edges and the edge rings through them. A ring goes from an edge to the opposite edge of each face
+        /// with four corners.
         EdgeRing(Box<Self>),
-        /// The shortest path along edges from one vertex to another; refused if there is none.
+        /// The shortest path along edges from one vertex to another. Refused if no path exists.
         Path {
-            /// The number of the vertex at its beginning.
+            /// The number of the first vertex.
             from: u32,
-            /// The number of the vertex at its end.
+            /// The number of the last vertex.
             to: u32,
         },
-        /// The longest; of equal lengths the lower numbers.
+        /// The longest edges. Ties go to the lower numbers.
         Longest {
-            /// How many; all if there are fewer.
+            /// The number of edges. If fewer are available, all are selected.
             #[serde(default = "super::one")]
             count: u32,
-            /// From which.
+            /// The selection to choose from.
             #[serde(default)]
             of: Box<Self>,
         },
@@ -68,9 +71,9 @@ selection! {
 }
 
 impl EdgeSelection {
-    /// Where the place `at` of a recipe lies on `e`, measured from the origin of its first half. `at` runs
-    /// from v to w in `Between(v, w)` and otherwise from the end of the lower number to the other. For an
-    /// edge that is not there, `at` itself: the edit refuses that.
+    /// Converts the parameter `at` of a recipe to a position on `e` measured from the origin of its first half-edge.
+    /// `at` runs from v to w in `Between(v, w)`, and otherwise from the end with the lower number to the other end.
+    /// Returns `at` unchanged if the edge does not exist: the edit will refuse the edge.
     pub fn place_on(&self, mesh: &Mesh, e: EdgeId, at: f64) -> f64 {
         if !mesh.has_edge(e) {
             return at;
@@ -96,7 +99,7 @@ impl Select for EdgeSelection {
             Self::Between(v, w) => {
                 let (a, b) = (named_vertex(mesh, *v)?, named_vertex(mesh, *w)?);
                 let Some(h) = mesh.find_half_edge(a, b) else {
-                    let message = format!("there is no edge between vertices {v} and {w}");
+                    let message = format!("no edge joins vertices {v} and {w}");
                     return Err(OpError::refused(Refusal::Missing, message).about([a, b]));
                 };
                 marks::<Self>(mesh, |e| e == h.edge())

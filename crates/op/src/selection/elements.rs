@@ -1,4 +1,4 @@
-//! Selections of one kind of elements or another.
+//! Selections of vertices, edges or faces.
 
 use mesh::{EdgeId, FaceId, Mesh, VertexId};
 use schemars::JsonSchema;
@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 use super::{EdgeSelection, FaceSelection, Select, VertexSelection};
 use crate::{Context, OpError};
 
-/// Vertices, edges or faces.
+/// A selection of vertices, edges or faces.
 ///
-/// Recipes may leave the outer name out where only one kind of elements has such a selection:
-/// `Sharp(above: 30)` is `Edges(Sharp(above: 30))`, but `Boundary` could be of any kind.
+/// Recipes may omit the outer name if the selection exists for only one kind of elements:
+/// `Sharp(above: 30)` is short for `Edges(Sharp(above: 30))`, but `Boundary` exists for all kinds.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("x-shorthand" = true))]
@@ -23,7 +23,7 @@ pub enum Elements {
     Faces(FaceSelection),
 }
 
-/// What a selection selects.
+/// The kind of elements of a selection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementKind {
     /// Vertices.
@@ -35,10 +35,10 @@ pub enum ElementKind {
 }
 
 impl ElementKind {
-    /// All three.
+    /// All three kinds.
     pub const ALL: [Self; 3] = [Self::Vertices, Self::Edges, Self::Faces];
 
-    /// `vertices`, `edges` or `faces`.
+    /// Returns `vertices`, `edges` or `faces`.
     pub fn word(self) -> &'static str {
         match self {
             Self::Vertices => VertexSelection::WORD,
@@ -48,7 +48,7 @@ impl ElementKind {
     }
 }
 
-/// The elements of a mesh that a selection matches, in order of their numbers.
+/// The selected elements of a mesh, in order of their numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Selected {
     /// Vertices.
@@ -60,7 +60,7 @@ pub enum Selected {
 }
 
 impl Elements {
-    /// What kind of elements these are.
+    /// Returns the kind of elements.
     pub fn kind(&self) -> ElementKind {
         match self {
             Self::Vertices(_) => ElementKind::Vertices,
@@ -69,12 +69,12 @@ impl Elements {
         }
     }
 
-    /// The elements of a mesh that the selection matches.
+    /// Returns the selected elements of a mesh.
     ///
     /// # Errors
     ///
-    /// As [`Select::resolve`]: an element, tag or material that is named is not there, or an expected
-    /// number is not met.
+    /// As [`Select::resolve`]: a named element, tag or material does not exist, or `Expect` found a different number
+    /// of elements.
     pub fn resolve(&self, mesh: &Mesh, cx: &Context) -> Result<Selected, OpError> {
         Ok(match self {
             Self::Vertices(s) => Selected::Vertices(s.resolve(mesh, cx)?),
@@ -85,7 +85,7 @@ impl Elements {
 }
 
 impl Selected {
-    /// How many there are.
+    /// Returns the number of selected elements.
     pub fn len(&self) -> usize {
         match self {
             Self::Vertices(list) => list.len(),
@@ -94,7 +94,7 @@ impl Selected {
         }
     }
 
-    /// Whether there are none.
+    /// Whether no element is selected.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -2,41 +2,43 @@
 
 use mesh::{DVec3, FaceId, MATERIAL, Mesh, VertexId, angle_between};
 
-use super::{EdgeSelection, Select, VertexSelection, marks, touching, walk};
+use super::{EdgeSelection, Select, VertexSelection, marks, missing_element, touching, walk};
 use crate::{AngleBetween, Context, MeshPlan, OpError, Range, Refusal, Vector};
 
 selection! {
-    /// Which faces.
+    /// A selection of faces.
     FaceSelection(
         "faces",
-        inside: "Faces whose vertices all lie in a region, its surface included.",
+        inside: "Faces whose vertices all lie in a region or on its surface.",
         shares: "a vertex",
-        nearest: "Those whose middles are nearest to a point; of equal distances the lower numbers."
+        nearest: "The faces whose centers (the means of their vertices) are nearest to a point. Ties go to the lower \
+                  numbers."
     ) {
-        /// Faces with a boundary edge.
+        /// Faces with at least one boundary edge.
         Boundary,
-        /// Faces of these numbers; refused if one is not there.
+        /// The faces with these numbers. Refused if a face does not exist.
         Faces(Vec<u32>),
-        /// Faces with so many corners.
+        /// Faces with this number of corners.
         Degree(u32),
-        /// Faces of the material of this name; refused if the object has none of that name.
+        /// Faces with the material of this name. Refused if the object has no material of this name.
         Material(String),
-        /// Faces with a corner in these vertices.
+        /// Faces with at least one corner in these vertices.
         FacesAround(Box<VertexSelection>),
-        /// Faces beside these edges.
+        /// Faces with at least one of these edges.
         FacesBeside(Box<EdgeSelection>),
-        /// Faces that face a direction.
+        /// Faces whose normals point in a direction, up to an angle.
         Facing {
-            /// Of any length but 0.
+            /// The direction. Its length does not matter; a zero vector selects no faces.
             direction: Vector,
-            /// By how many degrees the normal may turn away from it.
+            /// The largest angle between the normal and the direction, in degrees.
             within: AngleBetween,
         },
-        /// These, and the faces reached from them over edges that turn by at most an angle.
+        /// These faces and all faces that can be reached from them across edges whose two faces meet at no more than
+        /// an angle.
         Expand {
-            /// In degrees, from 0 (flat) to 180.
+            /// The largest angle between the normals of two neighbouring faces, in degrees, from 0 (flat) to 180.
             to_angle: AngleBetween,
-            /// From which.
+            /// The faces to start from.
             of: Box<Self>,
         },
     }
@@ -57,9 +59,7 @@ impl Select for FaceSelection {
                 for &number in numbers {
                     let f = FaceId::new((number as usize).min(u32::MAX as usize - 1));
                     if !mesh.has_face(f) {
-                        let n = mesh.n_faces();
-                        let message = format!("there is no face {number}, only {n} faces");
-                        return Err(OpError::refused(Refusal::Missing, message));
+                        return Err(missing_element(number, "face", mesh.n_faces(), Self::WORD));
                     }
                     mask[f.index()] = true;
                 }

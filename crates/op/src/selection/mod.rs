@@ -1,10 +1,10 @@
-//! Selections: values that say which vertices, edges or faces an operation works on.
+//! Selections: values that describe which vertices, edges or faces an operation works on.
 //!
 //! The three types share one algebra: `And`, `Or`, `Not`, `Grow`, `Shrink`, `Component`, choices (`Random`,
-//! `Nearest`, ...) from another selection, and `Expect`, which fails unless the number of elements is
-//! the expected one. A selection is evaluated once, before the first edit.
+//! `Nearest`, ...) from another selection, and `Expect`, which fails unless another selection has the expected
+//! number of elements. A selection is evaluated once, before the first edit.
 
-/// Defines a type of selections: the variants that all types share, and those of its own.
+/// Defines a selection type: the variants that all three types share, and the variants of this type.
 macro_rules! selection {
     (
         $(#[$meta:meta])*
@@ -24,46 +24,50 @@ macro_rules! selection {
             $($own)*
             #[doc = $inside]
             Inside(super::Region),
-            #[doc = concat!("The ", $elements, " marked by a tag of this name.")]
+            #[doc = concat!("The ", $elements, " with the tag of this name. Refused if no tag has this name.")]
             Tagged(String),
-            #[doc = concat!("The ", $elements, " in all of these; every one for an empty list.")]
+            #[doc = concat!("The ", $elements, " in all of these selections. An empty list selects all ", $elements, ".")]
             And(Vec<Self>),
-            #[doc = concat!("The ", $elements, " in any of these; none for an empty list.")]
+            #[doc = concat!("The ", $elements, " in at least one of these selections. An empty list selects none.")]
             Or(Vec<Self>),
-            #[doc = concat!("The ", $elements, " that are not in this.")]
+            #[doc = concat!("The ", $elements, " that are not in this selection.")]
             Not(Box<Self>),
-            #[doc = concat!("These, and those that share ", $part, " with one of them.")]
+            #[doc = concat!("This selection and the ", $elements, " that share ", $part, " with it.")]
             Grow(Box<Self>),
-            #[doc = concat!("Those of these that share ", $part, " with none outside.")]
+            #[doc = concat!(
+                "This selection without the ", $elements, " that share ", $part, " with ", $elements, " outside it."
+            )]
             Shrink(Box<Self>),
-            /// All of the connected pieces of the mesh that one of these belongs to.
+            #[doc = concat!(
+                "The ", $elements, " of all connected components of the mesh that this selection touches."
+            )]
             Component(Box<Self>),
-            /// A random choice, the same for the same seed and step.
+            /// A random choice. The same seed in the same step gives the same choice.
             Random {
-                /// How many; all if there are fewer.
+                #[doc = concat!("The number of ", $elements, ". If fewer are available, all are selected.")]
                 count: u32,
-                /// From which.
+                /// The selection to choose from.
                 #[serde(default)]
                 of: Box<Self>,
-                /// Another number gives another choice.
+                /// The seed. A different seed gives a different choice.
                 seed: u64,
             },
             #[doc = $nearest]
             Nearest {
                 /// The point.
                 to: $crate::Vector,
-                /// How many; all if there are fewer.
+                #[doc = concat!("The number of ", $elements, ". If fewer are available, all are selected.")]
                 #[serde(default = "super::one")]
                 count: u32,
-                /// From which.
+                /// The selection to choose from.
                 #[serde(default)]
                 of: Box<Self>,
             },
-            /// The same elements; refused unless there are exactly `count`.
+            /// The same elements. Refused unless their number is exactly `count`.
             Expect {
-                /// How many there must be.
+                #[doc = concat!("The expected number of ", $elements, ".")]
                 count: u32,
-                /// Of what.
+                /// The selection to count.
                 of: Box<Self>,
             },
         }
@@ -108,74 +112,73 @@ pub use face::FaceSelection;
 pub use region::Region;
 pub use vertex::VertexSelection;
 
-/// The part of the algebra that all selections share.
+/// The variants that all selection types share. The documentation is in the macro `selection`.
 enum Shared<'a, S> {
-    /// A variant that only the type itself has.
+    /// Any variant that only one selection type has.
     Own,
-    /// Every element.
     All,
-    /// Elements whose vertices all lie in a region.
     Inside(&'a Region),
-    /// Elements marked by a tag.
     Tagged(&'a str),
-    /// Elements in all of these.
     And(&'a [S]),
-    /// Elements in any of these.
     Or(&'a [S]),
-    /// Elements not in this.
     Not(&'a S),
-    /// These and the elements that share a vertex with one of them.
     Grow(&'a S),
-    /// Those of which no element that shares a vertex is outside.
     Shrink(&'a S),
-    /// These and all elements that edges lead to from them.
     Component(&'a S),
-    /// So many, drawn by chance.
-    Random { count: u32, of: &'a S, seed: u64 },
-    /// The so many whose middles are nearest to a point.
-    Nearest { to: Vector, count: u32, of: &'a S },
-    /// These, which must be so many.
-    Expect { count: u32, of: &'a S },
+    Random {
+        count: u32,
+        of: &'a S,
+        seed: u64,
+    },
+    Nearest {
+        to: Vector,
+        count: u32,
+        of: &'a S,
+    },
+    Expect {
+        count: u32,
+        of: &'a S,
+    },
 }
 
-/// What the three types of selections have in common.
+/// The common interface of the three selection types.
 pub trait Select: Sized + Sync {
-    /// The ids of the elements.
+    /// The id type of the elements.
     type Id: Id;
 
-    /// The elements that are selected, in order of their ids.
+    /// Returns the selected elements, in order of their ids.
     ///
     /// # Errors
     ///
-    /// [`Refusal::Missing`] if an element that is named is not there or nothing has a tag that is named,
-    /// [`Refusal::Expectation`] if an expected number is not met.
+    /// [`Refusal::Missing`] if a named element, tag or material does not exist, or no path exists.
+    /// [`Refusal::Expectation`] if `Expect` found a different number of elements.
     fn resolve(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<Self::Id>, OpError> {
         let mask = self.mask(mesh, cx)?;
         Ok(Self::marked(mesh, &mask).collect())
     }
 
-    /// The selection as a mark for each element, by index.
+    /// Returns the selection as one flag for each element, by index.
     ///
     /// # Errors
     ///
     /// As [`resolve`](Self::resolve).
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError>;
 
-    /// How many elements of a planned mesh can be selected.
+    /// Returns how many elements of a planned mesh can be selected.
     fn count(&self, plan: &MeshPlan) -> Range;
 
-    /// All elements of a mesh.
+    /// Returns all elements of a mesh.
     fn elements(mesh: &Mesh) -> impl Iterator<Item = Self::Id>;
 
-    /// The vertices of an element.
+    /// Returns the vertices of an element.
     fn vertices(mesh: &Mesh, id: Self::Id) -> impl Iterator<Item = VertexId>;
 
-    /// The elements that have a mark.
+    /// Returns the elements whose flag is set in `mask`.
     fn marked(mesh: &Mesh, mask: &[bool]) -> impl Iterator<Item = Self::Id> {
         Self::elements(mesh).filter(|id| mask[id.index()])
     }
 
-    /// The word for the elements.
+    /// The word for the elements, in the plural.
     const WORD: &'static str;
 }
 
@@ -183,7 +186,9 @@ impl<S: Select> Shared<'_, S> {
     /// Evaluates the variant.
     fn mask(&self, mesh: &Mesh, cx: &Context) -> Result<Vec<bool>, OpError> {
         Ok(match *self {
-            Self::Own => unreachable!("the type evaluates its own variants"),
+            Self::Own => {
+                unreachable!("each selection type evaluates the variants that only it has")
+            }
             Self::All => marks::<S>(mesh, |_| true),
             Self::Inside(region) => marks::<S>(mesh, |id| {
                 S::vertices(mesh, id).all(|v| region.contains(mesh.position(v)))
@@ -231,8 +236,7 @@ impl<S: Select> Shared<'_, S> {
                 let mask = of.mask(mesh, cx)?;
                 let found = mask.iter().filter(|&&m| m).count();
                 if found != count as usize {
-                    let message =
-                        format!("expected {count} {} to be selected, found {found}", S::WORD);
+                    let message = format!("expected {count} selected {}, found {found}", S::WORD);
                     let selected = S::marked(mesh, &mask);
                     return Err(OpError::refused(Refusal::Expectation, message).about(selected));
                 }
@@ -241,7 +245,7 @@ impl<S: Select> Shared<'_, S> {
         })
     }
 
-    /// How many elements the variant can select, of `all` that there are.
+    /// Returns how many elements the variant can select. `all` is the number of all elements.
     fn count(&self, all: Range, plan: &MeshPlan) -> Range {
         match self {
             Self::All => all,
@@ -258,15 +262,16 @@ impl<S: Select> Shared<'_, S> {
     }
 }
 
-/// A mask from a question to each element.
-fn marks<S: Select>(mesh: &Mesh, ask: impl Fn(S::Id) -> bool) -> Vec<bool> {
+/// Returns a mask with the result of `predicate` for each element.
+fn marks<S: Select>(mesh: &Mesh, predicate: impl Fn(S::Id) -> bool) -> Vec<bool> {
     let mut mask = vec![false; mesh.domain_len(S::Id::DOMAIN)];
     for id in S::elements(mesh) {
-        mask[id.index()] = ask(id);
+        mask[id.index()] = predicate(id);
     }
     mask
 }
 
+/// Returns the elements with the tag `name`.
 fn tagged<S: Select>(mesh: &Mesh, name: &str) -> Result<Vec<bool>, OpError> {
     if let Some(mask) = mesh.tag(S::Id::DOMAIN, name) {
         return Ok(mask.to_vec());
@@ -283,16 +288,16 @@ fn tagged<S: Select>(mesh: &Mesh, name: &str) -> Result<Vec<bool>, OpError> {
     } else {
         tags.join(", ")
     };
-    let message = format!("no {} are tagged \"{name}\"; tags: {known}", S::WORD);
+    let message = format!("no {} are tagged \"{name}\"; known tags: {known}", S::WORD);
     Err(OpError::refused(Refusal::Missing, message))
 }
 
-/// The elements without a mark.
+/// Returns the elements that are not marked.
 fn not<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     marks::<S>(mesh, |id| !mask[id.index()])
 }
 
-/// The vertices of the marked elements.
+/// Returns the vertices of the marked elements.
 fn touched<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     let mut vertices = vec![false; mesh.domain_len(Domain::Vertex)];
     for v in S::marked(mesh, mask).flat_map(|id| S::vertices(mesh, id)) {
@@ -301,14 +306,14 @@ fn touched<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     vertices
 }
 
-/// The elements that have one of the marked vertices.
+/// Returns the elements with at least one marked vertex.
 fn touching<S: Select>(mesh: &Mesh, vertices: &[bool]) -> Vec<bool> {
     marks::<S>(mesh, |id| {
         S::vertices(mesh, id).any(|v| vertices[v.index()])
     })
 }
 
-/// The marked elements and all that share a vertex, or for vertices an edge, with one of them.
+/// Returns the marked elements and the elements that share a vertex (for vertices: an edge) with them.
 fn grow<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     let mut vertices = touched::<S>(mesh, mask);
     if S::Id::DOMAIN == Domain::Vertex {
@@ -320,7 +325,7 @@ fn grow<S: Select>(mesh: &Mesh, mask: &[bool]) -> Vec<bool> {
     touching::<S>(mesh, &vertices)
 }
 
-/// The mean of the vertices of an element.
+/// Returns the mean position of the vertices of an element.
 fn middle<S: Select>(mesh: &Mesh, id: S::Id) -> DVec3 {
     let (mut sum, mut n) = (DVec3::ZERO, 0.0);
     for v in S::vertices(mesh, id) {
@@ -330,7 +335,7 @@ fn middle<S: Select>(mesh: &Mesh, id: S::Id) -> DVec3 {
     sum / n
 }
 
-/// The `count` marked elements of the lowest keys; of equal keys the lower ids.
+/// Returns the `count` marked elements with the lowest keys. Ties go to the lower ids.
 fn lowest<S: Select, K: PartialOrd>(
     mesh: &Mesh,
     count: u32,
@@ -338,7 +343,7 @@ fn lowest<S: Select, K: PartialOrd>(
     key: impl Fn(S::Id) -> K,
 ) -> Vec<bool> {
     let mut keyed: Vec<(K, S::Id)> = S::marked(mesh, mask).map(|id| (key(id), id)).collect();
-    // Positions are finite, so that keys compare.
+    // Positions are finite, so keys are never NaN.
     keyed.sort_by(|a, b| a.partial_cmp(b).expect("keys are numbers"));
     let mut chosen = vec![false; mask.len()];
     for (_, id) in keyed.into_iter().take(count as usize) {
@@ -347,7 +352,7 @@ fn lowest<S: Select, K: PartialOrd>(
     chosen
 }
 
-/// A hash of two numbers: the output function of SplitMix64 on their combination.
+/// Hashes two numbers: combines them and applies the output function of SplitMix64.
 ///
 /// Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014.
 fn mix(key: u64, counter: u64) -> u64 {
@@ -357,20 +362,28 @@ fn mix(key: u64, counter: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// A named vertex, if it is there.
+/// Returns the vertex with a number from a recipe.
 fn named_vertex(mesh: &Mesh, index: u32) -> Result<VertexId, OpError> {
     let v = VertexId::new((index as usize).min(u32::MAX as usize - 1));
     if mesh.has_vertex(v) {
         return Ok(v);
     }
-    let n = mesh.n_vertices();
-    Err(OpError::refused(
-        Refusal::Missing,
-        format!("there is no vertex {index}, only {n} vertices"),
+    Err(missing_element(
+        index,
+        "vertex",
+        mesh.n_vertices(),
+        VertexSelection::WORD,
     ))
 }
 
-/// The default of `count` where one is meant.
+/// Returns the refusal of a number that no element has, in a mesh with `n` elements of this kind.
+fn missing_element(number: u32, singular: &str, n: usize, plural: &str) -> OpError {
+    let noun = if n == 1 { singular } else { plural };
+    let message = format!("{singular} {number} does not exist: the mesh has {n} {noun}");
+    OpError::refused(Refusal::Missing, message)
+}
+
+/// The default of a `count`.
 const fn one() -> u32 {
     1
 }

@@ -6,35 +6,35 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Length, Vector};
 
-/// A part of space, with its surface.
+/// A region of space, including its surface.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Region {
-    /// A box along the axes.
+    /// An axis-aligned box.
     Box {
-        /// The corner of the lowest coordinates.
+        /// The corner with the lowest coordinates.
         min: Vector,
-        /// The corner of the highest coordinates.
+        /// The corner with the highest coordinates.
         max: Vector,
     },
     /// A ball.
     Sphere {
-        /// The middle.
+        /// The center.
         center: Vector,
         /// The radius, in scene units.
         radius: Length,
     },
-    /// All on one side of a plane: where (p - point) · normal >= 0.
+    /// One side of a plane: all points p with (p - point) · normal >= 0.
     HalfSpace {
-        /// A point of the plane.
+        /// A point on the plane.
         point: Vector,
-        /// Points into the region; of any length.
+        /// The normal of the plane, which points into the region. Its length does not matter.
         normal: Vector,
     },
 }
 
 impl Region {
-    /// Whether `p` lies in the region or on its surface.
+    /// Whether the point `p` is in the region or on its surface.
     pub fn contains(&self, p: DVec3) -> bool {
         match *self {
             Self::Box { min, max } => p.cmpge(min.into()).all() && p.cmple(max.into()).all(),

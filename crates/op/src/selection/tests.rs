@@ -1,4 +1,4 @@
-//! Tests of all three types of selections.
+//! Tests of the three selection types.
 
 use super::*;
 use crate::{Files, NoProgress};
@@ -62,7 +62,7 @@ fn predicates_select_by_geometry_and_connectivity() {
 }
 
 #[test]
-fn choices_take_as_many_as_they_are_told() {
+fn choices_select_at_most_count_elements() {
     let grid = shapes::grid(4, 4);
     assert_eq!(edges(&parse("Random(count: 7, seed: 1)"), &grid).len(), 7);
     assert_eq!(
@@ -79,7 +79,7 @@ fn choices_take_as_many_as_they_are_told() {
 }
 
 #[test]
-fn another_seed_or_step_gives_another_choice_and_the_same_the_same() {
+fn random_choices_depend_on_seed_and_step_only() {
     let grid = shapes::grid(20, 20);
     let files = Files::default();
     let choose = |seed: u64, stream| {
@@ -98,11 +98,11 @@ fn another_seed_or_step_gives_another_choice_and_the_same_the_same() {
 }
 
 #[test]
-fn a_choice_by_chance_is_even() {
-    // 2000 draws of 10 edges out of 40: each is drawn 500 times, give or take. The chance of being off
-    // by 100 is below one in a million.
+fn random_choices_are_uniform() {
+    // 2000 choices of 10 edges out of 40: each edge is chosen about 500 times. The probability of a deviation
+    // of 100 is below one in a million.
     let grid = shapes::grid(4, 4);
-    let mut drawn = vec![0; 40];
+    let mut times_chosen = vec![0; 40];
     for seed in 0..2000 {
         for e in edges(
             &EdgeSelection::Random {
@@ -112,42 +112,48 @@ fn a_choice_by_chance_is_even() {
             },
             &grid,
         ) {
-            drawn[e.index()] += 1;
+            times_chosen[e.index()] += 1;
         }
     }
-    assert!(drawn.iter().all(|n| (400..600).contains(n)), "{drawn:?}");
+    assert!(
+        times_chosen.iter().all(|n| (400..600).contains(n)),
+        "{times_chosen:?}"
+    );
 }
 
 #[test]
-fn an_edge_that_is_not_there_is_refused() {
+fn an_edge_that_does_not_exist_is_refused() {
     let cube = shapes::cube();
     let (reason, message) = refusal(&parse("Between(0, 7)"), &cube);
     assert_eq!(reason, Refusal::Missing);
-    assert_eq!(message, "there is no edge between vertices 0 and 7");
+    assert_eq!(message, "no edge joins vertices 0 and 7");
     let (_, message) = refusal(&parse("Between(0, 8)"), &cube);
-    assert_eq!(message, "there is no vertex 8, only 8 vertices");
+    assert_eq!(message, "vertex 8 does not exist: the mesh has 8 vertices");
     let (_, message) = refusal(&parse("Between(0, 4294967295)"), &cube);
-    assert_eq!(message, "there is no vertex 4294967295, only 8 vertices");
+    assert_eq!(
+        message,
+        "vertex 4294967295 does not exist: the mesh has 8 vertices"
+    );
 }
 
 #[test]
-fn an_unknown_tag_is_refused_with_the_known_ones() {
+fn an_unknown_tag_is_refused_with_a_list_of_the_known_tags() {
     let mut cube = shapes::cube();
     let tag = mesh::Attribute::<EdgeId, bool>::new("rim", mesh::Rule::Copy);
     cube.set(tag, (0..12).map(|i| i < 5).collect());
     assert_eq!(edges(&parse("Tagged(\"rim\")"), &cube).len(), 5);
     let (reason, message) = refusal(&parse("Tagged(\"rib\")"), &cube);
     assert_eq!(reason, Refusal::Missing);
-    assert_eq!(message, "no edges are tagged \"rib\"; tags: rim");
+    assert_eq!(message, "no edges are tagged \"rib\"; known tags: rim");
 }
 
 #[test]
-fn an_expected_number_that_is_not_met_is_refused() {
+fn a_number_that_differs_from_the_expected_number_is_refused() {
     let cube = shapes::cube();
     assert_eq!(edges(&parse("Expect(count: 12, of: All)"), &cube).len(), 12);
     let (reason, message) = refusal(&parse("Expect(count: 4, of: Sharp(above: 30))"), &cube);
     assert_eq!(reason, Refusal::Expectation);
-    assert_eq!(message, "expected 4 edges to be selected, found 12");
+    assert_eq!(message, "expected 4 selected edges, found 12");
 }
 
 #[test]
@@ -171,7 +177,7 @@ fn faces_are_selected_by_material() {
     );
 }
 
-/// Selections over a 5 x 4 grid, nested up to three deep.
+/// Generates selections on a 5 x 4 grid, nested up to three levels deep.
 fn any_selection() -> impl Strategy<Value = EdgeSelection> {
     let leaf = prop_oneof![
         Just(EdgeSelection::All),
@@ -198,7 +204,7 @@ fn any_selection() -> impl Strategy<Value = EdgeSelection> {
 
 proptest! {
     #[test]
-    fn the_algebra_keeps_its_laws(a in any_selection(), b in any_selection()) {
+    fn the_laws_of_the_algebra_hold(a in any_selection(), b in any_selection()) {
         let grid = shapes::grid(5, 4);
         let not = |s: &EdgeSelection| EdgeSelection::Not(Box::new(s.clone()));
         let boxed = |s: &EdgeSelection| Box::new(s.clone());
@@ -207,20 +213,20 @@ proptest! {
         let neither = EdgeSelection::Or(vec![not(&a), not(&b)]);
         prop_assert_eq!(edges(&not(&both), &grid), edges(&neither, &grid));
         prop_assert_eq!(edges(&not(&not(&a)), &grid), edges(&a, &grid));
-        // Growing adds, shrinking takes away, and they are each other's complement.
+        // `Grow` only adds elements, and `Shrink` is the complement of `Grow` of the complement.
         let grown = edges(&EdgeSelection::Grow(boxed(&a)), &grid);
         prop_assert!(edges(&a, &grid).iter().all(|e| grown.contains(e)));
         prop_assert_eq!(
             edges(&EdgeSelection::Shrink(boxed(&a)), &grid),
             edges(&not(&EdgeSelection::Grow(Box::new(not(&a)))), &grid)
         );
-        // The count is within what was planned.
+        // The number of selected elements is within the planned range.
         let planned = a.count(&MeshPlan::of(&grid));
         prop_assert!(planned.contains(edges(&a, &grid).len() as u64), "{:?}", planned);
     }
 
     #[test]
-    fn a_selection_comes_back_from_its_text(a in any_selection()) {
+    fn a_selection_survives_a_round_trip_through_text(a in any_selection()) {
         prop_assert_eq!(parse(&ron::to_string(&a).unwrap()), a);
     }
 }
@@ -232,7 +238,7 @@ fn faces(text: &str, mesh: &Mesh) -> Vec<usize> {
     found.unwrap().into_iter().map(FaceId::index).collect()
 }
 
-/// The vertices of the selected edges, each once.
+/// Returns the vertices of the selected edges, without duplicates.
 fn ends(text: &str, mesh: &Mesh) -> Vec<usize> {
     let found = edges(&parse(text), mesh);
     let ends = found.iter().flat_map(|&e| mesh.edge_vertices(e));
@@ -242,7 +248,7 @@ fn ends(text: &str, mesh: &Mesh) -> Vec<usize> {
 
 #[test]
 fn loops_and_rings_go_around_a_torus() {
-    // Vertex 5 i + j is the j-th of 5 around the tube, at the i-th of 7 places.
+    // Vertex 5 i + j is number j of the 5 vertices around the tube at cross section i of 7.
     let torus = shapes::torus(7, 5, 2.0, 1.0);
     let across: Vec<usize> = (0..5).collect();
     assert_eq!(ends("EdgeLoop(Between(0, 1))", &torus), across);
@@ -257,13 +263,13 @@ fn loops_and_rings_go_around_a_torus() {
 }
 
 #[test]
-fn loops_end_where_four_edges_do_not_cross() {
+fn loops_end_at_vertices_without_four_edges() {
     let grid = shapes::grid(4, 3);
-    // From one side of the sheet to the other, and no further.
+    // From one side of the sheet to the opposite side.
     assert_eq!(ends("EdgeLoop(Between(6, 7))", &grid), [5, 6, 7, 8, 9]);
     assert_eq!(edges(&parse("EdgeLoop(Between(0, 1))"), &grid).len(), 14);
     assert_eq!(edges(&parse("EdgeRing(Between(0, 1))"), &grid).len(), 4);
-    // Three edges meet at the corners of a cube, and the faces of triangles have no edge across.
+    // Three edges meet at the corners of a cube, and triangles have no opposite edges.
     assert_eq!(
         edges(&parse("EdgeLoop(Between(0, 1))"), &shapes::cube()).len(),
         1
@@ -285,7 +291,7 @@ fn a_path_is_the_shortest() {
     assert_eq!(ends("Path(from: 5, to: 8)", &grid), [5, 6, 7, 8]);
     assert_eq!(edges(&parse("Path(from: 0, to: 19)"), &grid).len(), 7);
     assert_eq!(edges(&parse("Path(from: 3, to: 3)"), &grid).len(), 0);
-    // A detour of many short edges is shorter than a long edge.
+    // Two long edges lead through vertex 7: a detour along more but shorter edges is shorter.
     let mut fans = shapes::fans(&grid);
     fans.positions_mut()[7] += DVec3::new(0.0, 0.0, 100.0);
     assert!(!ends("Path(from: 6, to: 8)", &fans).contains(&7));
@@ -298,11 +304,14 @@ fn a_path_is_the_shortest() {
     );
     let (reason, message) = refusal(&parse(two), &apart.unwrap().0);
     assert_eq!(reason, Refusal::Missing);
-    assert_eq!(message, "no edges lead from vertex 0 to vertex 4");
+    assert_eq!(
+        message,
+        "no path along edges leads from vertex 0 to vertex 4"
+    );
 }
 
 #[test]
-fn faces_are_selected_by_where_they_face_and_what_they_belong_to() {
+fn faces_are_selected_by_direction_angle_and_component() {
     let cube = shapes::cube();
     let up = faces("Facing(direction: (0, 0, 3), within: 10)", &cube);
     assert_eq!(up.len(), 1);

@@ -8,20 +8,20 @@ use super::{EdgeSelection, FaceSelection, Select, marks, named_vertex, touched};
 use crate::{Context, MeshPlan, OpError, Range};
 
 selection! {
-    /// Which vertices.
+    /// A selection of vertices.
     VertexSelection(
         "vertices",
-        inside: "Vertices that lie in a region, its surface included.",
+        inside: "Vertices in a region or on its surface.",
         shares: "an edge",
-        nearest: "The nearest to a point; of equal distances the lower numbers."
+        nearest: "The vertices nearest to a point. Ties go to the lower numbers."
     ) {
         /// Vertices with a boundary edge.
         Boundary,
-        /// Vertices without edges.
+        /// Isolated vertices: vertices without edges.
         Isolated,
-        /// Vertices of these numbers; refused if one is not there.
+        /// The vertices with these numbers. Refused if a vertex does not exist.
         Vertices(Vec<u32>),
-        /// Vertices with so many edges.
+        /// Vertices with this number of edges.
         Valence(u32),
         /// The ends of these edges.
         EndsOf(Box<EdgeSelection>),

@@ -1,4 +1,4 @@
-//! Selections that walk over the mesh: loops and rings of edges, shortest paths, what is connected.
+//! Selections that traverse the mesh: edge loops, edge rings, shortest paths, connected components.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -7,12 +7,12 @@ use mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
 use crate::{OpError, Refusal};
 
-/// The marked edges, and those that go on straight from one of them: across vertices with four edges inside the
-/// mesh, and along the boundary from an edge of it.
+/// Returns the edges and the edge loops through them. A loop goes straight across vertices inside the mesh that have
+/// four edges. From a boundary edge it goes along the boundary.
 pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         if mesh.is_boundary_edge(h.edge()) {
-            // The side without a face leads along the boundary.
+            // The half-edges without a face form the boundary loop.
             return Some(match mesh.face(h) {
                 None => mesh.next(h),
                 Some(_) => mesh.prev(h.twin()).twin(),
@@ -24,7 +24,8 @@ pub(super) fn edge_loops(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     })
 }
 
-/// The marked edges, and those across from them in faces with four corners, and so on.
+/// Returns the edges and the edge rings through them. A ring goes from an edge to the opposite edge of each face with
+/// four corners.
 pub(super) fn edge_rings(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     follow(mesh, edges, |h| {
         let f = mesh.face(h)?;
@@ -32,37 +33,37 @@ pub(super) fn edge_rings(mesh: &Mesh, edges: &[EdgeId]) -> Vec<bool> {
     })
 }
 
-/// Follows both halves of each edge from half-edge to half-edge until there is no further one, or it has been
-/// there. Each half-edge is visited once.
+/// Follows `successor` from both half-edges of each edge, until it returns `None` or a visited half-edge. Returns the
+/// visited edges. Each half-edge is visited at most once.
 fn follow(
     mesh: &Mesh,
     edges: &[EdgeId],
-    further: impl Fn(HalfEdgeId) -> Option<HalfEdgeId>,
+    successor: impl Fn(HalfEdgeId) -> Option<HalfEdgeId>,
 ) -> Vec<bool> {
     let mut visited = vec![false; mesh.domain_len(Domain::Corner)];
     let mut mask = vec![false; mesh.domain_len(Domain::Edge)];
     for e in edges {
         let h = e.half_edge();
         for start in [h, h.twin()] {
-            let mut at = Some(start);
-            while let Some(h) = at.filter(|h| !visited[h.index()]) {
+            let mut current = Some(start);
+            while let Some(h) = current.filter(|h| !visited[h.index()]) {
                 visited[h.index()] = true;
                 mask[h.edge().index()] = true;
-                at = further(h);
+                current = successor(h);
             }
         }
     }
     mask
 }
 
-/// The edges of the shortest path between two vertices: of equal lengths the one whose last steps come from
-/// vertices of lower numbers.
+/// Returns the edges of the shortest path between two vertices. Among paths of equal length, each vertex is reached
+/// from the predecessor with the lowest number.
 ///
 /// E. W. Dijkstra, "A note on two problems in connexion with graphs", 1959.
 ///
 /// # Errors
 ///
-/// [`Refusal::Missing`] if no edges lead from one to the other.
+/// [`Refusal::Missing`] if no path exists.
 pub(super) fn shortest_path(
     mesh: &Mesh,
     from: VertexId,
@@ -72,7 +73,7 @@ pub(super) fn shortest_path(
     let mut distance = vec![f64::INFINITY; n];
     let mut arrival: Vec<Option<HalfEdgeId>> = vec![None; n];
     let mut is_done = vec![false; n];
-    // The bits of numbers that are not negative are in the order of the numbers.
+    // The bit patterns of non-negative numbers have the same order as the numbers.
     let mut heap = BinaryHeap::from([Reverse((0_u64, from))]);
     distance[from.index()] = 0.0;
     while let Some(Reverse((_, v))) = heap.pop() {
@@ -96,23 +97,23 @@ pub(super) fn shortest_path(
         }
     }
     let mut path = Vec::new();
-    let mut at = to;
-    while at != from {
-        let Some(h) = arrival[at.index()] else {
+    let mut current = to;
+    while current != from {
+        let Some(h) = arrival[current.index()] else {
             let message = format!(
-                "no edges lead from vertex {} to vertex {}",
+                "no path along edges leads from vertex {} to vertex {}",
                 from.index(),
                 to.index()
             );
             return Err(OpError::refused(Refusal::Missing, message).about([from, to]));
         };
         path.push(h.edge());
-        at = mesh.origin(h);
+        current = mesh.origin(h);
     }
     Ok(path)
 }
 
-/// The marked vertices, and all that edges lead to.
+/// Returns the vertices of all connected components that contain a marked vertex.
 pub(super) fn connected(mesh: &Mesh, mut mask: Vec<bool>) -> Vec<bool> {
     let mut open: Vec<VertexId> = mesh.vertices().filter(|v| mask[v.index()]).collect();
     while let Some(v) = open.pop() {
@@ -125,7 +126,8 @@ pub(super) fn connected(mesh: &Mesh, mut mask: Vec<bool>) -> Vec<bool> {
     mask
 }
 
-/// The marked faces, and those beside them across edges that turn by at most `angle`, in degrees, and so on.
+/// Returns the marked faces and all faces that can be reached from them across edges whose dihedral angle is at most
+/// `angle`, in degrees.
 pub(super) fn spread(mesh: &Mesh, mut mask: Vec<bool>, angle: f64) -> Vec<bool> {
     let mut open: Vec<FaceId> = mesh.faces().filter(|f| mask[f.index()]).collect();
     while let Some(f) = open.pop() {

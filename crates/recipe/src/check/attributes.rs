@@ -119,7 +119,7 @@ impl Attributes {
         let has = |a: &PlannedAttribute| a.name == name && domain.is_none_or(|d| a.domain == d);
         let lacks = |(object, mesh): &(&str, &MeshPlan)| {
             on.is_none_or(|on| on.iter().any(|name| name == object))
-                && !mesh.others
+                && !mesh.has_unlisted_attributes
                 && !mesh.attributes.iter().any(has)
         };
         let (object, mesh) = meshes(plan.objects()).find(lacks)?;

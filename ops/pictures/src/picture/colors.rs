@@ -27,7 +27,7 @@ pub(crate) fn plan(by: &ColorBy, plan: &mut Plan, cx: &PlanContext) -> Vec<Probl
             let mut known = Vec::new();
             for object in plan.objects() {
                 if let PlannedGeometry::Mesh(mesh) = &object.geometry {
-                    if mesh.others {
+                    if mesh.has_unlisted_attributes {
                         return problems;
                     }
                     known.extend(mesh.attributes.iter().map(|a| a.name.as_str()));

@@ -100,7 +100,7 @@ fn selected_elements_are_counted() {
         &cube(),
         "Count(of: Faces(Degree(4)), min: 6, max: 6)",
         "Count(of: Edges(Between(0, 7)), eq: 1)",
-        "there is no edge between vertices 0 and 7",
+        "no edge joins vertices 0 and 7",
     );
 }
 

@@ -1,4 +1,5 @@
-//! The objects that a step acts on: those in `on:`, or else all of the kind that its operation works on.
+//! The objects that a step acts on: the objects named in `on:`, or all objects of the kind that the operation
+//! supports.
 
 use std::borrow::Cow;
 
@@ -9,16 +10,16 @@ use scene::{Geometry, Scene};
 use crate::source::named_object;
 use crate::{Context, OpError, Plan, PlanContext, PlannedGeometry, Problem, Range, Report};
 
-/// How the messages of an operation speak of the kind of objects that it works on.
+/// The words that messages use for the kind of objects that an operation works on.
 #[derive(Clone, Copy, Debug)]
 pub struct TargetKind {
     /// The name of the operation.
     pub operation: &'static str,
-    /// What it does: `changes meshes`.
+    /// What the operation does, as a verb phrase: `changes meshes`.
     pub does: &'static str,
-    /// What it does not find: `no mesh to change`.
+    /// What the scene lacks if there is nothing to act on: `no mesh to change`.
     pub none: &'static str,
-    /// How a recipe gets one.
+    /// How a recipe gets an object of this kind.
     pub help: &'static str,
 }
 
@@ -32,13 +33,13 @@ impl TargetKind {
         }
     }
 
-    /// The message about an object of another kind.
-    pub fn another(&self, name: &str, kind: &str) -> String {
+    /// Returns the message about an object of the wrong kind.
+    pub fn wrong_kind_message(&self, name: &str, kind: &str) -> String {
         format!("{} {}, but \"{name}\" is {kind}", self.operation, self.does)
     }
 
-    /// Plans the operation on each object that it acts on. `change` changes its plan and returns what is wrong, or
-    /// nothing at all if the object is of another kind.
+    /// Plans the operation on each object that it acts on. `change` updates the plan of an object and returns the
+    /// problems, or `None` if the object is of the wrong kind.
     pub fn plan(
         &self,
         plan: &mut Plan,
@@ -61,7 +62,7 @@ impl TargetKind {
                     }
                 }
                 None if cx.on.is_some() => {
-                    let message = self.another(&object.name, object.geometry.kind());
+                    let message = self.wrong_kind_message(&object.name, object.geometry.kind());
                     problems.push(Problem::error(message));
                 }
                 None => {}
@@ -75,12 +76,12 @@ impl TargetKind {
     }
 }
 
-/// The names of the objects that a step acts on, in the order of the scene.
+/// Returns the names of the objects that a step acts on, in the order of the scene.
 ///
 /// # Errors
 ///
-/// [`OpError::Object`] if one of `on:` is not there.
-pub fn chosen(
+/// [`OpError::Object`] if `on:` names an object that does not exist.
+pub fn target_names(
     scene: &Scene,
     cx: &Context,
     is_wanted: impl Fn(&Geometry) -> bool,
@@ -89,27 +90,27 @@ pub fn chosen(
         named_object(scene, name)?;
     }
     let objects = scene.objects().iter();
-    let chosen = objects.filter(|o| {
+    let targets = objects.filter(|o| {
         cx.on
             .map_or_else(|| is_wanted(&o.geometry), |on| on.contains(&o.name))
     });
-    Ok(chosen.map(|o| o.name.clone()).collect())
+    Ok(targets.map(|o| o.name.clone()).collect())
 }
 
-/// The objects that a step acts on: those in `on:`, or else all.
-pub fn chosen_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
+/// Returns a scene of the objects that a step acts on: those named in `on:`, or all.
+pub fn target_scene<'s>(scene: &'s Scene, cx: &Context) -> Cow<'s, Scene> {
     let Some(on) = cx.on else {
         return Cow::Borrowed(scene);
     };
-    let mut chosen = Scene::new();
+    let mut targets = Scene::new();
     for object in scene.objects().iter().filter(|o| on.contains(&o.name)) {
-        chosen.insert(object.clone()).expect("names are unique");
+        targets.insert(object.clone()).expect("names are unique");
     }
-    Cow::Owned(chosen)
+    Cow::Owned(targets)
 }
 
-/// Plans an operation on curves. `change` is called with the number of control points of each and returns what it
-/// becomes and what is wrong.
+/// Plans an operation on curves. `change` receives the number of control points of a curve and returns the
+/// planned result and the problems.
 pub fn plan_curves(
     operation: &'static str,
     plan: &mut Plan,
@@ -126,23 +127,23 @@ pub fn plan_curves(
     })
 }
 
-/// Runs an operation on curves. `change` returns what each becomes. The report counts them.
+/// Runs an operation on curves. `change` returns the geometry that replaces a curve. The report counts the curves.
 ///
 /// # Errors
 ///
-/// [`OpError::Object`] if an object of `on:` is not there or no curve, and what `change` returns.
+/// [`OpError::Object`] if an object named in `on:` does not exist or is not a curve, and the errors of `change`.
 pub fn change_curves(
     operation: &'static str,
     scene: &mut Scene,
     cx: &Context,
     change: impl Fn(&Curve<DVec2>) -> Result<Geometry, OpError>,
 ) -> Result<Report, OpError> {
-    let names = chosen(scene, cx, |g| matches!(g, Geometry::Curve(_)))?;
+    let names = target_names(scene, cx, |g| matches!(g, Geometry::Curve(_)))?;
     cx.advance("curves", 0, names.len() as u64)?;
     for (done, name) in (1..).zip(&names) {
         let (geometry, _) = scene.parts_mut(name).expect("a name of the scene");
         let Geometry::Curve(curve) = geometry else {
-            let message = TargetKind::curves(operation).another(name, geometry.kind());
+            let message = TargetKind::curves(operation).wrong_kind_message(name, geometry.kind());
             return Err(OpError::Object(message));
         };
         *geometry = change(curve)?;

@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbouring_collapsed_sides_are_one_chain() {
+    fn neighboring_collapsed_sides_are_one_chain() {
         let chains = |collapsed| {
             Sides {
                 collapsed,

@@ -157,7 +157,7 @@ impl<P: Point> Curve<P> {
     }
 }
 
-/// One step of de Casteljau's algorithm: (1 - t) a + t b for every pair of neighbours a, b.
+/// One step of de Casteljau's algorithm: (1 - t) a + t b for every pair of neighbors a, b.
 ///
 /// Gives one point less than it gets, and none for one point or none.
 pub fn one_step<P: Point>(points: &[P], t: f64) -> Vec<P> {

@@ -28,7 +28,7 @@
 //! beside it are tried; if N is zero there too, there is no normal.
 //!
 //! "Zero" means below [`VANISHING`] when derivatives are measured by the largest difference of
-//! neighbouring control points, along u and along v each by its own, so that long thin
+//! neighboring control points, along u and along v each by its own, so that long thin
 //! patches and tiny ones have their normals.
 
 use glam::{DVec2, DVec3};

@@ -112,7 +112,7 @@ impl Patch {
             .unwrap_or(DVec3::ZERO)
     }
 
-    /// The largest coordinate difference between neighbouring control points, along u and along v.
+    /// The largest coordinate difference between neighboring control points, along u and along v.
     ///
     /// These are the sizes against which derivatives are called zero.
     pub(crate) fn reach(&self) -> DVec2 {

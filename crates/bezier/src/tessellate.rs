@@ -16,7 +16,7 @@
 //! shared boundary, in either direction, get the same positions there, bit for bit.
 //!
 //! A side of a patch that is one point, as at the poles of a teapot's lid, becomes one vertex
-//! (neighbouring collapsed sides together: one). A cell with such a side becomes one triangle, a
+//! (neighboring collapsed sides together: one). A cell with such a side becomes one triangle, a
 //! cell with more of them no face. The side counts as one point if its boundary curve, sampled at
 //! 0, 1/m, ... 1 with m the smaller of 3 and n, stays within 1e-12 of the extent of the patch's
 //! control points of its first point, in every coordinate. The vertex lies at the start of the
@@ -199,7 +199,7 @@ mod tests {
         let mut patches = Vec::new();
         for mask in 0..16 {
             let mut points = *random.patch().points();
-            // Twice, so that neighbouring sides agree on their corner.
+            // Twice, so that neighboring sides agree on their corner.
             for _ in 0..2 {
                 for (k, side) in sides
                     .iter()

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::{DAffine3, DVec3};
 use mesh::{
-    Attribute, Attributes, BuildError, Built, CORNER_NORMAL, Column, Domain, Elements, HalfEdgeId,
+    Attribute, Attributes, BuildError, BuildOutput, CORNER_NORMAL, Column, Domain, Elements, HalfEdgeId,
     Id, Mesh, Rule, Value, Values, VertexId,
 };
 use scene::Material;
@@ -157,7 +157,7 @@ impl Polygons {
                 && !column.name.starts_with("uv")
                 && vertices.column(Domain::Vertex, &column.name).is_none()
                 && let Some(values) =
-                    agreed(&built.mesh, &column.values, |a, b| column.values.same(a, b))
+                    agreed(&built.mesh, &column.values, |a, b| column.values.are_equal(a, b))
             {
                 (domain, column.values) = (Domain::Vertex, values);
             }
@@ -177,7 +177,7 @@ impl Polygons {
         policies: Policies,
         kept: &Kept,
         notes: &mut Notes,
-    ) -> Result<Built, ReadError> {
+    ) -> Result<BuildOutput, ReadError> {
         let positions = std::mem::take(&mut self.positions);
         let (offsets, corners) = (&self.offsets, &self.corners);
         let policy = match (policies.non_manifold, policies.orientation) {
@@ -212,7 +212,7 @@ impl Polygons {
                 Elements::Faces(faces) => Elements::Faces(faces.into_iter().map(in_file).collect()),
                 others => others,
             };
-            notes.elements(kind, repair.what, elements, places);
+            notes.elements(kind, repair.description, elements, places);
         }
         Ok(built)
     }
@@ -230,7 +230,7 @@ struct Sources {
 }
 
 impl Sources {
-    fn of(built: &Built, n_positions: usize) -> Self {
+    fn of(built: &BuildOutput, n_positions: usize) -> Self {
         let corners: Vec<AtomicU32> = mesh::zeroed(built.mesh.n_half_edges());
         parallel::blocks(built.half_edge_of_corner.len(), |block| {
             for c in block {

@@ -9,25 +9,25 @@ use crate::journal::{Entry, Journal};
 use crate::marks::Marks;
 use crate::{Domain, EdgeId, FaceId, HalfEdgeId, Id, VertexId};
 
-/// The five arrays that say how the elements of a mesh hang together. The crate's front page lists
-/// what holds for them.
+/// The five arrays that store how the elements of a mesh are connected. The crate's documentation lists
+/// their invariants.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Connectivity {
-    /// For each half-edge the one that follows it around its face, or around its hole.
+    /// For each half-edge, the half-edge that follows it around its face, or around its hole.
     pub next: Vec<HalfEdgeId>,
-    /// For each half-edge the vertex that it leaves.
+    /// For each half-edge, the vertex that it leaves.
     pub origin: Vec<VertexId>,
-    /// For each half-edge its face; [`FaceId::NONE`] on the boundary.
+    /// For each half-edge, its face; [`FaceId::NONE`] on the boundary.
     pub face: Vec<FaceId>,
-    /// For each vertex a half-edge that leaves it, the boundary one if there is one;
-    /// [`HalfEdgeId::NONE`] for an isolated vertex.
+    /// For each vertex, one of its outgoing half-edges: the one without a face if the vertex is on the
+    /// boundary; [`HalfEdgeId::NONE`] for an isolated vertex.
     pub vertex_half_edge: Vec<HalfEdgeId>,
-    /// For each face one of its half-edges.
+    /// For each face, one of its half-edges.
     pub face_half_edge: Vec<HalfEdgeId>,
 }
 
 impl Connectivity {
-    /// Puts the elements of `other` behind these: their ids are shifted by the counts of these.
+    /// Appends the elements of `other`. Their ids are shifted by the element counts of `self`.
     pub fn append(&mut self, other: &Self) {
         fn push<I: Id + PartialEq>(all: &mut Vec<I>, more: &[I], by: usize) {
             let shifted = |&id: &I| {
@@ -54,15 +54,15 @@ impl Connectivity {
 
 /// A half-edge mesh of polygons in space, with attributes.
 ///
-/// Meshes are equal if all their arrays are, dead elements included.
+/// Two meshes are equal if all their arrays are equal, including the entries of dead elements.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     pub(crate) connectivity: Connectivity,
     pub(crate) positions: Vec<DVec3>,
     pub(crate) attributes: Attributes,
-    /// The dead elements by domain. A corner lives with its edge and has no mark.
+    /// The dead elements by domain. Corners have no marks: a corner is dead if its edge is dead.
     pub(crate) dead: [Marks; 4],
-    /// What the edits since [`Mesh::begin`] overwrote, while that is open.
+    /// While a recording is open: the values that edits have overwritten since [`Mesh::begin`].
     pub(crate) journal: Option<Box<Journal>>,
 }
 
@@ -76,10 +76,10 @@ impl PartialEq for Mesh {
 }
 
 impl Mesh {
-    /// A mesh of these arrays, without attributes, all elements living.
+    /// Creates a mesh from these arrays, without attributes. All elements are alive.
     ///
-    /// For operations that compute a whole mesh in closed form. The invariants are the caller's duty:
-    /// [`try_from_arrays`](Self::try_from_arrays) checks them.
+    /// This is for operations that compute a whole mesh in closed form. The caller must ensure the
+    /// invariants; [`try_from_arrays`](Self::try_from_arrays) checks them.
     ///
     /// # Panics
     ///
@@ -95,7 +95,7 @@ impl Mesh {
         mesh
     }
 
-    /// The arrays of the connectivity. Dead elements are still in them unless the mesh
+    /// Returns the arrays of the connectivity. They include dead elements unless the mesh
     /// [is dense](Self::is_dense).
     #[inline]
     pub fn connectivity(&self) -> &Connectivity {
@@ -104,27 +104,28 @@ impl Mesh {
 
     // ---- Counts and elements -------------------------------------------------------------------
 
-    /// The number of living vertices.
+    /// Returns the number of living vertices.
     pub fn n_vertices(&self) -> usize {
         self.n_living(Domain::Vertex)
     }
 
-    /// The number of living half-edges: two for each edge.
+    /// Returns the number of living half-edges: two for each edge.
     pub fn n_half_edges(&self) -> usize {
         2 * self.n_edges()
     }
 
-    /// The number of living edges.
+    /// Returns the number of living edges.
     pub fn n_edges(&self) -> usize {
         self.n_living(Domain::Edge)
     }
 
-    /// The number of living faces.
+    /// Returns the number of living faces.
     pub fn n_faces(&self) -> usize {
         self.n_living(Domain::Face)
     }
 
-    /// The number of values that a column of this domain has: all elements, dead ones too.
+    /// Returns the number of values in a column of this domain: the number of all elements, including dead
+    /// ones.
     #[inline]
     pub fn domain_len(&self, domain: Domain) -> usize {
         match domain {
@@ -141,25 +142,25 @@ impl Mesh {
         self.dead.iter().all(|marks| marks.count() == 0)
     }
 
-    /// The living vertices in order of their ids.
+    /// Iterates over the living vertices in order of their ids.
     #[inline]
     pub fn vertices(&self) -> impl Iterator<Item = VertexId> + Clone + '_ {
         self.living()
     }
 
-    /// The living edges in order of their ids.
+    /// Iterates over the living edges in order of their ids.
     #[inline]
     pub fn edges(&self) -> impl Iterator<Item = EdgeId> + Clone + '_ {
         self.living()
     }
 
-    /// The living half-edges in order of their ids.
+    /// Iterates over the living half-edges in order of their ids.
     #[inline]
     pub fn half_edges(&self) -> impl Iterator<Item = HalfEdgeId> + Clone + '_ {
         self.edges().flat_map(EdgeId::half_edges)
     }
 
-    /// The living faces in order of their ids.
+    /// Iterates over the living faces in order of their ids.
     #[inline]
     pub fn faces(&self) -> impl Iterator<Item = FaceId> + Clone + '_ {
         self.living()
@@ -203,74 +204,75 @@ impl Mesh {
 
     // ---- Reading the arrays --------------------------------------------------------------------
 
-    /// The half-edge after `h` around its face, or around its hole.
+    /// Returns the half-edge after `h` around its face, or around its hole.
     #[inline]
     pub fn next(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.connectivity.next[h.index()]
     }
 
-    /// The vertex that `h` leaves.
+    /// Returns the vertex that `h` leaves.
     #[inline]
     pub fn origin(&self, h: HalfEdgeId) -> VertexId {
         self.connectivity.origin[h.index()]
     }
 
-    /// The vertex that `h` goes to.
+    /// Returns the vertex at which `h` ends.
     #[inline]
     pub fn target(&self, h: HalfEdgeId) -> VertexId {
         self.origin(h.twin())
     }
 
-    /// The face of `h`, to its left; `None` on the boundary.
+    /// Returns the face of `h`, which is to its left; `None` on the boundary.
     #[inline]
     pub fn face(&self, h: HalfEdgeId) -> Option<FaceId> {
         self.connectivity.face[h.index()].some()
     }
 
-    /// A half-edge that leaves `v`, the boundary one if there is one; `None` if `v` is isolated.
+    /// Returns an outgoing half-edge of `v`: the one without a face if `v` is on the boundary; `None` if `v` is
+    /// isolated.
     #[inline]
     pub fn vertex_half_edge(&self, v: VertexId) -> Option<HalfEdgeId> {
         self.connectivity.vertex_half_edge[v.index()].some()
     }
 
-    /// A half-edge of `f`.
+    /// Returns the half-edge of `f` at which its first corner is.
     #[inline]
     pub fn face_half_edge(&self, f: FaceId) -> HalfEdgeId {
         self.connectivity.face_half_edge[f.index()]
     }
 
-    /// The position of `v`, in scene units.
+    /// Returns the position of `v`, in scene units.
     #[inline]
     pub fn position(&self, v: VertexId) -> DVec3 {
         self.positions[v.index()]
     }
 
-    /// The positions of all vertices, dead ones too, by index.
+    /// Returns the positions of all vertices, including dead ones, by index.
     #[inline]
     pub fn positions(&self) -> &[DVec3] {
         &self.positions
     }
 
-    /// The positions of all vertices, to be moved. An open [journal](Self::begin) copies all of them
-    /// first; [`set_position`](Self::set_position) moves one.
+    /// Returns the positions of all vertices mutably. An open [journal](Self::begin) copies all of them
+    /// first. To move a single vertex, use [`set_position`](Self::set_position).
     pub fn positions_mut(&mut self) -> &mut [DVec3] {
         if let Some(journal) = &mut self.journal {
-            journal.note(|| Entry::Positions(self.positions.clone().into()));
+            journal.record(|| Entry::Positions(self.positions.clone().into()));
         }
         &mut self.positions
     }
 
-    /// Moves `v`.
+    /// Sets the position of `v`.
     pub fn set_position(&mut self, v: VertexId, position: DVec3) {
         let old = std::mem::replace(&mut self.positions[v.index()], position);
         if let Some(journal) = &mut self.journal {
-            journal.position(v, old);
+            journal.record_position(v, old);
         }
     }
 
     // ---- Attributes ----------------------------------------------------------------------------
 
-    /// All attributes.
+    /// Returns all attributes.
     pub fn attributes(&self) -> &Attributes {
         &self.attributes
     }
@@ -279,39 +281,38 @@ impl Mesh {
     ///
     /// # Panics
     ///
-    /// If a column has not one value for each element of its domain.
+    /// If the length of a column is not the number of elements of its domain.
     pub fn set_attributes(&mut self, attributes: Attributes) {
         for (domain, column) in attributes.iter() {
             self.assert_length(domain, column);
         }
         let old = std::mem::replace(&mut self.attributes, attributes);
         if let Some(journal) = &mut self.journal {
-            journal.note(|| Entry::Attributes(old.into()));
+            journal.record(|| Entry::Attributes(old.into()));
         }
     }
 
-    /// The values of an attribute by index of its elements, if the mesh has it with this type.
+    /// Returns the values of an attribute by element index, if the mesh has the attribute with this type.
     pub fn get<I: Id, T: Value>(&self, attribute: Attribute<I, T>) -> Option<&[T]> {
         self.attributes
             .column(I::DOMAIN, attribute.name)
             .and_then(|c| T::of(&c.values))
     }
 
-    /// The values of an attribute, to be changed. An open [journal](Self::begin) copies all of them
-    /// first.
+    /// Returns the values of an attribute mutably. An open [journal](Self::begin) copies all of them first.
     pub fn get_mut<I: Id, T: Value>(&mut self, attribute: Attribute<I, T>) -> Option<&mut [T]> {
         let column = self.attributes.column_mut(I::DOMAIN, attribute.name)?;
         if let Some(journal) = &mut self.journal {
-            journal.note(|| Entry::Column(I::DOMAIN, column.clone().into()));
+            journal.record(|| Entry::Column(I::DOMAIN, column.clone().into()));
         }
         T::of_mut(&mut column.values)
     }
 
-    /// Gives the mesh an attribute, in place of one of the same name and domain.
+    /// Sets an attribute of the mesh, and replaces one of the same name and domain.
     ///
     /// # Panics
     ///
-    /// If there is not one value for each element of the domain.
+    /// If the number of values is not the number of elements of the domain.
     pub fn set<I: Id, T: Value>(&mut self, attribute: Attribute<I, T>, values: Vec<T>) {
         let name = attribute.name.to_owned();
         self.insert_column(
@@ -324,15 +325,15 @@ impl Mesh {
         );
     }
 
-    /// Gives the mesh a column, in place of one of the same name and domain.
+    /// Inserts a column, and replaces one of the same name and domain.
     ///
     /// # Panics
     ///
-    /// If there is not one value for each element of the domain.
+    /// If the number of values is not the number of elements of the domain.
     pub fn insert_column(&mut self, domain: Domain, column: Column) {
         self.assert_length(domain, &column);
         if let Some(journal) = &mut self.journal {
-            journal.note(|| match self.attributes.column(domain, &column.name) {
+            journal.record(|| match self.attributes.column(domain, &column.name) {
                 Some(old) => Entry::Column(domain, old.clone().into()),
                 None => Entry::NoColumn(domain, column.name.clone().into()),
             });
@@ -340,22 +341,22 @@ impl Mesh {
         self.attributes.insert(domain, column);
     }
 
-    /// Takes a column away and returns it.
+    /// Removes a column and returns it.
     pub fn remove_column(&mut self, domain: Domain, name: &str) -> Option<Column> {
         let removed = self.attributes.remove(domain, name);
         if let (Some(journal), Some(column)) = (&mut self.journal, &removed) {
-            journal.note(|| Entry::Column(domain, column.clone().into()));
+            journal.record(|| Entry::Column(domain, column.clone().into()));
         }
         removed
     }
 
-    /// Takes the normals of vertices and corners away: they are wrong where the shape has changed.
+    /// Removes the normals of vertices and corners, which are wrong after the shape has changed.
     pub fn remove_normals(&mut self) {
         self.remove_column(Domain::Vertex, VERTEX_NORMAL.name);
         self.remove_column(Domain::Corner, CORNER_NORMAL.name);
     }
 
-    /// The marks of a tag, by index of its elements.
+    /// Returns the flags of a tag by element index.
     pub fn tag(&self, domain: Domain, name: &str) -> Option<&[bool]> {
         match &self.attributes.column(domain, name)?.values {
             Values::Tag(marks) => Some(marks),
@@ -367,12 +368,12 @@ impl Mesh {
         assert_eq!(
             column.values.len(),
             self.domain_len(domain),
-            "attribute {} needs one value for each {domain}",
+            "the attribute {} must have one value for each {domain}",
             column.name
         );
     }
 
-    /// The bytes that the arrays of the mesh take.
+    /// Returns the size of the arrays of the mesh in bytes.
     pub fn bytes(&self) -> usize {
         let c = &self.connectivity;
         let attributes: usize = self.attributes.iter().map(|(_, c)| c.values.bytes()).sum();

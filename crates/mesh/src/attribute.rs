@@ -1,11 +1,11 @@
 //! Attributes: named, typed columns of values on vertices, corners, edges and faces.
 //!
-//! A column holds one value for each element of its domain and a [`Rule`] that says what edits do
-//! with the values. The values of a corner are stored at its half-edge: the one that leaves the
-//! corner's vertex and lies on its face. Half-edges without a face have a value too, which means
-//! nothing and is kept at zero where that is cheap.
+//! A column holds one value for each element of its domain, and a [`Rule`] for what edits do with
+//! the values. The value of a corner is stored at its half-edge: the one that leaves the corner's
+//! vertex and lies on the corner's face. Half-edges without a face have a value too. It has no
+//! meaning, and is kept at zero where that is cheap.
 //!
-//! Well-known attributes have constants ([`UV`], [`VERTEX_NORMAL`], ...); any other name is free.
+//! Well-known attributes have constants ([`UV`], [`VERTEX_NORMAL`], ...). Programs may use any other name.
 
 mod columns;
 mod values;
@@ -30,7 +30,7 @@ pub const CORNER_NORMAL: Attribute<HalfEdgeId, DVec3> = Attribute::new("normal",
 pub const TANGENT: Attribute<VertexId, DVec3> = Attribute::new("tangent", Rule::Normal);
 /// Red, green, blue and alpha of vertices, from 0 to 1.
 pub const COLOR: Attribute<VertexId, DVec4> = Attribute::new("color", Rule::Interpolate);
-/// The place of a face's material in the list of its object, from 0; -1 for none.
+/// The index of a face's material in the material list of its object, from 0; -1 for none.
 pub const MATERIAL: Attribute<FaceId, i32> = Attribute::new("material", Rule::Copy);
 /// The smoothing group of a face; 0 for none.
 pub const SMOOTHING: Attribute<FaceId, i32> = Attribute::new("smoothing", Rule::Copy);
@@ -42,30 +42,31 @@ pub const VERTEX_SHARPNESS: Attribute<VertexId, f64> = Attribute::new("corner", 
 /// What an edit does with the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
-    /// A new element gets the weighted mean of the elements it comes from.
+    /// A new element gets the weighted mean of the values of its source elements.
     Interpolate,
-    /// A unit vector: interpolated, then scaled to length 1; turned by transforms; dropped by
-    /// operations that move vertices in another way, because it would be wrong afterwards.
+    /// A unit vector. It is interpolated, then scaled to length 1. Transforms rotate it. Operations
+    /// that move vertices in any other way drop the column, because the normals would be wrong.
     Normal,
-    /// A new element gets the value of the one element it is a part of, or the zero value if there
-    /// is none: the halves of a split edge are tagged as the edge was, an edge inside a face is not.
+    /// A new element gets the value of the element that it was a part of. If there was none, it gets
+    /// the zero value. For example, both parts of a split edge keep the tags of the edge; a new edge
+    /// inside a face has no tags.
     Copy,
-    /// The column is removed by the first edit that changes connectivity.
+    /// The first edit that changes connectivity removes the column.
     Drop,
 }
 
-/// The name, domain, type and rule of an attribute, known when the program is compiled.
+/// The name, domain, type and rule of an attribute, known at compile time.
 #[derive(Debug)]
 pub struct Attribute<I, T> {
     /// The name of the column.
     pub name: &'static str,
-    /// What edits do with its values.
+    /// What edits do with the values.
     pub rule: Rule,
     kind: PhantomData<fn() -> (I, T)>,
 }
 
 impl<I, T> Attribute<I, T> {
-    /// An attribute of this name and rule.
+    /// Creates an attribute with this name and rule.
     pub const fn new(name: &'static str, rule: Rule) -> Self {
         Self {
             name,

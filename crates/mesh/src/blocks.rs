@@ -1,14 +1,14 @@
-//! Long sums in a fixed order, whatever the number of threads.
+//! Parallel sums in a fixed order, independent of the number of threads.
 
 use rayon::prelude::*;
 
-/// The number of elements that are added by one task. Fixed, because the order of additions decides
+/// The number of elements that one task adds. Fixed, because the order of the additions determines
 /// the last bits of a sum.
 pub const BLOCK: usize = 4096;
 
-/// The sum of `term(i)` for i from 0 to n - 1: blocks of [`BLOCK`] terms are added in parallel, each
-/// from its first to its last term, and then the blocks in their order. The same bits for any
-/// number of threads.
+/// Returns the sum of `term(i)` for i from 0 to n - 1. Blocks of [`BLOCK`] terms are summed in
+/// parallel, each from its first to its last term; then the block sums are added in order. The
+/// result has the same bits for any number of threads.
 pub fn sum<T>(n: usize, term: impl Fn(usize) -> T + Sync) -> T
 where
     T: Default + Copy + Send + Sync + std::ops::Add<Output = T>,
@@ -16,7 +16,7 @@ where
     fold(n, T::default(), term, |a, b| a + b)
 }
 
-/// Like [`sum`], with any operation `join` in place of addition and `start` in place of zero.
+/// Folds like [`sum`], with the operation `join` instead of addition and `start` instead of zero.
 pub fn fold<T: Copy + Send + Sync>(
     n: usize,
     start: T,

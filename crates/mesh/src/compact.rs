@@ -1,21 +1,21 @@
-//! Taking dead elements out of the arrays.
+//! Removing dead elements from the arrays.
 
 use crate::attribute::Sources;
 use crate::{Connectivity, EdgeId, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
-/// The new id of each element from before [`Mesh::compact`]; `NONE` for elements that were dead.
+/// Maps the ids before a call of [`Mesh::compact`] to the ids after it. Dead elements map to `NONE`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Renumbering {
-    /// By old vertex index.
+    /// The new vertex for each old vertex index.
     pub vertices: Vec<VertexId>,
-    /// By old edge index. Half-edge 2e + i becomes half-edge i of the new edge.
+    /// The new edge for each old edge index. Half-edge 2e + i becomes half-edge i of the new edge.
     pub edges: Vec<EdgeId>,
-    /// By old face index.
+    /// The new face for each old face index.
     pub faces: Vec<FaceId>,
 }
 
 impl Renumbering {
-    /// The new id of a half-edge.
+    /// Returns the new id of a half-edge.
     pub fn half_edge(&self, h: HalfEdgeId) -> HalfEdgeId {
         match self.edges[h.edge().index()] {
             EdgeId::NONE => HalfEdgeId::NONE,
@@ -25,9 +25,9 @@ impl Renumbering {
 }
 
 impl Mesh {
-    /// Takes dead elements out of the arrays. The living ones keep their order and are numbered from
-    /// 0 without gaps. Returns the map; ids from before mean nothing afterwards. `None` if nothing was dead:
-    /// then all ids stay, and no time is spent.
+    /// Removes dead elements from the arrays. Living elements keep their order and are numbered from 0
+    /// without gaps. Returns the map from old ids to new ids; the old ids are invalid afterwards. If no
+    /// element is dead, returns `None`: all ids stay the same, and the call takes constant time.
     pub fn compact(&mut self) -> Option<Renumbering> {
         if self.is_dense() {
             return None;
@@ -70,7 +70,7 @@ fn each<I: Id, T>(kept: &[I], value: impl Fn(I) -> T) -> Vec<T> {
     kept.iter().map(|&id| value(id)).collect()
 }
 
-/// For each old index below `n` its place in `kept`.
+/// Returns, for each old index below `n`, its position in `kept`.
 fn inverse<I: Id>(kept: &[I], n: usize) -> Vec<I> {
     let mut map = vec![I::NONE; n];
     for (new, old) in kept.iter().enumerate() {
@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn compacting_keeps_the_living_with_their_positions_and_values() {
+    fn compacting_keeps_the_positions_and_values_of_living_elements() {
         let mut mesh = shapes::grid(3, 1);
         mesh.set(crate::MATERIAL, vec![10, 11, 12]);
         mesh.delete_face(FaceId::new(0)).unwrap();

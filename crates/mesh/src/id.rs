@@ -1,29 +1,29 @@
-//! The ids of mesh elements: plain numbers, each kind a type of its own.
+//! The ids of mesh elements: plain numbers, with one type for each kind of element.
 
 use std::fmt;
 
 use bytemuck::{Pod, Zeroable};
 
-/// What the four kinds of ids have in common.
+/// The interface that the four kinds of ids share.
 pub trait Id:
     Copy + Ord + fmt::Display + fmt::Debug + Pod + Send + Sync + Into<Element> + 'static
 {
-    /// The value that stands in the arrays of a [`Connectivity`](crate::Connectivity) where there
-    /// is no such element. Accessors return `Option` instead.
+    /// The value that marks a missing element in the arrays of a
+    /// [`Connectivity`](crate::Connectivity). Accessors return `Option` instead.
     const NONE: Self;
 
-    /// The domain of attributes that these ids index. A half-edge stands for the corner at its
-    /// origin, in its face.
+    /// The attribute domain that these ids index. A half-edge indexes the corner at its origin, in
+    /// its face.
     const DOMAIN: Domain;
 
-    /// The id with this index.
+    /// Creates the id with this index.
     ///
     /// # Panics
     ///
-    /// If `index` is not below 2³² − 1. Builders check sizes before, so this is a bug of ours.
+    /// If `index` is not below 2³² − 1. Builders check sizes first, so a panic is a bug in this crate.
     fn new(index: usize) -> Self;
 
-    /// The place of the element in its arrays.
+    /// Returns the index of the element in its arrays.
     fn index(self) -> usize;
 }
 
@@ -35,15 +35,15 @@ macro_rules! id {
         pub struct $name(u32);
 
         impl $name {
-            /// The value that stands in the arrays of a [`Connectivity`](crate::Connectivity) where
-            /// there is no such element. Accessors return `Option` instead.
+            /// The value that marks a missing element in the arrays of a
+            /// [`Connectivity`](crate::Connectivity). Accessors return `Option` instead.
             pub const NONE: Self = Self(u32::MAX);
 
-            /// The id with this index.
+            /// Creates the id with this index.
             ///
             /// # Panics
             ///
-            /// If `index` is not below 2³² − 1. Builders check sizes before, so this is a bug of ours.
+            /// If `index` is not below 2³² − 1. Builders check sizes first, so a panic is a bug in this crate.
             #[inline]
             pub fn new(index: usize) -> Self {
                 assert!(index < u32::MAX as usize, "more than 2^32 - 2 elements of one kind");
@@ -51,13 +51,13 @@ macro_rules! id {
                 Self(index as u32)
             }
 
-            /// The place of the element in its arrays.
+            /// Returns the index of the element in its arrays.
             #[inline]
             pub const fn index(self) -> usize {
                 self.0 as usize
             }
 
-            /// The id as an `Option`: `None` for [`Self::NONE`].
+            /// Returns the id as an `Option`: `None` for [`Self::NONE`].
             #[inline]
             pub fn some(self) -> Option<Self> {
                 (self != Self::NONE).then_some(self)
@@ -123,14 +123,14 @@ id!(
 );
 
 impl HalfEdgeId {
-    /// The other half of the same edge.
+    /// Returns the other half of the same edge.
     #[inline]
     #[must_use]
     pub const fn twin(self) -> Self {
         Self(self.0 ^ 1)
     }
 
-    /// The edge that this is a half of.
+    /// Returns the edge of this half-edge.
     #[inline]
     pub const fn edge(self) -> EdgeId {
         EdgeId(self.0 >> 1)
@@ -138,20 +138,20 @@ impl HalfEdgeId {
 }
 
 impl EdgeId {
-    /// The first half of the edge. The second is its twin.
+    /// Returns the first half of the edge. The second half is its twin.
     #[inline]
     pub const fn half_edge(self) -> HalfEdgeId {
         HalfEdgeId(self.0 << 1)
     }
 
-    /// Both halves of the edge.
+    /// Returns both halves of the edge.
     #[inline]
     pub const fn half_edges(self) -> [HalfEdgeId; 2] {
         [HalfEdgeId(self.0 << 1), HalfEdgeId(self.0 << 1 | 1)]
     }
 }
 
-/// What the values of a column belong to.
+/// The kind of element that the values of an attribute column belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Domain {
     /// One value for each vertex.
@@ -193,7 +193,7 @@ pub enum Element {
     Face(FaceId),
 }
 
-/// The id, as in `e7`.
+/// Writes the id, such as `e7`.
 impl fmt::Display for Element {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

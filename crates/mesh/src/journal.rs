@@ -1,17 +1,18 @@
-//! Taking edits back.
+//! Undo and redo of edits.
 //!
-//! [`Mesh::begin`] opens a journal. From then on every write notes what it overwrites, so that
-//! [`Mesh::rollback`] gives back the same bytes, and [`Mesh::commit`] a [`Change`] that can be reverted
-//! later, and done again after that. Memory and time are in proportion to the change, not to the mesh.
-//! While no journal is open, a write costs one comparison more.
+//! [`Mesh::begin`] opens a journal. From then on every write records the value that it overwrites.
+//! [`Mesh::rollback`] restores the mesh bit for bit. [`Mesh::commit`] returns a [`Change`] that can be
+//! reverted later, and then be redone. Memory and time are proportional to the change, not to the mesh.
+//! While no journal is open, a write costs one additional comparison.
 //!
-//! Levels nest: an inner `rollback` takes back what was done since the inner `begin`, an inner `commit`
-//! leaves it to the outer level.
+//! Levels nest: an inner `rollback` undoes the edits since the inner `begin`; an inner `commit` leaves
+//! them to the outer level.
 //!
-//! The notes are one stack. An element that is newer than its level needs none: going back cuts the
-//! arrays to their lengths. Going back notes what it overwrites in the same way, and that is the change
-//! that does it again. Notes that would outgrow the mesh become one copy of it, and a level that has a
-//! copy needs no notes any more: so a journal never takes more than about twice the bytes of its mesh.
+//! The journal is a stack of entries. Elements that were added after the level was opened need no
+//! entries: undoing truncates the arrays to their old lengths. Undoing records the values that it
+//! overwrites in the same way, which gives the change that redoes the edits. Entries that would take
+//! more memory than the mesh are replaced by one copy of the mesh, and a level that has a copy needs no
+//! further entries. So a journal never takes more than about twice the memory of its mesh.
 
 use bytemuck::cast_slice_mut;
 use glam::DVec3;
@@ -19,74 +20,75 @@ use glam::DVec3;
 use crate::attribute::{Attributes, Column, pop_value};
 use crate::{Connectivity, Domain, Id, Mesh, Values, VertexId};
 
-/// What an edit, or several, did to a mesh: enough to take it back. See [`Mesh::commit`].
+/// A record of one or more edits of a mesh, from which they can be undone. See [`Mesh::commit`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Change {
     entries: Vec<Entry>,
-    /// The bytes of positions and values, in the order of the entries that own them.
+    /// The bytes of positions and values, in the order of the entries that they belong to.
     values: Vec<u8>,
 }
 
 impl Change {
-    /// Whether nothing was changed.
+    /// Whether the change contains no edits.
     pub fn is_empty(&self) -> bool {
         self.entries
             .iter()
             .all(|entry| matches!(entry, Entry::Level(_)))
     }
 
-    /// The bytes that it takes, without those of whole arrays in it.
+    /// Returns the size of the change in bytes, without the whole arrays that it contains.
     pub fn bytes(&self) -> usize {
         size_of_val(self.entries.as_slice()) + self.values.len()
     }
 }
 
-/// Notes of so many bytes are kept on any mesh.
-const MIN_JOURNAL: usize = 1 << 16;
+/// A journal may take the memory of its mesh plus this many bytes before it is replaced by a copy of the mesh.
+const JOURNAL_ALLOWANCE: usize = 1 << 16;
 
-/// The journal of a mesh while it is open.
+/// The open journal of a mesh.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Journal {
-    noted: Change,
+    recorded: Change,
     levels: Vec<Level>,
-    /// Elements below these counts are noted: those that are older than the innermost level.
+    /// The numbers of elements that are older than the innermost level. Only elements below them are recorded.
     lengths: Lengths,
 }
 
-/// What lies between a begin and its end.
+/// One level of recording: from a `begin` to its `commit` or `rollback`.
 #[derive(Clone, Copy, Debug)]
 struct Level {
-    /// Where its notes begin, and the bytes of their values.
+    /// The index of its first entry.
     start: usize,
+    /// The index of its first byte of values.
     first_value: usize,
-    /// How long the arrays were.
+    /// The lengths of the arrays at `begin`.
     lengths: Lengths,
-    /// Whether it has noted a whole mesh, so that all else that changes is in that already.
+    /// Whether a copy of the whole mesh was recorded, so that no further entries are needed.
     has_whole: bool,
 }
 
-/// One thing to put back.
+/// One recorded value, to be restored.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Entry {
-    /// The id at this place of an array, as a plain number.
+    /// In this array, at this index: the overwritten id, as a plain number.
     Link(Array, u32, u32),
-    /// The bytes of a position.
+    /// The position of a vertex; the bytes are in [`Change::values`].
     Position(VertexId),
-    /// The bytes of one value in each column of the domain.
+    /// The values of an element in all columns of the domain; the bytes are in [`Change::values`].
     Values(Domain, usize),
-    /// An element that was marked dead, or is to be again.
+    /// The mark of an element as dead, to be toggled.
     Mark(Domain, usize),
-    /// A column in place of the one of its name, if there is one.
+    /// A column, which replaces the current column of the same name.
     Column(Domain, Box<Column>),
-    /// No column of this name.
+    /// The name of a column to be removed.
     NoColumn(Domain, Box<str>),
     Positions(Box<[DVec3]>),
     Attributes(Box<Attributes>),
-    /// A whole mesh, without journal.
+    /// A copy of the whole mesh, without its journal.
     Whole(Box<Mesh>),
-    /// The lengths of the arrays at the begin of a level: what is behind them goes.
+    /// The lengths of the arrays at the start of a level, to which they are truncated.
     Level(Box<Lengths>),
-    /// What stood behind: it comes again.
+    /// The truncated ends of the arrays, to be appended.
     Tail(Box<Tail>),
 }
 
@@ -101,7 +103,7 @@ pub(crate) enum Array {
 }
 
 impl Connectivity {
-    /// The ids of an array as plain numbers.
+    /// Returns the ids of an array as plain numbers.
     #[inline]
     pub(crate) fn ids_mut(&mut self, array: Array) -> &mut [u32] {
         match array {
@@ -114,29 +116,29 @@ impl Connectivity {
     }
 }
 
-/// How many elements of each domain there are.
+/// The number of elements of each domain, including dead ones.
 type Lengths = [usize; 4];
 
-/// The ends of all arrays.
+/// The ends of all arrays, from given lengths on.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tail {
     connectivity: Connectivity,
     positions: Vec<DVec3>,
-    /// For each domain the values of its columns.
+    /// For each domain, the values of its columns.
     values: [Vec<Values>; 4],
 }
 
 impl Journal {
-    /// Notes an entry, made only if it is needed.
-    pub(crate) fn note(&mut self, entry: impl FnOnce() -> Entry) {
+    /// Records an entry. Calls `entry` only if the entry is needed.
+    pub(crate) fn record(&mut self, entry: impl FnOnce() -> Entry) {
         if self.levels.last().is_some_and(|level| !level.has_whole) {
-            self.noted.entries.push(entry());
+            self.recorded.entries.push(entry());
         }
     }
 
-    /// Notes the whole mesh from before a change.
-    fn note_whole(&mut self, mesh: Mesh) {
-        self.note(|| Entry::Whole(Box::new(mesh)));
+    /// Records the whole mesh as it was before a change.
+    fn record_whole(&mut self, mesh: Mesh) {
+        self.record(|| Entry::Whole(Box::new(mesh)));
         if let Some(level) = self.levels.last_mut() {
             level.has_whole = true;
         }
@@ -145,18 +147,18 @@ impl Journal {
 
     fn begin(&mut self, lengths: Lengths) {
         self.levels.push(Level {
-            start: self.noted.entries.len(),
-            first_value: self.noted.values.len(),
+            start: self.recorded.entries.len(),
+            first_value: self.recorded.values.len(),
             lengths,
             has_whole: false,
         });
         self.lengths = lengths;
-        self.note(|| Entry::Level(Box::new(lengths)));
+        self.record(|| Entry::Level(Box::new(lengths)));
     }
 
-    /// Ends the innermost level and returns where its notes begin.
+    /// Ends the innermost level and returns it.
     fn end(&mut self) -> Level {
-        let ended = self.levels.pop().expect("an open journal has a level");
+        let inner = self.levels.pop().expect("an open journal has a level");
         if let Some(level) = self.levels.last() {
             let lengths = if level.has_whole {
                 Lengths::default()
@@ -165,44 +167,47 @@ impl Journal {
             };
             self.lengths = lengths;
         }
-        ended
+        inner
     }
 
+    /// Whether changes of this element must be recorded: it is older than the innermost level.
     #[inline]
-    fn is_noted<I: Id>(&self, element: I) -> bool {
+    fn needs_entry<I: Id>(&self, element: I) -> bool {
         element.index() < self.lengths[I::DOMAIN as usize]
     }
 
-    /// Notes the id that an element had in an array.
+    /// Records the id that an element had in an array.
     #[inline]
-    pub(crate) fn link<I: Id>(&mut self, array: Array, element: I, old: u32) {
-        if self.is_noted(element) {
+    pub(crate) fn record_link<I: Id>(&mut self, array: Array, element: I, old: u32) {
+        if self.needs_entry(element) {
             let entry = Entry::Link(array, bytemuck::cast(element), old);
-            self.noted.entries.push(entry);
+            self.recorded.entries.push(entry);
         }
     }
 
-    pub(crate) fn position(&mut self, v: VertexId, old: DVec3) {
-        if self.is_noted(v) {
-            self.noted.position(v, old);
+    /// Records the position that a vertex had.
+    pub(crate) fn record_position(&mut self, v: VertexId, old: DVec3) {
+        if self.needs_entry(v) {
+            self.recorded.push_position(v, old);
         }
     }
 
-    /// Notes the values that `element` has in these columns, all those of its domain.
-    pub(crate) fn values<I: Id>(&mut self, element: I, columns: &[Column]) {
-        if self.is_noted(element) {
-            self.noted.values(I::DOMAIN, element.index(), columns);
+    /// Records the values of `element` in all columns of its domain, given as `columns`.
+    pub(crate) fn record_values<I: Id>(&mut self, element: I, columns: &[Column]) {
+        if self.needs_entry(element) {
+            self.recorded
+                .push_values(I::DOMAIN, element.index(), columns);
         }
     }
 }
 
 impl Change {
-    fn position(&mut self, v: VertexId, old: DVec3) {
+    fn push_position(&mut self, v: VertexId, old: DVec3) {
         self.entries.push(Entry::Position(v));
         self.values.extend(bytemuck::bytes_of(&old));
     }
 
-    fn values(&mut self, domain: Domain, i: usize, columns: &[Column]) {
+    fn push_values(&mut self, domain: Domain, i: usize, columns: &[Column]) {
         for column in columns {
             column.values.push_bytes(i, &mut self.values);
         }
@@ -211,8 +216,8 @@ impl Change {
 }
 
 impl Mesh {
-    /// Begins to note what is overwritten, until [`commit`](Self::commit) or
-    /// [`rollback`](Self::rollback). May be nested.
+    /// Starts to record changes, until the matching [`commit`](Self::commit) or
+    /// [`rollback`](Self::rollback). Calls can be nested.
     pub fn begin(&mut self) {
         self.bound_journal();
         let lengths = self.lengths();
@@ -224,38 +229,43 @@ impl Mesh {
         self.journal.is_some()
     }
 
-    /// Takes back everything since the matching [`begin`](Self::begin): every array is the same as it
-    /// was then, bit for bit.
+    /// Undoes all changes since the matching [`begin`](Self::begin): every array is restored bit for bit.
     ///
     /// # Panics
     ///
-    /// If nothing was begun.
+    /// If no journal is open.
     pub fn rollback(&mut self) {
-        let mut journal = self.journal.take().expect("begin comes before rollback");
-        let ended = journal.end();
-        self.go_back(&mut journal.noted, ended.start);
+        let mut journal = self
+            .journal
+            .take()
+            .expect("`begin` must be called before `rollback`");
+        let level = journal.end();
+        self.undo_entries(&mut journal.recorded, level.start);
         if !journal.levels.is_empty() {
             self.journal = Some(journal);
         }
     }
 
-    /// Keeps what was done since the matching [`begin`](Self::begin). If that was the outermost one,
-    /// returns the change, to be [reverted](Self::revert) later.
+    /// Keeps all changes since the matching [`begin`](Self::begin). If this was the outermost level,
+    /// returns the change, which can be [reverted](Self::revert) later.
     ///
     /// # Panics
     ///
-    /// If nothing was begun.
+    /// If no journal is open.
     pub fn commit(&mut self) -> Option<Change> {
-        let mut journal = self.journal.take().expect("begin comes before commit");
-        let ended = journal.end();
+        let mut journal = self
+            .journal
+            .take()
+            .expect("`begin` must be called before `commit`");
+        let inner = journal.end();
         let Some(outer) = journal.levels.last_mut() else {
-            return Some(journal.noted);
+            return Some(journal.recorded);
         };
         if outer.has_whole {
-            // The copy from before is enough.
-            journal.noted.entries.truncate(ended.start);
-            journal.noted.values.truncate(ended.first_value);
-        } else if ended.has_whole {
+            // The copy of the outer level is sufficient.
+            journal.recorded.entries.truncate(inner.start);
+            journal.recorded.values.truncate(inner.first_value);
+        } else if inner.has_whole {
             outer.has_whole = true;
             journal.lengths = Lengths::default();
         }
@@ -263,14 +273,14 @@ impl Mesh {
         None
     }
 
-    /// Takes back a change, and returns the change that does it again.
+    /// Undoes a change, and returns the change that redoes it.
     ///
-    /// The mesh must be as it was when that change was committed: later ones are reverted first.
+    /// The mesh must be in the state in which the change was committed: revert later changes first.
     ///
     /// # Panics
     ///
-    /// If a journal is open. For a change of another mesh, or out of turn, the result is any mesh, or a
-    /// panic where it names an element that is not there.
+    /// If a journal is open. If the change belongs to a different mesh or to a different state of it, the
+    /// result is unspecified: an invalid mesh, or a panic if the change names an element that does not exist.
     ///
     /// # Examples
     ///
@@ -282,18 +292,18 @@ impl Mesh {
     /// let change = mesh.commit().unwrap();
     /// let after = mesh.clone();
     ///
-    /// let again = mesh.revert(change);
+    /// let redo = mesh.revert(change);
     /// assert_eq!(mesh, before);
-    /// mesh.revert(again);
+    /// mesh.revert(redo);
     /// assert_eq!(mesh, after);
     /// # Ok::<(), mesh::EditError>(())
     /// ```
     pub fn revert(&mut self, mut change: Change) -> Change {
         assert!(self.journal.is_none(), "a journal is open");
-        self.go_back(&mut change, 0)
+        self.undo_entries(&mut change, 0)
     }
 
-    /// Runs `edit` as a whole: if it returns an error, the mesh is as it was before.
+    /// Runs `edit` atomically: if it returns an error, all its changes are undone.
     ///
     /// # Errors
     ///
@@ -312,47 +322,47 @@ impl Mesh {
         result
     }
 
-    /// Puts another mesh in the place of this one. Where `*mesh = other` would lose an open journal,
-    /// this notes it.
+    /// Replaces the mesh by `other`. An open journal records the replacement, whereas `*mesh = other` would
+    /// discard the journal.
     pub fn replace(&mut self, other: Self) {
         let journal = self.journal.take();
         let old = std::mem::replace(self, other);
         self.journal = journal;
         if let Some(journal) = &mut self.journal {
-            journal.note_whole(old);
+            journal.record_whole(old);
         }
     }
 
-    /// Turns notes that have become larger than the mesh into one copy of it as it was at the begin.
-    /// Called between edits; inner levels are those of one edit, and short.
+    /// If the entries have become larger than the mesh, replaces them by one copy of the mesh as it was at
+    /// `begin`. Called between edits. Does nothing while inner levels are open: they last for one edit only.
     pub(crate) fn bound_journal(&mut self) {
         let Some(journal) = &self.journal else { return };
         let [level] = journal.levels[..] else { return };
-        if level.has_whole || journal.noted.bytes() < self.bytes() + MIN_JOURNAL {
+        if level.has_whole || journal.recorded.bytes() < self.bytes() + JOURNAL_ALLOWANCE {
             return;
         }
-        let mut journal = self.journal.take().expect("looked at above");
+        let mut journal = self.journal.take().expect("checked above");
         let mut before = self.clone();
-        before.go_back(&mut journal.noted, level.start);
+        before.undo_entries(&mut journal.recorded, level.start);
         journal.levels.clear();
         journal.begin(level.lengths);
-        journal.note_whole(before);
+        journal.record_whole(before);
         self.journal = Some(journal);
     }
 
-    /// Puts back what the entries from `start` on say, the last one first. Returns what undoes that.
-    fn go_back(&mut self, change: &mut Change, start: usize) -> Change {
+    /// Undoes the entries from index `start` on, in reverse order. Returns the change that redoes them.
+    fn undo_entries(&mut self, change: &mut Change, start: usize) -> Change {
         let mut inverse = Change::default();
         for entry in change.entries.drain(start..).rev() {
-            let undo = self.put_back(entry, &mut change.values, &mut inverse);
-            inverse.entries.extend(undo);
+            let redo = self.undo_entry(entry, &mut change.values, &mut inverse);
+            inverse.entries.extend(redo);
         }
         inverse
     }
 
-    /// Puts one entry back. Returns the entry that undoes that, unless it went into `inverse` together
-    /// with numbers.
-    fn put_back(
+    /// Undoes one entry. Returns the entry that redoes it, or `None` if that entry was pushed to `inverse`
+    /// together with its values.
+    fn undo_entry(
         &mut self,
         entry: Entry,
         values: &mut Vec<u8>,
@@ -366,12 +376,12 @@ impl Mesh {
             }
             Entry::Position(v) => {
                 let position = &mut self.positions[v.index()];
-                inverse.position(v, *position);
+                inverse.push_position(v, *position);
                 *position = pop_value(values);
                 return None;
             }
             Entry::Values(domain, i) => {
-                inverse.values(domain, i, self.attributes.of(domain));
+                inverse.push_values(domain, i, self.attributes.of(domain));
                 for column in self.attributes.of_mut(domain).iter_mut().rev() {
                     column.values.pop_bytes(i, values);
                 }
@@ -449,7 +459,7 @@ impl Mesh {
         for (domain, ends) in Domain::ALL.into_iter().zip(tail.values) {
             for (column, end) in self.attributes.of_mut(domain).iter_mut().zip(ends) {
                 let fits = column.values.append(&end);
-                debug_assert!(fits, "the columns are those that the tail was cut from");
+                debug_assert!(fits, "the tail was cut from the same columns");
             }
         }
     }

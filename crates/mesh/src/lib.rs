@@ -1,7 +1,7 @@
 //! A half-edge mesh of polygons in space.
 //!
 //! Every edge is a pair of half-edges, one for each side, that run in opposite directions. A half-edge
-//! knows the next one around its face, the vertex that it leaves, and its face:
+//! stores the next half-edge around its face, its origin vertex, and its face:
 //!
 //! ```text
 //!              c
@@ -14,31 +14,31 @@
 //! ```
 //!
 //! Ids are plain numbers ([`VertexId`], [`HalfEdgeId`], [`EdgeId`], [`FaceId`]). The halves of edge e are
-//! 2e and 2e + 1, so `h.twin()` and `h.edge()` need no mesh. Faces are counter-clockwise seen from
+//! 2e and 2e + 1, so `h.twin()` and `h.edge()` need no mesh. Faces are counter-clockwise when seen from
 //! outside. Iterators around a vertex go clockwise.
 //!
 //! # Invariants
 //!
-//! [`Mesh::defects`] lists every rule that is broken, with the element that breaks it:
+//! [`Mesh::defects`] lists every broken invariant, with the element that breaks it:
 //!
-//! 1. Arrays that belong together have the same length; half-edges come in pairs.
+//! 1. Arrays that belong together have the same length, and the number of half-edges is even.
 //! 2. Every stored id belongs to an element that was not removed.
-//! 3. `next` is a permutation of the half-edges, stays on one face (or around one hole), and begins
-//!    where the half-edge before ended: `origin(next(h)) == target(h)`.
-//! 4. No edge begins and ends at one vertex, and each has a face on one side at least. Both halves
-//!    always exist; on the boundary `face(h)` is `None`.
+//! 3. `next` is a permutation of the half-edges. It stays on the same face (or around the same hole), and
+//!    starts where the half-edge ends: `origin(next(h)) == target(h)`.
+//! 4. The two ends of an edge are different vertices, and each edge has a face on at least one side. Both
+//!    halves always exist; on the boundary `face(h)` is `None`.
 //! 5. A face has at least three corners, and its half-edges are one loop through its
 //!    [`face_half_edge`](Mesh::face_half_edge).
-//! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex leaves it. At a boundary it is the
-//!    outgoing half-edge without a face. Only an isolated vertex has none.
+//! 6. The [`vertex_half_edge`](Mesh::vertex_half_edge) of a vertex is an outgoing half-edge of that vertex.
+//!    On the boundary it is the one without a face. Only an isolated vertex has none.
 //! 7. The faces at a vertex form one connected fan with at most one gap: walking around the vertex reaches
-//!    all half-edges that leave it.
+//!    all of its outgoing half-edges.
 //! 8. Positions are finite.
-//! 9. A column of an attribute has one value for each vertex, corner, edge or face: the elements of its domain.
+//! 9. An attribute column has one value for each element of its domain: vertex, corner, edge or face.
 //!
 //! # Editing
 //!
-//! Local edits check first and change after: an `Err` means that nothing changed.
+//! Local edits first check, then change: an `Err` means that nothing changed.
 //!
 //! | on | edits |
 //! | --- | --- |
@@ -48,25 +48,25 @@
 //! | holes | [`fill_hole`](Mesh::fill_hole), [`fill_hole_by_ears`](Mesh::fill_hole_by_ears), [`bridge_loops`](Mesh::bridge_loops) |
 //! | whole meshes | [`reverse`](Mesh::reverse) |
 //!
-//! Removed elements are marked dead, and no id is used again until [`Mesh::compact`] renumbers.
+//! Removed elements are marked dead. No id is reused until [`Mesh::compact`] renumbers the elements.
 //! [`Mesh::begin`] starts to record edits, [`Mesh::rollback`] undoes them, and [`Mesh::commit`] ends the recording and
-//! returns a [`Change`], which [`Mesh::revert`] applies later: once to undo, again to redo. Operations on a whole
-//! mesh build new arrays ([`Mesh::from_arrays`]) or polygons ([`build()`]) and store them with [`Mesh::replace`].
+//! returns a [`Change`]. [`Mesh::revert`] applies a change later: once to undo, a second time to redo. Operations on a
+//! whole mesh build new arrays ([`Mesh::from_arrays`]) or polygons ([`build()`]) and store them with [`Mesh::replace`].
 //!
 //! # Read in this order
 //!
-//! Eighteen files lead from what a mesh is to how it is changed. The other edits are like flip and split; the rest of `build`
-//! handles polygons that do not form a manifold.
+//! These 18 files explain the data structure and how it is edited. The other edits follow the pattern of flip and split;
+//! the other files of `build` handle polygons that do not form a manifold.
 //!
 //! | files | contents |
 //! | --- | --- |
-//! | `id.rs`, `arrays.rs`, `traverse.rs` | ids and elements, the arrays behind a mesh, ways around faces and vertices |
+//! | `id.rs`, `arrays.rs`, `traverse.rs` | ids and elements, the arrays of a mesh, walking around faces and vertices |
 //! | `validate.rs` | the invariants above, as functions |
 //! | `measure.rs` | areas, normals and angles of single elements |
 //! | `attribute.rs`, `attribute/columns.rs`, `attribute/values.rs` | named columns of values |
 //! | `marks.rs`, `write.rs`, `journal.rs`, `compact.rs` | dead elements, writing single entries, undo, renumbering |
-//! | `edit/mod.rs`, `edit/flip.rs`, `edit/split.rs` | reasons for refusing an edit, and two edits |
-//! | `build/mod.rs`, `build/pair.rs`, `build/assemble.rs` | a mesh from polygons |
+//! | `edit/mod.rs`, `edit/flip.rs`, `edit/split.rs` | the reasons for which edits are refused, and two edits |
+//! | `build/mod.rs`, `build/pair.rs`, `build/assemble.rs` | building a mesh from polygons |
 //!
 //! # Examples
 //!
@@ -87,7 +87,7 @@
 #[cfg(test)]
 extern crate self as mesh;
 
-/// `geometry` depends on this crate, so the tests compile the files that they need from it.
+/// The `geometry` crate depends on this crate. The tests therefore compile the files of `geometry` that they need.
 #[cfg(test)]
 #[path = "../../geometry/src"]
 pub mod geometry {
@@ -101,7 +101,6 @@ pub mod geometry {
 #[cfg(test)]
 use crate::geometry::{shapes, volume};
 
-mod ahead;
 mod arrays;
 mod attribute;
 pub mod blocks;
@@ -112,6 +111,7 @@ mod id;
 mod journal;
 mod marks;
 mod measure;
+mod prefetch;
 mod reverse;
 mod traverse;
 mod validate;
@@ -123,7 +123,7 @@ pub use attribute::{
     Attribute, Attributes, COLOR, CORNER_NORMAL, CREASE, Column, MATERIAL, Rule, SMOOTHING,
     Sources, TANGENT, UV, VERTEX_NORMAL, VERTEX_SHARPNESS, Value, Values,
 };
-pub use build::{BuildError, BuildReport, Built, Elements, NonManifold, Repair, build};
+pub use build::{BuildError, BuildOutput, BuildReport, Elements, NonManifold, Repair, build};
 pub use compact::Renumbering;
 pub use edit::{EditError, Seams, polygon_parts};
 pub use glam::{DMat3, DVec2, DVec3, DVec4};

@@ -1,6 +1,6 @@
-//! A set of indices: one bit each, and no memory while the set is empty.
+//! A set of indices as a bit set, which uses no memory while it is empty.
 
-/// Marked indices.
+/// A set of marked indices.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Marks {
     words: Vec<u64>,
@@ -27,7 +27,7 @@ impl Marks {
         }
     }
 
-    /// Takes the mark from `i`. Memory shrinks with the highest mark, so that equal sets are equal.
+    /// Removes the mark of `i`. Drops trailing zero words, so that equal sets compare equal.
     pub(crate) fn remove(&mut self, i: usize) {
         if self.has(i) {
             self.words[i / 64] &= !(1 << (i % 64));
@@ -38,7 +38,7 @@ impl Marks {
         }
     }
 
-    /// How many indices are marked.
+    /// Returns the number of marked indices.
     #[inline]
     pub(crate) fn count(&self) -> usize {
         self.count
@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_mark_that_is_taken_away_leaves_no_trace() {
+    fn removing_a_mark_restores_the_set() {
         let mut marks = Marks::default();
         marks.add(5);
         let before = marks.clone();

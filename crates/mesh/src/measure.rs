@@ -1,22 +1,23 @@
-//! Measures of elements, and counts that tell the kind of a mesh.
+//! Measures of elements, and counts that describe the topology of a mesh.
 
 use glam::DVec3;
 
 use crate::{Element, FaceId, HalfEdgeId, Mesh};
 
-/// The angle between two directions, from 0 to π; 0 if one of them is zero.
+/// Returns the angle between two directions, in radians from 0 to π; 0 if one of the vectors is zero.
 ///
-/// By the arc tangent of sine and cosine, which is exact for small and for flat angles, where the
-/// arc cosine is not: Kahan, "How Futile are Mindless Assessments of Roundoff", 2006, §12.
+/// Computed as the arc tangent of sine and cosine. This is accurate for angles near 0 and π, where
+/// the arc cosine is not: Kahan, "How Futile are Mindless Assessments of Roundoff", 2006, §12.
 pub fn angle_between(a: DVec3, b: DVec3) -> f64 {
     libm::atan2(a.cross(b).length(), a.dot(b))
 }
 
 impl Mesh {
-    /// The area vector of a face: its length is the area, its direction the normal.
+    /// Returns the area vector of a face: its length is the area, its direction is the normal.
     ///
-    /// Half the sum of the cross products of consecutive corners, taken from the first corner: Newell's
-    /// method, exact for flat polygons; for others it is the area of the projection along the normal.
+    /// This is half the sum of the cross products of consecutive corners, relative to the first corner
+    /// (Newell's method). It is exact for planar polygons. For other polygons, the length is the area of
+    /// the projection along the normal.
     pub fn area_vector(&self, f: FaceId) -> DVec3 {
         let mut corners = self.face_vertices(f).map(|v| self.position(v));
         let Some(first) = corners.next() else {
@@ -31,17 +32,17 @@ impl Mesh {
         0.5 * sum
     }
 
-    /// The area of a face: the length of its [area vector](Self::area_vector).
+    /// Returns the area of a face: the length of its [area vector](Self::area_vector).
     pub fn face_area(&self, f: FaceId) -> f64 {
         self.area_vector(f).length()
     }
 
-    /// The unit normal of a face, zero if it has no area.
+    /// Returns the unit normal of a face; zero if the face has no area.
     pub fn face_normal(&self, f: FaceId) -> DVec3 {
         self.area_vector(f).normalize_or_zero()
     }
 
-    /// The mean of the corners of a face.
+    /// Returns the mean of the corner positions of a face.
     pub fn face_center(&self, f: FaceId) -> DVec3 {
         let (n, sum) = self
             .face_vertices(f)
@@ -51,68 +52,69 @@ impl Mesh {
         sum / n
     }
 
-    /// The length of the edge of `h`.
+    /// Returns the length of the edge of `h`.
     pub fn length(&self, h: HalfEdgeId) -> f64 {
         self.position(self.origin(h))
             .distance(self.position(self.target(h)))
     }
 
-    /// The angle of face `f` at the corner of `h`, its half-edge that leaves the corner; in radians.
+    /// Returns the angle of a face at the corner of `h`, in radians. `h` is the half-edge of the face that
+    /// leaves the corner.
     pub fn corner_angle(&self, h: HalfEdgeId) -> f64 {
         let p = self.position(self.origin(h));
         let next = self.position(self.target(h));
-        let before = self.position(self.origin(self.prev(h)));
-        angle_between(next - p, before - p)
+        let prev = self.position(self.origin(self.prev(h)));
+        angle_between(next - p, prev - p)
     }
 
-    /// The angle between the normals of the faces beside an edge, in radians from 0 (flat) to π;
-    /// `None` on the boundary or if a face has no area.
+    /// Returns the angle between the normals of the two faces at an edge, in radians from 0 (flat) to π;
+    /// `None` on the boundary, or if a face has no area.
     pub fn dihedral_angle(&self, e: crate::EdgeId) -> Option<f64> {
         let [f, g] = self.edge_faces(e);
         let (n, m) = (self.face_normal(f?), self.face_normal(g?));
         (n != DVec3::ZERO && m != DVec3::ZERO).then(|| angle_between(n, m))
     }
 
-    /// V - E + F, with isolated vertices counted.
+    /// Returns V - E + F. V includes isolated vertices.
     pub fn euler_characteristic(&self) -> i64 {
         let count = |n: usize| i64::try_from(n).expect("fewer than 2^32 elements");
         count(self.n_vertices()) - count(self.n_edges()) + count(self.n_faces())
     }
 
-    /// The number of vertices without edges.
+    /// Returns the number of vertices without edges.
     pub fn n_isolated_vertices(&self) -> usize {
         self.vertices()
             .filter(|&v| self.vertex_half_edge(v).is_none())
             .count()
     }
 
-    /// Whether no edge is on the boundary.
+    /// Whether the mesh has no boundary edges.
     pub fn is_closed(&self) -> bool {
         self.edges().all(|e| !self.is_boundary_edge(e))
     }
 
-    /// One half-edge of each loop around a hole, in order of ids.
+    /// Returns the half-edge with the lowest id of each boundary loop, in order of ids.
     pub fn boundary_loops(&self) -> Vec<HalfEdgeId> {
-        let mut seen = vec![false; self.connectivity.next.len()];
+        let mut is_visited = vec![false; self.connectivity.next.len()];
         let mut loops = Vec::new();
         for h in self.half_edges().filter(|&h| self.face(h).is_none()) {
-            if !seen[h.index()] {
+            if !is_visited[h.index()] {
                 loops.push(h);
                 for h in self.loop_half_edges(h) {
-                    seen[h.index()] = true;
+                    is_visited[h.index()] = true;
                 }
             }
         }
         loops
     }
 
-    /// The number of holes.
+    /// Returns the number of boundary loops.
     pub fn n_boundary_loops(&self) -> usize {
         self.boundary_loops().len()
     }
 
-    /// Where an element is: the position of a vertex, of both ends of an edge or half-edge, of all corners of a
-    /// face in their order. Empty if the mesh has no such element.
+    /// Returns the positions of an element: the position of a vertex, of both ends of an edge or half-edge, or of
+    /// all corners of a face in order. Returns an empty list if the element does not exist.
     pub fn element_points(&self, element: Element) -> Vec<DVec3> {
         match element {
             Element::Vertex(v) if self.has_vertex(v) => vec![self.position(v)],
@@ -138,7 +140,7 @@ mod tests {
         for mesh in [shapes::icosahedron(), shapes::torus(5, 4, 3.0, 1.0)] {
             let angles: f64 = mesh.half_edges().map(|h| mesh.corner_angle(h)).sum();
             let n = mesh.n_vertices() as f64;
-            // Quads of the torus are flat, so their angles sum to 2 pi, like those of two triangles.
+            // The quads of the torus are planar, so their angles sum to 2 pi, like those of two triangles.
             let defect = 2.0 * std::f64::consts::PI * n - angles;
             let expected = 2.0 * std::f64::consts::PI * mesh.euler_characteristic() as f64;
             assert!((defect - expected).abs() < 1e-9, "{defect} {expected}");
@@ -146,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn the_edges_of_a_cube_turn_by_a_right_angle() {
+    fn the_dihedral_angles_of_a_cube_are_right_angles() {
         let cube = shapes::cube();
         let right = std::f64::consts::FRAC_PI_2;
         assert!(
@@ -156,7 +158,7 @@ mod tests {
     }
 
     #[test]
-    fn elements_are_where_their_vertices_are() {
+    fn the_points_of_an_element_are_those_of_its_vertices() {
         let mesh = shapes::square();
         let f = mesh.faces().next().expect("a face");
         let corners: Vec<DVec3> = mesh.face_vertices(f).map(|v| mesh.position(v)).collect();
@@ -171,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_there_is_nowhere() {
+    fn a_missing_element_has_no_points() {
         let mesh = shapes::square();
 
         for element in [

@@ -1,4 +1,4 @@
-//! The same mesh with every face seen from the other side.
+//! Reversing the orientation of every face of a mesh.
 //!
 //! ```text
 //!       c                    c
@@ -8,20 +8,21 @@
 //!  a --- h -> b         a <- h --- b       next'(h)   = prev(h)
 //! ```
 //!
-//! The half-edge that leaves a vertex v in a face becomes the one that arrives there, and the one
-//! before it, which arrived, now leaves. So prev(h) stands where h stood for v (and if h was on the
-//! boundary, so is prev(h)), for the first corner of a face, and for the values of a corner.
-//! Reversed twice, every array is as it was.
+//! In a face, the half-edge h that leaves a vertex v becomes the half-edge that ends at v, and prev(h)
+//! becomes the one that leaves v. So prev(h) replaces h as the half-edge of v (if h is on the boundary,
+//! so is prev(h)), as the half-edge of a face, and as the place of the values of a corner. Reversing
+//! twice restores every array.
 
 use crate::attribute::Attributes;
 use crate::{Connectivity, Domain, HalfEdgeId, Mesh};
 
 impl Mesh {
-    /// The mesh with every face turned over, so that its other side is the outside.
+    /// Returns the mesh with the orientation of every face reversed, so that inside and outside are
+    /// exchanged.
     ///
-    /// All ids stay, and the first corner of a face stays the first; the others follow in reverse.
-    /// Values of corners stay with their vertex and face. Normals (columns of [`Rule::Normal`]) are
-    /// turned over too, and columns of [`Rule::Drop`] are left out.
+    /// All ids stay the same. The first corner of a face stays the first; the other corners follow in
+    /// reverse order. Values of corners stay with their vertex and face. Normals (columns of
+    /// [`Rule::Normal`]) are negated, and columns of [`Rule::Drop`] are dropped.
     ///
     /// [`Rule::Normal`]: crate::Rule::Normal
     /// [`Rule::Drop`]: crate::Rule::Drop
@@ -41,13 +42,13 @@ impl Mesh {
             prev[self.next(h).index()] = h;
         }
         let all = || (0..n).map(HalfEdgeId::new);
-        let before = |h: &HalfEdgeId| h.some().map_or(HalfEdgeId::NONE, |h| prev[h.index()]);
+        let prev_of = |h: &HalfEdgeId| h.some().map_or(HalfEdgeId::NONE, |h| prev[h.index()]);
         let old = self.connectivity();
         let connectivity = Connectivity {
             origin: all().map(|h| self.target(h)).collect(),
             face: old.face.clone(),
-            vertex_half_edge: old.vertex_half_edge.iter().map(before).collect(),
-            face_half_edge: old.face_half_edge.iter().map(before).collect(),
+            vertex_half_edge: old.vertex_half_edge.iter().map(prev_of).collect(),
+            face_half_edge: old.face_half_edge.iter().map(prev_of).collect(),
             next: prev,
         };
         let mut attributes = Attributes::default();
@@ -64,8 +65,8 @@ impl Mesh {
                 }),
                 _ => column.values.clone(),
             };
-            let mut column = column.like(values);
-            column.turn_over(0..column.values.len());
+            let mut column = column.with_values(values);
+            column.negate_normals(0..column.values.len());
             attributes.insert(domain, column);
         }
         attributes.drop_by_rule();
@@ -77,7 +78,7 @@ impl Mesh {
         reversed
     }
 
-    /// Turns every face over, as [`reversed`](Self::reversed).
+    /// Reverses the orientation of every face in place, as [`reversed`](Self::reversed) does.
     pub fn reverse(&mut self) {
         self.replace(self.reversed());
     }
@@ -107,7 +108,7 @@ mod tests {
         ]
     }
 
-    /// The mesh with the number of each half-edge as its corner value.
+    /// Returns the mesh with the index of each half-edge as its corner value.
     fn numbered(mut mesh: Mesh) -> Mesh {
         let uv = (0..mesh.domain_len(Domain::Corner))
             .map(|h| DVec2::new(h as f64, 0.0))
@@ -117,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn the_reversed_mesh_is_valid_and_inside_out() {
+    fn the_reversed_mesh_is_valid_and_has_the_opposite_volume() {
         for mesh in meshes() {
             let reversed = mesh.reversed();
             assert_eq!(reversed.defects(), []);
@@ -130,10 +131,10 @@ mod tests {
     }
 
     #[test]
-    fn reversed_twice_is_the_same_mesh() {
+    fn reversing_twice_gives_the_same_mesh() {
         for mut mesh in meshes().into_iter().map(numbered) {
             let twice = mesh.reversed().reversed();
-            // What stands at dead elements means nothing.
+            // Entries of dead elements have no meaning.
             assert_eq!(twice.is_dense(), mesh.is_dense());
             mesh.compact();
             let mut twice = twice;
@@ -143,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_turn_around_their_first_and_keep_their_values() {
+    fn the_first_corner_stays_and_corners_keep_their_values() {
         for mesh in meshes().into_iter().map(numbered) {
             let reversed = mesh.reversed();
             for f in mesh.faces() {
@@ -161,22 +162,22 @@ mod tests {
     }
 
     #[test]
-    fn normals_are_turned_over() {
+    fn normals_are_negated() {
         let mut mesh = shapes::octahedron();
         mesh.set(VERTEX_NORMAL, mesh.positions().to_vec());
-        let flat = |mesh: &Mesh| -> Vec<DVec3> {
+        let flat_normals = |mesh: &Mesh| -> Vec<DVec3> {
             let normal = |h| mesh.face_normal(mesh.face(h).unwrap());
             mesh.half_edges().map(normal).collect()
         };
-        mesh.set(CORNER_NORMAL, flat(&mesh));
+        mesh.set(CORNER_NORMAL, flat_normals(&mesh));
         mesh.reverse();
-        assert_eq!(mesh.get(CORNER_NORMAL).unwrap(), flat(&mesh));
+        assert_eq!(mesh.get(CORNER_NORMAL).unwrap(), flat_normals(&mesh));
         let inwards: Vec<DVec3> = mesh.positions().iter().map(|&p| -p).collect();
         assert_eq!(mesh.get(VERTEX_NORMAL).unwrap(), inwards);
     }
 
     #[test]
-    fn reversing_in_place_can_be_taken_back() {
+    fn reversing_in_place_can_be_undone() {
         let before = numbered(shapes::cube());
         let mut mesh = before.clone();
         mesh.begin();

@@ -9,15 +9,16 @@
 
 use crate::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
-/// Half-edges around a face or leaving a vertex, until the first one comes again.
+/// An iterator over the half-edges around a face, or over the outgoing half-edges of a vertex. Visits each
+/// half-edge once.
 ///
-/// A named type without a destructor, so that `if let Some(h) = mesh.vertex_half_edges(v).find(..)`
+/// This is a named type without a destructor. So `if let Some(h) = mesh.vertex_half_edges(v).find(..)`
 /// does not borrow the mesh for the block that follows.
 #[derive(Clone, Debug)]
 pub struct Orbit<'m> {
     mesh: &'m Mesh,
     start: Option<HalfEdgeId>,
-    at: Option<HalfEdgeId>,
+    current: Option<HalfEdgeId>,
     around_vertex: bool,
 }
 
@@ -26,23 +27,23 @@ impl Iterator for Orbit<'_> {
 
     #[inline]
     fn next(&mut self) -> Option<HalfEdgeId> {
-        let h = self.at?;
+        let h = self.current?;
         let following = self
             .mesh
             .next(if self.around_vertex { h.twin() } else { h });
-        self.at = Some(following).filter(|_| Some(following) != self.start);
+        self.current = Some(following).filter(|_| Some(following) != self.start);
         Some(h)
     }
 }
 
 impl Mesh {
-    /// The half-edges of `f`, counter-clockwise, beginning with [`Mesh::face_half_edge`].
+    /// Iterates over the half-edges of `f`, counter-clockwise, starting with [`Mesh::face_half_edge`].
     #[inline]
     pub fn face_half_edges(&self, f: FaceId) -> Orbit<'_> {
         self.loop_half_edges(self.face_half_edge(f))
     }
 
-    /// The half-edges around the face, or the hole, of `h`, beginning with `h`.
+    /// Iterates over the half-edges around the face, or the hole, of `h`, starting with `h`.
     #[inline]
     pub fn loop_half_edges(&self, h: HalfEdgeId) -> Orbit<'_> {
         self.orbit(Some(h), false)
@@ -53,49 +54,50 @@ impl Mesh {
         Orbit {
             mesh: self,
             start,
-            at: start,
+            current: start,
             around_vertex,
         }
     }
 
-    /// The half-edges that leave `v`, clockwise; on the boundary the first is the boundary one and
-    /// the last is the one whose twin is on the boundary.
+    /// Iterates over the outgoing half-edges of `v`, clockwise. If `v` is on the boundary, the first
+    /// half-edge has no face, and the twin of the last one has no face.
     #[inline]
     pub fn vertex_half_edges(&self, v: VertexId) -> Orbit<'_> {
         self.orbit(self.vertex_half_edge(v), true)
     }
 
-    /// The corners of `f`, counter-clockwise.
+    /// Iterates over the vertices at the corners of `f`, counter-clockwise.
     #[inline]
     pub fn face_vertices(&self, f: FaceId) -> impl Iterator<Item = VertexId> + Clone + '_ {
         self.face_half_edges(f).map(|h| self.origin(h))
     }
 
-    /// The vertices that share an edge with `v`, clockwise.
+    /// Iterates over the vertices that share an edge with `v`, clockwise.
     #[inline]
     pub fn vertex_neighbors(&self, v: VertexId) -> impl Iterator<Item = VertexId> + Clone + '_ {
         self.vertex_half_edges(v).map(|h| self.target(h))
     }
 
-    /// The faces around `v`, clockwise.
+    /// Iterates over the faces around `v`, clockwise.
     #[inline]
     pub fn vertex_faces(&self, v: VertexId) -> impl Iterator<Item = FaceId> + Clone + '_ {
         self.vertex_half_edges(v).filter_map(|h| self.face(h))
     }
 
-    /// The two vertices of `e`: the origin and the target of its first half.
+    /// Returns the two vertices of `e`: the origin and the target of its first half.
     #[inline]
     pub fn edge_vertices(&self, e: EdgeId) -> [VertexId; 2] {
         e.half_edges().map(|h| self.origin(h))
     }
 
-    /// The faces beside `e`: of its first and of its second half.
+    /// Returns the faces at `e`: that of its first half and that of its second half.
     #[inline]
     pub fn edge_faces(&self, e: EdgeId) -> [Option<FaceId>; 2] {
         e.half_edges().map(|h| self.face(h))
     }
 
-    /// The half-edge before `h`. Walks around the face, or on the boundary around the vertex.
+    /// Returns the half-edge whose `next` is `h`. Walks around the face, or, if `h` has no face, around its
+    /// origin.
     #[inline]
     pub fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
         let prev = if self.face(h).is_some() {
@@ -106,13 +108,14 @@ impl Mesh {
         prev.expect("an orbit contains its start")
     }
 
-    /// The half-edge from `v` to `w`, if they share an edge. Of several the first around `v`.
+    /// Returns the half-edge from `v` to `w`, if they share an edge. If there are several, returns the first
+    /// of [`vertex_half_edges`](Self::vertex_half_edges).
     pub fn find_half_edge(&self, v: VertexId, w: VertexId) -> Option<HalfEdgeId> {
         self.vertex_half_edges(v).find(|&h| self.target(h) == w)
     }
 
-    /// Whether the origins of `x` and `y` share an edge. Walks around both at once, so that an end of
-    /// few edges answers for one of many.
+    /// Whether the origins of `x` and `y` share an edge. Walks around both vertices at the same time, so
+    /// the cost is that of the vertex with fewer edges.
     #[inline]
     pub(crate) fn share_an_edge(&self, x: HalfEdgeId, y: HalfEdgeId) -> bool {
         let (v, w) = (self.origin(x), self.origin(y));
@@ -129,13 +132,13 @@ impl Mesh {
         }
     }
 
-    /// The number of edges at `v`.
+    /// Returns the number of edges at `v`.
     #[inline]
     pub fn valence(&self, v: VertexId) -> usize {
         self.vertex_half_edges(v).count()
     }
 
-    /// The number of corners of `f`.
+    /// Returns the number of corners of `f`.
     #[inline]
     pub fn degree(&self, f: FaceId) -> usize {
         self.face_half_edges(f).count()
@@ -148,7 +151,7 @@ impl Mesh {
         self.next(self.next(self.next(h))) == h
     }
 
-    /// Whether `e` has a face on one side only.
+    /// Whether `e` has a face on only one side.
     #[inline]
     pub fn is_boundary_edge(&self, e: EdgeId) -> bool {
         self.edge_faces(e).contains(&None)
@@ -161,8 +164,8 @@ impl Mesh {
             .is_some_and(|h| self.face(h).is_none())
     }
 
-    /// Whether some corner attribute has different values on the two sides of `e`, at either end.
-    /// A boundary edge is no seam.
+    /// Whether any corner attribute has different values on the two sides of `e`, at either end.
+    /// A boundary edge is not a seam.
     pub fn is_seam(&self, e: EdgeId) -> bool {
         let [h, twin] = e.half_edges();
         self.face(h).is_some()
@@ -177,11 +180,11 @@ mod tests {
     use super::*;
     use crate::shapes;
 
-    /// A fan of three triangles around vertex 0, drawn counter-clockwise: 1 east, 2 north-east, 3
-    /// north-west, 4 west.
+    /// Returns a fan of three triangles around vertex 0. The outer vertices, counter-clockwise: 1 east,
+    /// 2 north-east, 3 north-west, 4 west.
     fn fan() -> Mesh {
-        let at = |x: f64, y: f64| glam::DVec3::new(x, y, 0.0);
-        let positions = vec![at(0., 0.), at(2., 0.), at(1., 2.), at(-1., 2.), at(-2., 0.)];
+        let p = |x: f64, y: f64| glam::DVec3::new(x, y, 0.0);
+        let positions = vec![p(0., 0.), p(2., 0.), p(1., 2.), p(-1., 2.), p(-2., 0.)];
         Mesh::from_polygons(positions, &[[0, 1, 2], [0, 2, 3], [0, 3, 4]])
             .unwrap()
             .0
@@ -215,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn the_half_edge_between_two_vertices_is_found_or_not_there() {
+    fn a_half_edge_is_found_only_between_vertices_that_share_an_edge() {
         let mesh = fan();
         let h = mesh
             .find_half_edge(VertexId::new(2), VertexId::new(0))

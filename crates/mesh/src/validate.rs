@@ -1,38 +1,38 @@
-//! The invariants of a mesh as functions: every broken one with its element, and whether there is none.
+//! Validation: listing every broken invariant with its element, and a faster test for whether there are any.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::{Connectivity, Domain, EdgeId, Element, FaceId, HalfEdgeId, Id, Mesh, VertexId};
 
-/// A broken invariant. The words are those of the crate's front page, in the same order.
+/// A broken invariant. The order and the words are those of the list in the crate's documentation.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Defect {
-    /// An array has not one entry for each element.
-    #[error("{0} has the wrong length")]
+    /// The length of an array does not match the number of elements.
+    #[error("the array `{0}` has the wrong length")]
     Length(&'static str),
-    /// There are more elements than ids.
-    #[error("there are more elements than ids")]
+    /// The mesh has more elements than there are ids.
+    #[error("the mesh has more elements than there are ids")]
     TooMany,
     /// An entry of an array names an element that does not exist or is dead.
-    #[error("{array} of {element} names an element that is not there")]
+    #[error("`{array}` of {element} names a missing element")]
     Dangling {
         /// The array.
         array: &'static str,
-        /// The element whose entry it is.
+        /// The element that the entry belongs to.
         element: Element,
     },
-    /// `next` leads here from no half-edge, or from several.
-    #[error("{0} is not the next of exactly one half-edge")]
+    /// The half-edge is the `next` of no half-edge, or of several.
+    #[error("{0} must be the `next` of exactly one half-edge")]
     NextNotPermutation(HalfEdgeId),
-    /// `next` leads to another face.
-    #[error("the next of {0} lies on another face")]
+    /// `next` lies on a different face.
+    #[error("the `next` of {0} lies on a different face")]
     NextOnOtherFace(HalfEdgeId),
-    /// The origin of the next half-edge is not the target of this one.
-    #[error("the next of {0} does not begin where {0} ends")]
+    /// The origin of `next` is not the target of the half-edge.
+    #[error("the `next` of {0} does not start where {0} ends")]
     NextNotConnected(HalfEdgeId),
-    /// An edge begins and ends at one vertex.
-    #[error("{0} begins and ends at one vertex")]
+    /// Both ends of an edge are the same vertex.
+    #[error("{0} starts and ends at the same vertex")]
     SelfLoop(EdgeId),
     /// An edge has no face on either side.
     #[error("{0} has no face on either side")]
@@ -40,23 +40,22 @@ pub enum Defect {
     /// A face has fewer than three corners.
     #[error("{0} has fewer than three corners")]
     FewCorners(FaceId),
-    /// The half-edge of a face lies on another one, or the face's half-edges form several loops.
+    /// The half-edge of a face lies on a different face, or the face's half-edges form several loops.
     #[error("the half-edges of {0} are not one loop")]
     FaceHalfEdge(FaceId),
-    /// The half-edge of a vertex leaves another one, or the vertex is used and has none.
-    #[error("the half-edge of {0} does not leave it")]
+    /// The half-edge of a vertex leaves a different vertex, or a vertex with edges has no half-edge.
+    #[error("the half-edge of {0} does not leave {0}")]
     VertexHalfEdge(VertexId),
-    /// The half-edge of a boundary vertex is not the boundary one.
-    #[error("the half-edge of {0} is not the boundary one")]
+    /// The half-edge of a boundary vertex has a face.
+    #[error("the half-edge of the boundary vertex {0} has a face")]
     NotBoundaryFirst(VertexId),
-    /// The half-edges that leave a vertex are not all reached by walking around it, or there is more than
-    /// one gap on the way.
+    /// Walking around a vertex does not reach all of its outgoing half-edges, or meets more than one gap.
     #[error("the faces around {0} are not one fan")]
     SeveralFans(VertexId),
-    /// A position is infinite or not a number.
+    /// A coordinate of a position is infinite or not a number.
     #[error("the position of {0} is not finite")]
     NotFinite(VertexId),
-    /// A column has not one value for each element of its domain.
+    /// The length of a column is not the number of elements of its domain.
     #[error("the {domain} attribute {name} has the wrong length")]
     ColumnLength {
         /// The domain.
@@ -66,18 +65,18 @@ pub enum Defect {
     },
 }
 
-/// Elements that one thread looks at in one go.
+/// The smallest number of elements that one task checks.
 const BLOCK: usize = 1 << 14;
 
-/// What to do with a broken invariant.
-type Found<'a> = &'a mut dyn FnMut(Defect);
+/// A callback that receives each broken invariant.
+type ReportDefect<'a> = &'a mut dyn FnMut(Defect);
 
 impl Mesh {
-    /// A mesh of arrays from outside, without attributes. Takes time in proportion to their length.
+    /// Creates a mesh from untrusted arrays, without attributes. Takes linear time.
     ///
     /// # Errors
     ///
-    /// The first [`Defect`], if there is one.
+    /// The first [`Defect`], if the arrays are not a valid mesh.
     pub fn try_from_arrays(
         connectivity: Connectivity,
         positions: Vec<DVec3>,
@@ -94,18 +93,19 @@ impl Mesh {
         }
     }
 
-    /// Every broken invariant with its element; empty for a valid mesh. Never panics, whatever the
-    /// arrays hold. Takes time in proportion to the size of the mesh.
+    /// Returns every broken invariant with its element; an empty list for a valid mesh. Never panics,
+    /// whatever the arrays contain. Takes linear time.
     ///
-    /// Where entries dangle, only these are listed: the other invariants have no meaning then.
+    /// If array lengths are wrong or entries name missing elements, the invariants that depend on them
+    /// are not checked.
     pub fn defects(&self) -> Vec<Defect> {
         let mut defects = Vec::new();
         self.check_lengths(&mut |defect| defects.push(defect));
         if defects.is_empty() {
-            let found: Found = &mut |defect| defects.push(defect);
-            (self.half_edges()).for_each(|h| self.check_entries_of_half_edge(h, found));
-            (self.vertices()).for_each(|v| self.check_entry_of_vertex(v, found));
-            (self.faces()).for_each(|f| self.check_entry_of_face(f, found));
+            let report: ReportDefect = &mut |defect| defects.push(defect);
+            (self.half_edges()).for_each(|h| self.check_entries_of_half_edge(h, report));
+            (self.vertices()).for_each(|v| self.check_entry_of_vertex(v, report));
+            (self.faces()).for_each(|f| self.check_entry_of_face(f, report));
         }
         if defects.is_empty() {
             self.check_loops(&mut |defect| defects.push(defect));
@@ -115,32 +115,32 @@ impl Mesh {
         defects
     }
 
-    /// Whether there are no [`defects`](Self::defects), asked by all threads.
+    /// Whether the mesh has no [`defects`](Self::defects). Checks in parallel.
     pub fn is_valid(&self) -> bool {
-        is_silent(|found| self.check_lengths(found))
-            && is_silent(|found| self.check_columns(found))
-            && self.all(|e: EdgeId, found| {
-                (e.half_edges().iter()).for_each(|&h| self.check_entries_of_half_edge(h, found));
+        finds_no_defect(|report| self.check_lengths(report))
+            && finds_no_defect(|report| self.check_columns(report))
+            && self.all(|e: EdgeId, report| {
+                (e.half_edges().iter()).for_each(|&h| self.check_entries_of_half_edge(h, report));
             })
-            && self.all(|v: VertexId, found| {
-                self.check_entry_of_vertex(v, found);
-                self.check_position(v, found);
+            && self.all(|v: VertexId, report| {
+                self.check_entry_of_vertex(v, report);
+                self.check_position(v, report);
             })
-            && self.all(|f: FaceId, found| self.check_entry_of_face(f, found))
+            && self.all(|f: FaceId, report| self.check_entry_of_face(f, report))
             && {
                 let (is_permutation, is_linked) = rayon::join(
                     || self.is_permutation(),
                     || {
-                        self.all(|e: EdgeId, found| {
-                            (e.half_edges().iter()).for_each(|&h| self.check_links(h, found));
+                        self.all(|e: EdgeId, report| {
+                            (e.half_edges().iter()).for_each(|&h| self.check_links(h, report));
                         })
                     },
                 );
                 is_permutation && is_linked
             }
-            // `next` is a permutation that stays on its face, so every walk comes back to where it began, walks
-            // of different faces meet nowhere, and they pass all corners if every face is one loop. The same
-            // holds for the walks around vertices.
+            // `next` is a permutation that stays on its face. So every walk returns to its start, and the walks
+            // of different faces are disjoint; together they visit all corners only if every face is one loop.
+            // The same is true of the walks around vertices.
             && {
                 let faces = |e| self.edge_faces(e).into_iter().flatten().count();
                 self.sum(|f| self.loop_of_face(f, usize::MAX)) == self.sum(|e| Ok(faces(e)))
@@ -148,15 +148,15 @@ impl Mesh {
             && self.sum(|v| self.fan_of_vertex(v, usize::MAX)) == Some(self.n_half_edges())
     }
 
-    /// Whether a check finds nothing at any living element, asked by all threads.
-    fn all<I: Id>(&self, check: impl Fn(I, Found) + Sync + Send) -> bool {
-        numbers(self.domain_len(I::DOMAIN)).map(I::new).all(|id| {
-            let is_clean = || is_silent(|found| check(id, found));
+    /// Whether a check finds no defect at any living element. Runs in parallel.
+    fn all<I: Id>(&self, check: impl Fn(I, ReportDefect) + Sync + Send) -> bool {
+        indices(self.domain_len(I::DOMAIN)).map(I::new).all(|id| {
+            let is_clean = || finds_no_defect(|report| check(id, report));
             !self.is_living(id) || is_clean()
         })
     }
 
-    /// The sum over all living elements, by all threads; `None` if there is a defect.
+    /// Returns the sum over all living elements, computed in parallel; `None` if there is a defect.
     fn sum<I: Id>(&self, term: impl Fn(I) -> Result<usize, Defect> + Sync + Send) -> Option<usize> {
         let term = |id| {
             if self.is_living(id) {
@@ -165,14 +165,14 @@ impl Mesh {
                 Some(0)
             }
         };
-        let ids = numbers(self.domain_len(I::DOMAIN)).map(I::new);
+        let ids = indices(self.domain_len(I::DOMAIN)).map(I::new);
         ids.map(term).sum()
     }
 
-    // ---- The invariants, in the order of the crate's front page -------------------------------
+    // ---- The invariants, in the order of the crate's documentation ----------------------------
 
-    /// 1.
-    pub(crate) fn check_lengths(&self, found: Found) {
+    /// Checks invariant 1.
+    pub(crate) fn check_lengths(&self, report: ReportDefect) {
         let c = &self.connectivity;
         let n = c.next.len();
         for (array, is_right) in [
@@ -185,107 +185,107 @@ impl Mesh {
             ),
         ] {
             if !is_right {
-                found(Defect::Length(array));
+                report(Defect::Length(array));
             }
         }
         if n.max(self.positions.len()).max(c.face_half_edge.len()) >= u32::MAX as usize {
-            found(Defect::TooMany);
+            report(Defect::TooMany);
         }
     }
 
-    /// 2.
-    fn check_entries_of_half_edge(&self, h: HalfEdgeId, found: Found) {
+    /// Checks invariant 2.
+    fn check_entries_of_half_edge(&self, h: HalfEdgeId, report: ReportDefect) {
         let has_face = self.face(h).is_none_or(|f| self.has_face(f));
-        check_entry("next", h, self.has_edge(self.next(h).edge()), found);
-        check_entry("origin", h, self.has_vertex(self.origin(h)), found);
-        check_entry("face", h, has_face, found);
+        check_entry("next", h, self.has_edge(self.next(h).edge()), report);
+        check_entry("origin", h, self.has_vertex(self.origin(h)), report);
+        check_entry("face", h, has_face, report);
     }
 
-    fn check_entry_of_vertex(&self, v: VertexId, found: Found) {
+    fn check_entry_of_vertex(&self, v: VertexId, report: ReportDefect) {
         let first = self.vertex_half_edge(v);
         let has_edge = first.is_none_or(|h| self.has_edge(h.edge()));
-        check_entry("vertex_half_edge", v, has_edge, found);
+        check_entry("vertex_half_edge", v, has_edge, report);
     }
 
-    fn check_entry_of_face(&self, f: FaceId, found: Found) {
+    fn check_entry_of_face(&self, f: FaceId, report: ReportDefect) {
         let has_edge = self.has_edge(self.face_half_edge(f).edge());
-        check_entry("face_half_edge", f, has_edge, found);
+        check_entry("face_half_edge", f, has_edge, report);
     }
 
-    /// 3 and 4, but for whether `next` is a permutation.
-    fn check_links(&self, h: HalfEdgeId, found: Found) {
+    /// Checks invariants 3 and 4, except that `next` is a permutation.
+    fn check_links(&self, h: HalfEdgeId, report: ReportDefect) {
         let (next, twin) = (self.next(h), h.twin());
         if self.face(next) != self.face(h) {
-            found(Defect::NextOnOtherFace(h));
+            report(Defect::NextOnOtherFace(h));
         }
         if self.origin(next) != self.origin(twin) {
-            found(Defect::NextNotConnected(h));
+            report(Defect::NextNotConnected(h));
         }
-        // Of both halves the first one tells.
+        // Each edge is reported once, by its first half.
         if h < twin && self.origin(h) == self.origin(twin) {
-            found(Defect::SelfLoop(h.edge()));
+            report(Defect::SelfLoop(h.edge()));
         }
         if h < twin && self.face(h).is_none() && self.face(twin).is_none() {
-            found(Defect::NoFace(h.edge()));
+            report(Defect::NoFace(h.edge()));
         }
     }
 
-    /// 3 to 7, where no entry dangles.
-    fn check_loops(&self, found: Found) {
-        let mut reached = vec![0_u8; self.domain_len(Domain::Corner)];
+    /// Checks invariants 3 to 7, provided that every entry names an existing element.
+    fn check_loops(&self, report: ReportDefect) {
+        let mut n_reached = vec![0_u8; self.domain_len(Domain::Corner)];
         let mut corners = vec![0_usize; self.domain_len(Domain::Face)];
-        let mut leaving = vec![0_usize; self.domain_len(Domain::Vertex)];
+        let mut n_outgoing = vec![0_usize; self.domain_len(Domain::Vertex)];
         for h in self.half_edges() {
-            let times = &mut reached[self.next(h).index()];
+            let times = &mut n_reached[self.next(h).index()];
             *times = times.saturating_add(1);
-            leaving[self.origin(h).index()] += 1;
+            n_outgoing[self.origin(h).index()] += 1;
             if let Some(f) = self.face(h) {
                 corners[f.index()] += 1;
             }
         }
         for h in self.half_edges() {
-            if reached[h.index()] != 1 {
-                found(Defect::NextNotPermutation(h));
+            if n_reached[h.index()] != 1 {
+                report(Defect::NextNotPermutation(h));
             }
-            self.check_links(h, found);
+            self.check_links(h, report);
         }
         for f in self.faces() {
             match self.loop_of_face(f, corners[f.index()]) {
                 Ok(n) if n == corners[f.index()] => {}
-                Ok(_) => found(Defect::FaceHalfEdge(f)),
-                Err(defect) => found(defect),
+                Ok(_) => report(Defect::FaceHalfEdge(f)),
+                Err(defect) => report(defect),
             }
         }
         for v in self.vertices() {
-            match self.fan_of_vertex(v, leaving[v.index()]) {
-                Ok(n) if n == leaving[v.index()] => {}
-                Ok(0) => found(Defect::VertexHalfEdge(v)),
-                Ok(_) => found(Defect::SeveralFans(v)),
-                Err(defect) => found(defect),
+            match self.fan_of_vertex(v, n_outgoing[v.index()]) {
+                Ok(n) if n == n_outgoing[v.index()] => {}
+                Ok(0) => report(Defect::VertexHalfEdge(v)),
+                Ok(_) => report(Defect::SeveralFans(v)),
+                Err(defect) => report(defect),
             }
         }
     }
 
     fn is_permutation(&self) -> bool {
-        let mut reached = vec![0_u64; self.domain_len(Domain::Corner).div_ceil(64)];
+        let mut is_target = vec![0_u64; self.domain_len(Domain::Corner).div_ceil(64)];
         self.half_edges().all(|h| {
             let next = self.next(h).index();
-            let (word, bit) = (&mut reached[next / 64], 1 << (next % 64));
+            let (word, bit) = (&mut is_target[next / 64], 1 << (next % 64));
             let is_new = *word & bit == 0;
             *word |= bit;
             is_new
         })
     }
 
-    /// 5: the number of corners of a face, or one more than `most`.
-    fn loop_of_face(&self, f: FaceId, most: usize) -> Result<usize, Defect> {
+    /// Checks invariant 5. Returns the number of corners of a face, or `max + 1` if there are more.
+    fn loop_of_face(&self, f: FaceId, max: usize) -> Result<usize, Defect> {
         let first = self.face_half_edge(f);
         if self.face(first) != Some(f) {
             return Err(Defect::FaceHalfEdge(f));
         }
         let mut h = self.next(first);
         let mut n = 1;
-        while h != first && n <= most {
+        while h != first && n <= max {
             h = self.next(h);
             n += 1;
         }
@@ -296,8 +296,9 @@ impl Mesh {
         }
     }
 
-    /// 6 and 7: the number of half-edges that leave a vertex, or one more than `most`.
-    fn fan_of_vertex(&self, v: VertexId, most: usize) -> Result<usize, Defect> {
+    /// Checks invariants 6 and 7. Returns the number of outgoing half-edges of a vertex, or `max + 1` if
+    /// there are more.
+    fn fan_of_vertex(&self, v: VertexId, max: usize) -> Result<usize, Defect> {
         let Some(first) = self.vertex_half_edge(v) else {
             return Ok(0);
         };
@@ -306,8 +307,8 @@ impl Mesh {
         }
         let mut h = self.next(first.twin());
         let mut n = 1;
-        while h != first && n <= most {
-            // The one gap that there may be is where the vertex begins.
+        while h != first && n <= max {
+            // A fan has at most one gap, which must be at the first half-edge.
             if self.face(h).is_none() {
                 return Err(if self.face(first).is_none() {
                     Defect::SeveralFans(v)
@@ -321,41 +322,46 @@ impl Mesh {
         Ok(n)
     }
 
-    /// 8.
-    fn check_position(&self, v: VertexId, found: Found) {
+    /// Checks invariant 8.
+    fn check_position(&self, v: VertexId, report: ReportDefect) {
         if !self.position(v).is_finite() {
-            found(Defect::NotFinite(v));
+            report(Defect::NotFinite(v));
         }
     }
 
-    /// 9.
-    fn check_columns(&self, found: Found) {
+    /// Checks invariant 9.
+    fn check_columns(&self, report: ReportDefect) {
         for (domain, column) in self.attributes.iter() {
             if column.values.len() != self.domain_len(domain) {
                 let name = column.name.clone();
-                found(Defect::ColumnLength { domain, name });
+                report(Defect::ColumnLength { domain, name });
             }
         }
     }
 }
 
-/// Tells of the entry of an element in an array, unless what it names is there.
+/// Reports the entry of `element` in `array` unless the element that the entry names exists.
 #[inline]
-fn check_entry(array: &'static str, element: impl Into<Element>, is_there: bool, found: Found) {
-    if !is_there {
+fn check_entry(
+    array: &'static str,
+    element: impl Into<Element>,
+    exists: bool,
+    report: ReportDefect,
+) {
+    if !exists {
         let element = element.into();
-        found(Defect::Dangling { array, element });
+        report(Defect::Dangling { array, element });
     }
 }
 
-/// Whether a check finds nothing.
-fn is_silent(check: impl FnOnce(Found)) -> bool {
-    let mut is_silent = true;
-    check(&mut |_| is_silent = false);
-    is_silent
+/// Whether a check reports no defect.
+fn finds_no_defect(check: impl FnOnce(ReportDefect)) -> bool {
+    let mut finds_no_defect = true;
+    check(&mut |_| finds_no_defect = false);
+    finds_no_defect
 }
 
-fn numbers(n: usize) -> impl IndexedParallelIterator<Item = usize> {
+fn indices(n: usize) -> impl IndexedParallelIterator<Item = usize> {
     (0..n).into_par_iter().with_min_len(BLOCK)
 }
 
@@ -365,8 +371,8 @@ mod tests {
     use crate::{Column, Rule, Values, shapes};
     use glam::DVec3;
 
-    /// The defects of a grid of 2 x 2 squares in which `corrupt` changed one thing.
-    fn after(corrupt: impl FnOnce(&mut Mesh)) -> Vec<Defect> {
+    /// Returns the defects of a grid of 2 x 2 squares after `corrupt` has changed it.
+    fn defects_of_corrupted(corrupt: impl FnOnce(&mut Mesh)) -> Vec<Defect> {
         let mut mesh = shapes::grid(2, 2);
         assert_eq!(mesh.defects(), []);
         corrupt(&mut mesh);
@@ -380,15 +386,15 @@ mod tests {
     #[test]
     fn an_array_of_the_wrong_length_is_named() {
         assert_eq!(
-            after(|m| assert!(m.connectivity.origin.pop().is_some())),
+            defects_of_corrupted(|m| assert!(m.connectivity.origin.pop().is_some())),
             [Defect::Length("origin")]
         );
         assert_eq!(
-            after(|m| assert!(m.connectivity.face.pop().is_some())),
+            defects_of_corrupted(|m| assert!(m.connectivity.face.pop().is_some())),
             [Defect::Length("face")]
         );
         assert_eq!(
-            after(|m| assert!(m.positions.pop().is_some())),
+            defects_of_corrupted(|m| assert!(m.positions.pop().is_some())),
             [Defect::Length("vertex_half_edge")]
         );
     }
@@ -397,32 +403,32 @@ mod tests {
     fn a_dangling_entry_is_named_with_its_element() {
         let dangling = |array, element: Element| Defect::Dangling { array, element };
         assert_eq!(
-            after(|m| m.set_next(h(3), h(999))),
+            defects_of_corrupted(|m| m.set_next(h(3), h(999))),
             [dangling("next", h(3).into())]
         );
         let far = VertexId::new(99);
         assert_eq!(
-            after(|m| m.set_origin(h(5), far)),
+            defects_of_corrupted(|m| m.set_origin(h(5), far)),
             [dangling("origin", h(5).into())]
         );
         let far = Some(FaceId::new(99));
         assert_eq!(
-            after(|m| m.set_face(h(4), far)),
+            defects_of_corrupted(|m| m.set_face(h(4), far)),
             [dangling("face", h(4).into())]
         );
         let v = VertexId::new(2);
-        let found = after(|m| m.set_vertex_half_edge(v, Some(h(999))));
-        assert_eq!(found, [dangling("vertex_half_edge", v.into())]);
-        let found = after(|m| m.set_face_half_edge(FaceId::new(1), h(999)));
-        assert_eq!(found, [dangling("face_half_edge", FaceId::new(1).into())]);
+        let defects = defects_of_corrupted(|m| m.set_vertex_half_edge(v, Some(h(999))));
+        assert_eq!(defects, [dangling("vertex_half_edge", v.into())]);
+        let defects = defects_of_corrupted(|m| m.set_face_half_edge(FaceId::new(1), h(999)));
+        assert_eq!(defects, [dangling("face_half_edge", FaceId::new(1).into())]);
     }
 
     #[test]
-    fn a_next_that_is_no_permutation_is_found() {
-        let found = after(|m| m.set_next(h(0), m.next(h(2))));
+    fn a_next_that_is_not_a_permutation_is_found() {
+        let defects = defects_of_corrupted(|m| m.set_next(h(0), m.next(h(2))));
         assert!(
-            found.contains(&Defect::NextNotPermutation(h(2))),
-            "{found:?}"
+            defects.contains(&Defect::NextNotPermutation(h(2))),
+            "{defects:?}"
         );
     }
 
@@ -433,22 +439,28 @@ mod tests {
             .half_edges()
             .find(|&h| !mesh.is_boundary_edge(h.edge()))
             .unwrap();
-        let found = after(|m| m.set_face(inner, Some(FaceId::new(3))));
-        assert!(found.contains(&Defect::NextOnOtherFace(inner)), "{found:?}");
+        let defects = defects_of_corrupted(|m| m.set_face(inner, Some(FaceId::new(3))));
+        assert!(
+            defects.contains(&Defect::NextOnOtherFace(inner)),
+            "{defects:?}"
+        );
     }
 
     #[test]
-    fn a_next_that_does_not_begin_where_the_half_edge_ends_is_found() {
-        let found = after(|m| m.set_origin(m.next(h(0)), VertexId::new(8)));
-        assert!(found.contains(&Defect::NextNotConnected(h(0))), "{found:?}");
+    fn a_next_that_does_not_start_where_the_half_edge_ends_is_found() {
+        let defects = defects_of_corrupted(|m| m.set_origin(m.next(h(0)), VertexId::new(8)));
+        assert!(
+            defects.contains(&Defect::NextNotConnected(h(0))),
+            "{defects:?}"
+        );
     }
 
     #[test]
     fn an_edge_from_a_vertex_to_itself_is_found() {
-        let found = after(|m| m.set_origin(h(1), m.origin(h(0))));
+        let defects = defects_of_corrupted(|m| m.set_origin(h(1), m.origin(h(0))));
         assert!(
-            found.contains(&Defect::SelfLoop(EdgeId::new(0))),
-            "{found:?}"
+            defects.contains(&Defect::SelfLoop(EdgeId::new(0))),
+            "{defects:?}"
         );
     }
 
@@ -456,13 +468,13 @@ mod tests {
     fn an_edge_without_faces_is_found() {
         let mesh = shapes::grid(2, 2);
         let rim = mesh.half_edges().find(|&h| mesh.face(h).is_none()).unwrap();
-        let found = after(|m| m.set_face(rim.twin(), None));
-        assert!(found.contains(&Defect::NoFace(rim.edge())), "{found:?}");
+        let defects = defects_of_corrupted(|m| m.set_face(rim.twin(), None));
+        assert!(defects.contains(&Defect::NoFace(rim.edge())), "{defects:?}");
     }
 
     #[test]
     fn a_face_of_two_corners_is_found() {
-        // Two half-edges that follow each other on one face: a lens.
+        // A face of two half-edges, between two edges with the same ends.
         let mut mesh = Mesh::default();
         let (a, b) = (mesh.push_vertex(DVec3::ZERO), mesh.push_vertex(DVec3::X));
         let e = mesh.push_edge(a, b);
@@ -479,34 +491,35 @@ mod tests {
     }
 
     #[test]
-    fn a_face_whose_half_edge_lies_elsewhere_is_found() {
+    fn a_face_whose_half_edge_lies_on_another_face_is_found() {
         let f = FaceId::new(1);
-        let found = after(|m| m.set_face_half_edge(f, m.face_half_edge(FaceId::new(0))));
-        assert_eq!(found, [Defect::FaceHalfEdge(f)]);
+        let defects =
+            defects_of_corrupted(|m| m.set_face_half_edge(f, m.face_half_edge(FaceId::new(0))));
+        assert_eq!(defects, [Defect::FaceHalfEdge(f)]);
     }
 
     #[test]
-    fn a_vertex_whose_half_edge_leaves_another_is_found() {
+    fn a_vertex_whose_half_edge_leaves_another_vertex_is_found() {
         let v = VertexId::new(4);
-        let other = after(|m| {
+        let defects = defects_of_corrupted(|m| {
             let h = m.vertex_half_edge(v).unwrap();
             m.set_vertex_half_edge(v, Some(h.twin()));
         });
-        assert_eq!(other, [Defect::VertexHalfEdge(v)]);
+        assert_eq!(defects, [Defect::VertexHalfEdge(v)]);
         assert_eq!(
-            after(|m| m.set_vertex_half_edge(v, None)),
+            defects_of_corrupted(|m| m.set_vertex_half_edge(v, None)),
             [Defect::VertexHalfEdge(v)]
         );
     }
 
     #[test]
-    fn a_boundary_vertex_that_does_not_begin_on_the_boundary_is_found() {
+    fn a_boundary_vertex_whose_half_edge_has_a_face_is_found() {
         let v = VertexId::new(1);
-        let found = after(|m| {
+        let defects = defects_of_corrupted(|m| {
             let inner = m.vertex_half_edges(v).nth(1).unwrap();
             m.set_vertex_half_edge(v, Some(inner));
         });
-        assert_eq!(found, [Defect::NotBoundaryFirst(v)]);
+        assert_eq!(defects, [Defect::NotBoundaryFirst(v)]);
     }
 
     #[test]
@@ -524,8 +537,8 @@ mod tests {
         )
         .unwrap();
         let v = VertexId::new(0);
-        let leaving: Vec<_> = mesh.vertex_half_edges(VertexId::new(3)).collect();
-        for h in leaving {
+        let outgoing: Vec<_> = mesh.vertex_half_edges(VertexId::new(3)).collect();
+        for h in outgoing {
             mesh.set_origin(h, v);
         }
         mesh.set_vertex_half_edge(VertexId::new(3), None);
@@ -534,7 +547,7 @@ mod tests {
 
     #[test]
     fn a_vertex_between_two_fans_that_are_linked_is_found() {
-        // The middle of a 2 x 2 grid without two faces that lie across from each other.
+        // The middle vertex of a 2 x 2 grid after two opposite faces were removed.
         let mut mesh = shapes::grid(2, 2);
         let v = VertexId::new(4);
         let around: Vec<_> = mesh.vertex_half_edges(v).collect();
@@ -551,10 +564,10 @@ mod tests {
     }
 
     #[test]
-    fn a_position_that_is_no_number_is_found() {
+    fn a_position_that_is_not_a_number_is_found() {
         let v = VertexId::new(7);
         assert_eq!(
-            after(|m| m.positions[7].z = f64::NAN),
+            defects_of_corrupted(|m| m.positions[7].z = f64::NAN),
             [Defect::NotFinite(v)]
         );
     }
@@ -566,9 +579,9 @@ mod tests {
             rule: Rule::Copy,
             values: Values::Int(vec![1]),
         };
-        let found = after(|m| m.attributes.insert(Domain::Face, column));
+        let defects = defects_of_corrupted(|m| m.attributes.insert(Domain::Face, column));
         assert_eq!(
-            found,
+            defects,
             [Defect::ColumnLength {
                 domain: Domain::Face,
                 name: "w".into()

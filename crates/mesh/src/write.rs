@@ -1,5 +1,6 @@
-//! Writing single entries of the arrays, for the edits of this crate. An open journal notes what they
-//! overwrite; nothing else in the crate may change connectivity, so that every edit can be taken back.
+//! Writing single entries of the arrays, for the edits of this crate. An open journal records the
+//! overwritten values. Edits must change connectivity only through these functions, so that every
+//! edit can be undone.
 
 use glam::DVec3;
 
@@ -38,7 +39,7 @@ impl Mesh {
         let slot = &mut self.connectivity.ids_mut(array)[at.index()];
         let old = std::mem::replace(slot, bytemuck::cast(id));
         if let Some(journal) = &mut self.journal {
-            journal.link(array, at, old);
+            journal.record_link(array, at, old);
         }
     }
 
@@ -50,7 +51,7 @@ impl Mesh {
         v
     }
 
-    /// A new edge between two vertices with zero values: its halves have no faces and no followers yet.
+    /// Adds an edge between two vertices, with zero values. `face` and `next` of its halves are not set yet.
     pub(crate) fn push_edge(&mut self, origin: VertexId, target: VertexId) -> EdgeId {
         let e = EdgeId::new(self.connectivity.next.len() / 2);
         self.connectivity.next.extend([HalfEdgeId::NONE; 2]);
@@ -61,7 +62,7 @@ impl Mesh {
         e
     }
 
-    /// A new face at half-edge `h` with zero values.
+    /// Adds a face with `h` as its half-edge and with zero values.
     pub(crate) fn push_face(&mut self, h: HalfEdgeId) -> FaceId {
         let f = FaceId::new(self.connectivity.face_half_edge.len());
         self.connectivity.face_half_edge.push(h);
@@ -75,44 +76,44 @@ impl Mesh {
         if !dead.has(id.index()) {
             dead.add(id.index());
             if let Some(journal) = &mut self.journal {
-                journal.note(|| Entry::Mark(I::DOMAIN, id.index()));
+                journal.record(|| Entry::Mark(I::DOMAIN, id.index()));
             }
         }
     }
 
-    /// Gives element `to` the values of element `from`, whatever their rules.
+    /// Copies all values of element `from` to element `to`, regardless of their rules.
     #[inline]
     pub(crate) fn copy_values<I: Id>(&mut self, from: I, to: I) {
         self.edit_values(to, |column| column.values.copy(from.index(), to.index()));
     }
 
-    /// Exchanges the values of two elements, whatever their rules.
+    /// Exchanges the values of two elements, regardless of their rules.
     pub(crate) fn swap_values<I: Id>(&mut self, a: I, b: I) {
         self.edit_values(b, |_| {});
         self.edit_values(a, |column| column.values.swap(a.index(), b.index()));
     }
 
-    /// Turns the normals of an element over.
-    pub(crate) fn turn_over<I: Id>(&mut self, element: I) {
+    /// Negates the normals of an element.
+    pub(crate) fn negate_normals<I: Id>(&mut self, element: I) {
         let i = element.index();
-        self.edit_values(element, |column| column.turn_over(i..i + 1));
+        self.edit_values(element, |column| column.negate_normals(i..i + 1));
     }
 
-    /// Gives element `to`, which lies between `a` and `b` at `t` (0 at `a`, 1 at `b`), the values that
-    /// the rules say. Columns that are copied, not interpolated, stay as they are.
+    /// Sets the interpolated values of element `to`, which lies between `a` and `b` at `t` (0 at `a`, 1 at
+    /// `b`). Columns whose rule does not interpolate stay as they are.
     #[inline]
     pub(crate) fn mix_values<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
         self.edit_values(to, |column| column.mix(a, b, t, to));
     }
 
-    /// Gives element `to` the mean of the values of `from`, where the rules say interpolate; columns
-    /// that are copied stay as they are. `from` may contain `to`.
+    /// Sets the interpolated values of element `to` to the mean of the values of `from`. Columns whose
+    /// rule does not interpolate stay as they are. `from` may contain `to`.
     pub(crate) fn average_values<I: Id>(&mut self, from: &[I], to: I) {
         self.edit_values(to, |column| column.average(from, to));
     }
 
-    /// Gives edge `to` what counts of its values and those of `from`, when the two become one: the larger
-    /// number, and the mark of either. Other columns stay as they are.
+    /// Merges the values of edge `from` into edge `to`, when the two become one edge. The larger number is
+    /// kept, and a tag is set if either edge had it. Columns of other types stay as they are.
     pub(crate) fn merge_values(&mut self, from: EdgeId, to: EdgeId) {
         let (source, target) = (from.index(), to.index());
         self.edit_values(to, |column| match &mut column.values {
@@ -122,9 +123,10 @@ impl Mesh {
         });
     }
 
-    /// Moves the values of corner `to` along an edge that shrinks to the place `t` on it. `sides` are the
-    /// corners at both ends of the edge, in the face on each side; where `to` has the value of the one
-    /// at its own end, which is `end`, it gets that of the place. None of them is `to`.
+    /// Updates the values of corner `to` when an edge at its vertex collapses to the point at `t`. `sides`
+    /// has, for the face on each side of the edge, the corners at both ends of the edge; `end` is the end
+    /// (0 or 1) at which `to` is. If `to` has the same value as the corner of one side at this end, `to`
+    /// gets the interpolated value of that side. `to` must not be one of these corners.
     pub(crate) fn follow_values(
         &mut self,
         sides: [Option<[HalfEdgeId; 2]>; 2],
@@ -133,9 +135,9 @@ impl Mesh {
         to: HalfEdgeId,
     ) {
         self.edit_values(to, |column| {
-            let is_same =
-                |side: &&[HalfEdgeId; 2]| column.values.same(side[end].index(), to.index());
-            if let Some(&[a, b]) = sides.iter().flatten().find(is_same) {
+            let is_equal =
+                |side: &&[HalfEdgeId; 2]| column.values.are_equal(side[end].index(), to.index());
+            if let Some(&[a, b]) = sides.iter().flatten().find(is_equal) {
                 column.mix(a, b, t, to);
             }
         });
@@ -145,7 +147,7 @@ impl Mesh {
         !self.attributes.of(Domain::Corner).is_empty()
     }
 
-    /// Changes the values of an element in all columns, after noting them.
+    /// Changes the values of an element in all columns, after an open journal has recorded them.
     #[inline]
     fn edit_values<I: Id>(&mut self, element: I, edit: impl Fn(&mut Column)) {
         let columns = self.attributes.of_mut(I::DOMAIN);
@@ -153,13 +155,13 @@ impl Mesh {
             return;
         }
         if let Some(journal) = &mut self.journal {
-            journal.values(element, columns);
+            journal.record_values(element, columns);
         }
         columns.iter_mut().for_each(edit);
     }
 
-    /// Removes the columns whose rule is [`Rule::Drop`](crate::Rule::Drop), and keeps the journal within
-    /// bounds: called by every edit before its first change.
+    /// Removes the columns whose rule is [`Rule::Drop`](crate::Rule::Drop), and bounds the size of the
+    /// journal. Every edit calls this before its first change.
     #[inline]
     pub(crate) fn drop_columns_by_rule(&mut self) {
         if self.journal.is_some() {

@@ -1,15 +1,15 @@
-//! Large arrays of zeros.
+//! Large zeroed arrays.
 //!
-//! Memory from the system comes in pages that are made when they are first touched. For an array that is
-//! written once, making pages of 4 KiB takes as long as writing it; pages of 2 MiB take a third of that.
+//! The system maps each page of memory when it is first touched. For an array that is written once, mapping
+//! pages of 4 KiB takes as long as writing the array; mapping pages of 2 MiB takes a third of that.
 
 use bytemuck::Zeroable;
 
-/// From this size on an array asks for large pages: below it they would waste memory.
+/// Arrays of at least this many bytes request large pages. Smaller arrays would waste memory.
 const LARGE: usize = 8 << 20;
 
-/// `n` zero values. The memory is not touched before it is written, so the threads that fill it share the
-/// work of making its pages, and large arrays ask for large pages where the system grants them.
+/// Returns `n` zero values. The memory is not touched until it is written, so the threads that fill the
+/// array share the work of mapping its pages. Large arrays request large pages from the system.
 pub fn zeroed<T: Zeroable>(n: usize) -> Vec<T> {
     let new = bytemuck::zeroed_vec(n);
     if size_of_val(new.as_slice()) >= LARGE {

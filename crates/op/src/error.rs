@@ -89,15 +89,15 @@ impl From<EditError> for Refusal {
             EditError::Full => Self::Full,
             EditError::NoCut(..)
             | EditError::SeveralCuts(..)
-            | EditError::Elsewhere(_)
+            | EditError::WrongCorner(_)
             | EditError::Adjacent(..)
             | EditError::NoPath(_)
-            | EditError::Twice(_)
-            | EditError::TwiceFace(_)
+            | EditError::EdgeListedTwice(_)
+            | EditError::FaceListedTwice(_)
             | EditError::ShortLoop(_)
             | EditError::SameLoop(..)
             | EditError::SelfLoop(_)
-            | EditError::Nothing => Self::WrongPlace,
+            | EditError::NoElements => Self::WrongPlace,
         }
     }
 }

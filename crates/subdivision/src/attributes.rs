@@ -53,7 +53,7 @@ impl From<'_> {
                 Domain::Edge => self.edge_values(column, n, meter)?,
                 Domain::Face => gathered(column, n, &|i| self.topology.face(i)),
             };
-            new.insert(domain, column.like(values));
+            new.insert(domain, column.with_values(values));
         }
         Ok(new)
     }

@@ -14,7 +14,7 @@
 use std::sync::Arc;
 
 use bezier::{BezierError, Patch, Tessellation, counts, tessellate_patch};
-use mesh::{BuildReport, Built, DVec2, DVec3, Domain, NonManifold, UV, VERTEX_NORMAL};
+use mesh::{BuildReport, BuildOutput, DVec2, DVec3, Domain, NonManifold, UV, VERTEX_NORMAL};
 use op::prelude::*;
 use op::{Operation, TargetKind, target_names};
 use scene::Geometry;
@@ -177,7 +177,7 @@ impl Tessellate {
                 .map_err(too_large)?;
         }
         cx.advance("tessellate", total, total)?;
-        let Built {
+        let BuildOutput {
             mut mesh,
             report: built,
             half_edge_of_corner,

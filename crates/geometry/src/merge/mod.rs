@@ -15,7 +15,7 @@ mod cluster;
 mod union_find;
 
 use mesh::{
-    BuildError, BuildReport, Built, CORNER_NORMAL, Domain, EdgeId, FaceId, HalfEdgeId, Mesh,
+    BuildError, BuildReport, BuildOutput, CORNER_NORMAL, Domain, EdgeId, FaceId, HalfEdgeId, Mesh,
     NonManifold, Sources, VERTEX_NORMAL, VertexId, build,
 };
 use progress::{Cancelled, Progress};
@@ -193,7 +193,7 @@ impl Polygons {
     }
 
     /// The built mesh with the attributes of the old one.
-    fn with_attributes(self, old: &Mesh, built: Built) -> Mesh {
+    fn with_attributes(self, old: &Mesh, built: BuildOutput) -> Mesh {
         let edges_of_sides = built.edges_of_sides(&self.offsets);
         let has_reversed = !built.report.reversed_faces.is_empty();
         let mut mesh = built.mesh;

@@ -109,7 +109,7 @@ impl Triangles {
         const VERTEX: usize = 64;
         const CORNER: usize = 48;
         let columns = self.attributes.of(Domain::Corner).iter();
-        let values: usize = columns.map(|column| column.values.bytes_each()).sum();
+        let values: usize = columns.map(|column| column.values.bytes_per_value()).sum();
         (VERTEX * self.positions.len() + (CORNER + values) * self.corners.len()) as u64
     }
 
@@ -171,7 +171,7 @@ impl Triangles {
                 seen.attribute(&(semantic.to_string() + " of another type"));
             } else {
                 if before.is_none() && base > 0 {
-                    let zeros = base * column.values.bytes_each();
+                    let zeros = base * column.values.bytes_per_value();
                     reader.budget.spend(zeros as u64, &at)?;
                     seen.partial += 1;
                 }
@@ -181,7 +181,7 @@ impl Triangles {
         // Attributes that only other primitives have.
         for column in self.attributes.of(Domain::Corner) {
             if own.column(Domain::Corner, &column.name).is_none() {
-                let zeros = n * column.values.bytes_each();
+                let zeros = n * column.values.bytes_per_value();
                 reader.budget.spend(SMALL + zeros as u64, here)?;
                 seen.partial += 1;
             }

@@ -18,13 +18,13 @@ pub struct Column {
     pub values: Values,
 }
 
-/// All attributes of a mesh, in order of their names in each domain.
+/// All attributes of a mesh: for each domain its columns, sorted by name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attributes {
     columns: [Vec<Column>; 4],
 }
 
-/// All columns with their domains, in the order of [`Attributes::iter`].
+/// Iterates over all columns with their domains, in the order of [`Attributes::iter`].
 impl IntoIterator for Attributes {
     type Item = (Domain, Column);
     type IntoIter = std::vec::IntoIter<(Domain, Column)>;
@@ -36,39 +36,39 @@ impl IntoIterator for Attributes {
     }
 }
 
-/// For each element of a new mesh the element of the old one that it takes its values from,
-/// `NONE` for zero values.
+/// For each element of a new mesh, the element of the old mesh whose values it gets; `NONE` for
+/// zero values.
 #[derive(Clone, Copy, Debug)]
 pub struct Sources<'a> {
-    /// One for each new vertex.
+    /// The old vertex for each new vertex.
     pub vertices: &'a [VertexId],
-    /// One for each new half-edge.
+    /// The old half-edge for each new half-edge.
     pub corners: &'a [HalfEdgeId],
-    /// One for each new edge.
+    /// The old edge for each new edge.
     pub edges: &'a [EdgeId],
-    /// One for each new face.
+    /// The old face for each new face.
     pub faces: &'a [FaceId],
 }
 
 impl Attributes {
-    /// The columns of a domain, in order of their names.
+    /// Returns the columns of a domain, sorted by name.
     pub fn of(&self, domain: Domain) -> &[Column] {
         &self.columns[domain as usize]
     }
 
-    /// All columns with their domains, in a fixed order.
+    /// Iterates over all columns with their domains: domain by domain, sorted by name.
     pub fn iter(&self) -> impl Iterator<Item = (Domain, &Column)> {
         Domain::ALL
             .into_iter()
             .flat_map(|d| self.of(d).iter().map(move |c| (d, c)))
     }
 
-    /// The column of this domain and name.
+    /// Returns the column with this domain and name.
     pub fn column(&self, domain: Domain, name: &str) -> Option<&Column> {
         self.find(domain, name).ok().map(|i| &self.of(domain)[i])
     }
 
-    /// Where the column of this name is, or would be: the columns are in order of their names.
+    /// Returns the index of the column with this name, or as an error the index at which it would be inserted.
     fn find(&self, domain: Domain, name: &str) -> Result<usize, usize> {
         self.of(domain)
             .binary_search_by(|c| c.name.as_str().cmp(name))
@@ -79,35 +79,35 @@ impl Attributes {
     }
 
     pub(crate) fn column_mut(&mut self, domain: Domain, name: &str) -> Option<&mut Column> {
-        let found = self.find(domain, name).ok();
-        found.map(|i| &mut self.columns[domain as usize][i])
+        let index = self.find(domain, name).ok();
+        index.map(|i| &mut self.columns[domain as usize][i])
     }
 
-    /// Puts a column into a domain, in place of one of the same name. Its length must be that of
-    /// the domain in the mesh that gets these attributes.
+    /// Inserts a column into a domain, and replaces a column of the same name. Its length must be that
+    /// of the domain in the mesh that gets these attributes.
     pub fn insert(&mut self, domain: Domain, column: Column) {
-        let place = self.find(domain, &column.name);
+        let index = self.find(domain, &column.name);
         let columns = &mut self.columns[domain as usize];
-        match place {
+        match index {
             Ok(i) => columns[i] = column,
             Err(i) => columns.insert(i, column),
         }
     }
 
-    /// Takes a column out.
+    /// Removes a column and returns it.
     pub fn remove(&mut self, domain: Domain, name: &str) -> Option<Column> {
-        let found = self.find(domain, name).ok();
-        found.map(|i| self.columns[domain as usize].remove(i))
+        let index = self.find(domain, name).ok();
+        index.map(|i| self.columns[domain as usize].remove(i))
     }
 
-    /// The same columns on a new mesh, each value taken from the element that it came from.
+    /// Returns the same columns for a new mesh: each new element gets the values of its source.
     #[must_use]
     pub fn gathered(&self, sources: Sources) -> Self {
         fn run<I: Id>(columns: &[Column], from: &[I]) -> Vec<Column> {
             let source = |i: usize| (from[i] != I::NONE).then(|| from[i].index());
             let columns = columns.iter();
             columns
-                .map(|c| c.like(c.values.gather(from.len(), source)))
+                .map(|c| c.with_values(c.values.gather(from.len(), source)))
                 .collect()
         }
         Self {
@@ -120,46 +120,46 @@ impl Attributes {
         }
     }
 
-    /// Puts the values of `other` behind these. `lens` are the counts of elements of this mesh,
-    /// `other_lens` those of the other. A column that only one of the two has gets zero values for
-    /// the other's elements; of columns with one name and two types the second is left out, and its
-    /// domain and name are returned.
+    /// Appends the values of `other`. `lens` are the element counts of this mesh by domain, and
+    /// `other_lens` those of the other mesh. A column that exists in only one of the two gets zero values
+    /// for the elements of the other. If two columns have the same name but different types, the
+    /// column of `other` is skipped, and its domain and name are returned.
     pub fn append(
         &mut self,
         lens: [usize; 4],
         other: &Self,
         other_lens: [usize; 4],
     ) -> Vec<(Domain, String)> {
-        let mut left_out = Vec::new();
+        let mut skipped = Vec::new();
         for domain in Domain::ALL {
             let (len, other_len) = (lens[domain as usize], other_lens[domain as usize]);
             for column in other.of(domain) {
                 if self.column(domain, &column.name).is_none() {
                     let values = column.values.gather(len, |_| None);
-                    self.insert(domain, column.like(values));
+                    self.insert(domain, column.with_values(values));
                 }
                 let mine = self
                     .column_mut(domain, &column.name)
                     .expect("inserted above");
                 if !mine.values.append(&column.values) {
-                    left_out.push((domain, column.name.clone()));
+                    skipped.push((domain, column.name.clone()));
                 }
             }
             for column in &mut self.columns[domain as usize] {
                 column.values.grow(len + other_len);
             }
         }
-        left_out
+        skipped
     }
 
-    /// Grows all columns of a domain to `n` values.
+    /// Grows all columns of a domain to `n` values; new values are zero.
     pub(crate) fn grow(&mut self, domain: Domain, n: usize) {
         for column in &mut self.columns[domain as usize] {
             column.values.grow(n);
         }
     }
 
-    /// The domain and name of a column whose rule is [`Rule::Drop`].
+    /// Returns the domain and name of the first column whose rule is [`Rule::Drop`].
     #[inline]
     pub(crate) fn first_to_drop(&self) -> Option<(Domain, String)> {
         self.iter()
@@ -171,10 +171,10 @@ impl Attributes {
     pub(crate) fn corners_differ(&self, a: HalfEdgeId, b: HalfEdgeId) -> bool {
         self.of(Domain::Corner)
             .iter()
-            .any(|c| !c.values.same(a.index(), b.index()))
+            .any(|c| !c.values.are_equal(a.index(), b.index()))
     }
 
-    /// Removes the columns whose rule is [`Rule::Drop`]: for whatever changes connectivity.
+    /// Removes the columns whose rule is [`Rule::Drop`]. Everything that changes connectivity must call this.
     pub fn drop_by_rule(&mut self) {
         for columns in &mut self.columns {
             columns.retain(|c| c.rule != Rule::Drop);
@@ -183,9 +183,9 @@ impl Attributes {
 }
 
 impl Column {
-    /// A column of the same name and rule.
+    /// Returns a column with the same name and rule, and these values.
     #[must_use]
-    pub fn like(&self, values: Values) -> Self {
+    pub fn with_values(&self, values: Values) -> Self {
         Self {
             name: self.name.clone(),
             rule: self.rule,
@@ -193,7 +193,7 @@ impl Column {
         }
     }
 
-    /// Gives element `to`, which lies between `a` and `b`, the value that the rule says.
+    /// Sets the value of element `to`, which lies between `a` and `b` at `t`, if the rule interpolates.
     #[inline]
     pub(crate) fn mix<I: Id>(&mut self, a: I, b: I, t: f64, to: I) {
         if matches!(self.rule, Rule::Interpolate | Rule::Normal) {
@@ -202,7 +202,7 @@ impl Column {
         }
     }
 
-    /// Gives element `to` the mean of the values of `from`, if the rule says interpolate.
+    /// Sets the value of element `to` to the mean of the values of `from`, if the rule interpolates.
     pub(crate) fn average<I: Id>(&mut self, from: &[I], to: I) {
         if matches!(self.rule, Rule::Interpolate | Rule::Normal) {
             let weight = 1.0 / from.len().max(1) as f64;
@@ -216,7 +216,7 @@ impl Column {
         }
     }
 
-    /// The values, if they are normals.
+    /// Returns the values, if they are normals.
     fn normals_mut(&mut self) -> Option<&mut [DVec3]> {
         match (self.rule, &mut self.values) {
             (Rule::Normal, Values::Vec3(normals)) => Some(normals),
@@ -224,17 +224,18 @@ impl Column {
         }
     }
 
-    /// Scales the value at `i` to length 1 if the rule asks for that.
+    /// Scales the value at `i` to length 1, if the values are normals.
     fn normalize(&mut self, i: usize) {
         if let Some(normals) = self.normals_mut() {
             normals[i] = normals[i].normalize_or_zero();
         }
     }
 
-    /// Turns values over if they are normals. A difference, so that 0 stays 0 and not -0.
-    pub(crate) fn turn_over(&mut self, which: Range<usize>) {
-        let normals = self.normals_mut().map(|normals| &mut normals[which]);
+    /// Negates the values of a range of elements, if they are normals.
+    pub(crate) fn negate_normals(&mut self, range: Range<usize>) {
+        let normals = self.normals_mut().map(|normals| &mut normals[range]);
         for normal in normals.into_iter().flatten() {
+            // Subtracted from zero, so that 0 does not become -0.
             *normal = DVec3::ZERO - *normal;
         }
     }
@@ -245,7 +246,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn appending_fills_what_one_side_lacks() {
+    fn appending_fills_missing_columns_with_zeros() {
         let mut a = Attributes::default();
         a.insert(
             Domain::Face,

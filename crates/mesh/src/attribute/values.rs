@@ -1,4 +1,4 @@
-//! The values of a column, whatever their type.
+//! The values of a column, of any supported type.
 
 use bytemuck::{CheckedBitPattern, NoUninit, Zeroable};
 use glam::{DVec2, DVec3, DVec4};
@@ -17,11 +17,11 @@ pub enum Values {
     Vec4(Vec<DVec4>),
     /// Whole numbers.
     Int(Vec<i32>),
-    /// Marks: a named selection.
+    /// The flags of a tag, which is a named selection.
     Tag(Vec<bool>),
 }
 
-/// Runs `$body` with `$v` bound to the vector inside `$values`, whatever its type.
+/// Runs `$body` with `$v` bound to the vector inside `$values`, for any type of values.
 macro_rules! each {
     ($values:expr, $v:ident => $body:expr) => {
         match $values {
@@ -36,30 +36,30 @@ macro_rules! each {
 }
 
 impl Values {
-    /// How many values there are.
+    /// Returns the number of values.
     pub fn len(&self) -> usize {
         each!(self, v => v.len())
     }
 
-    /// Whether there are no values.
+    /// Whether the list of values is empty.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The bytes that the values take.
+    /// Returns the size of all values in bytes.
     pub fn bytes(&self) -> usize {
         each!(self, v => size_of_val(v.as_slice()))
     }
 
-    /// The bytes that one value takes.
-    pub fn bytes_each(&self) -> usize {
+    /// Returns the size of one value in bytes.
+    pub fn bytes_per_value(&self) -> usize {
         fn run<T>(_: &[T]) -> usize {
             size_of::<T>()
         }
         each!(self, v => run(v))
     }
 
-    /// The name of the type of the values.
+    /// Returns the name of the type of the values.
     pub fn type_name(&self) -> &'static str {
         match self {
             Self::Float(_) => "number",
@@ -71,7 +71,7 @@ impl Values {
         }
     }
 
-    /// New values of length `n`: the i-th is the value at `source(i)`, or zero where that is `None`.
+    /// Returns `n` new values: value i is the old value at `source(i)`, or zero where that is `None`.
     #[must_use]
     pub fn gather(&self, n: usize, source: impl Fn(usize) -> Option<usize> + Sync) -> Self {
         fn run<T: Value>(
@@ -88,9 +88,9 @@ impl Values {
         each!(self, v => run(v, n, source))
     }
 
-    /// New values of length `n`: `weights(i, add)` calls `add(source, weight)` for each value that the
-    /// i-th is a sum of. Whole numbers and tags cannot be added: for them the source of the
-    /// largest weight is taken, the first of equals.
+    /// Returns `n` new values, each a weighted sum of old values: `weights(i, add)` calls
+    /// `add(source, weight)` for each term of new value i. Integers and tags cannot be interpolated: they
+    /// get the value of the source with the largest weight, the first of them if several weights are equal.
     #[must_use]
     pub fn blend(
         &self,
@@ -115,7 +115,7 @@ impl Values {
             Self::Int(_) | Self::Tag(_) => self.gather(n, |i| {
                 let mut best = None;
                 weights(i, &mut |source, w| {
-                    if best.is_none_or(|(_, most)| w > most) {
+                    if best.is_none_or(|(_, max)| w > max) {
                         best = Some((source, w));
                     }
                 });
@@ -124,7 +124,7 @@ impl Values {
         }
     }
 
-    /// Adds zero values until there are `n`.
+    /// Appends zero values up to length `n`.
     pub(super) fn grow(&mut self, n: usize) {
         fn run<T: Value>(v: &mut Vec<T>, n: usize) {
             v.resize(n, T::default());
@@ -141,22 +141,23 @@ impl Values {
         each!(self, v => v.swap(a, b));
     }
 
-    /// Sets the value at `i` to the only one of `other`, which has the same type.
+    /// Sets the value at `i` to the first value of `other`, which must have the same type.
     pub(super) fn set(&mut self, i: usize, other: &Self) {
         each!(self, v => v[i] = Value::of(other).expect("blended from the same column")[0]);
     }
 
-    /// Puts the bytes of the value at `i` behind `bytes`.
+    /// Appends the bytes of the value at `i` to `bytes`.
     pub(crate) fn push_bytes(&self, i: usize, bytes: &mut Vec<u8>) {
         each!(self, v => bytes.extend(bytemuck::bytes_of(&v[i])));
     }
 
-    /// Takes the value at `i` from the end of `bytes`, where [`push_bytes`](Self::push_bytes) put it.
+    /// Sets the value at `i` from the end of `bytes`, where [`push_bytes`](Self::push_bytes) put it, and
+    /// removes it there.
     pub(crate) fn pop_bytes(&mut self, i: usize, bytes: &mut Vec<u8>) {
         each!(self, v => v[i] = pop_value(bytes));
     }
 
-    /// Takes the values from `n` on away and returns them.
+    /// Removes the values from index `n` on and returns them.
     pub(crate) fn split_off(&mut self, n: usize) -> Self {
         each!(self, v => Value::wrap(v.split_off(n)))
     }
@@ -165,16 +166,18 @@ impl Values {
     ///
     /// # Panics
     ///
-    /// If there is no such value.
-    pub fn same(&self, a: usize, b: usize) -> bool {
+    /// If an index is out of range.
+    pub fn are_equal(&self, a: usize, b: usize) -> bool {
         each!(self, v => v[a] == v[b])
     }
 
+    /// Appends the values of `other`. Returns false, and changes nothing, if their type is different.
     pub(crate) fn append(&mut self, other: &Self) -> bool {
         each!(self, v => Value::of(other).map(|more| v.extend_from_slice(more)).is_some())
     }
 
-    /// The weighted mean of two values, for the kinds that have one.
+    /// Sets the value at `to` to the weighted mean of those at `a` and `b`, where `t` is the weight of `b`.
+    /// Integers and tags get the value of the larger weight, that of `b` if both are equal.
     pub(super) fn mix(&mut self, a: usize, b: usize, t: f64, to: usize) {
         match self {
             Self::Float(v) => v[to] = v[a] * (1.0 - t) + v[b] * t,
@@ -191,11 +194,11 @@ impl Values {
 pub trait Value:
     Copy + Default + PartialEq + Send + Sync + Zeroable + NoUninit + CheckedBitPattern + 'static
 {
-    /// Values of this type.
+    /// Wraps a vector of this type.
     fn wrap(values: Vec<Self>) -> Values;
-    /// The values, if they are of this type.
+    /// Returns the values, if they have this type.
     fn of(values: &Values) -> Option<&[Self]>;
-    /// The values to change, if they are of this type.
+    /// Returns the values mutably, if they have this type.
     fn of_mut(values: &mut Values) -> Option<&mut [Self]>;
 }
 
@@ -227,7 +230,7 @@ value!(DVec4, Vec4);
 value!(i32, Int);
 value!(bool, Tag);
 
-/// Takes a value from the end of `bytes`, where its bytes were put before.
+/// Removes a value from the end of `bytes` and returns it.
 pub(crate) fn pop_value<T: CheckedBitPattern>(bytes: &mut Vec<u8>) -> T {
     let start = bytes.len() - size_of::<T>();
     let value = bytemuck::checked::pod_read_unaligned(&bytes[start..]);
@@ -235,7 +238,7 @@ pub(crate) fn pop_value<T: CheckedBitPattern>(bytes: &mut Vec<u8>) -> T {
     value
 }
 
-/// Values that start at zero and are written by all threads.
+/// Creates `n` zero values and calls `fill` for each in parallel.
 fn filled<T: Value>(n: usize, fill: impl Fn(usize, &mut T) + Sync) -> Values {
     let mut new = crate::zeroed(n);
     new.par_iter_mut()
@@ -257,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn blended_numbers_are_weighted_sums_and_blended_tags_the_heaviest() {
+    fn blended_numbers_are_weighted_sums_and_blended_tags_have_the_largest_weight() {
         let weights = |_: usize, add: &mut dyn FnMut(usize, f64)| {
             add(0, 0.25);
             add(1, 0.75);

@@ -1,4 +1,4 @@
-//! From paired sides to the arrays of a mesh.
+//! Computing the arrays of a mesh from paired sides.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -10,19 +10,19 @@ use crate::{Connectivity, FaceId, HalfEdgeId, VertexId};
 
 /// The edges, numbered in the order of their first sides.
 pub(super) struct Edges {
-    /// How many edges begin in each block of corners.
+    /// For each block of corners, the number of edges whose first side is in it.
     counts: Vec<usize>,
     pub(super) half_edge_of_corner: Vec<HalfEdgeId>,
 }
 
-/// Whether the side of `c` is the first of its edge.
+/// Whether the side of `c` is the first side of its edge.
 #[inline]
 fn is_first(c: usize, twin: &[u32]) -> bool {
-    // `NONE` is above all corners.
+    // `NONE` is greater than all corners.
     c < twin[c] as usize
 }
 
-/// The corners of a block.
+/// Returns the corners of a block.
 fn corners(block: usize, twin: &[u32]) -> std::ops::Range<usize> {
     block * BLOCK..twin.len().min((block + 1) * BLOCK)
 }
@@ -32,7 +32,7 @@ impl Edges {
         let blocks = (0..twin.len().div_ceil(BLOCK)).into_par_iter();
         let count = |block| corners(block, twin).filter(|&c| is_first(c, twin)).count();
         let counts: Vec<usize> = blocks.map(count).collect();
-        // Each is written once, by the first side of its edge.
+        // Each entry is written once, by the first side of its edge.
         let half_edges: Vec<AtomicU32> = crate::zeroed(twin.len());
         let firsts = sums_before(&counts).into_par_iter().enumerate();
         firsts.for_each(|(block, first)| {
@@ -53,7 +53,7 @@ impl Edges {
         }
     }
 
-    /// All arrays, given those of the vertices; `origins` has for each corner its vertex.
+    /// Computes all arrays. `origins` has the vertex of each corner.
     pub(super) fn arrays(
         &self,
         polygons: &Polygons,
@@ -85,7 +85,7 @@ impl Edges {
                     let c = to_id(c);
                     (next[0], origin[0], face[0]) = (of(polygons.next(c)), vertex(c), face_of(c));
                     (next[1], origin[1], face[1]) = if t == NONE {
-                        // The boundary goes on where it leaves the vertex.
+                        // The boundary continues along the outgoing boundary half-edge of the vertex.
                         let v = vertex(c).index();
                         (vertex_half_edge[v], vertex(polygons.next(c)), FaceId::NONE)
                     } else {

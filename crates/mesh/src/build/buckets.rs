@@ -1,29 +1,30 @@
-//! The corners at each vertex: a counting sort.
+//! Collecting the corners at each vertex by a counting sort.
 
 use rayon::prelude::*;
 
 use super::polygons::{pieces, to_id};
 
-/// With more tasks than this, reading all corners in each would take longer than filling a share.
-const MOST_TASKS: usize = 8;
+/// Every task reads all corners. With more tasks than this, reading takes longer than filling the buckets.
+const MAX_TASKS: usize = 8;
 
 /// The corners at each vertex, in order.
 pub(super) struct Buckets {
-    /// For each vertex where its bucket begins, and at last where the last one ends.
+    /// For each vertex the start of its bucket, followed by the end of the last bucket.
     first: Vec<u32>,
     corners: Vec<u32>,
 }
 
 impl Buckets {
-    /// `vertices` has for each corner its vertex, below `n_vertices`.
+    /// Sorts corners into buckets. `vertices` has the vertex of each corner, which must be below
+    /// `n_vertices`.
     ///
-    /// Each task owns a range of vertices and picks theirs among all corners: no two tasks write to
-    /// the same place, and the corners stay in order however many tasks there are.
+    /// Each task owns a range of vertices and selects their corners among all corners. So no two tasks
+    /// write to the same place, and the order of the corners does not depend on the number of tasks.
     pub(super) fn new(n_vertices: usize, vertices: &[u32]) -> Self {
-        let n_tasks = rayon::current_num_threads().min(MOST_TASKS);
+        let n_tasks = rayon::current_num_threads().min(MAX_TASKS);
         let width = n_vertices.div_ceil(n_tasks).max(1);
 
-        // Counts first, each one place further than it belongs, ...
+        // First, count the corners of each bucket, shifted by one place, ...
         let mut first: Vec<u32> = crate::zeroed(n_vertices + 1);
         let tasks = first[1..].par_chunks_mut(width).enumerate();
         tasks.for_each(|(task, counts)| {
@@ -33,7 +34,7 @@ impl Buckets {
                 }
             }
         });
-        // ... then the start of each bucket there, ...
+        // ... then turn each count into the start of the bucket, ...
         let mut sum = 0;
         for count in &mut first[1..] {
             sum += *count;
@@ -43,7 +44,7 @@ impl Buckets {
         let ends = starts.clone().skip(1).chain([vertices.len()]);
         let lengths: Vec<usize> = starts.zip(ends).map(|(start, end)| end - start).collect();
         let mut corners = crate::zeroed(vertices.len());
-        // ... which, counted up while the bucket is filled, becomes the start of the next one.
+        // ... which is incremented while the bucket is filled, and so becomes the start of the next bucket.
         first[1..]
             .par_chunks_mut(width)
             .zip(pieces(&mut corners, lengths))
@@ -61,7 +62,7 @@ impl Buckets {
         Self { first, corners }
     }
 
-    /// The corners at `v`.
+    /// Returns the corners at `v`.
     #[inline]
     pub(super) fn of(&self, v: usize) -> &[u32] {
         &self.corners[self.first[v] as usize..self.first[v + 1] as usize]
@@ -77,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn corners_stand_at_their_vertices_in_order() {
+    fn buckets_have_the_corners_of_their_vertices_in_order() {
         let vertices = [4, 0, 4, 2, 0, 4];
         for threads in [1, 2, 3, 8, 20] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);

@@ -1,29 +1,30 @@
-//! Building a mesh from polygons: without a hash map, the same for any number of threads.
+//! Building a mesh from polygons, without a hash map. The result is the same for any number of threads.
 //!
-//! A corner c of a polygon stands for the directed side from its vertex a to the next vertex b. Its
-//! twin is the corner of a side from b to a. The corners are sorted by their vertices; around each
-//! vertex the sides that leave it are then paired with those that come to it, which also tells
-//! whether its faces are one fan. Edges are numbered in the order in which the polygons first name
-//! them, and the first half of an edge lies on the polygon that named it.
+//! A corner c of a polygon represents the directed side from its vertex a to the next vertex b. Its
+//! twin is the corner of a side from b to a. The corners are bucketed by vertex. Around each vertex,
+//! outgoing sides are then paired with incoming sides, which also shows whether the faces form one
+//! fan. Edges are numbered in the order in which the polygons first use them. The first half of an
+//! edge lies on the polygon that first used it.
 //!
 //! ```text
 //!    polygons --> buckets --> star, pair ----------------> assemble --> mesh
-//!                               |  orient: once more from the start, polygons turned
-//!                               |  split: copies of vertices
+//!                               |  orient: reverses polygons, then starts again
+//!                               |  split: copies vertices
 //! ```
 //!
-//! What is not a manifold is changed until it is, and everything that was done is listed in a
-//! [`BuildReport`]:
+//! Input that is not a manifold is repaired, and a [`BuildReport`] lists all repairs:
 //!
-//! - Where neighbors run the same way along the edge between them, and turning some of the polygons
-//!   round makes all neighbors agree, that is done: of polygons that hang together through edges with
-//!   two sides, the minority is turned; of two halves the one without the first polygon. The first
-//!   corner of a polygon stays the first. Parts that have no consistent orientation stay as they are.
-//! - Of more than two sides between the same two vertices, or two that still run the same way, the
-//!   k-th from a to b is paired with the k-th from b to a, in order of corners; the rest are boundary.
-//! - Where the faces around a vertex form several fans that share no edge, the fan of the first
-//!   corner keeps the vertex and each other fan gets a copy of it, behind all others.
-//! - A polygon with fewer than three corners, or that visits a vertex twice, is left out.
+//! - Two polygons that share an edge have a consistent orientation if their sides run in opposite
+//!   directions. If reversing some polygons makes all neighbors consistent, they are reversed: in each
+//!   part that is connected through edges with two sides, the minority is reversed; in a tie, the
+//!   polygons that agree with the lowest-numbered one stay. The first corner of a polygon stays the
+//!   first. Parts without a consistent orientation are not reversed.
+//! - If there are more than two sides between the same two vertices, or two that still run in the same
+//!   direction, the k-th side from a to b is paired with the k-th side from b to a, in order of
+//!   corners. Unpaired sides become boundary edges.
+//! - If the faces around a vertex form several fans, the fan of the first corner keeps the vertex. Each
+//!   other fan gets a copy of the vertex, appended after all other vertices.
+//! - A polygon with fewer than three corners, or that visits a vertex twice, is dropped.
 
 mod assemble;
 mod buckets;
@@ -41,95 +42,97 @@ use crate::{EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use assemble::Edges;
 use buckets::Buckets;
 use orient::Orientation;
-use pair::{Paired, pair};
+use pair::{PairedSides, pair};
 use polygons::{Polygons, check, flatten};
 use split::split_vertices;
 
 pub use report::{BuildReport, Elements, Repair};
 
-/// Why polygons could not become a mesh.
+/// Why a mesh could not be built from polygons.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BuildError {
     /// A polygon names a vertex that does not exist.
     #[error("face {face} refers to vertex {vertex}, but there are {n_vertices} vertices")]
     NoSuchVertex {
-        /// The polygon, from 0.
+        /// The index of the polygon.
         face: usize,
-        /// What it names.
+        /// The vertex that the polygon names.
         vertex: u32,
-        /// How many positions were given.
+        /// The number of positions in the input.
         n_vertices: usize,
     },
     /// A position is infinite or not a number.
     #[error("the position of vertex {0} is not finite")]
     NotFinite(usize),
-    /// The ids would not fit.
-    #[error("{0} {1} are more than a mesh can hold")]
+    /// There are more elements than ids.
+    #[error("{0} {1} exceed the size of a mesh: ids end at 2^32 - 2")]
     TooLarge(usize, &'static str),
     /// The offsets do not divide the corners into polygons.
-    #[error("the offsets of the faces must rise from 0 to the number of corners, {0}")]
+    #[error("the offsets of the faces must increase from 0 to the number of corners, {0}")]
     BadOffsets(usize),
-    /// This polygon has a vertex as a corner twice, and that was to be refused.
-    #[error("the faces are not a manifold: face {0} visits a vertex twice")]
-    VisitsTwice(usize),
-    /// More than two polygons have a side between these vertices, or two that run the same way, and that was
-    /// to be refused.
+    /// This polygon has fewer than three corners or a vertex as a corner twice, and non-manifold input is refused.
     #[error(
-        "the faces are not a manifold: the edge {}-{} has more than two faces, or two that run the same way",
+        "the faces are not a manifold: face {0} has fewer than three corners, or visits a vertex twice"
+    )]
+    Degenerate(usize),
+    /// More than two polygons have a side between these vertices, or two have sides that run in the same
+    /// direction, and non-manifold input is refused.
+    #[error(
+        "the faces are not a manifold: the edge {}-{} has more than two faces, or two with the same direction",
         .0[0], .0[1]
     )]
-    CrowdedEdge([VertexId; 2]),
-    /// The polygons around this vertex are several fans, and that was to be refused.
-    #[error("the faces are not a manifold: {0} joins faces that share no edge")]
-    PinchedVertex(VertexId),
+    NonManifoldEdge([VertexId; 2]),
+    /// The polygons around this vertex form several fans, and non-manifold input is refused.
+    #[error("the faces are not a manifold: {0} joins faces that are not connected by edges")]
+    NonManifoldVertex(VertexId),
 }
 
-/// What to do where polygons do not form a manifold.
+/// How polygons that do not form a manifold are handled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NonManifold {
-    /// Turn polygons round where that makes neighbors agree, split edges and vertices until the rest
-    /// is a manifold, and report it.
+    /// Reverse polygons where that makes the orientation consistent, then split edges and vertices until
+    /// the mesh is a manifold, and report both.
     #[default]
     Split,
-    /// As [`Split`](Self::Split), but every polygon keeps its orientation: neighbors that run the same
-    /// way along an edge are split there.
+    /// Like [`Split`](Self::Split), but every polygon keeps its orientation: if neighbors have an edge with
+    /// the same direction, the edge is split.
     SplitAsGiven,
-    /// Turn polygons round where that makes neighbors agree, and refuse the polygons if
-    /// the rest is no manifold.
+    /// Reverse polygons where that makes the orientation consistent, and return an error if the result
+    /// is not a manifold.
     Refuse,
-    /// Refuse the polygons unless they are a manifold as they are.
+    /// Return an error if the polygons are not a manifold as given.
     RefuseAsGiven,
 }
 
-/// A mesh built from polygons, and where each corner and polygon went.
+/// A mesh built from polygons, and the maps from the input to its elements.
 #[derive(Clone, Debug)]
-pub struct Built {
+pub struct BuildOutput {
     /// The mesh.
     pub mesh: Mesh,
-    /// What was done to make it a manifold.
+    /// The repairs that made the mesh a manifold.
     pub report: BuildReport,
-    /// For each corner of the input its half-edge: the one that leaves the corner's vertex on the
-    /// face of its polygon. `NONE` if the polygon was left out. On polygons that were turned round it
+    /// For each corner of the input, its half-edge: the one that leaves the corner's vertex on the
+    /// face of its polygon. `NONE` if the polygon was dropped. On a reversed polygon, this half-edge
     /// runs along the side before the corner; see [`edges_of_sides`](Self::edges_of_sides).
     pub half_edge_of_corner: Vec<HalfEdgeId>,
-    /// For each polygon of the input its face; `NONE` if it was left out.
+    /// For each polygon of the input, its face; `NONE` if the polygon was dropped.
     pub face_of_polygon: Vec<FaceId>,
 }
 
-impl Built {
-    /// For each corner of the input the edge that became of the side from it to the next corner of
-    /// its polygon; `NONE` if the polygon was left out. `offsets` are those of the input.
+impl BuildOutput {
+    /// Returns, for each corner of the input, the edge of the side from it to the next corner of its
+    /// polygon; `NONE` if the polygon was dropped. `offsets` are those of the input.
     ///
     /// # Panics
     ///
-    /// If `offsets` do not divide the corners.
+    /// If `offsets` do not match the corners.
     pub fn edges_of_sides(&self, offsets: &[u32]) -> Vec<EdgeId> {
         let mut edges = Vec::with_capacity(self.half_edge_of_corner.len());
         for w in offsets.windows(2) {
             let half_edges = &self.half_edge_of_corner[w[0] as usize..w[1] as usize];
-            let ahead = half_edges.iter().cycle().skip(1);
-            edges.extend(half_edges.iter().zip(ahead).map(|(&h, &next)| {
-                // The half-edge of one of the two corners lies on their side.
+            let following = half_edges.iter().cycle().skip(1);
+            edges.extend(half_edges.iter().zip(following).map(|(&h, &next)| {
+                // The half-edge of one of the two corners lies on the side between them.
                 match h.some() {
                     None => EdgeId::NONE,
                     Some(h) if self.mesh.next(h) == next => h.edge(),
@@ -142,14 +145,14 @@ impl Built {
 }
 
 impl Mesh {
-    /// A mesh of polygons given as lists of vertex indices, counter-clockwise.
+    /// Builds a mesh from polygons, given as lists of vertex indices in counter-clockwise order.
     ///
-    /// Polygon i becomes face i unless a degenerate one before it was left out. For input that is not
-    /// a manifold see the [module](mod@crate::build).
+    /// Polygon i becomes face i unless a degenerate polygon before it was dropped. The
+    /// [module](mod@crate::build) documents how non-manifold input is repaired.
     ///
     /// # Errors
     ///
-    /// [`BuildError`] for an index out of range, a position that is not finite, too many elements.
+    /// [`BuildError`] for an index out of range, a position that is not finite, or too many elements.
     ///
     /// # Examples
     ///
@@ -179,14 +182,14 @@ impl Mesh {
 ///
 /// # Errors
 ///
-/// As [`Mesh::from_polygons`], and [`BuildError::VisitsTwice`], [`BuildError::CrowdedEdge`] or
-/// [`BuildError::PinchedVertex`] if what is not a manifold is to be refused.
+/// As [`Mesh::from_polygons`], and [`BuildError::Degenerate`], [`BuildError::NonManifoldEdge`] or
+/// [`BuildError::NonManifoldVertex`] if `non_manifold` requires an error for non-manifold input.
 pub fn build(
     positions: Vec<DVec3>,
     offsets: &[u32],
     corners: &[u32],
     non_manifold: NonManifold,
-) -> Result<Built, BuildError> {
+) -> Result<BuildOutput, BuildError> {
     let degenerate = check(&positions, offsets, corners)?;
     if degenerate.is_empty() {
         return build_clean(positions, offsets, corners, non_manifold);
@@ -195,19 +198,19 @@ pub fn build(
         non_manifold,
         NonManifold::Refuse | NonManifold::RefuseAsGiven
     ) {
-        return Err(BuildError::VisitsTwice(degenerate[0]));
+        return Err(BuildError::Degenerate(degenerate[0]));
     }
     build_without(positions, offsets, corners, degenerate, non_manifold)
 }
 
-/// Builds without the polygons listed in `dropped` and puts gaps into the maps of the result.
+/// Builds a mesh without the polygons listed in `dropped`; they map to `NONE` in the result.
 fn build_without(
     positions: Vec<DVec3>,
     offsets: &[u32],
     corners: &[u32],
     dropped: Vec<usize>,
     non_manifold: NonManifold,
-) -> Result<Built, BuildError> {
+) -> Result<BuildOutput, BuildError> {
     let mut is_kept = vec![true; offsets.len() - 1];
     for &face in &dropped {
         is_kept[face] = false;
@@ -239,13 +242,13 @@ fn build_without(
     Ok(built)
 }
 
-/// Builds from polygons of which none is degenerate.
+/// Builds a mesh from polygons, none of which may be degenerate.
 fn build_clean(
     mut positions: Vec<DVec3>,
     offsets: &[u32],
     corners: &[u32],
     non_manifold: NonManifold,
-) -> Result<Built, BuildError> {
+) -> Result<BuildOutput, BuildError> {
     let polygons = Polygons::new(offsets, corners);
     let buckets = Buckets::new(positions.len(), corners);
     let mut paired = pair(&polygons, &buckets);
@@ -254,27 +257,27 @@ fn build_clean(
         NonManifold::Refuse => NonManifold::RefuseAsGiven,
         as_given => as_given,
     };
-    if paired.has_turned && non_manifold != as_given {
+    if paired.has_inconsistent_edge && non_manifold != as_given {
         drop(paired);
         let orientation = Orientation::of(&polygons, &buckets);
-        return build_turned(positions, offsets, corners, orientation, as_given);
+        return build_reoriented(positions, offsets, corners, orientation, as_given);
     }
     if as_given == NonManifold::RefuseAsGiven {
-        refuse(&paired)?;
+        check_manifold(&paired)?;
     }
     let split = split_vertices(&mut positions, &polygons, &buckets, &mut paired)?;
     drop(buckets);
 
     let edges = Edges::number(&paired.twin);
-    let leaving = paired.leaving.par_iter();
-    let vertex_half_edge = leaving
-        .map(|leaving| leaving.half_edge(&edges.half_edge_of_corner))
+    let outgoing = paired.outgoing.par_iter();
+    let vertex_half_edge = outgoing
+        .map(|outgoing| outgoing.half_edge(&edges.half_edge_of_corner))
         .collect();
     let arrays = edges.arrays(&polygons, &paired.twin, &split.origins, vertex_half_edge);
-    Ok(Built {
+    Ok(BuildOutput {
         mesh: Mesh::from_arrays(arrays, positions),
         report: BuildReport {
-            split_edges: paired.crowded,
+            split_edges: paired.non_manifold_edges,
             split_vertices: split.copies,
             ..<_>::default()
         },
@@ -283,25 +286,25 @@ fn build_clean(
     })
 }
 
-fn refuse(paired: &Paired) -> Result<(), BuildError> {
-    if let Some(&edge) = paired.crowded.first() {
-        return Err(BuildError::CrowdedEdge(edge));
+fn check_manifold(paired: &PairedSides) -> Result<(), BuildError> {
+    if let Some(&edge) = paired.non_manifold_edges.first() {
+        return Err(BuildError::NonManifoldEdge(edge));
     }
     let pinched = paired.pinched.first().map(|&v| VertexId::new(v as usize));
-    pinched.map_or(Ok(()), |v| Err(BuildError::PinchedVertex(v)))
+    pinched.map_or(Ok(()), |v| Err(BuildError::NonManifoldVertex(v)))
 }
 
-/// Builds with some polygons turned round, in a corner map as if they were not.
-fn build_turned(
+/// Builds a mesh with some polygons reversed. The corner map of the result refers to the corners as given.
+fn build_reoriented(
     positions: Vec<DVec3>,
     offsets: &[u32],
     corners: &[u32],
     orientation: Orientation,
     as_given: NonManifold,
-) -> Result<Built, BuildError> {
-    let mut turned = corners.to_vec();
-    orientation.reverse(offsets, &mut turned);
-    let mut built = build_clean(positions, offsets, &turned, as_given)?;
+) -> Result<BuildOutput, BuildError> {
+    let mut reoriented = corners.to_vec();
+    orientation.reverse(offsets, &mut reoriented);
+    let mut built = build_clean(positions, offsets, &reoriented, as_given)?;
     orientation.reverse(offsets, &mut built.half_edge_of_corner);
     built.report.reversed_faces = orientation.reversed;
     built.report.unorientable = orientation.unorientable;

@@ -1,15 +1,15 @@
-//! Turning polygons round until neighbors agree.
+//! Reversing polygons until neighbors have a consistent orientation.
 //!
 //! ```text
 //!    +-------+-------+           +-------+-------+
-//!    | <---  |  ---> |           | <---  | <---  |       Along the edge between them, the sides of
-//!    |    ^  |  v    |    -->    |    ^  |    ^  |       neighbors that agree run opposite ways.
+//!    | <---  |  ---> |           | <---  | <---  |       If the orientation is consistent, the two sides
+//!    |    ^  |  v    |    -->    |    ^  |    ^  |       of an edge run in opposite directions.
 //!    | --->  |  <--- |           | --->  | --->  |
 //!    +-------+-------+           +-------+-------+
 //! ```
 //!
-//! Neighbors are polygons on an edge with exactly two sides. Of polygons that hang together through
-//! such edges the minority is turned; of two halves the one without the first polygon.
+//! Neighbors are polygons that share an edge with exactly two sides. In each part that is connected through
+//! these edges, the minority is reversed; in a tie, the polygons that agree with the first polygon stay.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -19,66 +19,67 @@ use super::buckets::Buckets;
 use super::polygons::{NONE, Polygons};
 use crate::blocks::BLOCK;
 
-/// Which polygons to turn round.
+/// The polygons to reverse.
 #[derive(Default)]
 pub(super) struct Orientation {
-    /// The polygons to turn, in order.
+    /// The polygons to reverse, in order.
     pub(super) reversed: Vec<usize>,
-    /// The first polygon of each part that has no consistent orientation. Nothing of it is turned.
+    /// The first polygon of each part without a consistent orientation. No polygon of it is reversed.
     pub(super) unorientable: Vec<usize>,
 }
 
 impl Orientation {
-    /// Finds the polygons to turn.
+    /// Finds the polygons to reverse.
     pub(super) fn of(polygons: &Polygons, buckets: &Buckets) -> Self {
-        let across = sides_across(polygons, buckets);
-        let mut found = Self::default();
-        let mut seen = vec![false; polygons.n()];
-        let mut is_turned = vec![false; polygons.n()];
+        let opposite_sides = opposite_sides(polygons, buckets);
+        let mut orientation = Self::default();
+        let mut is_visited = vec![false; polygons.n()];
+        // Relative to the first polygon of the part.
+        let mut is_reversed = vec![false; polygons.n()];
         let mut part = Vec::new();
         for first in 0..polygons.n() {
-            if seen[first] {
+            if is_visited[first] {
                 continue;
             }
-            seen[first] = true;
+            is_visited[first] = true;
             part.clear();
             part.push(first);
             let mut is_orientable = true;
-            let mut done = 0;
-            while let Some(&f) = part.get(done) {
-                done += 1;
+            let mut n_done = 0;
+            while let Some(&f) = part.get(n_done) {
+                n_done += 1;
                 for c in polygons.offsets[f]..polygons.offsets[f + 1] {
-                    let other = across[c as usize];
+                    let other = opposite_sides[c as usize];
                     if other == NONE {
                         continue;
                     }
                     let g = polygons.face(other) as usize;
-                    // Two sides that leave from one vertex run the same way.
-                    let turned = is_turned[f] ^ (polygons.origin(c) == polygons.origin(other));
-                    if seen[g] {
-                        is_orientable &= is_turned[g] == turned;
+                    // Two sides with the same origin run in the same direction.
+                    let reversed = is_reversed[f] ^ (polygons.origin(c) == polygons.origin(other));
+                    if is_visited[g] {
+                        is_orientable &= is_reversed[g] == reversed;
                     } else {
-                        seen[g] = true;
-                        is_turned[g] = turned;
+                        is_visited[g] = true;
+                        is_reversed[g] = reversed;
                         part.push(g);
                     }
                 }
             }
             if is_orientable {
-                let n_turned = part.iter().filter(|&&f| is_turned[f]).count();
-                let minority = n_turned <= part.len() - n_turned;
-                found
+                let n_reversed = part.iter().filter(|&&f| is_reversed[f]).count();
+                let minority = n_reversed <= part.len() - n_reversed;
+                orientation
                     .reversed
-                    .extend(part.iter().filter(|&&f| is_turned[f] == minority));
+                    .extend(part.iter().filter(|&&f| is_reversed[f] == minority));
             } else {
-                found.unorientable.push(first);
+                orientation.unorientable.push(first);
             }
         }
-        found.reversed.sort_unstable();
-        found
+        orientation.reversed.sort_unstable();
+        orientation
     }
 
-    /// Turns polygons round, or values of their corners with them. The first corner stays the first.
+    /// Reverses polygons: `values` are their corners, or values by corner. The first corner stays the first.
     pub(super) fn reverse<T>(&self, offsets: &[u32], values: &mut [T]) {
         for &f in &self.reversed {
             values[offsets[f] as usize + 1..offsets[f + 1] as usize].reverse();
@@ -86,9 +87,9 @@ impl Orientation {
     }
 }
 
-/// For each side the other one if its edge has exactly two, whichever way they run; else `NONE`.
-fn sides_across(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
-    let across: Vec<AtomicU32> = (0..polygons.corners.len())
+/// Returns, for each side, the other side if the edge has exactly two, in any direction; otherwise `NONE`.
+fn opposite_sides(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
+    let opposite_sides: Vec<AtomicU32> = (0..polygons.corners.len())
         .into_par_iter()
         .map(|_| AtomicU32::new(NONE))
         .collect();
@@ -96,7 +97,7 @@ fn sides_across(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
         .into_par_iter()
         .with_min_len(BLOCK)
         .for_each_init(Vec::new, |sides, v| {
-            // All sides that end here, with their other ends.
+            // All sides at this vertex, each with the vertex at its other end.
             sides.clear();
             for &c in buckets.of(v) {
                 let before = polygons.prev(c);
@@ -106,11 +107,14 @@ fn sides_across(polygons: &Polygons, buckets: &Buckets) -> Vec<u32> {
             sides.sort_unstable();
             for edge in sides.chunk_by(|a, b| a.0 == b.0) {
                 if let &[(_, c), (_, d)] = edge {
-                    // Its other vertex finds the same.
-                    across[c as usize].store(d, Relaxed);
-                    across[d as usize].store(c, Relaxed);
+                    // The task of the other vertex stores the same values.
+                    opposite_sides[c as usize].store(d, Relaxed);
+                    opposite_sides[d as usize].store(c, Relaxed);
                 }
             }
         });
-    across.into_iter().map(AtomicU32::into_inner).collect()
+    opposite_sides
+        .into_iter()
+        .map(AtomicU32::into_inner)
+        .collect()
 }

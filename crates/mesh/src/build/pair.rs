@@ -1,4 +1,5 @@
-//! Pairing the sides of polygons: each with the one that runs the other way along the same edge.
+//! Pairing the sides of polygons: each side with the side that runs in the opposite direction along the same
+//! edge.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -10,112 +11,120 @@ use super::star::Star;
 use crate::blocks::BLOCK;
 use crate::{HalfEdgeId, VertexId};
 
-/// How the polygons hang together.
-pub(super) struct Paired {
-    /// For each side the other side of its edge, or `NONE` on the boundary.
+/// The pairs of sides, and the places where the polygons are not a manifold.
+pub(super) struct PairedSides {
+    /// For each side, the other side of its edge, or `NONE` on the boundary.
     pub(super) twin: Vec<u32>,
-    /// For each vertex where to leave it.
-    pub(super) leaving: Vec<Leaving>,
-    /// The vertices that have more than one fan, in order. Their `leaving` is that of any fan.
+    /// For each vertex, its outgoing half-edge.
+    pub(super) outgoing: Vec<Outgoing>,
+    /// The vertices that have more than one fan, in order. Their `outgoing` belongs to any of their fans.
     pub(super) pinched: Vec<u32>,
-    /// The edges with more than two sides, or with two that run the same way, in order of vertices.
-    pub(super) crowded: Vec<[VertexId; 2]>,
-    /// Whether some edge has exactly two sides and they run the same way.
-    pub(super) has_turned: bool,
+    /// The edges with more than two sides, or with two that run in the same direction, in order of vertices.
+    pub(super) non_manifold_edges: Vec<[VertexId; 2]>,
+    /// Whether any edge has exactly two sides that run in the same direction.
+    pub(super) has_inconsistent_edge: bool,
 }
 
-/// How to leave a vertex: along the side of a corner, along the boundary on the other side of such a
-/// side, or not at all. Two numbers in one: twice the corner, and one more for the boundary.
+/// An outgoing half-edge of a vertex: the side of a corner, the boundary half-edge that is the twin of such a
+/// side, or none. Encoded as twice the corner, plus one for the boundary.
 #[derive(Clone, Copy, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(transparent)]
-pub(super) struct Leaving(u32);
+pub(super) struct Outgoing(u32);
 
-impl Leaving {
-    const NOWHERE: Self = Self(NONE);
+impl Outgoing {
+    const NONE: Self = Self(NONE);
 
-    /// Along the side of corner `c`.
-    pub(super) fn along(c: u32) -> Self {
+    /// The side of corner `c`.
+    pub(super) fn along_side(c: u32) -> Self {
         Self(2 * c)
     }
 
-    /// Along the boundary that is the other side of corner `c`.
-    pub(super) fn across(c: u32) -> Self {
+    /// The boundary half-edge that is the twin of the side of corner `c`.
+    pub(super) fn along_boundary(c: u32) -> Self {
         Self(2 * c + 1)
     }
 
-    /// The half-edge, given that of each corner.
+    /// Returns the half-edge, given the half-edge of each corner.
     #[inline]
     pub(super) fn half_edge(self, half_edge_of_corner: &[HalfEdgeId]) -> HalfEdgeId {
-        if self == Self::NOWHERE {
+        if self == Self::NONE {
             return HalfEdgeId::NONE;
         }
-        let along = half_edge_of_corner[(self.0 / 2) as usize];
+        let side = half_edge_of_corner[(self.0 / 2) as usize];
         if self.0.is_multiple_of(2) {
-            along
+            side
         } else {
-            along.twin()
+            side.twin()
         }
     }
 }
 
-/// What is not as in a manifold, in a block of vertices.
+/// The non-manifold vertices and edges of a block of vertices.
 #[derive(Default)]
-struct Odd {
+struct Irregularities {
     pinched: Vec<u32>,
-    crowded: Vec<[VertexId; 2]>,
-    has_turned: bool,
+    edges: Vec<[VertexId; 2]>,
+    has_inconsistent_edge: bool,
 }
 
-/// Pairs the sides: around each vertex those that leave with those that come. So each side is looked
-/// at twice, at both of its ends, and its twin is written where it leaves.
-pub(super) fn pair(polygons: &Polygons, buckets: &Buckets) -> Paired {
+/// Pairs outgoing and incoming sides around each vertex. Each side is visited twice, at both of its ends; its
+/// twin is written when its origin is visited.
+pub(super) fn pair(polygons: &Polygons, buckets: &Buckets) -> PairedSides {
     let twin: Vec<AtomicU32> = crate::zeroed(polygons.corners.len());
-    let mut leaving: Vec<Leaving> = crate::zeroed(buckets.n_vertices());
-    let blocks = leaving.par_chunks_mut(BLOCK).enumerate();
-    let odd: Vec<Odd> = blocks
-        .map_init(Star::default, |star, (block, leaving)| {
-            let mut odd = Odd::default();
-            for (leaving, v) in leaving.iter_mut().zip(block * BLOCK..) {
+    let mut outgoing: Vec<Outgoing> = crate::zeroed(buckets.n_vertices());
+    let blocks = outgoing.par_chunks_mut(BLOCK).enumerate();
+    let irregularities: Vec<Irregularities> = blocks
+        .map_init(Star::default, |star, (block, outgoing)| {
+            let mut irregularities = Irregularities::default();
+            for (outgoing, v) in outgoing.iter_mut().zip(block * BLOCK..) {
                 let corners = buckets.of(v);
                 if corners.is_empty() {
-                    *leaving = Leaving::NOWHERE;
+                    *outgoing = Outgoing::NONE;
                     continue;
                 }
-                star.look(polygons, corners);
+                star.set(polygons, corners);
                 for (&c, &after) in corners.iter().zip(&star.after) {
                     let other = star.before.get(after as usize).copied().unwrap_or(NONE);
                     twin[c as usize].store(other, Relaxed);
                 }
-                *leaving = star.leaving(corners);
-                if star.is_crowded {
-                    odd.add_crowded(to_id(v), &star.crowded());
+                *outgoing = star.outgoing(corners);
+                if star.has_non_manifold_edge {
+                    irregularities.add_edges(to_id(v), &star.non_manifold_edges());
                 }
                 if !star.is_one_fan() {
-                    odd.pinched.push(to_id(v));
+                    irregularities.pinched.push(to_id(v));
                 }
             }
-            odd
+            irregularities
         })
         .collect();
-    let mut crowded: Vec<[VertexId; 2]> = odd.iter().flat_map(|odd| odd.crowded.clone()).collect();
-    // Most are seen from both ends.
-    crowded.sort_unstable();
-    crowded.dedup();
-    Paired {
+    let blocks = irregularities.iter();
+    let mut non_manifold_edges: Vec<[VertexId; 2]> = blocks
+        .clone()
+        .flat_map(|block| block.edges.clone())
+        .collect();
+    // Most edges were added at both ends.
+    non_manifold_edges.sort_unstable();
+    non_manifold_edges.dedup();
+    PairedSides {
         twin: twin.into_iter().map(AtomicU32::into_inner).collect(),
-        leaving,
-        pinched: odd.iter().flat_map(|odd| odd.pinched.clone()).collect(),
-        crowded,
-        has_turned: odd.iter().any(|odd| odd.has_turned),
+        outgoing,
+        pinched: blocks
+            .clone()
+            .flat_map(|block| block.pinched.clone())
+            .collect(),
+        non_manifold_edges,
+        has_inconsistent_edge: blocks.clone().any(|block| block.has_inconsistent_edge),
     }
 }
 
-impl Odd {
-    fn add_crowded(&mut self, v: u32, neighbors: &[(u32, usize, usize)]) {
-        for &(w, leaving, coming) in neighbors {
+impl Irregularities {
+    /// Adds the non-manifold edges at `v`, given as by [`Star::non_manifold_edges`].
+    fn add_edges(&mut self, v: u32, neighbors: &[(u32, usize, usize)]) {
+        for &(w, n_to, n_from) in neighbors {
             let edge = [v.min(w), v.max(w)];
-            self.crowded.push(edge.map(|v| VertexId::new(v as usize)));
-            self.has_turned |= leaving.max(coming) == 2 && leaving.min(coming) == 0;
+            self.edges.push(edge.map(|v| VertexId::new(v as usize)));
+            self.has_inconsistent_edge |= n_to.max(n_from) == 2 && n_to.min(n_from) == 0;
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The polygons that a mesh is built from: checking them, and finding one's way around each.
+//! The polygons that a mesh is built from: validation, and navigation from corner to corner.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -6,17 +6,17 @@ use rayon::prelude::*;
 use super::BuildError;
 use crate::blocks::BLOCK;
 
-/// Where there is no corner.
+/// Marks a missing corner.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// The polygons: polygon f has the corners from `offsets[f]` to `offsets[f + 1]`, and `corners` has
-/// the vertex of each.
+/// Polygons as flat arrays: polygon f has the corners from `offsets[f]` to `offsets[f + 1]`, exclusive, and
+/// `corners` has the vertex of each corner.
 ///
-/// A corner also stands for the side from it to the next corner of its polygon.
+/// A corner also represents the side from it to the next corner of its polygon.
 pub(super) struct Polygons<'a> {
     pub(super) offsets: &'a [u32],
     pub(super) corners: &'a [u32],
-    /// For each corner its polygon; `None` if all are triangles.
+    /// For each corner, its polygon; `None` if all polygons are triangles.
     face_of_corner: Option<Vec<u32>>,
 }
 
@@ -31,7 +31,7 @@ impl<'a> Polygons<'a> {
         }
     }
 
-    /// The number of polygons.
+    /// Returns the number of polygons.
     pub(super) fn n(&self) -> usize {
         self.offsets.len() - 1
     }
@@ -44,9 +44,9 @@ impl<'a> Polygons<'a> {
         }
     }
 
-    /// The first corner of the polygon of `c`, and the one behind its last.
+    /// Returns the first corner of the polygon of `c`, and the corner after its last.
     #[inline]
-    fn ends(&self, c: u32) -> (u32, u32) {
+    fn corner_range(&self, c: u32) -> (u32, u32) {
         let f = self.face(c);
         match self.face_of_corner {
             None => (3 * f, 3 * f + 3),
@@ -56,23 +56,23 @@ impl<'a> Polygons<'a> {
 
     #[inline]
     pub(super) fn next(&self, c: u32) -> u32 {
-        self.around(c).1
+        self.prev_and_next(c).1
     }
 
     #[inline]
     pub(super) fn prev(&self, c: u32) -> u32 {
-        self.around(c).0
+        self.prev_and_next(c).0
     }
 
-    /// The corners before and after `c` in its polygon.
+    /// Returns the corners before and after `c` in its polygon.
     #[inline]
-    pub(super) fn around(&self, c: u32) -> (u32, u32) {
-        let (first, end) = self.ends(c);
+    pub(super) fn prev_and_next(&self, c: u32) -> (u32, u32) {
+        let (first, end) = self.corner_range(c);
         let prev = if c == first { end - 1 } else { c - 1 };
         (prev, if c + 1 == end { first } else { c + 1 })
     }
 
-    /// The vertex of a corner: where its side begins.
+    /// Returns the vertex of a corner, which is the origin of its side.
     #[inline]
     pub(super) fn origin(&self, c: u32) -> u32 {
         self.corners[c as usize]
@@ -88,10 +88,11 @@ fn faces_of_corners(offsets: &[u32]) -> Vec<u32> {
         .zip(offsets.par_chunks(BLOCK))
         .enumerate()
         .for_each(|(block, (faces, firsts))| {
-            // Backwards, so that each polygon fills what those behind it have left.
-            let mut free = faces;
+            // From last to first: each polygon splits its corners off the end of the unfilled part.
+            let mut unfilled = faces;
             for (i, first) in firsts.iter().enumerate().rev() {
-                let Some(of_polygon) = free.split_off_mut((first - firsts[0]) as usize..) else {
+                let Some(of_polygon) = unfilled.split_off_mut((first - firsts[0]) as usize..)
+                else {
                     continue;
                 };
                 of_polygon.fill(to_id(block * BLOCK + i));
@@ -100,7 +101,7 @@ fn faces_of_corners(offsets: &[u32]) -> Vec<u32> {
     face_of_corner
 }
 
-/// Cuts a slice from its start into pieces of these lengths, for tasks that fill them.
+/// Splits a slice into consecutive pieces of these lengths, so that parallel tasks can fill them.
 pub(super) fn pieces<T>(
     mut slice: &mut [T],
     lengths: impl IntoIterator<Item = usize>,
@@ -111,7 +112,7 @@ pub(super) fn pieces<T>(
         .collect()
 }
 
-/// For each number the sum of those before it.
+/// Returns, for each number, the sum of the numbers before it.
 pub(super) fn sums_before(numbers: &[usize]) -> Vec<usize> {
     let sums = numbers.iter().scan(0, |sum, n| {
         *sum += n;
@@ -120,7 +121,7 @@ pub(super) fn sums_before(numbers: &[usize]) -> Vec<usize> {
     sums.collect()
 }
 
-/// Offsets and corners of polygons that are given as lists.
+/// Converts polygons from lists to offsets and corners.
 ///
 /// # Errors
 ///
@@ -158,21 +159,21 @@ pub(super) fn flatten(
 ///
 /// # Errors
 ///
-/// [`BuildError`] for input that is not polygons; whether they are a manifold is not checked.
+/// [`BuildError`] for invalid input. Does not check that the polygons are a manifold.
 pub(super) fn check(
     positions: &[DVec3],
     offsets: &[u32],
     corners: &[u32],
 ) -> Result<Vec<usize>, BuildError> {
-    // Half-edges are numbered below 2^32 - 1, and each corner may need an edge of its own.
+    // Half-edge ids are below 2^32 - 1, and each corner can need a separate edge.
     to_u32(positions.len().saturating_add(corners.len()), "vertices")?;
     to_u32(corners.len().saturating_mul(2), "half-edges")?;
-    let rising = offsets.first() == Some(&0)
+    let is_valid = offsets.first() == Some(&0)
         && offsets
             .last()
             .is_some_and(|&last| last as usize == corners.len())
         && offsets.is_sorted();
-    if !rising {
+    if !is_valid {
         return Err(BuildError::BadOffsets(corners.len()));
     }
     if let Some(i) = first_of(positions, |p| !p.is_finite()) {
@@ -195,7 +196,7 @@ pub(super) fn check(
             let polygons = (block * BLOCK..).zip(firsts.iter().zip(ends));
             polygons
                 .filter(|(_, (first, end))| {
-                    visits_twice(&corners[**first as usize..**end as usize])
+                    is_degenerate(&corners[**first as usize..**end as usize])
                 })
                 .map(|(face, _)| face)
                 .collect()
@@ -204,7 +205,8 @@ pub(super) fn check(
     Ok(degenerate.concat())
 }
 
-/// The place of the first value that is bad. Looks at whole blocks, which is fast where none is.
+/// Returns the index of the first value for which `is_bad` holds. Tests whole blocks, which is fast if there
+/// is none.
 fn first_of<T: Sync>(values: &[T], is_bad: impl Fn(&T) -> bool + Sync) -> Option<usize> {
     let blocks = values.par_chunks(BLOCK);
     let has_bad = |block: &[T]| block.iter().fold(false, |bad, value| bad | is_bad(value));
@@ -212,8 +214,8 @@ fn first_of<T: Sync>(values: &[T], is_bad: impl Fn(&T) -> bool + Sync) -> Option
     Some(block + values[block..].iter().position(is_bad)?)
 }
 
-/// Whether a polygon has fewer than three corners or two at one vertex.
-fn visits_twice(polygon: &[u32]) -> bool {
+/// Whether a polygon has fewer than three corners, or visits a vertex twice.
+fn is_degenerate(polygon: &[u32]) -> bool {
     match polygon {
         [a, b, c] => a == b || b == c || c == a,
         _ if polygon.len() < 3 => true,
@@ -229,15 +231,19 @@ fn visits_twice(polygon: &[u32]) -> bool {
     }
 }
 
-/// A count that fits the ids, which end at 2³² − 2.
-pub(super) fn to_u32(n: usize, what: &'static str) -> Result<u32, BuildError> {
+/// Converts a count of elements of this kind to `u32`.
+///
+/// # Errors
+///
+/// [`BuildError::TooLarge`] if the count exceeds 2³² − 2, the highest id.
+pub(super) fn to_u32(n: usize, kind: &'static str) -> Result<u32, BuildError> {
     u32::try_from(n)
         .ok()
         .filter(|&n| n < NONE)
-        .ok_or(BuildError::TooLarge(n, what))
+        .ok_or(BuildError::TooLarge(n, kind))
 }
 
-/// A number of something that was counted before.
+/// Converts an index to `u32`. The number of elements must have been checked with [`to_u32`].
 pub(super) fn to_id(n: usize) -> u32 {
-    u32::try_from(n).expect("checked before")
+    u32::try_from(n).expect("the number of elements was checked")
 }

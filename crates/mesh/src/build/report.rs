@@ -1,34 +1,34 @@
-//! What building did to polygons that are not a manifold as they stand.
+//! Reporting how polygons were repaired to form a manifold.
 
 use std::fmt;
 
 use crate::VertexId;
 
-/// What was done to make polygons a manifold. Empty lists: nothing.
+/// The repairs that made polygons a manifold. All lists are empty if no repair was necessary.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BuildReport {
-    /// Pairs of vertices, lower first, with more than two sides between them or with two sides that
-    /// run the same way.
+    /// Pairs of vertices, lower first, with more than two sides between them, or with two sides that
+    /// run in the same direction.
     pub split_edges: Vec<[VertexId; 2]>,
-    /// Vertices that joined several fans, each with the copy that one of the fans got.
+    /// Pairs of a vertex that joined several fans and the copy that one of the fans got.
     pub split_vertices: Vec<(VertexId, VertexId)>,
-    /// Polygons that were turned round because their neighbors run the other way, by their place in
-    /// the input, in order.
+    /// Indices of polygons that were reversed to make their orientation consistent with their neighbors,
+    /// in order.
     pub reversed_faces: Vec<usize>,
-    /// Of each connected part that has no consistent orientation, as a Moebius strip, the first
-    /// polygon by its place in the input. Such a part is left as it is, and split.
+    /// For each connected part without a consistent orientation, such as a Moebius strip, the index of
+    /// its first polygon. The polygons of these parts are not reversed; inconsistent edges are split.
     pub unorientable: Vec<usize>,
-    /// Polygons that were left out, by their place in the input, in order.
+    /// Indices of polygons that were dropped, in order.
     pub dropped_faces: Vec<usize>,
 }
 
 impl BuildReport {
-    /// Whether nothing had to be done.
+    /// Whether no repair was necessary.
     pub fn is_clean(&self) -> bool {
         *self == Self::default()
     }
 
-    /// What was done, in one line, naming the first elements of each kind.
+    /// Returns all repairs in one line, with the first elements of each kind.
     pub fn summary(&self) -> String {
         let mut repairs = self.repairs();
         repairs.extend(self.dropped());
@@ -36,7 +36,7 @@ impl BuildReport {
         parts.join(", ")
     }
 
-    /// What was done apart from leaving polygons out.
+    /// Returns all repairs except dropped polygons.
     pub fn repairs(&self) -> Vec<Repair> {
         let faces = |faces: &[usize]| Elements::Faces(faces.to_vec());
         let copied = self.split_vertices.iter().map(|&(v, _)| v).collect();
@@ -65,55 +65,67 @@ impl BuildReport {
         repairs.into_iter().flatten().collect()
     }
 
-    /// The polygons that were left out, if there are any.
+    /// Returns the dropped polygons, if there are any.
     pub fn dropped(&self) -> Option<Repair> {
         Repair::new(
-            "face left out that visits a vertex twice",
-            "faces left out that visit a vertex twice",
+            "face dropped because it has fewer than 3 corners or visits a vertex twice",
+            "faces dropped because they have fewer than 3 corners or visit a vertex twice",
             Elements::Faces(self.dropped_faces.clone()),
         )
     }
 }
 
-/// Something that was done to elements of the input.
+/// A repair of some elements of the input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Repair {
-    /// What was done, as words that follow the number of elements.
-    pub what: &'static str,
-    /// To which elements, one or more.
+    /// The text that follows the number of elements, such as "faces reversed".
+    pub description: &'static str,
+    /// The repaired elements, at least one.
     pub elements: Elements,
 }
 
 impl Repair {
-    /// The repair of these elements, told in the singular or the plural; `None` if there are none.
-    pub fn new(one: &'static str, several: &'static str, elements: Elements) -> Option<Self> {
-        let what = if elements.len() == 1 { one } else { several };
-        (elements.len() > 0).then_some(Self { what, elements })
+    /// Creates the repair of these elements, with the singular or the plural text. Returns `None` if the list
+    /// is empty.
+    pub fn new(singular: &'static str, plural: &'static str, elements: Elements) -> Option<Self> {
+        let description = if elements.len() == 1 {
+            singular
+        } else {
+            plural
+        };
+        (elements.len() > 0).then_some(Self {
+            description,
+            elements,
+        })
     }
 }
 
 impl fmt::Display for Repair {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {} {}", self.elements.len(), self.what, self.elements)
+        let Self {
+            description,
+            elements,
+        } = self;
+        write!(f, "{} {description} {elements}", elements.len())
     }
 }
 
-/// Elements that were given to [`build()`](crate::build()), by their places there.
+/// Elements of the input of [`build()`](crate::build()).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Elements {
     /// Vertices.
     Vertices(Vec<VertexId>),
-    /// Edges by their vertices.
+    /// Edges, as pairs of their vertices.
     Edges(Vec<[VertexId; 2]>),
-    /// Faces, from 0.
+    /// Faces, as their indices.
     Faces(Vec<usize>),
 }
 
 impl Elements {
-    /// How many there are.
+    /// Returns the number of elements.
     #[expect(
         clippy::len_without_is_empty,
-        reason = "they are never none where they are told"
+        reason = "the elements of a repair are never empty"
     )]
     pub fn len(&self) -> usize {
         match self {
@@ -124,20 +136,28 @@ impl Elements {
     }
 }
 
-/// The first few, in parentheses: `(face 3)`, `(v0, v7)`.
+/// Writes up to five elements in parentheses: `(face 3)`, `(v0, v7)`.
 impl fmt::Display for Elements {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        const SHOWN: usize = 5;
+        const MAX_SHOWN: usize = 5;
         let mut words: Vec<String> = match self {
-            Self::Vertices(list) => list.iter().take(SHOWN).map(ToString::to_string).collect(),
+            Self::Vertices(list) => list
+                .iter()
+                .take(MAX_SHOWN)
+                .map(ToString::to_string)
+                .collect(),
             Self::Edges(list) => list
                 .iter()
-                .take(SHOWN)
+                .take(MAX_SHOWN)
                 .map(|[v, w]| format!("{v}-{w}"))
                 .collect(),
-            Self::Faces(list) => list.iter().take(SHOWN).map(ToString::to_string).collect(),
+            Self::Faces(list) => list
+                .iter()
+                .take(MAX_SHOWN)
+                .map(ToString::to_string)
+                .collect(),
         };
-        if self.len() > SHOWN {
+        if self.len() > MAX_SHOWN {
             words.push("..".to_owned());
         }
         let kind = match self {
@@ -154,7 +174,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_is_told_in_the_singular_and_two_in_the_plural() {
+    fn summaries_use_singular_and_plural() {
         let v = VertexId::new;
         let mut report = BuildReport {
             split_edges: vec![[v(0), v(1)]],
@@ -169,7 +189,7 @@ mod tests {
              1 part has no consistent orientation (face 4), \
              1 non-manifold edge split (v0-v1), \
              1 copy made of a non-manifold vertex (v2), \
-             1 face left out that visits a vertex twice (face 5)"
+             1 face dropped because it has fewer than 3 corners or visits a vertex twice (face 5)"
         );
         report.split_edges.push([v(7), v(8)]);
         report.split_vertices.push((v(7), v(10)));
@@ -182,12 +202,12 @@ mod tests {
              2 parts have no consistent orientation (faces 4, 7), \
              2 non-manifold edges split (v0-v1, v7-v8), \
              2 copies made of non-manifold vertices (v2, v7), \
-             2 faces left out that visit a vertex twice (faces 5, 7)"
+             2 faces dropped because they have fewer than 3 corners or visit a vertex twice (faces 5, 7)"
         );
     }
 
     #[test]
-    fn a_report_of_anything_is_not_clean() {
+    fn a_report_with_repairs_is_not_clean() {
         let reversed = BuildReport {
             reversed_faces: vec![0],
             ..<_>::default()

@@ -1,77 +1,83 @@
-//! The corners around one vertex, and which follows which.
+//! The corners around one vertex, and their cyclic order.
 //!
 //! ```text
-//!         from           Corner i is that of polygon f at v. Its side leaves v for `to[i]`, and the
-//!        /               side of the corner before it comes from `from[i]`. Clockwise around v,
+//!         from           Corner i is the corner of polygon f at v. Its side runs from v to `to[i]`, and
+//!        /               the side of the corner before it runs from `from[i]` to v. Clockwise around v,
 //!      /    f            corner i is followed by the corner j with `from[j] == to[i]`: the side
 //!    v ------- to        before j is the other side of the edge.
 //! ```
 
-use super::pair::Leaving;
+use super::pair::Outgoing;
 use super::polygons::{NONE, Polygons, to_id};
 
-/// Up to so many corners are compared one with each other, more are sorted.
-const FEW: usize = 32;
+/// Up to this number of corners are compared pairwise; more are sorted.
+const MAX_COMPARED: usize = 32;
 
 /// The corners at one vertex. Corners are numbered from 0 here, in the order of the input.
 #[derive(Default)]
 pub(super) struct Star {
-    /// For each corner the one before it in its polygon.
+    /// For each corner, the corner before it in its polygon.
     pub(super) before: Vec<u32>,
     from: Vec<u32>,
     to: Vec<u32>,
-    /// For each corner the number of the one that follows clockwise, or `NONE` on the boundary.
+    /// For each corner, the number of the corner that follows clockwise, or `NONE` on the boundary.
     pub(super) after: Vec<u32>,
-    /// A corner that follows none, at the start of a fan; 0 if all fans are closed.
+    /// A corner that has no predecessor, at the start of a fan; 0 if all fans are closed.
     start: usize,
     is_closed: bool,
-    /// Whether several sides leave for one neighbor, or come from one.
-    pub(super) is_crowded: bool,
+    /// Whether several sides lead to the same neighbor, or come from the same neighbor.
+    pub(super) has_non_manifold_edge: bool,
 }
 
-/// Corners at a vertex that hang together through shared edges.
+/// Corners at a vertex that are connected through shared edges.
 pub(super) struct Fan {
-    /// How to leave the vertex: along the boundary if there is one.
-    pub(super) leaving: Leaving,
+    /// The outgoing half-edge: the boundary one if there is one.
+    pub(super) outgoing: Outgoing,
     pub(super) corners: Vec<u32>,
 }
 
 impl Star {
-    /// Looks at the given corners, all those at a vertex, in order.
-    pub(super) fn look(&mut self, polygons: &Polygons, corners: &[u32]) {
+    /// Sets the corners, which must be all corners at one vertex in order.
+    pub(super) fn set(&mut self, polygons: &Polygons, corners: &[u32]) {
         self.before.clear();
         self.from.clear();
         self.to.clear();
         for &c in corners {
-            let (before, after) = polygons.around(c);
+            let (before, after) = polygons.prev_and_next(c);
             self.before.push(before);
             self.from.push(polygons.origin(before));
             self.to.push(polygons.origin(after));
         }
         self.after.clear();
-        if corners.len() <= FEW {
-            self.compare();
+        if corners.len() <= MAX_COMPARED {
+            self.match_by_comparing();
         } else {
-            self.sort();
+            self.match_by_sorting();
         }
     }
 
-    /// The k-th corner that leaves for a neighbor is followed by the k-th that comes from it.
-    fn compare(&mut self) {
+    /// Finds the corner after each corner: for each neighbor, the k-th corner whose side leads to it is
+    /// followed by the k-th corner whose side before it comes from it.
+    fn match_by_comparing(&mut self) {
         let n = self.to.len();
-        let mut free = if n == FEW { u32::MAX } else { (1 << n) - 1 };
-        self.is_crowded = false;
+        let mut free = if n == MAX_COMPARED {
+            u32::MAX
+        } else {
+            (1 << n) - 1
+        };
+        self.has_non_manifold_edge = false;
         for &to in &self.to {
             let hits = (0..).zip(&self.from);
             let hits = hits.fold(0_u32, |hits, (j, &from)| hits | u32::from(from == to) << j);
-            self.is_crowded |= hits & hits.wrapping_sub(1) != 0;
+            self.has_non_manifold_edge |= hits & hits.wrapping_sub(1) != 0;
             let hit = (hits & free).trailing_zeros();
             if hit < u32::BITS {
                 free &= !(1 << hit);
                 self.after.push(hit);
             } else {
-                // Another one may have left for the same neighbor before.
-                self.is_crowded |= self.to.iter().filter(|&&other| other == to).count() > 1;
+                // A previous corner can have a side to the same neighbor.
+                let n_sides = self.to.iter().filter(|&&other| other == to).count();
+                self.has_non_manifold_edge |= n_sides > 1;
                 self.after.push(NONE);
             }
         }
@@ -83,15 +89,15 @@ impl Star {
         };
     }
 
-    /// The same for many corners.
-    fn sort(&mut self) {
+    /// Does the same as [`match_by_comparing`](Self::match_by_comparing) for many corners.
+    fn match_by_sorting(&mut self) {
         let sorted = |neighbors: &[u32]| {
             let mut sorted: Vec<(u32, u32)> = neighbors.iter().copied().zip(0..).collect();
             sorted.sort_unstable();
             sorted
         };
         let (to, from) = (sorted(&self.to), sorted(&self.from));
-        self.is_crowded = [&to, &from]
+        self.has_non_manifold_edge = [&to, &from]
             .iter()
             .any(|sorted| sorted.windows(2).any(|w| w[0].0 == w[1].0));
         self.after.resize(to.len(), NONE);
@@ -111,71 +117,72 @@ impl Star {
         self.start = start.unwrap_or(0);
     }
 
-    /// How to leave the vertex from the fan of the first corner that follows none, or of the lowest
-    /// corner; `corners` are those that were looked at.
-    pub(super) fn leaving(&self, corners: &[u32]) -> Leaving {
+    /// Returns the outgoing half-edge of the fan of the first corner that has no predecessor, or of the lowest
+    /// corner if all fans are closed. `corners` are those passed to [`set`](Self::set).
+    pub(super) fn outgoing(&self, corners: &[u32]) -> Outgoing {
         if self.is_closed {
-            Leaving::along(corners[self.start])
+            Outgoing::along_side(corners[self.start])
         } else {
-            Leaving::across(self.before[self.start])
+            Outgoing::along_boundary(self.before[self.start])
         }
     }
 
-    /// Whether the corners form one fan: all are reached from the start.
+    /// Whether the corners form one fan: all of them are reached from the start.
     pub(super) fn is_one_fan(&self) -> bool {
-        let mut reached = 1;
-        let mut at = self.after[self.start];
-        while at != NONE && at as usize != self.start {
-            at = self.after[at as usize];
-            reached += 1;
+        let mut n_reached = 1;
+        let mut i = self.after[self.start];
+        while i != NONE && i as usize != self.start {
+            i = self.after[i as usize];
+            n_reached += 1;
         }
-        reached == self.after.len()
+        n_reached == self.after.len()
     }
 
-    /// The fans, in the order of their lowest corners; `corners` are those that were looked at.
+    /// Returns the fans, in the order of their lowest corners. `corners` are those passed to
+    /// [`set`](Self::set).
     pub(super) fn fans(&self, corners: &[u32]) -> Vec<Fan> {
-        let mut ahead = vec![NONE; corners.len()];
+        let mut predecessor = vec![NONE; corners.len()];
         for (i, &after) in (0..).zip(&self.after) {
-            if let Some(ahead) = ahead.get_mut(after as usize) {
-                *ahead = i;
+            if let Some(predecessor) = predecessor.get_mut(after as usize) {
+                *predecessor = i;
             }
         }
-        let mut seen = vec![false; corners.len()];
+        let mut is_visited = vec![false; corners.len()];
         let mut fans = Vec::new();
         for lowest in 0..to_id(corners.len()) {
-            if seen[lowest as usize] {
+            if is_visited[lowest as usize] {
                 continue;
             }
-            // Back to the corner that follows none, or once around.
+            // Walk back to the corner that has no predecessor, or once around.
             let mut start = lowest;
-            while ahead[start as usize] != NONE {
-                start = ahead[start as usize];
+            while predecessor[start as usize] != NONE {
+                start = predecessor[start as usize];
                 if start == lowest {
                     break;
                 }
             }
-            let leaving = match ahead[start as usize] {
-                NONE => Leaving::across(self.before[start as usize]),
-                _ => Leaving::along(corners[start as usize]),
+            let outgoing = match predecessor[start as usize] {
+                NONE => Outgoing::along_boundary(self.before[start as usize]),
+                _ => Outgoing::along_side(corners[start as usize]),
             };
             let mut fan = Fan {
-                leaving,
+                outgoing,
                 corners: Vec::new(),
             };
-            let mut at = start;
-            while at != NONE && !seen[at as usize] {
-                seen[at as usize] = true;
-                fan.corners.push(corners[at as usize]);
-                at = self.after[at as usize];
+            let mut i = start;
+            while i != NONE && !is_visited[i as usize] {
+                is_visited[i as usize] = true;
+                fan.corners.push(corners[i as usize]);
+                i = self.after[i as usize];
             }
             fans.push(fan);
         }
         fans
     }
 
-    /// The neighbors with several sides that run the same way, as `(neighbor, sides that leave for
-    /// it, sides that come from it)`.
-    pub(super) fn crowded(&self) -> Vec<(u32, usize, usize)> {
+    /// Returns the neighbors that share a non-manifold edge with the vertex: several sides run in the same
+    /// direction. Each is `(neighbor, number of sides to it, number of sides from it)`.
+    pub(super) fn non_manifold_edges(&self) -> Vec<(u32, usize, usize)> {
         let sides = self
             .to
             .iter()
@@ -184,11 +191,11 @@ impl Star {
         let mut sides: Vec<(u32, bool)> = sides.collect();
         sides.sort_unstable();
         let counts = sides.chunk_by(|a, b| a.0 == b.0).map(|sides| {
-            let leaving = sides.iter().filter(|(_, leaves)| *leaves).count();
-            (sides[0].0, leaving, sides.len() - leaving)
+            let n_to = sides.iter().filter(|(_, is_outgoing)| *is_outgoing).count();
+            (sides[0].0, n_to, sides.len() - n_to)
         });
         counts
-            .filter(|&(_, leaving, coming)| leaving.max(coming) > 1)
+            .filter(|&(_, n_to, n_from)| n_to.max(n_from) > 1)
             .collect()
     }
 }

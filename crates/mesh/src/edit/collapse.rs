@@ -32,7 +32,7 @@ impl Mesh {
     /// An edge may shrink if that changes neither the shape of the surface nor makes two elements of it
     /// coincide. The rule is the link condition of Dey, Edelsbrunner, Guha and Nekhayev ("Topology
     /// preserving edge contraction", 1999), on the surface with holes closed by a cone, for polygons: the
-    /// ends may have a neighbour in common only where a triangle beside `e` has it, and a face only
+    /// ends may have a neighbor in common only where a triangle beside `e` has it, and a face only
     /// where it is beside `e`.
     ///
     /// Returns v.
@@ -40,7 +40,7 @@ impl Mesh {
     /// # Errors
     ///
     /// - [`EditError::JoinsBoundaries`] if both ends are on the boundary, but `e` is not.
-    /// - [`EditError::Link`] if the ends have a neighbour in common that no triangle beside `e` has: it
+    /// - [`EditError::Link`] if the ends have a neighbor in common that no triangle beside `e` has: it
     ///   would be joined to v twice. Also where `e` is a side of a hole of three.
     /// - [`EditError::DuplicateEdge`] if the ends are joined by a second edge.
     /// - [`EditError::VisitsTwice`] if a face that is not beside `e` has both ends: it would visit v
@@ -298,8 +298,8 @@ impl Mesh {
         self.set_next(y, after);
         self.set_face(y, beyond);
         self.replace_first_of_face(outer, y);
-        self.replace_leaving(x, y.twin());
-        self.replace_leaving(outer, y);
+        self.replace_first_of_vertex(x, y.twin());
+        self.replace_first_of_vertex(outer, y);
         self.kill(x.edge());
         if let Some(f) = lens {
             self.kill(f);

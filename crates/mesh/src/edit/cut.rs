@@ -1,6 +1,6 @@
 //! Opening a mesh along edges.
 
-use super::sorted_once;
+use super::sorted_unique;
 use crate::{EdgeId, EditError, HalfEdgeId, Mesh, VertexId};
 
 /// A part of the faces around a vertex, between two cuts, or between a cut and the boundary.
@@ -37,7 +37,7 @@ impl Mesh {
     /// # Errors
     ///
     /// [`EditError::Boundary`] if one of them is on the boundary, [`EditError::DuplicateEdge`] for the ends
-    /// of an edge that would be a slit, [`EditError::Twice`], [`EditError::Nothing`],
+    /// of an edge that would be a slit, [`EditError::EdgeListedTwice`], [`EditError::NoElements`],
     /// [`EditError::NoSuchEdge`], [`EditError::Full`]. The mesh is unchanged.
     ///
     /// # Examples
@@ -55,7 +55,7 @@ impl Mesh {
     /// ```
     pub fn cut_edges(&mut self, edges: &[EdgeId]) -> Result<Vec<EdgeId>, EditError> {
         if edges.is_empty() {
-            return Err(EditError::Nothing);
+            return Err(EditError::NoElements);
         }
         let mut sorted = edges.to_vec();
         sorted.sort_unstable();
@@ -65,7 +65,7 @@ impl Mesh {
                 return Err(EditError::Boundary(e));
             }
             if i > 0 && sorted[i - 1] == e {
-                return Err(EditError::Twice(e));
+                return Err(EditError::EdgeListedTwice(e));
             }
         }
         if let Some(&e) = self.slits(&sorted).first() {
@@ -76,7 +76,7 @@ impl Mesh {
 
         self.drop_columns_by_rule();
         // The fans of faces are read before the edges along them are doubled.
-        let vertices = sorted_once(sorted.iter().flat_map(|&e| self.edge_vertices(e)));
+        let vertices = sorted_unique(sorted.iter().flat_map(|&e| self.edge_vertices(e)));
         let is_cut = |h: HalfEdgeId| sorted.binary_search(&h.edge()).is_ok();
         let fans: Vec<Vec<HalfEdgeId>> = vertices
             .iter()
@@ -117,7 +117,7 @@ impl Mesh {
     ///
     /// If one is not an edge of the mesh.
     pub fn slits(&self, edges: &[EdgeId]) -> Vec<EdgeId> {
-        let mut edges = sorted_once(edges.iter().copied());
+        let mut edges = sorted_unique(edges.iter().copied());
         let mut ends: Vec<VertexId> = edges.iter().flat_map(|&e| self.edge_vertices(e)).collect();
         ends.sort_unstable();
         let is_end = |v: VertexId| {

@@ -1,6 +1,6 @@
 //! Taking an edge or a vertex away, with the faces at it.
 
-use super::sorted_once;
+use super::sorted_unique;
 use crate::{EdgeId, EditError, Mesh, VertexId};
 
 impl Mesh {
@@ -22,7 +22,7 @@ impl Mesh {
     /// [`EditError::NoSuchEdge`]. The mesh is unchanged.
     pub fn delete_edge(&mut self, e: EdgeId) -> Result<(), EditError> {
         self.check_edge(e)?;
-        self.delete_faces(&sorted_once(self.edge_faces(e).into_iter().flatten()))
+        self.delete_faces(&sorted_unique(self.edge_faces(e).into_iter().flatten()))
     }
 
     /// Takes a vertex away, and with it the faces around it.
@@ -45,7 +45,7 @@ impl Mesh {
     /// [`EditError::NoSuchVertex`]. The mesh is unchanged.
     pub fn delete_vertex(&mut self, v: VertexId) -> Result<(), EditError> {
         self.check_vertex(v)?;
-        self.delete_faces(&sorted_once(self.vertex_faces(v)))?;
+        self.delete_faces(&sorted_unique(self.vertex_faces(v)))?;
         self.kill(v);
         Ok(())
     }

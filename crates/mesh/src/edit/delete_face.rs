@@ -1,6 +1,6 @@
 //! Taking faces away.
 
-use super::{first_repeated, sorted_once};
+use super::{first_repeated, sorted_unique};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
@@ -41,7 +41,7 @@ impl Mesh {
     /// # Errors
     ///
     /// [`EditError::Pinch`] with the lowest vertex around which the faces left would not form one fan,
-    /// [`EditError::TwiceFace`], [`EditError::NoSuchFace`]. The mesh is unchanged.
+    /// [`EditError::FaceListedTwice`], [`EditError::NoSuchFace`]. The mesh is unchanged.
     ///
     /// # Examples
     ///
@@ -61,12 +61,12 @@ impl Mesh {
             self.check_face(f)?;
         }
         if let Some(f) = first_repeated(faces) {
-            return Err(EditError::TwiceFace(f));
+            return Err(EditError::FaceListedTwice(f));
         }
         if faces.is_empty() {
             return Ok(());
         }
-        let doomed = sorted_once(faces.iter().copied());
+        let doomed = sorted_unique(faces.iter().copied());
         let stays = |h: HalfEdgeId| {
             self.face(h)
                 .is_some_and(|f| doomed.binary_search(&f).is_err())
@@ -75,7 +75,7 @@ impl Mesh {
             .iter()
             .flat_map(|&f| self.face_half_edges(f))
             .collect();
-        let corners = sorted_once(sides.iter().map(|&h| self.origin(h)));
+        let corners = sorted_unique(sides.iter().map(|&h| self.origin(h)));
         let rims = corners
             .iter()
             .map(|&v| self.rim_at(v, stays))
@@ -150,7 +150,7 @@ mod tests {
         for shape in [shapes::grid(3, 3), shapes::cube(), shapes::octahedron()] {
             let mut mesh = shape.clone();
             let mut left = shape.n_faces();
-            // A face that is refused now can go later, when its neighbours are gone.
+            // A face that is refused now can go later, when its neighbors are gone.
             while left > 0 {
                 let before = left;
                 for f in shape.faces() {
@@ -259,7 +259,7 @@ mod tests {
     fn faces_that_are_not_there_or_there_twice_are_refused() {
         let mut mesh = shapes::cube();
         let [f, g, missing] = [0, 1, 6].map(FaceId::new);
-        let twice = Err(EditError::TwiceFace(f));
+        let twice = Err(EditError::FaceListedTwice(f));
         assert_eq!(mesh.delete_faces(&[f, g, f]), twice);
         assert_eq!(
             mesh.delete_faces(&[f, missing]),

@@ -83,8 +83,8 @@ impl Mesh {
         }
         self.set_next(before_a, after_a);
         self.set_next(before_b, after_b);
-        self.replace_leaving(ab, after_a);
-        self.replace_leaving(ba, after_b);
+        self.replace_first_of_vertex(ab, after_a);
+        self.replace_first_of_vertex(ba, after_b);
         self.replace_first_of_face(ab, after_b);
         self.kill(e);
         self.kill(g);

@@ -32,7 +32,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// - [`EditError::FewEdges`] with `v` if it is isolated or has a single edge, or with a neighbour that
+    /// - [`EditError::FewEdges`] with `v` if it is isolated or has a single edge, or with a neighbor that
     ///   would be left with a single one, in the middle of the merged face: take that vertex out first.
     /// - [`EditError::RepeatedVertex`] if a face passes `v` twice, or the merged face would pass another
     ///   vertex twice.
@@ -118,7 +118,7 @@ impl Mesh {
         for &h in inner {
             let after = self.next(h);
             self.set_next(self.prev_on_face(h.twin()), after);
-            self.replace_leaving(h.twin(), after);
+            self.replace_first_of_vertex(h.twin(), after);
             self.kill(h.edge());
         }
         let merged = faces[0];
@@ -191,7 +191,7 @@ impl Mesh {
         self.set_next(x.twin(), out);
         self.set_next(into, x);
         self.set_origin(x, b);
-        self.replace_leaving(y.twin(), x);
+        self.replace_first_of_vertex(y.twin(), x);
         self.replace_first_of_face(y, x.twin());
         self.replace_first_of_face(y.twin(), x);
         self.kill(y.edge());

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
-use super::{check_finite, sorted_once};
+use super::{check_finite, sorted_unique};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
@@ -43,7 +43,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Nothing`] if no face is given, [`EditError::TwiceFace`], [`EditError::NoSuchFace`],
+    /// [`EditError::NoElements`] if no face is given, [`EditError::FaceListedTwice`], [`EditError::NoSuchFace`],
     /// [`EditError::BadNumber`] if a moved coordinate would not be finite, [`EditError::Full`]. The mesh
     /// is unchanged.
     ///
@@ -72,7 +72,7 @@ impl Mesh {
         check_finite(&places)?;
 
         let sides = self.raise(&rim);
-        for v in sorted_once(faces.iter().flat_map(|&f| self.face_vertices(f))) {
+        for v in sorted_unique(faces.iter().flat_map(|&f| self.face_vertices(f))) {
             self.set_position(v, self.position(v) + offset);
         }
         Ok(sides)
@@ -155,13 +155,13 @@ pub(super) struct Rim {
 impl Rim {
     pub(super) fn of(mesh: &Mesh, faces: &[FaceId]) -> Result<Self, EditError> {
         if faces.is_empty() {
-            return Err(EditError::Nothing);
+            return Err(EditError::NoElements);
         }
         let mut region = BTreeSet::new();
         for &f in faces {
             mesh.check_face(f)?;
             if !region.insert(f) {
-                return Err(EditError::TwiceFace(f));
+                return Err(EditError::FaceListedTwice(f));
             }
         }
         let is_base = |h: &HalfEdgeId| mesh.face(h.twin()).is_none_or(|f| !region.contains(&f));

@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::{first_repeated, sorted_once};
+use super::{first_repeated, sorted_unique};
 use crate::{EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
 impl Mesh {
@@ -87,7 +87,7 @@ impl Mesh {
         let rim = self.rim(h)?;
         let n = rim.len();
         self.check_room(2 * n)?;
-        let n_different = sorted_once(ears.iter()).len();
+        let n_different = sorted_unique(ears.iter()).len();
         assert_eq!(
             [n_different, ears.len()],
             [n - 2; 2],

@@ -99,8 +99,8 @@ impl Mesh {
             self.set_next(before_x, moved);
             self.set_next(moved, x);
         }
-        self.replace_leaving(ab, ad);
-        self.replace_leaving(ba, bc);
+        self.replace_first_of_vertex(ab, ad);
+        self.replace_first_of_vertex(ba, bc);
         self.set_origin(ab, d);
         self.set_origin(ba, c);
         self.set_face(ad, Some(f));

@@ -26,19 +26,19 @@ impl Mesh {
     /// # Errors
     ///
     /// [`EditError::PartOfComponent`] if a face that is not in the list shares an edge with one that is;
-    /// it names the latter. [`EditError::TwiceFace`], [`EditError::Nothing`] for an empty list,
+    /// it names the latter. [`EditError::FaceListedTwice`], [`EditError::NoElements`] for an empty list,
     /// [`EditError::NoSuchFace`]. The mesh is unchanged.
     pub fn reverse_faces(&mut self, faces: &[FaceId]) -> Result<(), EditError> {
         let mut is_named = Marks::default();
         for &f in faces {
             self.check_face(f)?;
             if is_named.has(f.index()) {
-                return Err(EditError::TwiceFace(f));
+                return Err(EditError::FaceListedTwice(f));
             }
             is_named.add(f.index());
         }
         if faces.is_empty() {
-            return Err(EditError::Nothing);
+            return Err(EditError::NoElements);
         }
         // All half-edges of the components: those of the faces, and those around their holes.
         let mut half_edges: Vec<HalfEdgeId> = Vec::new();
@@ -69,7 +69,7 @@ impl Mesh {
             // h arrives where next leaves, and stands there for it from now on.
             if self.vertex_half_edge(target) == Some(next) {
                 self.set_vertex_half_edge(target, Some(h));
-                self.turn_over(target);
+                self.negate_normals(target);
             }
             self.set_next(next, h);
             self.set_origin(h, target);
@@ -80,7 +80,7 @@ impl Mesh {
             self.set_face_half_edge(f, self.next(first));
             let corners: Vec<HalfEdgeId> = self.face_half_edges(f).collect();
             for h in corners {
-                self.turn_over(h);
+                self.negate_normals(h);
             }
         }
         Ok(())
@@ -200,8 +200,8 @@ mod tests {
         for (faces, refusal) in [
             (&cube[1..], EditError::PartOfComponent(cube[2])),
             (&grid[..1], EditError::PartOfComponent(grid[0])),
-            (&[], EditError::Nothing),
-            (&[cube[0], cube[0]], EditError::TwiceFace(cube[0])),
+            (&[], EditError::NoElements),
+            (&[cube[0], cube[0]], EditError::FaceListedTwice(cube[0])),
             (&[foreign], EditError::NoSuchFace(foreign)),
         ] {
             let mut edited = mesh.clone();

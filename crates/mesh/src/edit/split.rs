@@ -101,7 +101,7 @@ impl Mesh {
             self.set_next(before_b, bm);
         }
         self.set_next(bm, ma);
-        self.replace_leaving(ma, bm);
+        self.replace_first_of_vertex(ma, bm);
         self.set_origin(ma, m);
         self.set_vertex_half_edge(m, Some(if self.face(ma).is_none() { ma } else { mb }));
         Ok(new)

@@ -21,8 +21,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Elsewhere`] if `x` has no face or `y` is not on it, [`EditError::Adjacent`] if the
-    /// corners are the same, neighbours, or of one vertex, [`EditError::DuplicateEdge`] if the vertices
+    /// [`EditError::WrongCorner`] if `x` has no face or `y` is not on it, [`EditError::Adjacent`] if the
+    /// corners are the same, neighbors, or of one vertex, [`EditError::DuplicateEdge`] if the vertices
     /// share an edge outside the face, [`EditError::NoSuchHalfEdge`], [`EditError::Full`]. The mesh is
     /// unchanged.
     ///
@@ -40,10 +40,10 @@ impl Mesh {
         self.check_half_edge(x)?;
         self.check_half_edge(y)?;
         if self.face(x).is_none() {
-            return Err(EditError::Elsewhere(x));
+            return Err(EditError::WrongCorner(x));
         }
         if self.face(y) != self.face(x) {
-            return Err(EditError::Elsewhere(y));
+            return Err(EditError::WrongCorner(y));
         }
         let (v, w) = (self.origin(x), self.origin(y));
         if v == w || self.next(x) == y || self.next(y) == x {

@@ -34,8 +34,8 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::Elsewhere`] if `y` does not leave the origin of `x`, [`EditError::Adjacent`] if `x`
-    /// is `y`, [`EditError::TwiceFace`] if both corners are of one face, [`EditError::BadNumber`] if a
+    /// [`EditError::WrongCorner`] if `y` does not leave the origin of `x`, [`EditError::Adjacent`] if `x`
+    /// is `y`, [`EditError::FaceListedTwice`] if both corners are of one face, [`EditError::BadNumber`] if a
     /// coordinate is not finite, [`EditError::NoSuchHalfEdge`], [`EditError::Full`]. The mesh is
     /// unchanged.
     ///
@@ -65,14 +65,14 @@ impl Mesh {
         check_finite(&[position])?;
         let v = self.origin(x);
         if self.origin(y) != v {
-            return Err(EditError::Elsewhere(y));
+            return Err(EditError::WrongCorner(y));
         }
         if x == y {
             return Err(EditError::Adjacent(x, y));
         }
         let (f, g) = (self.face(x), self.face(y));
         if let Some(f) = f.filter(|_| f == g) {
-            return Err(EditError::TwiceFace(f));
+            return Err(EditError::FaceListedTwice(f));
         }
         self.check_room(2)?;
         let (before_x, before_y) = (self.prev(x), self.prev(y));
@@ -332,7 +332,7 @@ mod tests {
         let mut refused = |x, y, p| edited.split_vertex(x, y, p).unwrap_err();
         let h = HalfEdgeId::new(0);
         let next = mesh.next(h);
-        assert_eq!(refused(h, next, DVec3::ZERO), EditError::Elsewhere(next));
+        assert_eq!(refused(h, next, DVec3::ZERO), EditError::WrongCorner(next));
         assert_eq!(refused(h, h, DVec3::ZERO), EditError::Adjacent(h, h));
         let far = HalfEdgeId::new(99);
         assert_eq!(refused(h, far, DVec3::ZERO), EditError::NoSuchHalfEdge(far));
@@ -356,7 +356,7 @@ mod tests {
         let corners: Vec<_> = around.filter(is_corner).collect();
         let before = mesh.clone();
         let refused = mesh.split_vertex(corners[0], corners[1], DVec3::ZERO);
-        assert_eq!(refused, Err(EditError::TwiceFace(f)));
+        assert_eq!(refused, Err(EditError::FaceListedTwice(f)));
         assert_eq!(mesh, before);
     }
 }

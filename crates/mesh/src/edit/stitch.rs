@@ -30,7 +30,7 @@ impl Mesh {
     ///
     /// # Errors
     ///
-    /// [`EditError::NotBoundary`] if one has a face, [`EditError::Twice`] if they are one and the same,
+    /// [`EditError::NotBoundary`] if one has a face, [`EditError::EdgeListedTwice`] if they are one and the same,
     /// [`EditError::SameFace`] if one face is beside both (or beside both of the next two where these are
     /// glued too), [`EditError::SelfLoop`] if two vertices that are to become one share an edge,
     /// [`EditError::VisitsTwice`] if they share a face, [`EditError::DuplicateEdge`] if both are joined to a
@@ -54,7 +54,7 @@ impl Mesh {
         self.check_hole(h)?;
         self.check_hole(g)?;
         if h == g {
-            return Err(EditError::Twice(h.edge()));
+            return Err(EditError::EdgeListedTwice(h.edge()));
         }
         // At each end two vertices meet: with the half-edge of h's loop there and the one of g's.
         let at_origin = [self.origin(h), self.target(g)];

@@ -6,8 +6,8 @@ use crate::{
     shapes,
 };
 
-/// A mesh with a column of each type and rule.
-fn dressed(mut mesh: Mesh) -> Mesh {
+/// Adds columns of several types and rules.
+fn with_attributes(mut mesh: Mesh) -> Mesh {
     let (v, h) = (mesh.n_vertices(), mesh.n_half_edges());
     let (e, f) = (mesh.n_edges(), mesh.n_faces());
     mesh.set(UV, (0..h).map(|i| DVec2::new(i as f64, 0.5)).collect());
@@ -22,12 +22,12 @@ fn dressed(mut mesh: Mesh) -> Mesh {
     mesh
 }
 
-/// One of several edits, or none where it is refused.
+/// Applies one of several edits to the element at index `i`. Ignores refusals.
 fn edit(mesh: &mut Mesh, (kind, i): (u8, usize)) {
     let e = EdgeId::new(i % mesh.domain_len(Domain::Edge).max(1));
     let f = FaceId::new(i % mesh.domain_len(Domain::Face).max(1));
     let v = VertexId::new(i % mesh.domain_len(Domain::Vertex).max(1));
-    let refused: Result<(), EditError> = match kind {
+    let result: Result<(), EditError> = match kind {
         0 => mesh.flip_edge(e),
         1 => mesh.split_edge(e, 0.25).map(drop),
         2 => mesh.delete_face(f),
@@ -63,63 +63,63 @@ fn edit(mesh: &mut Mesh, (kind, i): (u8, usize)) {
             Ok(())
         }
     };
-    let _ = refused;
+    let _ = result;
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Act {
+enum Action {
     Edit(u8, usize),
     Begin,
     Commit,
     Rollback,
 }
 
-fn act() -> impl Strategy<Value = Act> {
+fn action() -> impl Strategy<Value = Action> {
     prop_oneof![
-        8 => (0..9_u8, 0..200_usize).prop_map(|(kind, i)| Act::Edit(kind, i)),
-        2 => Just(Act::Begin),
-        1 => Just(Act::Commit),
-        1 => Just(Act::Rollback),
+        8 => (0..9_u8, 0..200_usize).prop_map(|(kind, i)| Action::Edit(kind, i)),
+        2 => Just(Action::Begin),
+        1 => Just(Action::Commit),
+        1 => Just(Action::Rollback),
     ]
 }
 
 proptest! {
     #[test]
-    fn going_back_gives_the_same_bytes_and_going_on_again_too(
-        which in 0..3_usize, acts in prop::collection::vec(act(), 0..40),
+    fn undo_and_redo_restore_the_same_bytes(
+        shape in 0..3_usize, actions in prop::collection::vec(action(), 0..40),
     ) {
-        let shape = [shapes::grid(3, 2), shapes::octahedron(), shapes::cube()][which].clone();
-        let start = dressed(shape);
+        let shape = [shapes::grid(3, 2), shapes::octahedron(), shapes::cube()][shape].clone();
+        let start = with_attributes(shape);
         let mut mesh = start.clone();
         mesh.begin();
-        let mut opened: Vec<Mesh> = Vec::new();
-        for act in acts {
-            match act {
-                Act::Edit(kind, i) => edit(&mut mesh, (kind, i)),
-                Act::Begin => {
-                    opened.push(mesh.clone());
+        let mut meshes_at_begin: Vec<Mesh> = Vec::new();
+        for action in actions {
+            match action {
+                Action::Edit(kind, i) => edit(&mut mesh, (kind, i)),
+                Action::Begin => {
+                    meshes_at_begin.push(mesh.clone());
                     mesh.begin();
                 }
-                Act::Commit => if opened.pop().is_some() {
+                Action::Commit => if meshes_at_begin.pop().is_some() {
                     prop_assert_eq!(mesh.commit(), None);
                 },
-                Act::Rollback => if let Some(before) = opened.pop() {
+                Action::Rollback => if let Some(before) = meshes_at_begin.pop() {
                     mesh.rollback();
                     prop_assert_eq!(&mesh, &before);
                 },
             }
         }
-        for _ in opened {
+        for _ in meshes_at_begin {
             mesh.commit();
         }
         let change = mesh.commit().expect("the outermost level");
         prop_assert!(!mesh.is_recording());
         let end = mesh.clone();
-        let again = mesh.revert(change);
+        let redo = mesh.revert(change);
         prop_assert_eq!(&mesh, &start);
-        let back = mesh.revert(again);
+        let undo = mesh.revert(redo);
         prop_assert_eq!(&mesh, &end);
-        mesh.revert(back);
+        mesh.revert(undo);
         prop_assert_eq!(&mesh, &start);
     }
 }
@@ -136,7 +136,7 @@ fn a_small_change_of_a_large_mesh_takes_little_memory() {
 }
 
 #[test]
-fn notes_larger_than_the_mesh_become_one_copy_of_it() {
+fn entries_larger_than_the_mesh_are_replaced_by_a_copy_of_it() {
     let start = shapes::fans(&shapes::torus(40, 40, 2.0, 1.0));
     let mut mesh = start.clone();
     mesh.begin();
@@ -145,10 +145,10 @@ fn notes_larger_than_the_mesh_become_one_copy_of_it() {
             let _ = mesh.flip_edge(e);
         }
     }
-    let noted = mesh.journal.as_ref().unwrap().noted.bytes();
-    assert!(noted < mesh.bytes(), "{noted}");
+    let recorded = mesh.journal.as_ref().unwrap().recorded.bytes();
+    assert!(recorded < mesh.bytes(), "{recorded}");
     let end = mesh.clone();
-    // Levels inside still work.
+    // Inner levels still work.
     mesh.begin();
     mesh.split_edge(EdgeId::new(3), 0.5).unwrap();
     mesh.rollback();
@@ -158,20 +158,20 @@ fn notes_larger_than_the_mesh_become_one_copy_of_it() {
 }
 
 #[test]
-fn an_edit_that_fails_half_way_is_taken_back_as_a_whole() {
+fn an_edit_that_fails_half_way_is_undone_completely() {
     let mut mesh = shapes::grid(2, 2);
     let before = mesh.clone();
-    let refused = mesh.atomically(|mesh| {
+    let result = mesh.atomically(|mesh| {
         mesh.split_edge(EdgeId::new(0), 0.5)?;
         mesh.split_edge(EdgeId::new(1), 2.0)
     });
-    assert_eq!(refused, Err(EditError::OutsideEdge(2.0)));
+    assert_eq!(result, Err(EditError::OutsideEdge(2.0)));
     assert_eq!(mesh, before);
     assert!(!mesh.is_recording());
 }
 
 #[test]
-fn without_edits_there_is_nothing_to_take_back() {
+fn without_edits_the_change_is_empty() {
     let mut mesh = shapes::square();
     mesh.begin();
     assert!(mesh.commit().unwrap().is_empty());

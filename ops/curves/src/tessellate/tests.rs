@@ -15,7 +15,7 @@ fn hill(height: impl Fn(usize, usize) -> f64) -> Patch {
 /// The same patch with sides shrunk to points: bit k of `mask` for v = 0, u = 1, v = 1, u = 0.
 fn collapsed(mask: u32) -> Patch {
     let mut points = *hill(|r, c| ((r * 5 + c * 3) % 7) as f64 * 0.1).points();
-    // Twice, so that neighbouring sides agree on their corner.
+    // Twice, so that neighboring sides agree on their corner.
     for _ in 0..2 {
         for k in (0..4).filter(|k| mask & (1 << k) != 0) {
             let side = [0, 1, 2, 3].map(|i| [(0, i), (i, 3), (3, 3 - i), (3 - i, 0)][k]);

@@ -18,7 +18,7 @@ fn mesh(n: usize, polygons: &[&[u32]]) -> (Mesh, BuildReport) {
 }
 
 #[test]
-fn nothing_becomes_an_empty_mesh() {
+fn no_polygons_become_an_empty_mesh() {
     let (mesh, report) = mesh(0, &[]);
     assert_eq!(
         (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces()),
@@ -28,7 +28,7 @@ fn nothing_becomes_an_empty_mesh() {
 }
 
 #[test]
-fn unused_vertices_stay_as_isolated_ones() {
+fn unused_vertices_become_isolated_vertices() {
     let (mesh, report) = mesh(5, &[&[0, 2, 4]]);
     assert_eq!(mesh.n_vertices(), 5);
     assert_eq!(mesh.vertex_half_edge(VertexId::new(1)), None);
@@ -36,7 +36,7 @@ fn unused_vertices_stay_as_isolated_ones() {
 }
 
 #[test]
-fn edges_are_numbered_as_they_are_first_named() {
+fn edges_are_numbered_in_the_order_of_their_first_use() {
     let (mesh, _) = mesh(4, &[&[0, 1, 2], &[0, 2, 3]]);
     let ends: Vec<_> = mesh
         .edges()
@@ -54,7 +54,7 @@ fn three_faces_at_an_edge_are_split_and_listed() {
 }
 
 #[test]
-fn two_faces_that_run_the_same_way_along_an_edge_are_split_if_they_are_to_stay_as_given() {
+fn two_faces_with_the_same_direction_along_an_edge_are_split_with_split_as_given() {
     let corners = [0, 1, 2, 0, 1, 3];
     let built = build(points(4), &[0, 3, 6], &corners, NonManifold::SplitAsGiven).unwrap();
     assert_eq!(built.mesh.defects(), []);
@@ -77,7 +77,7 @@ fn a_bow_tie_vertex_is_copied_for_its_second_fan() {
 }
 
 #[test]
-fn two_cubes_that_share_an_edge_come_apart_as_two_closed_cubes() {
+fn two_cubes_that_share_an_edge_are_split_into_two_closed_cubes() {
     let cube = |o: u32, shared: [u32; 2]| -> Vec<Vec<u32>> {
         let id = |i: u32| if i < 2 { shared[i as usize] } else { o + i };
         [
@@ -102,7 +102,7 @@ fn two_cubes_that_share_an_edge_come_apart_as_two_closed_cubes() {
 }
 
 #[test]
-fn degenerate_polygons_are_left_out_and_leave_gaps_in_the_maps() {
+fn degenerate_polygons_are_dropped_and_map_to_none() {
     let corners = [0, 1, 1, 0, 1, 2, 0, 1];
     let built = build(points(3), &[0, 3, 6, 8], &corners, NonManifold::Split).unwrap();
     assert_eq!(built.report.dropped_faces, [0, 2]);
@@ -118,23 +118,23 @@ fn degenerate_polygons_are_left_out_and_leave_gaps_in_the_maps() {
 }
 
 #[test]
-fn bad_input_is_refused_with_the_place() {
-    let none = |r: Result<(Mesh, BuildReport), BuildError>| r.unwrap_err().to_string();
+fn errors_for_bad_input_name_the_element() {
+    let message = |r: Result<(Mesh, BuildReport), BuildError>| r.unwrap_err().to_string();
     assert_eq!(
-        none(Mesh::from_polygons(points(3), &[[0, 1, 2], [0, 1, 3]])),
+        message(Mesh::from_polygons(points(3), &[[0, 1, 2], [0, 1, 3]])),
         "face 1 refers to vertex 3, but there are 3 vertices"
     );
     let mut bad = points(3);
     bad[1].y = f64::NAN;
     assert_eq!(
-        none(Mesh::from_polygons(bad, &[[0, 1, 2]])),
+        message(Mesh::from_polygons(bad, &[[0, 1, 2]])),
         "the position of vertex 1 is not finite"
     );
     assert!(build(points(3), &[0, 5], &[0, 1, 2], NonManifold::Split).is_err());
 }
 
 #[test]
-fn a_manifold_can_be_insisted_on() {
+fn refuse_returns_an_error_for_a_non_manifold_vertex() {
     let built = build(
         points(5),
         &[0, 3, 6],
@@ -143,24 +143,24 @@ fn a_manifold_can_be_insisted_on() {
     );
     assert_eq!(
         built.unwrap_err().to_string(),
-        "the faces are not a manifold: v0 joins faces that share no edge"
+        "the faces are not a manifold: v0 joins faces that are not connected by edges"
     );
 }
 
 #[test]
-fn polygons_that_disagree_are_turned_or_refused_if_a_manifold_is_insisted_on() {
+fn refuse_reverses_inconsistent_polygons_but_refuse_as_given_does_not() {
     let corners = [0, 1, 2, 0, 1, 3];
-    let turned = build(points(4), &[0, 3, 6], &corners, NonManifold::Refuse).unwrap();
-    assert_eq!(turned.report.reversed_faces, [1]);
+    let reversed = build(points(4), &[0, 3, 6], &corners, NonManifold::Refuse).unwrap();
+    assert_eq!(reversed.report.reversed_faces, [1]);
     let built = build(points(4), &[0, 3, 6], &corners, NonManifold::RefuseAsGiven);
     assert_eq!(
         built.unwrap_err().to_string(),
-        "the faces are not a manifold: the edge v0-v1 has more than two faces, or two that run the \
-         same way"
+        "the faces are not a manifold: the edge v0-v1 has more than two faces, or two with the same \
+         direction"
     );
 }
 
-/// The polygons of a mesh, as offsets and corners.
+/// Returns the polygons of a mesh as offsets and corners.
 fn polygons_of(mesh: &Mesh) -> (Vec<u32>, Vec<u32>) {
     let number = |v: VertexId| u32::try_from(v.index()).unwrap();
     let faces: Vec<Vec<u32>> = mesh
@@ -171,13 +171,13 @@ fn polygons_of(mesh: &Mesh) -> (Vec<u32>, Vec<u32>) {
 }
 
 #[test]
-fn a_vertex_of_many_faces_takes_no_quadratic_time() {
-    // Fans around one vertex that are closed, open, and each for itself.
+fn a_vertex_with_many_faces_does_not_take_quadratic_time() {
+    // Around one vertex: a closed fan, an open fan, and triangles without common edges.
     let n = 200_000;
     let wheel = |i: u32| [0, 1 + i, 1 + (i + 1) % n];
     let closed: Vec<[u32; 3]> = (0..n).map(wheel).collect();
     let open: Vec<[u32; 3]> = (0..n - 1).map(wheel).collect();
-    let apart: Vec<[u32; 3]> = (0..n / 2).map(|i| wheel(2 * i)).collect();
+    let separate: Vec<[u32; 3]> = (0..n / 2).map(|i| wheel(2 * i)).collect();
     let build = |triangles: &[[u32; 3]]| {
         let positions = vec![DVec3::ZERO; n as usize + 1];
         let (mesh, report) = Mesh::from_polygons(positions, triangles).unwrap();
@@ -186,11 +186,11 @@ fn a_vertex_of_many_faces_takes_no_quadratic_time() {
     };
     assert_eq!(build(&closed), (2 * n as usize, 0));
     assert_eq!(build(&open), (2 * n as usize - 1, 0));
-    assert_eq!(build(&apart), (3 * n as usize / 2, n as usize / 2 - 1));
+    assert_eq!(build(&separate), (3 * n as usize / 2, n as usize / 2 - 1));
 }
 
 #[test]
-fn lists_become_offsets_and_corners_however_long_they_are() {
+fn long_lists_of_polygons_are_flattened() {
     let lists: Vec<Vec<u32>> = (0..20_000_u32).map(|i| vec![i; (i % 7) as usize]).collect();
     let (offsets, corners) = flatten(&lists).unwrap();
     assert_eq!(corners, lists.concat());

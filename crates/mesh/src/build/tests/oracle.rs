@@ -1,11 +1,11 @@
-//! A second builder, slow and simple, that must agree with the real one on any polygons.
+//! A second builder, slow and simple. The real builder must produce the same result for any polygons.
 
 use std::collections::BTreeMap;
 
 use super::*;
 use crate::{Connectivity, VertexId};
 
-/// Random numbers below n: a linear congruential generator.
+/// A linear congruential random number generator.
 pub(super) struct Random(pub(super) u64);
 
 impl Random {
@@ -17,9 +17,9 @@ impl Random {
         usize::try_from(self.0 >> 33).unwrap() % n
     }
 
-    /// Up to `most` polygons of 1 to 6 corners over so many vertices.
-    fn soup(&mut self, n_vertices: usize, most: usize) -> Vec<Vec<u32>> {
-        let n = self.below(most + 1);
+    /// Returns up to `max` random polygons with 1 to 6 corners.
+    fn polygons(&mut self, n_vertices: usize, max: usize) -> Vec<Vec<u32>> {
+        let n = self.below(max + 1);
         let mut polygon = || {
             let degree = if self.below(3) == 0 {
                 1 + self.below(6)
@@ -33,22 +33,22 @@ impl Random {
     }
 }
 
-/// What the builder should make of polygons that keep their orientation: its arrays and the vertex
-/// that each vertex is a copy of or is itself.
+/// Returns the expected result for polygons that keep their orientation: the arrays, and for each vertex
+/// the input vertex that it is or that it is a copy of.
 fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usize>) {
-    let is_fine = |p: &&Vec<u32>| {
-        let different: std::collections::BTreeSet<_> = p.iter().collect();
-        p.len() >= 3 && different.len() == p.len()
+    let is_valid = |p: &&Vec<u32>| {
+        let unique: std::collections::BTreeSet<_> = p.iter().collect();
+        p.len() >= 3 && unique.len() == p.len()
     };
-    let polygons: Vec<&Vec<u32>> = polygons.iter().filter(is_fine).collect();
-    // A corner is a polygon and a place in it.
+    let polygons: Vec<&Vec<u32>> = polygons.iter().filter(is_valid).collect();
+    // A corner is a polygon and an index in it.
     let corners: Vec<(usize, usize)> = (0..polygons.len())
         .flat_map(|f| (0..polygons[f].len()).map(move |i| (f, i)))
         .collect();
-    let at = |c: (usize, usize)| corners.binary_search(&c).unwrap();
+    let index_of = |c: (usize, usize)| corners.binary_search(&c).unwrap();
     let next: Vec<usize> = corners
         .iter()
-        .map(|&(f, i)| at((f, (i + 1) % polygons[f].len())))
+        .map(|&(f, i)| index_of((f, (i + 1) % polygons[f].len())))
         .collect();
     let mut prev = vec![0; corners.len()];
     for (c, &n) in next.iter().enumerate() {
@@ -64,11 +64,12 @@ fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usiz
         .map(|c| {
             let (a, b) = (vertex(c), vertex(next[c]));
             let rank = sides[&(a, b)].iter().position(|&d| d == c).unwrap();
-            sides.get(&(b, a)).and_then(|back| back.get(rank)).copied()
+            let opposite = sides.get(&(b, a));
+            opposite.and_then(|sides| sides.get(rank)).copied()
         })
         .collect();
 
-    // Corners that share an edge at their vertex have one vertex: the lowest corner names the fan.
+    // Corners that share an edge at their vertex belong to one fan, which is named by its lowest corner.
     let mut fan: Vec<usize> = (0..corners.len()).collect();
     loop {
         let before = fan.clone();
@@ -97,22 +98,22 @@ fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usiz
 
     let mut half_edge = vec![HalfEdgeId::NONE; corners.len()];
     let mut arrays = Connectivity::default();
-    let mut owners = Vec::new();
+    let mut first_sides = Vec::new();
     for c in 0..corners.len() {
         if half_edge[c] == HalfEdgeId::NONE {
-            half_edge[c] = HalfEdgeId::new(2 * owners.len());
+            half_edge[c] = HalfEdgeId::new(2 * first_sides.len());
             if let Some(t) = twin[c] {
                 half_edge[t] = half_edge[c].twin();
             }
-            owners.push(c);
+            first_sides.push(c);
         }
     }
-    // On the boundary the next half-edge is the one without a face that leaves the vertex.
+    // On the boundary, the next half-edge is the outgoing half-edge of the vertex without a face.
     let mut boundary = BTreeMap::new();
-    for &c in owners.iter().filter(|&&c| twin[c].is_none()) {
+    for &c in first_sides.iter().filter(|&&c| twin[c].is_none()) {
         boundary.insert(origin_of(next[c]), half_edge[c].twin());
     }
-    for &c in &owners {
+    for &c in &first_sides {
         let face = |c: usize| FaceId::new(corners[c].0);
         arrays.next.push(half_edge[next[c]]);
         arrays.origin.push(VertexId::new(origin_of(c)));
@@ -130,16 +131,18 @@ fn expected(n_vertices: usize, polygons: &[Vec<u32>]) -> (Connectivity, Vec<usiz
             .vertex_half_edge
             .push(boundary.get(&v).copied().unwrap_or(first));
     }
-    arrays.face_half_edge = (0..polygons.len()).map(|f| half_edge[at((f, 0))]).collect();
+    arrays.face_half_edge = (0..polygons.len())
+        .map(|f| half_edge[index_of((f, 0))])
+        .collect();
     (arrays, sources)
 }
 
 #[test]
-fn any_polygons_become_what_the_slow_builder_makes_of_them() {
+fn both_builders_agree_on_random_polygons() {
     let mut random = Random(1);
     for round in 0..600 {
         let n = 3 + random.below(if round % 5 == 0 { 40 } else { 8 });
-        let polygons = random.soup(n, if round % 5 == 0 { 60 } else { 12 });
+        let polygons = random.polygons(n, if round % 5 == 0 { 60 } else { 12 });
         let (offsets, corners) = flatten(&polygons).unwrap();
         let built = build(points(n), &offsets, &corners, NonManifold::SplitAsGiven).unwrap();
         let (arrays, sources) = expected(n, &polygons);
@@ -154,11 +157,11 @@ fn any_polygons_become_what_the_slow_builder_makes_of_them() {
 }
 
 #[test]
-fn crowded_vertices_are_paired_as_those_of_few_faces() {
-    // More corners at a vertex than are compared one with each other, several sides at most edges.
+fn both_builders_agree_on_vertices_with_many_faces() {
+    // More corners at a vertex than are compared pairwise, and several sides at most edges.
     let mut random = Random(2);
     for _ in 0..20 {
-        let polygons = random.soup(7, 150);
+        let polygons = random.polygons(7, 150);
         let (arrays, _) = expected(7, &polygons);
         let (offsets, corners) = flatten(&polygons).unwrap();
         let built = build(points(7), &offsets, &corners, NonManifold::SplitAsGiven).unwrap();
@@ -167,11 +170,11 @@ fn crowded_vertices_are_paired_as_those_of_few_faces() {
 }
 
 #[test]
-fn edges_with_too_many_sides_are_the_ones_that_are_listed() {
+fn the_report_lists_exactly_the_non_manifold_edges() {
     let mut random = Random(3);
     for round in 0..300 {
-        // Few enough that edges with one side, two and more all come.
-        let polygons = random.soup(5, if round % 3 == 0 { 100 } else { 10 });
+        // So few polygons that there are edges with one side, with two and with more.
+        let polygons = random.polygons(5, if round % 3 == 0 { 100 } else { 10 });
         let polygons: Vec<_> = polygons.into_iter().filter(|p| p.len() == 3).collect();
         let mut counts: BTreeMap<[u32; 2], [usize; 2]> = BTreeMap::new();
         for p in polygons
@@ -182,20 +185,20 @@ fn edges_with_too_many_sides_are_the_ones_that_are_listed() {
                 counts.entry([a.min(b), a.max(b)]).or_default()[usize::from(a < b)] += 1;
             }
         }
-        let crowded = counts.iter().filter(|(_, [a, b])| a.max(b) > &1);
-        let crowded: Vec<_> = crowded
+        let non_manifold = counts.iter().filter(|(_, [a, b])| a.max(b) > &1);
+        let non_manifold: Vec<_> = non_manifold
             .map(|(edge, _)| edge.map(|v| VertexId::new(v as usize)))
             .collect();
         let (offsets, corners) = flatten(&polygons).unwrap();
         let built = build(points(5), &offsets, &corners, NonManifold::SplitAsGiven).unwrap();
-        assert_eq!(built.report.split_edges, crowded, "{polygons:?}");
+        assert_eq!(built.report.split_edges, non_manifold, "{polygons:?}");
     }
 }
 
 #[test]
-fn the_same_arrays_come_of_any_number_of_threads() {
+fn the_result_does_not_depend_on_the_number_of_threads() {
     let mut random = Random(4);
-    let mut polygons: Vec<Vec<u32>> = random.soup(30_000, 60_000);
+    let mut polygons: Vec<Vec<u32>> = random.polygons(30_000, 60_000);
     polygons.extend((0..20_000).map(|i| vec![i, i + 1, i + 2]));
     let (offsets, corners) = flatten(&polygons).unwrap();
     let with = |threads: usize| {

@@ -1,10 +1,10 @@
-//! Polygons that do not agree which way round they run.
+//! Tests with polygons of inconsistent orientation.
 
 use super::oracle::Random;
 use super::*;
 use crate::{VertexId, shapes};
 
-/// Turns each listed polygon round, its first corner staying the first.
+/// Reverses each listed polygon; its first corner stays the first.
 fn reversed(offsets: &[u32], corners: &[u32], faces: &[usize]) -> Vec<u32> {
     let mut corners = corners.to_vec();
     for &f in faces {
@@ -13,8 +13,8 @@ fn reversed(offsets: &[u32], corners: &[u32], faces: &[usize]) -> Vec<u32> {
     corners
 }
 
-/// Checks where corners and sides went.
-fn check_maps(offsets: &[u32], corners: &[u32], built: &Built) {
+/// Checks that the maps of the result name the half-edges and edges of the corners and sides.
+fn check_maps(offsets: &[u32], corners: &[u32], built: &BuildOutput) {
     let edges = built.edges_of_sides(offsets);
     for (f, w) in offsets.windows(2).enumerate() {
         let polygon = w[0] as usize..w[1] as usize;
@@ -26,23 +26,24 @@ fn check_maps(offsets: &[u32], corners: &[u32], built: &Built) {
             };
             let h = built.half_edge_of_corner[c];
             assert_eq!(built.mesh.face(h), Some(built.face_of_polygon[f]));
-            let at = built.mesh.position(built.mesh.origin(h));
-            assert_eq!(at, built.mesh.position(VertexId::new(corners[c] as usize)));
+            let origin = built.mesh.position(built.mesh.origin(h));
+            let expected = built.mesh.position(VertexId::new(corners[c] as usize));
+            assert_eq!(origin, expected);
             let mut ends = built
                 .mesh
                 .edge_vertices(edges[c])
                 .map(|v| built.mesh.position(v));
-            if ends[0] != at {
+            if ends[0] != origin {
                 ends.reverse();
             }
-            let other = built.mesh.position(VertexId::new(corners[next] as usize));
-            assert_eq!(ends, [at, other]);
+            let target = built.mesh.position(VertexId::new(corners[next] as usize));
+            assert_eq!(ends, [origin, target]);
         }
     }
 }
 
 #[test]
-fn of_two_triangles_that_run_the_same_way_the_second_is_turned() {
+fn the_second_of_two_inconsistent_triangles_is_reversed() {
     let (mesh, report) = mesh(4, &[&[0, 1, 2], &[0, 1, 3]]);
     assert_eq!(report.reversed_faces, [1]);
     assert_eq!(
@@ -55,7 +56,7 @@ fn of_two_triangles_that_run_the_same_way_the_second_is_turned() {
 }
 
 #[test]
-fn turned_faces_of_any_shape_are_turned_back() {
+fn reversed_faces_of_any_shape_are_restored() {
     let mut random = Random(7);
     let shapes = [
         shapes::cube(),
@@ -76,27 +77,28 @@ fn turned_faces_of_any_shape_are_turned_back() {
         let original = build(&corners);
         assert!(original.report.is_clean());
         for share in [20, 3, 2, 1] {
-            let turned: Vec<usize> = (0..n)
+            let flipped: Vec<usize> = (0..n)
                 .filter(|_| random.below(share.max(2)) == 0 || share == 1)
                 .collect();
-            let given = reversed(&offsets, &corners, &turned);
-            let built = build(&given);
+            let input = reversed(&offsets, &corners, &flipped);
+            let built = build(&input);
             assert_eq!(built.mesh.defects(), []);
-            check_maps(&offsets, &given, &built);
+            check_maps(&offsets, &input, &built);
 
-            // All are in one part: the majority stays as it is given, and so does face 0 in a draw.
-            let others: Vec<usize> = (0..n).filter(|f| !turned.contains(f)).collect();
-            let few = turned.len() < others.len() || turned.len() == others.len() && others[0] == 0;
-            let (expected, whole) = if few {
-                (turned, corners.clone())
+            // All faces are in one part: the majority keeps its orientation; in a tie, face 0 keeps it.
+            let unflipped: Vec<usize> = (0..n).filter(|f| !flipped.contains(f)).collect();
+            let flipped_are_minority = flipped.len() < unflipped.len()
+                || flipped.len() == unflipped.len() && unflipped[0] == 0;
+            let (expected, expected_corners) = if flipped_are_minority {
+                (flipped, corners.clone())
             } else {
                 (
-                    others,
+                    unflipped,
                     reversed(&offsets, &corners, &(0..n).collect::<Vec<_>>()),
                 )
             };
             assert_eq!(built.report.reversed_faces, expected);
-            assert_eq!(built.mesh, build(&whole).mesh);
+            assert_eq!(built.mesh, build(&expected_corners).mesh);
             assert_eq!(built.report.is_clean(), expected.is_empty());
             assert!(built.report.split_edges.is_empty() && built.report.split_vertices.is_empty());
         }
@@ -104,15 +106,15 @@ fn turned_faces_of_any_shape_are_turned_back() {
 }
 
 #[test]
-fn half_of_the_faces_are_turned_as_the_first_one_runs() {
-    // A strip of four triangles, of which the first two run the other way.
+fn in_a_tie_the_orientation_of_the_first_face_is_kept() {
+    // A strip of four triangles; the first two have the opposite orientation of the last two.
     let strip: [&[u32]; 4] = [&[0, 2, 1], &[1, 2, 3], &[2, 3, 4], &[3, 5, 4]];
     let (_, report) = mesh(6, &strip);
     assert_eq!(report.reversed_faces, [2, 3]);
 }
 
 #[test]
-fn a_moebius_strip_stays_as_it_is_and_is_split() {
+fn a_moebius_strip_is_not_reversed_but_split() {
     // Quadrilaterals around a ring, with a half turn at the end.
     let n = 8;
     let strip: Vec<Vec<u32>> = (0..n)
@@ -126,7 +128,8 @@ fn a_moebius_strip_stays_as_it_is_and_is_split() {
         })
         .collect();
     let (offsets, corners) = flatten(&strip).unwrap();
-    let built = |way| build(points(2 * n as usize), &offsets, &corners, way).unwrap();
+    let built =
+        |non_manifold| build(points(2 * n as usize), &offsets, &corners, non_manifold).unwrap();
     let strip = built(NonManifold::Split);
     assert_eq!(strip.mesh.defects(), []);
     assert_eq!(strip.report.unorientable, [0]);
@@ -144,8 +147,8 @@ fn a_moebius_strip_stays_as_it_is_and_is_split() {
 }
 
 #[test]
-fn each_part_follows_its_own_majority() {
-    // The second tetrahedron has three faces turned, the first one.
+fn the_majority_of_each_part_decides() {
+    // One face of the first tetrahedron and three faces of the second are reversed.
     let (offsets, corners) = polygons_of(&shapes::tetrahedron());
     let one = reversed(&offsets, &corners, &[2]);
     let three = reversed(&offsets, &corners, &[0, 1, 3]);
@@ -162,8 +165,8 @@ fn each_part_follows_its_own_majority() {
 }
 
 #[test]
-fn an_edge_of_three_faces_joins_no_parts() {
-    // Three wings of two triangles each at the edge 0-1; the outer triangle of the second is turned.
+fn an_edge_with_three_faces_does_not_connect_parts() {
+    // Three wings of two triangles each at the edge 0-1; the outer triangle of the second is reversed.
     let wings: [&[u32]; 6] = [
         &[0, 1, 2],
         &[2, 1, 3], // first
@@ -183,7 +186,7 @@ fn an_edge_of_three_faces_joins_no_parts() {
 }
 
 #[test]
-fn faces_are_numbered_as_in_the_input_though_others_were_left_out() {
+fn reports_use_the_face_numbers_of_the_input_even_if_faces_were_dropped() {
     let corners = [0, 0, 1, 0, 1, 2, 0, 1, 3, 1, 2];
     let offsets = [0, 3, 6, 9, 11];
     let built = build(points(4), &offsets, &corners, NonManifold::Split).unwrap();
@@ -191,7 +194,7 @@ fn faces_are_numbered_as_in_the_input_though_others_were_left_out() {
     assert_eq!(built.report.reversed_faces, [2]);
     let edges = built.edges_of_sides(&offsets);
     assert_eq!(edges[0], EdgeId::NONE);
-    // The side from 0 to 1, seen from both polygons.
+    // The side from 0 to 1 in both polygons.
     assert_eq!(edges[3], edges[6]);
     assert_ne!(
         built.half_edge_of_corner[3].edge(),

@@ -176,7 +176,7 @@ fn nothing_is_folded_onto_itself_or_emptied() {
 }
 
 #[test]
-fn a_neighbour_in_common_beyond_the_triangles_is_refused() {
+fn a_neighbor_in_common_beyond_the_triangles_is_refused() {
     // The waist of two tetrahedra that share a face, which is not there.
     let mesh = over(
         5,
@@ -194,8 +194,8 @@ fn a_neighbour_in_common_beyond_the_triangles_is_refused() {
 }
 
 #[test]
-fn a_neighbour_in_common_on_the_same_polygon_is_refused() {
-    // 2 is the neighbour of 1 on the square and of 0 beyond it.
+fn a_neighbor_in_common_on_the_same_polygon_is_refused() {
+    // 2 is the neighbor of 1 on the square and of 0 beyond it.
     let mesh = over(
         5,
         &[

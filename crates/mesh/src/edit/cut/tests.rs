@@ -198,8 +198,8 @@ fn what_is_named_twice_or_not_there_is_refused() {
     let mesh = shapes::cube();
     let [e, other] = [EdgeId::new(3), EdgeId::new(99)];
     let refused = |edges: &[EdgeId]| tried(&mesh, |m| m.cut_edges(edges)).unwrap_err();
-    assert_eq!(refused(&[]), EditError::Nothing);
-    assert_eq!(refused(&[e, e]), EditError::Twice(e));
+    assert_eq!(refused(&[]), EditError::NoElements);
+    assert_eq!(refused(&[e, e]), EditError::EdgeListedTwice(e));
     assert_eq!(refused(&[e, other]), EditError::NoSuchEdge(other));
 }
 

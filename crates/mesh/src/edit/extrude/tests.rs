@@ -328,8 +328,8 @@ fn bad_input_is_refused_and_changes_nothing() {
         reason
     };
     let (f, missing) = (FaceId::new(2), FaceId::new(6));
-    assert_eq!(refused(&[], DVec3::Z), EditError::Nothing);
-    assert_eq!(refused(&[f, f], DVec3::Z), EditError::TwiceFace(f));
+    assert_eq!(refused(&[], DVec3::Z), EditError::NoElements);
+    assert_eq!(refused(&[f, f], DVec3::Z), EditError::FaceListedTwice(f));
     assert_eq!(
         refused(&[f, missing], DVec3::Z),
         EditError::NoSuchFace(missing)

@@ -171,7 +171,7 @@ fn what_would_not_be_clean_is_refused() {
     let refused = |mesh: &Mesh, h, g| tried(mesh, |m| m.stitch_edges(h, g)).expect_err("a refusal");
     let mesh = two_squares();
     let h = rim(&mesh, 2, 1);
-    assert_eq!(refused(&mesh, h, h), EditError::Twice(h.edge()));
+    assert_eq!(refused(&mesh, h, h), EditError::EdgeListedTwice(h.edge()));
     let inner = h.twin();
     let not = EditError::NotBoundary(h.edge());
     assert_eq!(refused(&mesh, h, inner), not);

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use glam::{DAffine3, DVec3};
 use mesh::{
-    Attribute, Attributes, BuildError, BuildOutput, CORNER_NORMAL, Column, Domain, Elements, HalfEdgeId,
-    Id, Mesh, Rule, Value, Values, VertexId,
+    Attribute, Attributes, BuildError, BuildOutput, CORNER_NORMAL, Column, Domain, Elements,
+    HalfEdgeId, Id, Mesh, Rule, Value, Values, VertexId,
 };
 use scene::Material;
 
@@ -156,8 +156,9 @@ impl Polygons {
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")
                 && vertices.column(Domain::Vertex, &column.name).is_none()
-                && let Some(values) =
-                    agreed(&built.mesh, &column.values, |a, b| column.values.are_equal(a, b))
+                && let Some(values) = agreed(&built.mesh, &column.values, |a, b| {
+                    column.values.are_equal(a, b)
+                })
             {
                 (domain, column.values) = (Domain::Vertex, values);
             }

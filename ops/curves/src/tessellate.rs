@@ -14,7 +14,7 @@
 use std::sync::Arc;
 
 use bezier::{BezierError, Patch, Tessellation, counts, tessellate_patch};
-use mesh::{BuildReport, BuildOutput, DVec2, DVec3, Domain, NonManifold, UV, VERTEX_NORMAL};
+use mesh::{BuildOutput, BuildReport, DVec2, DVec3, Domain, NonManifold, UV, VERTEX_NORMAL};
 use op::prelude::*;
 use op::{Operation, TargetKind, target_names};
 use scene::Geometry;

@@ -15,7 +15,7 @@ mod cluster;
 mod union_find;
 
 use mesh::{
-    BuildError, BuildReport, BuildOutput, CORNER_NORMAL, Domain, EdgeId, FaceId, HalfEdgeId, Mesh,
+    BuildError, BuildOutput, BuildReport, CORNER_NORMAL, Domain, EdgeId, FaceId, HalfEdgeId, Mesh,
     NonManifold, Sources, VERTEX_NORMAL, VertexId, build,
 };
 use progress::{Cancelled, Progress};

@@ -11,40 +11,41 @@ use crate::masks::AnyMasks;
 use crate::parallel::computed;
 use crate::rules::{FaceVarying, Rules};
 use crate::sharpness::{Sharpness, decreased};
-use crate::topology::{Place, Topology, linear, linear_value};
+use crate::topology::{Place, Topology, add_linear, linear_value};
 
-/// Where the values of the next level come from.
-pub(crate) struct From<'a> {
+/// The sources of the attributes of the next level: the old mesh and its correspondence to the next level.
+pub(crate) struct AttributeSources<'a> {
     pub(crate) mesh: &'a Mesh,
     /// The next level, without attributes.
     pub(crate) finer: &'a Mesh,
     pub(crate) topology: &'a dyn Topology,
     pub(crate) masks: &'a dyn AnyMasks,
-    /// How creases fade; `None` hands their numbers on.
+    /// How sharpness decreases. `None` copies sharpness unchanged.
     pub(crate) sharpness: Option<Sharpness<'a>>,
     pub(crate) rules: Rules,
 }
 
-/// Whether the next level has this column too.
+/// Whether subdivision keeps this column.
 pub(crate) fn is_carried(column: &Column) -> bool {
     matches!(column.rule, Rule::Interpolate | Rule::Copy)
 }
 
-impl From<'_> {
-    /// The columns of the next level, by their rules:
+impl AttributeSources<'_> {
+    /// Computes the columns of the next level:
     ///
-    /// - vertices: [`Rule::Interpolate`] with the masks of the positions; [`Rule::Copy`] keeps the values
-    ///   of old vertices, new ones have zero;
-    /// - corners: likewise, by the choice of [`FaceVarying`], each piece between seams by itself;
-    /// - edges: parts of an old one as that, others zero;
-    /// - faces: parts of an old one as that.
+    /// - Vertices: [`Rule::Interpolate`] uses the masks of the positions. [`Rule::Copy`] keeps the values of
+    ///   old vertices, and new vertices have zero.
+    /// - Corners: [`Rule::Interpolate`] follows [`FaceVarying`], each piece between seams separately.
+    ///   [`Rule::Copy`] is as for vertices.
+    /// - Edges: parts of an old edge copy its value, other edges have zero.
+    /// - Faces: parts of an old face copy its value.
     ///
-    /// Columns of [`Rule::Normal`] and [`Rule::Drop`] are left out. Sharpness fades.
+    /// Columns with [`Rule::Normal`] or [`Rule::Drop`] are dropped. Sharpness decreases.
     pub(crate) fn attributes(&self, meter: &Meter) -> Result<Attributes, Cancelled> {
         let mut new = Attributes::default();
         let columns = self.mesh.attributes().iter();
         for (domain, column) in columns.filter(|(_, c)| is_carried(c)) {
-            // Asks whether to go on.
+            // Checks for cancellation.
             meter.add(0)?;
             let n = self.finer.domain_len(domain);
             let values = match domain {
@@ -64,7 +65,7 @@ impl From<'_> {
             return match (&self.sharpness, &column.values) {
                 (Some(_), Values::Float(old)) if column.name == VERTEX_SHARPNESS.name => {
                     let fade = |i: usize| match old.get(i) {
-                        Some(&s) if self.topology.moves(i) => decreased(s.max(0.0)),
+                        Some(&s) if self.topology.smooths_vertex(i) => decreased(s.max(0.0)),
                         other => other.copied().unwrap_or_default(),
                     };
                     Ok(f64::wrap(computed(n, meter, fade)?))
@@ -77,7 +78,7 @@ impl From<'_> {
         let Some(old) = to_vec4s(&column.values) else {
             return Ok(column.values.blend(n, |i, add| self.masks.mask(i, add)));
         };
-        // All as vectors of three numbers, so that masks are compiled for these only.
+        // All values are converted to 3D vectors, so that masks are compiled for one type only.
         let smoothed = |part: fn(&DVec4) -> DVec3| {
             let old: Vec<DVec3> = old.iter().map(part).collect();
             self.masks.values(n, &old, meter)
@@ -91,14 +92,14 @@ impl From<'_> {
                 new.w = last.x;
             }
         }
-        Ok(of_vec4s(&column.values, new))
+        Ok(from_vec4s(&column.values, new))
     }
 
     fn edge_values(&self, column: &Column, n: usize, meter: &Meter) -> Result<Values, Cancelled> {
         match (&self.sharpness, &column.values) {
             (Some(sharpness), Values::Float(old)) if column.name == CREASE.name => {
                 let fade = |i: usize| match self.topology.half(i) {
-                    Some(h) if self.topology.smooths(h.edge()) => sharpness.next_of_half(h),
+                    Some(h) if self.topology.smooths_edge(h.edge()) => sharpness.next_of_half(h),
                     other => other.map_or(0.0, |h| old[h.edge().index()]),
                 };
                 Ok(f64::wrap(computed(n, meter, fade)?))
@@ -119,11 +120,11 @@ impl From<'_> {
             && let Some(old) = to_vec4s(&column.values)
         {
             let new = self.smooth_corners(sharpness, &old, n, meter)?;
-            return Ok(of_vec4s(&column.values, new));
+            return Ok(from_vec4s(&column.values, new));
         }
         Ok(column
             .values
-            .blend(n, |i, add| linear(self.mesh, self.corner(i), add)))
+            .blend(n, |i, add| add_linear(self.mesh, self.corner(i), add)))
     }
 
     fn corner(&self, i: usize) -> Place {
@@ -139,8 +140,8 @@ impl From<'_> {
     ) -> Result<Vec<DVec4>, Cancelled> {
         let field = Field::new(self.mesh, sharpness, self.rules, old, meter)?;
         let is_smoothed = |place| match place {
-            Place::At(h) => self.topology.moves(self.mesh.origin(h).index()),
-            Place::On(h) => self.topology.smooths(h.edge()),
+            Place::At(h) => self.topology.smooths_vertex(self.mesh.origin(h).index()),
+            Place::On(h) => self.topology.smooths_edge(h.edge()),
             _ => true,
         };
         computed(n, meter, |i| {
@@ -154,8 +155,8 @@ impl From<'_> {
     }
 }
 
-/// The values as vectors of four numbers, so that what smooths them is compiled for these only; `None` if
-/// they have no means.
+/// Converts values to 4D vectors, so that smoothing is compiled for one type only. Returns `None` for integers
+/// and tags, which cannot be averaged.
 fn to_vec4s(values: &Values) -> Option<Vec<DVec4>> {
     Some(match values {
         Values::Float(v) => v.iter().map(|&x| DVec4::new(x, 0.0, 0.0, 0.0)).collect(),
@@ -166,8 +167,8 @@ fn to_vec4s(values: &Values) -> Option<Vec<DVec4>> {
     })
 }
 
-/// Values of the kind of `like`, the inverse of [`to_vec4s`].
-fn of_vec4s(like: &Values, new: Vec<DVec4>) -> Values {
+/// Converts 4D vectors to values of the type of `like`: the inverse of [`to_vec4s`].
+fn from_vec4s(like: &Values, new: Vec<DVec4>) -> Values {
     let new = new.into_iter();
     match like {
         Values::Float(_) => f64::wrap(new.map(|v| v.x).collect()),
@@ -177,7 +178,7 @@ fn of_vec4s(like: &Values, new: Vec<DVec4>) -> Values {
     }
 }
 
-/// [`Values::gather`], compiled once.
+/// Calls [`Values::gather`] with a `dyn` closure, so that it is compiled once.
 pub(crate) fn gathered(
     column: &Column,
     n: usize,

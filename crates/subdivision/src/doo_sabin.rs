@@ -1,10 +1,10 @@
-//! The connectivity of Doo-Sabin subdivision, where every corner becomes a vertex, and every face, edge and
-//! vertex a face.
+//! The connectivity of Doo-Sabin subdivision: every corner becomes a vertex, and every face, edge and vertex
+//! becomes a face.
 //!
-//! Half-edge h runs from a to b with face f; its twin t has face g. The corner at the origin of h becomes
-//! vertex h. On the boundary side of an edge two points on the edge stand for the missing corners: where h
-//! has no face, vertex h lies near a, and near b is vertex 2E + (rank of h among those without a face).
-//! Write p(h) and q(h) for the new vertices beside h near a and near b:
+//! Half-edge h runs from a to b and has face f; its twin t has face g. The corner at the origin of h becomes
+//! vertex h. If h has no face, two points on the edge replace the missing corners: vertex h near a, and vertex
+//! 2E + (rank of h among the half-edges without a face) near b. Write p(h) and q(h) for the new vertices beside
+//! h, near a and near b:
 //!
 //! ```text
 //!                  |         f         |             along(h)  = 2h, from p(h) to q(h), in face f
@@ -22,43 +22,44 @@
 //!
 //! (h itself runs from left to right, from a to b, in the middle of face F + e.)
 //!
-//! At a vertex of the boundary, from which h leaves along it, the half-edge join(h) from p(h) to
-//! q(prev(h)) closes its face; the twin of join(h) is on the boundary, between along(prev(h)) and along(h).
-//! These edges follow the others in the order of h.
+//! At a boundary vertex, whose outgoing boundary half-edge is h, the half-edge join(h) from p(h) to q(prev(h))
+//! closes the face of the vertex. The twin of join(h) is on the boundary, between along(prev(h)) and along(h).
+//! These edges come after all other edges, in order of h.
 //!
-//! Face f stays f, edge e becomes face F + e, and faces of vertices follow in the order of these. An isolated
-//! vertex has none; it stays, behind all other vertices. An inner vertex with two edges h and k has none
-//! either, because it would have two corners: both sides are one edge, across(h) for the lower of h and k,
-//! whose twin is across(k), and the edges that follow have lower numbers by as many.
+//! Face f keeps its number, edge e becomes face F + e, and the faces of vertices follow in order of the
+//! vertices. An isolated vertex has no face; it is kept, after all other vertices. An inner vertex of valence 2
+//! has no face either, because the face would have two corners. Its outgoing half-edges h and k share one edge:
+//! across(h) if h is lower than k, and across(k) is its twin. So each such vertex lowers the numbers of the
+//! edges after it by one.
 
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
 
-use crate::chosen::Chosen;
 use crate::links::{self, Link, Links};
-use crate::size::has_two_edges_inside;
-use crate::topology::{Place, Topology, near};
+use crate::size::is_inner_of_valence_2;
+use crate::subset::Subset;
+use crate::topology::{Place, Topology, place_near_origin};
 
-/// A dense mesh whose corners, edges and vertices are cut off.
+/// A dense mesh, with the subsets of elements that need special treatment.
 pub(crate) struct DooSabin<'a> {
     pub(crate) mesh: &'a Mesh,
     n_edges: usize,
     n_faces: usize,
     /// The half-edges without a face.
-    outer: Chosen,
-    /// The vertices without an edge.
-    isolated: Chosen,
-    /// The vertices that become no face.
-    faceless: Chosen,
-    /// At inner vertices with two edges, the higher of the half-edges that leave.
-    doubled: Chosen,
+    outer: Subset,
+    /// The isolated vertices.
+    isolated: Subset,
+    /// The vertices that do not become faces: isolated vertices and inner vertices of valence 2.
+    faceless: Subset,
+    /// The higher of the two outgoing half-edges of each inner vertex of valence 2.
+    doubled: Subset,
 }
 
-/// What new vertex `i` lies at.
+/// The old element to which a new vertex belongs.
 pub(crate) enum Source {
     /// The corner at the origin of this half-edge.
     Corner(HalfEdgeId),
-    /// This half-edge without a face, near its origin.
+    /// A point near the origin of this half-edge, on a boundary edge.
     Near(HalfEdgeId),
     /// An isolated vertex.
     Isolated(VertexId),
@@ -69,24 +70,24 @@ impl<'a> DooSabin<'a> {
         let isolated = |i| mesh.vertex_half_edge(VertexId::new(i)).is_none();
         let doubled = |i| {
             let h = HalfEdgeId::new(i);
-            mesh.next(h.twin()) < h && has_two_edges_inside(mesh, mesh.origin(h))
+            mesh.next(h.twin()) < h && is_inner_of_valence_2(mesh, mesh.origin(h))
         };
         Self {
             mesh,
             n_edges: mesh.n_edges(),
             n_faces: mesh.n_faces(),
-            outer: Chosen::of(mesh.n_half_edges(), |i| {
+            outer: Subset::of(mesh.n_half_edges(), |i| {
                 mesh.face(HalfEdgeId::new(i)).is_none()
             }),
-            isolated: Chosen::of(mesh.n_vertices(), isolated),
-            faceless: Chosen::of(mesh.n_vertices(), |i| {
-                isolated(i) || has_two_edges_inside(mesh, VertexId::new(i))
+            isolated: Subset::of(mesh.n_vertices(), isolated),
+            faceless: Subset::of(mesh.n_vertices(), |i| {
+                isolated(i) || is_inner_of_valence_2(mesh, VertexId::new(i))
             }),
-            doubled: Chosen::of(mesh.n_half_edges(), doubled),
+            doubled: Subset::of(mesh.n_half_edges(), doubled),
         }
     }
 
-    /// Where new vertex `i` lies.
+    /// Returns the old element to which new vertex `i` belongs.
     #[inline]
     pub(crate) fn source(&self, i: usize) -> Source {
         let (corners, ends) = (2 * self.n_edges, self.outer.len());
@@ -98,14 +99,14 @@ impl<'a> DooSabin<'a> {
                 Source::Near(h)
             }
         } else if i < corners + ends {
-            // Near the target, which is the origin of the twin.
-            Source::Near(HalfEdgeId::new(self.outer.at(i - corners)).twin())
+            // The point near the target is the point near the origin of the twin.
+            Source::Near(HalfEdgeId::new(self.outer.nth(i - corners)).twin())
         } else {
-            Source::Isolated(VertexId::new(self.isolated.at(i - corners - ends)))
+            Source::Isolated(VertexId::new(self.isolated.nth(i - corners - ends)))
         }
     }
 
-    /// The new vertex beside `h` near its target.
+    /// Returns q(h): the new vertex beside `h`, near its target.
     #[inline]
     fn q(&self, h: HalfEdgeId) -> VertexId {
         if self.mesh.face(h).is_some() {
@@ -120,7 +121,7 @@ impl<'a> DooSabin<'a> {
         if self.doubled.contains(h.index()) {
             return self.across(self.mesh.next(h.twin())).twin();
         }
-        HalfEdgeId::new(4 * self.n_edges + 2 * self.doubled.rank_of_other(h.index()))
+        HalfEdgeId::new(4 * self.n_edges + 2 * self.doubled.rank_outside(h.index()))
     }
 
     #[inline]
@@ -128,7 +129,7 @@ impl<'a> DooSabin<'a> {
         HalfEdgeId::new(2 * (self.first_join() + self.outer.below(h.index())))
     }
 
-    /// The number of the first edge that joins points of the boundary.
+    /// The number of the first of the edges join(h).
     fn first_join(&self) -> usize {
         4 * self.n_edges - self.doubled.len()
     }
@@ -140,10 +141,10 @@ impl<'a> DooSabin<'a> {
 
     #[inline]
     fn vertex_face(&self, v: VertexId) -> FaceId {
-        FaceId::new(self.n_faces + self.n_edges + self.faceless.rank_of_other(v.index()))
+        FaceId::new(self.n_faces + self.n_edges + self.faceless.rank_outside(v.index()))
     }
 
-    /// The twin of the half-edge across that comes after `h` counter-clockwise around its origin.
+    /// Returns the twin of across(k), where k comes after `h` counter-clockwise around its origin.
     #[inline]
     fn after(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.across(self.mesh.prev(h).twin()).twin()
@@ -185,7 +186,7 @@ impl<'a> DooSabin<'a> {
     }
 }
 
-/// The new vertex beside `h` near its origin.
+/// Returns p(h): the new vertex beside `h`, near its origin.
 #[inline]
 fn p(h: HalfEdgeId) -> VertexId {
     VertexId::new(h.index())
@@ -210,9 +211,11 @@ impl Links for DooSabin<'_> {
         if i < 2 * self.n_edges {
             self.edge_along(HalfEdgeId::new(i))
         } else if i < self.first_join() {
-            self.edge_across(HalfEdgeId::new(self.doubled.other(i - 2 * self.n_edges)))
+            self.edge_across(HalfEdgeId::new(
+                self.doubled.nth_outside(i - 2 * self.n_edges),
+            ))
         } else {
-            self.edge_join(HalfEdgeId::new(self.outer.at(i - self.first_join())))
+            self.edge_join(HalfEdgeId::new(self.outer.nth(i - self.first_join())))
         }
     }
 
@@ -222,7 +225,7 @@ impl Links for DooSabin<'_> {
         if i < corners {
             along(HalfEdgeId::new(i))
         } else if i < corners + self.outer.len() {
-            let h = HalfEdgeId::new(self.outer.at(i - corners));
+            let h = HalfEdgeId::new(self.outer.nth(i - corners));
             self.join(self.mesh.next(h)).twin()
         } else {
             HalfEdgeId::NONE
@@ -236,7 +239,7 @@ impl Links for DooSabin<'_> {
         let Some(i) = i.checked_sub(self.n_edges) else {
             return along(EdgeId::new(i).half_edge()).twin();
         };
-        let v = VertexId::new(self.faceless.other(i));
+        let v = VertexId::new(self.faceless.nth_outside(i));
         let h = self.mesh.vertex_half_edge(v);
         self.across(h.expect("a vertex with a face has an edge"))
             .twin()
@@ -251,8 +254,8 @@ impl Topology for DooSabin<'_> {
     fn corner(&self, finer: &Connectivity, i: usize) -> Place {
         match self.source(finer.origin[i].index()) {
             _ if finer.face[i] == FaceId::NONE => Place::Outside,
-            Source::Corner(h) => Place::Pulled(h),
-            Source::Near(h) => near(self.mesh, h, 4),
+            Source::Corner(h) => Place::DooSabin(h),
+            Source::Near(h) => place_near_origin(self.mesh, h, 4),
             Source::Isolated(_) => Place::Outside,
         }
     }
@@ -278,7 +281,7 @@ impl Topology for DooSabin<'_> {
                 left.or(right)
             }
             Some(i) => {
-                let v = VertexId::new(self.faceless.other(i));
+                let v = VertexId::new(self.faceless.nth_outside(i));
                 self.mesh.vertex_faces(v).next()
             }
         };

@@ -1,4 +1,4 @@
-//! Why a mesh was not subdivided.
+//! The errors of subdivision.
 
 use mesh::FaceId;
 use progress::Cancelled;
@@ -6,34 +6,34 @@ use progress::Cancelled;
 use crate::rules::Scheme;
 use crate::size::TooLarge;
 
-/// Why a mesh was not subdivided.
+/// The reason why a mesh could not be subdivided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum SubdivisionError {
-    /// The scheme is for triangles, and a face has more corners.
+    /// The scheme takes triangles only, and a face has more than three corners.
     #[error("{} needs triangles, but {face} has {degree} corners", .scheme.name())]
     NotTriangle {
         /// The scheme.
         scheme: Scheme,
-        /// The first such face of the dense mesh.
+        /// The first face with more than three corners, in the compacted mesh.
         face: FaceId,
-        /// How many corners it has.
+        /// The number of corners of the face.
         degree: usize,
     },
-    /// The scheme subdivides whole meshes only.
-    #[error("{} cannot refine some of the faces only", .0.name())]
+    /// The scheme can only subdivide a whole mesh.
+    #[error("{} can only refine all faces, not a part of them", .0.name())]
     WholeMesh(Scheme),
-    /// The faces to refine were given for another number of faces.
-    #[error("expected a choice for each of {faces} faces, not {choices}")]
-    Choices {
-        /// How many faces the mesh has.
+    /// The list of faces to refine does not have one flag for each face of the mesh.
+    #[error("expected one flag for each of the {faces} faces, found {flags} flags")]
+    FlagCount {
+        /// The number of faces of the mesh.
         faces: usize,
-        /// How many choices there were.
-        choices: usize,
+        /// The number of flags that were given.
+        flags: usize,
     },
-    /// There are no limit masks for the scheme.
-    #[error("the limit of {} is not known", .0.name())]
+    /// No limit masks are implemented for the scheme.
+    #[error("the limit surface is not available for {}", .0.name())]
     NoLimit(Scheme),
-    /// The elements would outnumber the ids, or take more memory than allowed.
+    /// The result would have more elements than ids can number, or exceed the memory budget.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
     /// The progress listener asked to stop.

@@ -1,71 +1,72 @@
-//! Corner values, smoothed piece by piece: texture coordinates with seams.
+//! Smooths corner values, such as texture coordinates, piece by piece between seams.
 //!
-//! Around a vertex the corners that have one value are a piece, and the edges between pieces are seams. Inside
-//! a piece values are smoothed as positions are; along its border the piece is smoothed as along a boundary,
-//! by its own values alone, or is linear:
+//! A piece is the set of corners around a vertex that have the same value, and the edges between pieces are
+//! seams. Inside a piece values are smoothed as positions are. Along its border a piece is either smoothed as a
+//! boundary is, from its own values only, or stays linear:
 //!
 //! ```text
 //!            \   |   /                     a: the value at v in the upper piece becomes
 //!         ---- \ | / ----                     3/4 a + 1/8 (values at both ends of the seam, in this piece)
-//!         b ==== v ==== c    seam             or stays, where the choice says that v is a corner of it
+//!         b ==== v ==== c    seam             or stays, if v is a corner of the piece
 //!         ---- / | \ ----
 //!            /   |   \
 //! ```
 //!
-//! [`FaceVarying`] chooses what is a corner. The rules are OpenSubdiv's face-varying interpolation, taken
-//! anew on each level, so that two levels are one level twice. (OpenSubdiv decides once whether the
-//! sharpness of one of two pieces sharpens the other and hands the verdict on; where pieces, their seam or
-//! their vertex are semi-sharp by different numbers, that may differ for a level.)
+//! [`FaceVarying`] decides which vertices are corners of a piece. The rules are those of OpenSubdiv's
+//! face-varying interpolation, applied to each level on its own, so that computing two levels at once equals
+//! computing one level twice. (OpenSubdiv decides only once whether the sharpness of one of two pieces sharpens
+//! the other piece. If the pieces, their seam and their vertex have different semi-sharp values, the results
+//! can differ for a level.)
 
 use mesh::{DVec4, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
 
 use crate::parallel::computed;
 use crate::rules::{FaceVarying, Rules, Scheme};
-use crate::sharpness::{INFINITE, Sharpness, VertexRule, decreased, fading};
+use crate::sharpness::{INFINITE, Sharpness, VertexRule, decreased, fading_weight};
 use crate::topology::{Place, linear_value};
 
-/// A column of corner values that is smoothed.
+/// A column of corner values to be smoothed.
 pub(crate) struct Field<'a> {
     mesh: &'a Mesh,
     sharpness: Sharpness<'a>,
     scheme: Scheme,
-    choice: FaceVarying,
+    rule: FaceVarying,
     values: &'a [DVec4],
-    /// For each edge whether the values of its two sides differ at either end.
+    /// For each edge, whether the values on its two sides differ at one of its ends.
     seams: Vec<bool>,
 }
 
-/// Where pairs have the sharpness of this level, and that of the next.
+/// Indices into pairs of the sharpness on this level and on the next level.
 const NOW: usize = 0;
 const NEXT: usize = 1;
 
-/// What becomes of the value of a piece at a vertex.
+/// How the value of a piece at a vertex changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// It stays, on every level.
+    /// The value stays on every level.
     Corner,
-    /// It stays as long as an edge inside the piece, or the vertex, is sharp.
+    /// The value stays as long as an edge inside the piece, or the vertex, is sharp.
     SemiSharp,
-    /// It stays as long as an edge inside the other piece is sharp.
+    /// The value stays as long as an edge inside the other piece is sharp.
     Dependent,
-    /// It is smoothed along the border of the piece.
+    /// The value is smoothed along the border of the piece.
     Crease,
 }
 
-/// The corners around a vertex that have one value.
+/// The corners around a vertex that have the same value.
 struct Piece {
-    /// Counter-clockwise the first and the last of them.
+    /// The first and the last corner, counter-clockwise.
     ends: [HalfEdgeId; 2],
     size: usize,
-    /// Half-edges from the vertex along the edges inside.
+    /// The outgoing half-edges of the edges inside the piece.
     inside: Vec<HalfEdgeId>,
-    /// Whether it is not one run of corners without seams.
+    /// Whether the piece is not a single run of corners without seams.
     is_torn: bool,
 }
 
 /// The pieces around a vertex.
-struct Around {
+struct VertexPieces {
     vertex: VertexId,
     half_edge: HalfEdgeId,
     is_inner: bool,
@@ -90,13 +91,13 @@ impl<'a> Field<'a> {
             mesh,
             sharpness,
             scheme: rules.scheme,
-            choice: rules.face_varying,
+            rule: rules.face_varying,
             values,
             seams: computed(mesh.n_edges(), meter, is_seam)?,
         })
     }
 
-    /// The value of a corner of the next level.
+    /// Returns the value of a corner of the next level.
     pub(crate) fn value(&self, place: Place) -> DVec4 {
         match place {
             Place::At(h) => self.at(h),
@@ -106,7 +107,7 @@ impl<'a> Field<'a> {
         }
     }
 
-    /// The sharpness of an edge at the origin of `h`, on this level and the next.
+    /// Returns the sharpness of the edge of `h`, and of its part at the origin of `h` on the next level.
     fn edge_sharpness(&self, h: HalfEdgeId) -> [f64; 2] {
         [self.sharpness.edge(h.edge()), self.sharpness.of_half(h)]
     }
@@ -115,7 +116,7 @@ impl<'a> Field<'a> {
         self.values[h.index()]
     }
 
-    /// The value at the far end of a half-edge, in a face beside it.
+    /// Returns the value at the target of a half-edge, in its face or else in the face of its twin.
     fn far(&self, h: HalfEdgeId) -> DVec4 {
         if self.mesh.face(h).is_some() {
             self.of(self.mesh.next(h))
@@ -132,7 +133,7 @@ impl<'a> Field<'a> {
         sum * (1.0 / self.mesh.degree(f) as f64)
     }
 
-    /// The value in the middle of a half-edge, in its face.
+    /// Returns the new value in the middle of a half-edge, in its face.
     fn on(&self, h: HalfEdgeId) -> DVec4 {
         let e = h.edge();
         let sharp = if self.seams[e.index()] {
@@ -143,7 +144,7 @@ impl<'a> Field<'a> {
         if sharp >= 1.0 {
             return (self.of(h) + self.of(self.mesh.next(h))) * 0.5;
         }
-        // From both sides in one order, so that they get the same bits.
+        // Both sides sum in the same order, so that they get the same bits.
         let halves = e.half_edges();
         let ends = self.of(halves[0]) + self.of(self.mesh.next(halves[0]));
         let [smooth_end, sides] = if self.scheme == Scheme::CatmullClark {
@@ -158,7 +159,7 @@ impl<'a> Field<'a> {
         ends * (0.5 * sharp) + (smooth_end + sides) * (1.0 - sharp)
     }
 
-    /// The value at the origin of a half-edge, in its face.
+    /// Returns the new value at the origin of a half-edge, in its face.
     fn at(&self, h: HalfEdgeId) -> DVec4 {
         let v = self.mesh.origin(h);
         let start = self.mesh.vertex_half_edge(v).expect("a vertex of a face");
@@ -172,16 +173,16 @@ impl<'a> Field<'a> {
         self.pieces(v, start).value(self, h)
     }
 
-    /// Whether the values at a boundary vertex without seams do not move as positions do.
+    /// Whether the values at a boundary vertex without seams follow a different rule from positions.
     fn is_irregular_boundary(&self, v: VertexId, start: HalfEdgeId) -> bool {
-        match self.choice {
+        match self.rule {
             FaceVarying::None => false,
             FaceVarying::Boundaries => true,
             _ => self.mesh.valence(v) == 2 && self.sharpness.vertex(v, start) < INFINITE,
         }
     }
 
-    /// The value at a vertex around which there is one: smoothed as positions are.
+    /// Returns the new value at a vertex with a single piece, smoothed as positions are.
     fn regular(&self, v: VertexId, start: HalfEdgeId, own: DVec4) -> DVec4 {
         let blend = self.sharpness.at_vertex(v, start);
         let by_rule = |rule: VertexRule<HalfEdgeId>| match rule {
@@ -215,14 +216,14 @@ impl<'a> Field<'a> {
         own * ((n - 2.0) / n) + sum * (1.0 / (n * n))
     }
 
-    /// The pieces around a vertex.
-    fn pieces(&self, v: VertexId, start: HalfEdgeId) -> Around {
-        // Counter-clockwise; at the boundary from one end to the other.
+    /// Collects the pieces around a vertex.
+    fn pieces(&self, v: VertexId, start: HalfEdgeId) -> VertexPieces {
+        // Counter-clockwise; on the boundary from one boundary edge to the other.
         let corners = self.mesh.vertex_half_edges(v);
         let mut ring: Vec<HalfEdgeId> = corners.filter(|&h| self.mesh.face(h).is_some()).collect();
         ring.reverse();
         let is_inner = self.mesh.face(start).is_some();
-        // The edge of a corner lies between it and the one before.
+        // The edge of the half-edge of a corner lies between that corner and the corner before.
         let is_seam = |h: &HalfEdgeId| self.seams[h.edge().index()];
         let n_seams = ring.iter().filter(|h| is_seam(h)).count();
         let is_dart =
@@ -259,7 +260,7 @@ impl<'a> Field<'a> {
                 inside,
             });
         }
-        Around {
+        VertexPieces {
             vertex: v,
             half_edge: start,
             is_inner,
@@ -268,13 +269,13 @@ impl<'a> Field<'a> {
     }
 }
 
-impl Around {
-    /// The value of the corner of `h`.
+impl VertexPieces {
+    /// Returns the new value of the corner of `h`.
     fn value(&self, field: &Field, h: HalfEdgeId) -> DVec4 {
         let own = field.of(h);
         let is_own = |piece: &Piece| field.of(piece.ends[0]) == own;
         let Some(i) = self.pieces.iter().position(is_own) else {
-            return own; // It is no number.
+            return own; // The value is NaN.
         };
         let piece = &self.pieces[i];
         let crease = || {
@@ -300,9 +301,9 @@ impl Around {
         }
     }
 
-    /// The state of piece `i` by the sharpness of this level or of the next.
+    /// Returns the state of piece `i` by the sharpness on this level or on the next.
     fn state(&self, field: &Field, i: usize, when: usize) -> State {
-        let (choice, n) = (field.choice, self.pieces.len());
+        let (rule, n) = (field.rule, self.pieces.len());
         let own = self.sharpness(field)[when];
         let inside = |piece: &Piece, test: fn(f64) -> bool| {
             let mut edges = piece.inside.iter();
@@ -310,14 +311,11 @@ impl Around {
         };
         let is_hard = |piece: &Piece| inside(piece, |s| s >= INFINITE);
         let is_semi = |piece: &Piece| inside(piece, |s| s > 0.0 && s < INFINITE);
-        let is_plus = matches!(
-            choice,
-            FaceVarying::CornersPlus1 | FaceVarying::CornersPlus2
-        );
-        let is_plus_2 = choice == FaceVarying::CornersPlus2;
+        let is_plus = matches!(rule, FaceVarying::CornersPlus1 | FaceVarying::CornersPlus2);
+        let is_plus_2 = rule == FaceVarying::CornersPlus2;
         let any = |test: &dyn Fn(&Piece) -> bool| self.pieces.iter().any(test);
 
-        let all_are_corners = choice == FaceVarying::Boundaries
+        let all_are_corners = rule == FaceVarying::Boundaries
             || own >= INFINITE
             || is_plus && n > 2
             || is_plus && n == 2 && any(&|p| p.is_torn || is_hard(p))
@@ -327,7 +325,7 @@ impl Around {
         if all_are_corners
             || piece.is_torn
             || is_hard(piece)
-            || piece.size == 1 && choice != FaceVarying::None
+            || piece.size == 1 && rule != FaceVarying::None
         {
             State::Corner
         } else if own > 0.0 || is_semi(piece) {
@@ -339,16 +337,16 @@ impl Around {
         }
     }
 
-    /// The sharpness of the vertex, on this level and the next.
+    /// Returns the sharpness of the vertex on this level and on the next.
     fn sharpness(&self, field: &Field) -> [f64; 2] {
         let now = field.sharpness.vertex(self.vertex, self.half_edge);
         [now, decreased(now)]
     }
 
-    /// How much of this level's rule is left where a piece becomes smooth within the level: the mean of
-    /// the sharpness that ends.
+    /// Returns the weight of this level's rule if a piece becomes smooth within the level: the mean sharpness
+    /// of the elements that become smooth.
     fn weight(&self, field: &Field, piece: &Piece) -> f64 {
         let edges = piece.inside.iter().map(|&h| field.edge_sharpness(h));
-        fading(edges.chain([self.sharpness(field)]))
+        fading_weight(edges.chain([self.sharpness(field)]))
     }
 }

@@ -1,9 +1,10 @@
-//! Meshes of triangles for the tests.
+//! Triangle meshes for the tests.
 
 use geometry::shapes;
 use mesh::{DVec3, FaceId, Mesh, VertexId};
 
-/// Every kind of triangle mesh, with its name. No two neighborhoods are alike: positions are shaken.
+/// Returns a triangle mesh of every kind, with its name. Positions are jittered, so that no two neighborhoods
+/// are equal.
 pub(crate) fn all() -> Vec<(&'static str, Mesh)> {
     let fixtures = vec![
         ("nothing", Mesh::default()),
@@ -32,15 +33,18 @@ pub(crate) fn all() -> Vec<(&'static str, Mesh)> {
             ),
         ),
     ];
-    fixtures.into_iter().map(|(n, m)| (n, shaken(m))).collect()
+    fixtures
+        .into_iter()
+        .map(|(n, m)| (n, jittered(m)))
+        .collect()
 }
 
-/// A flat sheet of triangles with all diagonals one way: valence 6 inside.
+/// Returns a flat sheet of triangles with parallel diagonals, so that inner vertices have valence 6.
 pub(crate) fn sheet(columns: u32, rows: u32) -> Mesh {
     triangulated(&shapes::grid(columns, rows))
 }
 
-/// Every face cut into a fan around its first corner.
+/// Triangulates every face as a fan around its first corner.
 pub(crate) fn triangulated(mesh: &Mesh) -> Mesh {
     let mut triangles = Vec::new();
     for f in mesh.faces() {
@@ -52,8 +56,8 @@ pub(crate) fn triangulated(mesh: &Mesh) -> Mesh {
         .0
 }
 
-/// The faces as vertex numbers, each beginning with its lowest, in rising order: what two meshes have
-/// in common that differ in the numbers of edges and faces only.
+/// Returns the sorted list of faces as vertex numbers, each starting with its lowest. Equal for two meshes that
+/// differ only in the ids of edges and faces.
 pub(crate) fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
     let mut triangles: Vec<[u32; 3]> = mesh.faces().map(|f| corners(mesh, f)).collect();
     for t in &mut triangles {
@@ -65,32 +69,32 @@ pub(crate) fn triangles(mesh: &Mesh) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// The corners of a triangle, from its first half-edge.
+/// Returns the vertices of a triangle, from its first half-edge.
 pub(crate) fn corners(mesh: &Mesh, f: FaceId) -> [u32; 3] {
     let mut v = mesh.face_vertices(f).map(number);
     [(); 3].map(|()| v.next().unwrap())
 }
 
-/// The number of a vertex.
+/// Returns the number of a vertex.
 pub(crate) fn number(v: VertexId) -> u32 {
     u32::try_from(v.index()).unwrap()
 }
 
-/// Moves every vertex by up to a tenth in each direction, by its number.
-fn shaken(mut mesh: Mesh) -> Mesh {
+/// Moves every vertex by a pseudo-random vector that depends on its number, by at most 0.1 along each axis.
+fn jittered(mut mesh: Mesh) -> Mesh {
     for (i, p) in (1_u32..).zip(mesh.positions_mut()) {
-        let shake = |k: u32| f64::from(i.wrapping_mul(k) >> 8) / f64::from(1_u32 << 24) - 0.5;
+        let jitter = |k: u32| f64::from(i.wrapping_mul(k) >> 8) / f64::from(1_u32 << 24) - 0.5;
         *p += 0.2
             * DVec3::new(
-                shake(2_654_435_769),
-                shake(2_246_822_519),
-                shake(3_266_489_917),
+                jitter(2_654_435_769),
+                jitter(2_246_822_519),
+                jitter(3_266_489_917),
             );
     }
     mesh
 }
 
-/// A sheet without the middle square.
+/// Returns a sheet without its middle square.
 fn annulus() -> Mesh {
     let sheet = sheet(5, 5);
     let kept = sheet
@@ -103,7 +107,7 @@ fn annulus() -> Mesh {
         .0
 }
 
-/// Triangles over so many vertices on a spiral.
+/// Returns a mesh of the given triangles, over `n` vertices on a spiral.
 fn of(n: u32, triangles: &[[u32; 3]]) -> Mesh {
     let positions = (0..n)
         .map(|i| {

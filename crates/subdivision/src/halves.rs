@@ -1,7 +1,8 @@
 //! The two halves of every old edge, which most schemes make.
 //!
-//! New edges are numbered so that each new half-edge can be found without looking for it. An old edge e with
-//! halves h = 2e, from a to b, and its twin becomes edges 2e and 2e + 1 around the new vertex V + e:
+//! New edges are numbered so that the id of each new half-edge follows from the old ids without a search. Old
+//! edge e has the halves h = 2e, from a to b, and its twin. It becomes the edges 2e and 2e + 1 on both sides of
+//! the new vertex V + e:
 //!
 //! ```text
 //!            first(h) = 4e            second(h) = 4e + 2
@@ -13,12 +14,13 @@
 //!      first(h) = 2h + (h & 1)       second(h) = first(h) ^ 2
 //! ```
 //!
-//! An old vertex keeps the first part of its half-edge, which is on the boundary if that was. A new
-//! vertex leaves along the second part of a half, the boundary one if there is one.
+//! The half-edge of an old vertex becomes the first part of its old half-edge, which is on the boundary if the
+//! old half-edge was. The half-edge of a new vertex is the second part of one half of its edge: the boundary
+//! half if there is one.
 //!
-//! So one task for each old edge writes four half-edges and a vertex, and none reads what another writes.
-//! The idea is that of Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop Subdivision", 2022,
-//! for edges in pairs.
+//! So one task for each old edge writes four half-edges and a vertex, and no task reads what another task
+//! writes. The idea is from Vanhoey and Dupuy, "A Halfedge Refinement Rule for Parallel Loop Subdivision",
+//! 2022, adapted to half-edges stored in pairs.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -27,28 +29,28 @@ use crate::links::{self, Arrays, Entries};
 use crate::parallel::fill_uncounted;
 use crate::topology::Place;
 
-/// The part of half-edge `h` that leaves its origin.
+/// Returns the part of half-edge `h` that starts at its origin.
 #[inline]
 pub(crate) fn first(h: HalfEdgeId) -> HalfEdgeId {
     HalfEdgeId::new(2 * h.index() + (h.index() & 1))
 }
 
-/// The part of half-edge `h` that goes to its target.
+/// Returns the part of half-edge `h` that ends at its target.
 #[inline]
 pub(crate) fn second(h: HalfEdgeId) -> HalfEdgeId {
     HalfEdgeId::new(first(h).index() ^ 2)
 }
 
-/// The new vertex on the edge of `h`.
+/// Returns the new vertex on the edge of `h`.
 #[inline]
 pub(crate) fn on_edge(mesh: &Mesh, h: HalfEdgeId) -> VertexId {
     VertexId::new(mesh.n_vertices() + h.edge().index())
 }
 
-/// Where the corner of new half-edge `i` lies, which is a part of an old one.
+/// Returns the place of the corner of new half-edge `i`, which must be a part of an old half-edge.
 pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
-    // Of the four parts of an edge 0 and 2 belong to its first half, 1 and 3 to its second, and 0 and 3
-    // are the first parts.
+    // An edge has four parts: 0 and 2 belong to its first half, 1 and 3 to its second half. 0 and 3 are the
+    // first parts of their halves.
     let h = HalfEdgeId::new(i / 4 * 2 + i % 2);
     if mesh.face(h).is_none() {
         Place::Outside
@@ -59,24 +61,25 @@ pub(crate) fn place(mesh: &Mesh, i: usize) -> Place {
     }
 }
 
-/// What follows the first and the second part of a half-edge, and the faces of both.
-pub(crate) type Parts = ([HalfEdgeId; 2], [FaceId; 2]);
+/// The next half-edges and the faces of the first and the second part of a half-edge.
+pub(crate) type PartLinks = ([HalfEdgeId; 2], [FaceId; 2]);
 
-/// The arrays of the next level, to be filled behind the halves of old edges.
-pub(crate) struct Rest<'n> {
+/// The slices of the arrays of the next level that come after the elements made from old edges.
+pub(crate) struct AddedArrays<'n> {
     pub(crate) halves: Arrays<'n>,
-    /// Of the vertices behind those on old edges.
+    /// The half-edges of the vertices after those on old edges.
     pub(crate) vertex_half_edge: &'n mut [HalfEdgeId],
     pub(crate) face_half_edge: &'n mut [HalfEdgeId],
 }
 
-/// The connectivity of the next level: the halves of old edges, with what `parts` says of each half-edge,
-/// and behind them `edges` more edges, `vertices` more vertices and `faces` faces, which `rest` fills.
+/// Builds the connectivity of the next level. The parts of old edges come first; `parts` gives the links of
+/// each half-edge. After them come `edges` more edges, `vertices` more vertices and `faces` faces, which
+/// `fill_added` writes.
 pub(crate) fn split_edges(
     mesh: &Mesh,
     [vertices, edges, faces]: [usize; 3],
-    parts: impl Fn(HalfEdgeId) -> Parts + Sync,
-    rest: impl FnOnce(Rest) -> Result<(), Cancelled>,
+    parts: impl Fn(HalfEdgeId) -> PartLinks + Sync,
+    fill_added: impl FnOnce(AddedArrays) -> Result<(), Cancelled>,
     meter: &Meter,
 ) -> Result<Connectivity, Cancelled> {
     let (n_vertices, n_edges) = (mesh.n_vertices(), mesh.n_edges());
@@ -105,7 +108,7 @@ pub(crate) fn split_edges(
     fill_uncounted(kept, meter, |v| {
         old[v].some().map_or(HalfEdgeId::NONE, first)
     })?;
-    rest(Rest {
+    fill_added(AddedArrays {
         halves,
         vertex_half_edge,
         face_half_edge: &mut new.face_half_edge,
@@ -118,7 +121,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_four_parts_of_an_edge_are_its_four_half_edges() {
+    fn the_four_parts_of_an_edge_have_consecutive_ids() {
         let [h, twin] = mesh::EdgeId::new(5).half_edges();
         let parts = [first(h), second(twin), second(h), first(twin)];
         assert_eq!(parts.map(HalfEdgeId::index), [20, 21, 22, 23]);

@@ -1,4 +1,4 @@
-//! What a mesh must be before it is subdivided.
+//! Preparation and checks of the input mesh.
 
 use std::borrow::Cow;
 
@@ -8,7 +8,7 @@ use crate::error::SubdivisionError;
 use crate::parallel::any;
 use crate::rules::Scheme;
 
-/// The mesh without dead elements.
+/// Returns the mesh without dead elements; borrows it if it has none.
 pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     if mesh.is_dense() {
         return Cow::Borrowed(mesh);
@@ -18,18 +18,18 @@ pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     Cow::Owned(dense)
 }
 
-/// Checks that a scheme takes all faces of a dense mesh.
+/// Checks that a scheme can subdivide all faces of a dense mesh.
 ///
 /// # Errors
 ///
-/// [`SubdivisionError::NotTriangle`] with the first face that it does not take.
+/// [`SubdivisionError::NotTriangle`] with the first face that is not a triangle, if the scheme needs triangles.
 pub fn check_faces(mesh: &Mesh, scheme: Scheme) -> Result<(), SubdivisionError> {
     let is_polygon = |i: usize| !mesh.is_triangle(FaceId::new(i));
     if !scheme.needs_triangles() || !any(mesh.n_faces(), is_polygon) {
         return Ok(());
     }
     let first = (0..mesh.n_faces()).find(|&i| is_polygon(i));
-    let face = FaceId::new(first.expect("there is one"));
+    let face = FaceId::new(first.expect("a polygon was found above"));
     Err(SubdivisionError::NotTriangle {
         scheme,
         face,

@@ -1,4 +1,5 @@
-//! One level: the connectivity by a topology, the values at vertices by masks, the attributes by both.
+//! One level of subdivision: a topology computes the connectivity, masks compute the positions, and both
+//! together compute the attributes.
 
 use mesh::Mesh;
 use progress::{Cancelled, Meter};
@@ -13,7 +14,8 @@ use crate::sqrt3::Sqrt3;
 use crate::topology::Topology;
 use crate::triangles::Triangles;
 
-/// Level number `level` (from 0) of a dense mesh whose faces the scheme takes and whose next level fits.
+/// Computes one level of a dense mesh. `level` is its number, counted from 0. The caller has checked the faces
+/// and the size of the next level.
 pub(crate) fn finer(
     mesh: &Mesh,
     rules: Rules,
@@ -26,7 +28,7 @@ pub(crate) fn finer(
     })
 }
 
-/// Gives the topology and the masks of a level of a scheme to `visit`.
+/// Calls `visit` with the topology and the masks of one level.
 pub(crate) fn with_level<T>(
     mesh: &Mesh,
     rules: Rules,
@@ -57,7 +59,7 @@ pub(crate) fn with_level<T>(
     }
 }
 
-/// Gives the masks of a scheme that can refine some of the faces to `visit`.
+/// Calls `visit` with the masks of a scheme that supports local refinement (Loop, Catmull-Clark or Midpoint).
 pub(crate) fn with_masks<T>(
     mesh: &Mesh,
     rules: Rules,
@@ -75,7 +77,7 @@ pub(crate) fn with_masks<T>(
     }
 }
 
-/// The next level of a dense mesh.
+/// Builds the next level of a dense mesh: connectivity, positions and attributes.
 pub(crate) fn build(
     mesh: &Mesh,
     rules: Rules,
@@ -89,7 +91,7 @@ pub(crate) fn build(
     let positions = masks.values(n, mesh.positions(), meter)?;
     let mut finer = Mesh::from_arrays(connectivity, positions);
     if mesh.attributes().iter().next().is_some() {
-        let from = attributes::From {
+        let sources = attributes::AttributeSources {
             mesh,
             finer: &finer,
             topology,
@@ -97,7 +99,7 @@ pub(crate) fn build(
             sharpness: rules.scheme.has_creases().then_some(sharpness),
             rules,
         };
-        let attributes = from.attributes(meter)?;
+        let attributes = sources.attributes(meter)?;
         finer.set_attributes(attributes);
     }
     Ok(finer)

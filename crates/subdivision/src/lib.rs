@@ -1,8 +1,8 @@
-//! Subdivision surfaces: from a coarse mesh to ever finer ones.
+//! Subdivision surfaces: refine a coarse mesh into ever finer ones.
 //!
-//! Every level puts new vertices on edges and in faces, joins them to smaller faces, and, where the scheme
-//! is smooth, moves each vertex to a mean of those around it. [`Rules`] name the scheme and its choices;
-//! [`subdivide`] makes so many levels.
+//! Each level adds vertices on edges and in faces, connects them into smaller faces, and, if the scheme is
+//! smooth, moves each vertex to a weighted mean of its neighborhood. [`Rules`] hold the scheme and its options;
+//! [`subdivide`] computes the given number of levels.
 //!
 //! | scheme | faces become | old vertices | limit surface |
 //! | --- | --- | --- | --- |
@@ -11,16 +11,17 @@
 //! | [`Midpoint`](Scheme::Midpoint) | 4 triangles, or a quad for each corner | stay | the mesh itself |
 //! | [`Butterfly`](Scheme::Butterfly) | 4 triangles each | stay | smooth, through all vertices |
 //! | [`Sqrt3`](Scheme::Sqrt3) | 3 triangles each, turned | move | smooth |
-//! | [`DooSabin`](Scheme::DooSabin) | one, and one for each old edge and vertex | are cut off | smooth |
+//! | [`DooSabin`](Scheme::DooSabin) | one face each, plus one face for each old edge and vertex | are replaced by faces | smooth |
 //!
-//! A level is not a sequence of edits: its arrays are computed in closed form from the old ones, each
-//! element by itself, in parallel, with the same bytes for any number of threads. How the numbers of new
-//! elements follow from the old is written in the modules `halves`, `triangles`, `quads`, `doo_sabin` and
-//! `sqrt3`; the means are in `masks`, creases in `sharpness`.
+//! A level is not a sequence of edits. Its arrays are computed in closed form from the old arrays, each element
+//! independently and in parallel, and the result is the same bytes for any number of threads. The modules
+//! `halves`, `triangles`, `quads`, `doo_sabin` and `sqrt3` explain how the ids of new elements follow from the
+//! old ids. The weighted means are in `masks`, and creases are in `sharpness`.
 //!
 //! # Convergence
 //!
-//! [`limit`] says where the vertices go. The largest distance from a vertex to its limit, for Loop:
+//! [`limit`] computes the position to which each vertex converges. This is the largest distance from a vertex
+//! to its limit position, for Loop subdivision:
 //!
 //! ```text
 //! 1    |
@@ -46,8 +47,8 @@
 //!        0     1     2     3     4     5     6     7     8   level
 //! ```
 //!
-//! \+ is a torus of regular valence: what is left is quadratic in the length of edges, so each level divides
-//! it by 4. o is an icosahedron: around its vertices of valence 5 a level scales the surface, and at last
+//! `+` is a torus of regular valence: the distance is quadratic in the edge length, so each level divides it by
+//! 4. `o` is an icosahedron: around its vertices of valence 5, each level scales the surface, and eventually
 //! the distance too, by the subdominant eigenvalue 3/8 + cos(2π/5)/4 = 0.452.
 //!
 //! # Examples
@@ -66,7 +67,6 @@
 //! ```
 
 mod attributes;
-mod chosen;
 mod doo_sabin;
 mod error;
 mod face_varying;
@@ -84,6 +84,7 @@ mod rules;
 mod sharpness;
 mod size;
 mod sqrt3;
+mod subset;
 mod topology;
 mod triangles;
 mod whole;

@@ -1,4 +1,4 @@
-//! Connectivity that is written element by element: each is a function of its number and the old mesh.
+//! Writes connectivity arrays in parallel. Each element is a function of its number and the old mesh.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, VertexId};
 use progress::{Cancelled, Meter};
@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::parallel::{BLOCK, fill_uncounted};
 
-/// Half-edges to be written: the same part of three arrays.
+/// A range of half-edges to be written: the same slice of three arrays.
 pub(crate) struct Arrays<'n> {
     pub(crate) next: &'n mut [HalfEdgeId],
     pub(crate) origin: &'n mut [VertexId],
@@ -14,21 +14,21 @@ pub(crate) struct Arrays<'n> {
 }
 
 impl Arrays<'_> {
-    /// Splits into the first `n` half-edges and the others.
+    /// Splits into the first `n` half-edges and the remaining ones.
     pub(crate) fn split_at(self, n: usize) -> (Self, Self) {
-        let (next, other_next) = self.next.split_at_mut(n);
-        let (origin, other_origin) = self.origin.split_at_mut(n);
-        let (face, other_face) = self.face.split_at_mut(n);
-        let others = Self {
-            next: other_next,
-            origin: other_origin,
-            face: other_face,
+        let (next, rest_next) = self.next.split_at_mut(n);
+        let (origin, rest_origin) = self.origin.split_at_mut(n);
+        let (face, rest_face) = self.face.split_at_mut(n);
+        let rest = Self {
+            next: rest_next,
+            origin: rest_origin,
+            face: rest_face,
         };
-        (Self { next, origin, face }, others)
+        (Self { next, origin, face }, rest)
     }
 }
 
-/// What is written for one element: `N` half-edges, and the first half-edges of `K` faces or vertices.
+/// The entries of one element: `N` half-edges, and the first half-edge of each of `K` faces or vertices.
 pub(crate) struct Entries<const N: usize, const K: usize> {
     pub(crate) next: [HalfEdgeId; N],
     pub(crate) origin: [VertexId; N],
@@ -36,7 +36,7 @@ pub(crate) struct Entries<const N: usize, const K: usize> {
     pub(crate) first: [HalfEdgeId; K],
 }
 
-/// Writes in parallel the entries of every element, which stand one after the other.
+/// Writes the entries of all elements in parallel. The entries of consecutive elements are consecutive.
 pub(crate) fn write<const N: usize, const K: usize>(
     mut halves: Arrays,
     mut firsts: &mut [HalfEdgeId],
@@ -47,10 +47,10 @@ pub(crate) fn write<const N: usize, const K: usize>(
     let mut blocks = Vec::with_capacity(n.div_ceil(BLOCK));
     for start in (0..n).step_by(BLOCK) {
         let len = BLOCK.min(n - start);
-        let (block, other_halves) = halves.split_at(N * len);
-        let (first, other_firsts) = firsts.split_at_mut(K * len);
+        let (block, rest_halves) = halves.split_at(N * len);
+        let (first, rest_firsts) = firsts.split_at_mut(K * len);
         blocks.push((block, first));
-        (halves, firsts) = (other_halves, other_firsts);
+        (halves, firsts) = (rest_halves, rest_firsts);
     }
     each_block(blocks, &|block, halves, firsts| {
         let next = halves.next.as_chunks_mut::<N>().0.iter_mut();
@@ -68,16 +68,16 @@ pub(crate) fn write<const N: usize, const K: usize>(
     })
 }
 
-/// Writes the half-edges, and what else begins with one of them, of the block with this number.
+/// Writes the block with the given number: its half-edges, and the first half-edges of its faces or vertices.
 type Task<'a> = dyn Fn(usize, Arrays, &mut [HalfEdgeId]) -> Result<(), Cancelled> + Sync + 'a;
 
-/// The loop of the threads, compiled once.
+/// Runs `task` on all blocks in parallel. Takes a `dyn` task so that the parallel loop is compiled once.
 fn each_block(blocks: Vec<(Arrays, &mut [HalfEdgeId])>, task: &Task) -> Result<(), Cancelled> {
     let blocks = blocks.into_par_iter().enumerate();
     blocks.try_for_each(|(block, (halves, firsts))| task(block, halves, firsts))
 }
 
-/// The origin of a half-edge, the one after it, and its face, which is [`FaceId::NONE`] on the boundary.
+/// The origin, the next half-edge and the face of a half-edge. The face is [`FaceId::NONE`] on the boundary.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Link(
     pub(crate) VertexId,
@@ -85,9 +85,9 @@ pub(crate) struct Link(
     pub(crate) FaceId,
 );
 
-/// The elements of a new mesh.
+/// Computes the elements of a new mesh one at a time.
 pub(crate) trait Links: Sync {
-    /// How many vertices, edges and faces there are.
+    /// The numbers of vertices, edges and faces.
     fn counts(&self) -> [usize; 3];
 
     /// The two halves of edge `i`.
@@ -100,7 +100,7 @@ pub(crate) trait Links: Sync {
     fn face(&self, i: usize) -> HalfEdgeId;
 }
 
-/// The arrays of a mesh with these numbers of vertices, edges and faces, to be filled.
+/// Allocates zeroed arrays for a mesh with the given numbers of vertices, edges and faces.
 pub(crate) fn zeroed([vertices, edges, faces]: [usize; 3]) -> Connectivity {
     Connectivity {
         next: mesh::zeroed(2 * edges),
@@ -111,7 +111,7 @@ pub(crate) fn zeroed([vertices, edges, faces]: [usize; 3]) -> Connectivity {
     }
 }
 
-/// The arrays of such a mesh.
+/// Fills the connectivity arrays of the mesh that `links` describes.
 pub(crate) fn connectivity(links: &impl Links, meter: &Meter) -> Result<Connectivity, Cancelled> {
     let mut new = zeroed(links.counts());
     let halves = Arrays {

@@ -1,38 +1,40 @@
-//! Levels of some faces only, and what keeps the mesh without cracks around them.
+//! Local refinement: subdivides some of the faces, and cuts faces around them so that the mesh has no cracks.
 //!
 //! # Triangles
 //!
-//! Chosen triangles are cut into four ("red"). A new vertex on an edge between a red triangle and one that is
-//! not hangs on that: it is kept, for the levels, as a fourth corner in the middle of a straight side. A
-//! triangle on which a second vertex would come to hang, on the same side or on another one, is cut into
-//! four too, and so on, so that sizes change by steps of two. After the last level triangles with a hanging
-//! vertex are cut in two ("green"):
+//! Chosen triangles are cut into four ("red"). If a neighbor of a red triangle is not red, the new vertex on
+//! their common edge is a hanging vertex of the neighbor. Between levels, the neighbor keeps its hanging vertex
+//! as a fourth corner in the middle of a straight side. A triangle that would get a second hanging vertex, on
+//! the same side or on a different side, is cut into four too, and so on. So the edge lengths of neighboring
+//! triangles differ by at most a factor of two. After the last level, triangles with a hanging vertex are cut
+//! in two ("green"):
 //!
 //! ```text
 //!            c                              c
 //!          / | \                          / | \
 //!        /   |   \                      /   |   y
 //!      /     |     \                  /     | / | \
-//!    a       |  red  d     -->      a ----- x   |   d      x: on an edge of a red triangle and one
-//!      \     |     /                  \     | \ | /           that is not, so in the middle;
+//!    a       |  red  d     -->      a ----- x   |   d      x: on an edge between a red triangle and
+//!      \     |     /                  \     | \ | /           a triangle that is not red;
 //!        \   |   /                      \   |   z             a-x makes two green triangles
 //!          \ | /                          \ | /
 //!            b                              b
 //! ```
 //!
-//! All pieces are similar to their old triangle or half of one that is, so that angles do not get smaller
-//! with the levels: the cotangent of the smallest is at most three times what it was. Bank, Sherman and
-//! Weiser, "Refinement Algorithms and Data Structures for Regular Local Mesh Refinement", 1983.
+//! Each piece is similar to its old triangle, or is half of a triangle that is, so that angles do not shrink
+//! from level to level: the cotangent of the smallest angle grows by at most a factor of three in total.
+//! Source: Bank, Sherman and Weiser, "Refinement Algorithms and Data Structures for Regular Local Mesh
+//! Refinement", 1983.
 //!
 //! # Polygons
 //!
-//! Chosen faces are cut into a quad for each corner. Faces beside them get the new vertices on common edges
-//! as additional corners and are not cut.
+//! Chosen faces are cut into one quad for each corner. Neighbors that are not chosen are not cut; they get the
+//! new vertices on common edges as additional corners.
 
-mod area;
+mod builder;
 mod closure;
-mod drawing;
 mod pieces;
+mod smoothed;
 
 use std::borrow::Cow;
 
@@ -46,40 +48,45 @@ use crate::rules::{Rules, Scheme, Split};
 use crate::sharpness::Sharpness;
 use crate::size::{Size, TooLarge};
 
-use area::{Area, AreaMasks};
 use closure::Cuts;
 use pieces::Pieces;
+use smoothed::{LocalMasks, SmoothedElements};
 
-/// The mesh after so many levels of some of its faces: each level refines them and all that they became.
+/// Subdivides some of the faces of a mesh `levels` times. Each level refines the parts of the chosen faces.
 ///
-/// For Loop, Catmull-Clark and Midpoint. Around the chosen faces triangles are cut so that no vertex lies on
-/// an edge of another one, in four or in two; with polygons the neighbors get additional corners. The surface
-/// outside of the chosen faces stays as it was, point by point: vertices between two chosen faces, or on the
-/// boundary of one, follow the masks of the scheme, old vertices do so if all their faces are chosen, and all
-/// other new vertices lie in the middle of edges. If all faces are chosen, the result is that of
-/// [`subdivide`](crate::subdivide).
+/// `faces` has one flag for each face, which is true if the face is chosen. Supports Loop, Catmull-Clark and
+/// Midpoint subdivision.
 ///
-/// Ids: old vertices keep their numbers, new ones follow, level by level in order of the edges that they lie
-/// on, then in order of the faces. The parts of an edge stand together, from the end that its first half
-/// leaves to the other, and so do those of a face; the edges inside of faces follow those that were there,
-/// in order of their faces. A mesh with dead elements is compacted first.
+/// Around the chosen faces, triangles are cut in four or in two so that no vertex lies inside an edge. If the
+/// scheme makes quads, the neighbors of chosen faces get additional corners instead. The surface outside of the
+/// chosen faces does not change at all. An old vertex follows the masks of the scheme if all its faces are
+/// chosen. A new vertex on an edge does so if all faces at the edge are chosen, and lies in the middle of the
+/// edge otherwise. If all faces are chosen, the result is the same as that of [`subdivide`](crate::subdivide).
 ///
-/// Vertex attributes have the weights of the positions. Corner values are means within their own face, so
-/// that seams stay seams, and smoothed by [`Rules::face_varying`] where the positions are. Parts of an edge
-/// or a face take the values of the whole, edges inside have zero. Sharpness fades where the scheme smooths
-/// and is kept elsewhere. Normals are left out.
+/// What happens to ids: old vertices keep their ids. Each level appends the new vertices on edges, in order of
+/// the edges, then the new vertices in faces, in order of the faces. Edges and faces are renumbered. The parts
+/// of an edge are consecutive, from the origin of its first half to the target, and the parts of a face are
+/// consecutive too. New edges inside faces come after the parts of old edges, in order of the faces. A mesh
+/// with dead elements is compacted first.
 ///
-/// The mesh can be refined again: triangles that were cut in two are triangles like others then. So each
-/// call can cut angles once more, but not each level.
+/// Vertex attributes are blended with the weights of the positions. Where positions are smoothed, corner values
+/// are smoothed as [`Rules::face_varying`] says. Elsewhere each corner value is a mean of values of its own
+/// face, so that seams are kept. Parts of an edge or a face copy the values of the old edge or face, and new
+/// edges inside faces have zero. Sharpness decreases where positions are smoothed and is kept elsewhere.
+/// Normals are dropped.
 ///
-/// Nothing changes for no levels and where no face is chosen.
+/// If the result is refined again, triangles that were cut in two are treated as ordinary triangles. So angles
+/// can be halved once for each call, but not for each level.
+///
+/// The mesh stays unchanged if `levels` is 0 or no face is chosen.
 ///
 /// # Errors
 ///
-/// [`SubdivisionError::WholeMesh`] for other schemes, [`SubdivisionError::Choices`] unless `faces` has one value
-/// for each face, [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a face has more corners,
-/// [`SubdivisionError::TooLarge`] if on some level the elements would outnumber the ids or take more than `budget`
-/// bytes, [`SubdivisionError::Cancelled`].
+/// [`SubdivisionError::WholeMesh`] for Butterfly, Sqrt3 and Doo-Sabin, [`SubdivisionError::FlagCount`] unless
+/// `faces` has one flag for each face, [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a
+/// face has more corners, [`SubdivisionError::TooLarge`] if a level would have more elements than ids can
+/// number or take more than `budget` bytes, [`SubdivisionError::Cancelled`] if the progress listener asks to
+/// stop.
 pub fn refine_faces(
     mesh: &Mesh,
     faces: &[bool],
@@ -97,9 +104,9 @@ pub fn refine_faces(
     };
     let n = mesh.domain_len(mesh::Domain::Face);
     if faces.len() != n {
-        return Err(SubdivisionError::Choices {
+        return Err(SubdivisionError::FlagCount {
             faces: n,
-            choices: faces.len(),
+            flags: faces.len(),
         });
     }
     let mut chosen: Vec<bool> = mesh.faces().map(|f| faces[f.index()]).collect();
@@ -117,16 +124,20 @@ pub fn refine_faces(
             Cuts::of_polygons(&mesh, &chosen)
         };
         check_size(&mesh, &cuts, rules.scheme, level, budget)?;
-        let pieces = Pieces::new(&mesh, cuts, Area::of(&mesh, &chosen));
+        let pieces = Pieces::new(&mesh, cuts, SmoothedElements::of(&mesh, &chosen));
         let finer = finer(&mesh, &pieces, rules, &meter)?;
-        chosen = pieces.inherited(&chosen);
+        chosen = pieces.inherited_flags(&chosen);
         mesh = Cow::Owned(finer);
     }
     if is_triangles {
         let cuts = Cuts::in_two(&mesh);
         check_size(&mesh, &cuts, rules.scheme, levels, budget)?;
-        let pieces = Pieces::new(&mesh, cuts, Area::of(&mesh, &vec![false; chosen.len()]));
-        // Nothing is smoothed, and nothing fades.
+        let pieces = Pieces::new(
+            &mesh,
+            cuts,
+            SmoothedElements::of(&mesh, &vec![false; chosen.len()]),
+        );
+        // The last cut smooths no position and decreases no sharpness.
         let linear = Rules {
             scheme: Scheme::Midpoint(Split::Triangles),
             ..rules
@@ -137,16 +148,16 @@ pub fn refine_faces(
     Ok(mesh.into_owned())
 }
 
-/// One level of a dense mesh.
+/// Computes one level of a dense mesh, given how its faces and edges are cut.
 fn finer(mesh: &Mesh, pieces: &Pieces, rules: Rules, meter: &Meter) -> Result<Mesh, Cancelled> {
     let sharpness = Sharpness::of(mesh, rules);
     level::with_masks(mesh, rules, sharpness, |masks| {
-        let masks = AreaMasks { pieces, masks };
+        let masks = LocalMasks { pieces, masks };
         level::build(mesh, rules, sharpness, pieces, &masks, meter)
     })
 }
 
-/// About how much the levels add to the meter, without what is cut around the chosen faces.
+/// Estimates how much the levels add to the meter. Ignores the faces that are cut around the chosen ones.
 fn work(mesh: &Mesh, chosen: &[bool], levels: u32) -> u64 {
     let kept = (mesh.n_vertices() + mesh.n_faces()) as u64;
     let n_chosen = chosen.iter().filter(|&&c| c).count() as u64;
@@ -173,7 +184,7 @@ fn check_size(
     size.check(scheme, level..level, budget)
 }
 
-/// The sides of a face in order, from its first half-edge.
+/// Iterates over the half-edges of a face, from its first one.
 fn sides(mesh: &Mesh, f: usize) -> mesh::Orbit<'_> {
     mesh.face_half_edges(FaceId::new(f))
 }

@@ -1,4 +1,4 @@
-//! The masks: which old vertices a new one is a mean of.
+//! The masks of the schemes: the weights of old vertices in each vertex of the next level.
 
 mod butterfly;
 mod catmull_clark;
@@ -20,12 +20,12 @@ use crate::sharpness::{Sharpness, VertexRule};
 
 /// The masks of a scheme on one mesh.
 pub(crate) trait Masks: Sync {
-    /// Calls `add` with old vertices that new vertex `i` is a sum of, and their weights, in a fixed order.
-    /// The weights sum to 1; a vertex may come more than once.
+    /// Calls `add` with the old vertices and weights whose weighted sum is new vertex `i`, in a fixed order.
+    /// The weights sum to 1. A vertex can occur more than once.
     fn mask(&self, i: usize, add: &mut impl FnMut(usize, f64));
 
-    /// The values at the `n` vertices of the next level. Equal to the sums of [`mask`](Self::mask) but for
-    /// rounding.
+    /// Computes the values at the `n` vertices of the next level. They equal the weighted sums of
+    /// [`mask`](Self::mask) up to rounding.
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
         let mut new: Vec<DVec3> = mesh::zeroed(n);
         fill(&mut new, meter, |i| {
@@ -37,7 +37,7 @@ pub(crate) trait Masks: Sync {
     }
 }
 
-/// [`Masks`] of any scheme: for code that is compiled once for all of them.
+/// The object-safe form of [`Masks`], for code that is compiled once for all schemes.
 pub(crate) trait AnyMasks: Sync {
     /// As [`Masks::mask`].
     fn mask(&self, i: usize, add: &mut dyn FnMut(usize, f64));
@@ -56,8 +56,8 @@ impl<M: Masks> AnyMasks for M {
     }
 }
 
-/// Adds the mask of an old vertex: `smooth(weight, add)` adds the one that holds where nothing is sharp,
-/// scaled; the others are the same for all schemes. An isolated vertex stays.
+/// Adds the mask of an old vertex. `smooth(weight, add)` adds the smooth mask of the scheme, scaled by
+/// `weight`; the masks of creases and corners are the same for all schemes. An isolated vertex stays in place.
 #[inline]
 fn at_vertex<A: FnMut(usize, f64)>(
     mesh: &Mesh,

@@ -1,4 +1,4 @@
-//! The matrix of subdivision, for whoever refines many fields over one mesh.
+//! The subdivision matrix, for refining several fields over one mesh.
 
 use std::ops::Range;
 
@@ -14,27 +14,27 @@ use crate::rules::Rules;
 use crate::sharpness::Sharpness;
 use crate::size::Size;
 
-/// A sparse matrix in compressed rows: row i has the weights `weights[r]` in the columns `columns[r]`, with
-/// r from `offsets[i]` to `offsets[i + 1]`.
+/// A sparse matrix in compressed row storage: row i has the weights `weights[r]` in the columns `columns[r]`,
+/// for r from `offsets[i]` up to but not including `offsets[i + 1]`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SparseMatrix {
-    /// How many columns there are.
+    /// The number of columns.
     pub n_columns: usize,
-    /// Where each row begins, and the end of the last: one more than there are rows.
+    /// The start of each row, and the end of the last row: one entry more than there are rows.
     pub offsets: Vec<usize>,
-    /// The columns of each row, rising.
+    /// The columns of the entries, ascending in each row.
     pub columns: Vec<u32>,
-    /// The weight in each of them.
+    /// The weights of the entries.
     pub weights: Vec<f64>,
 }
 
 impl SparseMatrix {
-    /// How many rows there are.
+    /// The number of rows.
     pub fn n_rows(&self) -> usize {
         self.offsets.len() - 1
     }
 
-    /// The columns and weights of row `i`.
+    /// Iterates over the columns and weights of row `i`.
     pub fn row(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let row = self.range(i);
         let columns = self.columns[row.clone()].iter().map(|&c| c as usize);
@@ -45,11 +45,11 @@ impl SparseMatrix {
         self.offsets[i]..self.offsets[i + 1]
     }
 
-    /// The product with a column of numbers or vectors, one for each column of the matrix.
+    /// Multiplies the matrix by a list of numbers or vectors, one for each column of the matrix.
     ///
     /// # Panics
     ///
-    /// If there are fewer.
+    /// Panics if there are fewer values than columns are used.
     pub fn apply<T>(&self, values: &[T]) -> Vec<T>
     where
         T: mesh::Value + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
@@ -61,25 +61,27 @@ impl SparseMatrix {
         (0..self.n_rows()).into_par_iter().map(sum).collect()
     }
 
-    /// The matrix whose rows `row(i, add)` adds up; a column may come more than once.
+    /// Builds a matrix from its rows. `row(i, add)` adds the entries of row i; entries of the same column are
+    /// summed.
     fn of_rows(
         n_rows: usize,
         n_columns: usize,
         meter: &Meter,
         row: impl Fn(usize, &mut dyn FnMut(usize, f64)) + Sync,
     ) -> Result<Self, Cancelled> {
-        // Blocks of rows by themselves, then one after the other.
+        // Computes blocks of rows independently, then concatenates them.
         let parts = of_blocks(n_rows, &|block| {
             let mut part = Self::default();
             let mut entries: Vec<(usize, f64)> = Vec::new();
             for i in block {
                 entries.clear();
                 row(i, &mut |column, w| entries.push((column, w)));
-                // Stable, so that equal columns are added in their order.
+                // A stable sort, so that the weights of one column are summed in the order in which they were
+                // added.
                 entries.sort_by_key(|&(column, _)| column);
                 for same in entries.chunk_by(|a, b| a.0 == b.0) {
                     let weight = same.iter().map(|&(_, w)| w).sum();
-                    let column = u32::try_from(same[0].0).expect("a number of a vertex");
+                    let column = u32::try_from(same[0].0).expect("vertex numbers fit into 32 bits");
                     part.columns.push(column);
                     part.weights.push(weight);
                 }
@@ -104,14 +106,15 @@ impl SparseMatrix {
     }
 }
 
-/// The matrix that makes the positions after so many levels out of those before: a row for each new vertex,
-/// a column for each old one. [`SparseMatrix::apply`] refines with it what else moves as positions do.
+/// Returns the matrix that maps the positions of a mesh to the positions after `levels` levels. It has a row
+/// for each new vertex and a column for each old one. [`SparseMatrix::apply`] refines any other field with the
+/// weights of the positions.
 ///
-/// A mesh with dead elements is compacted first, and the numbers are those of the compacted mesh.
+/// A mesh with dead elements is compacted first, and the columns are the vertices of the compacted mesh.
 ///
 /// # Errors
 ///
-/// Those of [`subdivide`](crate::subdivide).
+/// The errors of [`subdivide`](crate::subdivide).
 ///
 /// # Examples
 ///
@@ -142,7 +145,7 @@ pub fn subdivision_matrix(
     let mut matrix = SparseMatrix::of_rows(n, n, &meter, |i, add| add(i, 1.0))?;
     for level in 0..levels {
         let old = matrix;
-        // The product of the level's own matrix and the one up to it.
+        // Multiplies the matrix of this level by the matrix of all levels before it.
         size = size.after(rules.scheme, level);
         let n_rows = usize::try_from(size.vertices).expect("ids fit");
         let sharpness = Sharpness::of(&mesh, rules);
@@ -163,7 +166,7 @@ pub fn subdivision_matrix(
     Ok(matrix)
 }
 
-/// Takes all attributes away that do not shape the surface.
+/// Removes all attributes except sharpness, which shapes the surface.
 fn keep_sharpness(mesh: &mut Mesh) {
     let mut kept = Attributes::default();
     for (domain, name) in [

@@ -1,4 +1,4 @@
-//! Two other ways to compute one level of Loop subdivision, slow and plain.
+//! Two slow and simple implementations of one level of Loop subdivision, to test against.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,8 +6,8 @@ use mesh::{DVec3, EdgeId, Mesh, VertexId};
 
 use crate::fixtures::{corners, number};
 
-/// The method of courses: compute the new positions, split every edge in the middle, flip every new
-/// edge between an old and a new vertex, and move the vertices. Vertices have the numbers of
+/// The method taught in courses: computes the new positions, splits every edge in the middle, flips every new
+/// edge between an old and a new vertex, and moves the vertices. Vertices have the same ids as in
 /// [`crate::subdivide`]; edges and faces do not.
 pub(crate) fn by_splits_and_flips(old: &Mesh) -> Mesh {
     let positions = old.vertices().map(|v| moved(old, v));
@@ -75,15 +75,15 @@ fn between(mesh: &Mesh, e: EdgeId) -> DVec3 {
     0.375 * (a + b) + 0.125 * (c + d)
 }
 
-/// One level over a list of triangles, without any half-edges: an edge is a pair of vertices. Returns
-/// the positions and the triangles; the vertex on an edge follows the old ones in order of pairs.
-/// Wrong where two edges join the same two vertices.
+/// Subdivides a list of triangles without half-edges: an edge is a pair of vertices. Returns the positions and
+/// the triangles. Vertices on edges come after the old vertices, sorted by the pairs. Wrong if two edges
+/// connect the same two vertices.
 pub(crate) fn over_polygons(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
 ) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let at = |v: u32| positions[v as usize];
-    // For each edge the corners opposite to it.
+    // For each edge, the corners opposite to it.
     let mut opposite: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
     for &[a, b, c] in triangles {
         for (v, w, x) in [(a, b, c), (b, c, a), (c, a, b)] {
@@ -107,7 +107,7 @@ pub(crate) fn over_polygons(
             (3, 0) => positions[v] * 7.0 / 16.0 + sum(&ring[v]) * 3.0 / 16.0,
             (n, 0) => positions[v] * 5.0 / 8.0 + sum(&ring[v]) * 3.0 / 8.0 / n as f64,
             (_, 2) => positions[v] * 3.0 / 4.0 + sum(&rim[v]) / 8.0,
-            other => panic!("vertex {v} is no manifold: {other:?}"),
+            other => panic!("vertex {v} is non-manifold: {other:?}"),
         })
         .collect();
     let mut middle = BTreeMap::new();
@@ -126,7 +126,7 @@ pub(crate) fn over_polygons(
     (new, triangles.collect())
 }
 
-/// [`over_polygons`] with the vertices in the order of [`crate::subdivide`].
+/// Subdivides as [`over_polygons`], with the vertices in the order of [`crate::subdivide`].
 pub(crate) fn over_polygons_of(mesh: &Mesh) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let old: Vec<[u32; 3]> = mesh.faces().map(|f| corners(mesh, f)).collect();
     let (positions, mut triangles) = over_polygons(mesh.positions(), &old);

@@ -1,4 +1,4 @@
-//! Work on many elements by all threads, counted together.
+//! Parallel loops over many elements, with shared progress counting.
 
 use std::ops::Range;
 
@@ -6,21 +6,21 @@ use mesh::Value;
 use progress::{Cancelled, Meter};
 use rayon::prelude::*;
 
-/// How many elements one task works on. A block takes well below a millisecond, so that progress is
-/// smooth and cancelling quick.
+/// The number of elements in one block, the work of one task. A block takes well below a millisecond, so that
+/// progress is smooth and cancelling is quick.
 pub(crate) const BLOCK: usize = 4096;
 
-/// What is done with a block of an array, given the number of its first element.
+/// Processes one block of an array, given the number of its first element.
 type Task<'a, T> = dyn Fn(usize, &mut [T]) -> Result<(), Cancelled> + Sync + 'a;
 
-/// Hands the blocks of an array to tasks. The loop of the threads is compiled once for each type of element, and
-/// what a task inlines is its own; so it is below.
+/// Runs `task` on all blocks of an array in parallel. The task is `dyn`, so that the parallel loop is compiled
+/// once for each element type and not for each closure; so it is in the functions below.
 pub(crate) fn in_blocks<T: Send>(array: &mut [T], task: &Task<T>) -> Result<(), Cancelled> {
     let blocks = array.par_chunks_mut(BLOCK).enumerate();
     blocks.try_for_each(|(block, part)| task(block * BLOCK, part))
 }
 
-/// Computes an array: element i is `value(i)`. Each counts as one on the meter.
+/// Computes an array: element i is `value(i)`. Adds one to the meter for each element.
 pub(crate) fn fill<T: Send>(
     array: &mut [T],
     meter: &Meter,
@@ -29,7 +29,7 @@ pub(crate) fn fill<T: Send>(
     fill_counted(array, meter, 1, value)
 }
 
-/// As [`fill`], for what the total of the meter leaves out.
+/// As [`fill`], but adds nothing to the meter: for arrays that its total leaves out.
 pub(crate) fn fill_uncounted<T: Send>(
     array: &mut [T],
     meter: &Meter,
@@ -52,7 +52,7 @@ fn fill_counted<T: Send>(
     })
 }
 
-/// `n` values that [`fill_uncounted`] computes.
+/// Returns `n` computed values: element i is `value(i)`. Adds nothing to the meter.
 pub(crate) fn computed<T: Value>(
     n: usize,
     meter: &Meter,
@@ -63,13 +63,13 @@ pub(crate) fn computed<T: Value>(
     Ok(new)
 }
 
-/// What `task` makes of each block of the numbers below `n`, in order.
+/// Calls `task` with each block of the numbers below `n`, in parallel, and returns the results in order.
 pub(crate) fn of_blocks<T: Send>(n: usize, task: &(dyn Fn(Range<usize>) -> T + Sync)) -> Vec<T> {
     let blocks = (0..n.div_ceil(BLOCK)).into_par_iter();
     blocks.map(|block| task(block_of(block, n))).collect()
 }
 
-/// Whether `test` holds for a number below `n`.
+/// Whether `test` is true for any number below `n`.
 pub(crate) fn any(n: usize, test: impl Fn(usize) -> bool + Sync) -> bool {
     any_block(n, &|mut block| block.any(&test))
 }

@@ -1,8 +1,8 @@
-//! The connectivity of the next level where every face with n corners becomes n quads.
+//! The connectivity of the next level when every face with n corners is split into n quads.
 //!
-//! Corners are numbered face by face, c(h) is the number of the one at the origin of half-edge h. Edges are
-//! cut in two as in [`halves`](crate::halves), each part of a face is the quad at one corner, and
-//! between two of them an edge runs from the middle of an old one to the center, a spoke:
+//! Corners are numbered face by face, and c(h) is the number of the corner at the origin of half-edge h. Edges
+//! are split in two as in [`halves`](crate::halves). Each part of a face is the quad at one corner. Between two
+//! of these quads, an edge called a spoke runs from the middle of an old edge to the center:
 //!
 //! ```text
 //!     . <------------ .
@@ -17,34 +17,36 @@
 //!     first(h)  second(h)
 //! ```
 //!
-//! The vertex on edge e is V + e, the center of face f is V + E + f. An old vertex and one on an edge leave
-//! as they do there, a center along the spoke of the first half-edge of its face.
+//! The vertex on edge e is V + e, and the center of face f is V + E + f. The half-edges of old vertices and of
+//! vertices on edges are those in `halves`. The half-edge of a center is the twin of out(h) for the first
+//! half-edge h of its face.
 //!
-//! In a mesh of quads the corners of face f are 4f to 4f + 3, and which of them a half-edge has is seen from
-//! the half-edges next to it. Otherwise the numbers are listed first; that happens on the first level only,
-//! where the mesh is small. After Dupuy and Vanhoey, "A Halfedge Refinement Rule for Parallel Catmull-Clark
-//! Subdivision", 2021, for edges in pairs.
+//! In a mesh of quads the corners of face f are 4f to 4f + 3, and the corner of a half-edge follows from its
+//! position in the face. Otherwise the corner numbers are computed in advance. This happens on the first level
+//! only, when the mesh is small. The idea is from Dupuy and Vanhoey, "A Halfedge Refinement Rule for Parallel
+//! Catmull-Clark Subdivision", 2021, adapted to half-edges stored in pairs.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
 
-use crate::halves::{Parts, Rest, first, on_edge, place, second, split_edges};
+use crate::halves::{AddedArrays, PartLinks, first, on_edge, place, second, split_edges};
 use crate::links::{self, Entries};
 use crate::parallel::{any, fill_uncounted};
 use crate::topology::{Place, Topology};
 
-/// A dense mesh whose faces are cut into quads.
+/// A dense mesh whose faces are split into quads.
 pub(crate) struct Quads<'a> {
     mesh: &'a Mesh,
     n_vertices: usize,
     n_edges: usize,
     n_faces: usize,
     n_corners: usize,
-    /// The corners of the half-edges, where not all faces are quads.
-    listed: Option<Listed>,
+    /// The corner numbers, if not all faces are quads.
+    table: Option<CornerTable>,
 }
 
-struct Listed {
+/// The correspondence between corners and half-edges.
+struct CornerTable {
     /// The corner of each half-edge; 0 for those without a face.
     corner: Vec<u32>,
     /// The half-edge of each corner.
@@ -54,27 +56,27 @@ struct Listed {
 impl<'a> Quads<'a> {
     pub(crate) fn new(mesh: &'a Mesh) -> Self {
         let n_faces = mesh.n_faces();
-        let is_other = |f: usize| {
+        let is_not_quad = |f: usize| {
             let h = mesh.face_half_edge(FaceId::new(f));
             let opposite = mesh.next(mesh.next(h));
             opposite == h || mesh.next(mesh.next(opposite)) != h
         };
-        let listed = any(n_faces, is_other).then(|| Listed::of(mesh));
+        let table = any(n_faces, is_not_quad).then(|| CornerTable::of(mesh));
         Self {
             mesh,
             n_vertices: mesh.n_vertices(),
             n_edges: mesh.n_edges(),
             n_faces,
-            n_corners: listed.as_ref().map_or(4 * n_faces, |l| l.half_edge.len()),
-            listed,
+            n_corners: table.as_ref().map_or(4 * n_faces, |l| l.half_edge.len()),
+            table,
         }
     }
 
-    /// The corners before, at and after the origin of half-edge `h` of face `f`.
+    /// Returns the numbers of the corners before, at and after the origin of half-edge `h` of face `f`.
     #[inline]
     fn corners(&self, h: HalfEdgeId, f: FaceId) -> [usize; 3] {
-        if let Some(listed) = &self.listed {
-            let corner = |h: HalfEdgeId| listed.corner[h.index()] as usize;
+        if let Some(table) = &self.table {
+            let corner = |h: HalfEdgeId| table.corner[h.index()] as usize;
             return [
                 corner(self.mesh.prev(h)),
                 corner(h),
@@ -94,11 +96,11 @@ impl<'a> Quads<'a> {
         [k + 3, k, k + 1].map(|k| 4 * f.index() + k % 4)
     }
 
-    /// The half-edges of face `f` and their corners.
+    /// Returns the half-edge and the face of corner `c`.
     #[inline]
-    fn face_corner(&self, c: usize) -> (HalfEdgeId, FaceId) {
-        if let Some(listed) = &self.listed {
-            let h = listed.half_edge[c];
+    fn half_edge_of_corner(&self, c: usize) -> (HalfEdgeId, FaceId) {
+        if let Some(table) = &self.table {
+            let h = table.half_edge[c];
             return (h, self.mesh.connectivity().face[h.index()]);
         }
         let f = FaceId::new(c / 4);
@@ -106,14 +108,14 @@ impl<'a> Quads<'a> {
         ((0..c % 4).fold(start, |h, _| self.mesh.next(h)), f)
     }
 
-    /// The half of the spoke of corner `c` that runs to the center.
+    /// Returns the half of the spoke of corner `c` that runs to the center.
     #[inline]
     fn out(&self, c: usize) -> HalfEdgeId {
         HalfEdgeId::new(4 * self.n_edges + 2 * c)
     }
 
     #[inline]
-    fn parts(&self, h: HalfEdgeId) -> Parts {
+    fn parts(&self, h: HalfEdgeId) -> PartLinks {
         let after = first(self.mesh.next(h));
         let Some(f) = self.mesh.face(h) else {
             return ([second(h), after], [FaceId::NONE; 2]);
@@ -122,10 +124,10 @@ impl<'a> Quads<'a> {
         ([self.out(c), after], [FaceId::new(c), FaceId::new(next)])
     }
 
-    /// The spoke of corner `c`, two half-edges, and the half-edge of its face.
+    /// The entries of corner `c`: the two halves of its spoke, and the half-edge of its face.
     #[inline]
     fn spoke(&self, c: usize) -> Entries<2, 1> {
-        let (h, f) = self.face_corner(c);
+        let (h, f) = self.half_edge_of_corner(c);
         let [before, _, after] = self.corners(h, f);
         let center = VertexId::new(self.n_vertices + self.n_edges + f.index());
         Entries {
@@ -136,7 +138,7 @@ impl<'a> Quads<'a> {
         }
     }
 
-    /// The half-edge of the center of a face.
+    /// Returns the half-edge of the center of a face.
     #[inline]
     fn leaving_center(&self, f: FaceId) -> HalfEdgeId {
         let [_, c, _] = self.corners(self.mesh.face_half_edge(f), f);
@@ -144,13 +146,14 @@ impl<'a> Quads<'a> {
     }
 }
 
-impl Listed {
+impl CornerTable {
     fn of(mesh: &Mesh) -> Self {
         let mut corner = vec![0; mesh.n_half_edges()];
         let mut half_edge = Vec::with_capacity(mesh.n_half_edges());
         for f in mesh.faces() {
             for h in mesh.face_half_edges(f) {
-                corner[h.index()] = u32::try_from(half_edge.len()).expect("fewer than half-edges");
+                corner[h.index()] = u32::try_from(half_edge.len())
+                    .expect("there are fewer corners than half-edges");
                 half_edge.push(h);
             }
         }
@@ -161,13 +164,13 @@ impl Listed {
 impl Topology for Quads<'_> {
     fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled> {
         let added = [self.n_faces, self.n_corners, self.n_corners];
-        let rest = |rest: Rest| {
+        let fill_added = |arrays: AddedArrays| {
             let spoke = |c| self.spoke(c);
-            links::write(rest.halves, rest.face_half_edge, meter, spoke)?;
+            links::write(arrays.halves, arrays.face_half_edge, meter, spoke)?;
             let leaving = |f| self.leaving_center(FaceId::new(f));
-            fill_uncounted(rest.vertex_half_edge, meter, leaving)
+            fill_uncounted(arrays.vertex_half_edge, meter, leaving)
         };
-        split_edges(self.mesh, added, |h| self.parts(h), rest, meter)
+        split_edges(self.mesh, added, |h| self.parts(h), fill_added, meter)
     }
 
     fn corner(&self, _: &Connectivity, i: usize) -> Place {
@@ -175,7 +178,7 @@ impl Topology for Quads<'_> {
         if i < n_halves {
             return place(self.mesh, i);
         }
-        let (h, f) = self.face_corner((i - n_halves) / 2);
+        let (h, f) = self.half_edge_of_corner((i - n_halves) / 2);
         if i.is_multiple_of(2) {
             Place::On(h)
         } else {
@@ -188,6 +191,6 @@ impl Topology for Quads<'_> {
     }
 
     fn face(&self, i: usize) -> Option<usize> {
-        Some(self.face_corner(i).1.index())
+        Some(self.half_edge_of_corner(i).1.index())
     }
 }

@@ -1,23 +1,23 @@
-//! What can be chosen about a subdivision surface.
+//! The schemes and their options.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A scheme with its choices: all that decides what one level of a mesh looks like.
+/// A scheme with its options. Together with the mesh they determine the next level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rules {
     /// The scheme.
     pub scheme: Scheme,
-    /// What holds where the mesh ends.
+    /// How vertices on the boundary move.
     pub boundary: Boundary,
-    /// How the sharpness of creases decreases.
+    /// How the sharpness of creases decreases from level to level.
     pub creasing: Creasing,
     /// How corner values such as texture coordinates are smoothed.
     pub face_varying: FaceVarying,
 }
 
 impl Rules {
-    /// A scheme with the default choices.
+    /// A scheme with default options.
     pub const fn of(scheme: Scheme) -> Self {
         Self {
             scheme,
@@ -31,19 +31,19 @@ impl Rules {
 /// A subdivision scheme.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
-    /// Triangles into four, smooth: Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987.
+    /// Splits each triangle into four; smooth. Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987.
     Loop(LoopWeights),
-    /// Polygons into quads, smooth: Catmull and Clark, "Recursively generated B-spline surfaces on
+    /// Splits each face into quads; smooth. Catmull and Clark, "Recursively generated B-spline surfaces on
     /// arbitrary topological meshes", 1978.
     CatmullClark,
-    /// Linear: new vertices in the middle, old ones stay.
+    /// Linear: new vertices lie in the middle of edges and faces, and old vertices stay in place.
     Midpoint(Split),
-    /// Triangles into four, through the old vertices: Zorin, Schröder and Sweldens, "Interpolating
-    /// Subdivision for Meshes with Arbitrary Topology", 1996.
+    /// Splits each triangle into four; smooth, and the surface passes through the old vertices. Zorin, Schröder
+    /// and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996.
     Butterfly,
-    /// Triangles into three, turned: Kobbelt, "√3-Subdivision", 2000.
+    /// Splits each triangle into three and flips the old edges; smooth. Kobbelt, "√3-Subdivision", 2000.
     Sqrt3,
-    /// A face for each old vertex, edge and face: Doo and Sabin, "Behaviour of recursive division
+    /// Makes a face of each old vertex, edge and face; smooth. Doo and Sabin, "Behaviour of recursive division
     /// surfaces near extraordinary points", 1978.
     DooSabin,
 }
@@ -55,66 +55,69 @@ pub enum LoopWeights {
     /// 3/16 for n = 3, otherwise 3/(8n): Warren, "Subdivision Methods for Geometric Design", 1995.
     #[default]
     Warren,
-    /// (5/8 - (3/8 + cos(2π/n)/4)²)/n: Loop's own, 1987.
+    /// (5/8 - (3/8 + cos(2π/n)/4)²)/n: the weights in Loop's thesis, 1987.
     Loop,
 }
 
-/// How a linear scheme cuts faces.
+/// How midpoint subdivision splits faces.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum Split {
-    /// Every triangle into four; other faces are refused.
+    /// Splits each triangle into four. Fails if a face is not a triangle.
     #[default]
     Triangles,
-    /// Every face with n corners into n quads around its center.
+    /// Splits each face with n corners into n quads around its center.
     Quads,
 }
 
-/// What holds where the mesh ends. The words are OpenSubdiv's, where these are the rules of boundary
-/// interpolation.
+/// How vertices on the boundary move. The names are those of OpenSubdiv's boundary interpolation rules.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum Boundary {
-    /// The boundary is a smooth curve that depends on itself alone.
+    /// The boundary becomes a smooth curve that depends on boundary vertices only.
     #[default]
     EdgesOnly,
-    /// As `EdgesOnly`, and vertices with one face stay where they are.
+    /// As `EdgesOnly`, but vertices with one face stay in place.
     EdgesAndCorners,
-    /// Vertices of the boundary stay where they are; new ones lie in the middle of their edges.
+    /// Boundary vertices stay in place, and new vertices on the boundary lie in the middle of their edges.
     Fixed,
 }
 
-/// How the sharpness of an edge decreases from one level to the next, where it is above 0 and below 10.
+/// How the sharpness of an edge decreases from one level to the next. Applies to sharpness above 0 and below
+/// 10.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum Creasing {
-    /// By 1: DeRose, Kass and Truong, "Subdivision Surfaces in Character Animation", 1998.
+    /// Decreases by 1: DeRose, Kass and Truong, "Subdivision Surfaces in Character Animation", 1998.
     #[default]
     Uniform,
-    /// By 1 from a mean with the neighbors along the crease, so that sharpness that changes along a
-    /// crease changes smoothly: OpenSubdiv's rule after Chaikin's curves. (Where one half of an edge of
-    /// sharpness above 1 becomes smooth, the new vertex stays in the middle; OpenSubdiv's goes beyond.)
+    /// Takes the mean with the neighboring edges of the crease, then decreases by 1, so that sharpness varies
+    /// smoothly along a crease: OpenSubdiv's rule after Chaikin's curves. (One difference: if one half of an
+    /// edge with sharpness above 1 becomes smooth, the new vertex stays in the middle, while OpenSubdiv moves
+    /// it beyond the middle.)
     Chaikin,
 }
 
-/// How corner values are subdivided around a vertex, where seams divide them. The words are OpenSubdiv's,
-/// where these are the rules of face-varying linear interpolation.
+/// How corner values, such as texture coordinates, are subdivided at seams. A piece is a set of faces around a
+/// vertex that share one value there. The names are those of OpenSubdiv's face-varying linear interpolation
+/// rules.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 pub enum FaceVarying {
-    /// Smoothed everywhere, along seams as along a boundary.
+    /// Smooth everywhere. Seams are smoothed as boundaries are.
     None,
-    /// As `None`, but sharp where a piece has a single face at a vertex.
+    /// As `None`, but values stay at a vertex where a piece has a single face.
     CornersOnly,
-    /// As `CornersOnly`, and sharp where three or more pieces meet.
+    /// As `CornersOnly`, and values stay where three or more pieces meet.
     CornersPlus1,
-    /// As `CornersPlus1`, and sharp at the ends of seams, and in all pieces at a vertex where one is.
+    /// As `CornersPlus1`, and values stay at the ends of seams. If the value of one piece at a vertex stays,
+    /// those of all pieces there stay.
     CornersPlus2,
     /// Linear along seams and boundaries, smooth elsewhere.
     Boundaries,
-    /// Linear everywhere: each new value is a mean within its own old face.
+    /// Linear everywhere: each new value is a mean of values of one old face.
     #[default]
     All,
 }
 
 impl Scheme {
-    /// Its name, as sentences begin with.
+    /// The name of the scheme, capitalized, for messages.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Loop(_) => "Loop subdivision",
@@ -126,7 +129,7 @@ impl Scheme {
         }
     }
 
-    /// Whether it takes triangles only.
+    /// Whether the scheme takes triangles only.
     pub const fn needs_triangles(self) -> bool {
         matches!(
             self,
@@ -134,12 +137,12 @@ impl Scheme {
         )
     }
 
-    /// Whether its limit surface is known in closed form.
+    /// Whether [`limit`](crate::limit()) supports the scheme.
     pub const fn has_limit(self) -> bool {
         self.has_creases()
     }
 
-    /// Whether sharpness shapes its surfaces.
+    /// Whether the sharpness of edges and vertices shapes the surface.
     pub(crate) const fn has_creases(self) -> bool {
         matches!(self, Self::Loop(_) | Self::CatmullClark)
     }

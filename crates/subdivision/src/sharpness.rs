@@ -1,17 +1,17 @@
-//! Creases and corners: which rule holds at a vertex and an edge, and how sharpness decreases.
+//! Creases and corners: which rule applies to a vertex or an edge, and how sharpness decreases.
 //!
-//! Sharpness is a number: 0 is smooth, 10 and more is sharp on every level, and between them an element
-//! is sharp for so many levels and then smooth. Where it ends within a level the two are blended (DeRose,
-//! Kass and Truong, "Subdivision Surfaces in Character Animation", 1998, in the form that OpenSubdiv
-//! gives them). The rule of a vertex depends on what is sharp there:
+//! Sharpness is a number. 0 is smooth, and 10 or more is sharp on every level. A value s between them is
+//! semi-sharp: the element is sharp for s levels and then smooth. If the sharpness reaches 0 within a level,
+//! the sharp and the smooth rule are blended (DeRose, Kass and Truong, "Subdivision Surfaces in Character
+//! Animation", 1998, in the form used by OpenSubdiv). The rule of a vertex depends on the sharp edges at it:
 //!
 //! ```text
 //!         |                  |                  ‖                  ‖
 //!      -- o --            == o --            == o --            == o ==
 //!         |                  |                  |                  |
 //!
-//!    smooth: nothing    dart: one edge,    crease: two edges    corner: more, or the vertex
-//!                       still smooth                            itself
+//!    smooth: none       dart: one edge,    crease: two edges    corner: more edges, or the
+//!                       still smooth                            vertex itself
 //! ```
 //!
 //! Edges of the boundary are infinitely sharp.
@@ -21,42 +21,42 @@ use mesh::{CREASE, EdgeId, HalfEdgeId, Mesh, VERTEX_SHARPNESS, VertexId};
 use crate::parallel::any;
 use crate::rules::{Boundary, Creasing, Rules};
 
-/// From here on sharpness does not decrease.
+/// Sharpness from this value on does not decrease.
 pub(crate) const INFINITE: f64 = 10.0;
 
-/// What is sharp in a mesh.
+/// The sharpness of the edges and vertices of a mesh.
 #[derive(Clone, Copy)]
 pub(crate) struct Sharpness<'a> {
     mesh: &'a Mesh,
     boundary: Boundary,
     creasing: Creasing,
-    /// `None` if nothing inside is sharp.
+    /// `None` if all inner edges are smooth.
     edges: Option<&'a [f64]>,
     vertices: Option<&'a [f64]>,
 }
 
-/// How a vertex moves. Edges around it are named by `K`.
+/// How a vertex moves. `K` is the type that names edges around the vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum VertexRule<K> {
     /// By the mask of the scheme.
     Smooth,
-    /// Along the crease over these two edges.
+    /// By the mask of a crease along these two edges.
     Crease([K; 2]),
-    /// Not at all.
+    /// The vertex stays in place.
     Corner,
 }
 
-/// The rule of a vertex, and what it changes to within the level.
+/// The rule of a vertex, and the rule that it changes to within the level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Blend<K> {
-    /// The rule by the sharpness of this level.
+    /// The rule by the sharpness on this level.
     pub(crate) now: VertexRule<K>,
-    /// The rule by that of the next, and the weight of the one of this level.
+    /// The rule by the sharpness on the next level, and the weight of the rule `now`.
     pub(crate) next: Option<(VertexRule<K>, f64)>,
 }
 
 impl<K: Copy> VertexRule<K> {
-    /// The rule by the sharpness of the vertex and of the edges around it.
+    /// Returns the rule for the sharpness of the vertex and of the edges around it.
     pub(crate) fn of(at: f64, edges: impl Iterator<Item = (K, f64)>) -> Self {
         if at > 0.0 {
             return Self::Corner;
@@ -71,7 +71,8 @@ impl<K: Copy> VertexRule<K> {
 }
 
 impl<K: Copy> Blend<K> {
-    /// The rule by the sharpness of the vertex and of the edges around it, on this level and the next.
+    /// Returns the blend for the sharpness of the vertex and of the edges around it, on this level and the
+    /// next.
     pub(crate) fn of(at: [f64; 2], edges: impl Iterator<Item = (K, [f64; 2])> + Clone) -> Self {
         let rule = |i: usize| VertexRule::of(at[i], edges.clone().map(|(k, s)| (k, s[i])));
         let now = rule(0);
@@ -83,7 +84,7 @@ impl<K: Copy> Blend<K> {
         if std::mem::discriminant(&now) == std::mem::discriminant(&next) {
             return unchanged;
         }
-        let weight = fading(edges.map(|(_, s)| s).chain([at]));
+        let weight = fading_weight(edges.map(|(_, s)| s).chain([at]));
         Self {
             now,
             next: Some((next, weight)),
@@ -91,7 +92,7 @@ impl<K: Copy> Blend<K> {
     }
 }
 
-/// The semi-sharp edges at a vertex: the sum of their sharpness and how many there are.
+/// The number of semi-sharp edges at a vertex, and the sum of their sharpness.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct SemiSharp {
     sum: f64,
@@ -99,29 +100,30 @@ pub(crate) struct SemiSharp {
 }
 
 impl SemiSharp {
-    /// Of edges of such sharpness. Without Chaikin's rule nothing is asked of them.
+    /// Collects the semi-sharp edges, given the sharpness of all edges at the vertex. Stays empty unless
+    /// Chaikin's rule is used.
     pub(crate) fn of(creasing: Creasing, edges: impl Iterator<Item = f64>) -> Self {
-        let mut found = Self::default();
+        let mut semi_sharp = Self::default();
         if creasing == Creasing::Chaikin {
             for s in edges.filter(|&s| s > 0.0 && s < INFINITE) {
-                found.sum += s;
-                found.n += 1;
+                semi_sharp.sum += s;
+                semi_sharp.n += 1;
             }
         }
-        found
+        semi_sharp
     }
 
-    /// What the half of an edge of sharpness `s` at this vertex has on the next level.
+    /// Returns the sharpness on the next level of the half, at this vertex, of an edge with sharpness `s`.
     pub(crate) fn half_of(self, s: f64) -> f64 {
         if s <= 0.0 || s >= INFINITE || self.n < 2 {
             return decreased(s);
         }
-        let others = (self.sum - s) / (self.n - 1) as f64;
-        (0.75 * s + 0.25 * others - 1.0).max(0.0)
+        let mean_of_rest = (self.sum - s) / (self.n - 1) as f64;
+        (0.75 * s + 0.25 * mean_of_rest - 1.0).max(0.0)
     }
 }
 
-/// What is left of sharpness on the next level.
+/// Returns the sharpness on the next level by the uniform rule.
 pub(crate) fn decreased(s: f64) -> f64 {
     if s >= INFINITE {
         INFINITE
@@ -130,9 +132,9 @@ pub(crate) fn decreased(s: f64) -> f64 {
     }
 }
 
-/// How much of this level's rule is left where elements become smooth within the level: the mean of the
-/// sharpness that ends, out of pairs of this level's and the next.
-pub(crate) fn fading(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
+/// Returns the weight of this level's rule if elements become smooth within the level: their mean sharpness, at
+/// most 1. Each pair has the sharpness of an element on this level and on the next.
+pub(crate) fn fading_weight(pairs: impl Iterator<Item = [f64; 2]>) -> f64 {
     let (mut sum, mut n) = (0.0, 0_u32);
     for [now, next] in pairs {
         if now > 0.0 && next <= 0.0 {
@@ -161,19 +163,19 @@ impl<'a> Sharpness<'a> {
         }
     }
 
-    /// Whether nothing but the boundary is sharp.
+    /// Whether only the boundary is sharp.
     #[inline]
     fn is_plain(&self) -> bool {
         self.edges.is_none() && self.vertices.is_none()
     }
 
-    /// The number that is stored for an edge.
+    /// Returns the sharpness stored for an edge, at least 0.
     #[inline]
     fn stored(&self, e: EdgeId) -> f64 {
         self.edges.map_or(0.0, |s| s[e.index()].max(0.0))
     }
 
-    /// The sharpness of an edge.
+    /// Returns the sharpness of an edge, which is infinite on the boundary.
     #[inline]
     pub(crate) fn edge(&self, e: EdgeId) -> f64 {
         if self.mesh.is_boundary_edge(e) {
@@ -183,7 +185,7 @@ impl<'a> Sharpness<'a> {
         }
     }
 
-    /// The sharpness of a vertex that half-edge `h` leaves, the boundary one if there is one.
+    /// Returns the sharpness of a vertex. `h` is its half-edge, which is the boundary one on the boundary.
     #[inline]
     pub(crate) fn vertex(&self, v: VertexId, h: HalfEdgeId) -> f64 {
         if self.mesh.face(h).is_none() {
@@ -199,13 +201,14 @@ impl<'a> Sharpness<'a> {
         self.vertices.map_or(0.0, |s| s[v.index()].max(0.0))
     }
 
-    /// The half-edge that leaves the vertex of boundary half-edge `h` along the other boundary edge.
+    /// Returns the outgoing half-edge along the other boundary edge at the origin of boundary half-edge `h`.
     #[inline]
     fn clockwise_last(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.mesh.prev(h).twin()
     }
 
-    /// How much of the sharp mask the new vertex on an edge has: 1 lies in the middle, 0 is smooth.
+    /// Returns the weight of the sharp mask in the new vertex on an edge: 1 is the middle of the edge, 0 is the
+    /// smooth mask.
     #[inline]
     pub(crate) fn weight_at_edge(&self, e: EdgeId) -> f64 {
         let s = self.edge(e);
@@ -217,7 +220,7 @@ impl<'a> Sharpness<'a> {
         if stays { 1.0 } else { s }
     }
 
-    /// How vertex `v` moves, which half-edge `h` leaves: the boundary one if there is one.
+    /// Returns how vertex `v` moves. `h` is its half-edge, which is the boundary one on the boundary.
     #[inline]
     pub(crate) fn at_vertex(&self, v: VertexId, h: HalfEdgeId) -> Blend<HalfEdgeId> {
         if !self.is_plain() {
@@ -248,13 +251,13 @@ impl<'a> Sharpness<'a> {
         SemiSharp::of(self.creasing, edges.map(|h| self.edge(h.edge())))
     }
 
-    /// The sharpness of the half of an edge at the origin of `h`, on the next level.
+    /// Returns the sharpness on the next level of the half of an edge at the origin of `h`.
     pub(crate) fn of_half(&self, h: HalfEdgeId) -> f64 {
-        let around = self.semi_sharp(self.mesh.origin(h));
-        around.half_of(self.edge(h.edge()))
+        let semi_sharp = self.semi_sharp(self.mesh.origin(h));
+        semi_sharp.half_of(self.edge(h.edge()))
     }
 
-    /// The stored sharpness of the half of an edge at the origin of `h`, on the next level.
+    /// Returns the sharpness to store on the next level for the half of an edge at the origin of `h`.
     pub(crate) fn next_of_half(&self, h: HalfEdgeId) -> f64 {
         if self.edges.is_none() {
             0.0

@@ -1,4 +1,4 @@
-//! How large a mesh becomes, known before anything is computed.
+//! Predicts the size of a subdivided mesh before it is computed.
 
 use std::ops::Range;
 
@@ -8,24 +8,24 @@ use crate::attributes;
 use crate::parallel::of_blocks;
 use crate::rules::{Scheme, Split};
 
-/// Ids end at 2^32 - 2, so this many elements of a kind can be numbered.
-const IDS: u64 = u32::MAX as u64;
+/// The largest number of elements of one kind: ids end at 2^32 - 2.
+const MAX_ELEMENTS: u64 = u32::MAX as u64;
 
-/// A number of elements: one that is known, or a range for planning. Numbers that do not fit stay at the highest.
+/// A number of elements: exact, or a range while planning. Arithmetic saturates at the largest value.
 pub trait Count: Copy {
-    /// The sum of two counts.
+    /// Returns the sum of two counts.
     #[must_use]
     fn plus(self, other: Self) -> Self;
 
-    /// This count without another one, not below 0.
+    /// Returns the difference of two counts, or 0 if it would be negative.
     #[must_use]
     fn minus(self, other: Self) -> Self;
 
-    /// `n` times this count.
+    /// Returns `n` times this count.
     #[must_use]
     fn times(self, n: u64) -> Self;
 
-    /// The lowest value.
+    /// Returns the lowest possible value of this count.
     fn least(self) -> u64;
 }
 
@@ -50,24 +50,24 @@ impl Count for u64 {
 /// The size of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size<N = u64> {
-    /// How many vertices there are.
+    /// The number of vertices.
     pub vertices: N,
-    /// How many edges.
+    /// The number of edges.
     pub edges: N,
-    /// How many faces.
+    /// The number of faces.
     pub faces: N,
-    /// The corners of all faces.
+    /// The number of corners of all faces together.
     pub corners: N,
-    /// The vertices without an edge. They stay so.
+    /// The number of isolated vertices. It does not change with levels.
     pub isolated: N,
-    /// The vertices inside that have two edges.
-    pub with_two_edges: N,
-    /// The bytes of all attributes of one vertex, corner, edge and face.
+    /// The number of inner vertices of valence 2.
+    pub inner_of_valence_2: N,
+    /// The bytes of all attributes of one vertex, one corner, one edge and one face.
     pub attributes: [u64; 4],
 }
 
-/// Whether `v` is inside and has two edges.
-pub(crate) fn has_two_edges_inside(mesh: &Mesh, v: VertexId) -> bool {
+/// Whether `v` is an inner vertex of valence 2.
+pub(crate) fn is_inner_of_valence_2(mesh: &Mesh, v: VertexId) -> bool {
     mesh.vertex_half_edge(v).is_some_and(|h| {
         let k = mesh.next(h.twin());
         mesh.face(h).is_some() && mesh.next(k.twin()) == h
@@ -75,7 +75,7 @@ pub(crate) fn has_two_edges_inside(mesh: &Mesh, v: VertexId) -> bool {
 }
 
 impl Size {
-    /// The size of a dense mesh.
+    /// Measures a dense mesh.
     pub fn of(mesh: &Mesh) -> Self {
         let attributes = Domain::ALL.map(|domain| {
             let columns = mesh.attributes().of(domain).iter();
@@ -86,9 +86,9 @@ impl Size {
         });
         let faces = mesh.connectivity().face.iter();
         let corners = faces.filter(|f| f.some().is_some()).count();
-        let with_two_edges = of_blocks(mesh.n_vertices(), &|block| {
+        let inner_of_valence_2 = of_blocks(mesh.n_vertices(), &|block| {
             let vertices = block.map(VertexId::new);
-            vertices.filter(|&v| has_two_edges_inside(mesh, v)).count()
+            vertices.filter(|&v| is_inner_of_valence_2(mesh, v)).count()
         });
         Self {
             vertices: mesh.n_vertices() as u64,
@@ -96,13 +96,14 @@ impl Size {
             faces: mesh.n_faces() as u64,
             corners: corners as u64,
             isolated: mesh.n_isolated_vertices() as u64,
-            with_two_edges: with_two_edges.into_iter().sum::<usize>() as u64,
+            inner_of_valence_2: inner_of_valence_2.into_iter().sum::<usize>() as u64,
             attributes,
         }
     }
 
-    /// How much these levels, of which the first begins here, add to the [`Meter`](progress::Meter): about one for
-    /// each new vertex, and one for each old edge and new face or, in schemes of other edges, for each new edge.
+    /// Estimates how much the given levels, starting from this size, add to the [`Meter`](progress::Meter): one
+    /// for each new vertex, and one for each old edge and new face. With Sqrt3 and Doo-Sabin it is one for each
+    /// new vertex and each new edge.
     pub(crate) fn work(self, scheme: Scheme, levels: Range<u32>) -> u64 {
         let (mut size, mut sum) = (self, 0);
         for level in levels {
@@ -119,7 +120,7 @@ impl Size {
 }
 
 impl<N: Count> Size<N> {
-    /// The size after level number `level` (from 0) of a scheme.
+    /// Returns the size after one level of a scheme. `level` is its number, counted from 0.
     #[must_use]
     pub fn after(self, scheme: Scheme, level: u32) -> Self {
         let Self {
@@ -128,10 +129,10 @@ impl<N: Count> Size<N> {
             faces,
             corners,
             isolated,
-            with_two_edges,
+            inner_of_valence_2,
             ..
         } = self;
-        // Each edge of the boundary has one half without a face.
+        // Each boundary edge has one half without a face.
         let boundary = edges.times(2).minus(corners);
         let [vertices, edges, faces, corners] = match scheme {
             Scheme::Loop(_) | Scheme::Butterfly | Scheme::Midpoint(Split::Triangles) => [
@@ -147,7 +148,8 @@ impl<N: Count> Size<N> {
                 corners.times(4),
             ],
             Scheme::Sqrt3 => {
-                // On odd levels faces at the boundary get two vertices on it and none in the middle.
+                // On odd levels, faces at the boundary get two vertices on the boundary edge instead of one in
+                // the center.
                 let cut = boundary.times(u64::from(level % 2));
                 [
                     vertices.plus(faces).plus(cut),
@@ -161,29 +163,29 @@ impl<N: Count> Size<N> {
                 corners
                     .plus(edges.times(2))
                     .plus(boundary.times(2))
-                    .minus(with_two_edges),
-                // Vertices without an edge, and inside with two, become no face.
+                    .minus(inner_of_valence_2),
+                // Isolated vertices and inner vertices of valence 2 do not become faces.
                 faces
                     .plus(edges)
-                    .plus(vertices.minus(isolated).minus(with_two_edges)),
+                    .plus(vertices.minus(isolated).minus(inner_of_valence_2)),
                 corners
                     .plus(edges.times(6))
                     .plus(boundary)
-                    .minus(with_two_edges.times(2)),
+                    .minus(inner_of_valence_2.times(2)),
             ],
         };
-        let stay = u64::from(scheme != Scheme::DooSabin);
+        let keeps_valence_2 = u64::from(scheme != Scheme::DooSabin);
         Self {
             vertices,
             edges,
             faces,
             corners,
-            with_two_edges: with_two_edges.times(stay),
+            inner_of_valence_2: inner_of_valence_2.times(keeps_valence_2),
             ..self
         }
     }
 
-    /// The least bytes that the mesh takes, as [`Mesh::bytes`] counts them.
+    /// Returns the minimum number of bytes of the mesh, counted as [`Mesh::bytes`] does.
     pub fn bytes(self) -> u64 {
         let [vertex, corner, edge, face] = self.attributes;
         let vertices = self.vertices.least().times(28 + vertex);
@@ -193,7 +195,7 @@ impl<N: Count> Size<N> {
             .plus(self.faces.least().times(4 + face))
     }
 
-    /// Checks that the mesh after these levels, of which the first begins here, has ids for all elements and
+    /// Checks that after the given levels, starting from this size, ids can number all elements and the mesh
     /// takes at most `budget` bytes.
     ///
     /// # Errors
@@ -226,40 +228,43 @@ impl<N: Count> Size<N> {
     fn has_ids(self) -> bool {
         let half_edges = self.edges.least().times(2);
         let counts = [self.vertices.least(), half_edges, self.faces.least()];
-        counts.into_iter().all(|n| n <= IDS)
+        counts.into_iter().all(|n| n <= MAX_ELEMENTS)
     }
 }
 
-/// The mesh would be too large.
+/// The error that a subdivided mesh would be too large.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("level {levels} has {faces} faces and {}", self.excess())]
+#[error("level {levels} would have {faces} faces and {}", self.excess())]
 pub struct TooLarge {
-    /// The level at which it is.
+    /// The requested level.
     pub levels: u32,
-    /// How many faces it has there.
+    /// The number of faces at that level.
     pub faces: u64,
-    /// How many half-edges.
+    /// The number of half-edges at that level.
     pub half_edges: u64,
-    /// The bytes that it takes; `None` if it has no ids for all elements.
+    /// The number of bytes of the mesh; `None` if it has more elements than ids can number.
     pub bytes: Option<u64>,
-    /// How many bytes it may take.
+    /// The memory budget in bytes.
     pub budget: u64,
     /// The highest level that fits, if any.
     pub fits: Option<u32>,
 }
 
 impl TooLarge {
-    /// Which levels fit.
+    /// Names the highest level that fits, for the help of an error message.
     pub fn help(&self) -> String {
         match self.fits {
-            Some(level) => format!("level {level} fits"),
+            Some(level) => format!("the highest level that fits is {level}"),
             None => "no level fits".to_owned(),
         }
     }
 
     fn excess(&self) -> String {
         match self.bytes {
-            Some(bytes) => format!("takes {bytes} bytes, but the budget is {}", self.budget),
+            Some(bytes) => format!(
+                "take {bytes} bytes, but the memory budget is {} bytes",
+                self.budget
+            ),
             None => format!("{} half-edges, but ids end at 2^32 - 2", self.half_edges),
         }
     }
@@ -278,13 +283,13 @@ mod tests {
     }
 
     #[test]
-    fn a_level_of_loop_has_four_times_the_triangles() {
+    fn a_level_of_loop_multiplies_the_triangles_by_four() {
         let c = icosahedron().after(LOOP, 0).after(LOOP, 1);
         assert_eq!([c.vertices, c.edges, c.faces], [162, 480, 320]);
     }
 
     #[test]
-    fn bytes_are_those_of_the_mesh() {
+    fn bytes_equal_those_of_the_mesh() {
         let mut mesh = shapes::torus(5, 4, 2.0, 1.0);
         mesh.set(mesh::COLOR, vec![mesh::DVec4::ONE; mesh.n_vertices()]);
         mesh.set(mesh::MATERIAL, vec![0; mesh.n_faces()]);
@@ -295,15 +300,15 @@ mod tests {
 
     #[test]
     fn ids_end_before_fourteen_levels_of_an_icosahedron() {
-        // 60 * 4^13 half-edges are 4.03e9, which ids can number; 60 * 4^14 are not.
+        // Ids can number 60 * 4^13 = 4.03e9 half-edges, but not 60 * 4^14.
         assert_eq!(icosahedron().check(LOOP, 0..13, u64::MAX), Ok(()));
         let too_large = icosahedron().check(LOOP, 0..14, u64::MAX).unwrap_err();
         assert_eq!(too_large.fits, Some(13));
         assert_eq!(
             too_large.to_string(),
-            "level 14 has 5368709120 faces and 16106127360 half-edges, but ids end at 2^32 - 2"
+            "level 14 would have 5368709120 faces and 16106127360 half-edges, but ids end at 2^32 - 2"
         );
-        assert_eq!(too_large.help(), "level 13 fits");
+        assert_eq!(too_large.help(), "the highest level that fits is 13");
     }
 
     #[test]
@@ -319,16 +324,16 @@ mod tests {
     }
 
     #[test]
-    fn a_nearly_endless_mesh_is_too_large_without_overflow() {
-        let endless = Size {
+    fn counts_near_the_largest_integer_do_not_overflow() {
+        let largest = Size {
             vertices: u64::MAX,
             edges: u64::MAX,
             faces: u64::MAX,
             corners: u64::MAX,
             isolated: 0,
-            with_two_edges: 0,
+            inner_of_valence_2: 0,
             attributes: [16; 4],
         };
-        assert_eq!(endless.check(LOOP, 0..16, u64::MAX).unwrap_err().fits, None);
+        assert_eq!(largest.check(LOOP, 0..16, u64::MAX).unwrap_err().fits, None);
     }
 }

@@ -1,15 +1,15 @@
-//! The connectivity of Sqrt3 subdivision, where every triangle becomes three, turned.
+//! The connectivity of Sqrt3 subdivision: every triangle is split into three, then the old edges are flipped.
 //!
-//! Half-edge h runs from a to b with face f, in which c is opposite; its twin t has face g. Every face gets a
-//! vertex in its center, V + f, which three spokes join to its corners, and every edge inside is flipped, so
-//! that it joins two centers. Edges keep their numbers; the spoke of the k-th corner of face f is edge
-//! E + 3f + k, spoke(h) is the half of it that leaves the origin of h, and the k-th triangle of face f is
-//! 3f + k, T(h):
+//! Half-edge h runs from a to b and has face f, whose opposite corner is c; its twin t has face g. Every face
+//! gets the vertex V + f at its center and three spokes, the edges from its corners to the center. Every inner
+//! edge is flipped, so that it connects two centers. Edges keep their numbers. The spoke of the k-th corner of
+//! face f is edge E + 3f + k, and spoke(h) is its half that starts at the origin of h. T(h), the k-th triangle
+//! of face f, is 3f + k:
 //!
 //! ```text
 //!              c                           c
 //!            /   \                       / | \           h keeps its number and lies in T(h); it runs
-//!          /   f   \                   /   m   \         from the center of g to that of f, m
+//!          /   f   \                   /   m   \         from the center of g to m, the center of f
 //!        /           \               /   / | \   \
 //!      a ----- h ----> b    --->    a -----|----- b      next(h)              = twin of spoke(h)
 //!        \           /               \ T(h)h T(t)/       next(spoke(h) twin)  = spoke(next(t))
@@ -17,10 +17,10 @@
 //!            \   /                       \ | /
 //! ```
 //!
-//! With a boundary, levels come in pairs, counted from 0. On even levels an edge of the boundary stays as it
-//! is. On odd ones each triangle there has one such edge (the level before made it), and gets two vertices
-//! on it instead of a center, x = V + f and y, which is V + F + (rank of the edge's half-edge without a face
-//! among all such):
+//! At a boundary, even and odd levels differ; levels are counted from 0. On even levels a boundary edge stays
+//! unchanged. On odd levels each triangle at the boundary has exactly one boundary edge, because the level
+//! before made it so. The triangle gets two vertices on that edge instead of a center: x = V + f, and
+//! y = V + F + (rank of the edge's half-edge without a face among all half-edges without a face):
 //!
 //! ```text
 //!          c                  c                 T(h) is (a, b, m), next(h) = spoke(next(h)),
@@ -28,19 +28,20 @@
 //!      /   m   \          /   |  |  \           next(spoke(h) twin)  = h
 //!    /   /   \   \       /   |    |   \
 //!   a ----- h ----> b   a -- x -h-> y -- b      T(h) is (x, y, c); a x and y b are the spokes of a and b,
-//!                                               c x is that of c, and c y is edge E + 3F + rank
+//!                                               c x is the spoke of c, and c y is edge E + 3F + rank
 //!      even level          odd level
 //! ```
 //!
-//! For the flips of the other two edges x and y play the part of the center, each for the edge nearer to it.
-//! After two levels every edge of the boundary, and every old edge, is three. Kobbelt, "√3-Subdivision", 2000.
+//! In the flips of the other two edges x and y replace the center, each for the edge nearer to it. After two
+//! levels every boundary edge, and every old edge, has become three edges. Source: Kobbelt, "√3-Subdivision",
+//! 2000.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
 
-use crate::chosen::Chosen;
 use crate::links::{self, Link, Links};
-use crate::topology::{Place, Topology, near};
+use crate::subset::Subset;
+use crate::topology::{Place, Topology, place_near_origin};
 use crate::triangles::rank;
 
 /// A dense mesh of triangles, each of which becomes three.
@@ -49,33 +50,34 @@ pub(crate) struct Sqrt3<'a> {
     n_vertices: usize,
     n_edges: usize,
     n_faces: usize,
-    /// On odd levels the half-edges without a face, whose edges are cut in three.
-    cut: Option<Chosen>,
+    /// On odd levels the half-edges without a face. Their edges are cut in three.
+    cut: Option<Subset>,
 }
 
-/// What new vertex `i` lies at.
+/// The old element to which a new vertex belongs.
 pub(crate) enum Source {
     /// An old vertex.
     Old(VertexId),
     /// The center of a face.
     Center(FaceId),
-    /// On the edge of this half-edge without a face, a third of the way from its origin.
+    /// A point on this half-edge of a boundary edge, at a third of the way from its origin.
     Near(HalfEdgeId),
 }
 
-/// How the edge of a half-edge with a face is treated.
+/// What happens to the edge of a half-edge with a face.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Side {
-    /// It is flipped.
+    /// The edge is flipped.
     Flipped,
-    /// It is on the boundary and stays.
+    /// The edge is on the boundary and stays unchanged.
     Kept,
-    /// It is on the boundary and cut in three.
+    /// The edge is on the boundary and is cut in three.
     Cut,
 }
 
 impl<'a> Sqrt3<'a> {
-    /// Level number `level`, from 0. An odd one is made of what the even one before it made.
+    /// Prepares level number `level`, counted from 0. For an odd level, the mesh must be the result of an even
+    /// level.
     pub(crate) fn new(mesh: &'a Mesh, level: u32) -> Self {
         let is_outer = |i| mesh.face(HalfEdgeId::new(i)).is_none();
         let is_even = level.is_multiple_of(2);
@@ -84,16 +86,16 @@ impl<'a> Sqrt3<'a> {
             n_vertices: mesh.n_vertices(),
             n_edges: mesh.n_edges(),
             n_faces: mesh.n_faces(),
-            cut: (!is_even).then(|| Chosen::of(mesh.n_half_edges(), is_outer)),
+            cut: (!is_even).then(|| Subset::of(mesh.n_half_edges(), is_outer)),
         }
     }
 
-    /// Whether edges of the boundary are cut.
+    /// Whether this level cuts boundary edges.
     pub(crate) fn cuts_boundary(&self) -> bool {
         self.cut.is_some()
     }
 
-    /// Where new vertex `i` lies.
+    /// Returns the old element to which new vertex `i` belongs.
     #[inline]
     pub(crate) fn source(&self, i: usize) -> Source {
         let Some(f) = i.checked_sub(self.n_vertices) else {
@@ -101,7 +103,7 @@ impl<'a> Sqrt3<'a> {
         };
         match &self.cut {
             Some(cut) if f >= self.n_faces => {
-                Source::Near(HalfEdgeId::new(cut.at(f - self.n_faces)))
+                Source::Near(HalfEdgeId::new(cut.nth(f - self.n_faces)))
             }
             Some(_) => {
                 let mut halves = self.mesh.face_half_edges(FaceId::new(f));
@@ -114,7 +116,7 @@ impl<'a> Sqrt3<'a> {
         }
     }
 
-    /// How the edge of `h`, which has a face, is treated.
+    /// Returns what happens to the edge of `h`, which must have a face.
     #[inline]
     fn side(&self, h: HalfEdgeId) -> Side {
         if self.mesh.face(h.twin()).is_some() {
@@ -126,7 +128,7 @@ impl<'a> Sqrt3<'a> {
         }
     }
 
-    /// The half-edge before `h` in its triangle.
+    /// Returns the half-edge before `h` in its triangle.
     #[inline]
     fn prev(&self, h: HalfEdgeId) -> HalfEdgeId {
         self.mesh.next(self.mesh.next(h))
@@ -137,21 +139,21 @@ impl<'a> Sqrt3<'a> {
         self.mesh.connectivity().face[h.index()]
     }
 
-    /// 3f + k, where `h` is the k-th half-edge of face f.
+    /// Returns 3f + k, where `h` is the k-th half-edge of face f.
     #[inline]
     fn corner_number(&self, h: HalfEdgeId) -> usize {
         let f = self.face_of(h);
         3 * f.index() + rank(self.mesh, h, f)
     }
 
-    /// The half-edge with this [`corner_number`](Self::corner_number).
+    /// Returns the half-edge with the given [`corner_number`](Self::corner_number).
     #[inline]
     fn of_corner(&self, i: usize) -> HalfEdgeId {
         let start = self.mesh.face_half_edge(FaceId::new(i / 3));
         (0..i % 3).fold(start, |h, _| self.mesh.next(h))
     }
 
-    /// T(h).
+    /// Returns the new face T(h).
     #[inline]
     fn triangle(&self, h: HalfEdgeId) -> FaceId {
         FaceId::new(self.corner_number(h))
@@ -162,21 +164,21 @@ impl<'a> Sqrt3<'a> {
         HalfEdgeId::new(2 * (self.n_edges + self.corner_number(h)))
     }
 
-    /// How many edges of the boundary before that of `h`, which has a face, are cut.
+    /// Returns the rank of the edge of `h`, which must have a face, among the edges that are cut.
     #[inline]
     fn rank(&self, h: HalfEdgeId) -> usize {
         let cut = self.cut.as_ref();
         cut.map_or(0, |cut| cut.below(h.twin().index()))
     }
 
-    /// Where the edge of `h` is cut, the half-edge from c to y.
+    /// Returns the half-edge from c to y, if the edge of `h` is cut.
     #[inline]
     fn second_spoke(&self, h: HalfEdgeId) -> HalfEdgeId {
         HalfEdgeId::new(2 * (self.n_edges + 3 * self.n_faces + self.rank(h)))
     }
 
-    /// The new vertex at the end of the spoke of `h`: where `h` is flipped, the center on its side, or
-    /// what plays its part.
+    /// Returns the new vertex at the end of the spoke of `h`: the center of its face, or the vertex that
+    /// replaces the center.
     #[inline]
     fn end(&self, h: HalfEdgeId) -> VertexId {
         let before = self.prev(h);
@@ -187,7 +189,7 @@ impl<'a> Sqrt3<'a> {
         VertexId::new(self.n_vertices + i)
     }
 
-    /// The half-edge from the target of flipped `h` to `end(h)`.
+    /// Returns the half-edge from the target of `h`, whose edge is flipped, to `end(h)`.
     #[inline]
     fn spoke_at_target(&self, h: HalfEdgeId) -> HalfEdgeId {
         let before = self.prev(h);
@@ -197,9 +199,9 @@ impl<'a> Sqrt3<'a> {
         }
     }
 
-    /// The half-edge that keeps its number.
+    /// Returns the links of the new half-edge that has the number of old half-edge `h`.
     #[inline]
-    fn old(&self, h: HalfEdgeId) -> Link {
+    fn kept_half_edge(&self, h: HalfEdgeId) -> Link {
         let mesh = self.mesh;
         if mesh.face(h).is_none() {
             let inner = h.twin();
@@ -218,7 +220,7 @@ impl<'a> Sqrt3<'a> {
         Link(origin, next, self.triangle(h))
     }
 
-    /// Both halves of the spoke of `h`.
+    /// Returns the links of both halves of the spoke of `h`.
     #[inline]
     fn edge_spoke(&self, h: HalfEdgeId) -> [Link; 2] {
         let mesh = self.mesh;
@@ -235,7 +237,7 @@ impl<'a> Sqrt3<'a> {
         let (next, face) = match self.side(h) {
             Side::Flipped => (self.spoke_at_target(h.twin()), self.triangle(h)),
             Side::Kept => (h, self.triangle(h)),
-            // From x to a, and on along the boundary.
+            // From x to a, then along the boundary.
             Side::Cut => {
                 let following = mesh.next(h.twin()).twin();
                 (self.spoke(mesh.next(following)), FaceId::NONE)
@@ -244,7 +246,7 @@ impl<'a> Sqrt3<'a> {
         [half, Link(self.end(h), next, face)]
     }
 
-    /// Both halves of the second spoke of c, where the edge of `h` is cut.
+    /// Returns the links of both halves of the edge from c to y, if the edge of `h` is cut.
     #[inline]
     fn edge_second_spoke(&self, h: HalfEdgeId) -> [Link; 2] {
         let after = self.mesh.next(h);
@@ -256,16 +258,16 @@ impl<'a> Sqrt3<'a> {
         ]
     }
 
-    /// The half-edge with a face whose edge is the `r`-th that is cut.
+    /// Returns the half-edge with a face of the `r`-th edge that is cut.
     fn of_rank(&self, r: usize) -> HalfEdgeId {
         let cut = self.cut.as_ref().expect("only odd levels have ranks");
-        HalfEdgeId::new(cut.at(r)).twin()
+        HalfEdgeId::new(cut.nth(r)).twin()
     }
 }
 
 impl Links for Sqrt3<'_> {
     fn counts(&self) -> [usize; 3] {
-        let cut = self.cut.as_ref().map_or(0, Chosen::len);
+        let cut = self.cut.as_ref().map_or(0, Subset::len);
         [
             self.n_vertices + self.n_faces + cut,
             self.n_edges + 3 * self.n_faces + cut,
@@ -276,7 +278,7 @@ impl Links for Sqrt3<'_> {
     #[inline]
     fn edge(&self, i: usize) -> [Link; 2] {
         let Some(i) = i.checked_sub(self.n_edges) else {
-            return [2 * i, 2 * i + 1].map(|h| self.old(HalfEdgeId::new(h)));
+            return [2 * i, 2 * i + 1].map(|h| self.kept_half_edge(HalfEdgeId::new(h)));
         };
         match i.checked_sub(3 * self.n_faces) {
             None => self.edge_spoke(self.of_corner(i)),
@@ -291,7 +293,7 @@ impl Links for Sqrt3<'_> {
             Source::Old(v) => match mesh.vertex_half_edge(v) {
                 None => HalfEdgeId::NONE,
                 Some(h) if mesh.face(h).is_some() => self.spoke(h),
-                // The boundary begins with a part of the old half-edge, or with that.
+                // The boundary half-edge is a part of the old half-edge, or the old half-edge itself.
                 Some(h) => match self.side(h.twin()) {
                     Side::Cut => self.spoke(mesh.next(h.twin())),
                     _ => h,
@@ -319,8 +321,8 @@ impl Topology for Sqrt3<'_> {
         links::connectivity(self, meter)
     }
 
-    /// A triangle around a flipped edge lies in two old faces. At the old vertex it has the value of the one
-    /// whose number it has, and at the centers those of theirs.
+    /// A triangle at a flipped edge lies in two old faces. At its old vertex it has the value of the face that
+    /// it is numbered after, and at each center the value of the face of that center.
     fn corner(&self, finer: &Connectivity, i: usize) -> Place {
         let mesh = self.mesh;
         let Some(face) = finer.face[i].some() else {
@@ -330,10 +332,10 @@ impl Topology for Sqrt3<'_> {
             Source::Old(v) => {
                 let mut sides = mesh.face_half_edges(FaceId::new(face.index() / 3));
                 let h = sides.find(|&h| mesh.origin(h) == v);
-                Place::At(h.expect("a triangle has a corner of its old face"))
+                Place::At(h.expect("a triangle has a corner of its kept_half_edge face"))
             }
             Source::Center(f) => Place::In(f),
-            Source::Near(h) => near(mesh, h, 3),
+            Source::Near(h) => place_near_origin(mesh, h, 3),
         }
     }
 
@@ -345,7 +347,7 @@ impl Topology for Sqrt3<'_> {
         if spoke >= 3 * self.n_faces {
             return None;
         }
-        // The outer parts of an edge that is cut.
+        // The two spokes that are the outer parts of a cut edge.
         let h = self.of_corner(spoke);
         let mut parents = [h, self.prev(h)].into_iter();
         let cut = parents.find(|&h| self.side(h) == Side::Cut);

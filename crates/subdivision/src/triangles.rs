@@ -1,8 +1,9 @@
-//! The connectivity of the next level where every triangle becomes four.
+//! The connectivity of the next level when every triangle is split into four.
 //!
-//! Edges are cut in two as in [`halves`](crate::halves). Counted from its first half-edge, face f has the
-//! half-edges h0, h1, h2. The triangle at the origin of hk becomes face 4f + k, the middle one face 4f + 3.
-//! The edge between the two is 2E + 3f + k; its first half cuts the corner, the second lies in the middle:
+//! Edges are split in two as in [`halves`](crate::halves). Face f has the half-edges h0, h1, h2, counted from
+//! its first one. The triangle at the origin of hk becomes face 4f + k, and the middle triangle becomes face 4f +
+//! 3. The edge between these two is 2E + 3f + k. Its first half, cut k, belongs to the corner triangle, and its
+//! second half to the middle triangle:
 //!
 //! ```text
 //!                  v2
@@ -22,22 +23,22 @@
 use mesh::{Connectivity, FaceId, HalfEdgeId, Mesh};
 use progress::{Cancelled, Meter};
 
-use crate::halves::{Parts, Rest, first, on_edge, place, second, split_edges};
+use crate::halves::{AddedArrays, PartLinks, first, on_edge, place, second, split_edges};
 use crate::links::{self, Entries};
 use crate::topology::{Place, Topology};
 
-/// A dense mesh of triangles, each of which is cut into four.
+/// A dense mesh of triangles, each of which is split into four.
 pub(crate) struct Triangles<'a>(pub(crate) &'a Mesh);
 
 impl Triangles<'_> {
-    /// The half-edge that cuts corner `k` of face `f`.
+    /// Returns the half-edge cut k of face `f`, which belongs to the triangle at corner `k`.
     #[inline]
     fn cut(&self, f: FaceId, k: usize) -> HalfEdgeId {
         HalfEdgeId::new(4 * self.0.n_edges() + 6 * f.index() + 2 * k)
     }
 
     #[inline]
-    fn parts(&self, h: HalfEdgeId) -> Parts {
+    fn parts(&self, h: HalfEdgeId) -> PartLinks {
         let next = self.0.next(h);
         let Some(f) = self.0.face(h) else {
             return ([second(h), first(next)], [FaceId::NONE; 2]);
@@ -48,7 +49,7 @@ impl Triangles<'_> {
         ([self.cut(f, k), first(next)], [corner(k), corner(after_k)])
     }
 
-    /// The edges inside an old face, six half-edges, and the new faces.
+    /// The entries of an old face: the six half-edges inside it, and its four new faces.
     #[inline]
     fn cut_face(&self, f: FaceId) -> Entries<6, 4> {
         let h0 = self.0.face_half_edge(f);
@@ -73,7 +74,7 @@ impl Triangles<'_> {
     }
 }
 
-/// Which half-edge of triangle `f` this one is.
+/// Returns the rank of `h` among the half-edges of triangle `f`: 0, 1 or 2.
 #[inline]
 pub(crate) fn rank(mesh: &Mesh, h: HalfEdgeId, f: FaceId) -> usize {
     let start = mesh.face_half_edge(f);
@@ -90,11 +91,11 @@ impl Topology for Triangles<'_> {
     fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled> {
         let n_faces = self.0.n_faces();
         let added = [0, 3 * n_faces, 4 * n_faces];
-        let rest = |rest: Rest| {
+        let fill_added = |arrays: AddedArrays| {
             let entries = |f| self.cut_face(FaceId::new(f));
-            links::write(rest.halves, rest.face_half_edge, meter, entries)
+            links::write(arrays.halves, arrays.face_half_edge, meter, entries)
         };
-        split_edges(self.0, added, |h| self.parts(h), rest, meter)
+        split_edges(self.0, added, |h| self.parts(h), fill_added, meter)
     }
 
     fn corner(&self, _: &Connectivity, i: usize) -> Place {
@@ -102,7 +103,7 @@ impl Topology for Triangles<'_> {
         if i < n_halves {
             return place(self.0, i);
         }
-        // Cut k runs from the middle of half-edge k to that of half-edge k - 1.
+        // Cut k runs from the middle of half-edge k to the middle of half-edge k - 1.
         let (f, i) = ((i - n_halves) / 6, (i - n_halves) % 6);
         let start = self.0.face_half_edge(FaceId::new(f));
         let k = (i / 2 + if i % 2 == 0 { 0 } else { 2 }) % 3;

@@ -1,4 +1,4 @@
-//! Levels of a whole mesh.
+//! Subdivision of a whole mesh.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -12,26 +12,31 @@ use crate::level;
 use crate::rules::Rules;
 use crate::size::Size;
 
-/// The mesh after `levels` levels.
+/// Subdivides a mesh `levels` times.
 ///
-/// Ids: with Loop, Butterfly and Midpoint old vertices keep their numbers, the vertex on edge e is V + e,
-/// edge e becomes edges 2e and 2e + 1, and face f becomes faces 4f to 4f + 3, or, in quads, one for each
-/// corner in order; the center of face f is V + E + f. With Doo-Sabin face f stays f, edge e becomes face
-/// F + e and edges 2e and 2e + 1, and the faces of vertices follow. With Sqrt3 old vertices keep their
-/// numbers and face f becomes faces 3f to 3f + 2. A mesh with dead elements is compacted first, and the ids
-/// are those of the compacted mesh.
+/// What happens to ids in one level, where V, E and F are the numbers of old vertices, edges and faces:
 ///
-/// Vertex attributes are smoothed with the weights of the positions; corner values by
-/// [`Rules::face_varying`]; parts of an edge or a face take the values of the whole. Normals are left out,
-/// because they would be wrong. Sharpness ([`mesh::CREASE`], [`mesh::VERTEX_SHARPNESS`]) shapes Loop and Catmull-Clark
-/// surfaces and fades with the levels; other schemes hand it on.
+/// - Loop, Butterfly, Catmull-Clark and Midpoint: old vertices keep their ids. The vertex on edge e is V + e,
+///   and edge e becomes edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3. If the scheme makes quads,
+///   each corner becomes one face, in order, and the center of face f is vertex V + E + f.
+/// - Doo-Sabin: face f keeps its id, edge e becomes face F + e and edges 2e and 2e + 1, and the faces of
+///   vertices follow.
+/// - Sqrt3: old vertices keep their ids, and face f becomes faces 3f to 3f + 2.
 ///
-/// Progress is reported from the threads that work.
+/// A mesh with dead elements is compacted first, and the ids are those of the compacted mesh.
+///
+/// Vertex attributes are smoothed with the weights of the positions, and corner values as
+/// [`Rules::face_varying`] says. Parts of an edge or a face copy the values of the old edge or face. Normals
+/// are dropped, because they would be wrong. Sharpness ([`mesh::CREASE`], [`mesh::VERTEX_SHARPNESS`]) shapes
+/// Loop and Catmull-Clark surfaces and decreases with each level; other schemes copy it unchanged.
+///
+/// Progress is reported from the worker threads.
 ///
 /// # Errors
 ///
 /// [`SubdivisionError::NotTriangle`] if the scheme needs triangles and a face has more corners,
-/// [`SubdivisionError::TooLarge`] if the elements would outnumber the ids, [`SubdivisionError::Cancelled`].
+/// [`SubdivisionError::TooLarge`] if the result would have more elements than ids can number,
+/// [`SubdivisionError::Cancelled`] if the progress listener asks to stop.
 pub fn subdivide(
     mesh: &Mesh,
     rules: Rules,
@@ -41,14 +46,15 @@ pub fn subdivide(
     subdivide_within(mesh, rules, 0..levels, u64::MAX, progress)
 }
 
-/// The mesh after some levels, of which the first begins with this mesh, if it takes at most `budget` bytes.
+/// Computes a range of levels, starting from this mesh, if the result takes at most `budget` bytes.
 ///
-/// Levels count from 0 where subdivision began: with [`Scheme::Sqrt3`](crate::Scheme::Sqrt3) even and odd ones differ.
+/// `levels.start` is the number of levels that this mesh has already been through, and 0 for a coarse mesh. The
+/// number matters for [`Scheme::Sqrt3`](crate::Scheme::Sqrt3), whose even and odd levels differ.
 ///
 /// # Errors
 ///
-/// Those of [`subdivide`]; [`SubdivisionError::TooLarge`] also for the budget. Both are known before anything
-/// is computed.
+/// The errors of [`subdivide`], and [`SubdivisionError::TooLarge`] if the result would exceed the budget. The
+/// size is checked before any level is computed.
 pub fn subdivide_within(
     mesh: &Mesh,
     rules: Rules,

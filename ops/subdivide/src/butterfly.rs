@@ -1,4 +1,4 @@
-//! Butterfly subdivision: cuts every triangle into four, smooth through the old vertices.
+//! Butterfly subdivision: splits every triangle into four; the smooth surface passes through the old vertices.
 //!
 //! ```text
 //!    -1/16 ---- 1/8 ---- -1/16           s2    s1
@@ -9,41 +9,42 @@
 //!        /     \   /     \
 //!    -1/16 ---- 1/8 ---- -1/16
 //!
-//!     both ends regular           one end is not             on the boundary
+//!     both ends regular      one extraordinary end       on the boundary
 //! ```
 //!
-//! Each level puts a vertex on every edge and joins the three of each triangle. Old vertices stay, so the
-//! surface goes through all of them. At an end inside whose valence n is not 6, the weights of the
-//! neighbors are (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n, with others for n = 3 and 4; if both ends are such, the
-//! new vertex is the mean. That is the modified scheme of Zorin, Schröder and Sweldens, "Interpolating
-//! Subdivision for Meshes with Arbitrary Topology", 1996, after Dyn, Levin and Gregory, "A Butterfly
-//! Subdivision Scheme for Surface Interpolation with Tension Control", 1990. The limit surface has a
-//! continuous tangent plane. It may ripple where a coarse mesh bends sharply, and leave its convex hull.
+//! Each level adds a vertex on every edge and connects the three new vertices of each triangle. Old vertices do
+//! not move, so the surface passes through all of them. An inner vertex is extraordinary if its valence n is
+//! not 6. Its neighbor number j has the weight (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n, and different weights for n
+//! = 3 and 4. If both ends of an edge are extraordinary, the new vertex is the mean of both masks. This is the
+//! modified scheme of Zorin, Schröder and Sweldens, "Interpolating Subdivision for Meshes with Arbitrary
+//! Topology", 1996, after Dyn, Levin and Gregory, "A Butterfly Subdivision Scheme for Surface Interpolation
+//! with Tension Control", 1990. The limit surface has a continuous tangent plane. It can ripple where a coarse
+//! mesh bends sharply, and it can leave the convex hull of the mesh.
 //!
-//! The crate `subdivision` does the work, for this scheme and the others.
+//! The crate `subdivision` implements all schemes.
 
 use op::prelude::*;
 use subdivision::{Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Cuts every triangle into four and smooths, without moving old vertices, as often as `levels` says.
+/// Splits every triangle into four and smooths without moving old vertices, for a number of levels.
 ///
-/// A level makes 4 F triangles, 2 E + 3 F edges and V + E vertices out of F, E and V, so V - E + F
-/// stays. Edge e becomes edges 2e and 2e + 1, face f becomes faces 4f to 4f + 3, old vertices keep
-/// their numbers, and the vertex on edge e is V + e. The mesh must consist of triangles.
+/// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so
+/// V - E + F does not change. Old vertices keep their ids, the vertex on edge e is V + e, edge e becomes edges
+/// 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 ///
-/// Vertex attributes are interpolated with the weights of the positions, corner values linearly within
-/// their own old triangles; halves of an edge and parts of a triangle take the values of the whole. Normals
-/// are dropped, because they would be wrong. Sharp edges are none here; their numbers are handed on.
+/// Vertex attributes are interpolated with the weights of the positions, and corner values linearly within one
+/// old triangle. Parts of an edge or a triangle copy the values of the old edge or triangle. Normals are
+/// dropped, because they would be wrong. Sharpness has no effect and is copied unchanged.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Butterfly {
-    /// How often: each level has four times as many triangles as the one before.
-    /// 1 if nothing is said; with `until` the most levels that are allowed, 16 if nothing is said.
+    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
+    /// `until`, the maximum number of levels, which defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
-    /// When to stop, instead of after a number of levels.
+    /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
     #[serde(default)]
     pub until: Option<Until>,
 }
@@ -60,8 +61,7 @@ impl Butterfly {
 
 impl MeshOperation for Butterfly {
     const NAME: &'static str = "Butterfly";
-    const SUMMARY: &'static str =
-        "Cut every triangle into four and smooth through the old vertices";
+    const SUMMARY: &'static str = "Split every triangle into four, smooth through the old vertices";
     const EXAMPLE: &'static str = "Butterfly(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

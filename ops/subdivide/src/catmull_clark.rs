@@ -1,16 +1,17 @@
-//! Catmull-Clark subdivision: cuts every face into quads and smooths.
+//! Catmull-Clark subdivision: splits every face into quads and smooths.
 //!
 //! ```text
 //!    d ----------- c          d ---- . ---- c
 //!    |             |          |      |      |
-//!    |             |          |  3   |  2   |         f: the new vertex in a face, of n corners
-//!    |      f      |   --->   . ---- f ---- .         e: one on each edge
+//!    |             |          |  3   |  2   |         f: the new vertex in a face
+//!    |      f      |   --->   . ---- f ---- .         e: the new vertex on an edge
 //!    |             |          |  0   |  1   |         0, 1, ..: a quad at each corner
 //!    |             |          |      |      |
 //!    a ----------- b          a ---- e ---- b
 //! ```
 //!
-//! A vertex in a face is the mean of the corners. The others are means of old vertices and of these:
+//! The new vertex in a face is the mean of its corners. All other vertices are weighted means of old vertices
+//! and of the new vertices in faces:
 //!
 //! ```text
 //!          f: 1/4            1/n²     1/n²     1/n²
@@ -23,53 +24,55 @@
 //!        new, inside       old, inside, valence n         new, boundary       old, boundary
 //! ```
 //!
-//! Catmull and Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes", 1978.
-//! On a grid of quads the limit surface is the bicubic B-spline of the vertices, and away from old
-//! vertices of valence other than 4 and from the middles of faces that are not quads it has continuous
-//! curvature. The boundary is a cubic B-spline curve that does not depend on the inside.
+//! Source: Catmull and Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes", 1978.
+//! On a grid of quads the limit surface is the bicubic B-spline of the vertices. It has continuous curvature
+//! except at old vertices whose valence is not 4 and at the centers of faces that are not quads. The boundary
+//! is a cubic B-spline curve that depends on boundary vertices only.
 //!
-//! The crate `subdivision` does the work, for this scheme and the others.
+//! The crate `subdivision` implements all schemes.
 
 use op::prelude::*;
 use subdivision::{Boundary, Creasing, FaceVarying, Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Cuts every face into quads and smooths, as often as `levels` says.
+/// Splits every face into quads and smooths, for a number of levels.
 ///
-/// A level makes a quad for each corner of a face: C quads, 2 E + C edges and V + E + F vertices out of F
-/// faces with C corners, E edges and V vertices, so V - E + F stays. Edge e becomes edges 2e and 2e + 1, the
-/// quads of a face follow those of the face before, old vertices keep their numbers, the vertex on edge e
-/// is V + e and the center of face f is V + E + f.
+/// A level makes a quad of each corner of a face. It turns V vertices, E edges and F faces with C corners in
+/// total into V + E + F vertices, 2 E + C edges and C quads, so V - E + F does not change. Old vertices keep
+/// their ids, the vertex on edge e is V + e, the center of face f is V + E + f, and edge e becomes edges 2e and
+/// 2e + 1. Quads are numbered face by face, in order of the corners.
 ///
-/// Vertex attributes are smoothed with the weights of the positions; texture coordinates and other
-/// corner values as `face_varying` says, so that seams stay seams; halves of an edge and parts of a face
-/// take the values of the whole. Normals are dropped, because they would be wrong. Edges and vertices that
-/// `Crease` made sharp stay so for as many levels as their sharpness says.
+/// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner
+/// values are smoothed as `face_varying` says, and seams are kept. Parts of an edge or a face copy the values
+/// of the old edge or face. Normals are dropped, because they would be wrong. Edges and vertices that `Crease`
+/// made sharp stay sharp for as many levels as their sharpness says.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct CatmullClark {
-    /// How often: each level makes a quad of every corner of a face.
-    /// 1 if nothing is said; with `until` the most levels that are allowed, 16 if nothing is said.
+    /// The number of levels. Each level replaces every corner of a face by a quad. Defaults to 1. With `until`,
+    /// the maximum number of levels, which defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
-    /// When to stop, instead of after a number of levels.
+    /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
     #[serde(default)]
     pub until: Option<Until>,
-    /// What holds where the mesh ends.
+    /// How vertices on the boundary move.
     #[serde(default)]
     pub boundary: Boundary,
-    /// How the sharpness of creases decreases.
+    /// How the sharpness of creases decreases from level to level.
     #[serde(default)]
     pub creasing: Creasing,
     /// How texture coordinates and other corner values are smoothed.
     #[serde(default)]
     pub face_varying: FaceVarying,
-    /// Whether vertices are pushed to the limit surface in the end, and get its normals and tangents.
+    /// Whether to move the vertices of the last level to the limit surface and to store its normals and
+    /// tangents.
     #[serde(default)]
     pub to_limit: bool,
-    /// Which faces are refined, with all that they become; all if nothing is said. Faces beside them
-    /// get the new vertices as corners, and what lies outside does not move. The numbers of new elements are those of `subdivision::refine_faces`.
+    /// The faces to refine. If omitted, all faces. Faces next to them get the new vertices on common edges as
+    /// corners, and the surface outside of the refined faces does not move. For the ids of new elements see
+    /// `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }
@@ -93,7 +96,7 @@ impl CatmullClark {
 
 impl MeshOperation for CatmullClark {
     const NAME: &'static str = "CatmullClark";
-    const SUMMARY: &'static str = "Cut every face into quads and smooth";
+    const SUMMARY: &'static str = "Split every face into quads and smooth";
     const EXAMPLE: &'static str = "CatmullClark(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

@@ -1,17 +1,17 @@
-//! Doo-Sabin subdivision: cuts off every edge and vertex.
+//! Doo-Sabin subdivision: replaces every edge and vertex by a face.
 //!
 //! ```text
 //!    d --------------- c          d --------------- c
 //!    |                 |          |   .---------.   |
-//!    |                 |          |   |         |   |        a face in each old face, smaller,
+//!    |                 |          |   |         |   |        a smaller face in each old face,
 //!    |        f        |   --->   |   |    f    |   |        a quad for each old edge,
 //!    |                 |          |   |         |   |        a face around each old vertex
 //!    |                 |          |   *---------.   |
 //!    a --------------- b          a --------------- b
 //! ```
 //!
-//! Every corner of a face becomes a vertex, a mean of the corners of its face; on the boundary there are
-//! two on each edge:
+//! Every corner of a face becomes a vertex, a weighted mean of the corners of the face. Each boundary edge gets
+//! two more vertices:
 //!
 //! ```text
 //!     3/16 ---- 1/16          1/6
@@ -21,37 +21,39 @@
 //!     9/16 ---- 3/16
 //! ```
 //!
-//! In a face with n corners, the nearest has the weight (n + 5)/(4n), the j-th from there
-//! (3 + 2 cos(2πj/n))/(4n). Doo and Sabin, "Behaviour of recursive division surfaces near extraordinary
-//! points", 1978. On a grid of quads the limit surface is the biquadratic B-spline of the vertices. It
-//! touches every face in the mean of its corners, and has a continuous tangent plane. The boundary is a
-//! quadratic B-spline curve (Chaikin, "An algorithm for high-speed curve generation", 1974).
+//! In a face with n corners, the vertex of a corner has the weight (n + 5)/(4n) at that corner and (3 + 2
+//! cos(2πj/n))/(4n) at the j-th corner from there. Source: Doo and Sabin, "Behaviour of recursive division
+//! surfaces near extraordinary points", 1978. On a grid of quads the limit surface is the biquadratic B-spline
+//! of the vertices. It touches every face at the mean of its corners and has a continuous tangent plane. The
+//! boundary is a quadratic B-spline curve (Chaikin, "An algorithm for high-speed curve generation", 1974).
 //!
-//! The crate `subdivision` does the work, for this scheme and the others.
+//! The crate `subdivision` implements all schemes.
 
 use op::prelude::*;
 use subdivision::{Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Cuts off every edge and vertex, as often as `levels` says.
+/// Replaces every edge and vertex by a face and shrinks the old faces, for a number of levels.
 ///
-/// A closed mesh gets F + E + V faces, 4 E edges and 2 E vertices out of F, E and V; a boundary adds to
-/// them. V - E + F stays. The face in old face f is f, that of edge e is F + e, and those of vertices follow.
-/// Isolated vertices stay, last of all, and become no face; nor does a vertex inside with two edges.
+/// A level turns a closed mesh of V vertices, E edges and F faces into one of 2 E vertices, 4 E edges and F + E +
+/// V faces; a boundary adds more. V - E + F does not change. The face inside old face f is f, the face of edge
+/// e is F + e, and the faces of vertices follow. Isolated vertices are kept, after all other vertices. They do
+/// not become faces, and neither do inner vertices of valence 2.
 ///
-/// Vertex attributes are smoothed with the weights of the positions, and corner values within their own
-/// old faces, so along a seam texture coordinates are torn across the faces of edges and vertices. A face in
-/// an old one takes its values, that of an edge or a vertex those of a face beside it. The two edges along an
-/// old one take its values, others have none. Normals are dropped, because they would be wrong.
+/// Vertex attributes are smoothed with the weights of the positions. Corner values are smoothed within one old
+/// face, so at a seam the faces of edges and vertices have corner values of several old faces, and texture
+/// coordinates are torn there. A face inside an old face copies its values; the face of an edge or a vertex
+/// copies those of an adjacent face. The two edges along an old edge copy its values; other edges have none.
+/// Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct DooSabin {
-    /// How often: each level has about four times as many faces as the one before.
-    /// 1 if nothing is said; with `until` the most levels that are allowed, 16 if nothing is said.
+    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With
+    /// `until`, the maximum number of levels, which defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
-    /// When to stop, instead of after a number of levels.
+    /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
     #[serde(default)]
     pub until: Option<Until>,
 }
@@ -68,7 +70,7 @@ impl DooSabin {
 
 impl MeshOperation for DooSabin {
     const NAME: &'static str = "DooSabin";
-    const SUMMARY: &'static str = "Cut off every edge and vertex";
+    const SUMMARY: &'static str = "Replace every edge and vertex by a face";
     const EXAMPLE: &'static str = "DooSabin(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

@@ -1,4 +1,4 @@
-//! Loop subdivision: cuts every triangle into four and smooths.
+//! Loop subdivision: splits every triangle into four and smooths.
 //!
 //! ```text
 //!            c                      c
@@ -9,8 +9,8 @@
 //!   a --------------- b     a ---- z ---- b
 //! ```
 //!
-//! Each level puts a vertex on every edge, joins the three of each triangle, and moves old vertices
-//! to a weighted mean of themselves and their neighbors:
+//! Each level adds a vertex on every edge, connects the three new vertices of each triangle, and moves each old
+//! vertex to a weighted mean of itself and its neighbors:
 //!
 //! ```text
 //!          1/8                  u     u
@@ -22,57 +22,58 @@
 //!     new, inside          old, inside, valence n    new, boundary      old, boundary
 //! ```
 //!
-//! with u = 3/16 for n = 3 and u = 3/(8n) otherwise. The masks are those of Loop, "Smooth Subdivision
-//! Surfaces Based on Triangles", 1987, with the simpler weights at old vertices of Warren,
-//! "Subdivision Methods for Geometric Design", 1995 (also Warren and Weimer, same title, 2001). The
-//! boundary is a cubic B-spline curve that does not depend on the inside. Away from old vertices of
-//! valence other than 6 the limit surface has continuous curvature.
+//! Here u = 3/16 for n = 3 and u = 3/(8n) otherwise. The masks are those of Loop, "Smooth Subdivision Surfaces
+//! Based on Triangles", 1987, with the simpler weights at old vertices by Warren, "Subdivision Methods for
+//! Geometric Design", 1995 (also Warren and Weimer, same title, 2001). The boundary is a cubic B-spline curve
+//! that depends on boundary vertices only. The limit surface has continuous curvature except at old vertices
+//! whose valence is not 6.
 //!
-//! The crate `subdivision` does the work, for this scheme and the others.
+//! The crate `subdivision` implements all schemes.
 
 use op::prelude::*;
 use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Cuts every triangle into four and smooths, as often as `levels` says.
+/// Splits every triangle into four and smooths, for a number of levels.
 ///
-/// A level makes 4 F triangles, 2 E + 3 F edges and V + E vertices out of F, E and V, so V - E + F
-/// stays. Edge e becomes edges 2e and 2e + 1, face f becomes faces 4f to 4f + 3, old vertices keep
-/// their numbers, and the vertex on edge e is V + e. The mesh must consist of triangles.
+/// A level turns V vertices, E edges and F triangles into V + E vertices, 2 E + 3 F edges and 4 F triangles, so
+/// V - E + F does not change. Old vertices keep their ids, the vertex on edge e is V + e, edge e becomes edges
+/// 2e and 2e + 1, and face f becomes faces 4f to 4f + 3. All faces must be triangles.
 ///
-/// Vertex attributes are smoothed with the weights of the positions; texture coordinates and other
-/// corner values as `face_varying` says, so that seams stay seams; halves of an edge and parts of a
-/// triangle take the values of the whole. Normals are dropped, because they would be wrong. Edges and
-/// vertices that `Crease` made sharp stay so for as many levels as their sharpness says.
+/// Vertex attributes are smoothed with the weights of the positions. Texture coordinates and other corner
+/// values are smoothed as `face_varying` says, and seams are kept. Parts of an edge or a triangle copy the
+/// values of the old edge or triangle. Normals are dropped, because they would be wrong. Edges and vertices
+/// that `Crease` made sharp stay sharp for as many levels as their sharpness says.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoopSubdivide {
-    /// How often: each level has four times as many triangles as the one before. 1 if nothing is said; with
-    /// `until` the most levels that are allowed, 16 if nothing is said.
+    /// The number of levels. Each level multiplies the number of triangles by four. Defaults to 1. With
+    /// `until`, the maximum number of levels, which defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
-    /// When to stop, instead of after a number of levels.
+    /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
     #[serde(default)]
     pub until: Option<Until>,
     /// The weights at old vertices.
     #[serde(default)]
     pub weights: LoopWeights,
-    /// What holds where the mesh ends.
+    /// How vertices on the boundary move.
     #[serde(default)]
     pub boundary: Boundary,
-    /// How the sharpness of creases decreases.
+    /// How the sharpness of creases decreases from level to level.
     #[serde(default)]
     pub creasing: Creasing,
     /// How texture coordinates and other corner values are smoothed.
     #[serde(default)]
     pub face_varying: FaceVarying,
-    /// Whether vertices are pushed to the limit surface in the end, and get its normals and tangents.
+    /// Whether to move the vertices of the last level to the limit surface and to store its normals and
+    /// tangents.
     #[serde(default)]
     pub to_limit: bool,
-    /// Which faces are refined, with all that they become; all if nothing is said. Faces beside them are
-    /// cut in two or four, so that no vertex lies on an edge of another face, and what lies outside
-    /// does not move. The numbers of new elements are those of `subdivision::refine_faces`.
+    /// The faces to refine. If omitted, all faces. Triangles next to them are cut in two or four, so that no
+    /// vertex lies inside an edge, and the surface outside of the refined faces does not move. For the ids of
+    /// new elements see `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }
@@ -97,7 +98,7 @@ impl LoopSubdivide {
 impl MeshOperation for LoopSubdivide {
     const NAME: &'static str = "LoopSubdivide";
     const VERSION: u32 = 2;
-    const SUMMARY: &'static str = "Cut every triangle into four and smooth";
+    const SUMMARY: &'static str = "Split every triangle into four and smooth";
     const EXAMPLE: &'static str = "LoopSubdivide(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

@@ -1,4 +1,4 @@
-//! Midpoint subdivision: cuts every face into smaller ones without moving anything.
+//! Midpoint subdivision: splits every face into smaller faces without moving vertices.
 //!
 //! ```text
 //!            c                    d ---- z ---- c
@@ -12,41 +12,43 @@
 //!     into: Triangles             into: Quads
 //! ```
 //!
-//! The connectivity is that of Loop and of Catmull-Clark subdivision. Flat faces keep their plane, so the
-//! surface stays what it was; it only has more faces, for a later step to move.
+//! The connectivity is the same as in Loop and Catmull-Clark subdivision. Flat faces keep their plane, so the
+//! shape of the surface does not change; it only gets more faces, for a later step to deform.
 //!
-//! The crate `subdivision` does the work, for this scheme and the others.
+//! The crate `subdivision` implements all schemes.
 
 use op::prelude::*;
 use subdivision::{Rules, Scheme, Split};
 
 use crate::step::{Step, Until};
 
-/// Cuts every face into smaller ones without moving anything, as often as `levels` says.
+/// Splits every face into smaller faces without moving vertices, for a number of levels.
 ///
-/// `into: Triangles` takes triangles only and makes 4 F triangles, 2 E + 3 F edges and V + E vertices out
-/// of F, E and V. `into: Quads` takes any polygons and makes a quad for each corner: C quads, 2 E + C edges
-/// and V + E + F vertices out of F faces with C corners. Old vertices keep their numbers and places, the
-/// vertex on edge e is V + e, edge e becomes edges 2e and 2e + 1. Triangle f becomes faces 4f to 4f + 3; the
-/// quads of a face follow those of the face before, and its center is V + E + f.
+/// `into: Triangles` takes triangles only and turns V vertices, E edges and F triangles into V + E vertices, 2
+/// E + 3 F edges and 4 F triangles. `into: Quads` takes any polygons and makes a quad of each corner: V
+/// vertices, E edges and F faces with C corners in total become V + E + F vertices, 2 E + C edges and C quads.
+/// Old vertices keep their ids and positions, the vertex on edge e is V + e, and edge e becomes edges 2e and 2e + 1.
+/// Triangle f becomes faces 4f to 4f + 3. Quads are numbered face by face, and the center of face f is V + E +
+/// f.
 ///
-/// Vertex attributes are interpolated, and so are corner values, each within its own old face; halves of an
-/// edge and parts of a face take the values of the whole, sharpness too. Normals are dropped.
+/// Vertex attributes are interpolated, and so are corner values, each within one old face. Parts of an edge or
+/// a face copy the values of the old edge or face, including sharpness. Normals are dropped.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Midpoint {
-    /// How often: each level has about four times as many faces as the one before.
-    /// 1 if nothing is said; with `until` the most levels that are allowed, 16 if nothing is said.
+    /// The number of levels. Each level multiplies the number of faces by about four. Defaults to 1. With
+    /// `until`, the maximum number of levels, which defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
-    /// When to stop, instead of after a number of levels.
+    /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
     #[serde(default)]
     pub until: Option<Until>,
-    /// How faces are cut.
+    /// How faces are split.
     #[serde(default)]
     pub into: Split,
-    /// Which faces are refined, with all that they become; all if nothing is said. Triangles beside
-    /// them are cut in two or four, other faces get the new vertices as corners. The numbers of new elements are those of `subdivision::refine_faces`.
+    /// The faces to refine. If omitted, all faces. With `into: Triangles`, triangles next to them are cut in
+    /// two or four; with `into: Quads`, faces next to them get the new vertices on common edges as corners. For
+    /// the ids of new elements see `subdivision::refine_faces`.
     #[serde(default)]
     pub faces: Option<FaceSelection>,
 }
@@ -64,7 +66,7 @@ impl Midpoint {
 
 impl MeshOperation for Midpoint {
     const NAME: &'static str = "Midpoint";
-    const SUMMARY: &'static str = "Cut every face into smaller ones without moving anything";
+    const SUMMARY: &'static str = "Split every face into smaller faces without moving vertices";
     const EXAMPLE: &'static str = "Midpoint(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

@@ -1,18 +1,19 @@
-//! Sqrt3 subdivision: cuts every triangle into three, turned, and smooths.
+//! Sqrt3 subdivision: splits every triangle into three, flips the old edges, and smooths.
 //!
 //! ```text
 //!            c                        c
 //!          /   \                    / | \
-//!        /       \                /   m   \           m: a new vertex in each face; old edges
-//!      /     f     \    --->    /   / | \   \         inside are flipped, so that they join two
-//!    a ------------- b         a  -   |   -  b        of them
+//!        /       \                /   m   \           m, n: a new vertex in each face; old inner
+//!      /     f     \    --->    /   / | \   \         edges are flipped, so that they
+//!    a ------------- b         a  -   |   -  b        connect two new vertices
 //!      \     g     /            \   \ | /   /
 //!        \       /                \   n   /
 //!          \   /                    \ | /
 //!            d                        d
 //! ```
 //!
-//! New vertices are the means of their triangles, and old ones move to a mean with their neighbors:
+//! A new vertex is the mean of its triangle, and an old vertex moves to a weighted mean of itself and its
+//! neighbors:
 //!
 //! ```text
 //!          1/3                 a/n   a/n
@@ -24,38 +25,39 @@
 //!      in a face          old, inside, valence n    old, boundary            new, boundary
 //! ```
 //!
-//! with a = (4 - 2 cos(2π/n))/9. A boundary changes on every second level of a step, where each of its edges
-//! is cut in three; between them it stays, and its edges are not flipped. Two levels cut every edge in
-//! three and make nine triangles out of one: between Loop's four and sixteen. Kobbelt, "√3-Subdivision",
-//! 2000. The limit surface has continuous curvature away from old vertices of valence other than 6.
+//! Here a = (4 - 2 cos(2π/n))/9. A boundary changes only on every second level of a step, which cuts each
+//! boundary edge in three. On the other levels it does not change. Boundary edges are never flipped. Two levels
+//! cut every edge in three and make nine triangles of one; two levels of Loop subdivision make sixteen. Source:
+//! Kobbelt, "√3-Subdivision",
+//! 2000. The limit surface has continuous curvature except at old vertices whose valence is not 6.
 //!
-//! The crate `subdivision` does the work, for this scheme and the others.
+//! The crate `subdivision` implements all schemes.
 
 use op::prelude::*;
 use subdivision::{Rules, Scheme};
 
 use crate::step::{Step, Until};
 
-/// Cuts every triangle into three, turned, and smooths, as often as `levels` says.
+/// Splits every triangle into three, flips the old edges, and smooths, for a number of levels.
 ///
-/// A level makes 3 F triangles out of F; on a closed mesh E + 3 F edges and V + F vertices, and on every
-/// second level one more of both for each edge of the boundary. V - E + F stays. Old vertices keep their
-/// numbers, the vertex in face f is V + f, and the triangles beside it are 3f to 3f + 2. The mesh must
-/// consist of triangles. Levels are counted from the begin of the step, so two steps of one level leave a
-/// boundary as it is, where one step of two levels cuts it.
+/// A level turns V vertices, E edges and F triangles into V + F vertices, E + 3 F edges and 3 F triangles.
+/// Every second level adds one more vertex and one more edge for each boundary edge. V - E + F does not change.
+/// Old vertices keep their ids, the vertex in face f is V + f, and face f becomes faces 3f to 3f + 2. All faces
+/// must be triangles. Levels are counted from the start of the step: one step of two levels cuts the boundary
+/// edges, but two steps of one level leave the boundary unchanged.
 ///
-/// Vertex attributes are smoothed with the weights of the positions. Corner values are linear within the
-/// old triangles; the triangles beside a flipped edge lie in two, so along a seam texture coordinates are
-/// torn across these. New triangles take the values of their old one, and parts of a boundary edge those
-/// of the edge; other edges are new and have none. Normals are dropped, because they would be wrong.
+/// Vertex attributes are smoothed with the weights of the positions. Corner values are linear within one old
+/// triangle. A triangle at a flipped edge lies in two old triangles, so its texture coordinates are torn if the
+/// old edge was a seam. New triangles copy the values of their old triangle, and parts of a boundary edge copy
+/// the values of the edge; other edges are new and have none. Normals are dropped, because they would be wrong.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sqrt3 {
-    /// How often: each level has three times as many triangles as the one before.
-    /// 1 if nothing is said; with `until` the most levels that are allowed, 16 if nothing is said.
+    /// The number of levels. Each level multiplies the number of triangles by three. Defaults to 1. With
+    /// `until`, the maximum number of levels, which defaults to 16.
     #[serde(default)]
     pub levels: Option<Levels>,
-    /// When to stop, instead of after a number of levels.
+    /// The condition that ends the subdivision. If omitted, exactly `levels` levels are computed.
     #[serde(default)]
     pub until: Option<Until>,
 }
@@ -72,7 +74,7 @@ impl Sqrt3 {
 
 impl MeshOperation for Sqrt3 {
     const NAME: &'static str = "Sqrt3";
-    const SUMMARY: &'static str = "Cut every triangle into three, turned, and smooth";
+    const SUMMARY: &'static str = "Split every triangle into three, flip the old edges, and smooth";
     const EXAMPLE: &'static str = "Sqrt3(levels: 0)";
 
     fn plan(&self, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {

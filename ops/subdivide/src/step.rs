@@ -1,4 +1,4 @@
-//! What the operations of all schemes have in common: the plan, the budget, and the levels.
+//! The code shared by the operations of all schemes: the plan, the memory budget, and the levels.
 
 use mesh::{CORNER_NORMAL, DVec3, Domain, EdgeId, Mesh, TANGENT, VERTEX_NORMAL};
 use op::{
@@ -12,24 +12,24 @@ use subdivision::{
     refine_faces, subdivide_within,
 };
 
-/// When to stop, instead of after a number of levels.
+/// A condition that ends the subdivision.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Until {
-    /// As soon as all edges are shorter than this.
+    /// Stops as soon as all edges are shorter than `below`.
     EdgeLength {
         /// In scene units.
         below: PositiveLength,
     },
-    /// As soon as every vertex is nearer than this to the point of the limit surface that it goes to: for
-    /// Loop and Catmull-Clark.
+    /// Stops as soon as every vertex is nearer than `below` to its limit position. Only for Loop and
+    /// Catmull-Clark.
     LimitDistance {
         /// In scene units.
         below: PositiveLength,
     },
 }
 
-/// The parameters of an operation that subdivides, whatever its scheme.
+/// The parameters of a subdivision operation, for any scheme.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step<'a> {
     pub(crate) rules: Rules,
@@ -40,7 +40,7 @@ pub(crate) struct Step<'a> {
 }
 
 impl Step<'_> {
-    /// One level.
+    /// One level of the whole mesh, with default options.
     pub(crate) const fn new(rules: Rules) -> Self {
         Self {
             rules,
@@ -63,21 +63,21 @@ impl Step<'_> {
         self.most_levels() == 0 && !self.to_limit && self.until.is_none()
     }
 
-    /// What is wrong with the parameters, and which.
+    /// Returns an error message about the parameters, with the name of the wrong parameter.
     fn problem(&self) -> Option<(String, &'static str)> {
         if self.faces.is_some() && (self.until.is_some() || self.to_limit) {
             let message =
-                "`until` and `to_limit` are for the whole mesh, not for some of its faces";
+                "`faces` cannot be combined with `until` or `to_limit`, which need the whole mesh";
             return Some((message.to_owned(), "faces"));
         }
         let scheme = self.rules.scheme;
-        let asks_limit = matches!(self.until, Some(Until::LimitDistance { .. }));
-        (asks_limit && !scheme.has_limit())
+        let needs_limit = matches!(self.until, Some(Until::LimitDistance { .. }));
+        (needs_limit && !scheme.has_limit())
             .then(|| (SubdivisionError::NoLimit(scheme).to_string(), "until"))
     }
 
-    /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns what is wrong.
-    /// `name` is the name of the operation.
+    /// Changes `plan` as [`apply`](Self::apply) will change the mesh, and returns the problems found. `name` is
+    /// the name of the operation.
     pub(crate) fn plan(&self, name: &str, plan: &mut MeshPlan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = Vec::new();
         if let Some((message, field)) = self.problem() {
@@ -94,7 +94,8 @@ impl Step<'_> {
                     "{name} needs triangles, but the faces have at least {} corners",
                     plan.degrees.min
                 );
-                problems.push(Problem::error(message).help("cut the faces into triangles before"));
+                problems
+                    .push(Problem::error(message).help("triangulate the faces first, with Triangulate"));
             }
             plan.degrees = Range::exactly(3);
         }
@@ -106,7 +107,7 @@ impl Step<'_> {
         {
             return problems;
         }
-        let start = planned(plan);
+        let start = planned_size(plan);
         let is_certain = self.until.is_none() && self.faces.is_none();
         if is_certain && let Err(too_large) = start.check(scheme, 0..levels, cx.budget) {
             problems.push(
@@ -114,7 +115,7 @@ impl Step<'_> {
                     .at(["levels"])
                     .help(too_large.help()),
             );
-            // The plan goes on with what fits, so that later steps are not blamed for this one.
+            // The plan continues with the levels that fit, so that later steps do not report the same problem.
             levels = too_large.fits.unwrap_or(0);
         }
         let end = (0..levels).fold(start, |size, level| size.after(scheme, level));
@@ -126,7 +127,7 @@ impl Step<'_> {
         change(&mut plan.edges, end.edges.0);
         change(&mut plan.faces, end.faces.0);
         if self.faces.is_some() && !scheme.needs_triangles() {
-            // Faces beside get corners on their sides.
+            // Faces next to refined faces get more corners.
             plan.degrees.min = plan.degrees.min.min(4);
             plan.degrees.max = plan.degrees.max.saturating_mul(1 << levels);
         } else {
@@ -138,7 +139,7 @@ impl Step<'_> {
         problems
     }
 
-    /// Subdivides.
+    /// Subdivides the mesh.
     pub(crate) fn apply(&self, mesh: &mut Mesh, cx: &mut Context) -> Result<Report, OpError> {
         if let Some((message, _)) = self.problem() {
             return Err(OpError::Parameter(message));
@@ -149,16 +150,16 @@ impl Step<'_> {
             return Ok(Report::default());
         }
         mesh.compact();
-        check_faces(mesh, scheme).map_err(failed)?;
+        check_faces(mesh, scheme).map_err(to_op_error)?;
         if let Some(faces) = self.faces {
             let chosen = faces.mask(mesh, cx)?;
             let (budget, progress) = (cx.budget, cx.progress());
             let finer = refine_faces(mesh, &chosen, self.rules, levels, budget, progress);
             let n = mesh.n_faces();
-            mesh.replace(finer.map_err(failed)?);
+            mesh.replace(finer.map_err(to_op_error)?);
             return Ok(Report::changed(mesh.n_faces().abs_diff(n)));
         }
-        let mut notes = torn(mesh, scheme);
+        let mut notes = loss_notes(mesh, scheme);
         match self.until {
             Some(until) => notes.insert(0, self.levels_until(mesh, until, cx)?),
             None if levels > 0 => {
@@ -167,7 +168,7 @@ impl Step<'_> {
                     SubdivisionError::TooLarge(size) => {
                         OpError::Budget(format!("{size}; {}", size.help()))
                     }
-                    other => failed(other),
+                    other => to_op_error(other),
                 })?);
             }
             None => {}
@@ -180,40 +181,45 @@ impl Step<'_> {
         Ok(report)
     }
 
-    /// Subdivides until the condition is met, and says after how many levels.
+    /// Subdivides until the condition is met. Returns a note with the number of levels.
     fn levels_until(&self, mesh: &mut Mesh, until: Until, cx: &Context) -> Result<String, OpError> {
         let levels = self.most_levels();
         for level in 0.. {
-            let (what, now, below) = match until {
-                Until::EdgeLength { below } => ("an edge is", longest_edge(mesh), below.get()),
+            let (measure, value, below) = match until {
+                Until::EdgeLength { below } => {
+                    ("the longest edge is", longest_edge(mesh), below.get())
+                }
                 Until::LimitDistance { below } => {
                     let distance = limit_distance(mesh, self.rules, cx.progress());
-                    let what = "a vertex is away from its limit by";
-                    (what, distance.map_err(failed)?, below.get())
+                    let measure = "the largest distance to the limit is";
+                    (measure, distance.map_err(to_op_error)?, below.get())
                 }
             };
-            if now < below {
-                return Ok(format!("{level} levels; {what} {now:.3} at most"));
+            if value < below {
+                let levels = if level == 1 { "level" } else { "levels" };
+                return Ok(format!("{level} {levels}; {measure} {value:.3}"));
             }
-            let state = format!("after level {level} {what} still {now}");
+            let state = format!("after level {level} {measure} {value}");
             if level == levels {
-                return Err(OpError::Budget(format!("{state}, not below {below}")));
+                return Err(OpError::Budget(format!(
+                    "{state}, expected less than {below}"
+                )));
             }
             let one = level..level + 1;
             let finer = subdivide_within(mesh, self.rules, one, cx.budget, cx.progress());
             mesh.replace(finer.map_err(|error| match error {
                 SubdivisionError::TooLarge(size) => {
-                    OpError::Budget(format!("{state}, and the next is too large: {size}"))
+                    OpError::Budget(format!("{state}, and the next level is too large: {size}"))
                 }
-                other => failed(other),
+                other => to_op_error(other),
             })?);
         }
         unreachable!("the last level returns")
     }
 }
 
-/// The error of the step.
-fn failed(error: SubdivisionError) -> OpError {
+/// Converts an error of the crate `subdivision` to an error of the step.
+fn to_op_error(error: SubdivisionError) -> OpError {
     let message = error.to_string();
     match error {
         SubdivisionError::Cancelled(_) => OpError::Cancelled,
@@ -222,12 +228,12 @@ fn failed(error: SubdivisionError) -> OpError {
             OpError::refused(Refusal::NotTriangle, message).about([face])
         }
         SubdivisionError::WholeMesh(_)
-        | SubdivisionError::Choices { .. }
+        | SubdivisionError::FlagCount { .. }
         | SubdivisionError::NoLimit(_) => OpError::Parameter(message),
     }
 }
 
-/// A count of a plan.
+/// A planned count of elements, for the arithmetic of [`Size`].
 #[derive(Clone, Copy)]
 struct Planned(Range);
 
@@ -249,8 +255,8 @@ impl Count for Planned {
     }
 }
 
-/// The size of a planned mesh: attributes count as in [`MeshPlan::bytes`].
-fn planned(plan: &MeshPlan) -> Size<Planned> {
+/// Returns the size of a planned mesh. Attributes count as in [`MeshPlan::bytes`].
+fn planned_size(plan: &MeshPlan) -> Size<Planned> {
     let attributes = Domain::ALL.map(|domain| {
         let columns = plan.attributes.iter().filter(|a| a.domain == domain);
         16 * columns.count() as u64
@@ -261,29 +267,30 @@ fn planned(plan: &MeshPlan) -> Size<Planned> {
         faces: Planned(plan.faces),
         corners: Planned(plan.corners_of(plan.faces)),
         isolated: Planned(plan.vertices.or_less()),
-        with_two_edges: Planned(plan.vertices.or_less()),
+        inner_of_valence_2: Planned(plan.vertices.or_less()),
         attributes,
     }
 }
 
-/// How many corners faces have after a level, of those that have so many before it.
+/// Returns the range of face degrees after a level, given the range before it.
 fn degrees_after(scheme: Scheme, degrees: Range) -> Range {
     match scheme {
         Scheme::CatmullClark | Scheme::Midpoint(Split::Quads) => Range::exactly(4),
-        // Faces around vertices have as many corners as those have edges.
+        // The face of a vertex has as many corners as the vertex has edges.
         Scheme::DooSabin => Range::between(3, u64::MAX),
         _ => degrees,
     }
 }
 
-/// What schemes cannot keep whose faces lie across old edges.
-fn torn(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
-    let mut lines = Vec::new();
+/// Returns notes about lost values, for schemes whose new faces lie across old edges.
+fn loss_notes(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
+    let mut notes = Vec::new();
     if matches!(scheme, Scheme::Sqrt3 | Scheme::DooSabin) {
         let seams = mesh.edges().filter(|&e| mesh.is_seam(e)).count();
         if seams > 0 {
-            lines.push(format!(
-                "{seams} seams of corner values are torn: new faces lie across them"
+            let edges = if seams == 1 { "edge has" } else { "edges have" };
+            notes.push(format!(
+                "{seams} seam {edges} torn corner values, because new faces lie across old edges"
             ));
         }
     }
@@ -291,14 +298,14 @@ fn torn(mesh: &Mesh, scheme: Scheme) -> Vec<String> {
     if scheme == Scheme::Sqrt3 && !columns.is_empty() {
         let names: Vec<&str> = columns.iter().map(|c| c.name.as_str()).collect();
         let names = names.join(", ");
-        lines.push(format!(
-            "edges inside lose their values ({names}): every one is turned"
+        notes.push(format!(
+            "inner edges lose their values ({names}), because each of them is flipped"
         ));
     }
-    lines
+    notes
 }
 
-/// The length of the longest edge of a dense mesh.
+/// Returns the length of the longest edge of a dense mesh.
 fn longest_edge(mesh: &Mesh) -> f64 {
     let squared = |e: usize| {
         let [a, b] = mesh.edge_vertices(EdgeId::new(e));
@@ -307,15 +314,16 @@ fn longest_edge(mesh: &Mesh) -> f64 {
     mesh::blocks::fold(mesh.n_edges(), 0.0, squared, f64::max).sqrt()
 }
 
-/// Moves the vertices to the limit surface and gives them its normals and tangents.
+/// Moves the vertices to the limit surface and stores its normals and tangents.
 fn push_to_limit(mesh: &mut Mesh, rules: Rules, cx: &Context) -> Result<(), OpError> {
-    let found = limit(mesh, rules, cx.progress()).map_err(failed)?;
-    let normals = found.normals();
+    let limit_surface = limit(mesh, rules, cx.progress()).map_err(to_op_error)?;
+    let normals = limit_surface.normals();
     let tangent = |[along, _]: &[DVec3; 2]| along.normalize_or_zero();
-    let tangents = found.tangents.iter().map(tangent).collect();
-    mesh.positions_mut().copy_from_slice(&found.positions);
+    let tangents = limit_surface.tangents.iter().map(tangent).collect();
+    mesh.positions_mut()
+        .copy_from_slice(&limit_surface.positions);
     mesh.remove_normals();
-    match found.corner_normals {
+    match limit_surface.corner_normals {
         Some(normals) => mesh.set(CORNER_NORMAL, normals),
         None => mesh.set(VERTEX_NORMAL, normals),
     }
@@ -323,7 +331,8 @@ fn push_to_limit(mesh: &mut Mesh, rules: Rules, cx: &Context) -> Result<(), OpEr
     Ok(())
 }
 
-/// Where nothing is sharp the normals are on vertices, else on corners.
+/// Adds the attributes of the limit surface to the plan. The normals are on vertices if no inner edge is sharp,
+/// otherwise on corners.
 fn provide_limit(plan: &mut MeshPlan) {
     for (domain, name) in [
         (Domain::Vertex, VERTEX_NORMAL.name),

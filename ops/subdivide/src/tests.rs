@@ -1,4 +1,4 @@
-//! The operations: counts, plan, budget, refusals, progress, threads, recipes.
+//! Tests of the operations: counts, plan, memory budget, refusals, progress, threads, recipes.
 
 use std::fmt::Debug;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -13,13 +13,13 @@ use subdivision::Split;
 
 use crate::{Butterfly, CatmullClark, DooSabin, LoopSubdivide, Midpoint, Sqrt3};
 
-/// So many levels, with the defaults of everything else.
+/// Returns an operation with the given number of levels and default parameters.
 fn levels<T: MeshOperation>(levels: u32) -> T {
     read(&format!("(levels: {levels})")).unwrap()
 }
 
 #[test]
-fn a_recipe_can_leave_the_levels_out_and_nothing_else_is_taken() {
+fn recipes_can_omit_the_levels_and_reject_unknown_or_invalid_parameters() {
     fn check<T: MeshOperation + Default + Debug + PartialEq>() {
         assert_eq!(read::<T>("()"), Ok(T::default()));
         assert_ne!(read::<T>("(levels: 3)"), Ok(T::default()));
@@ -43,7 +43,7 @@ fn a_recipe_can_leave_the_levels_out_and_nothing_else_is_taken() {
 }
 
 #[test]
-fn elements_are_as_many_as_planned_after_one_level_and_two() {
+fn counts_after_one_and_two_levels_are_as_planned() {
     fn check<T: MeshOperation>(mesh: &Mesh, expected: [[usize; 3]; 2]) {
         for (n, expected) in (1..).zip(expected) {
             let new = applied_as_planned(&levels::<T>(n), mesh);
@@ -60,7 +60,7 @@ fn elements_are_as_many_as_planned_after_one_level_and_two() {
 }
 
 #[test]
-fn polygons_are_refused_before_anything_runs_where_triangles_are_needed() {
+fn schemes_for_triangles_refuse_polygons_in_the_plan() {
     fn check<T: MeshOperation + Default>() {
         let cube = shapes::cube();
         assert_eq!(refused(&T::default(), cube.clone()), Refusal::NotTriangle);
@@ -82,7 +82,7 @@ fn polygons_of_all_degrees_become_quads() {
 }
 
 #[test]
-fn midpoints_can_cut_a_cube_into_24_quads_of_the_same_area() {
+fn midpoint_splits_a_cube_into_24_quads_of_the_same_total_area() {
     let quads = Midpoint {
         into: Split::Quads,
         ..Midpoint::default()
@@ -102,7 +102,7 @@ fn sqrt3_cuts_a_boundary_on_every_second_level() {
     assert_eq!([1, 2, 3, 4].map(n_outer), [10, 30, 30, 90]);
 }
 
-/// One level, by the operation.
+/// Computes one level by the operation.
 fn once(mesh: &Mesh) -> Mesh {
     applied(&LoopSubdivide::default(), mesh.clone())
 }
@@ -123,7 +123,7 @@ fn the_bytes_are_the_same_for_any_number_of_threads() {
     assert_eq!(one.n_faces(), 20 << 12);
     for threads in [2, 8] {
         let other = with(threads);
-        // Equal as bits: `==` would take -0 for 0.
+        // Compares bits, because `==` treats -0 and 0 as equal.
         let bits = |m: &Mesh| -> Vec<[u64; 3]> {
             let bits = m.positions().iter().map(|p| p.to_array().map(f64::to_bits));
             bits.collect()
@@ -134,7 +134,7 @@ fn the_bytes_are_the_same_for_any_number_of_threads() {
 }
 
 #[test]
-fn levels_follow_one_another_and_none_changes_nothing() {
+fn levels_can_be_computed_one_by_one_and_zero_levels_change_nothing() {
     let mesh = shapes::fans(&shapes::grid(3, 2));
     let apply = |n| applied(&levels::<LoopSubdivide>(n), mesh.clone());
     assert!(apply(0) == mesh);
@@ -142,7 +142,7 @@ fn levels_follow_one_another_and_none_changes_nothing() {
 }
 
 #[test]
-fn polygons_are_refused_and_the_first_is_named() {
+fn the_refusal_names_the_first_polygon() {
     let at = |x, y| DVec3::new(x, y, 0.0);
     let points = vec![at(0., 0.), at(1., 0.), at(1., 1.), at(0., 1.), at(2., 0.)];
     let polygons = [vec![1, 4, 2], vec![0, 1, 2, 3]];
@@ -163,16 +163,24 @@ fn fourteen_levels_of_an_icosahedron_are_refused_before_anything_runs() {
     let operation = levels::<LoopSubdivide>(14);
     let error = try_applied(&operation, shapes::icosahedron()).unwrap_err();
     assert!(matches!(error, OpError::Budget(_)));
-    assert!(error.to_string().ends_with("level 13 fits"), "{error}");
+    assert!(
+        error
+            .to_string()
+            .ends_with("the highest level that fits is 13"),
+        "{error}"
+    );
 
     let (_, problems) = planned(&operation, &shapes::icosahedron());
     assert_eq!(problems.len(), 1);
     assert_eq!(problems[0].path, ["levels"]);
-    assert_eq!(problems[0].help.as_deref(), Some("level 13 fits"));
+    assert_eq!(
+        problems[0].help.as_deref(),
+        Some("the highest level that fits is 13")
+    );
 }
 
 #[test]
-fn the_budget_is_kept_by_the_plan_and_by_the_operation() {
+fn the_plan_and_the_operation_keep_the_memory_budget() {
     let mesh = shapes::icosahedron();
     let budget = once(&once(&mesh)).bytes() as u64;
     let files = Files::default();
@@ -186,16 +194,21 @@ fn the_budget_is_kept_by_the_plan_and_by_the_operation() {
             budget,
         };
         let problems = levels::<LoopSubdivide>(n).plan(&mut MeshPlan::of(&mesh), &plan_cx);
-        let done = MeshOperation::apply(&levels::<LoopSubdivide>(n), &mut mesh, &mut cx);
-        assert_eq!(done.is_ok(), problems.is_empty());
-        done
+        let result = MeshOperation::apply(&levels::<LoopSubdivide>(n), &mut mesh, &mut cx);
+        assert_eq!(result.is_ok(), problems.is_empty());
+        result
     };
     assert!(run(2, budget).is_ok());
     let error = run(2, budget - 1).unwrap_err();
-    assert!(error.to_string().ends_with("level 1 fits"), "{error}");
+    assert!(
+        error
+            .to_string()
+            .ends_with("the highest level that fits is 1"),
+        "{error}"
+    );
 }
 
-/// Stops after so many calls, and remembers how far it was.
+/// A progress listener that cancels after `limit` calls and records the progress made.
 struct StopAfter {
     calls: AtomicU64,
     furthest: AtomicU64,
@@ -216,25 +229,28 @@ impl StopAfter {
 }
 
 impl Progress for StopAfter {
-    fn advance(&self, _: &str, done: u64, total: u64) -> bool {
-        self.furthest.fetch_max(done, Relaxed);
+    fn advance(&self, _: &str, result: u64, total: u64) -> bool {
+        self.furthest.fetch_max(result, Relaxed);
         self.total.store(total, Relaxed);
         self.calls.fetch_add(1, Relaxed) < self.limit
     }
 }
 
 #[test]
-fn it_can_be_cancelled_at_any_call_and_otherwise_arrives_at_the_end() {
+fn every_progress_call_can_cancel_and_progress_reaches_the_total() {
     let files = Files::default();
     let run = |listener: &StopAfter| {
         let mut mesh = shapes::icosahedron();
         let mut cx = Context::new(listener, &files);
         MeshOperation::apply(&levels::<LoopSubdivide>(6), &mut mesh, &mut cx)
     };
-    let free = StopAfter::new(u64::MAX);
-    run(&free).unwrap();
-    assert_eq!(free.furthest.load(Relaxed), free.total.load(Relaxed));
-    let calls = free.calls.load(Relaxed);
+    let unlimited = StopAfter::new(u64::MAX);
+    run(&unlimited).unwrap();
+    assert_eq!(
+        unlimited.furthest.load(Relaxed),
+        unlimited.total.load(Relaxed)
+    );
+    let calls = unlimited.calls.load(Relaxed);
     assert!(calls > 40, "{calls}");
     for limit in 0..calls {
         assert!(

@@ -7,27 +7,31 @@ use mesh::{DMat3, DVec3};
 use super::star::Star;
 use crate::sharpness::VertexRule;
 
-/// So many levels bring a dart to where it stands still: what is left shrinks by more than a third each.
-const TO_STANDSTILL: usize = 96;
+/// The number of levels after which a dart has converged: each level reduces the error by more than a third.
+const LEVELS_TO_CONVERGE: usize = 96;
 
-/// Spokes with one tangent plane: `n_faces` faces from spoke `first` on, counter-clockwise.
+/// A sector of a star with one tangent plane: `n_faces` faces from spoke `first` on, counter-clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Plane {
+pub(crate) struct Sector {
     first: usize,
     n_faces: usize,
-    /// Whether the last spoke is the first again.
+    /// Whether the sector goes all the way around, so that its last spoke is its first.
     is_closed: bool,
 }
 
-impl Plane {
-    /// The faces around number `face` up to the next sharp spokes.
+impl Sector {
+    /// Returns the sector that contains face number `face`, up to the next sharp spokes on both sides.
     pub(crate) fn of_face(star: &Star, face: usize) -> Self {
         let n = star.spokes.len();
-        let is_sharp = |i: usize| star.sharp[i % n] > 0.0;
-        let n_sharp = star.sharp.iter().filter(|&&s| s > 0.0).count();
+        let is_sharp = |i: usize| star.spoke_sharpness[i % n] > 0.0;
+        let n_sharp = star.spoke_sharpness.iter().filter(|&&s| s > 0.0).count();
         if star.is_inner && n_sharp < 2 {
             return Self {
-                first: star.sharp.iter().position(|&s| s > 0.0).unwrap_or(0),
+                first: star
+                    .spoke_sharpness
+                    .iter()
+                    .position(|&s| s > 0.0)
+                    .unwrap_or(0),
                 n_faces: n,
                 is_closed: true,
             };
@@ -44,16 +48,16 @@ impl Plane {
 }
 
 impl Star {
-    /// Where the vertex goes.
+    /// Returns the limit position of the vertex.
     pub(crate) fn limit(&self) -> DVec3 {
         match self.rule() {
             VertexRule::Corner => self.center,
             VertexRule::Crease([i, j]) => {
                 2.0 / 3.0 * self.center + (self.spokes[i] + self.spokes[j]) / 6.0
             }
-            VertexRule::Smooth if self.sharp.iter().any(|&s| s > 0.0) => {
+            VertexRule::Smooth if self.spoke_sharpness.iter().any(|&s| s > 0.0) => {
                 let mut star = self.clone();
-                for _ in 0..TO_STANDSTILL {
+                for _ in 0..LEVELS_TO_CONVERGE {
                     star.refine();
                 }
                 star.center
@@ -73,25 +77,27 @@ impl Star {
         (n * n * self.center + 4.0 * spokes + opposite) / (n * (n + 5.0))
     }
 
-    /// Two vectors that span the tangent plane of some faces, counter-clockwise seen from outside.
-    pub(crate) fn tangents(&self, plane: Plane) -> [DVec3; 2] {
+    /// Returns two vectors that span the tangent plane of a sector, counter-clockwise when seen from outside.
+    pub(crate) fn tangents(&self, sector: Sector) -> [DVec3; 2] {
         match self.rule() {
-            VertexRule::Smooth if self.sharp.iter().any(|&s| s > 0.0) => self.dart_tangents(),
+            VertexRule::Smooth if self.spoke_sharpness.iter().any(|&s| s > 0.0) => {
+                self.dart_tangents()
+            }
             VertexRule::Smooth => self.smooth_tangents(),
-            VertexRule::Crease(_) => self.crease_tangents(plane),
-            VertexRule::Corner => self.corner_tangents(plane),
+            VertexRule::Crease(_) => self.crease_tangents(sector),
+            VertexRule::Corner => self.corner_tangents(sector),
         }
     }
 
-    /// Spoke number `i` from the first of the plane.
-    fn spoke(&self, plane: Plane, i: usize) -> DVec3 {
-        self.spokes[(plane.first + i) % self.spokes.len()]
+    /// Returns spoke number `i` of a sector.
+    fn spoke(&self, sector: Sector, i: usize) -> DVec3 {
+        self.spokes[(sector.first + i) % self.spokes.len()]
     }
 
     fn smooth_tangents(&self) -> [DVec3; 2] {
         let n = self.spokes.len() as f64;
         let theta = TAU / n;
-        // The weight of the opposite corners beside that of the spokes.
+        // The weight of the opposite corners relative to the weight of the spokes.
         let scale = if self.loop_weights.is_some() {
             0.0
         } else {
@@ -110,14 +116,15 @@ impl Star {
         tangents
     }
 
-    /// Along the crease, and across it into the k faces of the plane. With θ = π/k the second is the left
-    /// eigenvector that has sin(iθ) at spoke i inside, m (sin(iθ) + sin((i+1)θ)) at the corners opposite, and
-    /// what follows from that at both ends of the crease and in the center. (The literature gives it for
-    /// k ≤ 3 and for other rules along the crease.) With six and more triangles on one side the surface has no
-    /// tangent plane there, whatever the masks say; this one holds the tangent of the crease.
-    fn crease_tangents(&self, plane: Plane) -> [DVec3; 2] {
-        let k = plane.n_faces;
-        let [first, last] = [0, k].map(|i| self.spoke(plane, i));
+    /// Returns a tangent along the crease, and a tangent across it into the k faces of the sector. With θ =
+    /// π/k, the second tangent is the left eigenvector with the weight sin(iθ) at inner spoke i and m (sin(iθ) +
+    /// sin((i+1)θ)) at the opposite corners. The weights at the ends of the crease and at the center follow
+    /// from these. (The literature gives the eigenvector for k ≤ 3 and for other crease rules.) With six or
+    /// more triangles on one side the surface has no tangent plane there; the plane returned contains the
+    /// tangent of the crease.
+    fn crease_tangents(&self, sector: Sector) -> [DVec3; 2] {
+        let k = sector.n_faces;
+        let [first, last] = [0, k].map(|i| self.spoke(sector, i));
         let along = first - last;
         if k == 1 {
             return [along, first + last - 2.0 * self.center];
@@ -139,29 +146,29 @@ impl Star {
         for i in 0..k {
             let [here, next] = [i, i + 1].map(|i| libm::sin(i as f64 * theta));
             if i > 0 {
-                across += here * self.spoke(plane, i);
+                across += here * self.spoke(sector, i);
             }
-            if let Some(opposite) = self.opposite.get((plane.first + i) % n) {
+            if let Some(opposite) = self.opposite.get((sector.first + i) % n) {
                 across += m * (here + next) * opposite;
             }
         }
         [along, across]
     }
 
-    /// Along the first and the last edge, which at a corner are tangents of the curves there; turned about
-    /// where the corner is concave. Where that gives no plane, and around a cone, which has none, the
-    /// plane whose normal is the mean of the faces'.
-    fn corner_tangents(&self, plane: Plane) -> [DVec3; 2] {
-        let arm = |i: usize| self.spoke(plane, i) - self.center;
-        let faces = 0..plane.n_faces;
+    /// Returns the directions of the first and the last spoke, which at a corner are tangents of the crease
+    /// curves. They are swapped if the corner is concave. If they do not span a plane, or if the sector goes
+    /// all the way around (a cone), returns a plane whose normal is the mean of the face normals.
+    fn corner_tangents(&self, sector: Sector) -> [DVec3; 2] {
+        let arm = |i: usize| self.spoke(sector, i) - self.center;
+        let faces = 0..sector.n_faces;
         let mean: DVec3 = faces.map(|i| arm(i).cross(arm(i + 1))).sum();
-        let [first, last] = [arm(0), arm(plane.n_faces)];
+        let [first, last] = [arm(0), arm(sector.n_faces)];
         let turn = first.cross(last).dot(mean);
-        if plane.n_faces == 1 {
+        if sector.n_faces == 1 {
             return [first, last];
         }
         let is_plane = turn.abs() > 1e-9 * first.length() * last.length() * mean.length();
-        if plane.is_closed || !is_plane {
+        if sector.is_closed || !is_plane {
             let n = mean.normalize_or_zero();
             let along = first - first.dot(n) * n;
             return [along, n.cross(along)];
@@ -173,17 +180,17 @@ impl Star {
         }
     }
 
-    /// The plane that the neighborhood of a dart flattens into.
+    /// Returns the plane into which the one-ring of a dart flattens.
     fn dart_tangents(&self) -> [DVec3; 2] {
-        let plane = Plane::of_face(self, 0);
-        let [along, across] = self.corner_tangents(plane);
+        let sector = Sector::of_face(self, 0);
+        let [along, across] = self.corner_tangents(sector);
         let along = along.normalize_or_zero();
         let normal = along.cross(across).normalize_or_zero();
         let frame = DMat3::from_cols(along, normal.cross(along), normal);
-        // The neighborhood shrinks by different factors along different directions, so that after some levels
-        // only the slowest could be seen. Orthogonal iteration keeps all: after each level the columns x, y
-        // and z are made orthonormal, and the product of the triangular matrices that undo that, whose
-        // rows come to lie in the plane, is kept as 1 b c / 0 1 e / 0 0 1 with the scales s and s q.
+        // The one-ring shrinks by different factors in different directions, so that after some levels only the
+        // slowest direction would remain. Orthogonal iteration preserves all directions: after each level the
+        // columns x, y and z are made orthonormal. The product of the triangular matrices that undo this is
+        // stored as 1 b c / 0 1 e / 0 0 1, with the scales s and s q. Its first two rows converge to the plane.
         let mut star = self.clone();
         let to_frame = frame.transpose();
         for p in star.points() {
@@ -192,7 +199,7 @@ impl Star {
         star.center = DVec3::ZERO;
         let (mut b, mut c, mut e) = (0.0, 0.0, 0.0);
         let (mut s, mut q) = (1.0, 1.0);
-        for _ in 0..TO_STANDSTILL {
+        for _ in 0..LEVELS_TO_CONVERGE {
             star.refine();
             let center = std::mem::take(&mut star.center);
             for p in star.points() {
@@ -213,20 +220,20 @@ impl Star {
         [slowest, normal.cross(slowest)]
     }
 
-    /// All points around the center.
+    /// Iterates over all points around the center.
     fn points(&mut self) -> impl Iterator<Item = &mut DVec3> {
         self.spokes.iter_mut().chain(&mut self.opposite)
     }
 }
 
-/// The eigenvalue of Catmull-Clark subdivision whose vectors turn by `theta` from spoke to spoke.
+/// Returns the eigenvalue of Catmull-Clark subdivision whose eigenvectors turn by `theta` from spoke to spoke.
 fn quad_eigenvalue(theta: f64) -> f64 {
     let (cos, half) = (libm::cos(theta), libm::cos(theta / 2.0));
     (5.0 + cos + half * (2.0 * (9.0 + cos)).sqrt()) / 16.0
 }
 
-/// Makes the columns of coordinates orthonormal (Gram and Schmidt), and returns the columns of the upper
-/// triangular matrix that turns them back.
+/// Makes the columns of coordinates orthonormal (Gram-Schmidt), and returns the columns of the upper triangular
+/// matrix that undoes it.
 fn orthonormalize(star: &mut Star) -> [DVec3; 3] {
     let mut columns = [DVec3::ZERO; 3];
     for j in 0..3 {

@@ -1,35 +1,36 @@
-//! The neighborhood of one vertex, which decides where its limit lies.
+//! The star of a vertex: the neighborhood that determines its limit position.
 
 use mesh::{DVec3, HalfEdgeId, Mesh, VertexId};
 
 use crate::rules::{Creasing, LoopWeights, Rules, Scheme};
 use crate::sharpness::{Blend, INFINITE, SemiSharp, Sharpness, VertexRule, decreased};
 
-/// A vertex, its neighbors, and for Catmull-Clark the corners opposite to it in the quads around it. One
-/// level turns a star into a smaller one of the same shape.
+/// A vertex, its neighbors, and for Catmull-Clark the opposite corners of the quads around it. One level of
+/// subdivision maps a star to a smaller star with the same connectivity.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Star {
     pub(crate) center: DVec3,
-    /// The neighbors, counter-clockwise; at the boundary from one end to the other.
+    /// The neighbors, counter-clockwise; on the boundary from one boundary edge to the other.
     pub(crate) spokes: Vec<DVec3>,
     /// For Catmull-Clark the opposite corners: number i lies between spokes i and i + 1.
     pub(crate) opposite: Vec<DVec3>,
-    /// Whether there is a face between all spokes.
+    /// Whether every two consecutive spokes have a face between them.
     pub(crate) is_inner: bool,
     /// The sharpness of the spokes.
-    pub(crate) sharp: Vec<f64>,
+    pub(crate) spoke_sharpness: Vec<f64>,
     /// The sharpness of the vertex.
-    pub(crate) at: f64,
+    pub(crate) vertex_sharpness: f64,
     creasing: Creasing,
     /// `None` for Catmull-Clark.
     pub(crate) loop_weights: Option<LoopWeights>,
-    /// Room for the middles of faces.
-    middles: Vec<DVec3>,
+    /// A buffer for the centers of faces.
+    face_points: Vec<DVec3>,
 }
 
 impl Star {
-    /// Becomes the star of a vertex that half-edge `start` leaves, the boundary one if there is one. Around
-    /// polygons that are no quads that is the star of the next level, whose limit is the same.
+    /// Replaces this star by the star of vertex `v`. `start` is the half-edge of the vertex, which is the
+    /// boundary one on the boundary. With Catmull-Clark, if not all faces are quads, reads the star of the next
+    /// level, which has the same limit.
     pub(crate) fn read(
         &mut self,
         mesh: &Mesh,
@@ -40,20 +41,20 @@ impl Star {
     ) {
         self.center = mesh.position(v);
         self.is_inner = mesh.face(start).is_some();
-        self.at = sharpness.vertex(v, start);
+        self.vertex_sharpness = sharpness.vertex(v, start);
         self.creasing = rules.creasing;
         self.loop_weights = match rules.scheme {
             Scheme::Loop(weights) => Some(weights),
             _ => None,
         };
         self.spokes.clear();
-        self.sharp.clear();
+        self.spoke_sharpness.clear();
         for h in mesh.vertex_half_edges(v) {
             self.spokes.push(mesh.position(mesh.target(h)));
-            self.sharp.push(sharpness.edge(h.edge()));
+            self.spoke_sharpness.push(sharpness.edge(h.edge()));
         }
         self.spokes.reverse();
-        self.sharp.reverse();
+        self.spoke_sharpness.reverse();
         self.opposite.clear();
         if self.loop_weights.is_some() {
             return;
@@ -71,52 +72,56 @@ impl Star {
             self.opposite.reverse();
             return;
         }
-        self.middles.clear();
+        self.face_points.clear();
         for f in faces.filter_map(|h| mesh.face(h)) {
             let (mut sum, mut n) = (DVec3::ZERO, 0_u32);
             for w in mesh.face_vertices(f) {
                 sum += mesh.position(w);
                 n += 1;
             }
-            self.middles.push(sum / f64::from(n));
+            self.face_points.push(sum / f64::from(n));
         }
-        self.middles.reverse();
+        self.face_points.reverse();
         self.shrink();
     }
 
-    /// Whether no sharpness ends on a later level.
+    /// Whether no element is semi-sharp, so that sharpness no longer changes with levels.
     pub(crate) fn is_settled(&self) -> bool {
         let settled = |s: f64| s <= 0.0 || s >= INFINITE;
-        settled(self.at) && self.sharp.iter().all(|&s| settled(s))
+        settled(self.vertex_sharpness) && self.spoke_sharpness.iter().all(|&s| settled(s))
     }
 
-    /// The rule of the vertex; in a settled star that of all levels. Spokes are named by their numbers.
+    /// Returns the rule of the vertex. In a settled star it is the rule of all levels. Spokes are named by
+    /// their numbers.
     pub(crate) fn rule(&self) -> VertexRule<usize> {
-        VertexRule::of(self.at, self.sharp.iter().copied().enumerate())
+        VertexRule::of(
+            self.vertex_sharpness,
+            self.spoke_sharpness.iter().copied().enumerate(),
+        )
     }
 
-    /// Becomes the star of the next level. (Where Chaikin's rule asks for the other end of an edge whose
-    /// sharpness is below 1, that end is taken to be like this one.)
+    /// Replaces this star by the star of the next level. (If Chaikin's rule needs the sharpness at the other
+    /// end of an edge whose sharpness is below 1, that end is assumed to be the same as this end.)
     pub(crate) fn refine(&mut self) {
-        self.middles.clear();
+        self.face_points.clear();
         if self.loop_weights.is_none() {
             for (i, opposite) in self.opposite.iter().enumerate() {
                 let next = self.spokes[(i + 1) % self.spokes.len()];
                 let corners = self.center + self.spokes[i] + opposite + next;
-                self.middles.push(0.25 * corners);
+                self.face_points.push(0.25 * corners);
             }
         }
         self.shrink();
     }
 
-    /// Becomes the star of the next level, whose face points are in `middles`.
+    /// Replaces this star by the star of the next level, whose face points are in `face_points`.
     fn shrink(&mut self) {
-        let semi_sharp = SemiSharp::of(self.creasing, self.sharp.iter().copied());
+        let semi_sharp = SemiSharp::of(self.creasing, self.spoke_sharpness.iter().copied());
         let center = self.next_center(semi_sharp);
         let old = self.spokes.clone();
         let n = old.len();
         for (i, new) in self.spokes.iter_mut().enumerate() {
-            let (s, end) = (self.sharp[i], self.center + old[i]);
+            let (s, end) = (self.spoke_sharpness[i], self.center + old[i]);
             let is_sharp =
                 s >= 1.0 || self.creasing == Creasing::Chaikin && semi_sharp.half_of(s) > 0.0;
             let sharp = if is_sharp { 1.0 } else { s.max(0.0) };
@@ -124,7 +129,7 @@ impl Star {
                 let before = if i == 0 { n - 1 } else { i - 1 };
                 match self.loop_weights {
                     Some(_) => 0.375 * end + 0.125 * (old[before] + old[(i + 1) % n]),
-                    None => 0.25 * (end + self.middles[before] + self.middles[i]),
+                    None => 0.25 * (end + self.face_points[before] + self.face_points[i]),
                 }
             };
             *new = 0.5 * sharp * end;
@@ -133,16 +138,22 @@ impl Star {
             }
         }
         self.center = center;
-        std::mem::swap(&mut self.opposite, &mut self.middles);
-        self.at = decreased(self.at);
-        for s in &mut self.sharp {
+        std::mem::swap(&mut self.opposite, &mut self.face_points);
+        self.vertex_sharpness = decreased(self.vertex_sharpness);
+        for s in &mut self.spoke_sharpness {
             *s = semi_sharp.half_of(*s);
         }
     }
 
     fn next_center(&self, semi_sharp: SemiSharp) -> DVec3 {
-        let edges = self.sharp.iter().map(|&s| [s, semi_sharp.half_of(s)]);
-        let blend = Blend::of([self.at, decreased(self.at)], edges.enumerate());
+        let edges = self
+            .spoke_sharpness
+            .iter()
+            .map(|&s| [s, semi_sharp.half_of(s)]);
+        let blend = Blend::of(
+            [self.vertex_sharpness, decreased(self.vertex_sharpness)],
+            edges.enumerate(),
+        );
         let by_rule = |rule: VertexRule<usize>| match rule {
             VertexRule::Corner => self.center,
             VertexRule::Crease([i, j]) => {
@@ -155,8 +166,8 @@ impl Star {
                     let u = weights.of(self.spokes.len());
                     return (1.0 - n * u) * self.center + u * spokes;
                 }
-                let middles: DVec3 = self.middles.iter().sum();
-                (n - 2.0) / n * self.center + (spokes + middles) / (n * n)
+                let face_points: DVec3 = self.face_points.iter().sum();
+                (n - 2.0) / n * self.center + (spokes + face_points) / (n * n)
             }
         };
         match blend.next {

@@ -1,4 +1,4 @@
-//! Which faces and edges a level cuts.
+//! Decides which faces and edges a level cuts.
 
 use mesh::{EdgeId, FaceId, HalfEdgeId, Mesh};
 use progress::{Cancelled, Meter};
@@ -6,26 +6,26 @@ use progress::{Cancelled, Meter};
 use super::sides;
 use crate::parallel::BLOCK;
 
-/// What becomes of a face.
+/// How a face is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
-    /// It stays one, with new vertices on its sides as additional corners.
+    /// The face is not cut. New vertices on its sides become additional corners.
     Whole,
-    /// A triangle stays one; a vertex hangs on it from now on, at which it begins.
-    Hung,
-    /// A triangle becomes two, from its hanging vertex to the opposite corner.
+    /// A triangle is not cut but gets a hanging vertex. The first half-edge of the new face starts there.
+    Hanging,
+    /// A triangle becomes two. The cut runs from its hanging vertex to the opposite corner.
     Two,
     /// A triangle becomes four.
     Four,
-    /// A polygon becomes so many quads around its center.
+    /// A polygon becomes this many quads around its center.
     Quads(u32),
 }
 
 impl Cut {
-    /// How many vertices lie inside, how many edges, and how many faces it becomes.
+    /// The numbers of new vertices and new edges inside the face, and of the faces that it becomes.
     pub(super) const fn counts(self) -> [u32; 3] {
         match self {
-            Self::Whole | Self::Hung => [0, 0, 1],
+            Self::Whole | Self::Hanging => [0, 0, 1],
             Self::Two => [0, 1, 2],
             Self::Four => [0, 3, 4],
             Self::Quads(n) => [1, n, n],
@@ -35,17 +35,17 @@ impl Cut {
 
 /// The cuts of a level.
 pub(super) struct Cuts {
-    /// What becomes of each face.
+    /// How each face is cut.
     pub(super) faces: Vec<Cut>,
     /// Whether each edge is cut in two.
     pub(super) edges: Vec<bool>,
 }
 
 impl Cuts {
-    /// Cuts the chosen triangles into four, and others as long as a second vertex would hang on them. The
-    /// result does not depend on the order in which they are found.
+    /// Cuts the chosen triangles into four, and repeatedly any triangle that would get a second hanging vertex.
+    /// The result does not depend on the order in which triangles are visited.
     ///
-    /// Faces with four corners are triangles with a hanging vertex.
+    /// A face with four corners is a triangle with a hanging vertex.
     pub(super) fn of_triangles(
         mesh: &Mesh,
         chosen: &[bool],
@@ -53,34 +53,36 @@ impl Cuts {
     ) -> Result<Self, Cancelled> {
         let mut faces = vec![Cut::Whole; mesh.n_faces()];
         let mut edges = vec![false; mesh.n_edges()];
-        // Whether another vertex would be one too many.
-        let mut is_full: Vec<bool> = mesh.faces().map(|f| !mesh.is_triangle(f)).collect();
-        let mut open: Vec<usize> = (0..chosen.len()).filter(|&f| chosen[f]).collect();
-        for &f in &open {
+        // Whether the face has a hanging vertex.
+        let mut has_hanging: Vec<bool> = mesh.faces().map(|f| !mesh.is_triangle(f)).collect();
+        let mut queue: Vec<usize> = (0..chosen.len()).filter(|&f| chosen[f]).collect();
+        for &f in &queue {
             faces[f] = Cut::Four;
         }
-        let mut done = 0;
-        while let Some(f) = open.pop() {
-            done += 1;
-            if done % BLOCK == 0 {
+        let mut n_visited = 0;
+        while let Some(f) = queue.pop() {
+            n_visited += 1;
+            if n_visited % BLOCK == 0 {
                 meter.add(0)?;
             }
             for h in whole_sides(mesh, f) {
                 if std::mem::replace(&mut edges[h.edge().index()], true) {
                     continue;
                 }
-                let Some(beside) = mesh.face(h.twin()).map(FaceId::index) else {
+                let Some(neighbor) = mesh.face(h.twin()).map(FaceId::index) else {
                     continue;
                 };
-                if faces[beside] == Cut::Whole && std::mem::replace(&mut is_full[beside], true) {
-                    faces[beside] = Cut::Four;
-                    open.push(beside);
+                if faces[neighbor] == Cut::Whole
+                    && std::mem::replace(&mut has_hanging[neighbor], true)
+                {
+                    faces[neighbor] = Cut::Four;
+                    queue.push(neighbor);
                 }
             }
         }
         for (f, cut) in faces.iter_mut().enumerate() {
-            if *cut == Cut::Whole && is_full[f] && mesh.is_triangle(FaceId::new(f)) {
-                *cut = Cut::Hung;
+            if *cut == Cut::Whole && has_hanging[f] && mesh.is_triangle(FaceId::new(f)) {
+                *cut = Cut::Hanging;
             }
         }
         Ok(Self { faces, edges })
@@ -119,7 +121,7 @@ impl Cuts {
         }
     }
 
-    /// How many vertices, edges and faces the next level has.
+    /// Returns the numbers of vertices, edges and faces of the next level.
     pub(super) fn counts_after(&self, mesh: &Mesh) -> [u64; 3] {
         let cut = self.edges.iter().filter(|&&cut| cut).count();
         let start = [mesh.n_vertices() + cut, mesh.n_edges() + cut, 0].map(|n| n as u64);
@@ -130,9 +132,9 @@ impl Cuts {
     }
 }
 
-/// The sides of a triangle without a hanging vertex.
+/// Iterates over the sides of a triangle that have no hanging vertex.
 fn whole_sides(mesh: &Mesh, f: usize) -> impl Iterator<Item = HalfEdgeId> {
-    // A face with a hanging vertex begins there.
+    // The first half-edge of a face with a hanging vertex starts at that vertex.
     let is_triangle = mesh.is_triangle(FaceId::new(f));
     let (skip, take) = if is_triangle { (0, 3) } else { (1, 2) };
     sides(mesh, f).skip(skip).take(take)

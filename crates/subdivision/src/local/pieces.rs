@@ -1,11 +1,12 @@
 //! The connectivity of the next level where only some faces and edges are cut.
 //!
-//! Numbers are those of the whole levels (see [`halves`](crate::halves), [`triangles`](crate::triangles) and
-//! [`quads`](crate::quads)) without what is not cut: the parts of edges in order of the edges, then the edges
-//! inside of faces, and the parts of faces, in order of the faces. A list of sums says where the parts of
-//! each begin.
+//! Elements are in the same order as if all faces were cut (see [`halves`](crate::halves),
+//! [`triangles`](crate::triangles) and [`quads`](crate::quads)): first the parts of edges in order of the
+//! edges, then the edges inside faces in order of the faces. The parts of faces are in order of the faces.
+//! Prefix sums give the first part of each element.
 //!
-//! A triangle with a hanging vertex m begins at it, and is cut as if that were the new vertex on its side:
+//! The first half-edge of a triangle with a hanging vertex m starts at m. The triangle is cut as if m were the
+//! new vertex on its side:
 //!
 //! ```text
 //!             c                     c                        c
@@ -18,39 +19,39 @@
 use mesh::{Connectivity, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
 
-use super::area::Area;
+use super::builder::ConnectivityBuilder;
 use super::closure::{Cut, Cuts};
-use super::drawing::Drawing;
 use super::sides;
+use super::smoothed::SmoothedElements;
 use crate::parallel::BLOCK;
 use crate::topology::{Place, Topology};
 
-/// A dense mesh and what becomes of its elements.
+/// A dense mesh, and the parts into which its elements are cut.
 pub(super) struct Pieces<'a> {
     pub(super) mesh: &'a Mesh,
-    area: Area,
+    smoothed: SmoothedElements,
     pub(super) cuts: Vec<Cut>,
     /// The new edges that lie on old ones.
-    on_edges: Parts<EdgeId>,
+    on_edges: PartTable<EdgeId>,
     /// The new vertices that lie on old edges.
-    pub(super) middles: Parts<EdgeId>,
+    pub(super) middles: PartTable<EdgeId>,
     /// The new vertices inside faces.
-    pub(super) centers: Parts<FaceId>,
+    pub(super) centers: PartTable<FaceId>,
     /// The new edges inside faces.
-    inside: Parts<FaceId>,
+    inside: PartTable<FaceId>,
     /// The new faces.
-    faces: Parts<FaceId>,
+    faces: PartTable<FaceId>,
 }
 
-/// What some elements become, in their order.
-pub(super) struct Parts<I> {
-    /// How many parts the elements before each have, and at last how many there are.
+/// The numbers of the parts into which elements of one kind are cut, in order of the elements.
+pub(super) struct PartTable<I> {
+    /// For each element the number of its first part, and at the end the total number of parts.
     first: Vec<u32>,
     /// The element of each part.
     of: Vec<I>,
 }
 
-impl<I: Copy> Parts<I> {
+impl<I: Copy> PartTable<I> {
     fn new(elements: impl Iterator<Item = (I, u32)>) -> Self {
         let mut parts = Self {
             first: vec![0],
@@ -69,19 +70,19 @@ impl<I: Copy> Parts<I> {
         self.of.len()
     }
 
-    /// The element of this part, if there are so many.
+    /// Returns the element of a part, or `None` if the number is too large.
     pub(super) fn get(&self, part: usize) -> Option<I> {
         self.of.get(part).copied()
     }
 
-    /// The number of the first part of element `i`.
+    /// Returns the number of the first part of element `i`.
     fn first(&self, i: usize) -> usize {
         self.first[i] as usize
     }
 }
 
-/// A side of a triangle that is cut into four, as the two old half-edges that run to and from its middle:
-/// the same one, unless a vertex hangs there.
+/// A side of a triangle that is cut into four, as the old half-edges to and from its middle. They differ if the
+/// side has a hanging vertex; otherwise both are the half-edge of the side.
 #[derive(Clone, Copy)]
 pub(super) struct Side {
     pub(super) to: HalfEdgeId,
@@ -89,21 +90,21 @@ pub(super) struct Side {
 }
 
 impl<'a> Pieces<'a> {
-    /// The counts of the next level must fit into ids.
-    pub(super) fn new(mesh: &'a Mesh, cuts: Cuts, area: Area) -> Self {
-        let of_edges = |kept: u32| {
+    /// The caller has checked that ids can number the elements of the next level.
+    pub(super) fn new(mesh: &'a Mesh, cuts: Cuts, smoothed: SmoothedElements) -> Self {
+        let with_edges = |kept: u32| {
             let edges = mesh.edges().zip(&cuts.edges);
-            Parts::new(edges.map(|(e, &is_cut)| (e, kept + u32::from(is_cut))))
+            PartTable::new(edges.map(|(e, &is_cut)| (e, kept + u32::from(is_cut))))
         };
         let of_faces = |k: usize| {
             let faces = mesh.faces().zip(&cuts.faces);
-            Parts::new(faces.map(|(f, cut)| (f, cut.counts()[k])))
+            PartTable::new(faces.map(|(f, cut)| (f, cut.counts()[k])))
         };
         Self {
             mesh,
-            area,
-            on_edges: of_edges(1),
-            middles: of_edges(0),
+            smoothed,
+            on_edges: with_edges(1),
+            middles: with_edges(0),
             centers: of_faces(0),
             inside: of_faces(1),
             faces: of_faces(2),
@@ -111,7 +112,7 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// How many vertices, edges and faces the next level has.
+    /// Returns the numbers of vertices, edges and faces of the next level.
     pub(super) fn counts(&self) -> [usize; 3] {
         [
             self.mesh.n_vertices() + self.middles.len() + self.centers.len(),
@@ -120,21 +121,21 @@ impl<'a> Pieces<'a> {
         ]
     }
 
-    /// The marks of the parts of marked faces.
-    pub(super) fn inherited(&self, marks: &[bool]) -> Vec<bool> {
-        self.faces.of.iter().map(|f| marks[f.index()]).collect()
+    /// Returns the flags of the new faces: each part has the flag of its old face.
+    pub(super) fn inherited_flags(&self, flags: &[bool]) -> Vec<bool> {
+        self.faces.of.iter().map(|f| flags[f.index()]).collect()
     }
 
     pub(super) fn is_cut(&self, e: EdgeId) -> bool {
         self.middles.first(e.index()) != self.middles.first(e.index() + 1)
     }
 
-    /// The first of the new edges on an old one.
+    /// Returns the number of the first new edge on an old edge.
     fn first_edge(&self, e: EdgeId) -> usize {
         self.on_edges.first(e.index())
     }
 
-    /// The part of a half-edge that leaves its origin: all of it if the edge is not cut.
+    /// Returns the part of a half-edge that starts at its origin: the whole half-edge if the edge is not cut.
     pub(super) fn first(&self, h: HalfEdgeId) -> HalfEdgeId {
         let e = h.edge();
         let is_second_half = h.index() % 2;
@@ -142,20 +143,20 @@ impl<'a> Pieces<'a> {
         HalfEdgeId::new(2 * (self.first_edge(e) + is_behind) + is_second_half)
     }
 
-    /// The part of a half-edge of a cut edge that goes to its target.
+    /// Returns the part of a half-edge that ends at its target. The edge must be cut.
     pub(super) fn second(&self, h: HalfEdgeId) -> HalfEdgeId {
         let e = h.edge();
         let is_second_half = h.index() % 2;
         HalfEdgeId::new(2 * (self.first_edge(e) + 1 - is_second_half) + is_second_half)
     }
 
-    /// The parts of a half-edge, in order.
+    /// Iterates over the parts of a half-edge, in order.
     pub(super) fn parts_of(&self, h: HalfEdgeId) -> impl Iterator<Item = HalfEdgeId> {
         let second = self.is_cut(h.edge()).then(|| self.second(h));
         [self.first(h)].into_iter().chain(second)
     }
 
-    /// The new vertex on a cut edge.
+    /// Returns the new vertex on a cut edge.
     pub(super) fn on_edge(&self, e: EdgeId) -> VertexId {
         VertexId::new(self.mesh.n_vertices() + self.middles.first(e.index()))
     }
@@ -165,19 +166,18 @@ impl<'a> Pieces<'a> {
         VertexId::new(first + self.centers.first(f))
     }
 
-    /// The first half of the k-th edge inside face `f`.
+    /// Returns the first half of the `k`-th edge inside face `f`.
     pub(super) fn inner(&self, f: usize, k: usize) -> HalfEdgeId {
         let e = self.on_edges.len() + self.inside.first(f) + k;
         HalfEdgeId::new(2 * e)
     }
 
-    /// The k-th part of face `f`.
+    /// Returns the `k`-th part of face `f`.
     pub(super) fn part(&self, f: usize, k: usize) -> FaceId {
         FaceId::new(self.faces.first(f) + k)
     }
 
-    /// The sides of a triangle: from the corner before which a vertex hangs if there is one, otherwise from
-    /// the first.
+    /// Returns the sides of a triangle. If it has a hanging vertex, the side with that vertex comes last.
     pub(super) fn three_sides(&self, f: usize) -> [Side; 3] {
         let start = self.mesh.face_half_edge(FaceId::new(f));
         let next = |h| self.mesh.next(h);
@@ -202,7 +202,7 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Adds what runs from the corner of a side to its middle.
+    /// Adds the half-edges from the start of a side to its middle.
     pub(super) fn to_middle(&self, side: Side, ring: &mut Vec<HalfEdgeId>) {
         if side.is_whole() {
             ring.push(self.first(side.to));
@@ -211,8 +211,8 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Adds what runs from the middle of a side to the next corner.
-    pub(super) fn past_middle(&self, side: Side, ring: &mut Vec<HalfEdgeId>) {
+    /// Adds the half-edges from the middle of a side to its end.
+    pub(super) fn from_middle(&self, side: Side, ring: &mut Vec<HalfEdgeId>) {
         if side.is_whole() {
             ring.push(self.second(side.to));
         } else {
@@ -229,19 +229,19 @@ impl Side {
 
 impl Topology for Pieces<'_> {
     fn connectivity(&self, meter: &Meter) -> Result<Connectivity, Cancelled> {
-        let mut drawing = Drawing::of_edges(self);
+        let mut builder = ConnectivityBuilder::with_edges(self);
         for f in 0..self.cuts.len() {
             if f % BLOCK == 0 {
                 meter.add(BLOCK.min(self.cuts.len() - f))?;
             }
             match self.cuts[f] {
-                Cut::Whole | Cut::Hung => drawing.keep(f),
-                Cut::Two => drawing.cut_in_two(f),
-                Cut::Four => drawing.cut_into_four(f),
-                Cut::Quads(_) => drawing.cut_into_quads(f),
+                Cut::Whole | Cut::Hanging => builder.keep(f),
+                Cut::Two => builder.cut_in_two(f),
+                Cut::Four => builder.cut_into_four(f),
+                Cut::Quads(_) => builder.cut_into_quads(f),
             }
         }
-        Ok(drawing.new)
+        Ok(builder.new)
     }
 
     fn corner(&self, _: &Connectivity, i: usize) -> Place {
@@ -271,7 +271,7 @@ impl Topology for Pieces<'_> {
                 let mut sides = sides(self.mesh, f);
                 sides.nth(k).map_or(Place::Outside, Place::On)
             }
-            // Edge k runs from the middle of side k to that of the one before.
+            // Edge k runs from the middle of side k to the middle of the side before.
             _ => match self.three_sides(f)[if is_first { k } else { (k + 2) % 3 }] {
                 side if side.is_whole() => Place::On(side.to),
                 side => Place::At(side.from),
@@ -287,12 +287,12 @@ impl Topology for Pieces<'_> {
         self.faces.get(i).map(FaceId::index)
     }
 
-    fn moves(&self, v: usize) -> bool {
-        self.area.vertices[v]
+    fn smooths_vertex(&self, v: usize) -> bool {
+        self.smoothed.vertices[v]
     }
 
-    fn smooths(&self, e: EdgeId) -> bool {
-        self.area.edges[e.index()]
+    fn smooths_edge(&self, e: EdgeId) -> bool {
+        self.smoothed.edges[e.index()]
     }
 
     fn half(&self, i: usize) -> Option<HalfEdgeId> {

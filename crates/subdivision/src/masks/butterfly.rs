@@ -1,4 +1,5 @@
-//! The masks of modified Butterfly subdivision: old vertices stay, new ones lie on a surface through them.
+//! The masks of modified Butterfly subdivision: old vertices stay in place, and new vertices lie on a smooth
+//! surface through them.
 //!
 //! ```text
 //!    -1/16 ---- 1/8 ---- -1/16           s2    s1
@@ -12,21 +13,22 @@
 //!    inside, both ends regular     at an extraordinary end       on the boundary
 //! ```
 //!
-//! An inner vertex is extraordinary if its valence n is not 6. Its neighbors are counted from the other end
-//! of the edge, and have
+//! An inner vertex is extraordinary if its valence n is not 6. Its neighbors are numbered from the other end of
+//! the edge, j = 0 to n - 1, and have the weights
 //!
 //! - 5/12, -1/12, -1/12 for n = 3 and 3/8, 0, -1/8, 0 for n = 4,
-//! - (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n at the j-th for n ≥ 5.
+//! - (1/4 + cos(2πj/n) + cos(4πj/n)/2)/n for n ≥ 5.
 //!
-//! Between two extraordinary vertices the new one is the mean of both masks. Zorin, Schröder and Sweldens,
-//! "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996; on the boundary the curve of Dyn,
-//! Levin and Gregory, "A 4-point interpolatory subdivision scheme for curve design", 1987. What they leave
-//! open:
+//! If both ends are extraordinary, the new vertex is the mean of both masks. Source: Zorin, Schröder and
+//! Sweldens, "Interpolating Subdivision for Meshes with Arbitrary Topology", 1996. The mask on the boundary is
+//! from Dyn, Levin and Gregory, "A 4-point interpolatory subdivision scheme for curve design", 1987. Cases that
+//! these papers leave open:
 //!
-//! - Where a wing (-1/16) is beyond a boundary edge, its place is taken by the reflection of the corner
-//!   opposite that edge, so that flat regular parts stay on their grid up to the boundary.
-//! - Vertices of the boundary are never extraordinary.
-//! - For n = 2 the neighbors have 3/8 and -1/8: as for n = 4, but for those with 0.
+//! - If the vertex with weight -1/16 is missing because it would lie beyond a boundary edge, the reflection of
+//!   the corner opposite that edge replaces it, so that flat regular parts stay on their grid up to the
+//!   boundary.
+//! - Boundary vertices are never extraordinary.
+//! - For n = 2 the neighbors have 3/8 and -1/8: as for n = 4, without the two weights of 0.
 
 use std::f64::consts::TAU;
 
@@ -68,7 +70,7 @@ impl ButterflyMasks<'_> {
         }
     }
 
-    /// The valence of the origin of `h`, if it is extraordinary.
+    /// Returns the valence of the origin of `h` if that vertex is extraordinary.
     #[inline]
     fn extraordinary(&self, h: HalfEdgeId) -> Option<usize> {
         let v = self.0.origin(h);
@@ -76,7 +78,8 @@ impl ButterflyMasks<'_> {
         (n != 6 && !self.0.is_boundary_vertex(v)).then_some(n)
     }
 
-    /// The half of the regular mask that lies in the triangle of `h`, with the origin of `h`.
+    /// Adds the half of the regular mask that belongs to `h`: its origin, and the vertices on the side of its
+    /// triangle.
     #[inline]
     fn regular_half(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.0;
@@ -96,7 +99,7 @@ impl ButterflyMasks<'_> {
         }
     }
 
-    /// The mask around the origin of `h`, which has valence `n`, scaled.
+    /// Adds the mask around the origin of `h`, an extraordinary vertex of valence `n`, scaled by `scale`.
     fn at_extraordinary(
         &self,
         h: HalfEdgeId,
@@ -105,14 +108,14 @@ impl ButterflyMasks<'_> {
         add: &mut impl FnMut(usize, f64),
     ) {
         add(self.0.origin(h).index(), 0.75 * scale);
-        let mut at = h;
+        let mut spoke = h;
         for j in 0..n {
-            add(self.0.target(at).index(), ring_weight(n, j) * scale);
-            at = self.0.next(at.twin());
+            add(self.0.target(spoke).index(), ring_weight(n, j) * scale);
+            spoke = self.0.next(spoke.twin());
         }
     }
 
-    /// The mask along the boundary, of which `h` is a half-edge.
+    /// Adds the mask along the boundary. `h` is the half-edge without a face.
     fn on_boundary(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.0;
         add(mesh.origin(mesh.prev(h)).index(), -0.0625);
@@ -122,7 +125,7 @@ impl ButterflyMasks<'_> {
     }
 }
 
-/// The weight of the `j`-th of the `n` neighbors of an extraordinary vertex. They sum to 1/4.
+/// The weight of the `j`-th of the `n` neighbors of an extraordinary vertex. The weights sum to 1/4.
 fn ring_weight(n: usize, j: usize) -> f64 {
     match (n, j) {
         (3, 0) => 5.0 / 12.0,
@@ -150,8 +153,9 @@ mod tests {
     }
 
     #[test]
-    fn quadratic_functions_around_a_vertex_are_met_exactly() {
-        // Halfway to the ring r cos t is 1/2 and r² cos 2t is 1/4. The second needs five neighbors.
+    fn quadratic_functions_around_a_vertex_are_reproduced_exactly() {
+        // Halfway to the one-ring, r cos t is 1/2 and r² cos 2t is 1/4. The second function needs five
+        // neighbors.
         for n in 5..20 {
             let ring = |k: f64| -> f64 {
                 let at = |j: usize| libm::cos(k * TAU * j as f64 / n as f64);

@@ -9,8 +9,8 @@
 //!                                                   3/4 v + 1/8 of both neighbors along it
 //! ```
 //!
-//! a, b and e are old vertices, f and g the new ones in the faces, n is the valence of v. Catmull and
-//! Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes", 1978.
+//! a, b, e and v are old vertices, f and g are the new vertices in the faces, and n is the valence of v.
+//! Source: Catmull and Clark, "Recursively generated B-spline surfaces on arbitrary topological meshes", 1978.
 
 use mesh::{DVec3, EdgeId, FaceId, Mesh, VertexId};
 use progress::{Cancelled, Meter};
@@ -25,7 +25,7 @@ pub(crate) struct CatmullClarkMasks<'a> {
     pub(crate) sharpness: Sharpness<'a>,
 }
 
-/// What a mask is a sum over: old vertices, and new ones in the middle of faces.
+/// A term of a mask: an old vertex, or the new vertex at the center of a face.
 #[derive(Clone, Copy)]
 enum Source {
     Old(usize),
@@ -48,8 +48,8 @@ impl Masks for CatmullClarkMasks<'_> {
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
         let mut new: Vec<DVec3> = mesh::zeroed(n);
         let first_center = self.mesh.n_vertices() + self.mesh.n_edges();
-        // The centers first: the others read them.
-        let (others, centers) = new.split_at_mut(first_center);
+        // The centers are computed first, because the masks of edges and vertices read them.
+        let (edges_and_vertices, centers) = new.split_at_mut(first_center);
         fill(centers, meter, |f| {
             let (mut sum, mut n) = (DVec3::ZERO, 0_u32);
             for v in self.mesh.face_vertices(FaceId::new(f)) {
@@ -59,7 +59,7 @@ impl Masks for CatmullClarkMasks<'_> {
             sum * (1.0 / f64::from(n))
         })?;
         let centers = &*centers;
-        fill(others, meter, |i| {
+        fill(edges_and_vertices, meter, |i| {
             let mut sum = DVec3::ZERO;
             self.over_centers(i, &mut |source, w| {
                 let value = match source {
@@ -75,7 +75,8 @@ impl Masks for CatmullClarkMasks<'_> {
 }
 
 impl CatmullClarkMasks<'_> {
-    /// The mask of a vertex that is old or on an edge.
+    /// Adds the mask of an old vertex or of a new vertex on an edge, as a sum over old vertices and face
+    /// centers.
     #[inline]
     fn over_centers(&self, i: usize, add: &mut impl FnMut(Source, f64)) {
         let n_vertices = self.mesh.n_vertices();

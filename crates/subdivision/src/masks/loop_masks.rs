@@ -10,8 +10,7 @@
 //!     new, smooth          old, smooth, valence n    new, sharp         old, crease
 //! ```
 //!
-//! The masks are those of Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987; [`LoopWeights`]
-//! says what u is.
+//! Source: Loop, "Smooth Subdivision Surfaces Based on Triangles", 1987. [`LoopWeights`] defines u.
 
 use mesh::{EdgeId, Mesh, VertexId};
 
@@ -26,7 +25,7 @@ pub(crate) struct LoopMasks<'a> {
 }
 
 impl LoopWeights {
-    /// The weight of each neighbor of a vertex of valence `n`.
+    /// The weight u of each neighbor of a vertex of valence `n`.
     #[inline]
     pub(crate) fn of(self, n: usize) -> f64 {
         let valence = n as f64;
@@ -63,7 +62,7 @@ impl Masks for LoopMasks<'_> {
 }
 
 impl LoopMasks<'_> {
-    /// The mask of the new vertex on an edge.
+    /// Adds the mask of the new vertex on an edge.
     #[inline]
     fn on_edge(&self, e: EdgeId, add: &mut impl FnMut(usize, f64)) {
         let [h, twin] = e.half_edges();
@@ -74,7 +73,7 @@ impl LoopMasks<'_> {
             add(b, 0.5);
             return;
         }
-        // In a triangle, the next half-edge goes to the vertex opposite.
+        // In a triangle, the next half-edge ends at the opposite vertex.
         let [c, d] = [h, twin].map(|h| self.mesh.target(self.mesh.next(h)).index());
         let end = 0.5 * sharp + 0.375 * (1.0 - sharp);
         add(a, end);
@@ -94,7 +93,7 @@ mod tests {
             let [a, b] = [LoopWeights::Warren, LoopWeights::Loop].map(|w| w.of(n));
             assert_eq!(a, b, "{n}");
         }
-        // Loop's formula at n = 3, computed: 5/8 - (3/8 - 1/8)^2 = 9/16.
+        // Loop's formula at n = 3 gives 3u = 5/8 - (3/8 - 1/8)^2 = 9/16.
         assert_eq!(LoopWeights::Loop.of(3), 9.0 / 16.0 / 3.0);
     }
 }

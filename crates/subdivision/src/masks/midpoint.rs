@@ -1,4 +1,5 @@
-//! The masks of linear subdivision: old vertices stay, new ones lie in the middle of edges and faces.
+//! The masks of midpoint subdivision: old vertices stay in place, and new vertices lie in the middle of edges
+//! and faces.
 
 use mesh::{EdgeId, FaceId, Mesh};
 
@@ -24,7 +25,7 @@ impl Masks for MidpointMasks<'_> {
     }
 }
 
-/// Adds the mean of the corners of a face, scaled.
+/// Adds the mean of the corners of a face, scaled by `weight`.
 #[inline]
 pub(crate) fn center(mesh: &Mesh, f: FaceId, weight: f64, add: &mut impl FnMut(usize, f64)) {
     let part = weight / mesh.degree(f) as f64;

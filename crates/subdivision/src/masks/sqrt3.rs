@@ -10,9 +10,9 @@
 //!      in a face          old, inside, valence n    old, boundary            new, boundary
 //! ```
 //!
-//! with a = (4 - 2 cos(2π/n))/9. The boundary changes on every second level, on which each of its edges gets
-//! two vertices; the first leaves it as it is. Its curve is a uniform cubic B-spline in thirds. Kobbelt,
-//! "√3-Subdivision", 2000.
+//! Here a = (4 - 2 cos(2π/n))/9. Even levels, counted from 0, leave the boundary unchanged; on odd levels each
+//! boundary edge gets two vertices, by the ternary subdivision of a uniform cubic B-spline curve. Source:
+//! Kobbelt, "√3-Subdivision", 2000.
 
 use std::f64::consts::TAU;
 
@@ -39,7 +39,7 @@ impl Sqrt3<'_> {
         match mesh.vertex_half_edge(v) {
             Some(h) if mesh.face(h).is_some() => {
                 let n = mesh.valence(v);
-                let a = away(n);
+                let a = neighbor_weight(n);
                 add(v.index(), 1.0 - a);
                 for w in mesh.vertex_neighbors(v) {
                     add(w.index(), a / n as f64);
@@ -54,10 +54,10 @@ impl Sqrt3<'_> {
         }
     }
 
-    /// The mask of the vertex on the boundary edge of `h`, near its origin.
+    /// Adds the mask of the new vertex on the boundary edge of `h`, at a third of the way from its origin.
     fn on_boundary(&self, h: HalfEdgeId, add: &mut impl FnMut(usize, f64)) {
         let mesh = self.mesh;
-        // Along the boundary h may run either way.
+        // Either half of the boundary edge can be h.
         let beyond = if mesh.face(h).is_none() {
             mesh.origin(mesh.prev(h))
         } else {
@@ -69,9 +69,9 @@ impl Sqrt3<'_> {
     }
 }
 
-/// How much of an old vertex inside goes to its `n` neighbors.
+/// The total weight a of the `n` neighbors of an inner vertex.
 #[inline]
-fn away(n: usize) -> f64 {
+fn neighbor_weight(n: usize) -> f64 {
     match n {
         3 => 5.0 / 9.0,
         4 => 4.0 / 9.0,
@@ -85,10 +85,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_that_are_written_down_are_those_of_the_formula() {
+    fn tabulated_weights_equal_the_formula() {
         for n in [3, 4, 6] {
             let formula = (4.0 - 2.0 * libm::cos(TAU / n as f64)) / 9.0;
-            assert!((away(n) - formula).abs() < 1e-15, "{n}");
+            assert!((neighbor_weight(n) - formula).abs() < 1e-15, "{n}");
         }
     }
 }

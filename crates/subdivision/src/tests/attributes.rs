@@ -1,4 +1,4 @@
-//! What becomes of attributes.
+//! Attributes after subdivision.
 
 use mesh::{
     COLOR, CREASE, Column, DVec2, DVec3, DVec4, Domain, FaceId, HalfEdgeId, MATERIAL, Mesh, Rule,
@@ -9,7 +9,7 @@ use super::{is_corner, once};
 use crate::fixtures::{self, sheet};
 
 #[test]
-fn vertex_values_move_with_the_positions() {
+fn vertex_values_have_the_masks_of_the_positions() {
     for (name, mut mesh) in fixtures::all() {
         let colors =
             |m: &Mesh| -> Vec<DVec4> { m.positions().iter().map(|p| p.extend(1.0)).collect() };
@@ -23,7 +23,7 @@ fn vertex_values_move_with_the_positions() {
 }
 
 #[test]
-fn texture_coordinates_that_are_affine_in_the_position_stay_so_on_a_flat_sheet() {
+fn affine_texture_coordinates_stay_affine_on_a_flat_sheet() {
     let mut mesh = sheet(4, 3);
     let affine = |p: DVec3| DVec2::new(0.5 * p.x + 1.0, p.y - 0.25 * p.x);
     let uvs = mesh
@@ -33,7 +33,7 @@ fn texture_coordinates_that_are_affine_in_the_position_stay_so_on_a_flat_sheet()
     let new = once(&mesh);
     let uvs = new.get(UV).unwrap();
     let inside = |h: HalfEdgeId| new.face(h).is_some();
-    // The four corners of the sheet are rounded off.
+    // Subdivision rounds off the four corners of the sheet.
     let rounded = |v: VertexId| mesh.has_vertex(v) && is_corner(&mesh, v);
     let mut n = 0;
     for h in new
@@ -49,7 +49,7 @@ fn texture_coordinates_that_are_affine_in_the_position_stay_so_on_a_flat_sheet()
 #[test]
 fn corner_values_stay_within_their_own_triangle() {
     for (name, mut mesh) in fixtures::all() {
-        // Every triangle has values of its own, so every edge is a seam.
+        // Every triangle has different values, so every edge is a seam.
         let value = |h: HalfEdgeId| {
             mesh.face(h).map_or(DVec2::ZERO, |f| {
                 DVec2::new(f.index() as f64, (7 * h.index() % 16) as f64)
@@ -68,7 +68,7 @@ fn corner_values_stay_within_their_own_triangle() {
             let [x, y, z] = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0];
             let parts = [0, 1, 2, 3].map(|k| around(&new, FaceId::new(4 * f.index() + k), new_uvs));
             assert_eq!(parts[..3], [[a, x, z], [b, y, x], [c, z, y]], "{name} {f}");
-            // The middle triangle begins at z.
+            // The first corner of the middle triangle is z.
             assert_eq!(parts[3], [z, x, y], "{name} {f}");
         }
         for h in new.half_edges().filter(|&h| new.face(h).is_none()) {
@@ -78,7 +78,7 @@ fn corner_values_stay_within_their_own_triangle() {
 }
 
 #[test]
-fn copied_values_go_to_the_parts_and_nowhere_else() {
+fn copied_values_are_inherited_by_the_parts_only() {
     let mut mesh = sheet(2, 2);
     let n = |domain| mesh.domain_len(domain);
     let tags = |n: usize| Values::Tag((0..n).map(|i| i % 3 == 0).collect());
@@ -104,7 +104,7 @@ fn copied_values_go_to_the_parts_and_nowhere_else() {
     }
     for (e, &chosen) in tag(Domain::Edge).iter().enumerate() {
         assert_eq!(chosen, e < 2 * mesh.n_edges() && (e / 2) % 3 == 0, "e{e}");
-        // Infinite from 10 on; otherwise it fades.
+        // Sharpness is infinite from 10 on; below 10 it decreases by 1.
         let crease = match (e / 2) as f64 {
             _ if e >= 2 * mesh.n_edges() => 0.0,
             s if s >= 10.0 => 10.0,

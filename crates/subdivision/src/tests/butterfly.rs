@@ -12,7 +12,7 @@ fn once(mesh: &Mesh) -> Mesh {
     level(Scheme::Butterfly, mesh)
 }
 
-/// The edges that are not on the boundary beside a corner of a sheet, where the curve turns.
+/// Returns the edges of a sheet, without the boundary edges at its corners, where the boundary curve turns.
 fn away_from_corners(mesh: &Mesh) -> Vec<EdgeId> {
     let turns = |e: EdgeId| {
         mesh.is_boundary_edge(e) && mesh.edge_vertices(e).iter().any(|&v| is_corner(mesh, v))
@@ -36,7 +36,7 @@ fn a_flat_regular_sheet_stays_on_its_grid() {
 }
 
 #[test]
-fn cubic_functions_over_a_regular_sheet_are_met_inside() {
+fn cubic_functions_over_a_regular_sheet_are_reproduced_inside() {
     let f = |p: DVec3| {
         let (x, y) = (p.x, p.y);
         x * x * x - 2.0 * x * x * y + 0.5 * x * y * y + y * y * y - x * y + 3.0 * y - 1.0
@@ -48,7 +48,7 @@ fn cubic_functions_over_a_regular_sheet_are_met_inside() {
     let new = once(&old);
     let inner = |v: VertexId| !old.is_boundary_vertex(v);
     let is_inside = |&e: &EdgeId| {
-        // All eight vertices of the mask are there.
+        // The mask has all its eight vertices.
         let ends = old.edge_vertices(e);
         ends.iter()
             .all(|&v| inner(v) && old.vertex_neighbors(v).all(inner))
@@ -62,9 +62,9 @@ fn cubic_functions_over_a_regular_sheet_are_met_inside() {
 }
 
 #[test]
-fn a_tetrahedron_is_met_by_the_masks_of_valence_three() {
-    // Between a and b: the mean of 3/4 a + 5/12 b - 1/12 (c + d) and the same with a and b exchanged,
-    // and c + d = -(a + b): 7/12 (a + b) + 1/12 (a + b).
+fn a_tetrahedron_has_the_masks_of_valence_three() {
+    // The vertex between a and b is the mean of 3/4 a + 5/12 b - 1/12 (c + d) and the same with a and b
+    // swapped. With c + d = -(a + b) this is 7/12 (a + b) + 1/12 (a + b).
     let old = shapes::tetrahedron();
     let new = once(&old);
     for e in old.edges() {
@@ -75,7 +75,7 @@ fn a_tetrahedron_is_met_by_the_masks_of_valence_three() {
 }
 
 #[test]
-fn a_boundary_is_the_curve_of_four_points_and_depends_on_itself_alone() {
+fn a_boundary_is_the_four_point_curve_of_boundary_vertices() {
     for (name, mesh) in fixtures::all() {
         let new = once(&mesh);
         for h in mesh.half_edges().filter(|&h| mesh.face(h).is_none()) {
@@ -90,7 +90,7 @@ fn a_boundary_is_the_curve_of_four_points_and_depends_on_itself_alone() {
 }
 
 #[test]
-fn triangles_are_cut_as_by_loop_subdivision() {
+fn triangles_are_split_as_in_loop_subdivision() {
     for (name, mesh) in fixtures::all() {
         let expected = triangles(&level(Scheme::Loop(LoopWeights::Warren), &mesh));
         assert_eq!(triangles(&once(&mesh)), expected, "{name}");

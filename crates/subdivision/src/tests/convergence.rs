@@ -1,4 +1,4 @@
-//! How fast levels come to the limit.
+//! The rate at which levels converge to the limit.
 
 use std::f64::consts::TAU;
 
@@ -11,21 +11,21 @@ use crate::{LoopWeights, Rules, Scheme, limit, limit_distance, subdivide};
 
 const LOOP: Scheme = Scheme::Loop(LoopWeights::Warren);
 
-/// The largest distances to the limit from level 0 on.
+/// Returns the largest distance to the limit for each level, from level 0 on.
 fn distances(mut mesh: Mesh, rules: Rules, levels: u32) -> Vec<f64> {
-    let mut found = Vec::new();
+    let mut distances_by_level = Vec::new();
     for _ in 0..=levels {
-        found.push(limit_distance(&mesh, rules, &NoProgress).unwrap());
+        distances_by_level.push(limit_distance(&mesh, rules, &NoProgress).unwrap());
         mesh = subdivide(&mesh, rules, 1, &NoProgress).unwrap();
     }
-    found
+    distances_by_level
 }
 
 #[test]
-fn cages_come_to_their_limit_at_the_rate_of_their_vertices() {
-    // Around a vertex a level scales the surface by the subdominant eigenvalue of its valence, and with it
-    // the distance that points next to it have to go along the surface. Only where all valences are
-    // regular what is left is quadratic in the length of edges: a factor of 4.
+fn meshes_converge_at_the_rate_of_their_valences() {
+    // Around a vertex, each level scales the surface by the subdominant eigenvalue of the valence, and with it
+    // the distance from nearby points to their limits. Only if all valences are regular, the distance is
+    // quadratic in the edge length: a factor of 4.
     let loop_rate = |n: f64| 0.375 + 0.25 * libm::cos(TAU / n);
     let cases = [
         (LOOP, shapes::icosahedron(), 8, loop_rate(5.0)),
@@ -34,19 +34,19 @@ fn cages_come_to_their_limit_at_the_rate_of_their_vertices() {
         (Scheme::CatmullClark, shapes::torus(8, 8, 2.0, 1.0), 5, 0.25),
     ];
     for (scheme, mesh, levels, rate) in cases {
-        let found = distances(mesh, Rules::of(scheme), levels);
-        let last = found[levels as usize] / found[levels as usize - 1];
+        let distances_by_level = distances(mesh, Rules::of(scheme), levels);
+        let last = distances_by_level[levels as usize] / distances_by_level[levels as usize - 1];
         assert!(
             (last / rate - 1.0).abs() < 0.05,
-            "{scheme:?} {last} {rate} {found:?}"
+            "{scheme:?} {last} {rate} {distances_by_level:?}"
         );
     }
 }
 
 #[test]
-fn a_vertex_comes_to_its_limit_by_the_eigenvalue_of_its_valence() {
-    // Loop: the vertex and the mean of its ring have the matrix (1 - nu, nu; 3/8, 5/8), whose eigenvalues
-    // are 1 and 5/8 - nu.
+fn a_vertex_converges_by_the_eigenvalue_of_its_valence() {
+    // In Loop subdivision the vertex and the mean of its neighbors are mapped by the matrix (1 - nu, nu; 3/8,
+    // 5/8), whose eigenvalues are 1 and 5/8 - nu.
     for weights in [LoopWeights::Warren, LoopWeights::Loop] {
         let rules = Rules::of(Scheme::Loop(weights));
         for (name, mesh) in fixtures::all() {
@@ -58,8 +58,8 @@ fn a_vertex_comes_to_its_limit_by_the_eigenvalue_of_its_valence() {
                     continue;
                 }
                 let lambda = 0.625 - n as f64 * weights.of(n);
-                let left = |m: &Mesh| -> DVec3 { m.position(v) - goal[v.index()] };
-                let far = left(&next).distance(lambda * left(&mesh));
+                let offset = |m: &Mesh| -> DVec3 { m.position(v) - goal[v.index()] };
+                let far = offset(&next).distance(lambda * offset(&mesh));
                 assert!(far < 1e-13, "{name} {v} {far:e}");
             }
         }

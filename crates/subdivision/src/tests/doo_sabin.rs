@@ -12,7 +12,7 @@ fn once(mesh: &Mesh) -> Mesh {
     level(Scheme::DooSabin, mesh)
 }
 
-/// Polygons of all kinds, with and without a boundary.
+/// Returns meshes with polygons of all kinds, with and without a boundary.
 fn polygons() -> Vec<(&'static str, Mesh)> {
     let mut meshes = fixtures::all();
     meshes.push(("cube", shapes::cube()));
@@ -40,14 +40,14 @@ fn a_cube_gets_a_face_for_each_face_edge_and_vertex() {
     };
     assert_eq!(degrees(0..18), [4; 18]);
     assert_eq!(degrees(18..26), [3; 8]);
-    // The face of an old face is half as wide.
+    // The face made from an old face is half as wide.
     let f = FaceId::new(0);
     let area = |m: &Mesh| m.face_area(f);
     assert!((area(&new) - area(&old) / 4.0).abs() < 1e-15);
 }
 
 #[test]
-fn faces_and_edges_are_numbered_as_the_documentation_says() {
+fn faces_and_edges_are_numbered_as_documented() {
     for (name, old) in polygons() {
         let new = once(&old);
         let corner = |h: HalfEdgeId| VertexId::new(h.index());
@@ -90,18 +90,18 @@ fn faces_and_edges_are_numbered_as_the_documentation_says() {
 }
 
 #[test]
-fn the_kind_of_surface_stays_for_polygons_too() {
+fn polygons_keep_their_topology() {
     for (name, mesh) in polygons() {
         for n in 1..=3 {
             let new = levels(Scheme::DooSabin, n, &mesh);
-            assert_eq!(super::kind(&new), super::kind(&mesh), "{name} {n}");
+            assert_eq!(super::topology(&new), super::topology(&mesh), "{name} {n}");
         }
     }
 }
 
 #[test]
-fn a_regular_grid_becomes_the_biquadratic_b_spline_of_its_points() {
-    // Knots are halved along both directions, each as by Chaikin.
+fn a_regular_grid_becomes_the_biquadratic_b_spline_of_its_vertices() {
+    // Knot intervals are halved in both directions, each by Chaikin's rule.
     let (columns, rows) = (5, 4);
     let mut old = shapes::grid(columns, rows);
     let height = |i: u32, j: u32| f64::from((7 * i + 5 * j * j + i * j) % 11);
@@ -124,7 +124,7 @@ fn a_regular_grid_becomes_the_biquadratic_b_spline_of_its_points() {
         let line: Vec<DVec3> = lines.iter().map(|line| line[i]).collect();
         expected.extend(chaikin(&line));
     }
-    // The points inside; on the boundary is the curve of the boundary.
+    // Only inner vertices belong to the spline; boundary vertices lie on the boundary curve.
     let inside: Vec<DVec3> = (0..new.n_vertices())
         .map(VertexId::new)
         .filter(|&v| !new.is_boundary_vertex(v))
@@ -138,7 +138,7 @@ fn a_regular_grid_becomes_the_biquadratic_b_spline_of_its_points() {
 }
 
 #[test]
-fn the_boundary_is_cut_off_as_by_chaikin() {
+fn the_boundary_follows_chaikins_rule() {
     for (name, old) in polygons() {
         let new = once(&old);
         for h in old.half_edges().filter(|&h| old.face(h).is_none()) {
@@ -155,13 +155,13 @@ fn the_boundary_is_cut_off_as_by_chaikin() {
 }
 
 #[test]
-fn after_one_level_all_vertices_inside_have_four_edges() {
+fn after_one_level_all_inner_vertices_have_valence_four() {
     for (name, mesh) in polygons().into_iter().filter(|(n, _)| *n != "pillow") {
-        let usual = mesh
+        let has_no_valence_2 = mesh
             .vertices()
             .all(|v| mesh.is_boundary_vertex(v) || mesh.valence(v) != 2);
         let new = once(&mesh);
-        for v in new.vertices().filter(|_| usual) {
+        for v in new.vertices().filter(|_| has_no_valence_2) {
             let expected = match new.valence(v) {
                 0 => 0,
                 _ if new.is_boundary_vertex(v) => 3,
@@ -173,7 +173,7 @@ fn after_one_level_all_vertices_inside_have_four_edges() {
 }
 
 #[test]
-fn corner_values_that_are_affine_in_the_position_stay_so() {
+fn affine_corner_values_stay_affine() {
     for (name, mut mesh) in polygons() {
         let affine = |p: DVec3| DVec2::new(p.x - 2.0 * p.y + 0.5, p.z + 0.25 * p.y);
         let values = |m: &Mesh| -> Vec<DVec2> {
@@ -191,7 +191,7 @@ fn corner_values_that_are_affine_in_the_position_stay_so() {
 }
 
 #[test]
-fn values_of_faces_edges_and_vertices_go_to_their_parts() {
+fn parts_inherit_the_values_of_faces_edges_and_vertices() {
     for (name, mut old) in polygons() {
         old.set(MATERIAL, (0..).take(old.n_faces()).collect());
         for (domain, column) in [(Domain::Edge, "edges"), (Domain::Vertex, "vertices")] {
@@ -213,7 +213,7 @@ fn values_of_faces_edges_and_vertices_go_to_their_parts() {
             let expected = if e < old.n_half_edges() { e / 2 + 1 } else { 0 };
             assert_eq!(value, i32::try_from(expected).unwrap(), "{name} e{e}");
         }
-        // Only isolated vertices stay.
+        // Only isolated vertices are kept.
         let kept: Vec<i32> = ints(Domain::Vertex, "vertices");
         let kept: Vec<i32> = kept.into_iter().filter(|&i| i != 0).collect();
         let isolated = old.vertices().filter(|&v| old.valence(v) == 0);

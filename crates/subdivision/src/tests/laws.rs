@@ -1,25 +1,25 @@
-//! What holds for connectivity and positions of Loop subdivision whatever the mesh.
+//! Properties of Loop subdivision, of its connectivity and positions, on every mesh.
 
 use geometry::shapes;
 use mesh::{DVec3, EdgeId, FaceId, HalfEdgeId, Mesh, VertexId};
 
-use super::{is_corner, kind, once};
+use super::{is_corner, once, topology};
 use crate::fixtures::{self, corners, sheet};
 
 #[test]
-fn invariants_hold_on_all_levels_and_the_kind_of_surface_stays() {
+fn all_levels_keep_the_invariants_and_the_topology() {
     for (name, mesh) in fixtures::all() {
         let mut new = mesh.clone();
         for _ in 0..3 {
             new = once(&new);
         }
-        assert_eq!(kind(&new), kind(&mesh), "{name}");
+        assert_eq!(topology(&new), topology(&mesh), "{name}");
         assert_eq!(new.n_faces(), 64 * mesh.n_faces(), "{name}");
     }
 }
 
 #[test]
-fn elements_are_numbered_as_the_documentation_says() {
+fn elements_are_numbered_as_documented() {
     for (name, old) in fixtures::all() {
         let new = once(&old);
         let on = |h: HalfEdgeId| VertexId::new(old.n_vertices() + h.edge().index());
@@ -46,7 +46,7 @@ fn elements_are_numbered_as_the_documentation_says() {
 }
 
 #[test]
-fn dead_elements_are_left_out() {
+fn dead_elements_are_ignored() {
     let mut mesh = sheet(3, 3);
     mesh.delete_face(FaceId::new(4)).unwrap();
     mesh.delete_face(FaceId::new(9)).unwrap();
@@ -108,7 +108,7 @@ fn the_boundary_depends_on_the_boundary_only() {
 fn splitting_all_edges_at_a_vertex_halves_its_displacement() {
     for (name, mesh) in fixtures::all() {
         if name == "pillow" {
-            continue; // Its two edges at a vertex go round to the same faces.
+            continue; // The two edges at a vertex have the same faces.
         }
         let inside = mesh.vertices().filter(|&v| !mesh.is_boundary_vertex(v));
         for v in inside.filter(|&v| mesh.vertex_half_edge(v).is_some()) {
@@ -125,9 +125,9 @@ fn splitting_all_edges_at_a_vertex_halves_its_displacement() {
 }
 
 #[test]
-fn a_tetrahedron_shrinks_by_the_number_that_the_mask_gives() {
-    // The neighbors of p sum to -p, so p becomes (7/16 - 3/16) p, and the middle of an edge a b becomes
-    // 3/8 (a + b) + 1/8 (c + d) = 1/4 (a + b).
+fn a_tetrahedron_shrinks_by_the_factor_of_the_mask() {
+    // The neighbors of p sum to -p, so p becomes (7/16 - 3/16) p. The vertex on the edge between a and b
+    // becomes 3/8 (a + b) + 1/8 (c + d) = 1/4 (a + b).
     let old = shapes::tetrahedron();
     let new = once(&old);
     for v in old.vertices() {

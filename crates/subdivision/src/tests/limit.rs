@@ -1,4 +1,4 @@
-//! The limit surface: the same from every level, and where known surfaces lie.
+//! Tests the limit surface: it is the same from every level, and agrees with known surfaces.
 
 use geometry::shapes;
 use mesh::{CREASE, DVec3, Mesh, VERTEX_SHARPNESS, VertexId};
@@ -15,11 +15,11 @@ const SCHEMES: [Scheme; 3] = [
     Scheme::CatmullClark,
 ];
 
-fn of(mesh: &Mesh, rules: Rules) -> Limit {
+fn limit_of(mesh: &Mesh, rules: Rules) -> Limit {
     limit(mesh, rules, &NoProgress).unwrap()
 }
 
-/// Every fixture, as it is and with several patterns of sharpness.
+/// Returns every fixture, without sharpness and with several patterns of sharpness.
 fn sharpened() -> Vec<(String, Mesh)> {
     let patterns: [&[f64]; 4] = [
         &[0.0],
@@ -33,12 +33,12 @@ fn sharpened() -> Vec<(String, Mesh)> {
             let mut mesh = mesh.clone();
             let n = mesh.n_edges();
             mesh.set(CREASE, pattern.iter().copied().cycle().take(n).collect());
-            let at = [0.0, 0.0, 0.0, 0.0, 1.5, 0.0, 0.0, 0.0, 10.0];
-            let at: &[f64] = if i > 1 { &at } else { &[0.0] };
+            let vertex_sharpness = [0.0, 0.0, 0.0, 0.0, 1.5, 0.0, 0.0, 0.0, 10.0];
+            let vertex_sharpness: &[f64] = if i > 1 { &vertex_sharpness } else { &[0.0] };
             let n = mesh.n_vertices();
             mesh.set(
                 VERTEX_SHARPNESS,
-                at.iter().copied().cycle().take(n).collect(),
+                vertex_sharpness.iter().copied().cycle().take(n).collect(),
             );
             meshes.push((format!("{name} {i}"), mesh));
         }
@@ -65,7 +65,7 @@ fn a_level_does_not_change_the_limit() {
     for (name, mesh) in sharpened() {
         for rules in rules() {
             let finer = subdivide(&mesh, rules, 1, &NoProgress).unwrap();
-            let (coarse, fine) = (of(&mesh, rules), of(&finer, rules));
+            let (coarse, fine) = (limit_of(&mesh, rules), limit_of(&finer, rules));
             for v in mesh.vertices() {
                 let [a, b] = [&coarse, &fine].map(|l| l.positions[v.index()]);
                 let far = a.distance(b);
@@ -76,10 +76,10 @@ fn a_level_does_not_change_the_limit() {
 }
 
 #[test]
-fn vertices_come_to_their_limits() {
+fn vertices_converge_to_their_limits() {
     for (name, mesh) in sharpened() {
         for rules in rules().filter(|r| r.boundary == Boundary::EdgesAndCorners) {
-            let limit = of(&mesh, rules);
+            let limit = limit_of(&mesh, rules);
             let fine = subdivide(&mesh, rules, 5, &NoProgress).unwrap();
             for v in mesh.vertices() {
                 let far = limit.positions[v.index()].distance(fine.position(v));
@@ -89,7 +89,7 @@ fn vertices_come_to_their_limits() {
     }
 }
 
-/// The mean normal of the faces around a vertex.
+/// Returns the mean normal of the faces around a vertex.
 fn mean_normal(mesh: &Mesh, v: VertexId) -> DVec3 {
     let faces = mesh
         .vertex_half_edges(v)
@@ -105,14 +105,14 @@ fn mean_normal(mesh: &Mesh, v: VertexId) -> DVec3 {
 }
 
 #[test]
-fn normals_are_those_of_ever_smaller_faces() {
-    // Smooth everywhere but at the boundary.
+fn normals_of_fine_faces_converge_to_limit_normals() {
+    // These meshes are smooth everywhere except at the boundary.
     for (name, mesh) in fixtures::all() {
         if name == "pillow" {
-            continue; // It is flat: its limit has two sides and no normal.
+            continue; // The pillow is flat: its limit has two sides and no normal.
         }
         for rules in rules().filter(|r| r.boundary == Boundary::EdgesOnly) {
-            let normals = of(&mesh, rules).normals();
+            let normals = limit_of(&mesh, rules).normals();
             let fine = subdivide(&mesh, rules, 5, &NoProgress).unwrap();
             for v in mesh.vertices() {
                 let [a, b] = [normals[v.index()], mean_normal(&fine, v)];
@@ -127,17 +127,17 @@ fn normals_are_those_of_ever_smaller_faces() {
 }
 
 #[test]
-fn normals_do_not_change_with_a_level_either() {
+fn a_level_does_not_change_the_limit_normals() {
     for (name, mesh) in sharpened() {
         if name.starts_with("pillow") {
             continue;
         }
         for rules in rules() {
             let finer = subdivide(&mesh, rules, 1, &NoProgress).unwrap();
-            let [coarse, fine] = [&mesh, &finer].map(|m| of(m, rules).normals());
+            let [coarse, fine] = [&mesh, &finer].map(|m| limit_of(m, rules).normals());
             for v in mesh.vertices() {
                 if is_corner(&mesh, rules, v) {
-                    continue; // Where a corner has no plane, neither has the mean.
+                    continue; // A corner without a tangent plane has no well-defined normal.
                 }
                 let far = coarse[v.index()].distance(fine[v.index()]);
                 assert!(far < 1e-9, "{name} {rules:?} {v}: {far:e}");
@@ -150,48 +150,48 @@ fn is_corner(mesh: &Mesh, rules: Rules, v: VertexId) -> bool {
     let sharp = mesh.vertex_half_edges(v).filter(|h| {
         mesh.is_boundary_edge(h.edge()) || mesh.get(CREASE).unwrap()[h.edge().index()] > 0.0
     });
-    let is_rim = mesh.is_boundary_vertex(v);
-    let at = mesh.get(VERTEX_SHARPNESS).unwrap()[v.index()];
-    let fixed = is_rim
+    let is_boundary = mesh.is_boundary_vertex(v);
+    let vertex_sharpness = mesh.get(VERTEX_SHARPNESS).unwrap()[v.index()];
+    let fixed = is_boundary
         && match rules.boundary {
             Boundary::EdgesOnly => false,
             Boundary::EdgesAndCorners => mesh.valence(v) == 2,
             Boundary::Fixed => true,
         };
-    sharp.count() > 2 || at > 0.0 || fixed
+    sharp.count() > 2 || vertex_sharpness > 0.0 || fixed
 }
 
 #[test]
-fn the_two_sides_of_a_crease_have_two_normals() {
-    // All edges of a cube are sharp: its limit is the cube, and its corners have the faces' normals.
+fn the_two_sides_of_a_crease_have_different_normals() {
+    // If all edges of a cube are sharp, its limit is the cube, and the corners have the normals of their faces.
     let mut cube = shapes::cube();
     cube.set(CREASE, vec![10.0; 12]);
-    let found = of(&cube, Rules::of(Scheme::CatmullClark));
-    assert_eq!(found.positions, cube.positions());
-    let normals = found.corner_normals.unwrap();
+    let limit = limit_of(&cube, Rules::of(Scheme::CatmullClark));
+    assert_eq!(limit.positions, cube.positions());
+    let normals = limit.corner_normals.unwrap();
     for h in cube.half_edges() {
         let normal = cube.face_normal(cube.face(h).unwrap());
         assert!(normals[h.index()].distance(normal) < 1e-15, "{h}");
     }
     assert_eq!(
-        of(&shapes::cube(), Rules::of(Scheme::CatmullClark)).corner_normals,
+        limit_of(&shapes::cube(), Rules::of(Scheme::CatmullClark)).corner_normals,
         None
     );
 }
 
 #[test]
 fn a_regular_loop_patch_has_the_value_of_the_box_spline() {
-    // The quartic box spline takes 1/2 at its center and 1/12 at the six points around it.
+    // The quartic box spline has the value 1/2 at its center and 1/12 at the six points around it.
     let mut mesh = fixtures::sheet(6, 6);
     let inner = mesh
         .vertices()
         .find(|&v| !mesh.is_boundary_vertex(v) && mesh.position(v).length() < 0.3);
     let v = inner.unwrap();
     mesh.positions_mut()[v.index()].z = 1.0;
-    let found = of(&mesh, Rules::of(Scheme::Loop(LoopWeights::Loop)));
-    assert!((found.positions[v.index()].z - 0.5).abs() < 1e-15);
+    let limit = limit_of(&mesh, Rules::of(Scheme::Loop(LoopWeights::Loop)));
+    assert!((limit.positions[v.index()].z - 0.5).abs() < 1e-15);
     for w in mesh.vertex_neighbors(v) {
-        assert!((found.positions[w.index()].z - 1.0 / 12.0).abs() < 1e-15);
+        assert!((limit.positions[w.index()].z - 1.0 / 12.0).abs() < 1e-15);
     }
 }
 
@@ -203,8 +203,8 @@ fn a_regular_grid_has_the_values_of_the_bicubic_spline() {
         .find(|&v| mesh.position(v).length() < 0.01)
         .unwrap();
     mesh.positions_mut()[v.index()].z = 1.0;
-    let found = of(&mesh, Rules::of(Scheme::CatmullClark));
-    let z = |v: VertexId| found.positions[v.index()].z;
+    let limit = limit_of(&mesh, Rules::of(Scheme::CatmullClark));
+    let z = |v: VertexId| limit.positions[v.index()].z;
     assert!((z(v) - 4.0 / 9.0).abs() < 1e-15);
     for h in mesh.vertex_half_edges(v) {
         assert!((z(mesh.target(h)) - 1.0 / 9.0).abs() < 1e-15);
@@ -214,7 +214,7 @@ fn a_regular_grid_has_the_values_of_the_bicubic_spline() {
 }
 
 #[test]
-fn a_neighbor_less_sharp_than_itself_makes_chaikin_creases_settle_too() {
+fn chaikin_creases_with_neighbors_of_lower_sharpness_keep_their_limit() {
     let mut mesh = shapes::icosahedron();
     mesh.set(CREASE, (0..30).map(|e| f64::from(e % 10)).collect());
     let rules = Rules {
@@ -222,7 +222,7 @@ fn a_neighbor_less_sharp_than_itself_makes_chaikin_creases_settle_too() {
         ..Rules::of(Scheme::Loop(LoopWeights::Warren))
     };
     let fine = subdivide(&mesh, rules, 1, &NoProgress).unwrap();
-    let [a, b] = [&mesh, &fine].map(|m| of(m, rules));
+    let [a, b] = [&mesh, &fine].map(|m| limit_of(m, rules));
     for v in mesh.vertices() {
         assert!(
             a.positions[v.index()].distance(b.positions[v.index()]) < 1e-12,
@@ -232,7 +232,7 @@ fn a_neighbor_less_sharp_than_itself_makes_chaikin_creases_settle_too() {
 }
 
 #[test]
-fn schemes_without_masks_are_refused() {
+fn schemes_without_limit_masks_return_an_error() {
     let error = limit(&shapes::cube(), Rules::of(Scheme::DooSabin), &NoProgress).unwrap_err();
     assert_eq!(error, SubdivisionError::NoLimit(Scheme::DooSabin));
 }

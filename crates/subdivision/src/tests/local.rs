@@ -1,4 +1,4 @@
-//! Refining some of the faces.
+//! Local refinement.
 
 mod values;
 
@@ -17,21 +17,21 @@ const MIDPOINT: Rules = Rules::of(Scheme::Midpoint(Split::Triangles));
 const CATMULL_CLARK: Rules = Rules::of(Scheme::CatmullClark);
 const QUADS: Rules = Rules::of(Scheme::Midpoint(Split::Quads));
 
-/// Checked.
+/// Refines some faces and checks the invariants of the result.
 fn refined(mesh: &Mesh, faces: &[bool], rules: Rules, levels: u32) -> Mesh {
     let new = refine_faces(mesh, faces, rules, levels, u64::MAX, &NoProgress).unwrap();
     assert_eq!(new.defects(), [], "{:?} {faces:?}", rules.scheme);
     new
 }
 
-/// About one in so many faces, by their numbers and a seed.
+/// Chooses about one in `one_in` faces pseudo-randomly, by their numbers and a seed.
 fn some(mesh: &Mesh, one_in: u32, seed: u32) -> Vec<bool> {
     let number = |f: usize| u32::try_from(f).unwrap() + 1 + 1000 * seed;
     let is_chosen = |f: usize| (number(f).wrapping_mul(2_654_435_769) >> 16).is_multiple_of(one_in);
     (0..mesh.n_faces()).map(is_chosen).collect()
 }
 
-/// Meshes and choices of faces: few, many, the first.
+/// Returns meshes with chosen faces: few, many, or only the first.
 fn cases() -> Vec<(&'static str, Mesh, Vec<bool>)> {
     let mut cases = Vec::new();
     for (name, mesh) in fixtures::all() {
@@ -44,10 +44,10 @@ fn cases() -> Vec<(&'static str, Mesh, Vec<bool>)> {
     cases
 }
 
-/// All that a mesh can carry, different everywhere.
-fn dressed(mut mesh: Mesh) -> Mesh {
+/// Adds every kind of attribute to a mesh, with values that differ between elements.
+fn with_attributes(mut mesh: Mesh) -> Mesh {
     let uvs = mesh.half_edges().map(|h| match mesh.face(h) {
-        // Some faces lie apart.
+        // Some faces have separate texture coordinates.
         Some(f) if f.index() % 4 == 3 => DVec2::new(h.index() as f64, 10.0),
         Some(_) => mesh.position(mesh.origin(h)).truncate(),
         None => DVec2::ZERO,
@@ -68,7 +68,7 @@ fn dressed(mut mesh: Mesh) -> Mesh {
     mesh
 }
 
-fn kind(m: &Mesh) -> (i64, usize, usize, usize) {
+fn topology(m: &Mesh) -> (i64, usize, usize, usize) {
     (
         m.euler_characteristic(),
         geometry::n_components(m),
@@ -78,12 +78,12 @@ fn kind(m: &Mesh) -> (i64, usize, usize, usize) {
 }
 
 #[test]
-fn the_kind_of_surface_stays_and_triangles_stay_triangles() {
+fn topology_is_kept_and_triangles_stay_triangles() {
     for (name, mesh, faces) in cases() {
         for rules in [LOOP, MIDPOINT] {
             for levels in 1..=3 {
                 let new = refined(&mesh, &faces, rules, levels);
-                assert_eq!(kind(&new), kind(&mesh), "{name} {levels}");
+                assert_eq!(topology(&new), topology(&mesh), "{name} {levels}");
                 assert!(new.faces().all(|f| new.is_triangle(f)), "{name} {levels}");
                 let n = faces.iter().filter(|&&c| c).count() << (2 * levels);
                 assert!(new.n_faces() >= n, "{name} {levels}");
@@ -93,11 +93,11 @@ fn the_kind_of_surface_stays_and_triangles_stay_triangles() {
 }
 
 #[test]
-fn all_faces_give_exactly_what_subdividing_gives() {
+fn refining_all_triangles_equals_subdividing() {
     for (name, mesh) in fixtures::all() {
-        let mesh = dressed(mesh);
+        let mesh = with_attributes(mesh);
         let all = vec![true; mesh.n_faces()];
-        let choices = [
+        let options = [
             (Boundary::EdgesOnly, Creasing::Uniform, FaceVarying::All),
             (Boundary::Fixed, Creasing::Chaikin, FaceVarying::None),
             (
@@ -106,7 +106,7 @@ fn all_faces_give_exactly_what_subdividing_gives() {
                 FaceVarying::CornersPlus1,
             ),
         ];
-        for (boundary, creasing, face_varying) in choices {
+        for (boundary, creasing, face_varying) in options {
             for scheme in [LOOP, MIDPOINT].map(|r| r.scheme) {
                 let rules = Rules {
                     scheme,
@@ -118,7 +118,7 @@ fn all_faces_give_exactly_what_subdividing_gives() {
                     let expected = subdivide(&mesh, rules, levels, &NoProgress).unwrap();
                     let new = refined(&mesh, &all, rules, levels);
                     if all.is_empty() {
-                        continue; // Nothing is chosen, so nothing changes.
+                        continue; // The mesh has no faces, so refining changes nothing.
                     }
                     assert!(new == expected, "{name} {rules:?} {levels}");
                 }
@@ -128,9 +128,9 @@ fn all_faces_give_exactly_what_subdividing_gives() {
 }
 
 #[test]
-fn all_polygons_give_exactly_what_subdividing_gives() {
+fn refining_all_polygons_equals_subdividing() {
     for (name, mesh) in polygons() {
-        let mesh = dressed(mesh);
+        let mesh = with_attributes(mesh);
         let all = vec![true; mesh.n_faces()];
         for rules in [CATMULL_CLARK, QUADS] {
             let expected = subdivide(&mesh, rules, 2, &NoProgress).unwrap();
@@ -168,14 +168,14 @@ fn midpoints_keep_the_shape() {
             "{name}"
         );
     }
-    // Every triangle lies in its old one: a flat sheet is covered once.
+    // Every triangle lies inside its old triangle, so a flat sheet is covered exactly once.
     let flat = sheet(4, 3);
     let new = refined(&flat, &some(&flat, 5, 4), MIDPOINT, 4);
     assert!(new.faces().all(|f| new.area_vector(f).z > 0.0));
     assert_eq!(geometry::area(&new), geometry::area(&flat));
 }
 
-/// The largest cotangent of an angle.
+/// Returns the largest cotangent of all angles.
 fn largest_cotangent(mesh: &Mesh) -> f64 {
     let corners = mesh.half_edges().filter(|&h| mesh.face(h).is_some());
     let cotangents = corners.map(|h| {
@@ -197,7 +197,7 @@ fn the_cotangent_of_the_smallest_angle_is_at_most_three_times_the_old_one() {
             );
         }
     }
-    // A half of 60 degrees is the worst of equilateral triangles, on all levels.
+    // Equilateral triangles have no angle below 30 degrees, half of 60 degrees, on any level.
     let mesh = shapes::icosahedron();
     let faces = some(&mesh, 4, 0);
     for levels in 1..=6 {
@@ -212,7 +212,7 @@ fn the_cotangent_of_the_smallest_angle_is_at_most_three_times_the_old_one() {
 #[test]
 fn nothing_moves_outside_of_the_chosen_faces() {
     for (name, mesh, faces) in cases() {
-        // Where triangles are linear, every vertex is where midpoints would be.
+        // Outside of the chosen faces, every vertex has the position that midpoint subdivision gives.
         let smooth = refined(&mesh, &faces, LOOP, 3);
         let linear = refined(&mesh, &faces, MIDPOINT, 3);
         assert_eq!(smooth.connectivity(), linear.connectivity(), "{name}");
@@ -235,8 +235,8 @@ fn with_faces_numbered(mut mesh: Mesh) -> Mesh {
 }
 
 #[test]
-fn inside_of_a_large_choice_the_surface_is_that_of_subdividing() {
-    // Away from the rim of the choice: the middle of a large sheet with bumps.
+fn far_inside_the_chosen_faces_the_surface_equals_subdivision() {
+    // Compares the middle of a large sheet with bumps, away from the border of the chosen faces.
     let mut mesh = sheet(12, 12);
     for p in mesh.positions_mut() {
         p.z = libm::sin(3.0 * p.x) * libm::cos(2.0 * p.y);
@@ -245,7 +245,7 @@ fn inside_of_a_large_choice_the_surface_is_that_of_subdividing() {
     let faces: Vec<bool> = mesh.faces().map(|f| far(f) < 4.5).collect();
     let local = refined(&mesh, &faces, LOOP, 2);
     let whole = subdivide(&mesh, LOOP, 2, &NoProgress).unwrap();
-    // Old vertices keep their numbers; those two rings inside see no rim.
+    // Old vertices keep their ids. Two or more rings inside the border, its effect is not visible.
     let mut n = 0;
     for v in mesh.vertices().filter(|&v| mesh.position(v).length() < 2.0) {
         assert!(local.position(v).distance(whole.position(v)) < 1e-14, "{v}");
@@ -257,7 +257,7 @@ fn inside_of_a_large_choice_the_surface_is_that_of_subdividing() {
 
 #[test]
 fn neighbors_differ_by_one_level_at_most() {
-    // Sizes: the level of a triangle follows from its area, and green ones are halves.
+    // The level of a triangle follows from its area; a green triangle has half the area.
     let mesh = sheet(8, 8);
     let first: Vec<bool> = (0..mesh.n_faces()).map(|f| f == 60).collect();
     let new = refined(&mesh, &first, MIDPOINT, 5);
@@ -268,21 +268,21 @@ fn neighbors_differ_by_one_level_at_most() {
             assert!(step < 1.01, "{e} {step}");
         }
     }
-    // So it takes far fewer triangles than 4^5 for each.
+    // So the result has far fewer triangles than 4^5 for each old triangle.
     assert!(new.n_faces() < 4 * 1024, "{}", new.n_faces());
 }
 
 #[test]
-fn it_can_be_done_again() {
+fn refined_meshes_can_be_refined_again() {
     for (name, mesh, faces) in cases() {
         let once = refined(&mesh, &faces, LOOP, 1);
         let twice = refined(&once, &some(&once, 3, 9), LOOP, 2);
-        assert_eq!(kind(&twice), kind(&mesh), "{name}");
+        assert_eq!(topology(&twice), topology(&mesh), "{name}");
     }
 }
 
 #[test]
-fn polygons_beside_the_chosen_ones_get_corners() {
+fn neighbors_of_chosen_polygons_get_additional_corners() {
     let mesh = shapes::grid(3, 3);
     let middle: Vec<bool> = (0..9).map(|f| f == 4).collect();
     let new = refined(&mesh, &middle, QUADS, 2);
@@ -293,8 +293,8 @@ fn polygons_beside_the_chosen_ones_get_corners() {
         for (one_in, seed) in [(2, 0), (3, 5), (5, 6)] {
             let faces = some(&mesh, one_in, seed);
             for rules in [CATMULL_CLARK, QUADS] {
-                let new = refined(&dressed(mesh.clone()), &faces, rules, 3);
-                assert_eq!(kind(&new), kind(&mesh), "{name}");
+                let new = refined(&with_attributes(mesh.clone()), &faces, rules, 3);
+                assert_eq!(topology(&new), topology(&mesh), "{name}");
                 let scale = geometry::area(&mesh).max(1.0);
                 if rules == QUADS && mesh.faces().all(|f| mesh.is_triangle(f)) {
                     assert!(
@@ -308,7 +308,7 @@ fn polygons_beside_the_chosen_ones_get_corners() {
 }
 
 #[test]
-fn nothing_chosen_and_no_levels_change_nothing() {
+fn no_chosen_faces_or_no_levels_change_nothing() {
     let mut mesh = sheet(3, 2);
     mesh.set(mesh::VERTEX_NORMAL, vec![DVec3::Z; mesh.n_vertices()]);
     let n = mesh.n_faces();
@@ -317,7 +317,7 @@ fn nothing_chosen_and_no_levels_change_nothing() {
 }
 
 #[test]
-fn dead_faces_are_left_out_of_the_choice() {
+fn flags_of_dead_faces_are_ignored() {
     let mut mesh = sheet(3, 3);
     mesh.delete_face(FaceId::new(4)).unwrap();
     let faces = some(&mesh, 3, 0);
@@ -333,7 +333,7 @@ fn dead_faces_are_left_out_of_the_choice() {
 
 #[test]
 fn the_bytes_are_the_same_for_any_number_of_threads() {
-    let mesh = dressed(fixtures::triangulated(&shapes::torus(60, 40, 2.0, 1.0)));
+    let mesh = with_attributes(fixtures::triangulated(&shapes::torus(60, 40, 2.0, 1.0)));
     let faces = some(&mesh, 3, 0);
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
@@ -347,7 +347,7 @@ fn the_bytes_are_the_same_for_any_number_of_threads() {
 }
 
 #[test]
-fn what_cannot_be_refined_is_refused() {
+fn invalid_input_and_large_results_return_errors() {
     let refine = |mesh: &Mesh, n: usize, rules| {
         refine_faces(mesh, &vec![true; n], rules, 1, u64::MAX, &NoProgress).unwrap_err()
     };
@@ -359,11 +359,11 @@ fn what_cannot_be_refined_is_refused() {
         ),
         (
             refine(&cube, 6, Rules::of(Scheme::Sqrt3)),
-            "Sqrt3 subdivision cannot refine some of the faces only",
+            "Sqrt3 subdivision can only refine all faces, not a part of them",
         ),
         (
             refine(&cube, 5, QUADS),
-            "expected a choice for each of 6 faces, not 5",
+            "expected one flag for each of the 6 faces, found 5 flags",
         ),
     ];
     for (error, message) in errors {

@@ -1,4 +1,4 @@
-//! The matrix makes what subdivision makes.
+//! The subdivision matrix gives the same result as subdivision.
 
 use mesh::{CREASE, DVec3, UV};
 use progress::NoProgress;
@@ -8,7 +8,7 @@ use crate::fixtures;
 use crate::{LoopWeights, Rules, Scheme, Split, subdivide, subdivision_matrix};
 
 #[test]
-fn it_makes_the_positions_of_every_scheme() {
+fn the_matrix_gives_the_positions_of_every_scheme() {
     let schemes = [
         Scheme::Loop(LoopWeights::Loop),
         Scheme::CatmullClark,
@@ -43,7 +43,7 @@ fn it_makes_the_positions_of_every_scheme() {
 }
 
 #[test]
-fn it_is_the_same_for_any_number_of_threads() {
+fn the_matrix_is_the_same_for_any_number_of_threads() {
     let mesh = fixtures::sheet(40, 30);
     let rules = Rules::of(Scheme::Loop(LoopWeights::Warren));
     let with = |threads: usize| {

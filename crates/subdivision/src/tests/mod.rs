@@ -1,4 +1,5 @@
-//! Laws of all schemes and of each, and comparisons of Loop subdivision with two other ways to compute it.
+//! Properties of all schemes and of each scheme, and comparisons of Loop subdivision with two other
+//! implementations.
 
 mod attributes;
 mod butterfly;
@@ -8,7 +9,7 @@ mod laws;
 mod limit;
 mod local;
 mod matrix;
-mod other_ways;
+mod oracles;
 mod schemes;
 mod sqrt3;
 
@@ -17,7 +18,7 @@ use progress::NoProgress;
 
 use crate::{LoopWeights, Rules, Scheme, Split, subdivide};
 
-/// The schemes that laws are tried with.
+/// The schemes for which general properties are tested.
 pub(crate) const SCHEMES: [Scheme; 7] = [
     Scheme::Loop(LoopWeights::Warren),
     Scheme::CatmullClark,
@@ -28,25 +29,26 @@ pub(crate) const SCHEMES: [Scheme; 7] = [
     Scheme::Sqrt3,
 ];
 
-/// One level of Loop subdivision, checked.
+/// Computes one level of Loop subdivision and checks its invariants.
 pub(crate) fn once(mesh: &Mesh) -> Mesh {
     level(Scheme::Loop(LoopWeights::Warren), mesh)
 }
 
-/// One level of a scheme, checked.
+/// Computes one level of a scheme and checks its invariants.
 pub(crate) fn level(scheme: Scheme, mesh: &Mesh) -> Mesh {
     levels(scheme, 1, mesh)
 }
 
-/// So many levels of a scheme, checked.
+/// Computes several levels of a scheme and checks the invariants of the result.
 pub(crate) fn levels(scheme: Scheme, levels: u32, mesh: &Mesh) -> Mesh {
     let new = subdivide(mesh, Rules::of(scheme), levels, &NoProgress).unwrap();
     assert_eq!(new.defects(), [], "{scheme:?}");
     new
 }
 
-/// What no scheme changes: Euler characteristic, components, loops of the boundary, isolated vertices.
-pub(crate) fn kind(mesh: &Mesh) -> (i64, usize, usize, usize) {
+/// Returns the numbers that no scheme changes: Euler characteristic, components, boundary loops, isolated
+/// vertices.
+pub(crate) fn topology(mesh: &Mesh) -> (i64, usize, usize, usize) {
     (
         mesh.euler_characteristic(),
         geometry::n_components(mesh),
@@ -55,7 +57,7 @@ pub(crate) fn kind(mesh: &Mesh) -> (i64, usize, usize, usize) {
     )
 }
 
-/// The largest distance between two points of the same place.
+/// Returns the largest distance between points with the same index.
 pub(crate) fn distance(a: &[DVec3], b: &[DVec3]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter()

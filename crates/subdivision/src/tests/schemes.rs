@@ -1,17 +1,17 @@
-//! Laws that hold for every scheme.
+//! Properties of every scheme.
 
 use mesh::{COLOR, DVec2, DVec3, DVec4, Mesh, UV};
 use progress::NoProgress;
 
-use super::{SCHEMES, distance, kind, level, levels};
+use super::{SCHEMES, distance, level, levels, topology};
 use crate::{Rules, Scheme, Size, fixtures, subdivide};
 
 #[test]
-fn the_kind_of_surface_stays() {
+fn topology_is_kept() {
     for (name, mesh) in fixtures::all() {
         for scheme in SCHEMES {
             let new = levels(scheme, 2, &mesh);
-            assert_eq!(kind(&new), kind(&mesh), "{name} {scheme:?}");
+            assert_eq!(topology(&new), topology(&mesh), "{name} {scheme:?}");
         }
     }
 }
@@ -53,7 +53,7 @@ fn the_bytes_are_the_same_for_any_number_of_threads() {
             let pool = pool.build().unwrap();
             pool.install(|| subdivide(&mesh, Rules::of(scheme), 3, &NoProgress).unwrap())
         };
-        // Equal as bits: `==` would take -0 for 0.
+        // Compares bits, because `==` treats -0 and 0 as equal.
         let bits = |m: &Mesh| -> Vec<[u64; 3]> {
             let bits = m.positions().iter().map(|p| p.to_array().map(f64::to_bits));
             bits.collect()
@@ -68,7 +68,7 @@ fn the_bytes_are_the_same_for_any_number_of_threads() {
 }
 
 #[test]
-fn old_vertices_stay_where_a_scheme_interpolates() {
+fn interpolating_schemes_keep_old_vertices() {
     let interpolates = |s: &Scheme| matches!(s, Scheme::Butterfly | Scheme::Midpoint(_));
     for (name, mesh) in fixtures::all() {
         for scheme in SCHEMES.into_iter().filter(interpolates) {
@@ -80,11 +80,11 @@ fn old_vertices_stay_where_a_scheme_interpolates() {
 }
 
 #[test]
-fn levels_follow_one_another_and_none_changes_nothing() {
+fn levels_can_be_computed_one_by_one_and_zero_levels_change_nothing() {
     for (name, mesh) in fixtures::all() {
         for scheme in SCHEMES {
             assert!(levels(scheme, 0, &mesh) == mesh, "{name} {scheme:?}");
-            // At a boundary the levels of Sqrt3 come in pairs.
+            // At a boundary, even and odd levels of Sqrt3 differ.
             let step = if scheme == Scheme::Sqrt3 { 2 } else { 1 };
             let twice = levels(scheme, step, &levels(scheme, step, &mesh));
             assert!(
@@ -96,7 +96,7 @@ fn levels_follow_one_another_and_none_changes_nothing() {
 }
 
 #[test]
-fn the_size_of_a_mesh_tells_that_of_every_level_exactly() {
+fn the_predicted_size_of_every_level_is_exact() {
     for (name, mesh) in fixtures::all() {
         for scheme in SCHEMES {
             let mut size = Size::of(&mesh);

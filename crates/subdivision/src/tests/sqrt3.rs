@@ -18,7 +18,7 @@ fn twice(mesh: &Mesh) -> Mesh {
 }
 
 #[test]
-fn an_icosahedron_gets_three_triangles_for_each() {
+fn an_icosahedron_gets_three_triangles_for_each_old_one() {
     let new = once(&shapes::icosahedron());
     assert_eq!(
         (new.n_vertices(), new.n_edges(), new.n_faces()),
@@ -28,8 +28,8 @@ fn an_icosahedron_gets_three_triangles_for_each() {
 }
 
 #[test]
-fn it_is_what_poking_all_faces_and_flipping_all_old_edges_gives() {
-    // The halves of a pillow share all vertices, so flips are refused on the way.
+fn a_level_equals_poking_all_faces_and_flipping_all_old_edges() {
+    // The two faces of a pillow share all vertices, so some flips are refused.
     for (name, old) in fixtures::all().into_iter().filter(|(n, _)| *n != "pillow") {
         let mut expected = old.clone();
         for f in old.faces() {
@@ -48,20 +48,20 @@ fn it_is_what_poking_all_faces_and_flipping_all_old_edges_gives() {
     }
 }
 
-/// The triangles of an odd level, from a list of triangles.
+/// Computes the triangles of an odd level from a list of triangles.
 fn odd_level(old: &Mesh) -> Vec<[u32; 3]> {
     let list: Vec<[u32; 3]> = old.faces().map(|f| fixtures::corners(old, f)).collect();
-    let mut beside = HashMap::new();
+    let mut face_of_edge = HashMap::new();
     for (f, &[a, b, c]) in list.iter().enumerate() {
         for edge in [[a, b], [b, c], [c, a]] {
-            assert_eq!(beside.insert(edge, f), None);
+            assert_eq!(face_of_edge.insert(edge, f), None);
         }
     }
     let outer = old.half_edges().filter(|&h| old.face(h).is_none());
     let ends = outer.map(|h| [old.origin(h), old.origin(h.twin())].map(number));
     let ranks: HashMap<[u32; 2], usize> = ends.zip(0..).collect();
     let vertex = |i: usize| u32::try_from(old.n_vertices() + i).unwrap();
-    // What plays the part of the center of `f` at its edge.
+    // The new vertex that is the center of face `f`, or that replaces the center at the given edge.
     let center = |f: usize, edge: [u32; 2]| {
         let [a, b, c] = list[f];
         for [a, b, c] in [[a, b, c], [b, c, a], [c, a, b]] {
@@ -78,7 +78,7 @@ fn odd_level(old: &Mesh) -> Vec<[u32; 3]> {
     let mut new = Vec::new();
     for (f, &[a, b, c]) in list.iter().enumerate() {
         for [a, b, c] in [[a, b, c], [b, c, a], [c, a, b]] {
-            match beside.get(&[b, a]) {
+            match face_of_edge.get(&[b, a]) {
                 Some(&g) => new.push([a, center(g, [b, a]), center(f, [a, b])]),
                 None => new.push([center(f, [c, a]), center(f, [b, c]), c]),
             }
@@ -94,9 +94,9 @@ fn odd_level(old: &Mesh) -> Vec<[u32; 3]> {
 }
 
 #[test]
-fn an_odd_level_is_what_a_list_of_triangles_gives() {
+fn an_odd_level_equals_subdividing_a_list_of_triangles() {
     for (name, mesh) in fixtures::all().into_iter().filter(|(n, _)| *n != "pillow") {
-        // Twice: what the second pair of levels is made of differs from the first.
+        // Tests two odd levels, because the second one starts from a different kind of mesh.
         for n in [1, 3] {
             let (old, new) = (
                 levels(Scheme::Sqrt3, n, &mesh),
@@ -148,7 +148,7 @@ fn the_boundary_is_a_cubic_b_spline_that_two_levels_cut_in_three() {
             assert_eq!(at(&between, h), at(&old, h), "{name} {h}");
             let [a, b] = [old.prev(h), h].map(|h| at(&old, h));
             let [c, d] = [old.next(h), old.next(old.next(h))].map(|h| at(&old, h));
-            // From b on, along the boundary.
+            // Walks along the boundary from b.
             let b_new = new.vertex_half_edge(old.origin(h)).unwrap();
             let [x, y] = [new.next(b_new), new.next(new.next(b_new))].map(|h| at(&new, h));
             assert!(at(&new, b_new).distance((4.0 * a + 19.0 * b + 4.0 * c) / 27.0) < 1e-15);
@@ -165,7 +165,7 @@ fn the_boundary_is_a_cubic_b_spline_that_two_levels_cut_in_three() {
 }
 
 #[test]
-fn an_octahedron_shrinks_by_the_number_that_the_mask_gives() {
+fn an_octahedron_shrinks_by_the_factor_of_the_mask() {
     // The four neighbors of p sum to 0, and p keeps 1 - 4/9.
     let old = shapes::octahedron();
     let new = once(&old);
@@ -176,7 +176,7 @@ fn an_octahedron_shrinks_by_the_number_that_the_mask_gives() {
 }
 
 #[test]
-fn values_of_faces_and_boundary_edges_go_to_their_parts() {
+fn parts_inherit_the_values_of_faces_and_boundary_edges() {
     for (name, mut old) in fixtures::all() {
         old.set(MATERIAL, (0..).take(old.n_faces()).collect());
         let creases = (1_u32..).take(old.n_edges()).map(f64::from);
@@ -201,7 +201,7 @@ fn values_of_faces_and_boundary_edges_go_to_their_parts() {
 }
 
 #[test]
-fn corner_values_that_are_affine_in_the_position_stay_so_on_a_flat_sheet() {
+fn affine_corner_values_stay_affine_on_a_flat_sheet() {
     let affine = |p: DVec3| DVec2::new(0.5 * p.x + 1.0, p.y - 0.25 * p.x);
     let mut mesh = sheet(4, 3);
     let uvs = mesh
@@ -218,7 +218,7 @@ fn corner_values_that_are_affine_in_the_position_stay_so_on_a_flat_sheet() {
         let expected = affine(one.position(one.origin(h)));
         assert!(uv.distance(expected) < 1e-15, "{h}");
     }
-    // Values do not move with the vertices of the boundary, or with those of other valences: they are linear.
+    // Corner values are linear: they do not follow boundary vertices or extraordinary vertices, which move.
     let linear = |v: VertexId| -> DVec3 {
         let at = |h: HalfEdgeId| one.position(one.origin(h));
         let third = |h: HalfEdgeId| (2.0 * at(h) + at(h.twin())) / 3.0;

@@ -1,5 +1,5 @@
-//! The parameters of a step: conditions, some faces, the limit, and what is wrong with them; and whether what
-//! it foresees is what it makes.
+//! Tests of the parameters of a step: conditions, faces, the limit surface, and errors. Also tests that plans
+//! agree with results.
 
 use geometry::shapes;
 use mesh::{CREASE, DVec2, DVec3, Mesh, TANGENT, UV, VERTEX_NORMAL};
@@ -23,7 +23,7 @@ const SCHEMES: [Scheme; 7] = [
     Scheme::Sqrt3,
 ];
 
-/// Triangle meshes of every kind.
+/// Returns triangle meshes of every kind, with their names.
 fn fixtures() -> Vec<(&'static str, Mesh)> {
     let of = |n: u32, triangles: &[[u32; 3]]| {
         let positions = (0..n).map(|i| {
@@ -92,7 +92,7 @@ fn longest(mesh: &Mesh) -> f64 {
 }
 
 #[test]
-fn it_stops_at_the_first_level_whose_edges_are_short_enough() {
+fn until_edge_length_stops_at_the_first_level_with_short_edges() {
     let step = Step {
         until: Some(Until::EdgeLength {
             below: PositiveLength::literal(0.2),
@@ -116,7 +116,7 @@ fn it_stops_at_the_first_level_whose_edges_are_short_enough() {
 }
 
 #[test]
-fn it_stops_at_the_first_level_that_is_near_enough_to_the_limit() {
+fn until_limit_distance_stops_at_the_first_level_near_the_limit() {
     let step = Step {
         until: Some(Until::LimitDistance {
             below: PositiveLength::literal(0.01),
@@ -137,7 +137,7 @@ fn it_stops_at_the_first_level_that_is_near_enough_to_the_limit() {
 }
 
 #[test]
-fn a_condition_that_is_not_met_is_an_error_with_what_is_left() {
+fn a_condition_that_is_not_met_is_an_error_with_the_value_reached() {
     for levels in [0, 2] {
         let step = Step {
             levels: Some(Levels::literal(levels)),
@@ -149,14 +149,14 @@ fn a_condition_that_is_not_met_is_an_error_with_what_is_left() {
         let error = apply(&step, &shapes::icosahedron())
             .unwrap_err()
             .to_string();
-        let start = format!("after level {levels} an edge is still ");
+        let start = format!("after level {levels} the longest edge is ");
         assert!(error.contains(&start), "{error}");
-        assert!(error.ends_with("not below 0.01"), "{error}");
+        assert!(error.ends_with("expected less than 0.01"), "{error}");
     }
 }
 
 #[test]
-fn the_limit_gives_positions_normals_and_tangents() {
+fn to_limit_sets_positions_normals_and_tangents() {
     let step = Step {
         levels: Some(Levels::literal(0)),
         to_limit: true,
@@ -175,8 +175,8 @@ fn the_limit_gives_positions_normals_and_tangents() {
 }
 
 #[test]
-fn what_is_wrong_is_said_before_anything_runs_and_by_the_step_itself() {
-    let some = FaceSelection::All;
+fn invalid_parameters_are_reported_by_the_plan_and_by_the_step() {
+    let faces = FaceSelection::All;
     let new = |rules| Step::new(rules);
     let cases = [
         (
@@ -186,15 +186,15 @@ fn what_is_wrong_is_said_before_anything_runs_and_by_the_step_itself() {
                 }),
                 ..new(Rules::of(Scheme::Butterfly))
             },
-            "[\"until\"] the limit of Butterfly subdivision is not known",
+            "[\"until\"] the limit surface is not available for Butterfly subdivision",
         ),
         (
             Step {
-                faces: Some(&some),
+                faces: Some(&faces),
                 to_limit: true,
                 ..new(LOOP)
             },
-            "[\"faces\"] `until` and `to_limit` are for the whole mesh, not for some of its faces",
+            "[\"faces\"] `faces` cannot be combined with `until` or `to_limit`, which need the whole mesh",
         ),
     ];
     for (step, message) in cases {
@@ -213,13 +213,13 @@ fn torn_seams_and_lost_values_are_reported() {
     assert_eq!(notes(Scheme::Sqrt3).len(), 2);
     assert_eq!(
         notes(Scheme::DooSabin),
-        ["12 seams of corner values are torn: new faces lie across them"]
+        ["12 seam edges have torn corner values, because new faces lie across old edges"]
     );
     assert_eq!(notes(Scheme::CatmullClark), Vec::<String>::new());
 }
 
 #[test]
-fn counts_are_foreseen_exactly_for_every_scheme_on_every_fixture() {
+fn planned_counts_are_exact_for_every_scheme_on_every_fixture() {
     let files = Files::default();
     let cx = PlanContext {
         files: &files,
@@ -245,7 +245,7 @@ fn counts_are_foreseen_exactly_for_every_scheme_on_every_fixture() {
                 }
                 let exactly = MeshPlan::of(&new);
                 if scheme == Scheme::DooSabin && levels > 0 {
-                    // A plan does not know how many vertices become no face.
+                    // A plan does not know the number of vertices that do not become faces.
                     for (planned, exactly) in [
                         (&mut plan.vertices, exactly.vertices),
                         (&mut plan.edges, exactly.edges),
@@ -264,8 +264,8 @@ fn counts_are_foreseen_exactly_for_every_scheme_on_every_fixture() {
 }
 
 #[test]
-fn a_budget_holds_for_every_level_until_a_condition_is_met() {
-    // What an odd level of Sqrt3 makes of a boundary differs from what an even one makes.
+fn the_memory_budget_is_checked_at_every_level_until_a_condition_is_met() {
+    // The sheet has a boundary, where even and odd levels of Sqrt3 differ.
     let mesh = sheet();
     let files = Files::default();
     for scheme in SCHEMES {
@@ -289,6 +289,6 @@ fn a_budget_holds_for_every_level_until_a_condition_is_met() {
         assert!(met.contains("after level 2 "), "{scheme:?} {met}");
         let short = message(bytes - 1);
         assert!(short.contains("after level 1 "), "{scheme:?} {short}");
-        assert!(short.contains("level 2 has "), "{scheme:?} {short}");
+        assert!(short.contains("level 2 would have "), "{scheme:?} {short}");
     }
 }

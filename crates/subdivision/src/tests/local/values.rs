@@ -1,17 +1,17 @@
-//! Attributes where some of the faces are refined.
+//! Attributes after local refinement.
 
 use geometry::shapes;
 use mesh::{COLOR, CREASE, DVec2, DVec3, FaceId, HalfEdgeId, MATERIAL, Mesh, UV, VERTEX_SHARPNESS};
 
-use super::{LOOP, MIDPOINT, cases, dressed, refined, with_faces_numbered};
+use super::{LOOP, MIDPOINT, cases, refined, with_attributes, with_faces_numbered};
 use crate::{FaceVarying, Rules, fixtures};
 
 #[test]
-fn values_follow_their_elements() {
+fn attributes_follow_their_elements() {
     for (name, mesh, faces) in cases() {
-        let mesh = dressed(mesh);
+        let mesh = with_attributes(mesh);
         let new = refined(&mesh, &faces, LOOP, 2);
-        // Colors are positions.
+        // The colors are copies of the positions.
         for (color, p) in new.get(COLOR).unwrap().iter().zip(new.positions()) {
             assert_eq!(color.truncate(), *p, "{name}");
         }
@@ -30,7 +30,7 @@ fn values_follow_their_elements() {
 }
 
 #[test]
-fn texture_coordinates_stay_affine_in_each_old_face_and_seams_stay_seams() {
+fn texture_coordinates_stay_affine_in_each_old_face_and_seams_are_kept() {
     for (name, mut mesh, faces) in cases() {
         let affine =
             |p: DVec3, f: FaceId| DVec2::new(p.x + 0.5 * p.z, p.y) * (1.0 + f.index() as f64);
@@ -56,13 +56,13 @@ fn texture_coordinates_stay_affine_in_each_old_face_and_seams_stay_seams() {
 }
 
 #[test]
-fn creases_reach_as_far_as_before_and_fade_where_they_shape() {
+fn creases_keep_their_length_and_decrease_only_between_chosen_faces() {
     let mut mesh = fixtures::triangulated(&shapes::cube());
     mesh.set(
         CREASE,
         (0..mesh.n_edges()).map(|e| 1.0 + e as f64).collect(),
     );
-    // The length of edges of each number.
+    // Each edge has a different sharpness. The parts with that sharpness have the length of the edge.
     let faces: Vec<bool> = (0..mesh.n_faces()).map(|f| f < 2).collect();
     let new = refined(&mesh, &faces, MIDPOINT, 3);
     let crease = new.get(CREASE).unwrap();
@@ -72,7 +72,7 @@ fn creases_reach_as_far_as_before_and_fade_where_they_shape() {
         let length: f64 = parts.map(|part| new.length(part.half_edge())).sum();
         assert!((length - mesh.length(e.half_edge())).abs() < 1e-13, "{e}");
     }
-    // Between two chosen faces a crease is used up, elsewhere it is kept.
+    // Between two chosen faces sharpness decreases to 0; elsewhere it is kept.
     mesh.set(CREASE, vec![2.0; mesh.n_edges()]);
     let new = refined(&mesh, &faces, LOOP, 2);
     let crease = new.get(CREASE).unwrap();
@@ -84,7 +84,7 @@ fn creases_reach_as_far_as_before_and_fade_where_they_shape() {
 }
 
 #[test]
-fn corners_fade_where_they_can_move() {
+fn vertex_sharpness_decreases_only_inside_the_chosen_faces() {
     for (name, mut mesh, faces) in cases() {
         mesh.set(VERTEX_SHARPNESS, vec![2.0; mesh.n_vertices()]);
         let new = refined(&mesh, &faces, LOOP, 1);
@@ -99,7 +99,7 @@ fn corners_fade_where_they_can_move() {
 }
 
 #[test]
-fn texture_coordinates_that_are_positions_stay_so_where_they_are_smoothed_alike() {
+fn texture_coordinates_equal_to_positions_stay_equal_if_smoothed_alike() {
     let rules = Rules {
         face_varying: FaceVarying::None,
         ..LOOP

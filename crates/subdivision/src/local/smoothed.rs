@@ -1,4 +1,4 @@
-//! Where a level smooths: inside of the chosen faces.
+//! Smoothing in local refinement: which elements follow the masks of the scheme.
 
 use mesh::{DVec3, Mesh};
 use progress::{Cancelled, Meter};
@@ -8,15 +8,15 @@ use crate::masks::AnyMasks;
 use crate::parallel::fill;
 use crate::topology::Topology;
 
-/// What belongs to the chosen faces alone.
-pub(super) struct Area {
-    /// Whether no face at each vertex is outside.
+/// The elements that are smoothed: those without a face that is not chosen.
+pub(super) struct SmoothedElements {
+    /// For each vertex, whether all its faces are chosen.
     pub(super) vertices: Vec<bool>,
-    /// Whether no face at each edge is outside.
+    /// For each edge, whether all its faces are chosen.
     pub(super) edges: Vec<bool>,
 }
 
-impl Area {
+impl SmoothedElements {
     pub(super) fn of(mesh: &Mesh, chosen: &[bool]) -> Self {
         let mut vertices = vec![true; mesh.n_vertices()];
         let mut edges = vec![true; mesh.n_edges()];
@@ -30,22 +30,23 @@ impl Area {
     }
 }
 
-/// The masks of a scheme where it smooths; elsewhere old vertices stay and new ones lie in the middle.
-pub(super) struct AreaMasks<'a> {
+/// The masks of local refinement: those of the scheme for smoothed elements. Other old vertices stay in place,
+/// and other new vertices lie in the middle of edges.
+pub(super) struct LocalMasks<'a> {
     pub(super) pieces: &'a Pieces<'a>,
     pub(super) masks: &'a dyn AnyMasks,
 }
 
-impl AreaMasks<'_> {
-    /// The vertex of the whole level that vertex `i` is, if that is smoothed.
-    fn whole(&self, i: usize) -> Option<usize> {
+impl LocalMasks<'_> {
+    /// Returns the number that vertex `i` would have if all faces were cut, or `None` if it is not smoothed.
+    fn index_in_full_level(&self, i: usize) -> Option<usize> {
         let pieces = self.pieces;
         let (n_vertices, n_edges) = (pieces.mesh.n_vertices(), pieces.mesh.n_edges());
         let Some(new) = i.checked_sub(n_vertices) else {
-            return pieces.moves(i).then_some(i);
+            return pieces.smooths_vertex(i).then_some(i);
         };
         if let Some(e) = pieces.middles.get(new) {
-            pieces.smooths(e).then_some(n_vertices + e.index())
+            pieces.smooths_edge(e).then_some(n_vertices + e.index())
         } else {
             let f = pieces.centers.get(new - pieces.middles.len())?;
             Some(n_vertices + n_edges + f.index())
@@ -53,10 +54,10 @@ impl AreaMasks<'_> {
     }
 }
 
-impl AnyMasks for AreaMasks<'_> {
+impl AnyMasks for LocalMasks<'_> {
     fn mask(&self, i: usize, add: &mut dyn FnMut(usize, f64)) {
         let (mesh, middles) = (self.pieces.mesh, &self.pieces.middles);
-        if let Some(i) = self.whole(i) {
+        if let Some(i) = self.index_in_full_level(i) {
             return self.masks.mask(i, add);
         }
         let new = i.checked_sub(mesh.n_vertices());
@@ -70,17 +71,18 @@ impl AnyMasks for AreaMasks<'_> {
     }
 
     fn values(&self, n: usize, old: &[DVec3], meter: &Meter) -> Result<Vec<DVec3>, Cancelled> {
-        // Each vertex of a large face would sum all its corners for itself.
-        let whole = if self.pieces.centers.len() == 0 {
+        // Computes all values at once if there are centers. Otherwise each vertex of a large face would sum all
+        // corners of that face again.
+        let full_level = if self.pieces.centers.len() == 0 {
             Vec::new()
         } else {
             let mesh = self.pieces.mesh;
-            let n_whole = mesh.n_vertices() + mesh.n_edges() + mesh.n_faces();
-            self.masks.values(n_whole, old, meter)?
+            let n_full = mesh.n_vertices() + mesh.n_edges() + mesh.n_faces();
+            self.masks.values(n_full, old, meter)?
         };
         let mut new: Vec<DVec3> = mesh::zeroed(n);
         fill(&mut new, meter, |i| {
-            if let Some(value) = self.whole(i).and_then(|i| whole.get(i)) {
+            if let Some(value) = self.index_in_full_level(i).and_then(|i| full_level.get(i)) {
                 return *value;
             }
             let mut sum = DVec3::ZERO;

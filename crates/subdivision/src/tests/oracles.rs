@@ -1,12 +1,12 @@
-//! The same mesh comes out of two other ways to compute it.
+//! Compares Loop subdivision with two other implementations.
 
 use super::{distance, once};
 use crate::fixtures::{self, triangles};
 use crate::oracle;
 
 #[test]
-fn it_is_what_splitting_all_edges_and_flipping_the_new_ones_gives() {
-    // The halves of a pillow share all vertices, so flips are refused on the way.
+fn a_level_equals_splitting_all_edges_and_flipping_new_ones() {
+    // The two faces of a pillow share all vertices, so some flips are refused.
     for (name, mesh) in fixtures::all().into_iter().filter(|(n, _)| *n != "pillow") {
         let mut old = mesh;
         for level in 1..=2 {
@@ -22,9 +22,9 @@ fn it_is_what_splitting_all_edges_and_flipping_the_new_ones_gives() {
 }
 
 #[test]
-fn it_is_what_a_list_of_triangles_gives() {
+fn a_level_equals_subdividing_a_list_of_triangles() {
     for (name, mesh) in fixtures::all() {
-        // From its first level on, a pillow has two edges between the same vertices.
+        // After the first level, a pillow has two edges between the same vertices.
         let levels = if name == "pillow" { 1 } else { 2 };
         let mut old = mesh;
         for level in 1..=levels {
@@ -38,7 +38,7 @@ fn it_is_what_a_list_of_triangles_gives() {
     }
 }
 
-/// As [`triangles`] orders them.
+/// Sorts triangles as [`triangles`] does.
 fn sorted(mut triangles: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
     for t in &mut triangles {
         while t[0] != *t.iter().min().unwrap() {

@@ -1,4 +1,4 @@
-//! The arrays of the next level, drawn edge by edge and face by face.
+//! Builds the connectivity arrays of the next level, edge by edge and face by face.
 
 use mesh::{Connectivity, FaceId, HalfEdgeId};
 
@@ -8,16 +8,16 @@ use super::sides;
 use crate::links;
 
 /// The arrays of the next level while they are filled.
-pub(super) struct Drawing<'a> {
+pub(super) struct ConnectivityBuilder<'a> {
     pieces: &'a Pieces<'a>,
     pub(super) new: Connectivity,
-    /// The half-edges of a face.
+    /// The half-edges of the face that is being built.
     ring: Vec<HalfEdgeId>,
 }
 
-impl<'a> Drawing<'a> {
-    /// The vertices, the parts of old edges, and the boundary.
-    pub(super) fn of_edges(pieces: &'a Pieces<'a>) -> Self {
+impl<'a> ConnectivityBuilder<'a> {
+    /// Allocates the arrays and fills in the vertices, the parts of old edges and the boundary loops.
+    pub(super) fn with_edges(pieces: &'a Pieces<'a>) -> Self {
         let (mesh, mut new) = (pieces.mesh, links::zeroed(pieces.counts()));
         for v in mesh.vertices() {
             let leaving = mesh.vertex_half_edge(v);
@@ -31,7 +31,7 @@ impl<'a> Drawing<'a> {
                 last = pieces.second(h);
                 let m = pieces.on_edge(h.edge());
                 new.origin[last.index()] = m;
-                // The first half, unless the second is on the boundary.
+                // The second part of the first half, unless the second half is on the boundary.
                 if h.index().is_multiple_of(2) || mesh.face(h).is_none() {
                     new.vertex_half_edge[m.index()] = last;
                 }
@@ -48,7 +48,7 @@ impl<'a> Drawing<'a> {
         Self { pieces, new, ring }
     }
 
-    /// Joins the half-edges of the ring to a face that begins at one of them, and empties it.
+    /// Makes the half-edges of `ring` the face `f`, whose first half-edge is `ring[start]`, and clears `ring`.
     fn close(&mut self, f: FaceId, start: usize) {
         let next = self.ring.iter().cycle().skip(1);
         for (h, &next) in self.ring.iter().zip(next) {
@@ -59,7 +59,7 @@ impl<'a> Drawing<'a> {
         self.ring.clear();
     }
 
-    /// A face that is not cut.
+    /// Adds a face that is not cut.
     pub(super) fn keep(&mut self, f: usize) {
         let pieces = self.pieces;
         let mut hanging = 0;
@@ -70,13 +70,13 @@ impl<'a> Drawing<'a> {
             }
         }
         let start = match pieces.cuts[f] {
-            Cut::Hung => hanging,
+            Cut::Hanging => hanging,
             _ => 0,
         };
         self.close(pieces.part(f, 0), start);
     }
 
-    /// The part at b, then the one at a.
+    /// Cuts a triangle with a hanging vertex in two: first the part at b, then the part at a.
     pub(super) fn cut_in_two(&mut self, f: usize) {
         let pieces = self.pieces;
         let [side_bc, side_ca, side_ab] = pieces.three_sides(f);
@@ -95,7 +95,7 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// The parts at the corners, then the one in the middle.
+    /// Cuts a triangle into four: first the parts at the corners, then the part in the middle.
     pub(super) fn cut_into_four(&mut self, f: usize) {
         let pieces = self.pieces;
         let sides = pieces.three_sides(f);
@@ -107,8 +107,8 @@ impl<'a> Drawing<'a> {
             pieces.to_middle(sides[k], &mut self.ring);
             let n_to = self.ring.len();
             self.ring.push(across);
-            pieces.past_middle(before, &mut self.ring);
-            // A vertex hangs between two parts of one half.
+            pieces.from_middle(before, &mut self.ring);
+            // Two parts of one half-edge have a hanging vertex between them.
             let start = match (n_to, self.ring.len() - n_to) {
                 (2, _) => 1,
                 (_, 3) => 3,
@@ -121,7 +121,7 @@ impl<'a> Drawing<'a> {
         self.close(pieces.part(f, 3), 0);
     }
 
-    /// A quad for each corner.
+    /// Cuts a face into a quad for each corner.
     pub(super) fn cut_into_quads(&mut self, f: usize) {
         let pieces = self.pieces;
         let center = pieces.center(f);

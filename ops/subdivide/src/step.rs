@@ -94,8 +94,9 @@ impl Step<'_> {
                     "{name} needs triangles, but the faces have at least {} corners",
                     plan.degrees.min
                 );
-                problems
-                    .push(Problem::error(message).help("triangulate the faces first, with Triangulate"));
+                problems.push(
+                    Problem::error(message).help("triangulate the faces first, with Triangulate"),
+                );
             }
             plan.degrees = Range::exactly(3);
         }

@@ -1,14 +1,15 @@
 //! Blobs: the long arrays of scenes, and the files that steps have written.
 
 use std::fs::{self, File};
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use scene::{Arrays, Scene};
 use serde::{Deserialize, Serialize};
 
 use crate::folder::{
-    Folder, Hash, Kind, Unusable, copy_hashed, hash, hash_rest, open, read_hashed, unreadable,
+    Folder, Hash, Kind, Unusable, copy_hashed, hash, hash_rest, open, open_own, read_hashed,
+    unreadable,
 };
 
 /// Arrays of fewer bytes stand in the record itself.
@@ -124,7 +125,7 @@ pub(crate) fn store_file(folder: &Folder, path: &Path) -> Option<BlobRef> {
 /// Whether a blob seems to be there, without reading it.
 pub(crate) fn seems_there(folder: &Folder, blob: &BlobRef) -> bool {
     let path = folder.path(Kind::Blob, &blob.hash);
-    fs::metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() == blob.len)
+    fs::symlink_metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() == blob.len)
 }
 
 /// Writes a blob to a file. After an error there is none.
@@ -134,7 +135,8 @@ pub(crate) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result
     let written = |error: io::Error| Unusable::Damaged(format!("{}: {error}", to.display()));
     let mut out = File::create(to).map_err(written)?;
     let mut failed = None;
-    let copied = copy_hashed(&mut file, |piece| {
+    // No more than was stored, even if the file grows meanwhile.
+    let copied = copy_hashed(&mut (&mut file).take(blob.len), |piece| {
         // The cache is not to blame for what happens here.
         let done = out.write_all(piece);
         done.inspect_err(|error| failed = Some(error.to_string()))
@@ -153,7 +155,7 @@ pub(crate) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result
 }
 
 fn open_blob(path: &Path, blob: &BlobRef) -> Result<File, Unusable> {
-    match open(path) {
+    match open_own(path) {
         Ok((file, len)) if len == blob.len => Ok(file),
         Ok(_) => done_with(path, Err(Unusable::Damaged("it has another length".into()))),
         Err(error) => Err(error),

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use crate::CacheSize;
-use crate::folder::{Folder, Kind, write_all};
+use crate::folder::{Folder, Kind, Unusable, write_all};
 
 /// What a process leaves that was killed while it wrote is removed after this time.
 const LEFT: Duration = Duration::from_secs(3600);
-/// The file with what each run has added is written anew beyond this size, in bytes.
+/// The file with what each run has added is written anew beyond this length, in bytes.
 const LONG: u64 = 1 << 16;
 
 struct Entry {
@@ -81,6 +81,7 @@ pub(crate) fn clear(folder: &Folder) -> io::Result<CacheSize> {
         remove(&file.path())?;
     }
     remove(&sizes(folder))?;
+    remove(&folder.key_file())?;
     // What is not ours stays, and the folders that hold it.
     for kind in Kind::ALL {
         let kind = folder.root().join(kind.name());
@@ -116,18 +117,21 @@ pub(crate) fn after_run(folder: &Folder, limit: u64) {
 fn account(folder: &Folder, added: u64, limit: u64) -> io::Result<()> {
     clean(&folder.temporary())?;
     let path = sizes(folder);
-    let is_new = !path.exists();
-    // So few bytes are appended at once or not at all.
-    let mut file = OpenOptions::new().append(true).create(true).open(&path)?;
-    file.write_all(&added.to_le_bytes())?;
-    let bytes = fs::read(&path)?;
-    let runs = bytes
-        .as_chunks::<8>()
-        .0
-        .iter()
-        .map(|n| u64::from_le_bytes(*n));
-    let total = runs.fold(0, u64::saturating_add);
-    if is_new || total > limit || bytes.len() as u64 > LONG {
+    // What is longer, or no plain file, is written anew.
+    let before = Folder::read(&path, LONG);
+    if let Err(Unusable::Damaged(_)) = before {
+        Folder::discard(&path);
+    }
+    let total = before.ok().map(|bytes| {
+        let runs = bytes.as_chunks::<8>().0.iter();
+        let runs = runs.map(|n| u64::from_le_bytes(*n));
+        runs.fold(added, u64::saturating_add)
+    });
+    if total.is_some_and(|total| total <= limit) {
+        // So few bytes are appended at once or not at all.
+        let mut file = OpenOptions::new().append(true).create(true).open(&path)?;
+        file.write_all(&added.to_le_bytes())?;
+    } else {
         let left = evict(folder, limit)?;
         folder.write(&path, |file| write_all(file, &[&left.to_le_bytes()]));
         folder.take_written();
@@ -241,6 +245,22 @@ mod tests {
         file.set_modified(SystemTime::now() - 2 * LEFT).unwrap();
         after_run(&folder, 10_000);
         assert!(!old.exists() && new.exists());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn sizes_that_are_a_link_to_a_device_are_not_read() {
+        let (_temporary, folder) = filled(3);
+        for target in ["/dev/zero", "/dev/full", "/nowhere"] {
+            remove(&sizes(&folder)).unwrap();
+            std::os::unix::fs::symlink(target, sizes(&folder)).unwrap();
+            folder.write(&folder.path(Kind::Blob, &[9; 32]), |f| {
+                write_all(f, &[&[0; 1000]])
+            });
+            after_run(&folder, 10_000);
+            assert_eq!(fs::read(sizes(&folder)).unwrap(), 4000_u64.to_le_bytes());
+            assert!(!sizes(&folder).is_symlink());
+        }
     }
 
     #[test]

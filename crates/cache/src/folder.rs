@@ -1,6 +1,8 @@
 //! The files of a cache: their names, and writing and reading them whole.
 
+use std::collections::hash_map::RandomState;
 use std::fs::{self, File, FileTimes};
+use std::hash::BuildHasher;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -124,9 +126,37 @@ impl Folder {
         }
     }
 
-    /// Reads a file of at most `most` bytes.
+    /// The file with the key of this cache.
+    pub(crate) fn key_file(&self) -> PathBuf {
+        self.root.join("key")
+    }
+
+    /// The key of this cache, which enters the digest of every record: random bytes that only the user can read. A
+    /// record that was edited elsewhere does not match its digest, even if the digest was computed anew. It is read
+    /// each time because another process may have cleared the folder.
+    pub(crate) fn key(&self) -> Result<Hash, Unusable> {
+        let path = self.key_file();
+        let key = Self::read(&path, size_of::<Hash>() as u64)
+            .and_then(|key| Hash::try_from(key).map_err(|_| Unusable::Damaged("no key".into())));
+        if let Err(Unusable::Damaged(_)) = key {
+            Self::discard(&path);
+        }
+        key
+    }
+
+    /// The key of this cache, which is made if there is none. `None` if it cannot be written.
+    pub(crate) fn key_or_new(&self) -> Option<Hash> {
+        if let Ok(key) = self.key() {
+            return Some(key);
+        }
+        self.write(&self.key_file(), |file| write_all(file, &[&random()]));
+        // Another process may have made one at the same time, and the later one stays.
+        self.key().ok()
+    }
+
+    /// Reads a file of the cache of at most `most` bytes.
     pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, Unusable> {
-        let (file, len) = open(path)?;
+        let (file, len) = open_own(path)?;
         if len > most {
             return Err(Unusable::Damaged(format!("it has {len} bytes")));
         }
@@ -158,6 +188,15 @@ impl Folder {
     }
 }
 
+/// A file of the cache and its length. The cache makes no links, so a link is damage, wherever it leads.
+pub(crate) fn open_own(path: &Path) -> Result<(File, u64), Unusable> {
+    let meta = fs::symlink_metadata(path).map_err(unreadable)?;
+    if meta.is_symlink() {
+        return Err(Unusable::Damaged("it is a link".to_owned()));
+    }
+    open(path)
+}
+
 /// A plain file and its length.
 pub(crate) fn open(path: &Path) -> Result<(File, u64), Unusable> {
     let meta = fs::metadata(path).map_err(unreadable)?;
@@ -174,6 +213,15 @@ pub(crate) fn unreadable(error: io::Error) -> Unusable {
         io::ErrorKind::NotFound => Unusable::Missing,
         _ => Unusable::Damaged(error.to_string()),
     }
+}
+
+/// Random bytes: the standard library takes the keys of its hash tables from the system.
+fn random() -> Hash {
+    let mut hasher = blake3::Hasher::new();
+    for i in 0..4 {
+        hasher.update(&RandomState::new().hash_one(i).to_le_bytes());
+    }
+    *hasher.finalize().as_bytes()
 }
 
 pub(crate) fn hash(bytes: &[u8]) -> Hash {

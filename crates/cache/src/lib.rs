@@ -6,6 +6,7 @@
 //! recipes/..          what the steps of the last run of a recipe were made of, to say what changed
 //! tmp/                files that are being written
 //! sizes               how many bytes each run has added
+//! key                 random bytes that enter the digests of records
 //! ```
 //!
 //! **Keys.** The key of a step is the digest of all that it is made of before it runs: the
@@ -14,7 +15,9 @@
 //! read, which are known when it has run, and looked at again before its result is taken. Times of files are
 //! not trusted.
 //!
-//! **Trust.** Every file of the cache is held against its digest when it is read, and a scene is only made of arrays
+//! **Trust.** Only plain files are read, no links and no more bytes than were stored. Every blob must match the digest
+//! that is its name, and every record its digest under the key of the cache, which only the user can read: a record that
+//! was edited is not taken, even if its digest was computed anew. A scene is only made of arrays
 //! that form one. What is damaged is removed and counts as not there. Files are written under a temporary
 //! name and renamed, so that neither a second process nor a killed one leaves half of one under its name; nothing is
 //! locked. A folder that cannot be written is told once, and the run goes on without it.

@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::blob::{BlobRef, SceneRef};
-use crate::folder::{Folder, Hash, Kind, Unusable, hash, write_all};
+use crate::folder::{Folder, Hash, Kind, Unusable, write_all};
 use crate::held::Held;
 use crate::key::Key;
 use crate::seen::Inputs;
@@ -87,7 +87,7 @@ pub(crate) fn store(folder: &Folder, key: Key, record: Record) {
     store_data(folder, Kind::Step, &key.0, &records);
 }
 
-/// Reads plain data, which is held against its digest. What is damaged is removed.
+/// Reads plain data, which must match its digest under the key of the cache. What is damaged is removed.
 pub(crate) fn load_data<T: DeserializeOwned>(
     folder: &Folder,
     kind: Kind,
@@ -102,7 +102,7 @@ pub(crate) fn load_data<T: DeserializeOwned>(
             .and_then(|rest| rest.split_at_checked(size_of::<Hash>()))
             .ok_or_else(|| damaged("it is no file of this cache"))?;
         // A record under another name is a whole one, and still the wrong one.
-        if digest != of(id, data) {
+        if digest != of(&folder.key()?, id, data) {
             return Err(damaged("its content is not what was stored"));
         }
         postcard::from_bytes(data).map_err(|_| damaged("it holds something else"))
@@ -118,14 +118,17 @@ pub(crate) fn store_data(folder: &Folder, kind: Kind, id: &Hash, data: &impl Ser
     // Paths that are no text cannot be stored.
     if let Ok(data) = postcard::to_stdvec(data)
         && (data.len() as u64) < MOST_BYTES / 2
+        && let Some(key) = folder.key_or_new()
     {
-        let digest = of(id, &data);
+        let digest = of(&key, id, &data);
         folder.write(&folder.path(kind, id), |file| {
             write_all(file, &[MAGIC, &digest, &data])
         });
     }
 }
 
-fn of(id: &Hash, data: &[u8]) -> Hash {
-    hash(&[id, data].concat())
+fn of(key: &Hash, id: &Hash, data: &[u8]) -> Hash {
+    let mut hasher = blake3::Hasher::new_keyed(key);
+    hasher.update(id).update(data);
+    *hasher.finalize().as_bytes()
 }

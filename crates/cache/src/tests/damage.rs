@@ -78,6 +78,44 @@ fn every_file_that_is_damaged_in_any_way_is_noticed() {
 }
 
 #[test]
+fn an_edited_record_is_not_taken_even_with_a_new_digest() {
+    let place = Place::new();
+    let text = recipe();
+    place.run(&text);
+    let records = all_files(&place.path("cache/steps"));
+    let whole: Vec<Vec<u8>> = records.iter().map(|path| fs::read(path).unwrap()).collect();
+    let plain = place.run_with(&text, None, "plain");
+    let magic = b"meshwright cache\n".len();
+    for (path, whole) in records.iter().zip(&whole) {
+        let parts = path.iter().rev().take(2).map(|part| part.to_str().unwrap());
+        let name: String = parts.collect::<Vec<_>>().into_iter().rev().collect();
+        let id = blake3::Hash::from_hex(name).unwrap();
+        let step = (whole.len() / 6).max(1);
+        for at in (magic + 32..whole.len()).step_by(step) {
+            let mut forged = whole.clone();
+            forged[at] ^= 1;
+            let digest = blake3::hash(&[id.as_bytes(), &forged[magic + 32..]].concat());
+            forged[magic..magic + 32].copy_from_slice(digest.as_bytes());
+            fs::write(path, &forged).unwrap();
+            assert_same(&plain, &place.run_with(&text, Some(place.caching()), "out"));
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn links_to_devices_are_not_read() {
+    let place = Place::new();
+    place.run(&recipe());
+    for path in all_files(&place.path("cache")) {
+        fs::remove_file(&path).unwrap();
+        std::os::unix::fs::symlink("/dev/zero", &path).unwrap();
+    }
+    place.run(&recipe());
+    place.runs_nothing(&recipe());
+}
+
+#[test]
 fn a_folder_in_place_of_a_file_does_no_harm() {
     let place = Place::new();
     place.run(&recipe());

@@ -20,7 +20,7 @@ pub(crate) struct Case {
     /// `Weld(distance: 0) on cube`.
     pub(crate) name: String,
     operation: &'static str,
-    step: Box<dyn Step>,
+    pub(crate) step: Box<dyn Step>,
     pub(crate) scene: Scene,
 }
 
@@ -40,7 +40,7 @@ impl Case {
             .collect()
     }
 
-    fn new(entry: &Entry, sample: &str, fixture: &str, scene: &Scene) -> Self {
+    pub(crate) fn new(entry: &Entry, sample: &str, fixture: &str, scene: &Scene) -> Self {
         Self {
             name: format!("{}{sample} on {fixture}", entry.name),
             operation: entry.name,
@@ -101,7 +101,7 @@ fn results_are_valid_and_finite_and_nothing_panics() {
 }
 
 /// What is wrong with an object.
-fn defects(object: &Object) -> Vec<String> {
+pub(crate) fn defects(object: &Object) -> Vec<String> {
     let mut found = Vec::new();
     match &object.geometry {
         Geometry::Mesh(mesh) => {
@@ -228,7 +228,7 @@ fn planning_never_panics_even_when_little_is_known() {
 }
 
 /// The plan of a scene that is there.
-fn known(scene: &Scene) -> Plan {
+pub(crate) fn known(scene: &Scene) -> Plan {
     let exactly = |n: usize| Range::exactly(n as u64);
     let planned = |object: &Object| match &object.geometry {
         Geometry::Mesh(mesh) => PlannedGeometry::Mesh(MeshPlan::of(mesh)),

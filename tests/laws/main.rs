@@ -8,6 +8,7 @@ mod cache;
 mod cancelling;
 mod cube_diagonals;
 mod every_op;
+mod extremes;
 mod files;
 mod fixtures;
 mod layout;

@@ -149,7 +149,7 @@ pub fn grid(columns: u32, rows: u32) -> Mesh {
 ///
 /// # Panics
 ///
-/// If `around` or `across` is below 3, or there are more faces than ids.
+/// If `around` or `across` is below 3, `major + minor` is not finite, or there are more faces than ids.
 pub fn torus(around: u32, across: u32, major: f64, minor: f64) -> Mesh {
     assert!(
         around >= 3 && across >= 3,

@@ -148,6 +148,13 @@ impl OpError {
         }
     }
 
+    /// The error for a coordinate that would not be finite, with the operation and the parameters that it comes from.
+    pub fn overflow(operation: &str, parameters: &str) -> Self {
+        Self::Parameter(format!(
+            "{operation}: {parameters} give a coordinate beyond the largest number, 1.8e308"
+        ))
+    }
+
     /// Creates the error for a refused edit of the elements `edited`. Its message names edges as recipes do, by
     /// their vertices.
     pub fn refused_edit(refusal: EditError, mesh: &Mesh, edited: &[Element]) -> Self {

@@ -19,7 +19,7 @@ const MAX_EDGES: u64 = (u32::MAX as u64 - 1) / 4;
 /// use op::{MeshPlan, Plan, Range, Source, Vector};
 ///
 /// let counts = MeshPlan::counted(4, 6, 4, Range::exactly(3));
-/// let source = || Source::new("tetra", counts.clone()).placed([2.0; 3], Vector::literal(0.0, 0.0, 1.0));
+/// let source = || Source::new("tetra", counts.clone()).placed("Shape", "radius", [2.0; 3], Vector::literal(0.0, 0.0, 1.0));
 ///
 /// let mut plan = Plan::default();
 /// assert_eq!(source().plan(&mut plan), []);
@@ -35,6 +35,8 @@ pub struct Source<'a> {
     name: &'a str,
     counts: MeshPlan,
     scale: DVec3,
+    /// The operation and the parameters that `scale` comes from, for errors.
+    origin: [&'static str; 2],
     center: DVec3,
     problems: Vec<Problem>,
 }
@@ -46,6 +48,7 @@ impl<'a> Source<'a> {
             name,
             counts,
             scale: DVec3::ONE,
+            origin: ["Source", "scale"],
             center: DVec3::ZERO,
             problems: Vec::new(),
         };
@@ -60,9 +63,17 @@ impl<'a> Source<'a> {
     }
 
     /// Multiplies the coordinates by a factor above 0 for each axis, and then moves the mesh from the origin to
-    /// `center`, the parameter of that name.
+    /// `center`, the parameter of that name. Errors
+    /// name the operation and the parameters that the factors come from.
     #[must_use]
-    pub fn placed(mut self, scale: [f64; 3], center: Vector) -> Self {
+    pub fn placed(
+        mut self,
+        operation: &'static str,
+        parameters: &'static str,
+        scale: [f64; 3],
+        center: Vector,
+    ) -> Self {
+        self.origin = [operation, parameters];
         self.scale = scale.into();
         self.center = center.get();
         self
@@ -119,8 +130,10 @@ impl<'a> Source<'a> {
             *p = *p * self.scale + self.center;
         }
         if mesh.positions().iter().any(|p| !p.is_finite()) {
-            return Err(OpError::Parameter(
-                "a coordinate is too large to be a finite number".into(),
+            let [operation, parameters] = self.origin;
+            return Err(OpError::overflow(
+                operation,
+                &format!("{parameters} and center"),
             ));
         }
         let report = Report::changed(mesh.n_faces());
@@ -205,8 +218,12 @@ mod tests {
     #[test]
     fn the_mesh_is_scaled_and_then_moved() {
         let mut scene = Scene::new();
-        let source =
-            Source::new("a", square()).placed([2.0, 3.0, 1.0], Vector::literal(1.0, 0.0, 5.0));
+        let source = Source::new("a", square()).placed(
+            "Square",
+            "size",
+            [2.0, 3.0, 1.0],
+            Vector::literal(1.0, 0.0, 5.0),
+        );
         insert(source, &mut scene, u64::MAX).unwrap();
         let mesh = scene.object("a").unwrap().as_mesh().unwrap();
         assert_eq!(mesh.positions()[2], DVec3::new(3.0, 3.0, 5.0));
@@ -214,9 +231,16 @@ mod tests {
 
     #[test]
     fn coordinates_that_overflow_are_refused() {
-        let source =
-            Source::new("a", square()).placed([f64::MAX; 3], Vector::literal(f64::MAX, 0.0, 0.0));
+        let source = Source::new("a", square()).placed(
+            "Square",
+            "size",
+            [f64::MAX; 3],
+            Vector::literal(f64::MAX, 0.0, 0.0),
+        );
         let made = insert(source, &mut Scene::new(), u64::MAX);
-        assert!(matches!(made, Err(OpError::Parameter(_))));
+        assert_eq!(
+            made.unwrap_err().to_string(),
+            "Square: size and center give a coordinate beyond the largest number, 1.8e308"
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! The errors of subdivision.
 
-use mesh::FaceId;
+use mesh::{FaceId, VertexId};
 use progress::Cancelled;
 
 use crate::rules::Scheme;
@@ -18,6 +18,17 @@ pub enum SubdivisionError {
         face: FaceId,
         /// The number of corners of the face.
         degree: usize,
+    },
+    /// A coordinate is so large that the sums of the masks could leave the range of numbers.
+    #[error(
+        "{} needs coordinates up to {:e} in magnitude, but {vertex} has a larger one",
+        .scheme.name(), crate::MAX_COORDINATE
+    )]
+    TooFar {
+        /// The scheme.
+        scheme: Scheme,
+        /// The first vertex with such a coordinate, in the compacted mesh.
+        vertex: VertexId,
     },
     /// The scheme can only subdivide a whole mesh.
     #[error("{} can only refine all faces, not a part of them", .0.name())]

@@ -2,11 +2,15 @@
 
 use std::borrow::Cow;
 
-use mesh::{FaceId, Mesh};
+use mesh::{FaceId, Mesh, VertexId};
 
 use crate::error::SubdivisionError;
 use crate::parallel::any;
 use crate::rules::Scheme;
+
+/// The largest magnitude of a coordinate that is subdivided. Masks add the coordinates of fewer than 2^32 vertices, each
+/// several times: the sums of such coordinates stay below the largest number.
+pub const MAX_COORDINATE: f64 = 1e290;
 
 /// Returns the mesh without dead elements; borrows it if it has none.
 pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
@@ -18,12 +22,21 @@ pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     Cow::Owned(dense)
 }
 
-/// Checks that a scheme can subdivide all faces of a dense mesh.
+/// Checks that a scheme can subdivide all faces and positions of a dense mesh.
 ///
 /// # Errors
 ///
+/// [`SubdivisionError::TooFar`] with the first vertex beyond [`MAX_COORDINATE`].
 /// [`SubdivisionError::NotTriangle`] with the first face that is not a triangle, if the scheme needs triangles.
 pub fn check_faces(mesh: &Mesh, scheme: Scheme) -> Result<(), SubdivisionError> {
+    let is_far = |i: usize| mesh.positions()[i].abs().max_element() > MAX_COORDINATE;
+    let n = mesh.positions().len();
+    if any(n, is_far)
+        && let Some(i) = (0..n).find(|&i| is_far(i))
+    {
+        let vertex = VertexId::new(i);
+        return Err(SubdivisionError::TooFar { scheme, vertex });
+    }
     let is_polygon = |i: usize| !mesh.is_triangle(FaceId::new(i));
     if !scheme.needs_triangles() || !any(mesh.n_faces(), is_polygon) {
         return Ok(());

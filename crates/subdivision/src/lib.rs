@@ -90,7 +90,7 @@ mod triangles;
 mod whole;
 
 pub use error::SubdivisionError;
-pub use input::check_faces;
+pub use input::{MAX_COORDINATE, check_faces};
 pub use limit::{Limit, limit, limit_distance};
 pub use local::refine_faces;
 pub use matrix::{SparseMatrix, subdivision_matrix};

@@ -155,8 +155,7 @@ fn change(mesh: &mut Mesh, region: &Region, linear: DMat3) -> Result<(), OpError
     for v in vertices {
         let p = linear * (mesh.position(v) - center) + center;
         if !p.is_finite() {
-            let message = "scale: the coordinates would be too large for numbers";
-            return Err(OpError::Parameter(message.to_owned()));
+            return Err(OpError::overflow("ExtrudeFaces", "scale and rotate"));
         }
         mesh.set_position(v, p);
     }

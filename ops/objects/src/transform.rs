@@ -87,10 +87,7 @@ impl Transform {
 
     /// Changes one object. The report counts its points.
     fn change(&self, name: &str, geometry: &mut Geometry, map: &Map) -> Result<Report, OpError> {
-        let too_large = || {
-            let message = format!("the coordinates of \"{name}\" would be too large for numbers");
-            OpError::Parameter(message)
-        };
+        let too_large = || OpError::overflow("Transform", "scale, rotate and move");
         match geometry {
             Geometry::Mesh(mesh) => {
                 let center = self.center(mesh.positions().iter().copied());

@@ -48,7 +48,12 @@ impl Cube {
         } else {
             MeshPlan::counted(8, 12, 6, Range::exactly(4))
         };
-        Source::new(&self.name, counts).placed([self.size.get() / 2.0; 3], self.center)
+        Source::new(&self.name, counts).placed(
+            Self::NAME,
+            "size",
+            [self.size.get() / 2.0; 3],
+            self.center,
+        )
     }
 }
 

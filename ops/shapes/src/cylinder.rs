@@ -48,7 +48,12 @@ impl Cylinder {
         };
         let counts = MeshPlan::counted(2 * n, 3 * n, n + caps, degrees);
         let (radius, height) = (self.radius.get(), self.height.get());
-        Source::new(&self.name, counts).placed([radius, radius, height / 2.0], self.center)
+        Source::new(&self.name, counts).placed(
+            Self::NAME,
+            "radius, height",
+            [radius, radius, height / 2.0],
+            self.center,
+        )
     }
 }
 

@@ -41,7 +41,12 @@ impl Grid {
             .saturating_add((columns + 1).saturating_mul(rows));
         let faces = columns.saturating_mul(rows);
         let counts = MeshPlan::counted(vertices, edges, faces, Range::exactly(4));
-        Source::new(&self.name, counts).placed([self.size.get(); 3], self.center)
+        Source::new(&self.name, counts).placed(
+            Self::NAME,
+            "size",
+            [self.size.get(); 3],
+            self.center,
+        )
     }
 }
 

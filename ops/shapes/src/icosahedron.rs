@@ -29,7 +29,12 @@ pub struct Icosahedron {
 impl Icosahedron {
     fn source(&self) -> Source<'_> {
         let counts = MeshPlan::counted(12, 30, 20, Range::exactly(3));
-        Source::new(&self.name, counts).placed([self.radius.get(); 3], self.center)
+        Source::new(&self.name, counts).placed(
+            Self::NAME,
+            "radius",
+            [self.radius.get(); 3],
+            self.center,
+        )
     }
 }
 

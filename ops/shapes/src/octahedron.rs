@@ -31,7 +31,12 @@ pub struct Octahedron {
 impl Octahedron {
     fn source(&self) -> Source<'_> {
         let counts = MeshPlan::counted(6, 12, 8, Range::exactly(3));
-        Source::new(&self.name, counts).placed([self.radius.get(); 3], self.center)
+        Source::new(&self.name, counts).placed(
+            Self::NAME,
+            "radius",
+            [self.radius.get(); 3],
+            self.center,
+        )
     }
 }
 

@@ -33,7 +33,12 @@ pub struct Tetrahedron {
 impl Tetrahedron {
     fn source(&self) -> Source<'_> {
         let counts = MeshPlan::counted(4, 6, 4, Range::exactly(3));
-        Source::new(&self.name, counts).placed([self.radius.get() / 3.0_f64.sqrt(); 3], self.center)
+        Source::new(&self.name, counts).placed(
+            Self::NAME,
+            "radius",
+            [self.radius.get() / 3.0_f64.sqrt(); 3],
+            self.center,
+        )
     }
 }
 

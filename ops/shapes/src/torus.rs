@@ -46,7 +46,17 @@ impl Torus {
         let faces = u64::from(self.around.get()).saturating_mul(u64::from(self.across.get()));
         let edges = faces.saturating_mul(2);
         let counts = MeshPlan::counted(faces, edges, faces, Range::exactly(4));
-        let source = Source::new(&self.name, counts).placed([1.0; 3], self.center);
+        let source = Source::new(&self.name, counts).placed(
+            Self::NAME,
+            "major, minor",
+            [1.0; 3],
+            self.center,
+        );
+        let reach = self.major.get() + self.minor.get();
+        if !reach.is_finite() {
+            let message = "major + minor is beyond the largest number, 1.8e308";
+            return source.with(Problem::error(message).at(["major"]));
+        }
         if self.minor.get() < self.major.get() {
             return source;
         }
@@ -110,6 +120,16 @@ mod tests {
         let problems = step.source().plan(&mut Plan::default());
         assert!(problems.len() == 1 && problems[0].is_warning);
         assert!(op::test::run(&step, &mut Scene::new()).is_ok());
+    }
+
+    #[test]
+    fn a_torus_beyond_the_largest_number_is_refused() {
+        let text = r#"(name: "a", around: 5, across: 4, major: 1e308, minor: 1e308)"#;
+        let step: Torus = op::test::read(text).unwrap();
+        let problems = step.source().plan(&mut Plan::default());
+        assert_eq!(problems[0].path, ["major"]);
+        let made = op::test::run(&step, &mut Scene::new());
+        assert!(matches!(made, Err(OpError::Parameter(_))));
     }
 
     #[test]

@@ -44,7 +44,12 @@ impl UvSphere {
         let edges = on_circles.saturating_add(faces);
         let degrees = Range::between(3, if rings > 2 { 4 } else { 3 });
         let counts = MeshPlan::counted(on_circles.saturating_add(2), edges, faces, degrees);
-        Source::new(&self.name, counts).placed([self.radius.get(); 3], self.center)
+        Source::new(&self.name, counts).placed(
+            Self::NAME,
+            "radius",
+            [self.radius.get(); 3],
+            self.center,
+        )
     }
 }
 

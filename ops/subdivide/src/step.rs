@@ -228,6 +228,9 @@ fn to_op_error(error: SubdivisionError) -> OpError {
         SubdivisionError::NotTriangle { face, .. } => {
             OpError::refused(Refusal::NotTriangle, message).about([face])
         }
+        SubdivisionError::TooFar { vertex, .. } => {
+            OpError::refused(Refusal::BadNumber, message).about([vertex])
+        }
         SubdivisionError::WholeMesh(_)
         | SubdivisionError::FlagCount { .. }
         | SubdivisionError::NoLimit(_) => OpError::Parameter(message),

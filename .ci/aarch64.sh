@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# The same digests on another processor: the program built for 64-bit ARM, and every recipe run under emulation.
+# Checks that digests are the same on 64-bit ARM: builds the program for it, and runs every recipe under emulation.
 #
-# Compiler, standard library, linker and emulator are Debian's. Where they cannot be had this says so and ends well:
-# a machine of another system cannot build for it.
+# The compiler, standard library, linker and emulator are Debian packages. If they are not available, the script prints
+# the reason and exits with code 0.
 #
-#   .ci/aarch64.sh [FOLDER]     FOLDER (target/ci/aarch64) keeps what was fetched and built
+#   .ci/aarch64.sh [FOLDER]     FOLDER keeps downloads and builds. Defaults to target/ci/aarch64.
 #
-# Files that the scenes wrote here are held against those in target/ci/scenes, if these are there, and some pictures of
-# the reference against those of the repository.
+# If target/ci/scenes exists, the files written by the scenes are compared with those in it. Some pictures of the
+# reference are compared with those in the repository.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 work=$(mkdir -p "${1:-target/ci/aarch64}" && cd "${1:-target/ci/aarch64}" && pwd)
@@ -16,10 +16,10 @@ target=aarch64-unknown-linux-gnu
 skip() { echo "the digests on 64-bit ARM are not compared: $*"; exit 0; }
 
 [ "$(uname -sm)" = "Linux x86_64" ] || skip "this needs Linux on x86_64"
-command -v apt-get > /dev/null || skip "there is no apt-get"
-[ "$(id -u)" = 0 ] || skip "packages are installed as root only"
+command -v apt-get > /dev/null || skip "apt-get is missing"
+[ "$(id -u)" = 0 ] || skip "installing packages requires root"
 
-# A list of packages of both processors, apart from that of the machine.
+# Package lists for both processors, separate from those of the machine.
 mkdir -p "$work/lists/partial" "$work/cache/archives/partial" "$work/debs"
 cat > "$work/apt.conf" << END
 Dir::State::lists "$work/lists";
@@ -30,24 +30,24 @@ END
 apt() { APT_CONFIG=$work/apt.conf apt-get "$@"; }
 
 if ! [ -x "$work/root/usr/bin/rustc" ]; then
-    apt update > "$work/apt.txt" 2>&1 || skip "package lists cannot be fetched"
+    apt update > "$work/apt.txt" 2>&1 || skip "package lists cannot be downloaded"
     std=$(APT_CONFIG=$work/apt.conf apt-cache depends rustc-web 2> /dev/null | grep -c libstd-rust-web-dev || true)
-    [ "$std" != 0 ] || skip "there is no package rustc-web"
-    # The compiler, what it is linked with, and the standard library of both processors: one version.
+    [ "$std" != 0 ] || skip "the package rustc-web does not exist"
+    # The compiler, the libraries it is linked with, and the standard libraries for both processors, all of one version.
     version=$(APT_CONFIG=$work/apt.conf apt-cache policy rustc-web | awk '/Candidate/ { print $2 }')
     linked=$(APT_CONFIG=$work/apt.conf apt-cache depends "libstd-rust-web-dev=$version" |
         awk '/Depends: libstd-rust-web-/ { print $2 }')
     llvm=$(APT_CONFIG=$work/apt.conf apt-cache depends "$linked" | awk '/Depends: libllvm/ { print $2 }')
     (cd "$work/debs" && apt download "rustc-web=$version" "libstd-rust-web-dev=$version" "$linked" "$llvm" \
         "libstd-rust-web-dev:arm64=$version") >> "$work/apt.txt" 2>&1 ||
-        skip "the standard library for $target cannot be fetched"
+        skip "the standard library for $target cannot be downloaded"
     for package in "$work"/debs/*.deb; do dpkg -x "$package" "$work/root"; done
     rm -rf "$work/debs" "$work/cache" "$work/lists"
 fi
 if ! command -v aarch64-linux-gnu-gcc > /dev/null || ! command -v qemu-aarch64 > /dev/null; then
     { apt-get update && apt-get install -y --no-install-recommends \
         gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user; } >> "$work/apt.txt" 2>&1 ||
-        skip "there is no linker or no emulator"
+        skip "the linker or the emulator cannot be installed"
 fi
 
 cat > "$work/rustc" << END
@@ -58,9 +58,9 @@ chmod +x "$work/rustc"
 needs=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
 has=$("$work/rustc" -V 2> /dev/null | cut -d ' ' -f 2) || skip "the compiler does not run"
 [ "$(printf '%s\n' "$needs" "$has" | sort -V | head -n 1)" = "$needs" ] ||
-    skip "the packaged compiler is $has, and $needs is needed"
+    skip "the packaged compiler has version $has, expected at least $needs"
 
-# Lightly optimised: the digests do not depend on it, and the build takes half the time.
+# Low optimization halves the build time and does not affect the digests.
 RUSTC=$work/rustc RUSTFLAGS="" CARGO_INCREMENTAL=0 CARGO_TARGET_DIR=$work/target \
     CARGO_PROFILE_RELEASE_OPT_LEVEL=1 CARGO_PROFILE_RELEASE_CODEGEN_UNITS=16 \
     CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER=aarch64-linux-gnu-gcc \
@@ -71,17 +71,17 @@ rm -rf "$work/scenes" "$work/pictures"
 meshwright test scenes --out "$work/scenes" | tee "$work/scenes.txt"
 while read -r name digest; do
     grep -q "scenes/$name.ron .*digest $digest" "$work/scenes.txt" ||
-        { echo "$name: 64-bit ARM gives another digest than tests/digests.txt"; exit 1; }
+        { echo "$name: the digest on 64-bit ARM differs from tests/digests.txt"; exit 1; }
 done < tests/digests.txt
 echo "$(wc -l < tests/digests.txt) digests are the same on 64-bit ARM"
 
 if [ -d target/ci/scenes ]; then
-    diff -r target/ci/scenes "$work/scenes" || { echo "64-bit ARM writes other files"; exit 1; }
+    diff -r target/ci/scenes "$work/scenes" || { echo "64-bit ARM writes different files"; exit 1; }
     echo "$(find "$work/scenes" -type f | wc -l) files are the same on 64-bit ARM"
 fi
 
 meshwright test ops/all/pictures --filter _edges --out "$work/pictures"
 find "$work/pictures" -name '*.png' -printf '%P\n' | while read -r picture; do
-    cmp "ops/all/pictures/$picture" "$work/pictures/$picture" || { echo "64-bit ARM draws another picture"; exit 1; }
+    cmp "ops/all/pictures/$picture" "$work/pictures/$picture" || { echo "64-bit ARM draws a different picture"; exit 1; }
 done
 echo "$(find "$work/pictures" -name '*.png' | wc -l) pictures are the same on 64-bit ARM"

@@ -1,5 +1,5 @@
-// Validates every glTF file below a folder with the Khronos validator: no errors, no warnings, and no
-// information but that texture coordinates have no texture yet, or a picture stands in a file of its own.
+// Validates every glTF file below a folder with the Khronos validator. Allows no errors, warnings or notes, except the
+// notes that texture coordinates are unused or that an image is a separate file.
 const fs = require("fs");
 const path = require("path");
 
@@ -33,7 +33,7 @@ function* files(folder) {
         }
     }
     if (checked === 0) {
-        console.error("no glTF file was found");
+        console.error("found no glTF files");
         process.exit(1);
     }
     console.log(`${checked} glTF files are valid`);

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Builds the book into target/book: the chapters of book/src, and a page for each operation from ops/README.md.
+# Builds the book in target/book, from the chapters in book/src and with a page for each operation from ops/README.md.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=target/book-source
 rm -rf "$out" && mkdir -p "$out/src/operations"
 cp book/book.toml "$out" && cp -r book/src/. "$out/src"
 
-# The generated reference becomes one page for each operation, and one for the types of their parameters.
+# Splits the generated reference into one page for each operation, and one for the types of parameters.
 awk -v out="$out/src/operations" '
     /^# Steps that hold steps/ { page = out "/types.md"; print "# Types of parameters\n" > page }
     /^## / && page != out "/types.md" { page = out "/" $2 ".md"; sub("^## ", "# ") }
@@ -21,12 +21,12 @@ mkdir "$out/src/pictures" && cp -r ops/all/pictures/. "$out/src/pictures"
 pages=$(sed -n 's|^- \[\([A-Za-z0-9]*\)\](#.*|  - [\1](operations/\1.md)|p' ops/README.md)
 awk -v pages="$pages\n  - [Types of parameters](operations/types.md)" '
     { print } /\(operations.md\)/ { print pages }
-    /\(files.md\)/ { print "  - [What comes back](kept.md)" }
+    /\(files.md\)/ { print "  - [What formats preserve](kept.md)" }
 ' book/src/SUMMARY.md > "$out/src/SUMMARY.md"
-# On the pages of the repository these links lead to its files.
+# In the repository, these links refer to other files; in the book, to other pages.
 cp crates/io/src/kept.md "$out/src/kept.md"
 sed -i -e 's|(../../crates/io/src/kept.md)|(kept.md)|' -e 's|(../../ops/README.md#reasons-for-refused)|(operations/types.md#reasons-for-refused)|' "$out"/src/*.md
-# Pictures from elsewhere in the repository are copied beside the chapters.
+# Copies pictures from other folders of the repository.
 for image in $(grep -oh '](\.\./\.\./[^)]*png' "$out"/src/*.md | sed 's|](../../||'); do
     mkdir -p "$out/src/images/$(dirname "$image")"
     cp "$image" "$out/src/images/$image"

@@ -1,16 +1,15 @@
-//! How many triangles a second can be built into a mesh, and how far is that from copying its bytes?
+//! Measures the construction of a mesh, in triangles per second, and compares it with copying the bytes of the mesh.
 //!
-//! A torus of a million triangles and half a million vertices, numbered row by row, so that neighbors
-//! lie near each other in memory; the positions are there already and only moved in. Timed is all the
-//! rest: checking the input, pairing the sides, filling the arrays and the two maps from the input to
-//! the mesh, all in new memory.
+//! The mesh is a torus of a million triangles and half a million vertices, numbered row by row, so that neighbors are
+//! close in memory. The positions are given and only moved into the mesh. The time includes checking the input,
+//! pairing half-edges, and filling the arrays and the two maps from the input to the mesh, all in new memory.
 //!
-//! - `build`: from offsets and corners, with one thread and with two.
+//! - `build`: from offsets and corners, with one and two threads.
 //! - `from_polygons`: from a list for each triangle, which is first copied into offsets and corners.
-//! - `shuffled`: the same triangles and vertices in random order, as bad as a file can be.
-//! - `half reversed`: every second triangle runs the other way round and is turned: built twice, with
-//!   a search for the triangles to turn between.
-//! - `copy of its bytes`: as many bytes as the mesh takes, copied into new memory by one thread.
+//! - `shuffled`: the same triangles and vertices in random order, the worst case for a file.
+//! - `half reversed`: every second triangle is reversed. The mesh is built, the triangles to turn are found, and the mesh
+//!   is built again.
+//! - `copy of its bytes`: one thread copies the bytes of the mesh into new memory.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -59,7 +58,7 @@ fn a_million_triangles(c: &mut Criterion) {
             });
         }
     }
-    // Into new memory, as the mesh is.
+    // Into new memory, like the mesh.
     group.bench_function("copy of its bytes", |b| {
         b.iter_batched(
             || (),
@@ -98,7 +97,7 @@ fn shuffled(positions: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u3
     (moved, triangles)
 }
 
-/// Puts values into an order of chance: that of a linear congruential generator.
+/// Shuffles values with a linear congruential generator.
 fn shuffle<T>(values: &mut [T]) {
     let mut state = 1_u64;
     for i in (1..values.len()).rev() {

@@ -1,4 +1,4 @@
-//! How many local edits a second, with all their checks, as steps of recipes do them?
+//! Measures local edits per second, with all checks, as performed by steps of recipes.
 
 mod common;
 
@@ -8,8 +8,8 @@ use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_mai
 use mesh::{EdgeId, EditError, Mesh};
 use op::{Context, Files, NoProgress, OnRefusal, edit_each};
 
-/// Flipping every edge, and splitting every edge, of a torus of a million triangles. In random order
-/// each edit waits for memory. Flipping in order of ids would heap all edges onto a few vertices.
+/// Flips every edge, and splits every edge, of a torus of a million triangles. In random order, the edits are
+/// memory-bound. Flipping in order of ids would give a few vertices a very high valence, so it is not measured.
 fn every_edge_once(c: &mut Criterion) {
     let mesh = common::torus();
     let in_order: Vec<EdgeId> = mesh.edges().collect();
@@ -39,17 +39,17 @@ fn every_edge_once(c: &mut Criterion) {
     group.finish();
 }
 
-/// Flips where it is legal: others are checked and refused.
+/// Flips every edge; illegal flips are checked and refused.
 fn flip(mesh: Mesh, edges: &[EdgeId]) -> Mesh {
-    each(mesh, edges, |mesh, e| mesh.flip_edge(e).map(drop))
+    edit_every(mesh, edges, |mesh, e| mesh.flip_edge(e).map(drop))
 }
 
 fn split(mesh: Mesh, edges: &[EdgeId]) -> Mesh {
-    each(mesh, edges, |mesh, e| mesh.split_edge(e, 0.5).map(drop))
+    edit_every(mesh, edges, |mesh, e| mesh.split_edge(e, 0.5).map(drop))
 }
 
-/// Edits as a step of a recipe does: with an open journal, so that the step can be taken back.
-fn each(
+/// Edits every edge as a step of a recipe does: with an open journal, so that the step can be rolled back.
+fn edit_every(
     mut mesh: Mesh,
     edges: &[EdgeId],
     edit: impl FnMut(&mut Mesh, EdgeId) -> Result<(), EditError>,

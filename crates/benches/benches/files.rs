@@ -1,13 +1,13 @@
-//! How long do reading and writing a million triangles take, in the file's bytes a second, and how far
-//! is that from reading and writing the bytes alone?
+//! Measures reading and writing a million triangles, in bytes per second, and compares it with reading and writing only
+//! the bytes.
 //!
-//! The other readers are measured in the same run, on the same files: `tobj` and `mesh-loader` give flat
-//! arrays, `alum` a half-edge mesh; the `gltf` crate gives accessors, which are copied into arrays here. Where
-//! `python3 -c "import rapidobj"` works (`pip install rapidobj`), that C++ reader is measured too: it uses all
-//! threads, makes arrays of 32 bits, and cuts polygons.
+//! Other readers are measured in the same run, on the same files: `tobj` and `mesh-loader` return flat arrays, `alum` a
+//! half-edge mesh; the `gltf` crate returns accessors, which are copied into arrays here. If
+//! `python3 -c "import rapidobj"` works (`pip install rapidobj`), that C++ reader is measured too: it uses all threads,
+//! returns 32-bit arrays, and triangulates polygons.
 //!
-//! Files of other programs have six digits behind the point, ours the digits that give the same `f64` again:
-//! both are read.
+//! OBJ files of most programs have six decimals; Meshwright writes enough digits to restore the same `f64`. Both kinds
+//! of files are read.
 
 use std::fs;
 use std::path::Path;
@@ -97,7 +97,7 @@ fn obj_peers(group: &mut Group, path: &Path) {
     });
 }
 
-/// The `gltf` crate reads GLB.
+/// Reads GLB with the `gltf` crate.
 fn gltf_peer(group: &mut Group, path: &Path) {
     measure(group, "read to arrays, gltf", || {
         let gltf::Gltf { document, blob } = gltf::Gltf::open(path).expect("it is glTF");
@@ -114,7 +114,7 @@ fn gltf_peer(group: &mut Group, path: &Path) {
     });
 }
 
-/// One call at a time; dropping what it makes is not counted.
+/// Measures single calls, without dropping the results.
 fn measure<T>(group: &mut Group, name: &str, mut call: impl FnMut() -> T) {
     group.bench_function(name, |b| {
         b.iter_batched(|| (), |()| call(), BatchSize::PerIteration);
@@ -138,7 +138,7 @@ fn torus() -> Mesh {
     shapes::fans(&shapes::torus(1000, 500, 3.0, 1.0))
 }
 
-/// The mesh as a file with six digits behind the point has it.
+/// Rounds positions to six decimals.
 fn rounded(mut mesh: Mesh) -> Mesh {
     for position in mesh.positions_mut() {
         *position = position.map(|x| (x * 1e6).round() / 1e6);

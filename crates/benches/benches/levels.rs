@@ -1,12 +1,11 @@
-//! How many faces a second does subdivision make, with full connectivity, and how far is that from what the
-//! memory of the machine allows? The cases are those that other libraries are measured with; `tests/oracle`
-//! measures `OpenSubdiv` with them.
+//! Measures the faces per second that subdivision computes, with full connectivity, and compares the time with the memory
+//! bandwidth of the machine. `tests/oracle` measures `OpenSubdiv` with the same cases.
 //!
-//! `cargo bench -p meshwright-benches --bench levels` prints, for one thread and two, the median time from the cage in
-//! memory to the refined mesh in memory, the faces a second, the bytes of the result, and what a second of
-//! copying and of filling new memory would make of them.
+//! `cargo bench -p meshwright-benches --bench levels` prints, for one thread and two, the median time from the control mesh in
+//! memory to the refined mesh in memory, the faces per second, the bytes of the result, and the faces per second that
+//! copying or filling memory of this size would reach.
 
-#![expect(clippy::print_stdout, reason = "this is its report")]
+#![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -17,11 +16,11 @@ use progress::NoProgress;
 use rayon::prelude::*;
 use subdivision::{LoopWeights, Rules, Scheme};
 
-/// So many runs, after one to warm up.
+/// Number of measured runs, after one to warm up.
 const RUNS: usize = 9;
 
 fn main() {
-    // `cargo test` runs benchmarks too, to see that they work.
+    // `cargo test` also runs the benchmarks, to check that they work.
     let is_test = std::env::args().any(|a| a == "--test");
     let cases = [
         (
@@ -62,13 +61,13 @@ fn main() {
 fn measure(name: &str, rules: Rules, cage: &Mesh, levels: u32, [copy, fill]: [f64; 2]) {
     let refined = |levels: u32| {
         subdivision::subdivide(cage, rules, levels, &NoProgress)
-            .expect("a mesh that the scheme takes")
+            .expect("a mesh that the scheme accepts")
     };
     let run = || refined(levels);
     let result = run();
     let (faces, bytes) = (result.n_faces() as f64, result.bytes() as f64);
     drop(result);
-    // What the last level reads, at least once.
+    // The bytes that the last level reads at least once.
     let read = refined(levels - 1).bytes() as f64;
     let seconds = median(|| {
         let start = Instant::now();
@@ -79,8 +78,8 @@ fn measure(name: &str, rules: Rules, cage: &Mesh, levels: u32, [copy, fill]: [f6
     });
     println!(
         "  {name}, {levels} levels: {:.0} ms, {:.2} M faces, {:.1} M/s; the last \
-         level reads {:.0} MB and writes {:.0} MB, of which copying would \
-         make {:.0} M/s and filling {:.0} M/s",
+         level reads {:.0} MB and writes {:.0} MB; copying would reach \
+         {:.0} M/s and filling {:.0} M/s",
         seconds * 1e3,
         faces / 1e6,
         faces / seconds / 1e6,
@@ -91,7 +90,7 @@ fn measure(name: &str, rules: Rules, cage: &Mesh, levels: u32, [copy, fill]: [f6
     );
 }
 
-/// Bytes a second, in GB: copied from one array to another, and written into new memory.
+/// Measures bandwidth in GB per second: copying from one array to another, and filling new memory.
 fn bandwidth(n: usize) -> (f64, f64) {
     const CHUNK: usize = 1 << 16;
     let source = vec![1_u8; n];
@@ -113,7 +112,7 @@ fn bandwidth(n: usize) -> (f64, f64) {
     (n as f64 / copy / 1e9, n as f64 / fill / 1e9)
 }
 
-/// The median of some runs, in seconds.
+/// Returns the median time of the runs, in seconds.
 fn median(mut run: impl FnMut() -> Duration) -> f64 {
     run();
     let mut times: Vec<f64> = (0..RUNS).map(|_| run().as_secs_f64()).collect();
@@ -126,7 +125,7 @@ fn triangles() -> Mesh {
     shapes::fans(&shapes::torus(224, 224, 2.0, 1.0))
 }
 
-/// A torus of 33,451 faces: of every three squares one is cut into two triangles.
+/// A torus of 33,451 faces: one of every three squares is split into two triangles.
 fn mixed() -> Mesh {
     let torus = shapes::torus(224, 112, 2.0, 1.0);
     let mut polygons: Vec<Vec<u32>> = Vec::new();

@@ -1,23 +1,23 @@
-//! How fast are local edits, beside other half-edge meshes in Rust?
+//! Compares the speed of local edits with other half-edge meshes in Rust.
 //!
-//! Each flips, splits, and collapses where it may, every edge of one torus of a million triangles, in one
-//! random order. What a library checks of its own is part of its edit:
+//! Each library flips and splits every edge of the same torus of a million triangles, and collapses every edge for which
+//! this is legal, in the same random order. The checks that a library makes are part of its edit:
 //!
-//! | | a flip asks for | not for |
+//! | | a flip checks | but not |
 //! | --- | --- | --- |
 //! | this crate | boundary, one face on both sides, ends of two edges, far corners joined or the same, seams | |
 //! | alum | boundary, one face on both sides, ends of one edge | far corners joined: the result has double edges |
-//! | alum, asked before | that, and far corners joined by its own search | far corners the same |
+//! | alum, with double-edge check | the same, and far corners joined, by a separate search | far corners the same |
 //! | tri-mesh | boundary, far corners joined | one face on both sides, far corners the same |
 //!
-//! A split puts a vertex on the edge and joins it to the far corners. alum has no such edit: its
-//! `split_edge` leaves quadrilaterals, which two calls of `insert_edge` cut. A collapse moves one end to
-//! the other if the link condition allows it; this crate moves both to the middle. tri-mesh collapses
-//! without asking. All positions are `f64`. This crate fetches memory for the edits to come, and asks for
-//! an open journal, columns of attributes and dead elements: there are none. alum marks dead elements too.
-//! tri-mesh finds its elements through hash maps.
+//! A split puts a vertex on the edge and joins it to the far corners. alum does not have this edit: its `split_edge`
+//! leaves quadrilaterals, which are split here by two calls of `insert_edge`. A collapse moves one end to the other if
+//! the link condition allows it; this crate moves both ends to the midpoint. Collapses of tri-mesh, which
+//! makes no checks, are not measured. All positions are `f64`. This crate prefetches memory for the next edits, and
+//! checks for an open journal, attribute columns and dead elements, of which there are none. alum marks dead elements
+//! too. tri-mesh finds its elements through hash maps.
 //!
-//! At the end the program asks that all who check for double edges flipped equally many edges.
+//! At the end the program checks that all libraries that check for double edges flipped the same number of edges.
 
 mod common;
 
@@ -66,7 +66,7 @@ fn peers(c: &mut Criterion) {
     assert_eq!([alum_flips, tri_mesh_flips], [flips; 2], "the same edges");
 }
 
-/// Returns how many flips were accepted, when asked for double edges before.
+/// Returns the number of accepted flips, with the check for double edges.
 fn alum_edits(group: &mut Group, start: &Start<Alum, alum::EH>) -> usize {
     start.measure(group, "flip, alum", |mesh, edges, i| {
         mesh.swap_edge_ccw(edges[i]).is_ok()
@@ -80,15 +80,19 @@ fn alum_edits(group: &mut Group, start: &Start<Alum, alum::EH>) -> usize {
             && mesh.try_collapse_edge(h, &mut Vec::new()).is_ok()
     });
     assert!(n > 300_000, "{n} collapses");
-    start.measure(group, "flip, alum, asked before", |mesh, edges, i| {
-        let e = edges[i];
-        let (h, twin) = e.halfedges();
-        let [c, d] = [h, twin].map(|h| h.next(mesh).head(mesh));
-        mesh.find_halfedge(c, d).is_none() && mesh.swap_edge_ccw(e).is_ok()
-    })
+    start.measure(
+        group,
+        "flip, alum, with double-edge check",
+        |mesh, edges, i| {
+            let e = edges[i];
+            let (h, twin) = e.halfedges();
+            let [c, d] = [h, twin].map(|h| h.next(mesh).head(mesh));
+            mesh.find_halfedge(c, d).is_none() && mesh.swap_edge_ccw(e).is_ok()
+        },
+    )
 }
 
-/// Returns how many flips were accepted.
+/// Returns the number of accepted flips.
 fn tri_mesh_edits(group: &mut Group, start: &Start<tri_mesh::Mesh, tri_mesh::HalfEdgeID>) -> usize {
     start.measure(group, "split, tri-mesh", |mesh, edges, i| {
         let h = edges[i];
@@ -109,8 +113,7 @@ struct Start<M, E> {
 }
 
 impl<M, E: Copy> Start<M, E> {
-    /// Edits every edge of a copy of the mesh, given by its place in the list. Returns how many edits
-    /// were accepted.
+    /// Edits every edge of a copy of the mesh, in the order of the list. Returns the number of accepted edits.
     fn measure(
         &self,
         group: &mut Group,
@@ -135,7 +138,7 @@ fn number(v: VertexId) -> u32 {
     u32::try_from(v.index()).expect("ids have 32 bits")
 }
 
-/// The mesh, and the edges between these ends, in alum.
+/// Converts the mesh to alum, with the edges between the given ends.
 fn alum_of(mesh: &Mesh, ends: &[[u32; 2]]) -> Start<Alum, alum::EH> {
     let mut copy = Alum::with_capacity(mesh.n_vertices(), mesh.n_edges(), mesh.n_faces());
     for p in mesh.positions() {
@@ -154,7 +157,7 @@ fn alum_of(mesh: &Mesh, ends: &[[u32; 2]]) -> Start<Alum, alum::EH> {
     }
 }
 
-/// Puts a vertex on the middle of an edge between triangles, and joins it to their far corners.
+/// Splits an edge between two triangles at its midpoint, and joins the new vertex to their far corners.
 fn alum_split(mesh: &mut Alum, e: alum::EH) -> Result<(), alum::Error> {
     let (h, twin) = e.halfedges();
     let middle = (mesh.point(h.tail(mesh))? + mesh.point(h.head(mesh))?) * 0.5;
@@ -166,7 +169,7 @@ fn alum_split(mesh: &mut Alum, e: alum::EH) -> Result<(), alum::Error> {
     Ok(())
 }
 
-/// The mesh, and the edges between these ends, in tri-mesh.
+/// Converts the mesh to tri-mesh, with the edges between the given ends.
 fn tri_mesh_of(mesh: &Mesh, ends: &[[u32; 2]]) -> Start<tri_mesh::Mesh, tri_mesh::HalfEdgeID> {
     let corners = mesh.faces().flat_map(|f| mesh.face_vertices(f).map(number));
     let place = |p: &mesh::DVec3| tri_mesh::vec3(p.x, p.y, p.z);

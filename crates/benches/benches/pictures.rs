@@ -1,10 +1,9 @@
-//! How many triangles a second, and how many pixels, does a picture take? From the scene in memory to pixels in
-//! memory, with one thread and two: many small triangles, few large ones, lines, and ambient occlusion by
-//! itself.
+//! Measures triangles and pixels per second of pictures, from the scene in memory to pixels in memory, with one and two
+//! threads: many small triangles, few large triangles, lines, and ambient occlusion.
 //!
 //! `cargo bench -p meshwright-benches --bench pictures` prints the median times.
 
-#![expect(clippy::print_stdout, reason = "this is its report")]
+#![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -14,11 +13,11 @@ use mesh::Mesh;
 use render::{Camera, Lines, Overlays, Shading, Style, picture};
 use scene::{Object, Scene};
 
-/// So many runs, after one to warm up.
+/// Number of measured runs, after one to warm up.
 const RUNS: usize = 5;
 
 fn main() {
-    // `cargo test` runs benchmarks too, to see that they work.
+    // `cargo test` also runs the benchmarks, to check that they work.
     let is_test = std::env::args().any(|a| a == "--test");
     let n = if is_test { 20 } else { 1000 };
     let dense = scene(shapes::fans(&shapes::torus(n, n / 2, 1.0, 0.4)));

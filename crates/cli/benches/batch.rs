@@ -1,13 +1,12 @@
-//! How busy a batch of 200 small files keeps the processors, and how much of that is its own.
+//! Measures how well a batch of 200 small files uses the processors, and how much of the time is spent in runs.
 //!
-//! Runs the program on wavy grids of 1,600 quadrilaterals (about 100 kB of OBJ), which it triangulates,
-//! refines once and writes as GLB, five times each with one thread and with as many as there are, and
-//! prints medians:
+//! Runs the program on wavy grids of 1,600 quadrilaterals (about 100 kB of OBJ), which it triangulates, subdivides once
+//! and writes as GLB, five times each with one thread and with all threads of the machine. Prints medians:
 //!
 //! - the wall time of the whole program,
-//! - busy: user and system time over wall time times threads,
-//! - in jobs: the sum of the times of all runs over the same, which is what the runner leaves for
-//!   geometry and files; reading and checking of the recipe, digests, journal and report are not in it.
+//! - busy: user and system time, divided by wall time times threads,
+//! - in jobs: the total time of all runs, divided by wall time times threads. This excludes reading and checking of the
+//!   recipe, digests, the journal and the report.
 //!
 //! ```text
 //! cargo bench -p meshwright-cli --bench batch
@@ -60,7 +59,7 @@ fn grid(seed: u32) -> String {
     text
 }
 
-/// The wall time, the time of the processors, and the sum of the times of the runs, in seconds.
+/// Returns the wall time, the processor time, and the total time of the runs, in seconds.
 fn measured(folder: &Path, threads: usize) -> [f64; 3] {
     let out = folder.join("out");
     let _ = std::fs::remove_dir_all(&out);

@@ -1,4 +1,4 @@
-//! What the cache of steps costs and gives, for the whole program: loading a million triangles, two steps, saving.
+//! Measures the whole program with and without the step cache: loading a million triangles, two steps, and saving.
 //!
 //! ```sh
 //! cargo bench -p meshwright-cli --bench cache

@@ -1,4 +1,4 @@
-//! How long the program takes before anything runs: starting, and checking a recipe of 1,000 steps.
+//! Measures the start of the program, and checking a recipe of 1,000 steps.
 //!
 //! ```sh
 //! cargo bench -p meshwright-cli --bench start
@@ -8,7 +8,7 @@ mod common;
 
 use common::{measure, run};
 
-/// Splits, flips and tags with selections, in turn.
+/// Returns a recipe that alternately splits, flips and tags selected edges.
 fn many_steps() -> String {
     let mut steps = vec!["Cube(name: \"a\", triangles: true)".to_owned()];
     for i in 0..333 {

@@ -1,4 +1,4 @@
-//! The cache of steps as the command line asks for it.
+//! Opens the step cache according to the command line.
 
 use std::path::{Path, PathBuf};
 
@@ -8,11 +8,11 @@ use etcetera::BaseStrategy as _;
 
 use crate::args::{CacheArgs, CacheFolder};
 
-/// The cache of a command; `None` if it is to run without one.
+/// Opens the step cache. Returns `None` with `--no-cache`.
 ///
 /// # Errors
 ///
-/// If no folder is given and the user has none for caches.
+/// If no folder is given and the user's cache folder cannot be determined.
 pub(crate) fn open(args: &CacheArgs) -> anyhow::Result<Option<Cache>> {
     if args.no_cache {
         return Ok(None);
@@ -21,19 +21,19 @@ pub(crate) fn open(args: &CacheArgs) -> anyhow::Result<Option<Cache>> {
     Ok(Some(Cache::new(folder, args.cache_limit, program())))
 }
 
-/// The folder of the cache: the one that is given, or `meshwright` in the user's folder for caches.
+/// Returns the folder of the cache: the given one, or `meshwright` in the user's cache folder.
 pub(crate) fn folder(args: &CacheFolder) -> anyhow::Result<PathBuf> {
     if let Some(folder) = &args.cache {
         return Ok(folder.clone());
     }
     let user = etcetera::choose_base_strategy().context(
-        "cannot tell where the user's caches are: say it with --cache, or use --no-cache",
+        "cannot determine the user's cache folder: set one with --cache, or use --no-cache",
     )?;
     Ok(user.cache_dir().join("meshwright"))
 }
 
-/// How a run of a recipe uses the cache: no scene is wanted for its own sake.
-pub(crate) fn using<'a>(cache: &'a Cache, recipe: &'a Path) -> Caching<'a> {
+/// Returns cache settings for running a recipe whose final scene is not needed in memory.
+pub(crate) fn caching_for<'a>(cache: &'a Cache, recipe: &'a Path) -> Caching<'a> {
     Caching {
         cache,
         recipe: Some(recipe),
@@ -41,12 +41,13 @@ pub(crate) fn using<'a>(cache: &'a Cache, recipe: &'a Path) -> Caching<'a> {
     }
 }
 
+/// Returns the warning that the cache cannot be used.
 pub(crate) fn warning(problem: &str) -> String {
-    format!("warning: {problem}; going on without it\n")
+    format!("warning: {problem}; continuing without the cache\n")
 }
 
-/// The version of the program and the digest of its file: whoever changes an operation and builds the program anew
-/// is not given results of before.
+/// Returns the version of the program and the digest of its file, so that results of an earlier build are not used
+/// after an operation has changed.
 fn program() -> String {
     let version = env!("CARGO_PKG_VERSION");
     let file = std::env::current_exe().and_then(std::fs::read);

@@ -1,4 +1,4 @@
-//! Failure capsules as the program writes them.
+//! Writes failure capsules.
 
 use std::fs;
 use std::path::Path;
@@ -7,18 +7,18 @@ use anyhow::Context as _;
 use recipe::capsule::{BEFORE, capsule};
 use scene::Scene;
 
-use crate::listener::QUIET;
-use crate::output::write_whole;
+use crate::listener::INTERRUPT;
+use crate::output::write_atomically;
 use engine::Loaded;
 
-/// The scene before a step of a recipe, all of whose steps before it can be done.
+/// Runs the steps before `step` and returns the scene. These steps are expected to succeed.
 pub(crate) fn scene_before(loaded: &mut Loaded, step: usize) -> anyhow::Result<Scene> {
     loaded
-        .scene_before(step, &QUIET)
-        .context("the steps before it fail too now")
+        .scene_before(step, &INTERRUPT)
+        .context("a step before the failed one has failed this time")
 }
 
-/// Writes a capsule: the step that failed with what follows it, and the scene before it.
+/// Writes a capsule: a recipe with the failed step and the steps after it, and the scene before the failed step.
 pub(crate) fn write(
     loaded: &Loaded,
     step: usize,
@@ -37,5 +37,5 @@ pub(crate) fn write(
         &loaded.forecast.inputs,
         (folder, &*loaded.files.store),
     );
-    write_whole(&folder.join("recipe.ron"), text.as_bytes())
+    write_atomically(&folder.join("recipe.ron"), text.as_bytes())
 }

@@ -1,24 +1,24 @@
-//! A run as events for other programs: one JSON object a line, as things happen.
+//! Reports a run as events for other programs: one JSON object per line, written as the run proceeds.
 //!
 //! ```text
 //! {"event":"start", "format":1, "program":"meshwright 0.1.0", "recipe":"a.ron", "recipe_digest":"..",
 //!                   "parameters":[{"name":"levels", "value":"2", "from":"--set"}], "steps":7}
 //! {"event":"step", "number":1, "label":"smooth", "operation":"LoopSubdivide"}
-//! {"event":"progress", "number":1, "what":"..", "done":3, "total":8}      at most ten times a second
+//! {"event":"progress", "number":1, "what":"..", "done":3, "total":8}      at most ten times per second
 //! {"event":"done", "number":1, "label":"smooth", "vertices":8, "edges":12, "faces":6, "changed":6,
 //!                  "refused":[{"reason":"Boundary", "count":2, "first":".."}],
 //!                  "losses":[{"object":"cow", "name":"uv", "message":".."}], "notes":[".."],
 //!                  "digest":"..", "milliseconds":1.5, "cached":false, "ran_because":"parameters changed: levels 1 -> 2"}
 //! {"event":"problem", "severity":"error", "file":"a.ron", "line":7, "column":9, "message":"..", "help":".."}
-//! {"event":"picture", "path":"a-error-1.png"}                             of a problem, with --picture-errors
+//! {"event":"picture", "path":"a-error-1.png"}                             picture of a problem, with --picture-errors
 //! {"event":"wrote", "path":"out/a.obj"}
 //! {"event":"end", "succeeded":true, "cancelled":false, "steps":7, "expectations":4, "digest":"..",
 //!                 "milliseconds":20.5}
 //! ```
 //!
-//! `format` is the version of this list: new events and new fields may come without another number, and
-//! readers pass over what they do not know. Numbers of steps begin at 1. `end` is always the last line,
-//! also of a recipe with mistakes. What is unknown is `null`.
+//! `format` is the version of this format. New events and fields can be added without a new version; readers
+//! must ignore those they do not know. Steps are numbered from 1. `end` is always the last line, even if the
+//! recipe has errors and does not run. Unknown values are `null`.
 
 use std::io::{self, Write as _};
 use std::sync::Mutex;
@@ -34,13 +34,13 @@ use crate::output::{ProblemJson, STAMP, origin, problems_json};
 use crate::picture_errors::Pictures;
 use engine::Loaded;
 
-/// The version of the events.
+/// The version of the event format.
 const FORMAT: u32 = 1;
 
-/// The least time between two events of progress.
-const PAUSE: Duration = Duration::from_millis(100);
+/// The minimum time between two progress events.
+const MIN_INTERVAL: Duration = Duration::from_millis(100);
 
-/// Writes the events of one run. Stops the run when nobody reads them any more.
+/// Writes the events of one run. Stops the run if an event cannot be written.
 pub(crate) struct Events<'a> {
     loaded: &'a Loaded,
     progress: &'a dyn Progress,
@@ -56,15 +56,16 @@ struct ProblemEvent {
 }
 
 struct State {
-    /// The step that runs, from 1.
+    /// The number of the current step, from 1.
     number: usize,
-    /// When progress was told last.
-    told: Instant,
+    /// The time of the last progress event.
+    last_progress: Instant,
+    /// The first error while writing.
     problem: Option<io::Error>,
 }
 
 impl<'a> Events<'a> {
-    /// Writes the start of a run, and what is wrong with the recipe. `progress` says whether to go on.
+    /// Writes the start event and the problems of the recipe. `progress` decides whether the run continues.
     pub(crate) fn start(loaded: &'a Loaded, progress: &'a dyn Progress) -> Self {
         let now = Instant::now();
         let events = Self {
@@ -73,14 +74,14 @@ impl<'a> Events<'a> {
             begin: now,
             state: Mutex::new(State {
                 number: 0,
-                told: now,
+                last_progress: now,
                 problem: None,
             }),
         };
         let parameters: Vec<Json> = (loaded.recipe.parameters().iter())
             .map(|p| json!({ "name": p.name, "value": p.value.to_string(), "from": origin(&p.origin) }))
             .collect();
-        events.tell(&json!({
+        events.write(&json!({
             "event": "start",
             "format": FORMAT,
             "program": STAMP,
@@ -93,21 +94,21 @@ impl<'a> Events<'a> {
         events
     }
 
-    /// Writes what went wrong, what was written, and the end; without an outcome, that of a recipe that cannot run.
+    /// Writes the problems, the written files and the end event. `outcome` is `None` if the recipe cannot run.
     ///
     /// # Errors
     ///
-    /// The first line that could not be written.
+    /// The first error while writing an event.
     pub(crate) fn end(self, outcome: Option<&Outcome>, pictures: &Pictures) -> io::Result<()> {
         self.problems(outcome.map_or(&[], |o| &o.failures));
         pictures.warn();
         for path in pictures.paths() {
-            self.tell(&json!({ "event": "picture", "path": path.display().to_string() }));
+            self.write(&json!({ "event": "picture", "path": path.display().to_string() }));
         }
         for path in outcome.map_or(&[][..], |o| &o.written) {
-            self.tell(&json!({ "event": "wrote", "path": path.display().to_string() }));
+            self.write(&json!({ "event": "wrote", "path": path.display().to_string() }));
         }
-        self.tell(&json!({
+        self.write(&json!({
             "event": "end",
             "succeeded": outcome.is_some_and(Outcome::succeeded),
             "cancelled": outcome.is_some_and(|o| o.cancelled),
@@ -119,17 +120,17 @@ impl<'a> Events<'a> {
         lock(&self.state).problem.take().map_or(Ok(()), Err)
     }
 
-    /// Writes problems, each as an event.
+    /// Writes an event for each problem.
     fn problems(&self, diagnostics: &[recipe::Diagnostic]) {
         for problem in problems_json(diagnostics, &self.loaded.recipe.sources) {
-            self.tell(&ProblemEvent {
+            self.write(&ProblemEvent {
                 event: "problem",
                 problem,
             });
         }
     }
 
-    fn tell(&self, event: &impl Serialize) {
+    fn write(&self, event: &impl Serialize) {
         let mut out = io::stdout().lock();
         let written = serde_json::to_string(event).map_err(io::Error::from);
         let written = written.and_then(|line| out.write_all((line + "\n").as_bytes()));
@@ -142,18 +143,18 @@ impl<'a> Events<'a> {
 impl Progress for Events<'_> {
     fn advance(&self, what: &str, done: u64, total: u64) -> bool {
         let mut state = lock(&self.state);
-        let (number, is_read) = (state.number, state.problem.is_none());
-        let is_due = state.told.elapsed() >= PAUSE;
+        let (number, is_writable) = (state.number, state.problem.is_none());
+        let is_due = state.last_progress.elapsed() >= MIN_INTERVAL;
         if is_due {
-            state.told = Instant::now();
+            state.last_progress = Instant::now();
         }
         drop(state);
         if is_due {
-            self.tell(&json!({
+            self.write(&json!({
                 "event": "progress", "number": number, "what": what, "done": done, "total": total,
             }));
         }
-        is_read && self.progress.advance(what, done, total)
+        is_writable && self.progress.advance(what, done, total)
     }
 }
 
@@ -161,7 +162,7 @@ impl Listener for Events<'_> {
     fn step_begins(&self, number: usize, label: &str) {
         lock(&self.state).number = number + 1;
         let operation = &self.loaded.recipe.steps[number].name;
-        self.tell(&json!({
+        self.write(&json!({
             "event": "step", "number": number + 1, "label": label, "operation": operation,
         }));
     }
@@ -173,7 +174,7 @@ impl Listener for Events<'_> {
     fn step_done(&self, number: usize, done: &StepDone) {
         let losses = (done.report.losses.iter())
             .map(|l| json!({ "object": l.object, "name": l.name, "message": l.to_string() }));
-        self.tell(&json!({
+        self.write(&json!({
             "event": "done",
             "number": number + 1,
             "label": done.label,

@@ -1,15 +1,15 @@
 //! The program: command line, output and exit codes, for any registry of operations.
 //!
-//! A program with operations of its own is five lines:
+//! A program with additional operations needs five lines:
 //!
 //! ```no_run
 //! fn main() -> std::process::ExitCode {
-//!     // with::<MyOperation>() for each of one's own
+//!     // Add `.with::<MyOperation>()` for each additional operation.
 //!     cli::run(ops_all::registry())
 //! }
 //! ```
 //!
-//! Exit codes: 0 done, 1 failed, 2 wrong usage.
+//! Exit codes: 0 success, 1 failure, 2 wrong usage.
 
 mod args;
 mod cache;
@@ -31,26 +31,26 @@ use engine::Engine;
 use op::Registry;
 
 use args::{Command, WrongUsage};
-use output::{complain, print_json};
+use output::{print_error, print_json};
 
 /// Runs the program with the operations of `registry` and returns its exit code.
 #[expect(
     clippy::needless_pass_by_value,
-    reason = "a program hands its registry over"
+    reason = "the caller has no further use for the registry"
 )]
 pub fn run(registry: Registry) -> ExitCode {
     if std::env::args_os().len() == 1 {
-        complain(args::help::FIRST);
+        print_error(args::help::FIRST_STEPS);
         return ExitCode::from(2);
     }
     let args = args::help::parse();
     if let Err(clash) = registry.check() {
-        complain(&format!("error: {clash}\n"));
+        print_error(&format!("error: {clash}\n"));
         return ExitCode::FAILURE;
     }
     let engine = Engine::new(&registry);
-    let mut trouble = 1;
-    let done = match args.command {
+    let mut code_of_errors = 1;
+    let result = match args.command {
         Command::Run(args) => commands::run::run(&args, &engine),
         Command::Watch(args) => commands::watch::run(&args, &engine),
         Command::Check(args) => commands::check::run(&args, &engine),
@@ -64,8 +64,8 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Picture(args) => commands::picture::run(&args, &engine),
         Command::Select(args) => commands::select::run(&args, &engine),
         Command::Diff(args) => {
-            // As `diff` has it: 1 says that there is a difference, and nothing else does.
-            trouble = 2;
+            // As in Unix `diff`: 1 means that the files differ, so errors need another code.
+            code_of_errors = 2;
             commands::diff::run(&args, &engine)
         }
         Command::Upgrade(args) => commands::upgrade::run(&args, &registry),
@@ -78,18 +78,22 @@ pub fn run(registry: Registry) -> ExitCode {
         Command::Schema => print_json(&recipe::schema(&registry)).map(|()| true),
         Command::NewOp(args) => commands::new_op::run(&args),
     };
-    match done.and_then(|succeeded| Ok(io::stdout().flush().map(|()| succeeded)?)) {
+    match result.and_then(|succeeded| Ok(io::stdout().flush().map(|()| succeeded)?)) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            complain(&format!("error: {error:#}\n"));
-            ExitCode::from(if error.is::<WrongUsage>() { 2 } else { trouble })
+            print_error(&format!("error: {error:#}\n"));
+            ExitCode::from(if error.is::<WrongUsage>() {
+                2
+            } else {
+                code_of_errors
+            })
         }
     }
 }
 
-/// Whether the reader of our output went away, as `head` does.
+/// Whether the error is a broken pipe: the reader of the output, such as `head`, has closed it.
 fn is_broken_pipe(error: &anyhow::Error) -> bool {
     error
         .chain()

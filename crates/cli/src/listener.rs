@@ -1,4 +1,4 @@
-//! Progress on a terminal, and Ctrl-C.
+//! Progress bars on a terminal, and handling of Ctrl-C.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -8,14 +8,14 @@ use indicatif::{ProgressBar, ProgressStyle};
 use op::Progress;
 use recipe::{Listener, StepDone};
 
-/// Set by Ctrl-C; every long loop asks for it. As a listener it shows nothing: for many runs at once.
-pub(crate) static QUIET: Cancel = Cancel::new();
+/// Set by Ctrl-C. Every long loop checks it. Also serves as a listener that shows nothing, for simultaneous runs.
+pub(crate) static INTERRUPT: Cancel = Cancel::new();
 
-/// Lets Ctrl-C end the run in an orderly way. The second one ends the program at once.
+/// Makes the first Ctrl-C cancel the run cleanly and the second end the program immediately.
 pub(crate) fn catch_interrupts() {
-    // Without a handler Ctrl-C ends the program, which is fine too.
+    // If installing the handler fails, Ctrl-C still ends the program.
     let _ = ctrlc::set_handler(|| {
-        if QUIET.set() {
+        if INTERRUPT.set() {
             std::process::exit(1);
         }
     });
@@ -23,29 +23,29 @@ pub(crate) fn catch_interrupts() {
 
 /// Whether Ctrl-C was pressed.
 pub(crate) fn is_interrupted() -> bool {
-    QUIET.is_set()
+    INTERRUPT.is_set()
 }
 
-/// Locks what no panic can leave half-changed.
+/// Locks a mutex and ignores poisoning: a panic cannot leave the protected values half-changed.
 pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Shows the step at work on a terminal, and nothing in a pipe.
+/// Shows the progress of the current step if standard error is a terminal, otherwise nothing.
 pub(crate) struct Terminal<'a> {
     bar: ProgressBar,
     go_on: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl<'a> Terminal<'a> {
-    /// For work that Ctrl-C ends.
+    /// Creates a listener for work that Ctrl-C cancels.
     pub(crate) fn new() -> Self {
         Self::until(&|| true)
     }
 
-    /// For work that also ends when `go_on` does not hold.
+    /// Creates a listener for work that ends on Ctrl-C or as soon as `go_on` returns false.
     pub(crate) fn until(go_on: &'a (dyn Fn() -> bool + Sync)) -> Self {
-        // Draws on the standard error, and only if that is a terminal.
+        // Draws on standard error, and only if it is a terminal.
         let bar = ProgressBar::new(0);
         if let Ok(style) =
             ProgressStyle::with_template("{spinner} {prefix}: {msg} {wide_bar} {percent}%")
@@ -56,7 +56,7 @@ impl<'a> Terminal<'a> {
         Self { bar, go_on }
     }
 
-    /// Takes the bar off the screen.
+    /// Removes the progress bar from the screen.
     pub(crate) fn clear(&self) {
         self.bar.finish_and_clear();
     }

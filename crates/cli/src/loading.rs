@@ -1,4 +1,4 @@
-//! From the paths on the command line to recipes.
+//! Finds and loads the recipes given on the command line.
 
 use std::collections::HashSet;
 use std::io;
@@ -10,7 +10,7 @@ use walkdir::{DirEntry, WalkDir};
 
 use crate::args::{RecipeArgs, ValueArgs};
 
-/// Reads and checks the recipe of a command.
+/// Reads and checks the recipe given on the command line.
 pub(crate) fn load(args: &RecipeArgs, engine: &Engine) -> anyhow::Result<Loaded> {
     load_recipe(&args.recipe, &args.values, &args.out, args.budget, engine)
 }
@@ -27,7 +27,7 @@ pub(crate) fn load_recipe(
     load_text(&source, values, out, budget, engine)
 }
 
-/// The same for a recipe whose text is known; paths among the values are seen from the working directory.
+/// Checks a recipe whose text has been read. Paths in parameter values are relative to the working directory.
 pub(crate) fn load_text(
     source: &Source,
     values: &ValueArgs,
@@ -35,7 +35,7 @@ pub(crate) fn load_text(
     budget: u64,
     engine: &Engine,
 ) -> anyhow::Result<Loaded> {
-    let folder = std::env::current_dir().context("cannot tell the working directory")?;
+    let folder = std::env::current_dir().context("cannot determine the working directory")?;
     let values = Values {
         set: &values.set,
         preset: values.preset.as_deref(),
@@ -49,22 +49,21 @@ pub(crate) fn load_text(
     Ok(engine.load(source, &options))
 }
 
-/// A recipe that was found.
+/// The path of a recipe, with how it was found.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct RecipeFile {
-    /// Its path.
+    /// The path of the recipe.
     pub(crate) path: PathBuf,
-    /// The folder below another one that is its own: its path in the folder that was searched, without
-    /// the ending.
+    /// The path relative to the searched folder, without extension: the name of the recipe's output folder.
     pub(crate) own_folder: PathBuf,
-    /// Whether it was named itself, and not a folder around it.
+    /// Whether the recipe itself was given, and not a folder that contains it.
     pub(crate) is_named: bool,
 }
 
-/// The recipes in folders and in folders in them, in order, and files as they are given; each once.
+/// Lists recipes: given files in the given order, and the recipes in given folders, searched recursively and sorted by
+/// name. Each path is listed once.
 ///
-/// Hidden ones, folders named `assets` and links to folders are passed over; so are files of other
-/// kinds, `*.sweep.ron`.
+/// Skips hidden files and folders, folders named `assets`, links to folders, and sweeps (`*.sweep.ron`).
 pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<RecipeFile>> {
     let mut found = Vec::new();
     for path in paths {
@@ -73,7 +72,7 @@ pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<RecipeFile>> {
         } else {
             anyhow::ensure!(
                 path.exists(),
-                "there is no file or folder {}",
+                "the file or folder {} does not exist",
                 path.display()
             );
             let own_folder = path.file_stem().map(PathBuf::from).unwrap_or_default();
@@ -90,13 +89,13 @@ pub(crate) fn recipes(paths: &[PathBuf]) -> anyhow::Result<Vec<RecipeFile>> {
 }
 
 fn search(top: &Path, found: &mut Vec<RecipeFile>) -> anyhow::Result<()> {
-    let is_meant = |entry: &DirEntry| {
+    let is_searched = |entry: &DirEntry| {
         let name = entry.file_name().to_string_lossy();
         let is_assets = entry.file_type().is_dir() && name == "assets";
         entry.depth() == 0 || !(name.starts_with('.') || is_assets)
     };
     let entries = WalkDir::new(top).sort_by_file_name().into_iter();
-    for entry in entries.filter_entry(is_meant) {
+    for entry in entries.filter_entry(is_searched) {
         let entry = entry.map_err(|error| {
             let folder = error.path().unwrap_or(top).display().to_string();
             anyhow::Error::new(io::Error::from(error)).context(format!("cannot list {folder}"))

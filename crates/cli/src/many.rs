@@ -1,22 +1,22 @@
-//! What commands that run many recipes at once share.
+//! Runs many jobs at the same time, for the commands `test`, `batch` and `sweep`.
 
 use recipe::{Diagnostic, InOrder, JobEnd, JobLimits, Jobs, Severity};
 
 use crate::listener::is_interrupted;
 
-/// How many runs are checked before the first of them begins: what is known of each stays in memory.
+/// Number of runs that are checked before the first of them starts. The loaded recipe of each stays in memory.
 pub(crate) const CHECKED_AHEAD: usize = 1000;
 
-/// The result of a job; or why it has none: the message of a panic, or nothing if it was not begun.
-pub(crate) type Ended<T> = Result<T, Option<String>>;
+/// The result of a job; or an error: the message of a panic, or `None` if the job was not started.
+pub(crate) type JobResult<T> = Result<T, Option<String>>;
 
-/// Does jobs, several at once, and hands over their results in the order of the jobs.
-pub(crate) fn in_order<T: Send>(
+/// Runs jobs, several at the same time, and passes their results to `each` in the order of the jobs.
+pub(crate) fn run_in_order<T: Send>(
     count: usize,
     limits: JobLimits,
     bytes: impl Fn(usize) -> u64 + Sync,
     work: impl Fn(usize) -> T + Sync,
-    mut each: impl FnMut(usize, Ended<T>),
+    mut each: impl FnMut(usize, JobResult<T>),
 ) -> anyhow::Result<()> {
     let stop = is_interrupted;
     let jobs = Jobs {
@@ -31,40 +31,40 @@ pub(crate) fn in_order<T: Send>(
             order.put(i, end);
         }
         while let Some((i, end)) = order.take() {
-            each(i, result(end));
+            each(i, job_result(end));
         }
     })?;
     Ok(())
 }
 
-/// Does jobs that take little memory, and returns their results in the order of the jobs.
-pub(crate) fn all<T: Send>(
+/// Runs jobs that need little memory, and returns their results in the order of the jobs.
+pub(crate) fn run_all<T: Send>(
     count: usize,
     limits: JobLimits,
     work: impl Fn(usize) -> T + Sync,
-) -> anyhow::Result<Vec<Ended<T>>> {
+) -> anyhow::Result<Vec<JobResult<T>>> {
     let mut results = Vec::with_capacity(count);
-    in_order(count, limits, |_| 0, work, |_, end| results.push(end))?;
+    run_in_order(count, limits, |_| 0, work, |_, end| results.push(end))?;
     Ok(results)
 }
 
-/// How a job ended, as a result.
-pub(crate) fn result<T>(end: JobEnd<T>) -> Ended<T> {
+/// Converts the end of a job to a result.
+pub(crate) fn job_result<T>(end: JobEnd<T>) -> JobResult<T> {
     match end {
         JobEnd::Done(result) => Ok(result),
         JobEnd::Panicked(message) => Err(Some(format!(
-            "the program panicked in this run, which is a bug in it: {message}"
+            "internal error in this run (please report it): {message}"
         ))),
         JobEnd::NotRun => Err(None),
     }
 }
 
-/// What is said of a job that was not begun, or did not end.
-pub(crate) fn interrupted(message: Option<String>) -> String {
+/// Returns the message for a job without a result.
+pub(crate) fn error_message(message: Option<String>) -> String {
     message.unwrap_or_else(|| "interrupted".to_owned())
 }
 
-/// The first error in one line, and how many more there are.
+/// Returns the message of the first error, and the number of further errors.
 pub(crate) fn first_error(diagnostics: &[Diagnostic]) -> String {
     let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error);
     let first = errors.clone().next();
@@ -75,7 +75,7 @@ pub(crate) fn first_error(diagnostics: &[Diagnostic]) -> String {
     }
 }
 
-/// A line of a table of comma-separated values, as RFC 4180 has it.
+/// Formats a row of comma-separated values according to RFC 4180.
 pub(crate) fn csv_line(cells: &[impl AsRef<str>]) -> String {
     let cell = |cell: &str| {
         if cell.contains([',', '"', '\r', '\n']) {

@@ -1,4 +1,4 @@
-//! Texts that several commands print.
+//! Output that several commands share: tables, diagnostics, JSON and files.
 
 use std::borrow::Cow;
 use std::io::{self, IsTerminal, Write};
@@ -10,10 +10,10 @@ use engine::Loaded;
 use serde::Serialize;
 use store::{Disk, NewFile, Store, StoreError, folder_of};
 
-/// What files say of where they come from.
+/// The program and its version, as written to files.
 pub(crate) const STAMP: &str = concat!("meshwright ", env!("CARGO_PKG_VERSION"));
 
-/// Writes to the standard output. An error that a broken pipe causes is told apart by the caller.
+/// Writes to standard output. The caller decides whether a broken pipe is an error.
 pub(crate) fn print(text: &str) -> io::Result<()> {
     io::stdout().write_all(text.as_bytes())
 }
@@ -23,34 +23,34 @@ pub(crate) fn print_json(report: &impl Serialize) -> anyhow::Result<()> {
     Ok(print(&(serde_json::to_string_pretty(report)? + "\n"))?)
 }
 
-/// Writes to the standard error. If nobody reads that, there is nobody to tell.
-pub(crate) fn complain(text: &str) {
+/// Writes to standard error. Write errors are ignored, since they could not be reported.
+pub(crate) fn print_error(text: &str) {
     let _ = io::stderr().write_all(text.as_bytes());
 }
 
-/// Shows diagnostics on the standard error, as a compiler does.
-pub(crate) fn show(loaded: &Loaded, diagnostics: &[recipe::Diagnostic]) {
-    show_texts(&loaded.recipe.sources, diagnostics);
+/// Prints diagnostics to standard error, with source lines, as a compiler does.
+pub(crate) fn print_diagnostics(loaded: &Loaded, diagnostics: &[recipe::Diagnostic]) {
+    print_diagnostics_in(&loaded.recipe.sources, diagnostics);
 }
 
-/// The same for texts of any kind.
-pub(crate) fn show_texts(sources: &[Source], diagnostics: &[recipe::Diagnostic]) {
-    const MOST: usize = 200;
+/// Like [`print_diagnostics`], for diagnostics in any sources.
+pub(crate) fn print_diagnostics_in(sources: &[Source], diagnostics: &[recipe::Diagnostic]) {
+    const MAX_SHOWN: usize = 200;
     if !diagnostics.is_empty() {
         let colours = io::stderr().is_terminal();
-        let shown = &diagnostics[..diagnostics.len().min(MOST)];
-        complain(&recipe::render(sources, shown, colours));
-        if diagnostics.len() > MOST {
-            complain(&format!("and {} more\n", diagnostics.len() - MOST));
+        let shown = &diagnostics[..diagnostics.len().min(MAX_SHOWN)];
+        print_error(&recipe::render(sources, shown, colours));
+        if diagnostics.len() > MAX_SHOWN {
+            print_error(&format!("and {} more\n", diagnostics.len() - MAX_SHOWN));
         }
     }
 }
 
-/// The steps as a table: counts after each, and its time.
+/// Returns a table of the steps, with the element counts after each step and its time.
 pub(crate) fn step_table(steps: &[StepDone]) -> String {
-    let mut rows = vec![heads(["step", "vertices", "edges", "faces", "time"])];
+    let mut rows = vec![header_row(["step", "vertices", "edges", "faces", "time"])];
     for (i, step) in steps.iter().enumerate() {
-        let count = |n| grouped(n as u64);
+        let count = |n| group_digits(n as u64);
         let time = match step.ran {
             Some(_) => format!("{:.1} ms", step.time.as_secs_f64() * 1e3),
             None => "cached".to_owned(),
@@ -63,7 +63,7 @@ pub(crate) fn step_table(steps: &[StepDone]) -> String {
     table(&rows)
 }
 
-/// What the steps report: refused edits, losses, notes.
+/// Returns what the steps report, one item per line: refused edits, losses and notes.
 pub(crate) fn step_notes(steps: &[StepDone]) -> String {
     let mut text = String::new();
     for step in steps {
@@ -82,12 +82,12 @@ pub(crate) fn step_notes(steps: &[StepDone]) -> String {
     text
 }
 
-/// The first row of a table.
-pub(crate) fn heads<const N: usize>(heads: [&str; N]) -> Vec<String> {
-    heads.map(str::to_owned).to_vec()
+/// Returns the header row of a table.
+pub(crate) fn header_row<const N: usize>(titles: [&str; N]) -> Vec<String> {
+    titles.map(str::to_owned).to_vec()
 }
 
-/// Rows in columns: the first to the left, the others to the right.
+/// Aligns rows in columns: the first column to the left, all others to the right.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |c: usize| {
@@ -111,14 +111,14 @@ pub(crate) fn table(rows: &[Vec<String>]) -> String {
     text
 }
 
-/// So many of something, whose word for several ends in s.
+/// Returns a number with a noun, such as `2 steps`. The plural of the noun must end in s.
 pub(crate) fn counted(n: usize, what: &str) -> String {
     let s = if n == 1 { "" } else { "s" };
     format!("{n} {what}{s}")
 }
 
-/// A number with its digits in groups of three.
-pub(crate) fn grouped(n: u64) -> String {
+/// Formats a number with its digits in groups of three, separated by spaces.
+pub(crate) fn group_digits(n: u64) -> String {
     let digits = n.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {
@@ -130,9 +130,9 @@ pub(crate) fn grouped(n: u64) -> String {
     text
 }
 
-/// Where the value of each parameter comes from: of the recipe, and of those that it calls.
+/// Returns a table with the origin of each parameter value, for the recipe and the recipes it calls.
 pub(crate) fn explain(recipe: &Recipe) -> String {
-    let mut rows = vec![heads(["parameter", "value", "from"])];
+    let mut rows = vec![header_row(["parameter", "value", "from"])];
     for scope in &recipe.scopes {
         let path = recipe.sources[scope.source].path.display();
         for parameter in &scope.parameters {
@@ -144,11 +144,11 @@ pub(crate) fn explain(recipe: &Recipe) -> String {
             rows.push(vec![name, value, from]);
         }
     }
-    let order = "(--set goes before a preset, and a preset before the recipe's default)";
+    let order = "(--set overrides presets; presets override the recipe's defaults)";
     format!("{}{order}\n\n", table(&rows))
 }
 
-/// For each step whether it was in the cache, or why it ran; and what was not stored.
+/// Lists for each step that it was cached or why it ran, and then the notes of the cache.
 pub(crate) fn explain_steps(outcome: &Outcome) -> String {
     let mut text = String::new();
     for (i, step) in outcome.steps.iter().enumerate() {
@@ -164,7 +164,7 @@ pub(crate) fn explain_steps(outcome: &Outcome) -> String {
     text
 }
 
-/// Where a value comes from, in words.
+/// Describes the origin of a parameter value.
 pub(crate) fn origin(origin: &Origin) -> String {
     match origin {
         Origin::Default => "the recipe's default".to_owned(),
@@ -174,7 +174,7 @@ pub(crate) fn origin(origin: &Origin) -> String {
     }
 }
 
-/// A diagnostic as JSON.
+/// A diagnostic, for serialization as JSON.
 #[derive(Serialize)]
 pub(crate) struct ProblemJson {
     severity: &'static str,
@@ -185,7 +185,7 @@ pub(crate) struct ProblemJson {
     help: Option<String>,
 }
 
-/// Diagnostics as JSON.
+/// Converts diagnostics for serialization as JSON.
 pub(crate) fn problems_json(
     diagnostics: &[recipe::Diagnostic],
     sources: &[Source],
@@ -207,8 +207,8 @@ pub(crate) fn problems_json(
     diagnostics.iter().map(problem).collect()
 }
 
-/// A text that stays on its line and cannot steer the terminal.
-pub(crate) fn shown(text: &str) -> Cow<'_, str> {
+/// Escapes control characters, so that a text stays on one line and cannot control the terminal.
+pub(crate) fn escape_control(text: &str) -> Cow<'_, str> {
     if !text.contains(char::is_control) {
         return Cow::Borrowed(text);
     }
@@ -219,8 +219,8 @@ pub(crate) fn shown(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(escaped).collect())
 }
 
-/// A text as one word of a shell.
-pub(crate) fn quoted(text: &str) -> Cow<'_, str> {
+/// Quotes a text, if necessary, so that a shell reads it as one word.
+pub(crate) fn shell_quoted(text: &str) -> Cow<'_, str> {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./=:,+%@".contains(c);
     if !text.is_empty() && text.chars().all(is_plain) {
         Cow::Borrowed(text)
@@ -229,20 +229,20 @@ pub(crate) fn quoted(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Writes a file whole or not at all. Folders around it are made.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    Ok(begin(path, bytes)?.commit()?)
+/// Writes a file completely or not at all. Creates missing parent folders.
+pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    Ok(write_temporary(path, bytes)?.commit()?)
 }
 
-/// Writes a file beside its place. Folders around it are made.
-pub(crate) fn begin(path: &Path, bytes: &[u8]) -> Result<Box<dyn NewFile>, StoreError> {
-    let begin = || -> io::Result<Box<dyn NewFile>> {
+/// Writes a temporary file beside `path`; committing it moves it to `path`. Creates missing parent folders.
+pub(crate) fn write_temporary(path: &Path, bytes: &[u8]) -> Result<Box<dyn NewFile>, StoreError> {
+    let write = || -> io::Result<Box<dyn NewFile>> {
         Disk.make_folder(folder_of(path))?;
         let mut file = Disk.create(path)?;
         file.write_all(bytes)?;
-        // A full disk may only be told here.
+        // Some file systems report a full disk only when syncing.
         file.sync()?;
         Ok(file)
     };
-    begin().map_err(|error| StoreError::new("write", path, error))
+    write().map_err(|error| StoreError::new("write", path, error))
 }

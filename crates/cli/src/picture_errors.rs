@@ -1,4 +1,4 @@
-//! `--picture-errors`: each failure as a picture of the scene, with the elements that it is about large and marked.
+//! `--picture-errors`: draws the scene of each failure, with the affected elements enlarged and highlighted.
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -11,16 +11,16 @@ use view::draw_places;
 use view::sheet::{Cell, SheetStyle, sheet};
 
 use crate::args::PictureErrorsArgs;
-use crate::listener::{QUIET, lock};
-use crate::output::{STAMP, complain, shown, write_whole};
+use crate::listener::{INTERRUPT, lock};
+use crate::output::{STAMP, counted, escape_control, print_error, write_atomically};
 
 impl PictureErrorsArgs {
-    /// The numbered pictures of a file, and the memory that each may use, in bytes.
+    /// Creates the pictures of a file's failures. `budget` is the memory for each, in bytes.
     pub(crate) fn of(&self, file: &Path, budget: u64) -> Pictures {
         self.named(Path::new(file.file_stem().unwrap_or_default()), budget)
     }
 
-    /// The same with a name that may have folders.
+    /// Like [`of`](Self::of), for a name that can contain folders.
     pub(crate) fn named(&self, name: &Path, budget: u64) -> Pictures {
         let base = self.picture_errors.as_deref().map(|folder| {
             if folder == Path::new(".") {
@@ -37,36 +37,36 @@ impl PictureErrorsArgs {
     }
 }
 
-/// So many failures of a run are drawn; others are like these.
-const MOST: usize = 20;
+/// Maximum number of pictures of a run.
+const MAX_PICTURES: usize = 20;
 
-/// Larger files are not pictures that a recipe makes.
-const LARGEST: u64 = 64 << 20;
+/// Larger files, in bytes, are not compared as pictures: no picture of a recipe is this large.
+const MAX_FILE_SIZE: u64 = 64 << 20;
 
-/// Pictures that are drawn during a run, if they are wanted.
+/// Draws the failures of a run, if requested, and keeps the list of pictures.
 #[derive(Default)]
 pub(crate) struct Pictures {
-    /// How their paths begin; `None` if nothing is drawn.
+    /// The start of the paths of all pictures; `None` if nothing is drawn.
     base: Option<PathBuf>,
-    /// The bytes that each may take.
+    /// The memory budget of each picture, in bytes.
     budget: u64,
     drawn: Mutex<Drawn>,
 }
 
 #[derive(Default)]
 struct Drawn {
-    /// The files, each with what it shows.
+    /// The files, each with its caption.
     files: Vec<(PathBuf, String)>,
-    /// Why some are not there.
+    /// Errors while drawing or writing.
     problems: Vec<String>,
-    /// How many failures were not drawn because there are others.
+    /// The number of failures beyond [`MAX_PICTURES`], which are not drawn.
     further: usize,
 }
 
 impl Pictures {
-    /// Draws places of a scene, unless many were drawn before. Why one could not be drawn is told with the others.
+    /// Draws places of a scene, unless the maximum is reached. Errors are kept for [`warn`](Self::warn).
     pub(crate) fn draw(&self, scene: &Scene, places: &[ErrorLocation], caption: &str) {
-        let (budget, progress) = (self.budget, &QUIET);
+        let (budget, progress) = (self.budget, &INTERRUPT);
         self.add(caption, || {
             Ok(draw_places(scene, places, caption, budget, progress)?)
         });
@@ -81,19 +81,19 @@ impl Pictures {
         }
     }
 
-    /// Writes an image, if there is anything to see.
+    /// Draws and writes an image, unless `draw` returns `None`.
     fn add(&self, caption: &str, draw: impl FnOnce() -> anyhow::Result<Option<Image>>) {
         let Some(base) = &self.base else { return };
         let mut drawn = lock(&self.drawn);
         let number = drawn.files.len() + drawn.problems.len() + 1;
-        if number > MOST {
+        if number > MAX_PICTURES {
             drawn.further += 1;
             return;
         }
         let mut path = base.clone().into_os_string();
         path.push(format!("-error-{number}.png"));
         let path = PathBuf::from(path);
-        let write = |image: Image| write_whole(&path, &image.to_png(&[("Software", STAMP)])?);
+        let write = |image: Image| write_atomically(&path, &image.to_png(&[("Software", STAMP)])?);
         match draw().and_then(|image| image.map(write).transpose()) {
             Ok(Some(())) => drawn.files.push((path, caption.to_owned())),
             Ok(None) => {}
@@ -101,35 +101,41 @@ impl Pictures {
         }
     }
 
-    /// The files that were written.
+    /// Returns the paths of the written files.
     pub(crate) fn paths(&self) -> Vec<PathBuf> {
         let drawn = lock(&self.drawn);
         drawn.files.iter().map(|(path, _)| path.clone()).collect()
     }
 
-    /// Says which pictures there are.
-    pub(crate) fn tell(&self) {
+    /// Prints the paths and captions of the pictures, and warnings.
+    pub(crate) fn print_list(&self) {
         for (path, caption) in &lock(&self.drawn).files {
-            complain(&format!("see {}: {}\n", path.display(), shown(caption)));
+            print_error(&format!(
+                "see {}: {}\n",
+                path.display(),
+                escape_control(caption)
+            ));
         }
         self.warn();
     }
 
-    /// Says which pictures there are not.
+    /// Prints warnings about failures that were not drawn.
     pub(crate) fn warn(&self) {
         let drawn = lock(&self.drawn);
         for problem in &drawn.problems {
-            complain(&format!("warning: a failure was not drawn: {problem}\n"));
+            print_error(&format!("warning: cannot draw a failure: {problem}\n"));
         }
         if drawn.further > 0 {
             let n = drawn.further;
-            let what = format!("failures behind the first {MOST} were not drawn: {n}");
-            complain(&format!("warning: {what}\n"));
+            let failures = counted(n, "failure");
+            print_error(&format!(
+                "warning: {failures} after the first {MAX_PICTURES} not drawn\n"
+            ));
         }
     }
 
-    /// The picture that was expected, the one that was found, and where they differ; `None` if these are no pictures of
-    /// one image.
+    /// Draws the expected image, the actual image and their difference side by side. Returns `None` if the files are not
+    /// PNG images.
     fn of_difference(&self, found: &ActualValue) -> anyhow::Result<Option<Image>> {
         let ActualValue::File {
             golden,
@@ -142,7 +148,7 @@ impl Pictures {
         };
         let ending = golden.extension().unwrap_or_default();
         let is_png = ending.eq_ignore_ascii_case("png");
-        let is_small = std::fs::metadata(golden).is_ok_and(|file| file.len() <= LARGEST);
+        let is_small = std::fs::metadata(golden).is_ok_and(|file| file.len() <= MAX_FILE_SIZE);
         if !(is_png && is_small) {
             return Ok(None);
         }
@@ -156,7 +162,7 @@ impl Pictures {
         let cells: Vec<Cell> = (images.into_iter().zip(captions))
             .filter_map(|(image, caption)| image.map(|image| Cell { image, caption }))
             .collect();
-        // Wide ones stand below each other.
+        // Wide images are placed below each other.
         let is_wide =
             expected.width.max(found.width) > expected.height.max(found.height).saturating_mul(3);
         let style = SheetStyle {
@@ -167,19 +173,19 @@ impl Pictures {
     }
 }
 
-/// A listener that draws the failures of a run too.
-pub(crate) struct Picturing<'a> {
+/// A listener that also draws the failures of a run.
+pub(crate) struct PictureListener<'a> {
     pub(crate) listener: &'a dyn Listener,
     pub(crate) pictures: &'a Pictures,
 }
 
-impl Progress for Picturing<'_> {
+impl Progress for PictureListener<'_> {
     fn advance(&self, what: &str, done: u64, total: u64) -> bool {
         self.listener.advance(what, done, total)
     }
 }
 
-impl Listener for Picturing<'_> {
+impl Listener for PictureListener<'_> {
     fn step_begins(&self, number: usize, label: &str) {
         self.listener.step_begins(number, label);
     }

@@ -1,4 +1,4 @@
-//! From the path of a file to a scene: what a file of meshes holds, or what a recipe makes.
+//! Loads a scene from a path: the contents of a mesh file, or the result of a recipe.
 
 use std::path::Path;
 
@@ -10,22 +10,22 @@ use scene::Scene;
 use crate::args::{ValueArgs, WrongUsage};
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::load_recipe;
-use crate::output::{complain, show};
+use crate::output::{print_diagnostics, print_error};
 
-/// A scene, and what it takes to ask it as a step would.
+/// A scene, with the key of the random choices that a step at this place makes.
 pub(crate) struct SceneAtStep {
     pub(crate) scene: Scene,
-    /// What keys random choices: that of the step that the recipe stopped before.
+    /// The key of random choices: that of the step before which the recipe stopped. Otherwise empty.
     pub(crate) stream: String,
 }
 
-/// Whether a file is a recipe, by its ending.
+/// Whether a file is a recipe, judged by its extension.
 pub(crate) fn is_recipe(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == "ron")
 }
 
-/// The scene of a file, or of a recipe where it stops. Expectations are not held, and nothing is written.
-pub(crate) fn find(
+/// Loads the scene of a mesh file, or runs a recipe up to `stop`. Checks no expectations and writes no files.
+pub(crate) fn load_scene(
     path: &Path,
     options: &ReadOptions,
     values: &ValueArgs,
@@ -33,18 +33,18 @@ pub(crate) fn find(
     engine: &Engine,
 ) -> anyhow::Result<SceneAtStep> {
     if is_recipe(path) {
-        return run(path, values, stop, engine);
+        return run_recipe(path, values, stop, engine);
     }
     if stop.after.is_some() || stop.before.is_some() || !values.is_empty() {
         let message = format!(
-            "{} is no recipe (*.ron): it has neither steps nor parameters",
+            "{} is not a recipe (*.ron), so it has no steps and no parameters",
             path.display()
         );
         return Err(WrongUsage(message).into());
     }
     let (scene, notes) = read_file(path, options)?;
     for note in &notes {
-        complain(&format!("note: {note}\n"));
+        print_error(&format!("note: {note}\n"));
     }
     Ok(SceneAtStep {
         scene,
@@ -52,7 +52,7 @@ pub(crate) fn find(
     })
 }
 
-/// The objects of a file as a scene, and what was left out or changed.
+/// Reads a mesh file. Returns its objects as a scene, and notes on what was left out or changed.
 pub(crate) fn read_file(path: &Path, options: &ReadOptions) -> anyhow::Result<(Scene, Vec<Note>)> {
     let loaded = mesh_io::read(&Disk, path, options);
     let loaded = loaded.map_err(|error| anyhow::anyhow!("{error}"))?;
@@ -64,7 +64,7 @@ pub(crate) fn read_file(path: &Path, options: &ReadOptions) -> anyhow::Result<(S
     Ok((scene, loaded.notes))
 }
 
-fn run(
+fn run_recipe(
     path: &Path,
     values: &ValueArgs,
     stop: Stop,
@@ -72,15 +72,15 @@ fn run(
 ) -> anyhow::Result<SceneAtStep> {
     let shown = path.display();
     let mut loaded = load_recipe(path, values, Path::new("out"), BUDGET, engine)?;
-    show(&loaded, &loaded.diagnostics);
-    anyhow::ensure!(!loaded.has_errors(), "{shown} cannot run");
+    print_diagnostics(&loaded, &loaded.diagnostics);
+    anyhow::ensure!(!loaded.has_errors(), "{shown} cannot be run");
     let stream = loaded.stop(stop).map_err(|e| WrongUsage(e.to_string()))?;
 
     catch_interrupts();
     let terminal = Terminal::new();
     let outcome = loaded.run(Run::default(), &terminal);
     terminal.clear();
-    show(&loaded, &outcome.failures);
+    print_diagnostics(&loaded, &outcome.failures);
     anyhow::ensure!(!outcome.cancelled, "interrupted");
     anyhow::ensure!(outcome.succeeded(), "{shown} failed");
     Ok(SceneAtStep {

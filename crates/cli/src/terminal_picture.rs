@@ -1,12 +1,13 @@
-//! Pictures in a terminal: as pixels where it can show them, else in half-block characters, else in letters.
+//! Shows pictures in a terminal: as pixels if the terminal supports them, else as half-block characters, else as
+//! letters.
 //!
-//! What the terminal can is read off the environment. Asking it would be surer, but a terminal that does not answer
-//! would hold the program up, and what is typed meanwhile would be taken for the answer.
+//! The abilities of the terminal are derived from environment variables. Querying the terminal would be more reliable,
+//! but the program would wait for terminals that do not answer, and could take typed keys for the answer.
 //!
-//! - Kitty, "Terminal graphics protocol": pieces of a PNG file, in base 64.
+//! - Kitty, "Terminal graphics protocol": a PNG file in chunks, in base 64.
 //! - iTerm2, "Inline images protocol": a PNG file, in base 64.
-//! - Sixel: DEC, "VT330/VT340 Programmer Reference Manual", volume 2, 1988, chapter 14: bands of six rows, a
-//!   character for six pixels of one color.
+//! - Sixel: DEC, "VT330/VT340 Programmer Reference Manual", volume 2, 1988, chapter 14: bands of six rows;
+//!   each character encodes six pixels of one color, one above the other.
 
 use std::io::{self, IsTerminal, Write};
 
@@ -15,32 +16,32 @@ use base64::engine::general_purpose::STANDARD as BASE_64;
 use render::palette::Palette;
 use render::{Image, PictureError};
 
-/// How a picture is written.
+/// The encoding of a picture for a terminal.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Protocol {
-    /// Pixels, as the terminal kitty takes them.
+    /// Pixels, in the protocol of the terminal kitty.
     Kitty,
-    /// Pixels, as the terminal iTerm2 takes them.
+    /// Pixels, in the protocol of the terminal iTerm2.
     Iterm,
-    /// Pixels in 256 colors, as DEC's terminals took them.
+    /// Pixels in 256 colors, in the protocol of DEC terminals.
     Sixel,
-    /// Characters that are half a block high, in all colors.
+    /// Half-block characters in 24-bit colors.
     Blocks,
-    /// The same in the 256 colors of xterm.
+    /// Half-block characters in the 256 colors of xterm.
     FewColorBlocks,
-    /// Letters, darker ones where the picture is darker.
+    /// Characters that are denser where the picture is darker.
     Letters,
 }
 
-/// A picture of characters is no wider, in characters.
-const WIDEST: u32 = 100;
+/// Maximum width of a picture made of characters.
+const MAX_WIDTH: u32 = 100;
 
-/// Shows a picture on the standard output, in the best way that the terminal is known to have; in a file or a pipe,
-/// as letters.
+/// Prints a picture to standard output, in the best encoding that the terminal supports; in a file or a pipe, as
+/// letters.
 ///
 /// # Errors
 ///
-/// What writing fails with.
+/// If writing fails.
 pub(crate) fn show(image: &Image) -> io::Result<()> {
     let is_terminal = io::stdout().is_terminal();
     let protocol = Protocol::of(is_terminal, |name| std::env::var(name).ok());
@@ -52,7 +53,7 @@ pub(crate) fn show(image: &Image) -> io::Result<()> {
 }
 
 impl Protocol {
-    /// What a terminal with this environment can show.
+    /// Chooses the best protocol for a terminal with these environment variables.
     pub(crate) fn of(is_terminal: bool, variable: impl Fn(&str) -> Option<String>) -> Self {
         let text = |name: &str| variable(name).unwrap_or_default();
         let is_set = |name: &str| !text(name).is_empty();
@@ -60,14 +61,15 @@ impl Protocol {
         if !is_terminal || term == "dumb" || is_set("NO_COLOR") {
             return Self::Letters;
         }
-        // What stands between the program and the terminal keeps pixels for itself.
-        let is_inside = is_set("TMUX") || term.starts_with("screen") || term.starts_with("tmux");
+        // Terminal multiplexers do not pass pixels on to the terminal.
+        let is_multiplexed =
+            is_set("TMUX") || term.starts_with("screen") || term.starts_with("tmux");
         let konsole: u32 = text("KONSOLE_VERSION").parse().unwrap_or(0);
         let iterm = ["iTerm.app", "WezTerm", "mintty"].contains(&program.as_str());
         let sixel = ["foot", "mlterm", "yaft"]
             .iter()
             .any(|t| term.starts_with(t));
-        if is_inside {
+        if is_multiplexed {
         } else if is_set("KITTY_WINDOW_ID") || term.contains("kitty") || term.contains("ghostty") {
             return Self::Kitty;
         } else if iterm || text("LC_TERMINAL") == "iTerm2" || konsole >= 220_400 {
@@ -82,7 +84,7 @@ impl Protocol {
     }
 }
 
-/// The bytes that show a picture in a terminal of so many columns.
+/// Encodes a picture for a terminal with the given number of columns.
 ///
 /// # Errors
 ///
@@ -106,7 +108,7 @@ pub(crate) fn written(
     }
 }
 
-/// A PNG file in pieces of at most 4096 characters; the terminal is told not to answer.
+/// Encodes a PNG file in chunks of at most 4096 characters; `q=2` tells the terminal not to answer.
 fn kitty(png: &[u8]) -> Vec<u8> {
     let text = BASE_64.encode(png);
     let pieces: Vec<&[u8]> = text.as_bytes().chunks(4096).collect();
@@ -124,23 +126,23 @@ fn kitty(png: &[u8]) -> Vec<u8> {
 
 fn sixel(image: &Image) -> Vec<u8> {
     let mut palette = Palette::of(std::slice::from_ref(image));
-    // Pixels that are not set stay as they are.
+    // P2 = 1: pixels that are not set keep their color.
     let mut text = format!("\x1bP0;1;0q\"1;1;{};{}", image.width, image.height);
     for (i, color) in palette.colors().iter().enumerate() {
-        // Per cent.
+        // In percent.
         let [r, g, b] = color.map(|c| (u32::from(c) * 100 + 127) / 255);
         text += &format!("#{i};2;{r};{g};{b}");
     }
     let width = image.width as usize;
-    let places: Vec<u8> = image.pixels.iter().map(|&p| palette.index(p)).collect();
-    for band in places.chunks(width * 6) {
-        // Each color of the band writes its own row over the ones before.
-        let mut is_there = [false; 256];
-        for &place in band {
-            is_there[usize::from(place)] = true;
+    let indices: Vec<u8> = image.pixels.iter().map(|&p| palette.index(p)).collect();
+    for band in indices.chunks(width * 6) {
+        // Each color of the band is drawn in a separate pass over the same six rows.
+        let mut is_used = [false; 256];
+        for &index in band {
+            is_used[usize::from(index)] = true;
         }
-        let unseen = palette.transparent();
-        let colors = (0..=255_u8).filter(|&c| is_there[usize::from(c)] && Some(c) != unseen);
+        let transparent = palette.transparent();
+        let colors = (0..=255_u8).filter(|&c| is_used[usize::from(c)] && Some(c) != transparent);
         for color in colors {
             text += &format!("#{color}");
             let column = |x: usize| {
@@ -162,18 +164,18 @@ fn sixel(image: &Image) -> Vec<u8> {
     (text + "\x1b\\\n").into_bytes()
 }
 
-/// The image so small that a pixel is half a character: means over equal parts of it.
+/// Shrinks an image so that a character shows two pixels, one above the other. Each pixel is the mean of a rectangle.
 fn reduced(image: &Image, columns: u32) -> Image {
-    let width = columns.clamp(1, WIDEST).min(image.width.max(1));
+    let width = columns.clamp(1, MAX_WIDTH).min(image.width.max(1));
     let height =
         (u64::from(image.height) * u64::from(width)).div_ceil(u64::from(image.width.max(1)));
-    let height = u32::try_from(height).unwrap_or(u32::MAX).min(4 * WIDEST);
+    let height = u32::try_from(height).unwrap_or(u32::MAX).min(4 * MAX_WIDTH);
     let part = |i: u32, n: u32, side: u32| {
-        let at = |i: u32| {
-            let at = u64::from(i) * u64::from(side) / u64::from(n);
-            usize::try_from(at).unwrap_or(usize::MAX)
+        let start = |i: u32| {
+            let start = u64::from(i) * u64::from(side) / u64::from(n);
+            usize::try_from(start).unwrap_or(usize::MAX)
         };
-        at(i)..at(i + 1).max(at(i) + 1).min(side as usize)
+        start(i)..start(i + 1).max(start(i) + 1).min(side as usize)
     };
     let mean = |x: u32, y: u32| {
         let (mut sum, mut n) = ([0_u64; 4], 0);
@@ -200,35 +202,35 @@ fn reduced(image: &Image, columns: u32) -> Image {
     }
 }
 
-/// Pairs of pixels, one above the other; what is less than half opaque is none.
+/// Returns rows of pixel pairs, one above the other. Pixels with less than half opacity are `None`.
 fn pairs(image: &Image) -> impl Iterator<Item = Vec<[Option<[u8; 3]>; 2]>> {
-    let seen = |[r, g, b, a]: [u8; 4]| (a >= 128).then_some([r, g, b]);
+    let opaque = |[r, g, b, a]: [u8; 4]| (a >= 128).then_some([r, g, b]);
     let width = image.width as usize;
     image.pixels.chunks(2 * width).map(move |rows| {
-        let below = |x: usize| rows.get(width + x).copied().and_then(seen);
-        (0..width).map(|x| [seen(rows[x]), below(x)]).collect()
+        let below = |x: usize| rows.get(width + x).copied().and_then(opaque);
+        (0..width).map(|x| [opaque(rows[x]), below(x)]).collect()
     })
 }
 
-fn blocks(image: &Image, all_colors: bool) -> Vec<u8> {
-    let color = |ground: bool, color: Option<[u8; 3]>| {
-        let which = if ground { 48 } else { 38 };
+fn blocks(image: &Image, is_true_color: bool) -> Vec<u8> {
+    let color = |is_background: bool, color: Option<[u8; 3]>| {
+        let code = if is_background { 48 } else { 38 };
         match color {
-            None => format!("\x1b[{}m", which + 1),
-            Some([r, g, b]) if all_colors => format!("\x1b[{which};2;{r};{g};{b}m"),
-            Some(color) => format!("\x1b[{which};5;{}m", of_xterm(color)),
+            None => format!("\x1b[{}m", code + 1),
+            Some([r, g, b]) if is_true_color => format!("\x1b[{code};2;{r};{g};{b}m"),
+            Some(color) => format!("\x1b[{code};5;{}m", nearest_xterm_color(color)),
         }
     };
     let mut text = String::new();
     for row in pairs(image) {
         let mut last = [String::new(), String::new()];
         for [above, below] in row {
-            let (character, letter, ground) = match (above, below) {
+            let (character, foreground, background) = match (above, below) {
                 (None, None) => (' ', None, None),
                 (None, below) => ('▄', below, None),
                 (above, below) => ('▀', above, below),
             };
-            let now = [color(false, letter), color(true, ground)];
+            let now = [color(false, foreground), color(true, background)];
             for (last, now) in last.iter_mut().zip(now) {
                 if *last != now {
                     text += &now;
@@ -242,8 +244,8 @@ fn blocks(image: &Image, all_colors: bool) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// The nearest of xterm's colors from 16 on: a cube of 6 x 6 x 6, and 24 grays.
-fn of_xterm([r, g, b]: [u8; 3]) -> u32 {
+/// Returns the index of the nearest xterm color from 16 on: a cube of 6 x 6 x 6 colors, and 24 grays.
+fn nearest_xterm_color([r, g, b]: [u8; 3]) -> u32 {
     const STEPS: [u8; 6] = [0, 95, 135, 175, 215, 255];
     let distance = |p: [u8; 3]| -> u32 {
         let pairs = p.into_iter().zip([r, g, b]);
@@ -258,9 +260,9 @@ fn of_xterm([r, g, b]: [u8; 3]) -> u32 {
 }
 
 fn letters(image: &Image) -> Vec<u8> {
-    const DARKER: &[u8] = b" .:-=+*#%@";
+    const LIGHT_TO_DARK: &[u8] = b" .:-=+*#%@";
     let darkness = |color: Option<[u8; 3]>| {
-        // Rec. ITU-R BT.709, in thousandths.
+        // Weights of Rec. ITU-R BT.709, in thousandths.
         color.map_or(0, |[r, g, b]| {
             let light = u32::from(r) * 213 + u32::from(g) * 715 + u32::from(b) * 72;
             255_000 - light
@@ -270,7 +272,8 @@ fn letters(image: &Image) -> Vec<u8> {
     for row in pairs(image) {
         let line = row.into_iter().map(|[above, below]| {
             let mean = darkness(above).midpoint(darkness(below));
-            DARKER[(mean as usize * DARKER.len() / 255_001).min(DARKER.len() - 1)]
+            let index = mean as usize * LIGHT_TO_DARK.len() / 255_001;
+            LIGHT_TO_DARK[index.min(LIGHT_TO_DARK.len() - 1)]
         });
         let line: Vec<u8> = line.collect();
         text.extend_from_slice(line.trim_ascii_end());
@@ -296,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn the_environment_says_what_a_terminal_can() {
+    fn the_protocol_is_chosen_from_the_environment() {
         let of = |is_terminal, variables: &[(&str, &str)]| {
             Protocol::of(is_terminal, |name| {
                 let found = variables.iter().find(|(known, _)| *known == name);
@@ -325,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn a_block_is_two_pixels() {
+    fn a_block_character_shows_two_pixels() {
         let image = image(2, &[RED, NOTHING, [0, 0, 9, 255], RED, NOTHING, NOTHING]);
         let text = String::from_utf8(written(&image, Protocol::Blocks, 80).unwrap()).unwrap();
         assert_eq!(
@@ -341,7 +344,7 @@ mod tests {
     }
 
     #[test]
-    fn letters_are_dark_where_the_picture_is() {
+    fn letters_are_dense_where_the_picture_is_dark() {
         let black = [0, 0, 0, 255];
         let image = image(3, &[black, NOTHING, [255; 4], black, black, [255; 4]]);
         let text = written(&image, Protocol::Letters, 80).unwrap();
@@ -363,25 +366,25 @@ mod tests {
     }
 
     #[test]
-    fn a_reduced_pixel_is_the_mean_of_its_part() {
+    fn a_reduced_pixel_is_the_mean_of_its_rectangle() {
         let image = image(4, &[RED, [100, 0, 0, 255], NOTHING, RED]);
         let small = reduced(&image, 2);
         assert_eq!(small.pixels, [[150, 0, 0, 255], [200, 0, 0, 127]]);
     }
 
     #[test]
-    fn the_colors_of_xterm_are_found() {
-        for (color, place) in [
+    fn the_nearest_xterm_color_is_found() {
+        for (color, index) in [
             ([0, 0, 0], 16),
             ([255, 255, 255], 231),
             ([95, 135, 175], 16 + 36 + 12 + 3),
             ([128, 128, 128], 244),
         ] {
-            assert_eq!(of_xterm(color), place);
+            assert_eq!(nearest_xterm_color(color), index);
         }
     }
 
-    /// The pixels that a Sixel text sets.
+    /// Decodes a Sixel text: the color index of each pixel, or `None` if it is not set.
     fn decoded_sixel(text: &str, width: usize, height: usize) -> Vec<Option<usize>> {
         let body = text
             .strip_prefix(&format!("\x1bP0;1;0q\"1;1;{width};{height}"))

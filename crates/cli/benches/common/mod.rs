@@ -1,4 +1,4 @@
-//! What the benchmarks of the program share.
+//! Helpers for the benchmarks of the program.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -14,7 +14,7 @@ pub(crate) fn run(folder: &Path, arguments: &[&str]) {
     assert!(status.is_ok_and(|status| status.success()), "{arguments:?}");
 }
 
-/// Prints the median time of many runs of `work`, each after a `prepare` that does not count.
+/// Prints the median time of the runs of `work`. Each run follows a call of `prepare`, which is not timed.
 #[expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
 pub(crate) fn measure(name: &str, runs: usize, prepare: impl Fn(), work: impl Fn()) {
     let mut times: Vec<Duration> = (0..runs)

@@ -1,4 +1,4 @@
-//! The cache of steps on the command line.
+//! Options for the step cache.
 
 use std::path::PathBuf;
 
@@ -6,30 +6,30 @@ use clap::{Args as ClapArgs, ValueEnum};
 
 use super::{Format, size};
 
-/// What commands that run recipes share.
+/// Cache options of the commands that run recipes.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct CacheArgs {
     #[command(flatten)]
     pub(crate) folder: CacheFolder,
-    /// Run every step anew, and keep nothing
+    /// Run every step, and neither read nor write the cache
     #[arg(long)]
     pub(crate) no_cache: bool,
-    /// The size below which the cache is kept, such as 512MiB or 8GiB
+    /// Maximum size of the cache, such as 512MiB or 8GiB; the least recently used results are removed
     #[arg(long, default_value = "4GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) cache_limit: u64,
 }
 
-/// Where the cache is.
+/// The location of the cache.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct CacheFolder {
-    /// The folder that keeps the results of steps; by default one of the user's caches
+    /// Folder of the step cache; defaults to `meshwright` in the user's cache folder
     #[arg(long, env = "MESHWRIGHT_CACHE", value_name = "DIR")]
     pub(crate) cache: Option<PathBuf>,
 }
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct CacheCommandArgs {
-    /// What to do
+    /// The action
     #[arg(value_enum, default_value_t)]
     pub(crate) action: CacheAction,
     #[command(flatten)]
@@ -40,9 +40,9 @@ pub(crate) struct CacheCommandArgs {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum CacheAction {
-    /// Show the folder, its size and the number of results
+    /// Show the folder, its size and the number of stored steps
     #[default]
     Info,
-    /// Remove everything that is stored
+    /// Remove all stored results
     Clear,
 }

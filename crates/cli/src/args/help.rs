@@ -1,4 +1,4 @@
-//! The help of the program: its commands by what they are for, each with an example.
+//! The help of the program: commands group_digits by purpose, each with an example.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use clap::{Command, CommandFactory, FromArgMatches};
 
 use super::Args;
 
-/// The commands by what they are for, each with an example.
+/// Groups of commands: the title, and each command with an example.
 const GROUPS: [(&str, &[(&str, &str)]); 4] = [
     (
         "Run and check",
@@ -18,7 +18,7 @@ const GROUPS: [(&str, &[(&str, &str)]); 4] = [
         ],
     ),
     (
-        "Look",
+        "Inspect and compare",
         &[
             ("info", "info model.obj"),
             ("picture", "picture model.obj --wireframe"),
@@ -52,8 +52,8 @@ const GROUPS: [(&str, &[(&str, &str)]); 4] = [
     ),
 ];
 
-/// The first thing that a person sees who starts the program without arguments.
-pub(crate) const FIRST: &str = "\
+/// Printed when the program is started without arguments.
+pub(crate) const FIRST_STEPS: &str = "\
 Meshwright edits 3D meshes by recipe. Three commands to start with:
 
   meshwright new part             write a small recipe, part.ron
@@ -63,7 +63,7 @@ Meshwright edits 3D meshes by recipe. Three commands to start with:
 `meshwright --help` lists all commands.
 ";
 
-/// The command line, with the commands in groups.
+/// Returns the definition of the command line, with the commands in groups.
 pub(crate) fn command() -> Command {
     let command = Args::command();
     let mut template = "{about}\n\n{usage-heading} {usage}\n".to_owned();
@@ -84,7 +84,7 @@ pub(crate) fn command() -> Command {
     command.help_template(template)
 }
 
-/// Reads the command line. Ends the program with a message if it is wrong.
+/// Parses the command line. If it is invalid, prints a message and exits.
 pub(crate) fn parse() -> Args {
     let matches = command().get_matches();
     Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_command_has_a_place_and_an_example() {
+    fn every_command_is_in_a_group_with_an_example() {
         let named: Vec<&str> = GROUPS
             .iter()
             .flat_map(|(_, c)| c.iter().map(|(name, _)| *name))

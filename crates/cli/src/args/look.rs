@@ -1,4 +1,4 @@
-//! The commands that look at meshes and compare them.
+//! Arguments of the commands `select` and `diff`.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use clap::{Args as ClapArgs, ValueEnum};
 
 use super::{Format, ReadArgs, ValueArgs};
 
-/// Which elements.
+/// The kind of elements that a selection selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Kind {
     Vertices,
@@ -16,34 +16,34 @@ pub(crate) enum Kind {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct SelectArgs {
-    /// A file of meshes, or a recipe (*.ron): then the scene at its end
+    /// A mesh file, or a recipe (*.ron), whose final scene is used
     pub(crate) file: PathBuf,
-    /// A selection as in recipes, such as 'Sharp(above: 30)'
+    /// The selection, as in recipes, such as 'Sharp(above: 30)'
     pub(crate) selection: String,
-    /// What it selects, where the selection does not tell
+    /// The kind of elements to select; required if the selection is valid for several kinds
     #[arg(long, value_enum, value_name = "ELEMENTS")]
     pub(crate) of: Option<Kind>,
-    /// Only on the object of this name; may be given more than once
+    /// Select only on the object with this name; can be repeated
     #[arg(long, value_name = "OBJECT")]
     pub(crate) on: Vec<String>,
-    /// The scene of a recipe after the step or call of this id
+    /// Use the scene after the recipe's step or call with this id
     #[arg(long, value_name = "ID", conflicts_with = "before")]
     pub(crate) after: Option<String>,
-    /// The scene of a recipe before the step or call of this id, with its random choices
+    /// Use the scene before the recipe's step or call with this id, and draw the random choices of that step
     #[arg(long, value_name = "ID")]
     pub(crate) before: Option<String>,
     #[command(flatten)]
     pub(crate) values: ValueArgs,
-    /// Show so many elements of each object
+    /// Show at most N elements of each object
     #[arg(long, value_name = "N", default_value_t = 20)]
     pub(crate) first: usize,
     /// Show all elements
     #[arg(long)]
     pub(crate) all: bool,
-    /// Print only how many there are
+    /// Print only the number of selected elements
     #[arg(long)]
     pub(crate) count: bool,
-    /// Write an image (.png) in which they are marked, too
+    /// Also write an image (.png) with the selected elements highlighted
     #[arg(long, value_name = "FILE")]
     pub(crate) picture: Option<PathBuf>,
     #[command(flatten)]
@@ -54,14 +54,14 @@ pub(crate) struct SelectArgs {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct DiffArgs {
-    /// A file of meshes, or a recipe (*.ron)
+    /// The first mesh file or recipe (*.ron)
     pub(crate) first: PathBuf,
-    /// Another one
+    /// The second mesh file or recipe (*.ron)
     pub(crate) second: PathBuf,
-    /// By how much positions and values of attributes may differ
+    /// Largest allowed difference of positions and attribute values, in the units of each
     #[arg(long, value_name = "X", default_value_t = 0.0, value_parser = not_negative)]
     pub(crate) tolerance: f64,
-    /// The files are records of runs, as run --format json prints them
+    /// Compare two recorded runs, as printed by `meshwright run --format json`
     #[arg(long)]
     pub(crate) runs: bool,
     #[command(flatten)]
@@ -73,6 +73,6 @@ pub(crate) struct DiffArgs {
 fn not_negative(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x >= 0.0 => Ok(x),
-        _ => Err("expected a number that is not negative".to_owned()),
+        _ => Err("expected a number of at least 0".to_owned()),
     }
 }

@@ -1,4 +1,4 @@
-//! The commands that run many recipes, or one many times.
+//! Arguments of the commands `test`, `batch` and `sweep`.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -9,16 +9,16 @@ use serde::{Deserialize, Serialize};
 
 use super::{CacheArgs, DrawArgs, Format, PictureErrorsArgs, ValueArgs, size};
 
-/// What commands that run many recipes at once share.
+/// Options of the commands that run several recipes at the same time.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct ManyArgs {
-    /// The number of threads; by default one for each processor
+    /// Number of threads; defaults to the number of processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Most runs at once; by default one for each thread, and never more
+    /// Maximum number of runs at the same time; at most, and by default, the number of threads
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: Option<u16>,
-    /// The memory that the meshes of all runs at once may take, such as 512MiB or 8GiB
+    /// Memory budget for the meshes of all simultaneous runs together, such as 512MiB or 8GiB
     #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) budget: u64,
 }
@@ -37,29 +37,29 @@ impl ManyArgs {
 #[command(
     after_help = "Example: meshwright test scenes --filter cube --junit tests.xml
 
-Folders are searched with all folders in them, but for hidden ones and those named `assets`. Recipes
-without expectations, and parts that other recipes there call, are read and listed, but neither run nor
-counted as passed. A recipe that is named itself is run, whoever calls it."
+Folders are searched recursively, except hidden folders and folders named `assets`. Recipes without
+expectations, and recipes called by other recipes, are checked for syntax and listed, but not run and not
+counted as passed. A recipe given by its own path is run even if other recipes call it."
 )]
 pub(crate) struct TestArgs {
     /// Recipes, or folders of recipes
     #[arg(default_value = "scenes")]
     pub(crate) paths: Vec<PathBuf>,
-    /// Only recipes with this text in their path
+    /// Test only recipes whose path contains TEXT
     #[arg(long, value_name = "TEXT")]
     pub(crate) filter: Option<String>,
-    /// Keep outputs, each recipe's in a folder of its name below this one
+    /// Keep the outputs of each recipe in a folder named after the recipe, below DIR
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Write the results as JUnit XML too
+    /// Also write the results as JUnit XML
     #[arg(long, value_name = "FILE")]
     pub(crate) junit: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) many: ManyArgs,
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-    /// Write the values that were found into the recipes, in place of recorded ones (eq, is, Bounds, Digest), and
-    /// the files that outputs are held against (Output)
+    /// Replace recorded values in the recipes (eq, is, Bounds, Digest) and reference files of `Output` with the
+    /// actual ones
     #[arg(long)]
     pub(crate) update: bool,
     #[command(flatten)]
@@ -74,16 +74,16 @@ pub(crate) struct TestArgs {
   meshwright batch clean.ron --inputs 'models/*' --out clean --shard 1/3 --report one.json
   meshwright batch --merge one.json two.json three.json --report all.csv
 
-A batch that was ended, even by a crash, goes on where it was when it is called again: files that are
-done, and did not change, are not done again. The journal of that is FOLDER/batch.jsonl.")]
+Running an interrupted or crashed batch again resumes it: finished files that have not changed are not
+processed again. The state is kept in DIR/batch.jsonl, where DIR is the folder given by --out.")]
 pub(crate) struct BatchArgs {
     /// The recipe
     #[arg(required_unless_present = "merge")]
     pub(crate) recipe: Option<PathBuf>,
-    /// The files, as paths or patterns: `*` and `?` stay within a folder, `**` goes into folders
+    /// Input files, as paths or patterns: `*` and `?` match within one folder, `**` matches any number of folders
     #[arg(long, value_name = "PATTERN", num_args = 1.., required_unless_present = "merge")]
     pub(crate) inputs: Vec<String>,
-    /// The parameter of type Path that gets the files, if the recipe has several
+    /// The parameter that receives the input file; required if the recipe has several of type Path
     #[arg(long, value_name = "NAME")]
     pub(crate) param: Option<String>,
     #[command(flatten)]
@@ -91,19 +91,19 @@ pub(crate) struct BatchArgs {
     /// The folder for outputs
     #[arg(long, default_value = "out", value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// Put the outputs of each file into a folder of its own, named as the file
+    /// Write the outputs of each input file to a separate folder, named after the file
     #[arg(long)]
     pub(crate) folders: bool,
-    /// Write a row for each file, as a table or as JSON
+    /// Write a report with a row for each input file, as CSV, JSON or JSON Lines
     #[arg(long, value_name = "FILE.csv|.json|.jsonl")]
     pub(crate) report: Option<PathBuf>,
-    /// Do the I-th of N parts of the files; a file is always in the same part
+    /// Process only part I of N of the input files; the part depends only on the file's path
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
-    /// Try files again that failed before
+    /// Retry files that failed in an earlier run
     #[arg(long)]
     pub(crate) retry_failed: bool,
-    /// Join the reports (.json or .jsonl) of parts, and run nothing
+    /// Merge the reports (.json or .jsonl) of several parts, and run nothing
     #[arg(
         long,
         value_name = "REPORT",
@@ -116,12 +116,12 @@ pub(crate) struct BatchArgs {
     pub(crate) many: ManyArgs,
 }
 
-/// One of several parts of a list.
+/// One of several parts of a list of files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub(crate) struct Shard {
-    /// Which part, from 1.
+    /// The number of the part, from 1.
     pub(crate) index: u32,
-    /// Of how many.
+    /// The number of parts.
     pub(crate) of: u32,
 }
 
@@ -155,24 +155,24 @@ impl fmt::Display for Shard {
       keep: [Faces, Area, MinAngle, DistanceTo(File(\"cow.obj\")), Seconds],
   )
 
-Every value of the first parameter meets every value of the second, and so on; the last one changes
-first. Lists under `zip` in place of `over` go together, value by value. A cell that fails is a row
-with its error.
+The recipe runs once for each combination of the values in `over`; the last parameter changes fastest.
+Lists under `zip` must have the same length and are combined value by value. Each combination is a cell
+of the sweep. A failed cell is a row with its error.
 
   meshwright sweep levels.sweep.ron --sheet levels.png --wireframe --from Front
 
-draws the scene at the end of each cell. Where two parameters change, the values of the first stand beside
-rows and those of the second above columns; else each cell has its values below it. All cells are seen by
-one camera in one scale, and numbers in the same colors. A cell that fails is an empty place with its error."
+draws the final scene of each cell. If exactly two parameters vary, the values of the first label the rows
+and those of the second the columns; otherwise each cell has its values below it. All cells share one camera,
+one scale and one color range. A failed cell shows its error instead of a scene."
 )]
 #[command(mut_group("DrawArgs", |group| group.requires("sheet")))]
 pub(crate) struct SweepArgs {
-    /// The sweep
+    /// The sweep file (*.sweep.ron)
     pub(crate) sweep: PathBuf,
-    /// Write the table to a file too
+    /// Also write the table to a file
     #[arg(long, value_name = "FILE.csv|.json")]
     pub(crate) out: Option<PathBuf>,
-    /// Keep the outputs of each cell in a folder of its number below this one
+    /// Keep the outputs of each cell in a folder named by its number, below DIR
     #[arg(long, value_name = "DIR")]
     pub(crate) keep_outputs: Option<PathBuf>,
     #[command(flatten)]
@@ -181,10 +181,10 @@ pub(crate) struct SweepArgs {
     pub(crate) cache: CacheArgs,
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-    /// Draw the scenes of all cells into one image (.png), with what is kept of each if that fits
+    /// Draw the scenes of all cells on one image (.png); the values of `keep` are shown where they fit
     #[arg(long, value_name = "FILE", help_heading = SHEET)]
     pub(crate) sheet: Option<PathBuf>,
-    /// How many cells stand in a row, each with its values below it
+    /// Number of cells in a row; each cell has its values below it
     #[arg(
         long,
         value_name = "N",
@@ -197,14 +197,14 @@ pub(crate) struct SweepArgs {
     pub(crate) draw: DrawArgs,
 }
 
-const SHEET: &str = "The sheet, as `meshwright picture` draws";
+const SHEET: &str = "Options of the sheet, as in `meshwright picture`";
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn parts_of_a_list_count_from_1() {
+    fn parts_are_numbered_from_1() {
         assert_eq!("2/3".parse(), Ok(Shard { index: 2, of: 3 }));
         for wrong in ["0/3", "4/3", "1", "1/", "/1", "1/0", "-1/3", "a/b", "1/2/3"] {
             assert!(wrong.parse::<Shard>().is_err(), "{wrong}");

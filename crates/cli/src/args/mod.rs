@@ -50,29 +50,29 @@ pub(crate) enum Command {
     ///
     /// The exit code is 0 if they are equal, 1 if they differ and 2 if they cannot be compared.
     Diff(DiffArgs),
-    /// Read a file and write it in another format
+    /// Convert a file to another format
     Convert(ConvertArgs),
     /// Run one recipe on many files
     Batch(BatchArgs),
     /// Run one recipe with many parameter values and tabulate the results
     Sweep(SweepArgs),
-    /// Write a small recipe with comments, to be changed
+    /// Write a small commented recipe to start from
     New(NewArgs),
     /// List the operations and selections, or describe one operation
     Ops(OpsArgs),
-    /// List what recipes can expect, or describe one expectation
+    /// List the expectations that recipes can have, or describe one
     Expectations {
         /// The expectation to describe
         name: Option<String>,
     },
     /// Print the JSON schema of recipes
     Schema,
-    /// Rewrite older spellings in recipes; comments and layout are kept
+    /// Rewrite outdated names in recipes; comments and layout are kept
     Upgrade(UpgradeArgs),
-    /// Run the recipes that wrote files again and compare the bytes
+    /// Check that files are reproducible: run their recipes again and compare the bytes
     ///
-    /// A file records which recipe wrote it, with which parameters and from which inputs. The recipe is searched
-    /// for below the working directory.
+    /// An output file records the recipe, the parameters and the inputs that it was made from. The recipe is
+    /// searched for below the working directory.
     Reproduce(ReproduceArgs),
     /// Reduce a failing step to a minimal mesh
     Shrink(ShrinkArgs),
@@ -80,7 +80,7 @@ pub(crate) enum Command {
     Cache(CacheCommandArgs),
     /// Write the source of a new operation, with a test and a picture
     ///
-    /// It becomes a crate of its own, or with `--in` a file of a group in Meshwright's workspace.
+    /// Writes a new crate or, with `--in`, a file in one of the operation groups of Meshwright's workspace.
     NewOp(NewOpArgs),
     /// Print a completion script for a shell
     Completions {
@@ -93,7 +93,7 @@ pub(crate) enum Command {
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct NewArgs {
-    /// The name of the recipe, or a model that it reads: `part` and `part.obj` both write `part.ron`
+    /// The name of the recipe, or of a model for the recipe to load: `part` and `part.obj` both write `part.ron`
     pub(crate) name: PathBuf,
 }
 
@@ -107,7 +107,8 @@ pub(crate) struct OpsArgs {
     /// Print the whole reference as Markdown
     #[arg(long, conflicts_with = "name")]
     pub(crate) markdown: bool,
-    /// A folder of pictures for the reference: `NAME/before.png` and `NAME/after.png`, drawn by `NAME.ron`
+    /// A folder of pictures for the reference: `NAME/before.png` and `NAME/after.png`, drawn by `NAME.ron`, where
+    /// NAME is the operation in snake case
     #[arg(long, requires = "markdown", value_name = "FOLDER")]
     pub(crate) pictures: Option<PathBuf>,
 }
@@ -144,7 +145,7 @@ pub(crate) struct NewOpArgs {
     /// Write a file into this group of operations, such as `faces`, instead of a crate
     #[arg(long = "in", value_name = "GROUP")]
     pub(crate) group: Option<String>,
-    /// Where to write the crate; for a group the root of Meshwright's workspace
+    /// The folder to write the crate to; with `--in`, the root of Meshwright's workspace
     #[arg(long, default_value = ".")]
     pub(crate) dir: PathBuf,
     /// The root of Meshwright's workspace, which the crate depends on
@@ -157,17 +158,17 @@ pub(crate) struct NewOpArgs {
     pub(crate) meshwright: PathBuf,
 }
 
-/// An invalid combination of arguments, found after they were read: exit code 2.
+/// Arguments that are found to be invalid after parsing. The exit code is 2.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub(crate) struct WrongUsage(pub(crate) String);
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// For people
+    /// Text for people
     #[default]
     Human,
-    /// One JSON object
+    /// JSON for programs
     Json,
 }
 

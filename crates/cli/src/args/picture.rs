@@ -1,4 +1,4 @@
-//! How pictures look, and the command that draws them.
+//! Options for pictures, and the arguments of the command `picture`.
 
 use std::path::PathBuf;
 
@@ -6,58 +6,58 @@ use clap::Args as ClapArgs;
 
 use super::{ReadArgs, ValueArgs};
 
-/// How a scene is drawn.
+/// Options that determine how a scene is drawn.
 #[derive(Debug, ClapArgs)]
 #[expect(
     clippy::struct_excessive_bools,
     reason = "each is a switch of the command line"
 )]
 pub(crate) struct DrawArgs {
-    /// Its size in pixels, of each view of each file or cell; by default 1280x960, on a sheet 320x240
+    /// Size of each view in pixels; defaults to 1280x960, and to 320x240 on a sheet
     #[arg(long, value_name = "WxH", value_parser = pixels)]
     pub(crate) size: Option<[u32; 2]>,
-    /// The side from which it is seen, such as Front or Isometric; several stand side by side
+    /// View direction, such as Front or Isometric; can be repeated to draw several views side by side
     #[arg(long, value_name = "SIDE")]
     pub(crate) from: Vec<String>,
-    /// Without perspective
+    /// Use a camera without perspective
     #[arg(long)]
     pub(crate) orthographic: bool,
-    /// The z axis points upwards, not y
+    /// Draw the z axis upwards instead of the y axis
     #[arg(long)]
     pub(crate) z_up: bool,
-    /// How light falls: Flat, Smooth, Phong, Matcap or Plain
+    /// Shading: Flat, Smooth, Phong, Matcap or Plain
     #[arg(long, value_name = "SHADING")]
     pub(crate) shading: Option<String>,
-    /// Show the edges
+    /// Draw the edges
     #[arg(long)]
     pub(crate) wireframe: bool,
-    /// Nothing is behind the scene, in place of white
+    /// Transparent background instead of white
     #[arg(long)]
     pub(crate) transparent: bool,
-    /// Mark elements, such as 'Sharp(above: 30)' or 'Faces(Boundary)'
+    /// Highlight elements, such as 'Sharp(above: 30)' or 'Faces(Boundary)'
     #[arg(long, value_name = "SELECTION")]
     pub(crate) highlight: Option<String>,
-    /// Show numbers as colors, such as Valence or Area: all are shown by `meshwright ops Picture`. A file in it,
-    /// as in 'DistanceTo("other.obj")', is seen from the working directory
+    /// Color the surface by a quantity, such as Valence or Area; `meshwright ops Picture` lists all. Paths, as in
+    /// 'DistanceTo("other.obj")', are relative to the working directory
     #[arg(long, value_name = "QUANTITY")]
     pub(crate) color_by: Option<String>,
-    /// Where images of materials are looked for, seen from the working directory; by default beside the file or
-    /// recipe
+    /// Folder with the images of materials, relative to the working directory; defaults to the folder of the file
+    /// or recipe
     #[arg(long, value_name = "DIR")]
     pub(crate) images: Option<String>,
-    /// More parameters of the operation Picture, as recipes write them
+    /// Further parameters of the operation Picture, written as in recipes
     #[arg(long, value_name = "FIELDS")]
     pub(crate) with: Option<String>,
-    /// Only the objects of this name; may be given more than once
+    /// Draw only the object with this name; can be repeated
     #[arg(long, value_name = "OBJECT")]
     pub(crate) on: Vec<String>,
 }
 
-/// Whether failures are drawn.
+/// The option that draws failures.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct PictureErrorsArgs {
-    /// Draw each failure into this folder, the working directory unless told otherwise: the scene, with the
-    /// elements that it is about large and marked
+    /// Write a picture of each failure to this folder, with the affected elements enlarged and highlighted; without
+    /// DIR, to the working directory
     #[arg(
         long,
         value_name = "DIR",
@@ -75,34 +75,35 @@ pub(crate) struct PictureErrorsArgs {
   meshwright picture scenes/cube.ron --change split --color-by Valence
   meshwright picture 'models/**/*.obj' --sheet --columns 6
 
-The parameters are those of the operation Picture: `meshwright ops Picture` shows them all. Those that
-have no option here are given as recipes write them, as in --with 'style: (occlusion: 0, ids: Vertices)'; paths
-in them are seen from the working directory.")]
+`meshwright ops Picture` describes all parameters of a picture. Pass those without an option of their own with
+--with, written as in recipes: --with 'style: (occlusion: 0, ids: Vertices)'. Paths in them are relative to the
+working directory.")]
 pub(crate) struct PictureArgs {
-    /// Files of meshes, patches or curves, or recipes (*.ron); patterns such as 'models/*.obj' too
+    /// Mesh, patch or curve files, or recipes (*.ron); patterns such as 'models/*.obj' are allowed
     #[arg(required = true, value_name = "FILES")]
     pub(crate) files: Vec<String>,
-    /// The image: .png, or for a turntable .gif or .apng; by default in the working directory, named as the file
+    /// Image to write: .png, or .gif or .apng for a turntable; defaults to the name of the input file, in the working
+    /// directory
     #[arg(long, short, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) draw: DrawArgs,
-    /// Turn the camera once around the scene
+    /// Draw an animation in which the camera turns once around the scene
     #[arg(long)]
     pub(crate) turntable: bool,
-    /// Put many files on one sheet, each with its name
+    /// Draw all files on one sheet, each with its name
     #[arg(long)]
     pub(crate) sheet: bool,
-    /// How many files, or views, stand in a row
+    /// Number of files (on a sheet) or views in a row
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
     pub(crate) columns: Option<u32>,
-    /// The scene of a recipe after the step or call of this id
+    /// Draw the scene after the recipe's step or call with this id
     #[arg(long, value_name = "ID", conflicts_with_all = ["before", "change"])]
     pub(crate) after: Option<String>,
-    /// The scene of a recipe before the step or call of this id
+    /// Draw the scene before the recipe's step or call with this id
     #[arg(long, value_name = "ID", conflicts_with = "change")]
     pub(crate) before: Option<String>,
-    /// The scenes of a recipe before and after the step or call of this id, side by side
+    /// Draw the scenes before and after the recipe's step or call with this id, side by side
     #[arg(long, value_name = "ID", conflicts_with = "sheet")]
     pub(crate) change: Option<String>,
     #[command(flatten)]
@@ -116,7 +117,7 @@ fn pixels(text: &str) -> Result<[u32; 2], String> {
     let sides = text.split_once('x').map(|(w, h)| (parse(w), parse(h)));
     match sides {
         Some((Some(width), Some(height))) => Ok([width, height]),
-        _ => Err("expected a size such as 1280x960, of 1 to 16384 pixels a side".to_owned()),
+        _ => Err("expected a size such as 1280x960, with 1 to 16384 pixels per side".to_owned()),
     }
 }
 

@@ -1,29 +1,29 @@
-//! How files of meshes are read.
+//! Options for reading mesh files.
 
 use clap::Args as ClapArgs;
 use mesh_io::{CleanupPolicy, NonManifold, Orientation, Policies, ReadOptions};
 use serde::de::value::StrDeserializer;
 use serde::de::{DeserializeOwned, IntoDeserializer};
 
-/// What commands that read a file of meshes share.
+/// Options of the commands that read a mesh file.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct ReadArgs {
-    /// Fail where something of the file would be left out
+    /// Fail if a part of the file would be left out
     #[arg(long)]
     strict: bool,
-    /// Where faces form no manifold: Split or Refuse
+    /// Handling of non-manifold edges and vertices: Split or Refuse
     #[arg(long, default_value = "Split", value_name = "POLICY", value_parser = policy::<NonManifold>)]
     non_manifold: NonManifold,
-    /// Where neighboring faces disagree about their orientation: Orient or Keep
+    /// Handling of neighboring faces with opposite orientations: Orient or Keep
     #[arg(long, default_value = "Orient", value_name = "POLICY", value_parser = policy::<Orientation>)]
     orientation: Orientation,
-    /// Faces with the vertices of an earlier one: Keep or Drop
+    /// Handling of faces with the same vertices as an earlier face: Keep or Drop
     #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<CleanupPolicy>)]
     duplicates: CleanupPolicy,
-    /// Faces without area: Keep or Drop
+    /// Handling of faces with zero area: Keep or Drop
     #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<CleanupPolicy>)]
     degenerate: CleanupPolicy,
-    /// Vertices that no face uses: Keep or Drop
+    /// Handling of vertices without faces: Keep or Drop
     #[arg(long, default_value = "Keep", value_name = "POLICY", value_parser = policy::<CleanupPolicy>)]
     isolated: CleanupPolicy,
 }
@@ -44,7 +44,7 @@ impl ReadArgs {
     }
 }
 
-/// A policy by the name that it has in recipes.
+/// Parses a policy from its name in recipes.
 fn policy<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     let name: StrDeserializer<serde::de::value::Error> = text.into_deserializer();
     T::deserialize(name).map_err(|error| error.to_string())

@@ -1,4 +1,4 @@
-//! The commands on one recipe.
+//! Arguments of the commands that run, check or rewrite one recipe.
 
 use std::path::PathBuf;
 
@@ -6,13 +6,13 @@ use clap::Args as ClapArgs;
 
 use super::{CacheArgs, Format, PictureErrorsArgs, assignment, size};
 
-/// The values of a recipe's parameters.
+/// Options that set the parameters of a recipe.
 #[derive(Clone, Debug, Default, ClapArgs)]
 pub(crate) struct ValueArgs {
-    /// Set a parameter of the recipe
+    /// Set a parameter of the recipe; can be repeated
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
-    /// Take the values of one of the recipe's presets; --set goes before them
+    /// Use the values of one of the recipe's presets; --set overrides them
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
 }
@@ -23,7 +23,7 @@ impl ValueArgs {
     }
 }
 
-/// What commands that read one recipe share.
+/// Arguments of the commands that read one recipe.
 #[derive(Debug, ClapArgs)]
 pub(crate) struct RecipeArgs {
     /// The recipe
@@ -33,7 +33,7 @@ pub(crate) struct RecipeArgs {
     /// The folder for outputs
     #[arg(long, default_value = "out", value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// The memory that meshes may take, such as 512MiB or 8GiB
+    /// Memory budget for meshes, such as 512MiB or 8GiB
     #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) budget: u64,
     #[arg(long, value_enum, default_value_t)]
@@ -44,16 +44,17 @@ pub(crate) struct RecipeArgs {
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) recipe: RecipeArgs,
-    /// The number of threads; by default one for each processor
+    /// Number of threads; defaults to the number of processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(crate) threads: Option<u16>,
-    /// If a step fails, write the scene before it and a recipe of the rest into this folder
+    /// If a step fails, write a capsule to this folder: the scene before the step, and a recipe with the remaining
+    /// steps
     #[arg(long, value_name = "DIR")]
     pub(crate) capsule: Option<PathBuf>,
-    /// Do not hold the recipe's expectations against the result
+    /// Do not check the recipe's expectations
     #[arg(long)]
     pub(crate) no_expect: bool,
-    /// Print where the value of each parameter comes from, and for each step why it ran
+    /// Print the origin of each parameter value, and why each step was run instead of taken from the cache
     #[arg(long)]
     pub(crate) explain: bool,
     #[command(flatten)]
@@ -66,7 +67,7 @@ pub(crate) struct RunArgs {
 pub(crate) struct CheckArgs {
     #[command(flatten)]
     pub(crate) recipe: RecipeArgs,
-    /// Print where the value of each parameter comes from
+    /// Print the origin of each parameter value
     #[arg(long)]
     pub(crate) explain: bool,
 }
@@ -76,37 +77,37 @@ pub(crate) struct UpgradeArgs {
     /// Recipes, or folders of recipes
     #[arg(required = true)]
     pub(crate) recipes: Vec<PathBuf>,
-    /// Change nothing, and fail if there is something to rewrite
+    /// Change no files, and fail if a recipe would be rewritten
     #[arg(long)]
     pub(crate) check: bool,
 }
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct ShrinkArgs {
-    /// A recipe of which a step fails, such as that of a capsule
+    /// A recipe with a failing step, such as the recipe of a capsule
     pub(crate) recipe: PathBuf,
     #[command(flatten)]
     pub(crate) values: ValueArgs,
-    /// The folder for the smaller scene and its recipe
+    /// The folder for the reduced scene and its recipe
     #[arg(long, default_value = "shrunk", value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// How many smaller scenes to try
+    /// Maximum number of smaller scenes to try
     #[arg(long, default_value_t = 1000, value_name = "N")]
     pub(crate) tries: usize,
-    /// The memory that meshes may take, such as 512MiB or 8GiB
+    /// Memory budget for meshes, such as 512MiB or 8GiB
     #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) budget: u64,
 }
 
 #[derive(Debug, ClapArgs)]
 pub(crate) struct ReproduceArgs {
-    /// Files that recipes have written
+    /// Output files of recipes
     #[arg(required = true)]
     pub(crate) files: Vec<PathBuf>,
-    /// The recipe that has written them
+    /// The recipe that wrote them; by default it is searched for
     #[arg(long, value_name = "RECIPE")]
     pub(crate) recipe: Option<PathBuf>,
-    /// The memory that meshes may take, such as 512MiB or 8GiB
+    /// Memory budget for meshes, such as 512MiB or 8GiB
     #[arg(long, default_value = "8GiB", value_name = "SIZE", value_parser = size)]
     pub(crate) budget: u64,
 }

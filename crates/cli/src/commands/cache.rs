@@ -1,4 +1,4 @@
-//! `meshwright cache`: says what the cache holds, or empties it.
+//! `meshwright cache`: shows or clears the step cache.
 
 use ::cache::{Cache, LIMIT};
 use anyhow::Context as _;
@@ -6,7 +6,7 @@ use recipe::mebibytes;
 
 use crate::args::{CacheAction, CacheCommandArgs, Format};
 use crate::cache::folder;
-use crate::output::{grouped, print, print_json};
+use crate::output::{group_digits, print, print_json};
 
 pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
     let cache = Cache::new(folder(&args.folder)?, LIMIT, "");
@@ -15,7 +15,7 @@ pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
         CacheAction::Info => (cache.size(), "holds"),
         CacheAction::Clear => (cache.clear(), "removed"),
     };
-    let size = size.with_context(|| format!("cannot use the cache folder {shown}"))?;
+    let size = size.with_context(|| format!("cannot access the cache folder {shown}"))?;
     if args.format == Format::Json {
         print_json(&serde_json::json!({
             "folder": shown,
@@ -26,7 +26,7 @@ pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
         }))?;
         return Ok(true);
     }
-    let [steps, blobs] = [size.steps, size.blobs].map(grouped);
+    let [steps, blobs] = [size.steps, size.blobs].map(group_digits);
     let bytes = mebibytes(size.bytes);
     print(&format!(
         "folder  {shown}\n{word}  {bytes}: {steps} steps, {blobs} arrays and files\n"

@@ -1,15 +1,16 @@
-//! `meshwright check`: reads and plans a recipe and says what it will make.
+//! `meshwright check`: checks a recipe and forecasts the counts and the memory of each step.
 
 use engine::Engine;
 use op::Range;
 use recipe::mebibytes;
 use serde_json::json;
 
-use super::run::refuse;
+use super::run::report_errors;
 use crate::args::{CheckArgs, Format};
 use crate::loading::load;
 use crate::output::{
-    counted, explain, grouped, heads, print, print_json, problems_json, show, table,
+    counted, explain, group_digits, header_row, print, print_diagnostics, print_json,
+    problems_json, table,
 };
 
 pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
@@ -19,7 +20,7 @@ pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
         print(&explain(&loaded.recipe))?;
     }
     if loaded.has_errors() {
-        return refuse(&loaded, json);
+        return report_errors(&loaded, json);
     }
     let steps = &loaded.forecast.steps;
     if json {
@@ -36,18 +37,18 @@ pub(crate) fn run(args: &CheckArgs, engine: &Engine) -> anyhow::Result<bool> {
         }))?;
         return Ok(true);
     }
-    show(&loaded, &loaded.diagnostics);
-    let mut rows = vec![heads(["step", "vertices", "edges", "faces", "memory"])];
+    print_diagnostics(&loaded, &loaded.diagnostics);
+    let mut rows = vec![header_row(["step", "vertices", "edges", "faces", "memory"])];
     for (i, step) in steps.iter().enumerate() {
         let mut row = vec![format!("{:>2} {}", i + 1, step.label)];
-        row.extend([step.vertices, step.edges, step.faces].map(|r| range(r, grouped)));
+        row.extend([step.vertices, step.edges, step.faces].map(|r| range(r, group_digits)));
         row.push(range(step.bytes, mebibytes));
         rows.push(row);
     }
     print(&table(&rows))?;
     let n = loaded.recipe.expectations.len();
     print(&format!(
-        "{} is fine: {}, {}\n",
+        "{} is valid: {}, {}\n",
         loaded.path,
         counted(steps.len(), "step"),
         counted(n, "expectation")

@@ -1,4 +1,4 @@
-//! `meshwright convert`: reads a file and writes it in another format.
+//! `meshwright convert`: converts a file to another format.
 
 use crate::args::ConvertArgs;
 use crate::output::{STAMP, print};

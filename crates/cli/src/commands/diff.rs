@@ -1,4 +1,4 @@
-//! `meshwright diff`: two files, or what two recipes make, side by side.
+//! `meshwright diff`: compares two files, or the results of two recipes.
 
 use engine::{Engine, Stop};
 use geometry::distance::{Distance, OneSided};
@@ -10,15 +10,15 @@ use serde_json::{Value as Json, json};
 
 use super::diff_runs;
 use crate::args::{DiffArgs, Format, ValueArgs};
-use crate::output::{grouped, print, print_json, table};
-use crate::scenes::find;
+use crate::output::{group_digits, print, print_json, table};
+use crate::scenes::load_scene;
 
 pub(crate) fn run(args: &DiffArgs, engine: &Engine) -> anyhow::Result<bool> {
     if args.runs {
         return diff_runs::run(&args.first, &args.second, args.format);
     }
     let values = ValueArgs::default();
-    let read = |path| find(path, &args.read.options(), &values, Stop::default(), engine);
+    let read = |path| load_scene(path, &args.read.options(), &values, Stop::default(), engine);
     let (first, second) = (read(&args.first)?.scene, read(&args.second)?.scene);
     let difference = Difference::between(&first, &second);
     let equal = difference.is_within(args.tolerance);
@@ -84,7 +84,7 @@ fn object_text(object: &ObjectDifference, files: &[String; 2]) -> String {
         text += &format!("  material {name}: differs\n");
     }
     if object.materials_reordered {
-        text += "  materials: in another order\n";
+        text += "  materials: in a different order\n";
     }
     text
 }
@@ -101,7 +101,7 @@ fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
         "connectivity",
         match mesh.connectivity {
             Connectivity::Same => "the same",
-            Connectivity::Reordered => "the same, with vertices or faces in another order",
+            Connectivity::Reordered => "the same, with vertices or faces in a different order",
             Connectivity::Different => "different",
         },
     );
@@ -109,8 +109,8 @@ fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
         let moved = match &mesh.moved {
             None => "the same".to_owned(),
             Some(m) => {
-                let [n, all] = [m.count, mesh.counts[0].vertices].map(|n| grouped(n as u64));
-                format!("{n} of {all} differ, {} by {}", m.vertex, m.by)
+                let [n, all] = [m.count, mesh.counts[0].vertices].map(|n| group_digits(n as u64));
+                format!("{n} of {all} differ, most at {} by {}", m.vertex, m.by)
             }
         };
         line("positions", &moved);
@@ -120,7 +120,7 @@ fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
         line("distance", &largest(distance));
         line("", &format!("from {} to {}", worst.from, worst.to));
         let way = usize::from(!distance.is_worst_forth());
-        line("", &format!("the first is of {}", files[way]));
+        line("", &format!("the first point is on {}", files[way]));
         line("mean distance", &distance.mean().to_string());
     }
     for attribute in &mesh.attributes {
@@ -135,11 +135,11 @@ fn mesh_text(mesh: &MeshDifference, files: &[String; 2]) -> String {
 type Show = fn(&Counts) -> String;
 
 const FACTS: [(&str, Show); 8] = [
-    ("vertices", |c| grouped(c.vertices as u64)),
-    ("edges", |c| grouped(c.edges as u64)),
-    ("faces", |c| grouped(c.faces as u64)),
-    ("components", |c| grouped(c.components as u64)),
-    ("boundary loops", |c| grouped(c.boundary_loops as u64)),
+    ("vertices", |c| group_digits(c.vertices as u64)),
+    ("edges", |c| group_digits(c.edges as u64)),
+    ("faces", |c| group_digits(c.faces as u64)),
+    ("components", |c| group_digits(c.components as u64)),
+    ("boundary loops", |c| group_digits(c.boundary_loops as u64)),
     ("area", |c| c.area.to_string()),
     ("volume", |c| match c.boundary_loops {
         0 => c.volume.to_string(),
@@ -151,11 +151,11 @@ const FACTS: [(&str, Show); 8] = [
     }),
 ];
 
-/// The largest distance, as far as it is known.
+/// Formats the largest distance. It is a lower bound if `at_most` exceeds it.
 fn largest(distance: &Distance) -> String {
     let (largest, most) = (distance.largest(), distance.at_most());
     if most > largest {
-        format!("{largest}, and {most} at most")
+        format!("at least {largest}, at most {most}")
     } else {
         largest.to_string()
     }
@@ -167,11 +167,11 @@ fn column_text(attribute: &AttributeDifference, files: &[String; 2]) -> String {
         ColumnDifference::OnlyFirst => format!("only in {}", files[0]),
         ColumnDifference::OnlySecond => format!("only in {}", files[1]),
         ColumnDifference::Types([a, b]) => format!("{a} in {}, {b} in {}", files[0], files[1]),
-        ColumnDifference::Rules => "edits treat it in another way".to_owned(),
-        ColumnDifference::Unknown => "in both, for other elements".to_owned(),
+        ColumnDifference::Rules => "different edit rules".to_owned(),
+        ColumnDifference::Unknown => "in both, but on different elements".to_owned(),
         ColumnDifference::Values { count, by, element } => {
-            let n = grouped(*count as u64);
-            format!("{n} values differ, {element} by {by}")
+            let n = group_digits(*count as u64);
+            format!("{n} values differ, most at {element} by {by}")
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `meshwright diff --runs`: two recorded runs, as `run --format json` prints them: an event a line.
+//! `meshwright diff --runs`: compares two recorded runs, as printed by `run --format json`, one event per line.
 
 use std::path::Path;
 
@@ -8,33 +8,33 @@ use serde_json::{Map, Value as Json, json};
 use crate::args::{Format, WrongUsage};
 use crate::output::{print, print_json};
 
-/// What may differ between runs of one recipe: times, what was taken from earlier runs, where it ran.
-const APART: [&str; 4] = ["milliseconds", "cached", "ran_because", "file"];
+/// Fields that are not compared: times, cache use, and the path of the recipe.
+const IGNORED_FIELDS: [&str; 4] = ["milliseconds", "cached", "ran_because", "file"];
 
-/// The events that are read are of this version.
+/// The newest version of events that can be read.
 const FORMAT: u64 = 1;
 
 /// A recorded run.
 struct Run {
     /// The parameters of the recipe.
     parameters: Vec<Json>,
-    /// What each step did.
+    /// The `done` event of each step.
     steps: Vec<Json>,
-    /// What went wrong, and the end.
+    /// The `problem` events and the `end` event.
     end: Vec<Json>,
 }
 
-/// A thing that differs: what it is, and what either run says of it.
-type Differing<'j> = (String, &'j Json, &'j Json);
+/// The name of a differing value, and the value in each run.
+type ValuePair<'j> = (String, &'j Json, &'j Json);
 
 pub(crate) fn run(first: &Path, second: &Path, format: Format) -> anyhow::Result<bool> {
     let (a, b) = (Run::read(first)?, Run::read(second)?);
-    let parameters = a.other_parameters(&b);
+    let parameters = a.differing_parameters(&b);
     let (place, differing) = a.first_difference(&b);
     let equal = place.is_none();
     if format == Format::Json {
-        let list = |differing: &[Differing]| -> Vec<Json> {
-            let one = |(what, a, b): &Differing| json!({ "what": what, "first": a, "second": b });
+        let list = |differing: &[ValuePair]| -> Vec<Json> {
+            let one = |(what, a, b): &ValuePair| json!({ "what": what, "first": a, "second": b });
             differing.iter().map(one).collect()
         };
         print_json(&json!({
@@ -66,12 +66,12 @@ impl Run {
             steps: Vec::new(),
             end: Vec::new(),
         };
-        let mut is_whole = false;
+        let mut has_end = false;
         for (i, line) in text.lines().enumerate() {
             let event: Json = serde_json::from_str(line).map_err(|error| {
-                let help = "meshwright run RECIPE --format json records one";
+                let help = "record a run with `meshwright run RECIPE --format json`";
                 WrongUsage(format!(
-                    "{shown}:{}: no event of a run: {error}; {help}",
+                    "{shown}:{}: not an event of a run: {error}; {help}",
                     i + 1
                 ))
             })?;
@@ -79,10 +79,10 @@ impl Run {
                 Some("start") => {
                     let version = event["format"].as_u64().unwrap_or(0);
                     if version > FORMAT {
-                        let message = format!("{shown} is of version {version}, expected {FORMAT}");
-                        return Err(
-                            WrongUsage(format!("{message}: a newer meshwright wrote it")).into(),
+                        let message = format!(
+                            "{shown} has version {version}, expected at most {FORMAT}: a newer meshwright wrote it"
                         );
+                        return Err(WrongUsage(message).into());
                     }
                     let parameters = event["parameters"].as_array();
                     run.parameters
@@ -91,23 +91,25 @@ impl Run {
                 Some("done") => run.steps.push(event),
                 Some("problem") => run.end.push(event),
                 Some("end") => {
-                    is_whole = true;
+                    has_end = true;
                     run.end.push(event);
                 }
-                // Progress, and what newer programs tell besides.
+                // Progress, and unknown events of newer versions.
                 _ => {}
             }
         }
-        if !is_whole {
-            let help = "meshwright run RECIPE --format json records one";
-            let message = format!("{shown} is no whole record of a run, it has no end; {help}");
+        if !has_end {
+            let help = "record a run with `meshwright run RECIPE --format json`";
+            let message = format!(
+                "{shown} is not a complete record of a run, the event `end` is missing; {help}"
+            );
             return Err(WrongUsage(message).into());
         }
         Ok(run)
     }
 
-    /// The parameters of both runs whose values differ.
-    fn other_parameters<'j>(&'j self, other: &'j Self) -> Vec<Differing<'j>> {
+    /// Returns the parameters that both runs have with different values.
+    fn differing_parameters<'j>(&'j self, other: &'j Self) -> Vec<ValuePair<'j>> {
         let value = |parameter: &Json| {
             let theirs = other
                 .parameters
@@ -122,10 +124,10 @@ impl Run {
             .collect()
     }
 
-    /// Where the runs differ first, and in what; nothing if they do not.
-    fn first_difference<'j>(&'j self, other: &'j Self) -> (Option<String>, Vec<Differing<'j>>) {
+    /// Returns the first place where the runs differ, if any, and the values that differ there.
+    fn first_difference<'j>(&'j self, other: &'j Self) -> (Option<String>, Vec<ValuePair<'j>>) {
         for (i, (step, their)) in self.steps.iter().zip(&other.steps).enumerate() {
-            let differing = fields(step, their);
+            let differing = differing_fields(step, their);
             if !differing.is_empty() {
                 let label = step["label"].as_str().unwrap_or("?");
                 return (Some(format!("step {}, {label}", i + 1)), differing);
@@ -135,11 +137,11 @@ impl Run {
         if n != m {
             let longer = if n > m { self } else { other };
             let label = longer.steps[n.min(m)]["label"].as_str().unwrap_or("?");
-            let place = format!("step {}, {label}, that only one run has", n.min(m) + 1);
+            let place = format!("step {}, {label}, which only one run has", n.min(m) + 1);
             return (Some(place), Vec::new());
         }
         for (event, their) in self.end.iter().zip(&other.end) {
-            let differing = fields(event, their);
+            let differing = differing_fields(event, their);
             if !differing.is_empty() {
                 return (Some("the end".to_owned()), differing);
             }
@@ -149,11 +151,12 @@ impl Run {
     }
 }
 
-/// What differs between two events. What only one of them knows is no difference: the other may be older.
-fn fields<'j>(a: &'j Json, b: &'j Json) -> Vec<Differing<'j>> {
+/// Returns the fields that differ between two events. Fields that only one event has are ignored: the other event can be
+/// from an older version.
+fn differing_fields<'j>(a: &'j Json, b: &'j Json) -> Vec<ValuePair<'j>> {
     let names = a.as_object().into_iter().flat_map(Map::keys);
     names
-        .filter(|name| !APART.contains(&name.as_str()))
+        .filter(|name| !IGNORED_FIELDS.contains(&name.as_str()))
         .filter_map(|name| Some((name.clone(), a.get(name)?, b.get(name)?)))
         .filter(|(_, a, b)| a != b && !a.is_null() && !b.is_null())
         .collect()

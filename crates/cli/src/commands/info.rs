@@ -1,4 +1,4 @@
-//! `meshwright info`: shows what a file holds.
+//! `meshwright info`: shows what a file contains.
 
 use std::path::Path;
 
@@ -11,8 +11,8 @@ use scene::{Geometry, Object, Scene};
 use serde_json::json;
 
 use crate::args::{Format, InfoArgs};
-use crate::commands::picture::draw_found;
-use crate::output::{counted, grouped, print, print_json};
+use crate::commands::picture::draw_scenes;
+use crate::output::{counted, group_digits, print, print_json};
 use crate::scenes::{SceneAtStep, read_file};
 use crate::terminal_picture;
 
@@ -45,14 +45,14 @@ pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<bool> {
     for note in &notes {
         print(&format!("note: {note}\n"))?;
     }
-    pictures.tell();
+    pictures.print_list();
     if args.picture {
         show(path, scene)?;
     }
     Ok(true)
 }
 
-/// The elements that a note is about, as a picture shows them.
+/// Returns the places of the elements of a note, for a picture.
 fn places(note: &Note) -> Vec<ErrorLocation> {
     let names: Vec<String> = match &note.elements {
         Some(Elements::Vertices(list)) => list.iter().map(ToString::to_string).collect(),
@@ -73,12 +73,12 @@ fn show(path: &Path, scene: Scene) -> anyhow::Result<()> {
     let stream = String::new();
     let mut picture = Picture::new("info.png");
     picture.size = [640, 480].map(op::Count::literal);
-    let images = draw_found(&picture, path, &[(SceneAtStep { scene, stream }, "")], &[])?;
+    let images = draw_scenes(&picture, path, &[(SceneAtStep { scene, stream }, "")], &[])?;
     terminal_picture::show(&images[0])?;
     Ok(())
 }
 
-/// A note as a sentence, and its parts; all elements, where the sentence names a few.
+/// Converts a note to JSON. `text` names only some of the elements; the list has all of them.
 fn note_json(note: &Note) -> serde_json::Value {
     let mut json = json!({
         "text": note.to_string(),
@@ -102,18 +102,22 @@ fn note_json(note: &Note) -> serde_json::Value {
 fn facts(object: &Object) -> Vec<(&'static str, String)> {
     match &object.geometry {
         Geometry::Mesh(mesh) => mesh_facts(object, mesh),
-        Geometry::Patches(patches) => vec![("patches", grouped(patches.len() as u64))],
-        Geometry::Curve(curve) => vec![("control points", grouped(curve.points().len() as u64))],
+        Geometry::Patches(patches) => vec![("patches", group_digits(patches.len() as u64))],
+        Geometry::Curve(curve) => {
+            vec![("control points", group_digits(curve.points().len() as u64))]
+        }
         Geometry::Polylines(lines) => {
             let points: usize = lines.iter().map(Vec::len).sum();
             let counts = [("polylines", lines.len()), ("points", points)];
-            counts.map(|(what, n)| (what, grouped(n as u64))).to_vec()
+            counts
+                .map(|(what, n)| (what, group_digits(n as u64)))
+                .to_vec()
         }
     }
 }
 
 fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
-    let count = |n: usize| grouped(n as u64);
+    let count = |n: usize| group_digits(n as u64);
     let loops = mesh.n_boundary_loops();
     let closed = if loops == 0 {
         "yes".to_owned()
@@ -163,11 +167,11 @@ fn mesh_facts(object: &Object, mesh: &Mesh) -> Vec<(&'static str, String)> {
     facts
 }
 
-/// Counts by number: `12 of 3, 6 of 4 corners`; at most eight of them.
+/// Formats a histogram such as `12 of 3, 6 of 4 corners`, with at most eight entries.
 fn histogram(counts: &[usize], what: &str) -> String {
     let found = counts.iter().enumerate().filter(|(_, n)| **n > 0);
     let mut parts: Vec<String> = found
-        .map(|(number, n)| format!("{} of {number}", grouped(*n as u64)))
+        .map(|(number, n)| format!("{} of {number}", group_digits(*n as u64)))
         .collect();
     if parts.is_empty() {
         return "none".to_owned();

@@ -1,4 +1,4 @@
-//! `meshwright completions` and `meshwright man`: what shells and `man` need to know of the command line.
+//! `meshwright completions` and `meshwright man`: print completion scripts and the manual page.
 
 use clap_complete::Shell;
 use clap_mangen::Man;

@@ -1,5 +1,5 @@
-//! `meshwright new-op`: writes an operation that works, to be changed: a file in a group of the workspace, or a program
-//! of its own.
+//! `meshwright new-op`: writes a working sample operation, either to a group of the workspace or as a separate crate with
+//! a program.
 
 use std::fs;
 use std::path::{Path, PathBuf, absolute};
@@ -14,34 +14,35 @@ const PICTURE: &str = include_str!("new_op/picture.ron.txt");
 const MAIN: &str = include_str!("new_op/main.rs.txt");
 const MANIFEST: &str = include_str!("new_op/Cargo.toml.txt");
 
-/// Names of crates that the sample uses, and words that no module can have as its name.
-const TAKEN: &str = "abstract alloc as async await become box break cli const continue core crate do \
+/// Module names that the sample cannot have: crates that it uses, and keywords.
+const RESERVED_MODULES: &str = "abstract alloc as async await become box break cli const continue core crate do \
     dyn else enum extern false final fn for gen if impl in let lib loop macro main match mesh mod move mut op \
     ops_all override priv proc_macro pub ref return schemars self serde static std struct super test \
     trait true try type typeof unsafe unsized use virtual where while yield";
 
 /// Types that the sample uses.
-const TYPES: &str = "Context DVec3 Deserialize JsonSchema Mesh MeshOperation MeshPlan OpError PlanContext \
+const RESERVED_TYPES: &str = "Context DVec3 Deserialize JsonSchema Mesh MeshOperation MeshPlan OpError PlanContext \
     Problem Report Result Select Serialize Vec Vector VertexSelection";
 
-/// Files with their texts.
+/// Paths of files, with their contents.
 type Files = Vec<(PathBuf, String)>;
 
-/// Writes an operation into a group of the workspace in `dir`, or, without one, a crate in `dir` that depends on
-/// the workspace `meshwright`.
+/// Writes an operation to a group of the workspace in `dir`; without a group, writes a crate to `dir` that depends on
+/// the workspace in the folder `meshwright`.
 pub(crate) fn run(args: &NewOpArgs) -> anyhow::Result<bool> {
-    let (name, snake) = (&args.name, checked(&args.name)?);
+    let (name, snake) = (&args.name, module_name(&args.name)?);
     let fill = |text: &str| text.replace("{Name}", name).replace("{name}", &snake);
     // Everything is prepared before anything is written.
     let (files, next) = match &args.group {
         Some(group) => in_group(group, &snake, &args.dir, fill)?,
-        None => of_its_own(&snake, &args.dir, &args.meshwright, fill)?,
+        None => in_new_crate(&snake, &args.dir, &args.meshwright, fill)?,
     };
     let mut text = String::new();
     for (path, content) in files {
         let change = if path.exists() { "changed" } else { "wrote" };
         let folder = path.parent().expect("a file is in a folder");
-        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        fs::create_dir_all(folder)
+            .with_context(|| format!("cannot create the folder {}", folder.display()))?;
         fs::write(&path, content).with_context(|| format!("cannot write {}", path.display()))?;
         text += &format!("{change} {}\n", path.display());
     }
@@ -49,7 +50,7 @@ pub(crate) fn run(args: &NewOpArgs) -> anyhow::Result<bool> {
     Ok(true)
 }
 
-/// The files of an operation in a group, and what to do with them.
+/// Returns the files of an operation in a group, and the commands to run next.
 fn in_group(
     group: &str,
     snake: &str,
@@ -62,11 +63,11 @@ fn in_group(
     let picture = root.join(format!("ops/all/pictures/{snake}.ron"));
     ensure!(
         group != "all" && list.is_file(),
-        "there is no group `{group}` in {}",
+        "the group `{group}` does not exist in {}",
         root.join("ops").display()
     );
     for path in [&file, &picture] {
-        ensure!(!path.exists(), "{} is there already", path.display());
+        ensure!(!path.exists(), "{} already exists", path.display());
     }
     let text =
         fs::read_to_string(&list).with_context(|| format!("cannot read {}", list.display()))?;
@@ -75,7 +76,7 @@ fn in_group(
     let with = fill("        .with::<{Name}>()");
     let text = insert_last(&text, "        .with::<", &with)?;
     let next = format!(
-        "next: cargo test -p meshwright-ops-{group}\nits picture: cargo run -- test \
+        "next: cargo test -p meshwright-ops-{group}\nto draw its pictures: cargo run -- test \
          ops/all/pictures/{snake}.ron --out ops/all/pictures\n"
     );
     let files = vec![
@@ -86,16 +87,17 @@ fn in_group(
     Ok((files, next))
 }
 
-/// The files of a program with the operation, and what to do with them.
-fn of_its_own(
+/// Returns the files of a program with the operation, and the commands to run next.
+fn in_new_crate(
     snake: &str,
     dir: &Path,
     meshwright: &Path,
     fill: impl Fn(&str) -> String,
 ) -> anyhow::Result<(Files, String)> {
-    check_root(meshwright).context("name the folder of Meshwright with `--meshwright`")?;
+    check_root(meshwright)
+        .context("set the root of the Meshwright workspace with `--meshwright`")?;
     let folder = dir.join(snake);
-    ensure!(!folder.exists(), "{} is there already", folder.display());
+    ensure!(!folder.exists(), "{} already exists", folder.display());
     let meshwright = absolute(meshwright)?;
     let path = pathdiff::diff_paths(&meshwright, absolute(&folder)?).unwrap_or(meshwright);
     let path = path.display().to_string().replace('\\', "/");
@@ -117,13 +119,13 @@ fn of_its_own(
 fn check_root(root: &Path) -> anyhow::Result<()> {
     ensure!(
         root.join("ops/all/src/lib.rs").is_file(),
-        "{} is not the root of a Meshwright workspace: there is no ops/all",
+        "{} is not the root of a Meshwright workspace: it has no folder ops/all",
         root.display()
     );
     Ok(())
 }
 
-/// `InflateFaces` as `inflate_faces`.
+/// Converts a name such as `InflateFaces` to `inflate_faces`.
 pub(crate) fn snake_case(name: &str) -> String {
     let mut snake = String::new();
     for c in name.chars() {
@@ -135,27 +137,27 @@ pub(crate) fn snake_case(name: &str) -> String {
     snake
 }
 
-/// The name in snake case, if an operation can have it.
-fn checked(name: &str) -> anyhow::Result<String> {
+/// Returns the name in snake case, or an error if an operation cannot have this name.
+fn module_name(name: &str) -> anyhow::Result<String> {
     let mut letters = name.chars();
     let first_is_upper = letters.next().is_some_and(|c| c.is_ascii_uppercase());
     if !first_is_upper || !letters.all(|c| c.is_ascii_alphanumeric()) {
         bail!("expected a name in camel case, such as InflateFaces, found `{name}`");
     }
     let snake = snake_case(name);
-    let among = |words: &str, word: &str| words.split(' ').any(|w| w == word);
+    let contains = |words: &str, word: &str| words.split(' ').any(|w| w == word);
     ensure!(
-        !among(TAKEN, &snake),
-        "`{name}` would be the module `{snake}`, which is taken"
+        !contains(RESERVED_MODULES, &snake),
+        "the name `{name}` cannot be used: its module `{snake}` would have the name of a keyword or of a crate that the sample uses"
     );
     ensure!(
-        !among(TYPES, name),
-        "the sample uses another `{name}`: choose a name that says more"
+        !contains(RESERVED_TYPES, name),
+        "the name `{name}` cannot be used: the sample uses another type of this name"
     );
     Ok(snake)
 }
 
-/// Puts a line among those that begin with `prefix`, in their order.
+/// Inserts a line in sorted order among the lines that begin with `prefix`.
 fn insert_sorted(text: &str, prefix: &str, line: &str) -> anyhow::Result<String> {
     let next = |l: &&str| l.starts_with(prefix) && *l > line;
     match text.lines().find(next) {
@@ -164,7 +166,7 @@ fn insert_sorted(text: &str, prefix: &str, line: &str) -> anyhow::Result<String>
     }
 }
 
-/// Puts a line behind the last of those that begin with `prefix`.
+/// Inserts a line after the last line that begins with `prefix`.
 fn insert_last(text: &str, prefix: &str, line: &str) -> anyhow::Result<String> {
     let missing = || format!("found no line that begins with `{}`", prefix.trim());
     let last = text.lines().rfind(|l| l.starts_with(prefix));
@@ -178,7 +180,7 @@ mod tests {
 
     #[test]
     fn camel_case_becomes_snake_case() {
-        assert_eq!(checked("InflateFaces").unwrap(), "inflate_faces");
+        assert_eq!(module_name("InflateFaces").unwrap(), "inflate_faces");
         for bad in [
             "inflate",
             "",
@@ -188,12 +190,12 @@ mod tests {
             "Std",
             "Report",
         ] {
-            assert!(checked(bad).is_err(), "{bad}");
+            assert!(module_name(bad).is_err(), "{bad}");
         }
     }
 
     #[test]
-    fn a_line_goes_among_those_like_it() {
+    fn a_line_is_inserted_among_lines_with_the_same_prefix() {
         let text = "mod a;\nmod c;\n\n.with::<C>()\n.with::<A>()\n";
         let b = insert_sorted(text, "mod ", "mod b;").unwrap();
         assert_eq!(b, "mod a;\nmod b;\nmod c;\n\n.with::<C>()\n.with::<A>()\n");

@@ -1,5 +1,5 @@
-//! `meshwright ops`, `meshwright expectations`: describe what recipes can say, from the same types that recipes are read
-//! into.
+//! `meshwright ops` and `meshwright expectations`: describe the contents of recipes, based on the types that recipes are
+//! parsed into.
 
 use op::{Entry, Registry};
 use recipe::{FieldDoc, TypeDoc, VariantDoc, did_you_mean, fields, step_kinds, types};
@@ -9,7 +9,7 @@ use super::reference::reference;
 use crate::args::OpsArgs;
 use crate::output::print;
 
-/// Where the lines of texts end.
+/// Maximum length of lines.
 const WIDTH: usize = 100;
 
 pub(crate) fn run(args: &OpsArgs, registry: &Registry) -> anyhow::Result<bool> {
@@ -26,20 +26,20 @@ pub(crate) fn run(args: &OpsArgs, registry: &Registry) -> anyhow::Result<bool> {
     Ok(true)
 }
 
-/// What recipes can expect: a list, or one of them with its fields.
+/// Prints the list of expectations, or describes one with its fields.
 pub(crate) fn expectations(name: Option<&str>) -> anyhow::Result<bool> {
     let all = recipe::expectations();
     let Some(name) = name else {
         let text = variants_text(&all, "");
         print(&format!(
-            "{text}\n`meshwright expectations NAME` shows the fields of one.\n"
+            "{text}\n`meshwright expectations NAME` describes one expectation.\n"
         ))?;
         return Ok(true);
     };
     let Some(one) = all.iter().find(|one| one.name == name) else {
         let known = all.iter().map(|one| one.name.as_str());
         anyhow::bail!(
-            "there is no expectation `{name}`: {}",
+            "unknown expectation `{name}`: {}",
             did_you_mean(name, known)
         );
     };
@@ -75,10 +75,7 @@ fn operation(name: &str, registry: &Registry) -> anyhow::Result<String> {
     let Some(entry) = registry.get(name) else {
         let known = registry.entries().iter().map(|e| e.name);
         let known = known.chain(step_kinds().into_iter().map(|(name, _)| name));
-        anyhow::bail!(
-            "there is no operation `{name}`: {}",
-            did_you_mean(name, known)
-        );
+        anyhow::bail!("unknown operation `{name}`: {}", did_you_mean(name, known));
     };
     Ok(detail(entry))
 }
@@ -92,12 +89,12 @@ fn detail(entry: &Entry) -> String {
         described(&entry.schema())
     );
     if entry.takes_on {
-        text += "\n`on: [\"name\", ..]` chooses objects. If omitted, the step acts on all objects that it can act on.\n";
+        text += "\n`on: [\"name\", ..]` chooses the objects to act on. If omitted, all objects of a suitable kind.\n";
     }
     text + &format!("\nExample: {}\n", entry.example)
 }
 
-/// The description, the parameters, and the types that they are made of; selections only by their names.
+/// Returns the description, the parameters and their types. Selection types are only named.
 fn described(schema: &Json) -> String {
     let mut text = String::new();
     if let Some(description) = schema["description"].as_str() {
@@ -110,7 +107,7 @@ fn described(schema: &Json) -> String {
         "\nParameters:\n"
     };
     text.extend(fields.iter().map(|field| field_text(field, "  ")));
-    // The variants of a parameter stand with it.
+    // The variants of a parameter's type are listed with the parameter.
     let is_shown = |t: &TypeDoc| fields.iter().any(|f| f.kind == t.name);
     let types = types(schema);
     for t in types.iter().filter(|t| !t.is_selection() && !is_shown(t)) {
@@ -145,7 +142,7 @@ fn field_text(field: &FieldDoc, indent: &str) -> String {
     text + &variants_text(&field.variants, &format!("{indent}    "))
 }
 
-/// Variants with their documentation in a second column.
+/// Lists variants, with their documentation in a second column.
 fn variants_text(variants: &[VariantDoc], indent: &str) -> String {
     let mut text = String::new();
     for variant in variants {

@@ -1,4 +1,4 @@
-//! `meshwright picture`: draws files, or what recipes make.
+//! `meshwright picture`: draws files or the results of recipes.
 
 use std::path::{Path, PathBuf};
 
@@ -14,42 +14,50 @@ use view::sheet::{Cell, SheetStyle, sheet};
 
 use crate::args::{DrawArgs, PictureArgs, WrongUsage};
 use crate::commands::batch::inputs;
-use crate::listener::{QUIET, Terminal, catch_interrupts};
-use crate::output::{STAMP, complain, print, write_whole};
-use crate::scenes::{SceneAtStep, find};
+use crate::listener::{INTERRUPT, Terminal, catch_interrupts};
+use crate::output::{STAMP, print, print_error, write_atomically};
+use crate::scenes::{SceneAtStep, load_scene};
 use engine::{BUDGET, Engine, Stop};
 
 pub(crate) fn run(args: &PictureArgs, engine: &Engine) -> anyhow::Result<bool> {
     let inputs = inputs::list(&args.files)?.into_iter();
     let files: Vec<PathBuf> = inputs.map(|input| PathBuf::from(input.path)).collect();
     if files.len() > 1 && !args.sheet {
-        let message = format!("these are {} files: --sheet puts them on one", files.len());
+        let message = format!(
+            "expected one file, found {}: use --sheet to draw several files on one sheet",
+            files.len()
+        );
         return Err(WrongUsage(message).into());
     }
-    let usual = if args.sheet { SHEET_CELL } else { [1280, 960] };
+    let default_size = if args.sheet { SHEET_CELL } else { [1280, 960] };
     let mut more: Vec<String> = Vec::new();
     more.extend(args.turntable.then(|| "turntable: ()".to_owned()));
     if !args.sheet {
         more.extend(args.columns.map(|n| format!("columns: {n}")));
     }
-    let picture = parameters(&args.draw, &out(args, &files[0]), usual, more)?;
+    let picture = parameters(
+        &args.draw,
+        &output_path(args, &files[0]),
+        default_size,
+        more,
+    )?;
     catch_interrupts();
     if args.sheet {
         return on_sheet(args, &picture, &files, engine);
     }
     let images = draw(args, &picture, &files[0], engine)?;
-    write_images(&picture, &images, &out(args, &files[0]))?;
+    write_images(&picture, &images, &output_path(args, &files[0]))?;
     Ok(true)
 }
 
 /// Writes the images of a picture to a file.
 pub(crate) fn write_images(picture: &Picture, images: &[Image], path: &Path) -> anyhow::Result<()> {
-    let bytes = picture.encode(images, Some(STAMP), &QUIET)?;
+    let bytes = picture.encode(images, Some(STAMP), &INTERRUPT)?;
     write(path, &bytes, &images[0])
 }
 
-/// The file to write.
-fn out(args: &PictureArgs, first: &Path) -> PathBuf {
+/// Returns the path of the image to write.
+fn output_path(args: &PictureArgs, first: &Path) -> PathBuf {
     args.out.clone().unwrap_or_else(|| {
         let ending = if args.turntable { "gif" } else { "png" };
         let stem = first.file_stem().unwrap_or_default();
@@ -58,49 +66,53 @@ fn out(args: &PictureArgs, first: &Path) -> PathBuf {
     })
 }
 
-/// Pixels of the images on a sheet, unless told otherwise.
+/// Default size of the images on a sheet, in pixels.
 pub(crate) const SHEET_CELL: [u32; 2] = [320, 240];
 
-/// Reads the options as a step of a recipe: with the same checks and the same advice. `usual` is the size unless
-/// they say another; `more` are further parameters.
+/// Parses the options as a `Picture` step of a recipe, with the same checks and suggestions. `default_size` is in
+/// pixels; `more` are further parameters.
 pub(crate) fn parameters(
     args: &DrawArgs,
     out: &Path,
-    usual: [u32; 2],
+    default_size: [u32; 2],
     more: Vec<String>,
 ) -> anyhow::Result<Picture> {
-    let text = format!("Picture({})", fields(args, out, usual, more));
+    let text = format!("Picture({})", fields(args, out, default_size, more));
     let mut picture: Picture = recipe::read_step(&text).map_err(|wrong| {
         let source = Source::new("options of picture", text.as_str());
-        complain(&recipe::render(&[source], &wrong, false));
-        WrongUsage("the options cannot be read".to_owned())
+        print_error(&recipe::render(&[source], &wrong, false));
+        WrongUsage("invalid options".to_owned())
     })?;
     let quantity = picture.color_by.as_mut().map(|by| &mut by.of);
     if let Some(Quantity::DistanceTo(path)) = quantity {
-        *path = from_here(path)?;
+        *path = absolute_path(path)?;
     }
     if let Some(folder) = &mut picture.images {
-        *folder = from_here(folder)?;
+        *folder = absolute_path(folder)?;
     }
     Ok(picture)
 }
 
-/// A path of the command line, which is seen from the working directory, for a step that is seen from elsewhere.
-fn from_here(path: &str) -> anyhow::Result<String> {
-    let full = std::path::absolute(path).with_context(|| format!("cannot find {path}"))?;
+/// Makes a path absolute. On the command line, paths are relative to the working directory, but in a step, to the
+/// folder of the recipe.
+fn absolute_path(path: &str) -> anyhow::Result<String> {
+    let full = std::path::absolute(path)
+        .with_context(|| format!("cannot make the path {path} absolute"))?;
     let full = full.into_os_string().into_string();
-    full.map_err(|path| WrongUsage(format!("{} is not Unicode", path.display())).into())
+    full.map_err(|path| {
+        WrongUsage(format!("the path {} is not valid Unicode", path.display())).into()
+    })
 }
 
-/// The options as fields of a step.
-fn fields(args: &DrawArgs, out: &Path, usual: [u32; 2], further: Vec<String>) -> String {
+/// Formats the options as fields of a `Picture` step.
+fn fields(args: &DrawArgs, out: &Path, default_size: [u32; 2], further: Vec<String>) -> String {
     let path = out.file_name().unwrap_or_default().to_string_lossy();
     let mut fields = vec![format!("path: {}", string_literal(&path))];
-    let [width, height] = args.size.unwrap_or(usual);
+    let [width, height] = args.size.unwrap_or(default_size);
     fields.push(format!("size: ({width}, {height})"));
-    let given = |is_given: bool, field: &str| is_given.then(|| field.to_owned());
-    let projection = given(args.orthographic, "projection: Orthographic");
-    let more = projection.into_iter().chain(given(args.z_up, "up: Z"));
+    let field_if = |is_given: bool, field: &str| is_given.then(|| field.to_owned());
+    let projection = field_if(args.orthographic, "projection: Orthographic");
+    let more = projection.into_iter().chain(field_if(args.z_up, "up: Z"));
     let camera = |from: Option<&String>| {
         let from = from.map(|from| format!("from: {from}"));
         let fields: Vec<String> = from.into_iter().chain(more.clone()).collect();
@@ -109,15 +121,15 @@ fn fields(args: &DrawArgs, out: &Path, usual: [u32; 2], further: Vec<String>) ->
     match &args.from[..] {
         [] if !args.orthographic && !args.z_up => {}
         [] | [_] => fields.push(format!("camera: {}", camera(args.from.first()))),
-        many => {
-            let cameras: Vec<String> = many.iter().map(|from| camera(Some(from))).collect();
+        sides => {
+            let cameras: Vec<String> = sides.iter().map(|from| camera(Some(from))).collect();
             fields.push(format!("views: [{}]", cameras.join(", ")));
         }
     }
     let mut style = Vec::new();
     style.extend(args.shading.iter().map(|s| format!("shading: {s}")));
-    style.extend(given(args.wireframe, "wireframe: ()"));
-    style.extend(given(args.transparent, "background: Transparent"));
+    style.extend(field_if(args.wireframe, "wireframe: ()"));
+    style.extend(field_if(args.transparent, "background: Transparent"));
     if !style.is_empty() {
         fields.push(format!("style: ({})", style.join(", ")));
     }
@@ -130,7 +142,7 @@ fn fields(args: &DrawArgs, out: &Path, usual: [u32; 2], further: Vec<String>) ->
     fields.join(", ")
 }
 
-/// Draws a file.
+/// Draws one file.
 fn draw(
     args: &PictureArgs,
     picture: &Picture,
@@ -138,43 +150,43 @@ fn draw(
     engine: &Engine,
 ) -> anyhow::Result<Vec<Image>> {
     let scene = |stop| -> anyhow::Result<SceneAtStep> {
-        find(path, &args.read.options(), &args.values, stop, engine)
+        load_scene(path, &args.read.options(), &args.values, stop, engine)
     };
     let stop = |after, before| Stop { after, before };
     let (change, before) = (args.change.as_deref(), args.before.as_deref());
-    let founds = match change {
+    let scenes_at_steps = match change {
         None => vec![(scene(stop(args.after.as_deref(), before))?, "")],
         Some(_) => vec![
             (scene(stop(None, change))?, "before"),
             (scene(stop(change, None))?, "after"),
         ],
     };
-    let scenes: Vec<&Scene> = founds.iter().map(|(found, _)| &found.scene).collect();
+    let scenes: Vec<&Scene> = scenes_at_steps.iter().map(|(at, _)| &at.scene).collect();
     check_names(&args.draw.on, &scenes)?;
-    draw_found(picture, path, &founds, &args.draw.on)
+    draw_scenes(picture, path, &scenes_at_steps, &args.draw.on)
 }
 
-/// Every name is that of an object in one of the scenes.
+/// Checks that each name is the name of an object in one of the scenes.
 pub(crate) fn check_names(on: &[String], scenes: &[&Scene]) -> anyhow::Result<()> {
     for name in on {
         let objects = scenes.iter().flat_map(|scene| scene.objects());
         let known: Vec<&str> = objects.map(|o| o.name.as_str()).collect();
         if !known.contains(&name.as_str()) {
             let help = recipe::did_you_mean(name, known);
-            return Err(WrongUsage(format!("no object is named \"{name}\": {help}")).into());
+            return Err(WrongUsage(format!("unknown object \"{name}\": {help}")).into());
         }
     }
     Ok(())
 }
 
-/// Draws scenes that come from a file, each with a caption, or only the objects of these names.
-pub(crate) fn draw_found(
+/// Draws scenes of a file, each with a caption. Draws only the objects named in `on`, or all if it is empty.
+pub(crate) fn draw_scenes(
     picture: &Picture,
     path: &Path,
-    founds: &[(SceneAtStep, &str)],
+    scenes: &[(SceneAtStep, &str)],
     on: &[String],
 ) -> anyhow::Result<Vec<Image>> {
-    // As a step would: what is read lies beside the file or the recipe.
+    // As in a step, paths are relative to the folder of the file or recipe.
     let files = Files {
         input: path.parent().map(Path::to_path_buf).unwrap_or_default(),
         ..Files::default()
@@ -182,21 +194,21 @@ pub(crate) fn draw_found(
     let terminal = Terminal::new();
     let mut cx = Context::new(&terminal, &files);
     cx.budget = BUDGET;
-    cx.stream = founds.first().map_or("", |(found, _)| &found.stream);
+    cx.stream = scenes.first().map_or("", |(at, _)| &at.stream);
     cx.on = (!on.is_empty()).then_some(on);
-    let scenes: Vec<_> = (founds.iter())
-        .map(|(found, caption)| (&found.scene, *caption))
+    let scenes: Vec<_> = (scenes.iter())
+        .map(|(at, caption)| (&at.scene, *caption))
         .collect();
     let drawn = picture.draw(&scenes, None, &mut cx);
     terminal.clear();
     let (images, notes) = drawn.with_context(|| format!("cannot draw {}", path.display()))?;
     for note in notes {
-        complain(&format!("note: {}: {note}\n", path.display()));
+        print_error(&format!("note: {}: {note}\n", path.display()));
     }
     Ok(images)
 }
 
-/// Draws many files on one sheet. One that cannot be drawn leaves its place empty.
+/// Draws several files on one sheet. The place of a file that cannot be drawn stays empty.
 fn on_sheet(
     args: &PictureArgs,
     picture: &Picture,
@@ -204,16 +216,16 @@ fn on_sheet(
     engine: &Engine,
 ) -> anyhow::Result<bool> {
     if picture.turntable.is_some() {
-        return Err(WrongUsage("the files on a sheet do not move".to_owned()).into());
+        return Err(WrongUsage("a sheet cannot have a turntable".to_owned()).into());
     }
-    let (mut drawn, mut all_are_there) = (Vec::new(), true);
+    let (mut drawn, mut all_drawn) = (Vec::new(), true);
     for path in files {
         let image = match draw(args, picture, path, engine) {
             Ok(mut images) => images.remove(0),
             Err(error) if error.is::<WrongUsage>() || is_cancelled(&error) => return Err(error),
             Err(error) => {
-                complain(&format!("error: {error:#}\n"));
-                all_are_there = false;
+                print_error(&format!("error: {error:#}\n"));
+                all_drawn = false;
                 let [width, height] = picture.size.map(op::Count::get);
                 Image::filled(width, height, [0; 4])?
             }
@@ -229,27 +241,27 @@ fn on_sheet(
         ..SheetStyle::default()
     };
     let image = sheet(&cells, &style, BUDGET)?;
-    write_png(&image, &out(args, &files[0]), true)?;
-    Ok(all_are_there)
+    write_png(&image, &output_path(args, &files[0]), true)?;
+    Ok(all_drawn)
 }
 
 fn is_cancelled(error: &anyhow::Error) -> bool {
     matches!(error.downcast_ref(), Some(op::OpError::Cancelled))
 }
 
-/// Writes one image, and says so if that is wanted.
+/// Writes one image as PNG, and with `say` prints its path and size.
 pub(crate) fn write_png(image: &Image, path: &Path, say: bool) -> anyhow::Result<()> {
-    let bytes = image.to_png_while(&[("Software", STAMP)], &QUIET)?;
+    let bytes = image.to_png_while(&[("Software", STAMP)], &INTERRUPT)?;
     if say {
         write(path, &bytes, image)
     } else {
-        write_whole(path, &bytes)
+        write_atomically(path, &bytes)
     }
 }
 
 fn write(path: &Path, bytes: &[u8], image: &Image) -> anyhow::Result<()> {
-    write_whole(path, bytes)?;
+    write_atomically(path, bytes)?;
     let (path, width, height) = (path.display(), image.width, image.height);
-    let said = print(&format!("wrote {path}, {width} x {height} pixels\n"));
-    Ok(said?)
+    let printed = print(&format!("wrote {path}, {width} x {height} pixels\n"));
+    Ok(printed?)
 }

@@ -1,4 +1,4 @@
-//! The reference of all operations as Markdown.
+//! Generates the reference of all operations as Markdown.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -9,7 +9,7 @@ use serde_json::Value as Json;
 
 use super::new_op::snake_case;
 
-/// The reference of all operations as Markdown.
+/// Returns the reference of all operations as Markdown.
 pub(crate) fn reference(registry: &Registry, pictures: Option<&Path>) -> String {
     let mut text =
         "# Operations\n\nMade by `meshwright ops --markdown` from the operations themselves.\n\n"
@@ -56,7 +56,7 @@ pub(crate) fn reference(registry: &Registry, pictures: Option<&Path>) -> String 
     text + &variants_table(&recipe::refusals())
 }
 
-/// The pictures of an operation side by side, with the recipe that draws them.
+/// Returns the pictures of an operation, side by side, with a link to the recipe that draws them.
 fn images(operation: &str, folder: &Path) -> String {
     let name = snake_case(operation);
     let recipe = format!("{}/{name}", folder.display());
@@ -97,7 +97,7 @@ fn description(schema: &Json) -> &str {
     schema["description"].as_str().unwrap_or_default()
 }
 
-/// A text in one cell of a table.
+/// Formats a text as one cell of a table.
 fn cell(text: &str) -> String {
     text.replace('\n', " ").replace('|', "\\|")
 }

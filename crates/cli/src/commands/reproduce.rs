@@ -11,29 +11,29 @@ use store::TemporaryFolder;
 use walkdir::{DirEntry, WalkDir};
 
 use crate::args::ReproduceArgs;
-use crate::listener::{QUIET, catch_interrupts};
-use crate::output::{complain, print, show};
+use crate::listener::{INTERRUPT, catch_interrupts};
+use crate::output::{print, print_diagnostics, print_error};
 use engine::Loaded;
 
 pub(crate) fn run(args: &ReproduceArgs, engine: &Engine) -> anyhow::Result<bool> {
     catch_interrupts();
-    let mut last: Option<Again> = None;
-    let mut all_are_same = true;
+    let mut last: Option<Rerun> = None;
+    let mut all_equal = true;
     for file in &args.files {
         let stamp = mesh_io::provenance(&Disk, file)?.and_then(|text| Stamp::parse(&text));
         let (source, run) = recipe_of(file, stamp.as_ref(), args, engine)?;
-        // Files of one run follow each other.
-        let again = match last.take() {
-            Some(again) if again.is_of(&source, &run) => again,
-            _ => Again::run(source, run, args.budget, engine)?,
+        // Consecutive files of one run share its rerun.
+        let rerun = match last.take() {
+            Some(rerun) if rerun.is_of(&source, &run) => rerun,
+            _ => Rerun::run(source, run, args.budget, engine)?,
         };
-        all_are_same &= again.compare(file, stamp.as_ref())?;
-        last = Some(again);
+        all_equal &= rerun.compare(file, stamp.as_ref())?;
+        last = Some(rerun);
     }
-    Ok(all_are_same)
+    Ok(all_equal)
 }
 
-/// The recipe that a file came from, and its parameters.
+/// Finds the recipe that wrote a file. Returns its text, and the recorded parameters and inputs.
 fn recipe_of(
     file: &Path,
     stamp: Option<&Stamp>,
@@ -47,9 +47,9 @@ fn recipe_of(
         return Ok((open(path)?, run.unwrap_or_default()));
     }
     let stamp = stamp.with_context(|| {
-        format!("{shown} does not say where it comes from: name the recipe with --recipe")
+        format!("{shown} does not record which recipe wrote it: name the recipe with --recipe")
     })?;
-    // The name may have changed, and another recipe may have it.
+    // The recipe may have been renamed, and a different recipe may have its name: the digest decides.
     let mut candidates = recipes_here();
     let is_named = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -67,22 +67,23 @@ fn recipe_of(
     match candidates.into_iter().find(is_named) {
         Some(path) => Ok((open(&path)?, run)),
         None => anyhow::bail!(
-            "{shown} comes from the recipe {} with the digest {}, which is not below the working directory: name it with --recipe",
+            "{shown} was written by the recipe {} with the digest {}, which was not found below the working directory: name it with --recipe",
             run.file,
             stamp.recipe
         ),
     }
 }
 
-/// The recipes below the working directory; hidden files and folders and those of builds are left out.
+/// Lists the recipes below the working directory. Skips hidden files and folders, and the folders `target` and
+/// `node_modules`.
 fn recipes_here() -> Vec<PathBuf> {
-    const DEEPEST: usize = 9;
-    let is_meant = |entry: &DirEntry| {
+    const MAX_DEPTH: usize = 9;
+    let is_searched = |entry: &DirEntry| {
         let name = entry.file_name().to_string_lossy();
         entry.depth() == 0 || !(name.starts_with('.') || name == "target" || name == "node_modules")
     };
-    let entries = WalkDir::new(".").max_depth(DEEPEST).into_iter();
-    let recipes = entries.filter_entry(is_meant).flatten().filter(|entry| {
+    let entries = WalkDir::new(".").max_depth(MAX_DEPTH).into_iter();
+    let recipes = entries.filter_entry(is_searched).flatten().filter(|entry| {
         !entry.file_type().is_dir() && entry.path().extension().is_some_and(|e| e == "ron")
     });
     let path = |entry: DirEntry| entry.path().strip_prefix(".").map(Path::to_path_buf);
@@ -102,19 +103,20 @@ fn values<'a>(set: &'a [(String, String)], run: &'a Run) -> Values<'a> {
     }
 }
 
-/// A recipe that was run again.
-struct Again {
+/// A second run of a recipe.
+struct Rerun {
     source: Source,
     run: Run,
     loaded: Loaded,
     outcome: Outcome,
-    /// What was written is there until this goes.
+    /// The folder of the outputs, which is removed when this value is dropped.
     _out: TemporaryFolder<'static>,
 }
 
-impl Again {
+impl Rerun {
     fn run(source: Source, run: Run, budget: u64, engine: &Engine) -> anyhow::Result<Self> {
-        let out = TemporaryFolder::new(&Disk, None).context("cannot make a folder to run in")?;
+        let out = TemporaryFolder::new(&Disk, None)
+            .context("cannot create a temporary folder for the outputs")?;
         let set: Vec<(String, String)> = run.set.clone().into_iter().collect();
         let options = Options {
             values: values(&set, &run),
@@ -123,19 +125,19 @@ impl Again {
         };
         let mut loaded = engine.load(&source, &options);
         if loaded.has_errors() {
-            show(&loaded, &loaded.diagnostics);
+            print_diagnostics(&loaded, &loaded.diagnostics);
             anyhow::bail!("{} cannot be run", loaded.path);
         }
-        // They may be meant for other parameters; the bytes are what counts here.
+        // Expectations may only hold for other parameter values, and only the bytes are compared here.
         loaded.recipe.expectations.clear();
         let run_again = engine::Run {
             keep_outputs: true,
             cache: None,
         };
-        let outcome = loaded.run(run_again, &QUIET);
+        let outcome = loaded.run(run_again, &INTERRUPT);
         anyhow::ensure!(!outcome.cancelled, "interrupted");
         if !outcome.succeeded() {
-            show(&loaded, &outcome.failures);
+            print_diagnostics(&loaded, &outcome.failures);
             anyhow::bail!("{} failed", loaded.path);
         }
         Ok(Self {
@@ -151,55 +153,59 @@ impl Again {
         self.source == *source && self.run == *run
     }
 
-    /// Prints whether the run has written the bytes of `file`.
+    /// Prints whether the run has written the same bytes as those of `file`.
     fn compare(&self, file: &Path, stamp: Option<&Stamp>) -> anyhow::Result<bool> {
         let (shown, recipe) = (file.display(), &self.loaded.path);
         let bytes = fs::read(file).with_context(|| format!("cannot read {shown}"))?;
         let name = file.file_name().unwrap_or_default();
-        let mut of_name = None;
+        let mut same_name = None;
         for path in &self.outcome.written {
-            let again = fs::read(path)?;
-            if again == bytes {
+            let output = fs::read(path)?;
+            if output == bytes {
                 let digest = &stamp::digest(&Disk, file)?;
                 let text = format!("{shown} is reproduced by {recipe}, digest {digest}\n");
                 return Ok(print(&text).map(|()| true)?);
             }
             if path.file_name() == Some(name) {
-                of_name = Some((path, again));
+                same_name = Some((path, output));
             }
         }
-        complain(&format!("{shown} is not reproduced by {recipe}:\n"));
-        match of_name {
-            Some((path, again)) => {
-                let at = bytes.iter().zip(&again).position(|(a, b)| a != b);
-                let at = at.unwrap_or(bytes.len().min(again.len()));
+        print_error(&format!("{shown} is not reproduced by {recipe}:\n"));
+        match same_name {
+            Some((path, output)) => {
+                let at = bytes.iter().zip(&output).position(|(a, b)| a != b);
+                let at = at.unwrap_or(bytes.len().min(output.len()));
                 let (now, then) = (stamp::digest(&Disk, path)?, stamp::digest(&Disk, file)?);
-                complain(&format!(
-                    "  digest {now}, expected {then}; byte {at} is the first that differs\n"
+                print_error(&format!(
+                    "  digest {now}, expected {then}; the first different byte is byte {at}\n"
                 ));
             }
-            None => complain("  no output has its bytes, and none its name\n"),
+            None => print_error("  the recipe writes no file with these bytes or this name\n"),
         }
         for reason in self.reasons(stamp) {
-            complain(&format!("  {reason}\n"));
+            print_error(&format!("  {reason}\n"));
         }
         Ok(false)
     }
 
-    /// What is other than when the file was written.
+    /// Returns possible reasons for the difference: what has changed since the file was written.
     fn reasons(&self, stamp: Option<&Stamp>) -> Vec<String> {
         let Some(stamp) = stamp else {
-            return vec!["the file does not say where it comes from".to_owned()];
+            return vec!["the file does not record which recipe wrote it".to_owned()];
         };
         let mut reasons = Vec::new();
         let now = Stamp::new(&self.loaded.recipe, &self.loaded.forecast.inputs, &Disk);
         let [then, here] = [&stamp.program, &now.program];
         if then != here {
-            reasons.push(format!("it was written by {then}, this is {here}"));
+            reasons.push(format!(
+                "the file was written by {then}, but this is {here}"
+            ));
         }
         let [then, here] = [&stamp.recipe, &now.recipe];
         if then != here {
-            reasons.push(format!("the recipe has changed: {then} then, {here} now"));
+            reasons.push(format!(
+                "the recipe has changed: its digest was {then}, now {here}"
+            ));
         }
         let inputs = |stamp: &Stamp| stamp.run.clone().unwrap_or_default().inputs;
         let (then, now) = (inputs(stamp), inputs(&now));
@@ -207,11 +213,11 @@ impl Again {
             match now.get(name) {
                 Some(same) if same == digest => {}
                 Some(_) => reasons.push(format!("{name} has changed")),
-                None => reasons.push(format!("{name} is not read any more")),
+                None => reasons.push(format!("{name} is no longer read")),
             }
         }
         if reasons.is_empty() {
-            reasons.push("recipe, inputs and program are those that wrote it: it was changed afterwards, or a step is not deterministic".to_owned());
+            reasons.push("the recipe, the inputs and the program are unchanged: the file was modified, or a step is not deterministic".to_owned());
         }
         reasons
     }

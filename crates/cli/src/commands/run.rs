@@ -12,10 +12,10 @@ use crate::events::Events;
 use crate::listener::{Terminal, catch_interrupts};
 use crate::loading::load;
 use crate::output::{
-    complain, counted, explain, explain_steps, print, print_json, problems_json, show, step_notes,
-    step_table,
+    counted, explain, explain_steps, print, print_diagnostics, print_error, print_json,
+    problems_json, step_notes, step_table,
 };
-use crate::picture_errors::{Pictures, Picturing};
+use crate::picture_errors::{PictureListener, Pictures};
 
 pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
     start_threads(args.threads)?;
@@ -27,7 +27,7 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
         return Ok(false);
     };
     if args.recipe.format == Format::Human {
-        tell(args, &loaded, &outcome, &pictures)?;
+        print_outcome(args, &loaded, &outcome, &pictures)?;
     }
     let number = outcome.steps.len();
     if let Some(folder) = &args.capsule
@@ -38,15 +38,15 @@ pub(crate) fn run(args: &RunArgs, engine: &Engine) -> anyhow::Result<bool> {
         let scene = capsule::scene_before(&mut loaded, number)?;
         capsule::write(&loaded, number, message, &scene, folder)?;
         let path = folder.join("recipe.ron");
-        complain(&format!(
-            "see it fail again with: meshwright run {}\n",
+        print_error(&format!(
+            "to reproduce the failure: meshwright run {}\n",
             path.display()
         ));
     }
     Ok(outcome.succeeded())
 }
 
-/// Makes this program run on so many threads.
+/// Sets the number of threads of this program.
 pub(crate) fn start_threads(n: Option<u16>) -> anyhow::Result<()> {
     let Some(n) = n else { return Ok(()) };
     rayon::ThreadPoolBuilder::new()
@@ -55,7 +55,7 @@ pub(crate) fn start_threads(n: Option<u16>) -> anyhow::Result<()> {
         .context("cannot start the threads")
 }
 
-/// Reads and checks the recipe of a command that runs it.
+/// Reads and checks the recipe, without its expectations if `--no-expect` is given.
 pub(crate) fn load_to_run(args: &RunArgs, engine: &Engine) -> anyhow::Result<Loaded> {
     let mut loaded = load(&args.recipe, engine)?;
     if args.no_expect {
@@ -64,8 +64,8 @@ pub(crate) fn load_to_run(args: &RunArgs, engine: &Engine) -> anyhow::Result<Loa
     Ok(loaded)
 }
 
-/// Runs a recipe, if it can run, as long as `go_on` holds, and draws what fails. Shows what is wrong with one that
-/// cannot run, and events if the command asks for them.
+/// Runs a recipe until it ends or `go_on` returns false, and draws failures. Prints the errors of a recipe that cannot
+/// be run and returns `None`. With `--format json`, prints events.
 pub(crate) fn execute(
     args: &RunArgs,
     loaded: &Loaded,
@@ -81,21 +81,21 @@ pub(crate) fn execute(
         if json {
             Events::start(loaded, &op::NoProgress).end(None, &Pictures::default())?;
         } else {
-            refuse(loaded, json)?;
+            report_errors(loaded, json)?;
         }
         return Ok(None);
     }
     if !json {
-        show(loaded, &loaded.diagnostics);
+        print_diagnostics(loaded, &loaded.diagnostics);
     }
-    let caching = cache.map(|cache| cache::using(cache, &args.recipe.recipe));
+    let caching = cache.map(|cache| cache::caching_for(cache, &args.recipe.recipe));
     let run = Run {
         keep_outputs: true,
         cache: caching.as_ref().map(|caching| caching as _),
     };
     let terminal = Terminal::until(go_on);
     let events = json.then(|| Events::start(loaded, &terminal));
-    let listener = Picturing {
+    let listener = PictureListener {
         listener: events.as_ref().map_or(&terminal, |events| events as _),
         pictures,
     };
@@ -105,13 +105,13 @@ pub(crate) fn execute(
         events.end(Some(&outcome), pictures)?;
     }
     if let Some(problem) = &outcome.cache_problem {
-        complain(&cache::warning(problem));
+        print_error(&cache::warning(problem));
     }
     Ok(Some(outcome))
 }
 
-/// Prints what a run has done.
-pub(crate) fn tell(
+/// Prints the results of a run.
+pub(crate) fn print_outcome(
     args: &RunArgs,
     loaded: &Loaded,
     outcome: &Outcome,
@@ -124,35 +124,34 @@ pub(crate) fn tell(
         print(&explain_steps(outcome))?;
     }
     print(&step_notes(&outcome.steps))?;
-    show(loaded, &outcome.failures);
-    pictures.tell();
+    print_diagnostics(loaded, &outcome.failures);
+    pictures.print_list();
     for path in &outcome.written {
         print(&format!("wrote {}\n", path.display()))?;
     }
     if outcome.succeeded() {
         let n = outcome.checked;
         if n > 0 {
-            let hold = if n == 1 { "holds" } else { "hold" };
-            print(&format!("{} {hold}\n", counted(n, "expectation")))?;
+            print(&format!("{} met\n", counted(n, "expectation")))?;
         }
         print(&format!("digest {}\n", outcome.digest))?;
     } else if outcome.cancelled {
-        complain("interrupted, nothing was written\n");
+        print_error("interrupted, no files were written\n");
     } else {
-        complain(&format!("{} failed, nothing was written\n", loaded.path));
+        print_error(&format!("{} failed, no files were written\n", loaded.path));
         let parameters = loaded.recipe.parameters();
         let is_set = parameters.iter().any(recipe::Parameter::is_set);
         if is_set && outcome.steps.len() == loaded.recipe.steps.len() {
-            complain(
-                "a parameter was set: expectations may be meant for its default; --no-expect runs without them\n",
+            print_error(
+                "the expectations may only hold for the default values of parameters: use --no-expect to skip them\n",
             );
         }
     }
     Ok(())
 }
 
-/// Shows what is wrong with a recipe that cannot run.
-pub(crate) fn refuse(loaded: &Loaded, json: bool) -> anyhow::Result<bool> {
+/// Prints the errors of a recipe that cannot be run.
+pub(crate) fn report_errors(loaded: &Loaded, json: bool) -> anyhow::Result<bool> {
     if json {
         let problems = problems_json(&loaded.diagnostics, &loaded.recipe.sources);
         print_json(&serde_json::json!({
@@ -160,8 +159,8 @@ pub(crate) fn refuse(loaded: &Loaded, json: bool) -> anyhow::Result<bool> {
         }))?;
         return Ok(false);
     }
-    show(loaded, &loaded.diagnostics);
+    print_diagnostics(loaded, &loaded.diagnostics);
     let errors = counted(loaded.n_errors(), "error");
-    complain(&format!("{errors}, nothing was run\n"));
+    print_error(&format!("{errors}, no step was run\n"));
     Ok(false)
 }

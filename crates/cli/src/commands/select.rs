@@ -8,9 +8,9 @@ use scene::Object;
 use serde_json::{Value as Json, json};
 
 use crate::args::{Format, Kind, SelectArgs, WrongUsage};
-use crate::commands::picture::{draw_found, write_images};
-use crate::output::{complain, grouped, print, print_json};
-use crate::scenes::find;
+use crate::commands::picture::{draw_scenes, write_images};
+use crate::output::{group_digits, print, print_error, print_json};
+use crate::scenes::load_scene;
 use engine::{Engine, Stop};
 
 pub(crate) fn run(args: &SelectArgs, engine: &Engine) -> anyhow::Result<bool> {
@@ -21,14 +21,14 @@ pub(crate) fn run(args: &SelectArgs, engine: &Engine) -> anyhow::Result<bool> {
     });
     let elements = read_selection(&args.selection, kind).map_err(|wrong| {
         let source = Source::new("selection", args.selection.as_str());
-        complain(&recipe::render(&[source], &wrong, false));
-        WrongUsage("the selection cannot be read".to_owned())
+        print_error(&recipe::render(&[source], &wrong, false));
+        WrongUsage("invalid selection".to_owned())
     })?;
     let stop = Stop {
         after: args.after.as_deref(),
         before: args.before.as_deref(),
     };
-    let found = find(&args.file, &args.read.options(), &args.values, stop, engine)?;
+    let found = load_scene(&args.file, &args.read.options(), &args.values, stop, engine)?;
     let meshes = meshes(args, found.scene.objects())?;
     let mut selected = Vec::new();
     for (object, mesh) in meshes {
@@ -53,13 +53,13 @@ pub(crate) fn run(args: &SelectArgs, engine: &Engine) -> anyhow::Result<bool> {
     if let Some(path) = &args.picture {
         let mut picture = Picture::new(path.display().to_string());
         picture.highlight = Some(elements);
-        let images = draw_found(&picture, &args.file, &[(found, "")], &args.on)?;
+        let images = draw_scenes(&picture, &args.file, &[(found, "")], &args.on)?;
         write_images(&picture, &images, path)?;
     }
     Ok(true)
 }
 
-/// The objects that are asked: all meshes, or those that are named.
+/// Returns the meshes to select on: the named ones, or all.
 fn meshes<'s>(
     args: &SelectArgs,
     objects: &'s [Object],
@@ -67,14 +67,18 @@ fn meshes<'s>(
     let mesh = |o: &'s Object| o.as_mesh().map(|mesh| (o, mesh.as_ref()));
     if args.on.is_empty() {
         let meshes: Vec<_> = objects.iter().filter_map(mesh).collect();
-        anyhow::ensure!(!meshes.is_empty(), "{} holds no mesh", args.file.display());
+        anyhow::ensure!(
+            !meshes.is_empty(),
+            "{} contains no mesh",
+            args.file.display()
+        );
         return Ok(meshes);
     }
     let named = |name: &String| {
         let Some(object) = objects.iter().find(|o| o.name == *name) else {
             let known = objects.iter().map(|o| o.name.as_str());
             let help = recipe::did_you_mean(name, known);
-            return Err(WrongUsage(format!("no object is named \"{name}\": {help}")).into());
+            return Err(WrongUsage(format!("unknown object \"{name}\": {help}")).into());
         };
         let kind = object.geometry.kind();
         mesh(object).ok_or_else(|| anyhow::anyhow!("\"{name}\" is {kind}, expected a mesh"))
@@ -82,7 +86,7 @@ fn meshes<'s>(
     args.on.iter().map(named).collect()
 }
 
-/// The number of all elements of the kind that was selected.
+/// Returns the number of all elements of the selected kind.
 fn total(mesh: &Mesh, chosen: &Selected) -> usize {
     match chosen {
         Selected::Vertices(_) => mesh.n_vertices(),
@@ -98,7 +102,7 @@ fn elements_text(
     chosen: &Selected,
     word: &str,
 ) -> String {
-    let count = |n: usize| grouped(n as u64);
+    let count = |n: usize| group_digits(n as u64);
     let (n, all, name) = (chosen.len(), total(mesh, chosen), &object.name);
     let mut text = format!("{name}: {} of {} {word}\n", count(n), count(all));
     let shown = if args.all { n } else { n.min(args.first) };
@@ -125,17 +129,17 @@ fn elements_text(
     text
 }
 
-/// The vertices of an edge, as `Between` names it.
+/// Returns the vertices of an edge, in the order of `Between`.
 fn ends(mesh: &Mesh, e: EdgeId) -> [usize; 2] {
     mesh.edge_vertices(e).map(VertexId::index)
 }
 
-/// The vertices of a face.
+/// Returns the vertices of a face.
 fn corners(mesh: &Mesh, f: FaceId) -> impl Iterator<Item = usize> {
     mesh.face_vertices(f).map(VertexId::index)
 }
 
-/// All elements, without a limit: nobody reads this line by line.
+/// Returns the selected elements as JSON, all of them regardless of `--first`.
 fn json(args: &SelectArgs, elements: &Elements, selected: &[(&Object, &Mesh, Selected)]) -> Json {
     let objects = selected.iter().map(|(object, mesh, chosen)| {
         let mut json = json!({

@@ -1,4 +1,4 @@
-//! `meshwright shrink`: makes the scene smaller on which a recipe fails.
+//! `meshwright shrink`: reduces the scene on which a step of a recipe fails.
 
 use engine::{Engine, Run};
 use op::OpError;
@@ -7,23 +7,23 @@ use scene::Scene;
 
 use crate::args::ShrinkArgs;
 use crate::capsule;
-use crate::commands::run::refuse;
-use crate::listener::{QUIET, Terminal, catch_interrupts};
+use crate::commands::run::report_errors;
+use crate::listener::{INTERRUPT, Terminal, catch_interrupts};
 use crate::loading::load_recipe;
-use crate::output::{complain, print};
+use crate::output::{print, print_error};
 
 pub(crate) fn run(args: &ShrinkArgs, engine: &Engine) -> anyhow::Result<bool> {
     let (path, out) = (&args.recipe, &args.out);
     let mut loaded = load_recipe(path, &args.values, out, args.budget, engine)?;
     if loaded.has_errors() {
-        return refuse(&loaded, false);
+        return report_errors(&loaded, false);
     }
     catch_interrupts();
-    let outcome = loaded.run(Run::default(), &QUIET);
-    anyhow::ensure!(!outcome.cancelled, "interrupted, nothing was written");
+    let outcome = loaded.run(Run::default(), &INTERRUPT);
+    anyhow::ensure!(!outcome.cancelled, "interrupted, no files were written");
     let number = outcome.steps.len();
     if number == loaded.recipe.steps.len() {
-        complain(&format!("error: no step of {} fails\n", loaded.path));
+        print_error(&format!("error: no step of {} fails\n", loaded.path));
         return Ok(false);
     }
     let scene = capsule::scene_before(&mut loaded, number)?;
@@ -45,10 +45,10 @@ pub(crate) fn run(args: &ShrinkArgs, engine: &Engine) -> anyhow::Result<bool> {
     let (small, message) = match shrunk {
         Ok(Some(shrunk)) => shrunk,
         Ok(None) => anyhow::bail!(
-            "the step {} fails no more when it is tried again",
+            "the step {} did not fail when it was run again",
             step.label()
         ),
-        Err(OpError::Cancelled) => anyhow::bail!("interrupted, nothing was written"),
+        Err(OpError::Cancelled) => anyhow::bail!("interrupted, no files were written"),
         Err(error) => return Err(error.into()),
     };
     capsule::write(&loaded, number, &message, &small, out)?;
@@ -57,10 +57,10 @@ pub(crate) fn run(args: &ShrinkArgs, engine: &Engine) -> anyhow::Result<bool> {
         meshes.map(|mesh| mesh.n_faces()).sum()
     };
     print(&format!(
-        "{}: {message}\n{} faces of {} are enough; see it with: meshwright run {}\n",
+        "{}: {message}\nreduced from {} to {} faces; to reproduce the failure: meshwright run {}\n",
         step.label(),
-        faces(&small),
         faces(&scene),
+        faces(&small),
         out.join("recipe.ron").display()
     ))?;
     Ok(true)

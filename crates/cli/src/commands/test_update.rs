@@ -1,29 +1,32 @@
-//! `meshwright test --update`: recorded values are written anew, and so are files that outputs are held against.
+//! `meshwright test --update`: replaces recorded values in recipes, and reference files, by the actual ones.
 
 use std::path::Path;
 
 use recipe::Outcome;
 use recipe::update::update;
 
-use crate::output::begin;
+use crate::output::write_temporary;
 use engine::Loaded;
 
-/// Renews the values that the recipe records and the run found to be others, and returns a line for each
-/// that was changed. What is mended so is no failure of the run any more.
-pub(crate) fn renew(
+/// Replaces recorded values that differ from those of the run. Returns a line for each change. Failures that this fixes
+/// are removed from `outcome`.
+pub(crate) fn update_recorded_values(
     path: &Path,
     loaded: &Loaded,
     outcome: &mut Outcome,
 ) -> anyhow::Result<Vec<String>> {
     let update = update(&loaded.recipe, outcome);
-    // All files first: if one cannot be written, the recipe says nothing new.
-    let files = update.files.iter().map(|(path, bytes)| begin(path, bytes));
+    // Reference files first: if one cannot be written, the recipe stays unchanged.
+    let files = update
+        .files
+        .iter()
+        .map(|(path, bytes)| write_temporary(path, bytes));
     let files: Vec<_> = files.collect::<Result<_, _>>()?;
     for file in files {
         file.commit()?;
     }
-    let is_other = update.text != loaded.recipe.sources.first().map_or("", |s| &s.text);
-    if is_other {
+    let is_changed = update.text != loaded.recipe.sources.first().map_or("", |s| &s.text);
+    if is_changed {
         store::replace(path, update.text.as_bytes())?;
     }
     outcome.failures = update.left;

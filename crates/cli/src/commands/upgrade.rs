@@ -1,4 +1,4 @@
-//! `meshwright upgrade`: rewrites older spellings in recipes.
+//! `meshwright upgrade`: rewrites outdated names in recipes.
 
 use std::path::Path;
 
@@ -8,38 +8,38 @@ use recipe::upgrade::upgrade;
 
 use crate::args::UpgradeArgs;
 use crate::loading::recipes;
-use crate::output::{complain, counted, print};
+use crate::output::{counted, print, print_error};
 
 pub(crate) fn run(args: &UpgradeArgs, registry: &Registry) -> anyhow::Result<bool> {
     let recipes = recipes(&args.recipes)?;
-    let (mut failed, mut old) = (0, 0);
+    let (mut failed, mut outdated) = (0, 0);
     for found in &recipes {
-        match one(&found.path, args.check, registry) {
-            Ok(true) => old += 1,
+        match upgrade_recipe(&found.path, args.check, registry) {
+            Ok(true) => outdated += 1,
             Ok(false) => {}
             Err(error) => {
                 failed += 1;
-                complain(&format!("error: {error:#}\n"));
+                print_error(&format!("error: {error:#}\n"));
             }
         }
     }
     let n = counted(recipes.len(), "recipe");
-    print(&match (old, args.check) {
+    print(&match (outdated, args.check) {
         (0, _) => format!("{n}, nothing to rewrite\n"),
-        (_, true) => format!("{n}, {old} to rewrite\n"),
-        (_, false) => format!("{n}, {old} rewritten\n"),
+        (_, true) => format!("{n}, {outdated} to rewrite\n"),
+        (_, false) => format!("{n}, {outdated} rewritten\n"),
     })?;
-    Ok(failed == 0 && !(args.check && old > 0))
+    Ok(failed == 0 && !(args.check && outdated > 0))
 }
 
-/// Upgrades one recipe, or only says what there is to do. Returns whether it is of an older spelling.
-fn one(path: &Path, only_check: bool, registry: &Registry) -> anyhow::Result<bool> {
+/// Upgrades one recipe, or with `only_check` lists the changes. Returns whether the recipe has outdated names.
+fn upgrade_recipe(path: &Path, only_check: bool, registry: &Registry) -> anyhow::Result<bool> {
     let source = Source::open(path).map_err(anyhow::Error::msg)?;
     let shown = path.display().to_string();
     let upgraded = match upgrade(&source.text, registry) {
         Ok(upgraded) => upgraded,
         Err(problems) => {
-            complain(&recipe::render(&[source], &problems, false));
+            print_error(&recipe::render(&[source], &problems, false));
             anyhow::bail!("{shown} cannot be upgraded");
         }
     };

@@ -1,4 +1,4 @@
-//! `batch`: one recipe on many files.
+//! `batch`: runs one recipe on many files.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -20,13 +20,13 @@ const RECIPE: &str = r#"(
     expect: [Faces(min: 5)],
 )"#;
 
-/// A tetrahedron of a size.
+/// A tetrahedron of the given size.
 fn tetrahedron(size: usize) -> String {
     let s = size;
     format!("v 0 0 0\nv {s} 0 0\nv 0 {s} 0\nv 0 0 {s}\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
 }
 
-/// A folder with the recipe and so many models in `models`.
+/// A folder with the recipe, and `count` models in `models`.
 fn with_models(count: usize) -> Folder {
     (0..count).fold(Folder::with_recipe(RECIPE), |folder, i| {
         folder.with(&format!("models/m{i:03}.obj"), tetrahedron(i + 1))
@@ -46,7 +46,7 @@ fn models(folder: &Folder, path: &str) -> Vec<String> {
     names
 }
 
-/// A report without what two runs do not share.
+/// A report without times.
 fn report(folder: &Folder, path: &str) -> Json {
     let mut report: Json = serde_json::from_slice(&folder.read(path)).unwrap();
     for row in report["rows"].as_array_mut().unwrap() {
@@ -69,7 +69,7 @@ fn column<'r>(report: &'r Json, name: &str) -> Vec<(&'r str, &'r str)> {
 }
 
 #[test]
-fn every_file_is_a_row_in_order_and_a_broken_one_ends_no_other() {
+fn every_file_is_a_row_in_order_and_a_broken_file_does_not_stop_the_batch() {
     let folder = with_models(3)
         .with("models/a/broken.obj", "f 1 2 3\n")
         .with("models/open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
@@ -106,7 +106,7 @@ fn every_file_is_a_row_in_order_and_a_broken_one_ends_no_other() {
 }
 
 #[test]
-fn a_failure_is_kept_with_the_command_that_repeats_it() {
+fn a_failure_is_recorded_with_the_command_that_repeats_it() {
     let folder = Folder::with_recipe(RECIPE).with("models/it's bad.obj", "f 1 2 3\n");
     batch(&folder, "--set levels=2 --out made").with_code(1);
     let notes = folder.entries("made/failed");
@@ -122,7 +122,7 @@ fn a_failure_is_kept_with_the_command_that_repeats_it() {
     let ended = folder.shell(&again).with_code(1);
     assert!(ended.stderr.contains("it's bad.obj:1:3: "), "{ended:#?}");
 
-    // What was mended has no note any more.
+    // When the input is fixed, the record of the failure is removed.
     let folder = folder.with("models/it's bad.obj", tetrahedron(1));
     batch(&folder, "--set levels=2 --out made").with_code(0);
     assert_eq!(folder.entries("made/failed"), [""; 0]);
@@ -186,7 +186,7 @@ fn without_time(line: &str) -> String {
 }
 
 #[test]
-fn files_that_are_done_are_not_done_again_until_something_changes() {
+fn finished_files_are_not_processed_again_until_something_changes() {
     let folder = with_models(6).with("models/broken.obj", "f 1 2 3\n");
     let again = |arguments: &str| {
         let ended = batch(&folder, arguments).with_code(1);
@@ -195,19 +195,19 @@ fn files_that_are_done_are_not_done_again_until_something_changes() {
     assert_eq!(again("--report a.json"), 8);
     assert_eq!(again("--report b.json"), 0);
     assert_eq!(report(&folder, "a.json"), report(&folder, "b.json"));
-    // The broken one.
+    // The broken file.
     assert_eq!(again("--retry-failed"), 1);
     // An input.
     fs::write(folder.path("models/m002.obj"), tetrahedron(9)).unwrap();
     assert_eq!(again(""), 1);
-    // An output that is gone, or is another.
+    // Outputs that were removed or changed.
     fs::remove_file(folder.path("out/m001.obj")).unwrap();
     fs::write(folder.path("out/m004.obj"), "").unwrap();
     assert_eq!(again(""), 2);
     // A parameter.
     assert_eq!(again("--set levels=2"), 8);
     assert_eq!(again("--set levels=2"), 0);
-    // A comment of the recipe is no change, an expectation is.
+    // Changing a comment of the recipe has no effect, but changing an expectation does.
     fs::write(folder.path("recipe.ron"), format!("// new\n{RECIPE}")).unwrap();
     assert_eq!(again("--set levels=2"), 0);
     fs::write(
@@ -219,14 +219,16 @@ fn files_that_are_done_are_not_done_again_until_something_changes() {
 }
 
 #[test]
-fn what_failed_for_want_of_memory_is_tried_again_with_more() {
+fn a_file_over_the_budget_is_processed_again_with_a_larger_budget() {
     let folder = with_models(2);
     batch(&folder, "--set levels=6 --budget 100KiB")
         .with_code(1)
         .prints(&["0 ok, 2 failed"]);
     let again = batch(&folder, "--set levels=6 --budget 100KiB").with_code(1);
     assert!(
-        again.stdout.ends_with("2 of them were done before\n"),
+        again
+            .stdout
+            .ends_with("2 of them finished in earlier runs\n"),
         "{again:#?}"
     );
     batch(&folder, "--set levels=6")
@@ -236,13 +238,13 @@ fn what_failed_for_want_of_memory_is_tried_again_with_more() {
 
 #[cfg(unix)]
 #[test]
-fn a_batch_that_is_killed_goes_on_where_it_was() {
+fn a_batch_that_is_killed_is_resumed() {
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 
     let folder = with_models(24).with("models/broken.obj", "f 1 2 3\n");
     let arguments = "batch recipe.ron --inputs models/*.obj --set levels=6 --threads 2";
-    let noted = |folder: &Folder| {
+    let n_recorded = |folder: &Folder| {
         let journal = fs::read_to_string(folder.path("out/batch.jsonl")).unwrap_or_default();
         journal
             .lines()
@@ -250,9 +252,9 @@ fn a_batch_that_is_killed_goes_on_where_it_was() {
             .count()
     };
     let mut killed_at = Vec::new();
-    // Killed three times, each time a few files further.
+    // Killed three times, each time after a few more files.
     for further in [1, 4, 5] {
-        let before = noted(&folder);
+        let before = n_recorded(&folder);
         let mut child = Command::new(crate::folder::PROGRAM)
             .args(arguments.split(' '))
             .current_dir(folder.path("."))
@@ -261,16 +263,16 @@ fn a_batch_that_is_killed_goes_on_where_it_was() {
             .spawn()
             .unwrap();
         let begin = Instant::now();
-        while noted(&folder) < before + further && begin.elapsed() < Duration::from_secs(60) {
+        while n_recorded(&folder) < before + further && begin.elapsed() < Duration::from_secs(60) {
             std::thread::sleep(Duration::from_millis(2));
         }
         child.kill().unwrap();
         child.wait().unwrap();
-        killed_at.push(noted(&folder));
+        killed_at.push(n_recorded(&folder));
     }
     let done = *killed_at.last().unwrap();
     assert!((10..25).contains(&done), "{killed_at:?}");
-    // A line that was torn when the program was killed is no row.
+    // An incomplete line, as left by a killed process, is not a row.
     let torn = fs::read_to_string(folder.path("out/batch.jsonl")).unwrap() + "{\"key\": \"12";
     fs::write(folder.path("out/batch.jsonl"), torn).unwrap();
 
@@ -283,15 +285,15 @@ fn a_batch_that_is_killed_goes_on_where_it_was() {
         .filter(|l| l.contains("models/"))
         .count();
     assert_eq!(tried, 25 - done, "{ended:#?}");
-    let kept = format!("{done} of them were done before\n");
+    let kept = format!("{done} of them finished in earlier runs\n");
     assert!(ended.stdout.ends_with(&kept), "{ended:#?}");
-    // Every file was done once in all.
-    assert_eq!(noted(&folder), 25);
+    // Every file was processed exactly once.
+    assert_eq!(n_recorded(&folder), 25);
 
-    // As if nothing had been: the same report, the same files, nothing else.
+    // The report and the files are the same as those of an uninterrupted batch.
     fs::rename(folder.path("out"), folder.path("first")).unwrap();
     let whole = folder.run(&format!("{arguments} --report whole.json"));
-    assert!(!whole.stdout.contains("done before"), "{whole:#?}");
+    assert!(!whole.stdout.contains("earlier runs"), "{whole:#?}");
     assert_eq!(
         report(&folder, "resumed.json"),
         report(&folder, "whole.json")
@@ -305,7 +307,7 @@ fn a_batch_that_is_killed_goes_on_where_it_was() {
 
 #[cfg(unix)]
 #[test]
-fn ctrl_c_ends_a_batch_in_an_orderly_way() {
+fn ctrl_c_ends_a_batch_cleanly() {
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 
@@ -330,7 +332,7 @@ fn ctrl_c_ends_a_batch_in_an_orderly_way() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     let stdout = String::from_utf8(output.stdout).unwrap();
-    assert!(stdout.contains(" not done: interrupted\n"), "{stdout}");
+    assert!(stdout.contains(" not processed: interrupted\n"), "{stdout}");
 
     let report = report(&folder, "r.json");
     let ok = column(&report, "state")
@@ -340,20 +342,20 @@ fn ctrl_c_ends_a_batch_in_an_orderly_way() {
     assert_eq!(report["ok"], ok);
     assert_eq!(report["skipped"], 30 - ok);
     assert!((1..30).contains(&ok), "{ok}");
-    // What is there is whole, and nothing else is there.
+    // The folder contains only complete outputs and the journal.
     let made = names(&folder.path("out"));
     assert_eq!(made.len(), ok + 1, "{made:?}");
     let ended = folder.run(arguments).with_code(0);
     assert!(
         ended
             .stdout
-            .contains(&format!("{ok} of them were done before")),
+            .contains(&format!("{ok} of them finished in earlier runs")),
         "{ended:#?}"
     );
 }
 
 #[test]
-fn parts_are_disjoint_and_joined_they_are_the_whole() {
+fn parts_are_disjoint_and_merged_they_are_the_whole() {
     let folder = with_models(20).with("models/broken.obj", "f 1 2 3\n");
     for i in 1..=3 {
         let ended = batch(&folder, &format!("--shard {i}/3 --report part{i}.jsonl"));
@@ -374,11 +376,11 @@ fn parts_are_disjoint_and_joined_they_are_the_whole() {
     assert_eq!(parts.iter().map(BTreeSet::len).sum::<usize>(), 21);
     assert_eq!(parts.concat_all().len(), 21);
 
-    // The same rows twice are once.
+    // Duplicate rows are merged.
     folder
         .run("batch --merge part3.jsonl part1.jsonl part2.jsonl part1.jsonl --report all.json")
         .with_code(1)
-        .prints(&["4 reports, 21 files: 20 ok, 1 failed, 0 not done\n"]);
+        .prints(&["4 reports, 21 files: 20 ok, 1 failed, 0 not processed\n"]);
     fs::remove_file(folder.path("out/batch-1-of-3.jsonl")).unwrap();
     batch(&folder, "--report whole.json").with_code(1);
     assert_eq!(report(&folder, "all.json"), report(&folder, "whole.json"));
@@ -404,7 +406,7 @@ impl ConcatAll for [BTreeSet<String>; 3] {
 }
 
 #[test]
-fn a_file_that_is_added_moves_no_other_to_another_part() {
+fn adding_a_file_moves_no_file_to_a_different_part() {
     let folder = with_models(20);
     let part = |folder: &Folder| {
         batch(folder, "--shard 1/3 --report p.json").with_code(0);
@@ -423,7 +425,7 @@ fn a_file_that_is_added_moves_no_other_to_another_part() {
 }
 
 #[test]
-fn reports_that_contradict_each_other_are_not_joined() {
+fn contradicting_reports_are_not_merged() {
     let folder = with_models(2);
     batch(&folder, "--report a.json").with_code(0);
     let changed = String::from_utf8(folder.read("a.json")).unwrap();
@@ -436,7 +438,7 @@ fn reports_that_contradict_each_other_are_not_joined() {
             "error: models/m000.obj is ok (digest ",
             "a.json and ok",
             "b.json\n",
-            "1 contradictions",
+            "1 contradiction, no report was written",
         ]);
     assert!(!folder.path("c.json").exists());
 
@@ -452,21 +454,22 @@ fn reports_that_contradict_each_other_are_not_joined() {
         ("a.csv", "cannot read"),
         (
             "recipe.ron",
-            "expected a report that ends in .csv, .json or .jsonl",
+            "expected a report with the extension .csv, .json or .jsonl",
         ),
         ("none.json", "cannot read none.json"),
     ] {
         let ended = folder
             .run(&format!("batch --merge {reports} --report c.json"))
             .with_code(1);
-        let is_table = reports == "a.csv" && ended.stderr.contains("a table does not say");
+        let is_table =
+            reports == "a.csv" && ended.stderr.contains("reports in .csv cannot be merged");
         assert!(is_table || ended.stderr.contains(message), "{ended:#?}");
     }
 }
 
 #[test]
-fn odd_names_are_names() {
-    let mut odd = vec![
+fn unusual_file_names_are_processed() {
+    let mut names = vec![
         "a b",
         "ünïcödé ✓",
         "a,b",
@@ -478,27 +481,27 @@ fn odd_names_are_names() {
         "$HOME `x`",
     ];
     if cfg!(unix) {
-        odd.extend(["quote\"d", "new\nline", "tab\t", "star*", "<&>"]);
+        names.extend(["quote\"d", "new\nline", "tab\t", "star*", "<&>"]);
     }
-    let folder = odd
+    let folder = names
         .iter()
         .fold(Folder::with_recipe(RECIPE), |folder, name| {
             folder.with(&format!("models/{name}.obj"), tetrahedron(1))
         });
     let ended = batch(&folder, "--report r.csv").with_code(0);
-    // One line for each, whatever is in its name.
-    assert_eq!(ended.stdout.lines().count(), odd.len() + 1, "{ended:#?}");
+    // One line per file, even if its name contains line breaks.
+    assert_eq!(ended.stdout.lines().count(), names.len() + 1, "{ended:#?}");
     let bytes = folder.read("r.csv");
     let mut table = csv::Reader::from_reader(bytes.as_slice());
     let listed: BTreeSet<String> = table.records().map(|r| r.unwrap()[0].to_owned()).collect();
-    let expected: BTreeSet<String> = odd.iter().map(|n| format!("models/{n}.obj")).collect();
+    let expected: BTreeSet<String> = names.iter().map(|n| format!("models/{n}.obj")).collect();
     assert_eq!(listed, expected);
-    for name in odd {
+    for name in names {
         assert!(
             folder.path(&format!("out/{name}.obj")).is_file(),
             "{name:?}"
         );
-        // A name that looks like a pattern is a name.
+        // A file whose name looks like a pattern can be given by its name.
         let path = format!("models/{name}.obj");
         let one = folder.run_all(&[
             "batch",
@@ -518,7 +521,7 @@ fn two_files_that_would_write_one_output_are_refused_before_anything_runs() {
         .with("models/a/cow.obj", tetrahedron(1))
         .with("models/b/cow.obj", tetrahedron(2));
     batch(&folder, "").with_code(1).complains(&[
-        "error: models/a/cow.obj and models/b/cow.obj would both write out/cow.obj: put `{model.stem}`",
+        "error: models/a/cow.obj and models/b/cow.obj would both write out/cow.obj: use `{model.stem}`",
         "--folders\n",
     ]);
     assert!(!folder.path("out").exists());
@@ -531,13 +534,13 @@ fn two_files_that_would_write_one_output_are_refused_before_anything_runs() {
 fn a_file_that_would_be_overwritten_is_refused_before_anything_runs() {
     let folder = with_models(2);
     batch(&folder, "--out models").with_code(1).complains(&[
-        "error: models/m000.obj would be overwritten with what models/m000.obj becomes",
+        "error: the input file models/m000.obj would be overwritten by the output of models/m000.obj",
     ]);
     assert_eq!(folder.entries("models"), ["m000.obj", "m001.obj"]);
 }
 
 #[test]
-fn what_cannot_be_a_batch_says_why() {
+fn invalid_batches_are_refused_with_a_reason() {
     let fixed = RECIPE.replace("Path(default: \"none.obj\")", "Text(default: \"a.obj\")");
     let fixed = fixed.replace("{model.stem}.obj", "a.glb");
     let two = RECIPE.replace(
@@ -556,7 +559,7 @@ fn what_cannot_be_a_batch_says_why() {
         ),
         (
             "recipe.ron --inputs models".to_owned(),
-            "models is a folder: write 'models/*.obj'",
+            "models is a folder, expected files: use 'models/*.obj'",
         ),
         (
             "recipe.ron --inputs nowhere/*.obj".to_owned(),
@@ -564,7 +567,7 @@ fn what_cannot_be_a_batch_says_why() {
         ),
         (
             "recipe.ron --inputs models/[.obj".to_owned(),
-            "models/[.obj is no pattern of files",
+            "models/[.obj is not a valid file pattern",
         ),
         (
             format!("fixed.ron {models}"),
@@ -596,7 +599,7 @@ fn what_cannot_be_a_batch_says_why() {
         ),
         (
             format!("recipe.ron {models} --report r.txt"),
-            "expected a report that ends in",
+            "expected a report with the extension",
         ),
         (format!("broken.ron {models}"), "unknown operation `Cubee`"),
         (format!("none.ron {models}"), "cannot read none.ron"),
@@ -615,7 +618,7 @@ fn what_cannot_be_a_batch_says_why() {
 }
 
 #[test]
-fn several_patterns_are_one_list_and_each_file_is_once() {
+fn several_patterns_are_one_list_without_duplicates() {
     let folder = with_models(3)
         .with("models/x.ply", "no ply")
         .with("models/.hidden.obj", tetrahedron(1))
@@ -635,7 +638,7 @@ fn several_patterns_are_one_list_and_each_file_is_once() {
 
 #[cfg(unix)]
 #[test]
-fn links_that_go_round_in_circles_do_not_hang() {
+fn cyclic_links_do_not_hang() {
     let folder = with_models(2);
     for name in ["one", "two"] {
         std::os::unix::fs::symlink(
@@ -651,8 +654,8 @@ fn links_that_go_round_in_circles_do_not_hang() {
 
 #[cfg(unix)]
 #[test]
-fn a_file_that_cannot_be_written_whole_is_a_failure_and_leaves_nothing() {
-    // A limit on the size of files stands for a disk that is full.
+fn an_output_that_cannot_be_written_is_a_failure_and_leaves_no_file() {
+    // A limit on the size of files simulates a full disk.
     let folder = with_models(3);
     let limited = "trap '' XFSZ; ulimit -f 8; exec \"$0\" batch recipe.ron --inputs models/*.obj";
     let ended = folder
@@ -664,12 +667,12 @@ fn a_file_that_cannot_be_written_whole_is_a_failure_and_leaves_nothing() {
         "{ended:#?}"
     );
     assert_eq!(folder.entries("out"), ["batch.jsonl", "failed"]);
-    // With room it goes on.
+    // Without the limit, the batch succeeds.
     batch(&folder, "--set levels=5 --retry-failed")
         .with_code(0)
         .prints(&["3 ok, 0 failed\n"]);
 
-    // A journal that cannot grow ends the batch; what it has is whole.
+    // If the journal cannot grow, the batch ends; the journal stays valid.
     let folder = with_models(60);
     let ended = folder.shell(&limited.replace("-f 8", "-f 4")).with_code(1);
     assert!(

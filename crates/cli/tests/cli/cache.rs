@@ -1,4 +1,4 @@
-//! The cache of steps: `run` with it, `cache`, and processes that share it or are killed.
+//! The step cache: `run`, `cache`, and processes that share the cache or are killed.
 
 use std::fs;
 use std::path::Path;
@@ -9,19 +9,19 @@ use std::time::Duration;
 use crate::folder::{Ended, Folder, PROGRAM};
 use crate::run::TORUS;
 
-/// What a run tells in JSON, without times and files.
-fn told(stdout: &[u8]) -> Vec<serde_json::Value> {
-    let mut told = Vec::new();
+/// The events of a run, without times and files.
+fn comparable_events(stdout: &[u8]) -> Vec<serde_json::Value> {
+    let mut events = Vec::new();
     for line in std::str::from_utf8(stdout).unwrap().lines() {
         let mut event: serde_json::Value = serde_json::from_str(line).unwrap();
         if ["done", "problem", "end"].contains(&event["event"].as_str().unwrap()) {
             for field in ["milliseconds", "cached", "ran_because"] {
                 event.as_object_mut().unwrap().remove(field);
             }
-            told.push(event);
+            events.push(event);
         }
     }
-    told
+    events
 }
 
 #[test]
@@ -40,7 +40,7 @@ fn a_second_run_takes_everything_from_the_cache() {
             "1 Torus: cached\n",
             "5 Save: cached\n",
             "wrote out/deep/torus.glb\n",
-            "2 expectations hold\n",
+            "2 expectations met\n",
         ]);
     assert_eq!(first.digest(), second.digest());
     assert_eq!(outputs.map(|path| folder.read(path)), bytes);
@@ -69,7 +69,7 @@ fn a_run_explains_why_a_step_ran() {
 }
 
 #[test]
-fn a_file_that_another_one_names_counts() {
+fn a_file_that_an_input_refers_to_is_an_input_too() {
     let folder = Folder::with_recipe(r#"(recipe: 1, steps: [Load(path: "a.obj")])"#).with(
         "a.obj",
         "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n",
@@ -89,7 +89,7 @@ fn a_file_that_another_one_names_counts() {
 }
 
 #[test]
-fn the_cache_says_what_it_holds_and_can_be_emptied() {
+fn the_cache_shows_its_size_and_can_be_cleared() {
     let folder = Folder::with_recipe(TORUS);
     folder
         .run("cache")
@@ -160,7 +160,7 @@ fn start(folder: &Folder, out: &str) -> std::process::Child {
         .unwrap()
 }
 
-/// Enough work to be in the middle of.
+/// A run that is long enough to be killed in the middle.
 const LONGER: &str = r#"(recipe: 1, steps: [
     Torus(name: "a", around: 60, across: 40),
     Triangulate,
@@ -171,9 +171,12 @@ const LONGER: &str = r#"(recipe: 1, steps: [
     Save(path: "a.glb"),
 ], expect: [Genus(eq: 1), Closed])"#;
 
-/// Asks for the outcome and the outputs of a run without a cache.
+/// Checks that the events and outputs are those of a run without a cache.
 fn check_run(folder: &Folder, plain: &Ended, out: &str, stdout: &[u8]) {
-    assert_eq!(told(stdout), told(plain.stdout.as_bytes()));
+    assert_eq!(
+        comparable_events(stdout),
+        comparable_events(plain.stdout.as_bytes())
+    );
     for name in ["a.obj", "a.glb"] {
         let same = folder.read(&format!("plain/{name}")) == folder.read(&format!("{out}/{name}"));
         assert!(same, "{name}");
@@ -198,7 +201,7 @@ fn several_processes_share_a_cache() {
 }
 
 #[test]
-fn a_run_that_is_killed_at_any_moment_leaves_a_cache_that_is_right() {
+fn a_run_that_is_killed_at_any_moment_leaves_a_valid_cache() {
     let folder = Folder::with_recipe(LONGER);
     let plain = folder
         .run("run recipe.ron --no-cache --out plain --format json")

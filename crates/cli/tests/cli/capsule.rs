@@ -1,8 +1,8 @@
-//! Failure capsules, and the scenes in them made smaller.
+//! Failure capsules, and `shrink`.
 
 use crate::folder::Folder;
 
-/// One of many edges of a torus is on the boundary after a face has gone.
+/// Deletes a face of a torus and then flips a boundary edge, which is refused.
 const FAILS: &str = r#"(recipe: 1,
     params: {"n": Int(default: 12), "part": Path(default: "part.obj")},
     steps: [
@@ -22,7 +22,7 @@ fn folder() -> Folder {
         .with("scenes/part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
 }
 
-/// What a run complains of first, without its place.
+/// The first line of an error, without its place.
 fn first_line(stderr: &str) -> &str {
     stderr.lines().next().unwrap_or_default()
 }
@@ -41,11 +41,11 @@ fn a_capsule_fails_as_the_recipe_did() {
     }
     let again = folder.run("run deep/capsule/recipe.ron").with_code(1);
     assert_eq!(first_line(&again.stderr), first_line(&failed.stderr));
-    assert!(folder.entries("out").is_empty(), "nothing was written");
+    assert!(folder.entries("out").is_empty(), "no files are written");
 }
 
 #[test]
-fn no_capsule_is_written_where_nothing_fails() {
+fn no_capsule_is_written_if_no_step_fails() {
     let folder = Folder::with_recipe("(recipe: 1, steps: [Cube(name: \"a\")])");
     folder.run("run recipe.ron --capsule c").with_code(0);
     assert!(folder.entries("c").is_empty());
@@ -56,14 +56,14 @@ fn no_capsule_is_written_where_nothing_fails() {
 }
 
 #[test]
-fn a_failing_scene_is_made_smaller_and_still_fails() {
+fn a_shrunk_scene_still_fails() {
     let folder = folder();
     folder
         .run("shrink scenes/r.ron --out small")
         .with_code(0)
         .prints(&[
             "flip#1: ",
-            " faces of 215 are enough",
+            "reduced from 215 to ",
             "meshwright run small/recipe.ron",
         ]);
     folder

@@ -1,4 +1,4 @@
-//! `diff`: two files, recipes or runs side by side.
+//! `diff`: compares two files, recipes or runs.
 
 use serde_json::json;
 
@@ -12,7 +12,7 @@ const CUBE: &str = "(recipe: 1, steps: [Cube(name: \"a\"), Save(path: \"a.obj\")
 const CUT: &str = "(recipe: 1, steps: [Cube(name: \"a\"), Triangulate, Save(path: \"a.obj\")])";
 
 #[test]
-fn equal_files_are_exit_code_0_and_others_1() {
+fn the_exit_code_is_0_for_equal_and_1_for_different_files() {
     let folder = Folder::new()
         .with("a.obj", square(0.0))
         .with("b.obj", square(0.0))
@@ -27,7 +27,7 @@ fn equal_files_are_exit_code_0_and_others_1() {
         "vertices",
         "area",
         "connectivity   the same\n",
-        "positions      1 of 4 differ, v2 by 0.25\n",
+        "positions      1 of 4 differ, most at v2 by 0.25\n",
         "distance       ",
         "mean distance  ",
         "different\n",
@@ -40,7 +40,7 @@ fn equal_files_are_exit_code_0_and_others_1() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_exit_code_2() {
+fn files_that_cannot_be_compared_are_exit_code_2() {
     let folder = Folder::new()
         .with("a.obj", square(0.0))
         .with("bad.ron", "(recipe: 1, steps: [Cubee])");
@@ -57,7 +57,7 @@ fn what_cannot_be_compared_is_exit_code_2() {
 }
 
 #[test]
-fn recipes_are_compared_by_what_they_make() {
+fn recipes_are_compared_by_their_results() {
     let folder = Folder::new()
         .with("a.ron", CUBE)
         .with("b.ron", CUT)
@@ -126,15 +126,15 @@ fn runs_are_compared_step_by_step() {
     folder
         .run("diff --runs a.json half.json")
         .with_code(2)
-        .complains(&["half.json is no whole record of a run"]);
+        .complains(&["half.json is not a complete record of a run"]);
     folder
         .run("diff --runs a.json newer.json")
         .with_code(2)
-        .complains(&["newer.json is of version 2, expected 1"]);
+        .complains(&["newer.json has version 2, expected at most 1"]);
 }
 
 #[test]
-fn runs_that_differ_by_a_parameter_say_so() {
+fn different_parameters_of_runs_are_shown() {
     let recipe = "(recipe: 1, params: { \"size\": Float(default: 2) },
         steps: [Cube(name: \"a\", size: arg(\"size\"))])";
     let folder = Folder::with_recipe(recipe);

@@ -42,14 +42,14 @@ fn the_facts_of_curves_and_patches_are_shown() {
 }
 
 #[test]
-fn what_a_file_holds_beside_its_mesh_is_noted() {
+fn changes_while_reading_a_file_are_noted() {
     let folder = Folder::new().with("a.obj", format!("{SQUARE}f 1 2 2\n"));
     let ended = folder.run("info a.obj").with_code(0);
     assert!(ended.stdout.contains("note: "), "{ended:#?}");
 }
 
 #[test]
-fn a_mesh_is_the_same_in_another_format() {
+fn a_converted_mesh_is_unchanged() {
     let folder = Folder::new().with("square.obj", SQUARE);
     folder
         .run("convert square.obj square.glb")
@@ -62,7 +62,7 @@ fn a_mesh_is_the_same_in_another_format() {
 }
 
 #[test]
-fn what_cannot_be_converted_leaves_no_file() {
+fn a_failed_conversion_writes_no_file() {
     let folder = Folder::new()
         .with("square.obj", SQUARE)
         .with("curve.bzc", "2\n0 0\n1 1\n")
@@ -94,7 +94,7 @@ fn what_cannot_be_converted_leaves_no_file() {
 }
 
 #[test]
-fn what_makes_no_clean_mesh_is_treated_as_asked_and_listed() {
+fn policies_for_unclean_input_are_applied_and_listed() {
     let obj = format!("{SQUARE}v 9 9 9\nf 4 3 2 1\np 5\n");
     let folder = Folder::new().with("a.obj", obj);
     let json = folder

@@ -9,7 +9,7 @@ use tempfile::TempDir;
 /// The program that is tested.
 pub(crate) const PROGRAM: &str = env!("CARGO_BIN_EXE_meshwright");
 
-/// A folder that is gone after the test, and one for the cache.
+/// A temporary working folder, and one for the cache. Both are removed after the test.
 pub(crate) struct Folder(TempDir, TempDir);
 
 /// How the program ended.
@@ -30,7 +30,7 @@ impl Folder {
         Self::new().with("recipe.ron", text)
     }
 
-    /// The same with another file.
+    /// Adds a file.
     pub(crate) fn with(self, path: &str, content: impl AsRef<[u8]>) -> Self {
         let path = self.path(path);
         fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -46,12 +46,12 @@ impl Folder {
         fs::read(self.path(path)).unwrap()
     }
 
-    /// The names of everything in a folder, hidden files too; nothing if there is no such folder.
+    /// The sorted names of all entries of a folder, including hidden files. Empty if the folder does not exist.
     pub(crate) fn entries(&self, path: &str) -> Vec<String> {
         names(&self.path(path))
     }
 
-    /// Runs the program with these arguments, separated by blanks.
+    /// Runs the program with these arguments, separated by spaces.
     pub(crate) fn run(&self, arguments: &str) -> Ended {
         self.run_all(&arguments.split_whitespace().collect::<Vec<_>>())
     }
@@ -60,7 +60,7 @@ impl Folder {
         self.command(PROGRAM, arguments)
     }
 
-    /// Runs commands of the shell; `"$0"` is the program.
+    /// Runs shell commands; `"$0"` is the program.
     #[cfg(unix)]
     pub(crate) fn shell(&self, commands: &str) -> Ended {
         self.command("sh", &["-c", commands, PROGRAM])
@@ -93,21 +93,21 @@ pub(crate) fn names(folder: &Path) -> Vec<String> {
 }
 
 impl Ended {
-    /// Asks for an exit code.
+    /// Checks the exit code.
     #[track_caller]
     pub(crate) fn with_code(self, code: i32) -> Self {
         assert_eq!(self.code, Some(code), "{self:#?}");
         self
     }
 
-    /// Asks for texts in the standard output, in this order.
+    /// Checks that standard output contains these texts in this order.
     #[track_caller]
     pub(crate) fn prints(self, texts: &[&str]) -> Self {
         assert_contains(&self.stdout, texts);
         self
     }
 
-    /// Asks for texts in the standard error, in this order.
+    /// Checks that standard error contains these texts in this order.
     #[track_caller]
     pub(crate) fn complains(self, texts: &[&str]) -> Self {
         assert_contains(&self.stderr, texts);
@@ -119,7 +119,7 @@ impl Ended {
         serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {self:#?}"))
     }
 
-    /// The lines of the standard output, each a JSON object.
+    /// The lines of standard output, each parsed as JSON.
     #[track_caller]
     pub(crate) fn events(&self) -> Vec<serde_json::Value> {
         let event = |line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {self:#?}"));
@@ -135,9 +135,9 @@ impl Ended {
 }
 
 #[track_caller]
-fn assert_contains(text: &str, wanted: &[&str]) {
+fn assert_contains(text: &str, expected: &[&str]) {
     let mut rest = text;
-    for part in wanted {
+    for part in expected {
         let Some(at) = rest.find(part) else {
             panic!("expected `{part}` in this order in:\n{text}");
         };

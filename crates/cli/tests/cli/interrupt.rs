@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use crate::folder::{Folder, PROGRAM, names};
 
-/// Interrupts a run that would take long, some time after it began to work.
+/// Interrupts a long run, some time after it started.
 #[track_caller]
 fn interrupted_after(wait: Duration) {
     let folder = Folder::with_recipe(
@@ -27,7 +27,7 @@ fn interrupted_after(wait: Duration) {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // The folder where outputs wait is made when the run begins.
+    // The temporary folder for outputs is created when the run starts.
     let out = folder.path("out");
     let begin = Instant::now();
     while names(&out).is_empty() && begin.elapsed() < Duration::from_secs(30) {
@@ -46,7 +46,7 @@ fn interrupted_after(wait: Duration) {
     pipe.read_to_string(&mut stderr).unwrap();
     let status = child.wait().unwrap();
 
-    assert_eq!(stderr, "interrupted, nothing was written\n");
+    assert_eq!(stderr, "interrupted, no files were written\n");
     assert_eq!(status.code(), Some(1));
     assert!(
         signal.elapsed() < Duration::from_secs(10),
@@ -57,11 +57,11 @@ fn interrupted_after(wait: Duration) {
 }
 
 #[test]
-fn an_interrupted_run_ends_soon_and_leaves_nothing() {
+fn an_interrupted_run_ends_quickly_and_leaves_no_files() {
     interrupted_after(Duration::from_millis(300));
 }
 
 #[test]
-fn a_run_can_be_interrupted_at_once() {
+fn a_run_can_be_interrupted_immediately() {
     interrupted_after(Duration::ZERO);
 }

@@ -1,4 +1,4 @@
-//! Drives the real program in temporary folders.
+//! Tests the program in temporary folders.
 
 mod batch;
 mod cache;

@@ -1,4 +1,4 @@
-//! `new`: what it writes runs as it is.
+//! `new`: the recipes that it writes run without changes.
 
 use std::path::Path;
 
@@ -19,12 +19,12 @@ fn a_new_recipe_runs() {
 
     let before = folder.read("part.ron");
     let again = folder.run("new part").with_code(1);
-    assert_eq!(again.stderr, "error: part.ron exists already\n");
+    assert_eq!(again.stderr, "error: part.ron already exists\n");
     assert_eq!(folder.read("part.ron"), before);
 }
 
 #[test]
-fn a_new_recipe_reads_a_model() {
+fn a_new_recipe_loads_a_model() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/assets");
     for model in ["bunny.obj", "wavy.bez"] {
         let folder = Folder::new().with(model, std::fs::read(scenes.join(model)).unwrap());
@@ -36,10 +36,10 @@ fn a_new_recipe_reads_a_model() {
 }
 
 #[test]
-fn a_recipe_for_a_model_that_is_not_there_is_not_written() {
+fn a_recipe_for_a_missing_model_is_not_written() {
     let folder = Folder::new();
     let ended = folder.run("new lost.obj").with_code(1);
-    assert_eq!(ended.stderr, "error: there is no file lost.obj\n");
+    assert_eq!(ended.stderr, "error: the file lost.obj does not exist\n");
     folder.run("new curve.bzc").with_code(1);
     assert!(folder.entries(".").is_empty());
 }

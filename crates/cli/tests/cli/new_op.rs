@@ -1,4 +1,4 @@
-//! `new-op`: what it writes builds, passes its tests and draws its picture.
+//! `new-op`: the files that it writes build, pass their tests and draw their pictures.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Copies files and folders with their times, so that cargo knows what it has built before.
+/// Copies files and folders with their times, so that cargo reuses earlier builds.
 fn copy(from: &Path, to: &Path) {
     if from.is_dir() {
         fs::create_dir_all(to).unwrap();
@@ -26,7 +26,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// The workspace in a folder of its own.
+/// A copy of the workspace in a temporary folder.
 fn workspace() -> Folder {
     let folder = Folder::new();
     for part in [
@@ -41,14 +41,14 @@ fn workspace() -> Folder {
     ] {
         copy(&repository().join(part), &folder.path(part));
     }
-    // Nothing is optimised, so that it builds fast.
+    // Without optimization the build is faster.
     let manifest = String::from_utf8(folder.read("Cargo.toml")).unwrap();
     let (members, _) = manifest.split_once("[profile.").unwrap();
     fs::write(folder.path("Cargo.toml"), members).unwrap();
     folder
 }
 
-/// The least that `new-op` takes for a workspace.
+/// The smallest folder that `new-op` accepts as a workspace.
 fn small_workspace() -> Folder {
     Folder::new()
         .with("ops/all/src/lib.rs", "")
@@ -67,7 +67,7 @@ pub fn register(registry: Registry) -> Registry {
 }
 ";
 
-/// Runs cargo in a folder, with a target folder that stays from test to test.
+/// Runs cargo in a folder, with a target folder that all tests share.
 #[track_caller]
 fn cargo(folder: &Path, arguments: &str) {
     let output = Command::new(env!("CARGO"))
@@ -91,7 +91,7 @@ fn target() -> PathBuf {
 
 #[test]
 #[ignore = "builds the workspace a second time: .ci/run runs it"]
-fn a_new_operation_of_a_group_works_as_it_is() {
+fn a_new_operation_in_a_group_works_without_changes() {
     let folder = workspace();
     folder
         .run("new-op --in tags InflateFaces")
@@ -138,7 +138,7 @@ fn a_new_crate_is_a_program_with_its_operation() {
             "next: cd ./inflate_faces && cargo test && cargo run -- run picture.ron\n",
         ]);
     let krate = folder.path("inflate_faces");
-    // The same versions as in the workspace, so that nothing has to be fetched.
+    // The same versions as in the workspace, so that no crate has to be downloaded.
     fs::copy(root.join("Cargo.lock"), krate.join("Cargo.lock")).unwrap();
     cargo(&krate, "test --offline --quiet");
     cargo(&krate, "build --offline --quiet");
@@ -162,14 +162,14 @@ fn a_new_crate_is_a_program_with_its_operation() {
         text
     };
     let done = run("run picture.ron --no-cache --out out");
-    assert!(done.contains("expectations hold"), "{done}");
+    assert!(done.contains("expectations met"), "{done}");
     for picture in ["before.png", "after.png"] {
         assert!(krate.join("out").join(picture).is_file(), "{picture}");
     }
     // Help and schema come from the same definition.
     let help = run("ops InflateFaces");
     assert!(
-        help.contains("How far along each axis, in scene units"),
+        help.contains("The distance along each axis, in scene units"),
         "{help}"
     );
     assert!(
@@ -180,7 +180,7 @@ fn a_new_crate_is_a_program_with_its_operation() {
 }
 
 #[test]
-fn an_operation_takes_its_place_in_its_group() {
+fn an_operation_is_added_to_the_lists_of_its_group() {
     let folder = small_workspace();
     for name in ["BendMore", "Twist"] {
         folder
@@ -216,9 +216,9 @@ fn content(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 }
 
 #[test]
-fn a_second_operation_of_a_name_is_refused_and_changes_nothing() {
+fn a_second_operation_with_the_same_name_is_refused_and_changes_no_files() {
     let folder = small_workspace();
-    for (arguments, there) in [
+    for (arguments, path) in [
         (
             "new-op InflateFaces --in faces",
             "./ops/faces/src/inflate_faces.rs",
@@ -228,19 +228,19 @@ fn a_second_operation_of_a_name_is_refused_and_changes_nothing() {
         folder.run(arguments).with_code(0);
         let before = content(&folder.path("."));
         let again = folder.run(arguments).with_code(1);
-        assert_eq!(again.stderr, format!("error: {there} is there already\n"));
+        assert_eq!(again.stderr, format!("error: {path} already exists\n"));
         assert_eq!(content(&folder.path(".")), before);
     }
-    // In another group: the picture has its name.
+    // In another group: the picture of the first operation has the same name.
     let folder = folder.with("ops/edges/src/lib.rs", GROUP);
     folder
         .run("new-op InflateFaces --in edges")
         .with_code(1)
-        .complains(&["error: ./ops/all/pictures/inflate_faces.ron is there already\n"]);
+        .complains(&["error: ./ops/all/pictures/inflate_faces.ron already exists\n"]);
 }
 
 #[test]
-fn bad_names_are_refused_and_change_nothing() {
+fn invalid_names_are_refused_and_change_no_files() {
     let folder = small_workspace();
     let before = content(&folder.path("."));
     for name in [
@@ -266,7 +266,9 @@ fn bad_names_are_refused_and_change_nothing() {
         ("Mesh", "mesh"),
         ("Std", "std"),
     ] {
-        let message = format!("error: `{name}` would be the module `{module}`, which is taken\n");
+        let message = format!(
+            "error: the name `{name}` cannot be used: its module `{module}` would have the name of a keyword"
+        );
         folder
             .run_all(&["new-op", name])
             .with_code(1)
@@ -275,25 +277,25 @@ fn bad_names_are_refused_and_change_nothing() {
     folder
         .run("new-op Report")
         .with_code(1)
-        .complains(&["error: the sample uses another `Report`"]);
+        .complains(&["error: the name `Report` cannot be used: the sample uses"]);
     assert_eq!(content(&folder.path(".")), before);
 }
 
 #[test]
-fn another_folder_is_no_workspace() {
+fn a_folder_that_is_not_a_workspace_is_refused() {
     let folder = Folder::new();
-    let message = ". is not the root of a Meshwright workspace: there is no ops/all";
+    let message = ". is not the root of a Meshwright workspace: it has no folder ops/all";
     folder
         .run("new-op Twist --in faces --dir .")
         .with_code(1)
         .complains(&[&format!("error: {message}\n")]);
-    folder
-        .run("new-op Twist")
-        .with_code(1)
-        .complains(&["name the folder of Meshwright with `--meshwright`", message]);
+    folder.run("new-op Twist").with_code(1).complains(&[
+        "set the root of the Meshwright workspace with `--meshwright`",
+        message,
+    ]);
     assert!(folder.entries(".").is_empty());
     small_workspace()
         .run("new-op Twist --in hair")
         .with_code(1)
-        .complains(&["error: there is no group `hair` in ./ops\n"]);
+        .complains(&["error: the group `hair` does not exist in ./ops\n"]);
 }

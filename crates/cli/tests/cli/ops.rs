@@ -3,7 +3,7 @@
 use crate::folder::Folder;
 
 #[test]
-fn operations_are_listed_with_what_they_do() {
+fn operations_are_listed_with_their_summaries() {
     let listed = Folder::new().run("ops").with_code(0);
     for entry in ops_all::registry().entries() {
         let line = format!("{:<20} {}\n", entry.name, entry.summary);
@@ -27,7 +27,7 @@ fn one_operation_is_shown_with_its_parameters() {
         "  at: number above 0.0 below 1.0 = 0.5\n",
         "  on_refusal: ",
         "`meshwright ops --selections` lists the selections.",
-        "`on: [\"name\", ..]` chooses objects.",
+        "`on: [\"name\", ..]` chooses the objects to act on.",
         "Example: SplitEdges(",
     ]);
     Folder::new().run("ops Repeat").with_code(0).prints(&[
@@ -38,12 +38,12 @@ fn one_operation_is_shown_with_its_parameters() {
 }
 
 #[test]
-fn selections_are_described_by_themselves() {
+fn selections_are_described_separately() {
     let folder = Folder::new();
     folder.run("ops --selections").with_code(0).prints(&[
         "EdgeSelection: ",
         "EdgeLoop(..)",
-        // A text of several lines is whole.
+        // A description of several lines is complete.
         "along the\n",
         "boundary from an edge of it.",
         "VertexSelection: ",
@@ -65,7 +65,7 @@ fn an_expectation_is_shown_with_its_fields() {
     let unknown = folder.run("expectations Aera").with_code(1);
     assert_eq!(
         unknown.stderr,
-        "error: there is no expectation `Aera`: did you mean `Area`?\n"
+        "error: unknown expectation `Aera`: did you mean `Area`?\n"
     );
 }
 
@@ -96,7 +96,7 @@ fn an_unknown_operation_gets_a_suggestion() {
     let ended = Folder::new().run("ops SplitEdge").with_code(1);
     assert_eq!(
         ended.stderr,
-        "error: there is no operation `SplitEdge`: did you mean `SplitEdges`?\n"
+        "error: unknown operation `SplitEdge`: did you mean `SplitEdges`?\n"
     );
 }
 
@@ -109,7 +109,7 @@ fn the_reference_has_a_chapter_for_each_operation() {
 }
 
 #[test]
-fn the_schema_is_json_and_knows_every_operation() {
+fn the_schema_is_json_and_has_every_operation() {
     let schema = Folder::new().run("schema").with_code(0).json();
     assert_eq!(schema["title"], "Meshwright recipe");
     for entry in ops_all::registry().entries() {
@@ -119,29 +119,29 @@ fn the_schema_is_json_and_knows_every_operation() {
 
 #[cfg(unix)]
 #[test]
-fn a_reader_that_goes_away_is_no_failure() {
+fn a_closed_pipe_is_not_a_failure() {
     let folder = Folder::new();
     let first = folder.shell("\"$0\" ops | head -1").with_code(0);
     assert_eq!(first.stdout.lines().count(), 1);
     assert_eq!(first.stderr, "");
-    // Here the reader is gone before the first byte.
+    // Here the pipe is closed before the first byte.
     for command in ["ops", "ops --markdown", "schema"] {
-        let gone = folder.shell(&format!(
+        let ended = folder.shell(&format!(
             "{{ sleep 0.3; \"$0\" {command}; echo \"exit code $?\" >&2; }} | true"
         ));
-        assert_eq!(gone.stderr, "exit code 0\n", "{command}");
+        assert_eq!(ended.stderr, "exit code 0\n", "{command}");
     }
 }
 
 #[cfg(unix)]
 #[test]
-fn an_error_that_nobody_reads_is_still_exit_code_1() {
+fn an_error_with_a_closed_pipe_is_still_exit_code_1() {
     let folder = Folder::with_recipe("(recipe: 1, steps: [Cubee])");
     for command in ["run none.ron", "run recipe.ron", "ops Cubee"] {
         folder.shell(&format!(
             "{{ sleep 0.3; \"$0\" {command}; echo $? > code; }} 2>&1 | true"
         ));
-        // The pipe does not wait for its left side.
+        // The shell does not wait for the left side of the pipe.
         let code = (0..100).find_map(|_| {
             std::thread::sleep(std::time::Duration::from_millis(50));
             std::fs::read(folder.path("code"))

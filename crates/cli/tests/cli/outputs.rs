@@ -1,4 +1,4 @@
-//! `Output`: files that steps write, held against files beside the recipe.
+//! `Output`: compares files that steps write with reference files beside the recipe.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -18,7 +18,7 @@ const RECIPE: &str = r#"(
     ],
 )"#;
 
-/// A folder with the recipe and what it is held against.
+/// A folder with the recipe and its reference files.
 fn recorded() -> Folder {
     let folder = Folder::with_recipe(RECIPE);
     folder.run("test recipe.ron --update").with_code(0);
@@ -41,10 +41,10 @@ fn change_a_pixel(folder: &Folder, name: &str, place: usize, by: u8) {
 }
 
 #[test]
-fn what_is_missing_is_said_and_made_by_update() {
+fn missing_reference_files_are_reported_and_written_by_update() {
     let folder = Folder::with_recipe(RECIPE);
     folder.run("check recipe.ron").with_code(0).complains(&[
-        "warning: there is no file goldens/sheet.png",
+        "goldens/sheet.png",
         "run `meshwright test --update` to make it",
     ]);
     for command in ["run recipe.ron", "test recipe.ron"] {
@@ -61,7 +61,7 @@ fn what_is_missing_is_said_and_made_by_update() {
     assert_eq!(folder.entries("goldens"), ["flat.obj", "sheet.png"]);
     assert_eq!(folder.read("recipe.ron"), RECIPE.as_bytes());
 
-    // Now it holds, with what is in the cache and without, and nothing is written anew.
+    // Now the expectation is met, with and without the cache, and no reference file is rewritten.
     for command in [
         "test recipe.ron",
         "test recipe.ron --no-cache",
@@ -77,11 +77,11 @@ fn what_is_missing_is_said_and_made_by_update() {
 }
 
 #[test]
-fn one_pixel_is_a_difference_and_may_be_tolerated() {
+fn one_different_pixel_fails_unless_tolerated() {
     let folder = recorded();
     change_a_pixel(&folder, "goldens/sheet.png", 41, 4);
     let message = "expected \"a/sheet.png\" to be as goldens/sheet.png: 1 of 1200 pixels differs, by 4 of 255, at (1, 1)";
-    // Also if the step that writes it does not run.
+    // Also if the step that writes the picture comes from the cache.
     for command in [
         "test recipe.ron",
         "test recipe.ron --no-cache",
@@ -108,7 +108,7 @@ fn one_pixel_is_a_difference_and_may_be_tolerated() {
 }
 
 #[test]
-fn where_files_come_from_is_no_difference_and_what_they_show_is() {
+fn provenance_is_not_compared_but_contents_are() {
     let recipe = r#"(
     recipe: 1,
     params: { "size": Float(default: 1) },
@@ -127,7 +127,7 @@ fn where_files_come_from_is_no_difference_and_what_they_show_is() {
 )"#;
     let folder = Folder::with_recipe(recipe).with("a.bzc", "3\n0 0\n1 2\n2 0\n");
     folder.run("test recipe.ron --update").with_code(0);
-    // Another run that makes the same: what was set is in the files.
+    // A second run with the same result: the files record the set parameter, so their bytes differ.
     folder.run("run recipe.ron --set size=1").with_code(0);
     for name in ["a.svg", "b.mws", "c.gif"] {
         let out = folder.read(&format!("out/{name}"));
@@ -204,7 +204,7 @@ fn paths_that_lead_out_and_files_that_no_step_writes_are_refused() {
         }
         assert_eq!(folder.entries("."), ["recipe.ron"]);
     }
-    // Before the step that writes it.
+    // Before the step that writes the picture.
     let grid = "Grid(name: \"sheet\", columns: 3, rows: 1)";
     let early = RECIPE
         .replace(grid, &format!("(id: \"grid\", run: {grid})"))
@@ -232,7 +232,7 @@ fn a_link_does_not_lead_out_of_the_folder_of_the_recipe() {
 }
 
 #[test]
-fn the_contrary_can_be_expected_of_what_is_there() {
+fn an_output_can_be_expected_to_differ() {
     let picture = "Output(path: \"a/sheet.png\", as: \"goldens/sheet.png\")";
     let recipe = RECIPE.replace(picture, &format!("Not({picture})"));
     let folder = recorded();
@@ -244,7 +244,7 @@ fn the_contrary_can_be_expected_of_what_is_there() {
         .complains(&["not to hold, but it does"]);
     change_a_pixel(&folder, "goldens/sheet.png", 0, 1);
     folder.run("test recipe.ron").with_code(0);
-    // What cannot be told does not hold.
+    // If the files cannot be compared, `Not` fails too.
     std::fs::remove_file(folder.path("goldens/sheet.png")).unwrap();
     folder
         .run("test recipe.ron --update")
@@ -258,7 +258,7 @@ fn the_contrary_can_be_expected_of_what_is_there() {
 }
 
 #[test]
-fn a_batch_does_files_again_when_what_they_are_held_against_has_changed() {
+fn a_batch_processes_files_again_if_a_reference_file_has_changed() {
     let recipe = r#"(
         recipe: 1,
         params: { "model": Path(default: "a.obj") },
@@ -271,7 +271,10 @@ fn a_batch_does_files_again_when_what_they_are_held_against_has_changed() {
     let batch = "batch recipe.ron --inputs a.obj";
     folder.run(batch).with_code(0);
     let again = folder.run(batch).with_code(0);
-    assert!(again.stdout.contains("done before"), "{again:#?}");
+    assert!(
+        again.stdout.contains("finished in earlier runs"),
+        "{again:#?}"
+    );
     let other = String::from_utf8(folder.read("golden.off")).unwrap();
     let changed = other.replace("\n0 1 0", "\n0 2 0");
     assert_ne!(changed, other);
@@ -283,13 +286,13 @@ fn a_batch_does_files_again_when_what_they_are_held_against_has_changed() {
 }
 
 #[test]
-fn what_a_recipe_reads_and_what_is_of_another_kind_is_never_written_over() {
+fn inputs_and_files_of_a_different_kind_are_never_overwritten() {
     let recipe =
         |steps: &str, expect: &str| format!("(recipe: 1, steps: [{steps}], expect: [{expect}])");
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let moved = r#"Load(path: "in.obj"), Transform(move: (1, 0, 0)), Save(path: "out.obj")"#;
     let cube = r#"Cube(name: "cube"), Picture(path: "p.png", size: (8, 8))"#;
-    for (name, text, told) in [
+    for (name, text, message) in [
         (
             "a.ron",
             recipe(moved, r#"Output(path: "out.obj", as: "in.obj")"#),
@@ -314,7 +317,7 @@ fn what_a_recipe_reads_and_what_is_of_another_kind_is_never_written_over() {
             folder
                 .run(&format!("{command} {name}"))
                 .with_code(1)
-                .complains(&[told]);
+                .complains(&[message]);
         }
         assert_eq!(folder.read(name), text.as_bytes());
         assert_eq!(folder.read("in.obj"), triangle.as_bytes());
@@ -322,7 +325,7 @@ fn what_a_recipe_reads_and_what_is_of_another_kind_is_never_written_over() {
 }
 
 #[test]
-fn one_file_is_not_recorded_as_two() {
+fn two_outputs_cannot_have_the_same_reference_file() {
     let folder = Folder::with_recipe(
         r#"(recipe: 1, steps: [
             Cube(name: "cube"),

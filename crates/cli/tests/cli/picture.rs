@@ -1,4 +1,4 @@
-//! `picture`: images of files and of what recipes make.
+//! `picture`: draws files and the results of recipes.
 
 use crate::folder::Folder;
 
@@ -27,7 +27,7 @@ fn size(folder: &Folder, name: &str) -> (u32, u32) {
 }
 
 #[test]
-fn a_file_becomes_an_image_of_its_name() {
+fn the_image_is_named_after_the_file() {
     let folder = cube();
     folder
         .run("picture cube.obj --size 40x30 --wireframe --shading Flat")
@@ -52,7 +52,7 @@ fn a_step_is_shown_before_and_after() {
         .with_code(0);
     let (width, height) = size(&folder, "r.png");
     assert!(width >= 80 && height > 30, "{width} {height}");
-    // The pictures that the recipe itself would write are not written.
+    // The pictures of the recipe itself are not written.
     assert!(!folder.path("out/made.png").exists());
     folder.run("run r.ron").with_code(0);
     assert_eq!(size(&folder, "out/made.png"), (16, 12));
@@ -62,12 +62,12 @@ fn a_step_is_shown_before_and_after() {
 }
 
 #[test]
-fn many_files_stand_on_a_sheet() {
+fn several_files_are_drawn_on_a_sheet() {
     let folder = cube().with("b.obj", CUBE).with("broken.obj", "f 1 2 3\n");
     folder
         .run_all(&["picture", "*.obj"])
         .with_code(2)
-        .complains(&["these are 3 files: --sheet puts them on one"]);
+        .complains(&["expected one file, found 3: use --sheet"]);
     folder
         .run_all(&[
             "picture",
@@ -85,7 +85,7 @@ fn many_files_stand_on_a_sheet() {
 }
 
 #[test]
-fn wrong_options_are_shown_as_those_of_a_step() {
+fn invalid_options_are_reported_like_those_of_a_step() {
     let folder = cube();
     for (arguments, complaint) in [
         (&["--shading", "Flta"][..], "did you mean `Flat`?"),
@@ -97,10 +97,10 @@ fn wrong_options_are_shown_as_those_of_a_step() {
         (&["--color-by", "Wealth"], "unknown variant `Wealth`"),
         (&["--with", "style: (sharpp: 3)"], "unknown field `sharpp`"),
         (&["--size", "0x10"], "expected a size such as 1280x960"),
-        (&["--on", "cub"], "no object is named \"cub\""),
+        (&["--on", "cub"], "unknown object \"cub\""),
     ] {
         let arguments = [&["picture", "cube.obj", "--size", "8x8"], arguments].concat();
-        // The size is given twice once.
+        // `--size` cannot be given twice.
         let arguments: Vec<&str> = match arguments[4] {
             "--size" => vec!["picture", "cube.obj", "--size", "0x10"],
             _ => arguments,
@@ -128,7 +128,7 @@ fn a_selection_and_a_file_can_be_shown_beside_their_facts() {
         .with_code(0)
         .prints(&["12\n", "wrote sharp.png, 1280 x 960 pixels\n"]);
     assert_eq!(size(&folder, "sharp.png"), (1280, 960));
-    // A pipe gets plain characters: darker ones where the picture is darker.
+    // A pipe gets ASCII characters.
     let ended = folder.run("info cube.obj --picture").with_code(0);
     let after: Vec<&str> = ended
         .stdout
@@ -147,7 +147,7 @@ fn a_selection_and_a_file_can_be_shown_beside_their_facts() {
 const FAN: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n";
 
 #[test]
-fn failures_of_a_run_are_drawn_if_that_is_asked_for() {
+fn failures_of_a_run_are_drawn_if_requested() {
     let folder = Folder::new().with(
         "r.ron",
         r#"(recipe: 1, steps: [
@@ -176,7 +176,7 @@ fn failures_of_a_run_are_drawn_if_that_is_asked_for() {
 }
 
 #[test]
-fn expectations_that_do_not_hold_are_drawn_each() {
+fn each_unmet_expectation_is_drawn() {
     let folder = Folder::new().with(
         "r.ron",
         r#"(recipe: 1, steps: [Grid(name: "grid", columns: 3, rows: 3)], expect: [
@@ -189,7 +189,7 @@ fn expectations_that_do_not_hold_are_drawn_each() {
         .with_code(1)
         .prints(&["e/r-error-1.png", "e/r-error-2.png", "e/r-error-3.png"]);
 
-    // No element is wrong in a count: one view, where the others have two.
+    // A count has no affected elements, so its picture has one view instead of two.
     let widths = [1, 2, 3].map(|i| size(&folder, &format!("e/r-error-{i}.png")).0);
     assert!(
         widths[1] < widths[0] && widths[0] == widths[2],
@@ -199,7 +199,7 @@ fn expectations_that_do_not_hold_are_drawn_each() {
 }
 
 #[test]
-fn what_a_file_has_that_is_no_manifold_is_drawn() {
+fn non_manifold_elements_of_a_file_are_drawn() {
     let folder = Folder::new().with("fan.obj", FAN).with("cube.obj", CUBE);
 
     folder
@@ -214,18 +214,18 @@ fn what_a_file_has_that_is_no_manifold_is_drawn() {
 }
 
 #[test]
-fn a_picture_of_a_failure_that_cannot_be_written_is_told_and_the_failure_too() {
+fn a_picture_of_a_failure_that_cannot_be_written_is_a_warning() {
     let folder = Folder::new().with("fan.obj", FAN).with("e", "a file");
 
     folder
         .run("info fan.obj --picture-errors=e")
         .with_code(0)
         .prints(&["non-manifold edge"])
-        .complains(&["warning: a failure was not drawn: cannot write e/fan-error-1.png"]);
+        .complains(&["warning: cannot draw a failure: cannot write e/fan-error-1.png"]);
 }
 
 #[test]
-fn paths_on_the_command_line_are_seen_from_the_working_directory() {
+fn paths_on_the_command_line_are_relative_to_the_working_directory() {
     const TRIANGLE: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n\
         usemtl wood\nf 1/1 2/2 3/3\n";
     let mut png = Vec::new();
@@ -242,7 +242,7 @@ fn paths_on_the_command_line_are_seen_from_the_working_directory() {
         let arguments = ["picture", "models/a.obj", "--size", "40x30"];
         folder.run_all(&[&arguments, more].concat()).with_code(0)
     };
-    // Beside the file there is no image; where --images says, there is.
+    // The image is not beside the file, but in the folder given by --images.
     let missing = picture(&[]);
     assert!(
         missing.stderr.contains("wood.png: not found"),
@@ -255,7 +255,7 @@ fn paths_on_the_command_line_are_seen_from_the_working_directory() {
         let found = picture(more);
         assert_eq!(found.stderr, "", "{more:?}");
     }
-    // The other file lies in the working directory, and images still beside the first one.
+    // The path of `DistanceTo` is relative to the working directory; images are still searched beside the file.
     let folder = folder.with("models/wood.png", &png);
     for of in [
         "DistanceTo(\"cube.obj\")",
@@ -284,7 +284,7 @@ fn paths_on_the_command_line_are_seen_from_the_working_directory() {
 }
 
 #[test]
-fn a_picture_that_is_not_as_expected_is_shown_beside_the_expected_one() {
+fn an_unexpected_picture_is_drawn_beside_the_expected_one() {
     let recipe = |marked: &str| {
         format!(
             r#"(recipe: 1, steps: [
@@ -302,16 +302,16 @@ fn a_picture_that_is_not_as_expected_is_shown_beside_the_expected_one() {
         .with_code(1)
         .complains(&["pixels differ", "see r-error-1.png: "]);
 
-    // Three of them in a row, with a gap of 12 pixels around each.
+    // Three images in a row, with a gap of 12 pixels around each.
     assert_eq!(size(&folder, "r-error-1.png").0, 3 * 60 + 4 * 12);
-    // What is no picture is no reason to draw none.
+    // If the reference file is not a picture, the scene is drawn instead.
     let folder = folder.with("golden.png", "no picture");
     folder.run("test r.ron --picture-errors").with_code(1);
     assert!(size(&folder, "r-error-1.png").0 > 700);
 }
 
 #[test]
-fn a_failure_that_comes_again_and_again_is_not_drawn_for_ever() {
+fn at_most_20_failures_of_a_run_are_drawn() {
     let folder = Folder::new().with(
         "r.ron",
         r#"(recipe: 1, steps: [
@@ -323,7 +323,7 @@ fn a_failure_that_comes_again_and_again_is_not_drawn_for_ever() {
     folder
         .run("run r.ron --picture-errors=e")
         .with_code(1)
-        .complains(&["failures behind the first 20 were not drawn: 10\n"]);
+        .complains(&["warning: 10 failures after the first 20 not drawn\n"]);
 
     assert_eq!(folder.entries("e").len(), 20);
 }

@@ -1,4 +1,4 @@
-//! The pixels of images that the program has written.
+//! Reads the pixels of images that the program has written.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -28,7 +28,7 @@ pub(crate) fn pixels(folder: &Folder, name: &str) -> Pixels {
 }
 
 impl Pixels {
-    /// A rectangle of them, from its left upper corner.
+    /// Returns a rectangle of pixels, given by its upper left corner and its size.
     pub(crate) fn part(&self, [left, top]: [u32; 2], [width, height]: [u32; 2]) -> Self {
         let row = |y: u32| {
             let start = (y * self.size[0] + left) as usize;
@@ -40,8 +40,8 @@ impl Pixels {
         }
     }
 
-    /// How many there are like this.
-    pub(crate) fn count(&self, is: impl Fn([u8; 3]) -> bool) -> usize {
-        self.pixels.iter().filter(|p| is(**p)).count()
+    /// Counts the pixels that match a condition.
+    pub(crate) fn count(&self, is_match: impl Fn([u8; 3]) -> bool) -> usize {
+        self.pixels.iter().filter(|p| is_match(**p)).count()
     }
 }

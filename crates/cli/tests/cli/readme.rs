@@ -1,4 +1,4 @@
-//! The README: its recipe, what it prints, its mistake, and its commands.
+//! The README: its recipe with its output, its example of an error, and its table of commands.
 
 use std::fs;
 use std::path::Path;
@@ -17,7 +17,7 @@ fn blocks<'t>(text: &'t str, kind: &str) -> Vec<&'t str> {
     text.split(&opening).skip(1).map(ends).collect()
 }
 
-/// The text with one blank in place of each gap, and without the column of times.
+/// The lines with single spaces, without the column of times.
 fn without_times(text: &str) -> Vec<String> {
     let words = |line: &str| {
         line.split_whitespace()

@@ -1,8 +1,8 @@
-//! What goes wrong is said in one clear sentence, and leaves nothing behind.
+//! Errors are reported clearly, and failed runs leave no files.
 
 use crate::folder::{Ended, Folder};
 
-/// Runs a recipe that must fail, and looks for what it left.
+/// Runs a recipe that must fail, and checks that it left no outputs.
 #[track_caller]
 fn fails(folder: &Folder) -> Ended {
     let ended = folder.run("run recipe.ron").with_code(1);
@@ -43,7 +43,7 @@ fn five_different_mistakes_are_five_errors_and_nothing_runs() {
         "error: it has no bound, so it can never fail\n",
         "recipe.ron:10:28\n",
         "help: give it a bound, such as `eq`, `min` or `max`\n",
-        "5 errors, nothing was run\n",
+        "5 errors, no step was run\n",
     ]);
     assert_eq!(ended.stderr.matches("error: ").count(), 5);
     assert_eq!(ended.stdout, "");
@@ -51,7 +51,7 @@ fn five_different_mistakes_are_five_errors_and_nothing_runs() {
 }
 
 #[test]
-fn a_slip_of_the_pen_hides_no_other_mistake() {
+fn a_syntax_error_hides_no_other_mistake() {
     let folder =
         Folder::with_recipe("(recipe: 1, steps: [\n  Cube(name: \"a\",\n  Cubee(name: \"b\"),\n])");
     fails(&folder).complains(&[
@@ -95,7 +95,7 @@ fn a_file_that_is_missing_is_found_before_anything_runs() {
         "error: ",
         "no.obj",
         "recipe.ron:1:32",
-        "1 error, nothing was run\n",
+        "1 error, no step was run\n",
     ]);
 }
 
@@ -105,27 +105,27 @@ fn an_index_out_of_range_is_explained() {
     let folder = Folder::with_recipe(&recipe).with("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
     fails(&folder).complains(&[
         "a.obj:4:7: the corner refers to vertex 4, but 3 vertices are defined in the file\n",
-        "recipe.ron failed, nothing was written\n",
+        "recipe.ron failed, no files were written\n",
     ]);
 }
 
 #[test]
-fn an_output_folder_that_cannot_be_made_fails_before_any_step() {
-    // Below a file no folder can be made, whoever asks.
+fn an_output_folder_that_cannot_be_created_fails_before_any_step() {
+    // No user can create a folder below a file.
     let folder = Folder::with_recipe(crate::run::TORUS).with("file", "");
     let ended = folder
         .run("run recipe.ron --out file/out")
         .with_code(1)
         .complains(&[
             "error: cannot write to the output folder file/out: ",
-            "recipe.ron failed, nothing was written\n",
+            "recipe.ron failed, no files were written\n",
         ]);
     assert!(!ended.stdout.contains("Torus"), "{ended:#?}");
     assert_eq!(folder.entries("."), ["file", "recipe.ron"]);
 }
 
 #[test]
-fn more_levels_than_ids_can_number_are_refused_before_anything_runs() {
+fn more_levels_than_ids_allow_are_refused_before_anything_runs() {
     let folder = Folder::with_recipe(
         r#"(recipe: 1, steps: [
             Icosahedron(name: "a"), LoopSubdivide(levels: 14), Save(path: "a.obj"),
@@ -134,7 +134,7 @@ fn more_levels_than_ids_can_number_are_refused_before_anything_runs() {
     fails(&folder).complains(&[
         "error: level 14 ",
         "recipe.ron:2:59\n",
-        "1 error, nothing was run\n",
+        "1 error, no step was run\n",
     ]);
 }
 
@@ -146,13 +146,13 @@ fn more_memory_than_the_budget_is_refused_before_anything_runs() {
     folder
         .run("run recipe.ron --budget 1MiB")
         .with_code(1)
-        .complains(&["error: ", "budget", "1048576", "1 error, nothing was run\n"]);
+        .complains(&["error: ", "budget", "1048576", "1 error, no step was run\n"]);
     assert!(folder.entries("out").is_empty());
     folder.run("check recipe.ron --budget 1GiB").with_code(0);
 }
 
 #[test]
-fn a_recipe_that_is_missing_or_no_text_is_one_line() {
+fn a_missing_recipe_and_one_that_is_not_text_are_one_line_of_error() {
     let folder = Folder::new().with("latin.ron", b"(\n recipe: 1, // caf\xe9\n)");
     let missing = folder.run("run none.ron").with_code(1);
     assert!(
@@ -168,7 +168,7 @@ fn a_recipe_that_is_missing_or_no_text_is_one_line() {
 }
 
 #[test]
-fn a_recipe_of_another_version_is_refused() {
+fn a_recipe_of_a_newer_version_is_refused() {
     fails(&Folder::with_recipe("(recipe: 2, stages: [])")).complains(&[
         "error: this recipe is of version 2, expected 1\n",
         "recipe.ron:1:10\n",
@@ -212,7 +212,7 @@ fn two_steps_do_not_write_one_file() {
 }
 
 #[test]
-fn an_expectation_that_does_not_hold_keeps_the_outputs_of_before() {
+fn an_unmet_expectation_keeps_earlier_outputs() {
     let recipe = "(recipe: 1, steps: [(id: \"a\", run: Cube(name: \"a\")), Save(path: \"a.obj\")],
     expect: [(after: \"a\", that: Faces(eq: 7)), Vertices(min: 9)])";
     let folder = Folder::with_recipe(recipe).with("out/a.obj", "old");
@@ -220,14 +220,14 @@ fn an_expectation_that_does_not_hold_keeps_the_outputs_of_before() {
         "error: expected 7 faces, found 6\n",
         "after this step",
         "error: expected at least 9 vertices, found 8\n",
-        "recipe.ron failed, nothing was written\n",
+        "recipe.ron failed, no files were written\n",
     ]);
     assert_eq!(folder.entries("out"), ["a.obj"]);
     assert_eq!(folder.read("out/a.obj"), b"old");
 }
 
 #[test]
-fn a_step_that_must_be_refused_and_is_passes() {
+fn a_step_refused_for_the_expected_reason_passes() {
     let folder = Folder::with_recipe(
         r#"(recipe: 1, steps: [
             Grid(name: "a", columns: 1, rows: 1),
@@ -242,7 +242,7 @@ fn a_step_that_must_be_refused_and_is_passes() {
 }
 
 #[test]
-fn a_recipe_of_ten_thousand_brackets_is_refused_soon() {
+fn a_recipe_of_ten_thousand_brackets_is_refused_quickly() {
     let folder = Folder::with_recipe(&"(".repeat(10_000));
-    fails(&folder).complains(&["error: ", "nothing was run\n"]);
+    fails(&folder).complains(&["error: ", "no step was run\n"]);
 }

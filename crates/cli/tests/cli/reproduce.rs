@@ -21,7 +21,7 @@ fn folder() -> Folder {
 }
 
 #[test]
-fn every_file_of_a_run_leads_back_to_its_recipe() {
+fn every_output_of_a_run_is_reproduced() {
     let folder = folder();
     folder.run("run scenes/r.ron --preset fine").with_code(0);
     let files = "out/a.obj out/deep/a.glb out/a.gltf out/a.ply out/a.off";
@@ -56,7 +56,7 @@ fn parameters_that_were_set_are_set_again() {
 }
 
 #[test]
-fn what_has_changed_since_is_told() {
+fn changes_since_the_run_are_reported() {
     let folder = folder();
     folder.run("run scenes/r.ron").with_code(0);
     let folder = folder.with("scenes/a.obj", "v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -68,30 +68,33 @@ fn what_has_changed_since_is_told() {
         "scenes/r.ron",
         RECIPE.replace("Int(default: 1)", "Int(default: 3)"),
     );
-    folder
-        .run("reproduce out/a.obj")
-        .with_code(1)
-        .complains(&["is the first that differs", "the recipe has changed"]);
+    folder.run("reproduce out/a.obj").with_code(1).complains(&[
+        "the first different byte is byte ",
+        "the recipe has changed",
+    ]);
     let folder = folder.with("scenes/r.ron", RECIPE);
     let text = String::from_utf8(folder.read("out/a.obj")).unwrap();
     let folder = folder.with("out/a.obj", text.replacen("v ", "v 1", 1));
     folder
         .run("reproduce out/a.obj")
         .with_code(1)
-        .complains(&["it was changed afterwards"]);
+        .complains(&["the file was modified, or a step is not deterministic"]);
 }
 
 #[test]
-fn a_file_that_says_nothing_needs_its_recipe_named() {
+fn a_file_without_provenance_needs_the_option_recipe() {
     let folder = folder();
     folder
         .run("reproduce scenes/a.obj")
         .with_code(1)
-        .complains(&["scenes/a.obj does not say where it comes from", "--recipe"]);
+        .complains(&[
+            "scenes/a.obj does not record which recipe wrote it",
+            "--recipe",
+        ]);
     folder.run("run scenes/r.ron").with_code(0);
     std::fs::remove_file(folder.path("scenes/r.ron")).unwrap();
-    folder
-        .run("reproduce out/a.obj")
-        .with_code(1)
-        .complains(&["comes from the recipe r.ron with the digest", "--recipe"]);
+    folder.run("reproduce out/a.obj").with_code(1).complains(&[
+        "was written by the recipe r.ron with the digest",
+        "--recipe",
+    ]);
 }

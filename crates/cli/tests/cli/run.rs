@@ -17,7 +17,7 @@ pub(crate) const TORUS: &str = r#"(
 )"#;
 
 #[test]
-fn a_run_says_what_it_did() {
+fn a_run_prints_its_steps_outputs_and_digest() {
     let folder = Folder::with_recipe(TORUS);
     let ended = folder.run("run recipe.ron").with_code(0).prints(&[
         "step",
@@ -30,7 +30,7 @@ fn a_run_says_what_it_did() {
         " 4 Save",
         "wrote out/deep/torus.glb\n",
         "wrote out/torus.obj\n",
-        "2 expectations hold\n",
+        "2 expectations met\n",
         "digest ",
     ]);
     assert_eq!(ended.stderr, "");
@@ -44,7 +44,7 @@ fn a_run_says_what_it_did() {
 }
 
 #[test]
-fn points_of_polylines_are_counted_and_one_is_no_several() {
+fn points_of_polylines_are_counted_and_singular_is_used_for_one() {
     let folder = Folder::with_recipe(
         r#"(recipe: 1, steps: [Load(path: "a.bzc"), SampleCurve(segments: 9)], expect: [Vertices(eq: 10)])"#,
     )
@@ -53,7 +53,7 @@ fn points_of_polylines_are_counted_and_one_is_no_several() {
     let row = run.stdout.lines().find(|l| l.contains("SampleCurve"));
     let words: Vec<&str> = row.unwrap().split_whitespace().collect();
     assert_eq!(words[..5], ["2", "SampleCurve", "10", "0", "0"]);
-    run.prints(&["1 expectation holds\n"]);
+    run.prints(&["1 expectation met\n"]);
     folder
         .run("check recipe.ron")
         .with_code(0)
@@ -93,7 +93,7 @@ fn a_parameter_that_cannot_be_set_is_an_error() {
         folder
             .run(&format!("run recipe.ron --set {set}"))
             .with_code(1)
-            .complains(&[message, help, "1 error, nothing was run\n"]);
+            .complains(&[message, help, "1 error, no step was run\n"]);
     }
     assert_eq!(folder.entries("."), ["recipe.ron"]);
 }
@@ -114,7 +114,7 @@ fn a_run_explains_where_values_come_from() {
 }
 
 #[test]
-fn a_path_that_is_set_is_seen_from_the_working_directory_and_names_the_output() {
+fn a_path_that_is_set_is_relative_to_the_working_directory_and_names_the_output() {
     let recipe = r#"(recipe: 1,
         params: { "input": Path(default: "triangle.obj") },
         steps: [Load(path: arg("input")), Save(path: "{input.stem}.new.obj")])"#;
@@ -145,9 +145,9 @@ fn a_run_can_report_in_json() {
         (&"start".into(), &1.into())
     );
     assert_eq!(events[0]["steps"], of("step").len());
-    let [begun, done] = [of("step")[2], of("done")[2]];
+    let [step, done] = [of("step")[2], of("done")[2]];
     assert_eq!(
-        (&begun["label"], &begun["operation"]),
+        (&step["label"], &step["operation"]),
         (&"smooth".into(), &"LoopSubdivide".into())
     );
     assert_eq!(
@@ -249,7 +249,7 @@ fn a_check_forecasts_and_writes_nothing() {
         "192",
         "576",
         "384",
-        "recipe.ron is fine: 5 steps, 2 expectations\n",
+        "recipe.ron is valid: 5 steps, 2 expectations\n",
     ]);
     assert_eq!(folder.entries("."), ["recipe.ron"]);
     let json = folder

@@ -1,4 +1,4 @@
-//! `select`: what a selection matches.
+//! `select`: the elements that a selection matches.
 
 use serde_json::json;
 
@@ -25,13 +25,13 @@ fn cube() -> Folder {
 }
 
 #[test]
-fn edges_are_shown_as_recipes_name_them() {
+fn edges_are_shown_in_the_syntax_of_recipes() {
     let ended = cube()
         .run_all(&["select", "cube.obj", "Sharp(above: 30)"])
         .with_code(0)
         .prints(&["12 of 12 edges\n", "  Between(", ")\n"]);
     assert_eq!(ended.stdout.lines().count(), 13);
-    // What is printed can be pasted.
+    // A printed line is a valid selection.
     let line = ended.stdout.lines().nth(1).unwrap().trim();
     cube()
         .run_all(&["select", "cube.obj", line])
@@ -58,7 +58,7 @@ fn vertices_have_positions_and_faces_their_vertices() {
 }
 
 #[test]
-fn a_selection_that_several_kinds_have_asks_for_one() {
+fn a_selection_valid_for_several_kinds_needs_a_kind() {
     let folder = cube();
     folder
         .run_all(&["select", "cube.obj", "All"])
@@ -99,11 +99,11 @@ fn a_wrong_selection_is_shown_with_its_place_and_advice() {
     folder
         .run_all(&["select", "cube.obj", "Degree(4)", "--on", "cub"])
         .with_code(2)
-        .complains(&["no object is named \"cub\": did you mean `cube`?"]);
+        .complains(&["unknown object \"cub\": did you mean `cube`?"]);
     folder
         .run_all(&["select", "cube.obj", "Degree(4)", "--after", "x"])
         .with_code(2)
-        .complains(&["cube.obj is no recipe"]);
+        .complains(&["cube.obj is not a recipe"]);
 }
 
 #[test]
@@ -156,18 +156,18 @@ fn a_call_is_known_by_its_id_or_the_name_of_its_recipe() {
 }
 
 #[test]
-fn a_file_of_meshes_has_no_parameters() {
+fn a_mesh_file_has_no_parameters() {
     for more in [["--set", "name=box"], ["--preset", "crate"]] {
         let arguments = [&["select", "cube.obj", "Degree(4)"][..], &more].concat();
         cube()
             .run_all(&arguments)
             .with_code(2)
-            .complains(&["cube.obj is no recipe (*.ron): it has neither steps nor parameters"]);
+            .complains(&["cube.obj is not a recipe (*.ron), so it has no steps and no parameters"]);
     }
 }
 
 #[test]
-fn machines_get_all_elements() {
+fn json_has_all_elements() {
     let json = cube()
         .run_all(&[
             "select",

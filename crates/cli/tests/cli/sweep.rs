@@ -1,4 +1,4 @@
-//! `sweep`: one recipe with many values of its parameters.
+//! `sweep`: runs one recipe with many parameter values.
 
 use serde_json::{Value as Json, json};
 
@@ -42,7 +42,7 @@ fn measure(table: &Json, name: &str) -> Vec<Json> {
 }
 
 #[test]
-fn the_table_has_a_row_for_each_cell_and_the_last_parameter_changes_first() {
+fn the_table_has_a_row_for_each_cell_and_the_last_parameter_changes_fastest() {
     let folder = folder(&fields(
         "over: {\"levels\": [0, 1], \"around\": [8, 16, 4]}, keep: [Vertices, Edges, Faces, EulerCharacteristic, Genus, Components, BoundaryLoops, Objects]",
     ));
@@ -50,7 +50,7 @@ fn the_table_has_a_row_for_each_cell_and_the_last_parameter_changes_first() {
     let table = json(&ended);
     assert_eq!(table["parameters"], json!(["levels", "around"]));
     assert_eq!(measure(&table, "Faces"), [96, 192, 48, 384, 768, 192]);
-    // V - E + F of a torus is nothing, in every cell.
+    // V - E + F of a torus is 0, in every cell.
     for name in ["EulerCharacteristic", "BoundaryLoops"] {
         assert_eq!(measure(&table, name), [0; 6]);
     }
@@ -66,9 +66,9 @@ fn the_table_has_a_row_for_each_cell_and_the_last_parameter_changes_first() {
         "cell  levels  around  Vertices",
         "\n1          0       8        48",
         "\n6          1       4        96",
-        "6 cells; the 1 expectation of the recipe was not held, write `expect: true` to hold it\n",
+        "6 cells; 1 expectation of the recipe not checked: set `expect: true` to check expectations\n",
     ]);
-    // No outputs unless they are asked for.
+    // Outputs are only written with --keep-outputs.
     assert_eq!(folder.entries("."), ["a.sweep.ron", "recipe.ron"]);
 }
 
@@ -89,7 +89,7 @@ fn measures_are_those_of_a_run() {
     assert_eq!(measure(&table, "Digest")[1], run.digest());
     let facts = folder.run("info out/torus.obj --format json").json();
     assert_eq!(measure(&table, "Area")[1], facts["objects"][0]["area"]);
-    // The first cell is what it is compared with, the second is not.
+    // The reference is the output of the first cell, and differs from the second.
     let distances = measure(&table, "DistanceTo(other: File(\"kept/1/torus.obj\"))");
     assert!(distances[0].as_f64().unwrap() < 1e-12, "{distances:?}");
     assert!(distances[1].as_f64().unwrap() > 1e-3, "{distances:?}");
@@ -133,8 +133,7 @@ fn results_do_not_depend_on_jobs_threads_and_budget() {
 }
 
 #[test]
-fn a_cell_that_fails_is_a_row_with_its_error_and_the_others_go_on() {
-    // A torus around a tube that is thicker than its ring is refused when it is checked or run.
+fn a_failed_cell_is_a_row_with_its_error() {
     let folder = folder(&fields(
         "over: {\"around\": [8, 16]}, expect: true, keep: [Faces, Seconds]",
     ));
@@ -156,7 +155,7 @@ fn a_cell_that_fails_is_a_row_with_its_error_and_the_others_go_on() {
 }
 
 #[test]
-fn a_cell_that_the_check_refuses_is_a_row_too() {
+fn a_cell_that_fails_its_check_is_a_row_too() {
     let folder = folder(&fields(
         "over: {\"levels\": [0, 3]}, set: {\"around\": 64}, keep: [Faces]",
     ));
@@ -167,7 +166,7 @@ fn a_cell_that_the_check_refuses_is_a_row_too() {
 }
 
 #[test]
-fn outputs_of_each_cell_are_in_a_folder_of_its_number() {
+fn outputs_of_each_cell_are_in_a_folder_named_by_its_number() {
     let folder = folder(&fields("over: {\"around\": [8, 16]}, keep: [Faces]"));
     folder
         .run("sweep a.sweep.ron --keep-outputs kept")
@@ -179,7 +178,7 @@ fn outputs_of_each_cell_are_in_a_folder_of_its_number() {
 }
 
 #[test]
-fn everything_that_is_wrong_comes_at_once_with_its_place_and_nothing_runs() {
+fn all_errors_are_reported_with_their_places_and_no_cell_runs() {
     let folder = folder(
         r#"(
     sweep: 1,
@@ -211,16 +210,16 @@ fn everything_that_is_wrong_comes_at_once_with_its_place_and_nothing_runs() {
             "a.sweep.ron:9:22\n",
             "error: unknown variant `Facets`",
             "a.sweep.ron:10:12\n",
-            "error: there is no file none.obj\n",
+            "error: the file none.obj does not exist\n",
             "a.sweep.ron:10:20\n",
-            "8 errors, nothing was run\n",
+            "8 errors, no cell was run\n",
         ]);
     assert_eq!(ended.stdout, "");
     assert_eq!(folder.entries("."), ["a.sweep.ron", "recipe.ron"]);
 }
 
 #[test]
-fn what_cannot_be_a_sweep_says_why() {
+fn invalid_sweeps_are_refused_with_a_reason() {
     let keep = "keep: [Faces]";
     for (sweep, message) in [
         (
@@ -232,7 +231,7 @@ fn what_cannot_be_a_sweep_says_why() {
         (fields("over: {}"), "the value needs `keep`"),
         (
             format!("(sweep: 1, recipe: \"none.ron\", {keep})"),
-            "there is no file none.ron",
+            "the file none.ron does not exist",
         ),
         (
             format!("(sweep: 2, recipe: \"recipe.ron\", {keep})"),
@@ -257,7 +256,7 @@ fn what_cannot_be_a_sweep_says_why() {
     assert!(
         ended
             .stderr
-            .contains("t.txt: expected a table that ends in .csv or .json")
+            .contains("t.txt: expected a table with the extension .csv or .json")
     );
     folder
         .run("sweep none.sweep.ron")
@@ -266,7 +265,7 @@ fn what_cannot_be_a_sweep_says_why() {
 }
 
 #[test]
-fn paths_among_the_values_are_seen_from_the_sweep() {
+fn paths_among_the_values_are_relative_to_the_sweep() {
     let recipe =
         "(recipe: 1, params: {\"m\": Path(default: \"x.obj\")}, steps: [Load(path: arg(\"m\"))])";
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -1,4 +1,4 @@
-//! `sweep --sheet`: the scenes at the ends of the cells of a sweep in one image.
+//! `sweep --sheet`: the final scenes of the cells of a sweep in one image.
 
 use crate::folder::{Ended, Folder};
 use crate::pixels::{Pixels, pixels};
@@ -18,14 +18,14 @@ fn folder(fields: &str) -> Folder {
     Folder::with_recipe(RECIPE).with("a.sweep.ron", sweep)
 }
 
-/// Makes a sheet with cells of 90 x 40 pixels.
+/// Draws a sheet with cells of 90 x 40 pixels.
 fn sheet(folder: &Folder, more: &str) -> Ended {
     folder.run(&format!(
         "sweep a.sweep.ron --sheet s.png --size 90x40 {more}"
     ))
 }
 
-/// The pixels of a cell of 90 x 40 whose rows are `row` pixels high; those of the sheet begin at `start`.
+/// The pixels of a cell of 90 x 40 pixels. Rows are `row` pixels high; the cells begin at `start`.
 fn cell(sheet: &Pixels, start: [u32; 2], row: u32, [i, j]: [u32; 2]) -> Pixels {
     let (left, top) = (start[0] + 12 + i * 102, start[1] + 12 + j * (row + 12));
     sheet.part([left, top], [90, 40])
@@ -52,7 +52,7 @@ fn one_parameter_is_a_row_with_values_below() {
         let captions = made.part([12 + i * 102, 52], [90, 49]);
         assert!(drawn(&captions) > 50);
     }
-    // Long rows are broken, and columns can be chosen.
+    // Long rows are wrapped, and the number of columns can be set.
     let seven = self::folder("over: {\"around\": [3, 4, 5, 6, 7, 8, 9]}, keep: [Faces]");
     sheet(&seven, "").with_code(0);
     assert_eq!(pixels(&seven, "s.png").size[0], 12 + 4 * 102);
@@ -61,13 +61,13 @@ fn one_parameter_is_a_row_with_values_below() {
 }
 
 #[test]
-fn two_parameters_are_rows_and_columns_with_heads() {
+fn two_parameters_label_rows_and_columns() {
     let folder = folder(
         "over: {\"minor\": [0.2, 0.4], \"around\": [4, 32, 8]}, set: {\"major\": 1}, keep: [Faces]",
     );
     sheet(&folder, "").with_code(0);
     let made = pixels(&folder, "s.png");
-    // Above stand the values that change first, beside those of the other, below what is kept.
+    // Columns are labelled by the last parameter and rows by the first; the values of `keep` are below each cell.
     let [width, height] = made.size;
     let beside = width - (12 + 3 * 102);
     assert!((40..=102).contains(&beside), "{beside}");
@@ -82,14 +82,14 @@ fn two_parameters_are_rows_and_columns_with_heads() {
             assert!(drawn(&cell(&made, start, 68, [i, j])) > 100, "{i} {j}");
         }
     }
-    // The captions of a column are those of its number of faces.
+    // Cells of one column have the same number of faces, and so the same caption.
     let caption = |i: u32, j: u32| made.part([beside + 12 + i * 102, 40 + 40 + j * 80], [90, 28]);
     assert_eq!(caption(0, 0), caption(0, 1));
     assert_ne!(caption(0, 0), caption(1, 0));
 }
 
 #[test]
-fn values_that_go_together_are_one_head() {
+fn zipped_values_are_one_label() {
     let folder = folder(
         "over: {\"around\": [4, 8]}, zip: {\"minor\": [0.2, 0.3, 0.4], \"major\": [1, 2, 3]}, keep: [Faces]",
     );
@@ -99,11 +99,11 @@ fn values_that_go_together_are_one_head() {
 }
 
 #[test]
-fn all_cells_are_seen_in_one_scale() {
+fn all_cells_are_drawn_in_one_scale() {
     let folder = folder("over: {\"major\": [1, 4]}, set: {\"minor\": 0.5}, keep: [Seconds]");
     sheet(&folder, "--from Top --orthographic --shading Plain").with_code(0);
     let made = pixels(&folder, "s.png");
-    // Seconds are nobody's caption.
+    // Times are not shown in captions.
     assert_eq!(made.size, [12 + 2 * 102, 12 + 40 + 28 + 12]);
     let widths = [0, 1].map(|i| {
         let cell = cell(&made, [0, 0], 68, [i, 0]);
@@ -153,7 +153,7 @@ fn colors_mean_the_same_in_all_cells_and_are_explained_once() {
 }
 
 #[test]
-fn a_cell_that_fails_is_an_empty_place_with_its_error() {
+fn a_cell_that_fails_shows_its_error() {
     let folder = folder("over: {\"around\": [8, 16]}, expect: true, keep: [Faces]").with(
         "recipe.ron",
         RECIPE.replace("    steps", "    expect: [Faces(eq: 48)],\n    steps"),
@@ -169,18 +169,18 @@ fn a_cell_that_fails_is_an_empty_place_with_its_error() {
     );
     assert_eq!(good.count(is_red), 0);
     assert!(failed.count(is_red) > 50);
-    // Nothing else is there: what is not white is ink of one color.
+    // The cell contains nothing but the red text.
     assert_eq!(failed.count(|[r, g, _]| r < 180 && g < 180), 0);
 }
 
 #[test]
-fn what_cannot_be_drawn_keeps_its_row_and_is_said() {
+fn a_cell_that_cannot_be_drawn_keeps_its_row_and_is_an_error() {
     let folder = folder("over: {\"around\": [8, 16]}, keep: [Faces]");
     sheet(&folder, "--on torsu")
         .with_code(1)
         .prints(&["48", "96"])
         .complains(&[
-            "error: cell 1 cannot be drawn: no object is named \"torsu\"",
+            "error: cell 1 cannot be drawn: unknown object \"torsu\"",
             "error: cell 2 cannot be drawn",
         ]);
     assert!(folder.path("s.png").exists());
@@ -201,7 +201,7 @@ fn the_bytes_do_not_depend_on_threads_budget_and_cache() {
         folder.read("s.png")
     };
     let one = made("--threads 1 --no-cache");
-    // With little memory scenes are not kept, but made again.
+    // With a small budget, scenes are not kept but computed again.
     for more in [
         "--threads 8",
         "--threads 8",
@@ -213,12 +213,12 @@ fn the_bytes_do_not_depend_on_threads_budget_and_cache() {
 }
 
 #[test]
-fn the_sheet_is_said_to_be_wrong_before_anything_runs() {
+fn invalid_options_of_the_sheet_are_refused_before_any_cell_runs() {
     let folder = folder("over: {\"around\": [8, 16]}, keep: [Faces]");
     for (arguments, complaint) in [
         (
             &["--sheet", "s.jpg"][..],
-            "s.jpg: expected an image that ends in .png",
+            "s.jpg: expected an image with the extension .png",
         ),
         (
             &["--sheet", "s.png", "--shading", "Flta"],
@@ -226,7 +226,7 @@ fn the_sheet_is_said_to_be_wrong_before_anything_runs() {
         ),
         (
             &["--sheet", "s.png", "--with", "turntable: ()"],
-            "the cells on a sheet do not move",
+            "a sheet cannot have a turntable",
         ),
         (&["--wireframe"], "--sheet <FILE>"),
         (&["--columns", "3"], "--sheet <FILE>"),

@@ -1,4 +1,4 @@
-//! `test`: recipes as tests.
+//! `test`: runs recipes as tests.
 
 use crate::folder::Folder;
 
@@ -8,7 +8,7 @@ const BAD: &str =
     "(recipe: 1, steps: [Cube(name: \"a\"), Save(path: \"a.obj\")], expect: [Faces(eq: 7)])";
 
 #[test]
-fn each_recipe_is_a_line_and_one_that_fails_fails_all() {
+fn each_recipe_is_a_line_and_one_failure_fails_the_command() {
     let folder = Folder::new()
         .with("scenes/b_good.ron", GOOD)
         .with("scenes/a_bad.ron", BAD)
@@ -30,7 +30,7 @@ fn each_recipe_is_a_line_and_one_that_fails_fails_all() {
 }
 
 #[test]
-fn recipes_that_cannot_be_read_have_failed() {
+fn recipes_that_cannot_be_read_count_as_failed() {
     let folder = Folder::new()
         .with("scenes/a.ron", GOOD)
         .with("scenes/b.ron", "(recipe: 1, steps: [Cubee])")
@@ -48,7 +48,7 @@ fn recipes_that_cannot_be_read_have_failed() {
 }
 
 #[test]
-fn outputs_are_kept_in_a_folder_for_each_recipe_if_asked_for() {
+fn outputs_are_kept_in_a_folder_for_each_recipe_if_requested() {
     let folder = Folder::new().with("x.ron", GOOD).with("y.ron", GOOD);
     folder
         .run("test x.ron y.ron --out kept")
@@ -70,20 +70,20 @@ fn a_recipe_has_the_digest_that_a_run_prints() {
 }
 
 #[test]
-fn nothing_to_test_is_an_error() {
+fn no_recipes_to_test_is_an_error() {
     let folder = Folder::new().with("empty/notes.txt", "");
     folder
         .run("test empty")
         .with_code(1)
-        .complains(&["error: there are no recipes (*.ron) to test\n"]);
+        .complains(&["error: found no recipes (*.ron) to test\n"]);
     folder
         .run("test nowhere")
         .with_code(1)
-        .complains(&["error: there is no file or folder nowhere\n"]);
+        .complains(&["error: the file or folder nowhere does not exist\n"]);
 }
 
 #[test]
-fn recorded_values_are_renewed_in_place() {
+fn recorded_values_are_updated_in_place() {
     let recipe = "(\r\n  recipe: 1, // äöü\r\n  steps: [Cube(name: \"a\")],\r\n  expect: [\r\n    \
         Faces(eq: 1_200), // many\r\n    Area( eq: 3.5 ), Digest(\"?\"),\r\n    Edges(max: 2),\r\n  ],\r\n)";
     let folder = Folder::new().with("a.ron", recipe).with("b.ron", GOOD);
@@ -113,19 +113,19 @@ fn recorded_values_are_renewed_in_place() {
     assert_eq!(text, expected);
     assert_eq!(folder.read("b.ron"), GOOD.as_bytes());
 
-    // What somebody wants was not loosened; once that is mended, nothing is left to change.
-    let mended = text.replace("max: 2", "max: 12");
-    let folder = Folder::new().with("a.ron", &mended);
+    // Bounds are not changed by the update. Once the bound is fixed by hand, there is nothing to update.
+    let fixed = text.replace("max: 2", "max: 12");
+    let folder = Folder::new().with("a.ron", &fixed);
     for arguments in ["test a.ron", "test a.ron --update", "test a.ron"] {
         folder.run(arguments).with_code(0);
-        assert_eq!(folder.read("a.ron"), mended.as_bytes());
+        assert_eq!(folder.read("a.ron"), fixed.as_bytes());
     }
     assert_eq!(folder.entries("."), ["a.ron"]);
 }
 
 #[cfg(unix)]
 #[test]
-fn a_renewed_recipe_keeps_its_rights_and_its_link() {
+fn an_updated_recipe_keeps_its_permissions_and_its_link() {
     use std::os::unix::fs::{PermissionsExt, symlink};
     let folder = Folder::new().with("deep/a.ron", BAD);
     let path = folder.path("deep/a.ron");
@@ -162,7 +162,7 @@ fn the_order_and_the_results_do_not_depend_on_threads() {
 }
 
 #[test]
-fn folders_are_searched_but_for_assets_and_hidden_ones() {
+fn folders_are_searched_except_assets_and_hidden_ones() {
     let folder = Folder::new()
         .with("scenes/b.ron", GOOD)
         .with("scenes/a/deep/er.ron", GOOD)
@@ -177,7 +177,7 @@ fn folders_are_searched_but_for_assets_and_hidden_ones() {
         "2 passed, 0 failed\n",
     ]);
     assert_eq!(ended.stdout.lines().count(), 3);
-    // What is named is tested, wherever it is; what is named twice is tested once.
+    // Recipes given by path are tested wherever they are, and each only once.
     folder
         .run("test scenes/assets/part.ron scenes/b.ron scenes")
         .with_code(1)
@@ -187,7 +187,7 @@ fn folders_are_searched_but_for_assets_and_hidden_ones() {
 }
 
 #[test]
-fn a_recipe_without_expectations_is_listed_and_is_no_pass() {
+fn a_recipe_without_expectations_is_listed_but_not_passed() {
     let folder = Folder::new()
         .with("scenes/a.ron", GOOD)
         .with("scenes/part.ron", "(recipe: 1, steps: [Delete(objects: [\"of the caller\"])])")
@@ -209,7 +209,7 @@ fn a_recipe_without_expectations_is_listed_and_is_no_pass() {
 }
 
 #[test]
-fn a_part_that_others_call_is_not_run_by_itself_unless_it_is_named() {
+fn a_recipe_that_others_call_is_run_only_if_given_by_path() {
     let folder = Folder::new()
         .with("scenes/lib/smooth.ron", "(recipe: 1, steps: [LoopSubdivide(levels: 1)], expect: [Closed])")
         .with(
@@ -218,8 +218,8 @@ fn a_part_that_others_call_is_not_run_by_itself_unless_it_is_named() {
         );
     folder.run("test").with_code(0).prints(&[
         "ok     scenes/a.ron (",
-        "-      scenes/lib/smooth.ron (a part that others call, not run)\n",
-        "1 passed, 0 failed, 1 called by others\n",
+        "-      scenes/lib/smooth.ron (called by other recipes, not run)\n",
+        "1 passed, 0 failed, 1 called by other recipes\n",
     ]);
     folder
         .run("test scenes/lib/smooth.ron")
@@ -228,7 +228,7 @@ fn a_part_that_others_call_is_not_run_by_itself_unless_it_is_named() {
 }
 
 #[test]
-fn a_filter_chooses_by_the_path() {
+fn a_filter_selects_by_path() {
     let folder = Folder::new()
         .with("scenes/cube.ron", GOOD)
         .with("scenes/more/cube_flip.ron", GOOD)
@@ -240,7 +240,7 @@ fn a_filter_chooses_by_the_path() {
     folder
         .run("test --filter cuboid")
         .with_code(1)
-        .complains(&["error: none of 3 recipes has \"cuboid\" in its path\n"]);
+        .complains(&["error: no recipe with \"cuboid\" in its path, of 3 recipes found\n"]);
 }
 
 #[test]
@@ -249,12 +249,12 @@ fn two_recipes_that_would_keep_outputs_in_one_folder_are_refused() {
     folder
         .run("test a b --out kept")
         .with_code(1)
-        .complains(&["a/x.ron and b/x.ron would both write into kept/x"]);
+        .complains(&["a/x.ron and b/x.ron would both write to the folder kept/x"]);
     folder.run("test a b").with_code(0);
 }
 
 #[test]
-fn all_results_are_one_json_object() {
+fn json_results_are_one_object() {
     let folder = Folder::new()
         .with("scenes/a.ron", GOOD)
         .with("scenes/b.ron", BAD)
@@ -282,7 +282,7 @@ fn all_results_are_one_json_object() {
 }
 
 #[test]
-fn junit_xml_is_well_formed_for_any_name_and_has_the_whole_failure() {
+fn junit_xml_is_well_formed_for_any_name_and_has_the_full_failure() {
     let mut folder = Folder::new()
         .with("scenes/a & b <c>.ron", GOOD)
         .with("scenes/b.ron", BAD)

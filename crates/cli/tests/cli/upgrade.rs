@@ -1,11 +1,11 @@
-//! `upgrade`: older spellings. The library's tests have operations that were renamed.
+//! `upgrade`: outdated names. The tests of the recipe library cover renamed operations.
 
 use crate::folder::Folder;
 
 const GOOD: &str = "(recipe: 1, steps: [Cube(name: \"a\")]) // stays\r\n";
 
 #[test]
-fn a_recipe_of_today_stays_as_it_is() {
+fn a_current_recipe_stays_unchanged() {
     let folder = Folder::new().with("x/a.ron", GOOD).with("x/b.ron", GOOD);
     for arguments in ["upgrade x", "upgrade x/a.ron x/b.ron --check"] {
         folder
@@ -18,7 +18,7 @@ fn a_recipe_of_today_stays_as_it_is() {
 }
 
 #[test]
-fn a_newer_recipe_is_refused_and_the_others_are_done() {
+fn a_newer_recipe_is_refused_and_the_next_one_is_upgraded() {
     let folder = Folder::new()
         .with("a.ron", "(recipe: 7, steps: [])")
         .with("b.ron", GOOD);
@@ -35,5 +35,5 @@ fn a_newer_recipe_is_refused_and_the_others_are_done() {
     folder
         .run("upgrade nowhere.ron")
         .with_code(1)
-        .complains(&["there is no file or folder nowhere.ron"]);
+        .complains(&["the file or folder nowhere.ron does not exist"]);
 }

@@ -1,9 +1,9 @@
-//! Exit codes of wrong and right usage.
+//! Exit codes of the command line.
 
 use crate::folder::Folder;
 
 #[test]
-fn wrong_usage_is_exit_code_2_and_nothing_runs() {
+fn wrong_usage_is_exit_code_2_and_writes_no_files() {
     let folder =
         Folder::with_recipe("(recipe: 1, steps: [Cube(name: \"a\"), Save(path: \"a.obj\")])");
     for (arguments, message) in [

@@ -1,4 +1,4 @@
-//! `meshwright watch`: a real program beside the test, which saves files and waits for what is printed.
+//! `meshwright watch`: runs the program, saves files and waits for its output.
 
 use std::io::{BufRead as _, BufReader};
 use std::process::{Child, Command, Stdio};
@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use crate::folder::{Folder, PROGRAM};
 
-/// Long enough for any machine: only a test that fails waits for it.
-const PATIENCE: Duration = Duration::from_secs(120);
+/// Long enough for any machine: only a failing test waits this long.
+const TIMEOUT: Duration = Duration::from_secs(120);
 
 struct Watching {
     child: Child,
@@ -39,18 +39,18 @@ impl Watching {
         Self { child, lines }
     }
 
-    /// Waits for a line with this text, and returns all lines until then.
+    /// Waits for a line with this text. Returns all lines up to this one.
     #[track_caller]
     fn wait_for(&self, text: &str) -> Vec<String> {
-        let mut seen = Vec::new();
+        let mut lines = Vec::new();
         loop {
-            let Ok(line) = self.lines.recv_timeout(PATIENCE) else {
-                panic!("expected {text:?} after {seen:#?}")
+            let Ok(line) = self.lines.recv_timeout(TIMEOUT) else {
+                panic!("expected {text:?} after {lines:#?}")
             };
-            let is_it = line.contains(text);
-            seen.push(line);
-            if is_it {
-                return seen;
+            let is_match = line.contains(text);
+            lines.push(line);
+            if is_match {
+                return lines;
             }
         }
     }
@@ -76,7 +76,7 @@ fn a_saved_recipe_and_a_saved_input_run_again() {
     watching.wait_for("wrote ./b.obj");
     watching.wait_for("watching one folder");
 
-    // Overrides are kept, and only what changed runs.
+    // Set parameters are kept, and only changed steps run.
     let folder = folder.with("recipe.ron", RECIPE.replace("b.obj", "c.obj"));
     watching.wait_for("recipe.ron changed");
     let table = watching.wait_for("wrote ./c.obj");
@@ -84,7 +84,7 @@ fn a_saved_recipe_and_a_saved_input_run_again() {
     assert_eq!(cached, 2, "{table:#?}");
     watching.wait_for("watching");
 
-    // A mistake is shown, and mended.
+    // A mistake is reported, and then fixed.
     let folder = folder.with(
         "recipe.ron",
         RECIPE.replace("LoopSubdivide", "LoopSubdivde"),

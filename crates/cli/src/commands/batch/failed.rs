@@ -1,50 +1,50 @@
-//! What is kept of a file that failed: why, in full, and the command that repeats it.
+//! Writes a file for each failed input: the full error messages, and the command that repeats the run.
 
 use std::path::{Path, PathBuf};
 
 use super::inputs::Input;
 use super::plan::Batch;
 use super::row::Row;
-use crate::output::{quoted, write_whole};
+use crate::output::{shell_quoted, write_atomically};
 
-/// The folder of all failures.
+/// Returns the folder for failures.
 pub(super) fn folder(out: &Path) -> PathBuf {
     out.join("failed")
 }
 
-/// The file of one failure: the name of the input, short enough for every file system, and what tells
-/// inputs of one name apart.
+/// Returns the path for one failure: the name of the input, shortened for all file systems, with a digest that
+/// distinguishes inputs of the same name.
 fn path(batch: &Batch, file: &Input) -> PathBuf {
     let name = file.relative.file_name().unwrap_or_default();
     let name = name.to_string_lossy();
-    let is_plain = |c: char| c.is_alphanumeric() || matches!(c, '.' | '-' | '_');
-    let plain = |c: char| if is_plain(c) { c } else { '_' };
-    let name: String = name.chars().map(plain).take(50).collect();
+    let is_safe = |c: char| c.is_alphanumeric() || matches!(c, '.' | '-' | '_');
+    let sanitize = |c: char| if is_safe(c) { c } else { '_' };
+    let name: String = name.chars().map(sanitize).take(50).collect();
     let digest = blake3::hash(file.path.as_bytes()).to_hex();
     folder(&batch.args.out).join(format!("{name}-{}.txt", &digest[..8]))
 }
 
-/// Writes the failure of a file; `text` is the whole of what is to be said of it.
+/// Writes the failure of an input file; `text` has the full error messages.
 pub(super) fn write(batch: &Batch, file: &Input, row: &Row, text: &str) -> anyhow::Result<()> {
     let step = row.step.as_ref().map(|s| format!(" at {s}"));
     let step = step.unwrap_or_default();
-    let again = command(batch, file);
+    let command = command(batch, file);
     let folder = std::env::current_dir().unwrap_or_default();
     let text = format!(
-        "{} failed{step}\n\n{text}\nTo repeat it, in {}:\n\n{again}\n",
+        "{} failed{step}\n\n{text}\nTo repeat the run, in the folder {}:\n\n{command}\n",
         file.path,
         folder.display()
     );
-    write_whole(&path(batch, file), text.as_bytes())
+    write_atomically(&path(batch, file), text.as_bytes())
 }
 
-/// Removes what is kept of an earlier failure.
+/// Removes the file of an earlier failure, if there is one.
 pub(super) fn remove(batch: &Batch, file: &Input) {
-    // Most never failed.
+    // Usually the file does not exist.
     let _ = std::fs::remove_file(path(batch, file));
 }
 
-/// The command that runs the recipe on this file alone.
+/// Returns the command that runs the recipe on this file alone.
 fn command(batch: &Batch, file: &Input) -> String {
     let values = &batch.args.values;
     let recipe = batch.path.display().to_string();
@@ -59,6 +59,6 @@ fn command(batch: &Batch, file: &Input) -> String {
     }
     option("--out", batch.out(file).display().to_string());
     option("--budget", batch.args.many.budget.to_string());
-    let quoted: Vec<_> = words.iter().map(|word| quoted(word)).collect();
-    quoted.join(" ")
+    let words: Vec<_> = words.iter().map(|word| shell_quoted(word)).collect();
+    words.join(" ")
 }

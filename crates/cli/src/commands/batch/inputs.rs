@@ -1,4 +1,4 @@
-//! The files of a batch: patterns to a sorted list, and the parts of the list.
+//! The input files of a batch: expands patterns to a sorted list, and divides the list into parts.
 
 use std::path::{Path, PathBuf};
 
@@ -7,18 +7,18 @@ use walkdir::WalkDir;
 
 use crate::args::Shard;
 
-/// A file that the recipe is to run on.
+/// An input file of a batch.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Input {
-    /// Its path, as the pattern leads to it.
+    /// The path, beginning as the pattern begins.
     pub(crate) path: String,
-    /// Its path from the folder in which the pattern begins.
+    /// The path relative to the folder in which the pattern starts.
     pub(crate) relative: PathBuf,
 }
 
 impl Input {
-    /// Whether the file belongs to this part of every list that it is in: by its path alone, so that
-    /// no other file moves when one is added.
+    /// Whether the file belongs to this part. This depends only on the path, so that adding a file does not move other
+    /// files to different parts.
     pub(crate) fn is_in(&self, shard: Shard) -> bool {
         let hash = blake3::hash(self.path.as_bytes());
         let mut first = [0; 8];
@@ -27,20 +27,22 @@ impl Input {
     }
 }
 
-/// The files that the patterns match, sorted by their paths, each once.
+/// Lists the files that the patterns match, sorted by path, without duplicates.
 pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
     let mut inputs = Vec::new();
     for pattern in patterns {
         let before = inputs.len();
         let path = Path::new(pattern);
-        // A name that looks like a pattern is a name.
+        // A file whose name looks like a pattern is taken as a file.
         if path.is_file() {
             inputs.push(Input {
                 path: pattern.clone(),
                 relative: path.file_name().map(PathBuf::from).unwrap_or_default(),
             });
         } else if path.is_dir() {
-            bail!("{pattern} is a folder: write '{pattern}/*.obj' for the files in it");
+            bail!(
+                "{pattern} is a folder, expected files: use '{pattern}/*.obj' for the files in it"
+            );
         } else {
             search(pattern, &mut inputs)?;
         }
@@ -51,12 +53,12 @@ pub(crate) fn list(patterns: &[String]) -> anyhow::Result<Vec<Input>> {
     Ok(inputs)
 }
 
-/// Finds what matches one pattern. Links to folders are not followed, as they may lead in a circle;
-/// hidden files are found by patterns that begin a name with a point.
+/// Finds the files that match one pattern. Does not follow links to folders, since they can form cycles. Finds hidden
+/// files only if a name in the pattern begins with a dot.
 fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
     let (base, rest) = split(pattern);
-    let wrong = || format!("{pattern} is no pattern of files");
-    fast_glob::validate(rest).map_err(|error| anyhow!("{error}").context(wrong()))?;
+    let invalid = || format!("{pattern} is not a valid file pattern");
+    fast_glob::validate(rest).map_err(|error| anyhow!("{error}").context(invalid()))?;
     // A leading exclamation mark is part of a name here, not a negation.
     let glob = if rest.starts_with('!') {
         format!("\\{rest}")
@@ -74,11 +76,11 @@ fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
         rest.split('/').count()
     };
     let walk = WalkDir::new(folder).min_depth(1).max_depth(depth);
-    let visible = move |entry: &walkdir::DirEntry| {
+    let is_searched = move |entry: &walkdir::DirEntry| {
         let is_hidden = entry.file_name().to_string_lossy().starts_with('.');
         entry.depth() == 0 || shows_hidden || !is_hidden
     };
-    for entry in walk.into_iter().filter_entry(visible) {
+    for entry in walk.into_iter().filter_entry(is_searched) {
         let entry = entry.with_context(|| format!("cannot search for {pattern}"))?;
         let relative = entry.path().strip_prefix(folder).unwrap_or(entry.path());
         let is_match = fast_glob::glob_match(&glob, relative.as_os_str().as_encoded_bytes());
@@ -86,7 +88,7 @@ fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
             let path = Path::new(base).join(relative);
             let Some(text) = path.to_str() else {
                 bail!(
-                    "{}: the name of a file must be Unicode text to be put into a recipe",
+                    "{}: the path of an input file must be valid Unicode",
                     path.display()
                 );
             };
@@ -99,7 +101,7 @@ fn search(pattern: &str, inputs: &mut Vec<Input>) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The folder in which a pattern begins, and what is left of the pattern.
+/// Splits a pattern into the folder in which it starts and the rest.
 fn split(pattern: &str) -> (&str, &str) {
     let special = pattern
         .find(['*', '?', '[', '{', '\\'])
@@ -116,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_pattern_begins_in_a_folder() {
+    fn a_pattern_is_split_after_its_folder() {
         assert_eq!(split("a/b/*.obj"), ("a/b", "*.obj"));
         assert_eq!(split("a/b*/c"), ("a", "b*/c"));
         assert_eq!(split("*.obj"), ("", "*.obj"));
@@ -125,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_disjoint_and_together_everything() {
+    fn every_file_is_in_exactly_one_part() {
         let input = |i: usize| Input {
             path: format!("models/{i}.obj"),
             relative: PathBuf::new(),

@@ -1,16 +1,15 @@
-//! The journal of a batch: what is done, so that a batch that was ended goes on where it was.
+//! The journal of a batch: records finished files, so that an interrupted batch can be resumed.
 //!
-//! A file of lines, each one JSON object. A line is written in one piece and is on the disk before the
-//! next; a last line that is torn is passed over and overwritten.
+//! Each line is one JSON object. A line is written in one piece and synced to disk before the next one. An incomplete
+//! last line is ignored and overwritten.
 //!
 //! ```text
-//! {"meshwright": "0.1.0", "process": 4711}       a batch began
-//! {"key": "1f2e..", "row": {..}}                 a file is done, or has failed; row.rs says the rest
+//! {"meshwright": "0.1.0", "process": 4711}       a process started on the batch
+//! {"key": "1f2e..", "row": {..}}                 a file is finished or has failed; see row.rs
 //! ```
 //!
-//! The key is a digest of everything that the row depends on: recipe, parameters, the path and the
-//! content of every file that is read, the paths of outputs, the version of the program, and for a failure
-//! the budget.
+//! The key is a digest of everything that the row depends on: the recipe, the parameters, the path and content of
+//! every file that is read, the paths of outputs, the version of the program, and for failures the memory budget.
 
 use std::collections::HashMap;
 use std::fs::{File, OpenOptions};
@@ -22,15 +21,16 @@ use serde::{Deserialize, Serialize};
 
 use super::row::{Row, json_lines};
 
-/// A row and what it depends on.
+/// A row, with the digest of everything that it depends on.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 pub(super) struct Entry {
     pub(super) key: String,
     pub(super) row: Row,
 }
 
+/// The first line of each process.
 #[derive(Deserialize, Serialize)]
-struct Begin {
+struct ProcessStart {
     meshwright: String,
     process: u32,
 }
@@ -39,14 +39,14 @@ struct Begin {
 pub(super) struct Journal {
     path: PathBuf,
     file: File,
-    /// What was done before, by the path of the input.
+    /// The entries of earlier runs, by the path of the input.
     pub(super) known: HashMap<String, Entry>,
-    /// The processes that wrote it before.
+    /// The ids of the processes that wrote to the journal before.
     pub(super) processes: Vec<u32>,
 }
 
 impl Journal {
-    /// Opens the journal of a batch, and makes it and its folder if they are not there.
+    /// Opens the journal of a batch. Creates the file and its folder if they do not exist.
     pub(super) fn open(path: PathBuf) -> anyhow::Result<Self> {
         let opened = (|| {
             std::fs::create_dir_all(path.parent().unwrap_or(Path::new(".")))?;
@@ -54,7 +54,7 @@ impl Journal {
             options.read(true).write(true).create(true).truncate(false);
             let mut file = options.open(&path)?;
             if !file.metadata()?.is_file() {
-                return Err(std::io::Error::other("it is no file"));
+                return Err(std::io::Error::other("not a file"));
             }
             let mut bytes = Vec::new();
             file.read_to_end(&mut bytes)?;
@@ -67,12 +67,12 @@ impl Journal {
         let (file, bytes) =
             opened.with_context(|| format!("cannot open the journal {}", path.display()))?;
         let (mut known, mut processes) = (HashMap::new(), Vec::new());
-        // What cannot be read was written by another version, or not at all: it is done again.
+        // Lines of a different version cannot be parsed: their files are processed again.
         for line in bytes.split(|&b| b == b'\n') {
             if let Ok(entry) = serde_json::from_slice::<Entry>(line) {
                 known.insert(entry.row.input.clone(), entry);
-            } else if let Ok(begin) = serde_json::from_slice::<Begin>(line) {
-                processes.push(begin.process);
+            } else if let Ok(start) = serde_json::from_slice::<ProcessStart>(line) {
+                processes.push(start.process);
             }
         }
         let mut journal = Self {
@@ -81,15 +81,15 @@ impl Journal {
             known,
             processes,
         };
-        journal.note(&[Begin {
+        journal.append(&[ProcessStart {
             meshwright: env!("CARGO_PKG_VERSION").to_owned(),
             process: std::process::id(),
         }])?;
         Ok(journal)
     }
 
-    /// Takes note of files that are done.
-    pub(super) fn note(&mut self, entries: &[impl Serialize]) -> anyhow::Result<()> {
+    /// Appends entries, and syncs them to disk.
+    pub(super) fn append(&mut self, entries: &[impl Serialize]) -> anyhow::Result<()> {
         if entries.is_empty() {
             return Ok(());
         }
@@ -106,7 +106,7 @@ mod tests {
     use crate::commands::batch::row::tests::row;
 
     #[test]
-    fn what_is_noted_is_known_later_and_a_torn_line_is_not() {
+    fn entries_are_read_back_except_an_incomplete_last_line() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("deep/batch.jsonl");
         let entry = |input: &str| Entry {
@@ -114,18 +114,23 @@ mod tests {
             row: row(input),
         };
         let mut journal = Journal::open(path.clone()).unwrap();
-        journal.note(&[entry("a\n\"é"), entry("b")]).unwrap();
+        journal.append(&[entry("a\n\"é"), entry("b")]).unwrap();
         drop(journal);
         let whole = std::fs::read(&path).unwrap();
-        for torn in 0..60 {
+        for n_bytes in 0..60 {
             let mut bytes = whole.clone();
-            bytes.extend(serde_json::to_vec(&entry("c")).unwrap().iter().take(torn));
+            bytes.extend(
+                serde_json::to_vec(&entry("c"))
+                    .unwrap()
+                    .iter()
+                    .take(n_bytes),
+            );
             std::fs::write(&path, bytes).unwrap();
             let mut journal = Journal::open(path.clone()).unwrap();
             assert_eq!(journal.known["a\n\"é"].row, row("a\n\"é"));
             assert_eq!(journal.known["b"].key, "key of b");
             assert!(!journal.known.contains_key("c"));
-            journal.note(&[entry("d")]).unwrap();
+            journal.append(&[entry("d")]).unwrap();
             let journal = Journal::open(path.clone()).unwrap();
             assert!(journal.known.contains_key("b") && journal.known.contains_key("d"));
             assert_eq!(journal.processes.len(), 2);

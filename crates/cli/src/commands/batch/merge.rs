@@ -1,4 +1,4 @@
-//! `meshwright batch --merge`: joins the reports of parts.
+//! `meshwright batch --merge`: merges the reports of several parts.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -7,29 +7,29 @@ use anyhow::{bail, ensure};
 
 use super::row::{Header, Report, Row, State};
 use crate::args::BatchArgs;
-use crate::output::{complain, print, shown};
+use crate::output::{counted, escape_control, print, print_error};
 
 pub(super) fn run(args: &BatchArgs) -> anyhow::Result<bool> {
     let Some(target) = &args.report else {
-        bail!("expected --report FILE: where the joined report goes");
+        bail!("expected --report FILE for the merged report");
     };
     let mut reports = Vec::new();
     for path in &args.merge {
         reports.push((path.as_path(), Report::read(path)?));
     }
-    let joined = join(&reports)?;
-    joined.write(target)?;
-    let header = &joined.header;
+    let merged = merge(&reports)?;
+    merged.write(target)?;
+    let header = &merged.header;
     for missing in &header.missing_shards {
-        let of = parts(&reports).unwrap_or_default();
-        complain(&format!(
+        let of = n_parts(&reports).unwrap_or_default();
+        print_error(&format!(
             "error: the report of part {missing}/{of} is missing\n"
         ));
     }
     print(&format!(
-        "{} reports, {} files: {} ok, {} failed, {} not done\n",
-        reports.len(),
-        joined.rows.len(),
+        "{}, {}: {} ok, {} failed, {} not processed\n",
+        counted(reports.len(), "report"),
+        counted(merged.rows.len(), "file"),
         header.ok,
         header.failed,
         header.skipped
@@ -37,22 +37,22 @@ pub(super) fn run(args: &BatchArgs) -> anyhow::Result<bool> {
     Ok(header.failed == 0 && header.skipped == 0 && header.missing_shards.is_empty())
 }
 
-/// Of how many parts the first report that is a part is one.
-fn parts(reports: &[(&Path, Report)]) -> Option<u32> {
+/// Returns the number of parts, as recorded in the first report that is of a part.
+fn n_parts(reports: &[(&Path, Report)]) -> Option<u32> {
     let shards = reports.iter().filter_map(|(_, r)| r.header.shard);
     shards.map(|shard| shard.of).next()
 }
 
-/// Joins reports, and says which rows contradict each other.
-fn join(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
+/// Merges reports. Prints rows that contradict each other, and fails if there are any.
+fn merge(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     let Some((first_path, first)) = reports.first() else {
-        bail!("expected a report to join");
+        bail!("expected at least one report to merge");
     };
     for (path, report) in reports {
         let what = difference(&first.header, &report.header);
         ensure!(
             what.is_none(),
-            "{} and {} have {}: they are no parts of one batch",
+            "{} and {} have {}, so they are not parts of one batch",
             first_path.display(),
             path.display(),
             what.unwrap_or_default()
@@ -63,19 +63,19 @@ fn join(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     for (path, report) in reports {
         for row in &report.rows {
             match rows.get(row.input.as_str()) {
-                // What was not done in one is done in the other.
+                // A file that is skipped in one report can be processed in another.
                 Some(_) if row.state == State::Skipped => {}
                 Some((_, earlier)) if earlier.state == State::Skipped => {
                     rows.insert(&row.input, (path, row));
                 }
                 Some((other, earlier)) if !earlier.is_same(row) => {
                     contradictions += 1;
-                    complain(&format!(
+                    print_error(&format!(
                         "error: {} is {} in {} and {} in {}\n",
-                        shown(&row.input),
-                        account(earlier),
+                        escape_control(&row.input),
+                        description(earlier),
                         other.display(),
-                        account(row),
+                        description(row),
                         path.display()
                     ));
                 }
@@ -88,12 +88,13 @@ fn join(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     }
     ensure!(
         contradictions == 0,
-        "{contradictions} contradictions, no report was written: leave out the reports that are not true any more"
+        "{}, no report was written: leave out the outdated reports",
+        counted(contradictions, "contradiction")
     );
-    let missing = parts(reports).map_or(Vec::new(), |of| {
+    let missing = n_parts(reports).map_or(Vec::new(), |of| {
         let has = |index: u32| {
             let mut shards = reports.iter().map(|(_, r)| r.header.shard);
-            // A report of everything has every part.
+            // A report without a part covers all parts.
             shards.any(|s| s.is_none_or(|s| s.index == index))
         };
         (1..=of).filter(|&index| !has(index)).collect()
@@ -107,12 +108,12 @@ fn join(reports: &[(&Path, Report)]) -> anyhow::Result<Report> {
     Ok(Report::new(header, rows))
 }
 
-/// What tells two batches apart.
+/// Returns what differs between the batches of two reports, if anything.
 fn difference(a: &Header, b: &Header) -> Option<&'static str> {
     if a.recipe_digest != b.recipe_digest {
         Some("different recipes")
     } else if a.set != b.set || a.preset != b.preset {
-        Some("different values of parameters")
+        Some("different parameter values")
     } else if a.meshwright != b.meshwright {
         Some("different versions of the program")
     } else if a.listed_digest != b.listed_digest {
@@ -124,10 +125,10 @@ fn difference(a: &Header, b: &Header) -> Option<&'static str> {
     }
 }
 
-/// What is said of a row that another contradicts.
-fn account(row: &Row) -> String {
+/// Describes a row in an error about a contradiction.
+fn description(row: &Row) -> String {
     match (&row.message, &row.digest) {
-        (Some(message), _) => format!("{} ({})", row.state.name(), shown(message)),
+        (Some(message), _) => format!("{} ({})", row.state.name(), escape_control(message)),
         (None, Some(digest)) => format!("{} (digest {digest})", row.state.name()),
         (None, None) => row.state.name().to_owned(),
     }

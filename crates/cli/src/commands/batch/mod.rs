@@ -1,4 +1,4 @@
-//! `meshwright batch`: one recipe on many files, several at once.
+//! `meshwright batch`: runs one recipe on many files, several at the same time.
 //!
 //! ```text
 //! patterns -> sorted list -> collisions? -> this part -> done before? -> check -> run -> rows
@@ -6,10 +6,9 @@
 //!                                                             +------ journal <-----+
 //! ```
 //!
-//! A line on the standard output for each file that was tried, in the order of the list, and a summary.
-//! [`row`] describes the reports, [`journal`] how a batch goes on after it was ended. Outputs, reports
-//! and notes are written beside their places and renamed; when the disk is full, the files at work fail,
-//! and if even the journal cannot be written, no other file is begun.
+//! Prints a line for each processed file, in the order of the list, and a summary. [`row`] describes the reports,
+//! [`journal`] how an interrupted batch is resumed. Outputs, reports and failures are written to temporary files and
+//! renamed. If the disk is full, the current files fail. If the journal cannot be written, no further file is started.
 
 mod failed;
 pub(crate) mod inputs;
@@ -26,18 +25,18 @@ use engine::Engine;
 use recipe::{InOrder, JobEnd, Jobs, Outcome};
 
 use crate::args::BatchArgs;
-use crate::listener::{QUIET, catch_interrupts, is_interrupted};
-use crate::many::{self, CHECKED_AHEAD, Ended, all, first_error};
-use crate::output::{print, shown};
+use crate::listener::{INTERRUPT, catch_interrupts, is_interrupted};
+use crate::many::{self, CHECKED_AHEAD, JobResult, first_error, run_all};
+use crate::output::{escape_control, print};
 use engine::{Loaded, Run};
 use inputs::Input;
 use journal::{Entry, Journal};
 use plan::Batch;
-use row::{Form, Output, Report, Row, State};
+use row::{Output, Report, ReportFormat, Row, State};
 
 pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
     if let Some(report) = &args.report {
-        Form::of(report)?;
+        ReportFormat::of(report)?;
     }
     if !args.merge.is_empty() {
         return merge::run(args);
@@ -48,9 +47,9 @@ pub(crate) fn run(args: &BatchArgs, engine: &Engine) -> anyhow::Result<bool> {
     catch_interrupts();
     let mut journal = Journal::open(batch.journal())?;
     batch.remove_stale(&journal.processes);
-    let mine = batch.mine();
-    let (mut rows, mut kept) = (Vec::with_capacity(mine.len()), 0);
-    for files in mine.chunks(CHECKED_AHEAD) {
+    let files_of_part = batch.files_of_part();
+    let (mut rows, mut kept) = (Vec::with_capacity(files_of_part.len()), 0);
+    for files in files_of_part.chunks(CHECKED_AHEAD) {
         let chunk = Chunk::check(&batch, files, &journal)?;
         kept += chunk.count_kept();
         rows.extend(chunk.run(&mut journal)?);
@@ -72,10 +71,10 @@ fn summary(report: &Report, kept: usize, args: &BatchArgs) -> String {
         text += &format!(" (see {})", folder.display());
     }
     if header.skipped > 0 {
-        text += &format!(", {} not done: interrupted", header.skipped);
+        text += &format!(", {} not processed: interrupted", header.skipped);
     }
     if kept > 0 {
-        text += &format!("; {kept} of them were done before");
+        text += &format!("; {kept} of them finished in earlier runs");
     }
     if let Some(shard) = header.shard {
         text += &format!("; part {shard} of {} files", header.listed);
@@ -83,29 +82,29 @@ fn summary(report: &Report, kept: usize, args: &BatchArgs) -> String {
     text + "\n"
 }
 
-/// What is to be done with a file.
+/// What to do with an input file.
 enum Task {
-    /// Nothing: this is what came of it before.
+    /// Nothing: this is its row from an earlier run.
     Keep(Row),
-    /// It can run, and takes so many bytes.
+    /// Run the recipe, with this peak memory in bytes.
     Run(Box<Loaded>, u64),
-    /// It cannot run.
-    Fail(Done),
+    /// Report a failure: the recipe cannot be run.
+    Fail(FileResult),
 }
 
-/// What came of a file.
+/// The result of an input file.
 #[derive(Clone, Default)]
-struct Done {
+struct FileResult {
     row: Row,
-    /// What the row depends on; `None` if it is not to be noted.
+    /// The key for the journal; `None` if the row is not recorded there.
     key: Option<String>,
-    /// The whole of what is to be said of a failure.
+    /// The full error messages of a failure.
     text: String,
 }
 
-impl Done {
-    /// A row that is not noted.
-    fn silent(row: Row) -> Self {
+impl FileResult {
+    /// Creates a result that is not recorded in the journal.
+    fn unrecorded(row: Row) -> Self {
         Self {
             row,
             ..Self::default()
@@ -127,11 +126,11 @@ impl<'b> Chunk<'b> {
         journal: &Journal,
     ) -> anyhow::Result<Self> {
         let limits = batch.args.many.limits();
-        let ends = all(files.len(), limits, |i| {
+        let ends = run_all(files.len(), limits, |i| {
             let known = journal.known.get(&files[i].path);
             check(batch, files[i], known)
         })?;
-        let task = |(end, file): (Ended<Task>, &&Input)| {
+        let task = |(end, file): (JobResult<Task>, &&Input)| {
             end.unwrap_or_else(|panicked| Task::Fail(without_result(file, panicked)))
         };
         let tasks = ends.into_iter().zip(files).map(task).collect();
@@ -142,42 +141,42 @@ impl<'b> Chunk<'b> {
         })
     }
 
-    /// How many were done before.
+    /// Returns the number of files that were finished in earlier runs.
     fn count_kept(&self) -> usize {
         let is_kept = |task: &&Task| matches!(task, Task::Keep(_));
         self.tasks.iter().filter(is_kept).count()
     }
 
-    /// Runs what is to be run, and returns the rows in the order of the files.
+    /// Runs the tasks, and returns the rows in the order of the files.
     fn run(self, journal: &mut Journal) -> anyhow::Result<Vec<Row>> {
-        let broken = AtomicBool::new(false);
+        let has_problem = AtomicBool::new(false);
         let jobs = Jobs {
             count: self.tasks.len(),
             bytes: |i: usize| match &self.tasks[i] {
                 Task::Run(_, bytes) => *bytes,
                 _ => 0,
             },
-            stop: || is_interrupted() || broken.load(Ordering::Relaxed),
+            stop: || is_interrupted() || has_problem.load(Ordering::Relaxed),
             work: |i: usize| self.work(i),
         };
         let (mut order, mut rows) = (InOrder::default(), Vec::new());
         let mut problem = Ok(());
         jobs.run(self.batch.args.many.limits(), |ended| {
-            let ended: Vec<(usize, Done)> = ended
+            let results: Vec<(usize, FileResult)> = ended
                 .into_iter()
-                .map(|(i, end)| (i, self.done(i, end)))
+                .map(|(i, end)| (i, self.result(i, end)))
                 .collect();
             if problem.is_ok() {
-                problem = self.note(&ended, journal);
-                broken.store(problem.is_err(), Ordering::Relaxed);
+                problem = self.record(&results, journal);
+                has_problem.store(problem.is_err(), Ordering::Relaxed);
             }
-            for (i, done) in ended {
-                order.put(i, done.row);
+            for (i, result) in results {
+                order.put(i, result.row);
             }
             while let Some((i, row)) = order.take() {
                 if problem.is_ok() && !matches!(self.tasks[i], Task::Keep(_)) {
                     problem = print(&line(&row)).map_err(Into::into);
-                    broken.store(problem.is_err(), Ordering::Relaxed);
+                    has_problem.store(problem.is_err(), Ordering::Relaxed);
                 }
                 rows.push(row);
             }
@@ -185,74 +184,77 @@ impl<'b> Chunk<'b> {
         problem.map(|()| rows)
     }
 
-    /// What is done with a file, on one of many threads.
-    fn work(&self, i: usize) -> Done {
+    /// Does the task of a file. Called on several threads at the same time.
+    fn work(&self, i: usize) -> FileResult {
         let (loaded, begin) = match &self.tasks[i] {
             Task::Run(loaded, _) => (loaded, Instant::now()),
-            Task::Keep(row) => return Done::silent(row.clone()),
+            Task::Keep(row) => return FileResult::unrecorded(row.clone()),
             Task::Fail(failed) => return failed.clone(),
         };
-        // Before the run: what changes meanwhile is done again.
+        // Computed before the run: if an input changes during the run, the next batch processes the file again.
         let key = self.batch.key(self.files[i], loaded);
         let run = Run {
             keep_outputs: true,
             cache: None,
         };
-        let outcome = loaded.run(run, &QUIET);
+        let outcome = loaded.run(run, &INTERRUPT);
         let row = Row {
             seconds: begin.elapsed().as_secs_f64(),
             ..row(&self.files[i].path, loaded, &outcome)
         };
-        Done {
+        FileResult {
             key: key
                 .filter(|_| row.state != State::Skipped)
-                .map(|key| noted(key, &row, self.batch)),
+                .map(|key| journal_key(key, &row, self.batch)),
             row,
             text: loaded.render(&outcome.failures, false),
         }
     }
 
-    fn done(&self, i: usize, end: JobEnd<Done>) -> Done {
-        many::result(end).unwrap_or_else(|panicked| match &self.tasks[i] {
-            Task::Keep(row) => Done::silent(row.clone()),
+    /// Converts the end of a job to the result of its file.
+    fn result(&self, i: usize, end: JobEnd<FileResult>) -> FileResult {
+        many::job_result(end).unwrap_or_else(|panicked| match &self.tasks[i] {
+            Task::Keep(row) => FileResult::unrecorded(row.clone()),
             Task::Run(..) | Task::Fail(_) => without_result(self.files[i], panicked),
         })
     }
 
-    /// Puts what ended into the journal and the folder of failures.
-    fn note(&self, ended: &[(usize, Done)], journal: &mut Journal) -> anyhow::Result<()> {
+    /// Records results in the journal and in the folder of failures.
+    fn record(&self, results: &[(usize, FileResult)], journal: &mut Journal) -> anyhow::Result<()> {
         let mut entries = Vec::new();
-        for (i, done) in ended {
+        for (i, result) in results {
             if matches!(self.tasks[*i], Task::Keep(_)) {
                 continue;
             }
-            match done.row.state {
-                State::Failed => failed::write(self.batch, self.files[*i], &done.row, &done.text)?,
+            match result.row.state {
+                State::Failed => {
+                    failed::write(self.batch, self.files[*i], &result.row, &result.text)?
+                }
                 State::Ok => failed::remove(self.batch, self.files[*i]),
                 State::Skipped => {}
             }
-            if let Some(key) = &done.key {
+            if let Some(key) = &result.key {
                 entries.push(Entry {
                     key: key.clone(),
-                    row: done.row.clone(),
+                    row: result.row.clone(),
                 });
             }
         }
-        journal.note(&entries)
+        journal.append(&entries)
     }
 }
 
-/// Finds out what is to be done with a file.
+/// Decides what to do with a file.
 fn check(batch: &Batch, file: &Input, known: Option<&Entry>) -> Task {
     let loaded = match batch.load(file) {
         Ok(loaded) => loaded,
         Err(error) => return Task::Fail(failure(file, format!("{error:#}"))),
     };
-    let is_tried_again = |row: &Row| row.state == State::Failed && batch.args.retry_failed;
+    let is_retried = |row: &Row| row.state == State::Failed && batch.args.retry_failed;
     if let Some(entry) = known
-        && !is_tried_again(&entry.row)
+        && !is_retried(&entry.row)
         && let Some(key) = batch.key(file, &loaded)
-        && noted(key, &entry.row, batch) == entry.key
+        && journal_key(key, &entry.row, batch) == entry.key
         && entry.row.has_outputs()
     {
         return Task::Keep(entry.row.clone());
@@ -261,45 +263,46 @@ fn check(batch: &Batch, file: &Input, known: Option<&Entry>) -> Task {
         let mut failed = failure(file, first_error(&loaded.diagnostics));
         failed.text = loaded.render(&loaded.diagnostics, false);
         let key = batch.key(file, &loaded);
-        failed.key = key.map(|key| noted(key, &failed.row, batch));
+        failed.key = key.map(|key| journal_key(key, &failed.row, batch));
         return Task::Fail(failed);
     }
     let bytes = loaded.forecast.peak_bytes();
     Task::Run(Box::new(loaded), bytes)
 }
 
-/// The key of a row for the journal: with another budget, what failed may be done.
-fn noted(key: String, row: &Row, batch: &Batch) -> String {
+/// Returns the key of a row for the journal. The key of a failure includes the memory budget, since a larger budget can
+/// avoid the failure.
+fn journal_key(key: String, row: &Row, batch: &Batch) -> String {
     match row.state {
         State::Failed => format!("{key}-{}", batch.args.many.budget),
         _ => key,
     }
 }
 
-fn failure(file: &Input, message: String) -> Done {
-    Done {
+fn failure(file: &Input, message: String) -> FileResult {
+    FileResult {
         text: format!("error: {message}\n"),
-        row: Row::not_done(&file.path, State::Failed, Some(message)),
+        row: Row::without_outputs(&file.path, State::Failed, Some(message)),
         key: None,
     }
 }
 
-/// What came of a file whose job panicked, with a message, or was not begun.
-fn without_result(file: &Input, panicked: Option<String>) -> Done {
+/// Returns the result of a file whose job panicked (`Some`) or was not started (`None`).
+fn without_result(file: &Input, panicked: Option<String>) -> FileResult {
     match panicked {
         Some(message) => failure(file, message),
-        None => Done::silent(Row::not_done(&file.path, State::Skipped, None)),
+        None => FileResult::unrecorded(Row::without_outputs(&file.path, State::Skipped, None)),
     }
 }
 
-/// The row of a file that was run.
+/// Returns the row of a file on which the recipe was run.
 fn row(path: &str, loaded: &Loaded, outcome: &Outcome) -> Row {
     let state = match (outcome.succeeded(), outcome.cancelled) {
-        (_, true) => return Row::not_done(path, State::Skipped, None),
+        (_, true) => return Row::without_outputs(path, State::Skipped, None),
         (true, _) => State::Ok,
         (false, _) => State::Failed,
     };
-    let mut row = Row::not_done(path, state, None);
+    let mut row = Row::without_outputs(path, state, None);
     for step in &outcome.steps {
         let losses = step.report.losses.iter();
         row.losses
@@ -324,9 +327,9 @@ fn row(path: &str, loaded: &Loaded, outcome: &Outcome) -> Row {
     row
 }
 
-/// The line of a file.
+/// Formats the line of a file for the terminal.
 fn line(row: &Row) -> String {
-    let input = shown(&row.input);
+    let input = escape_control(&row.input);
     match row.state {
         State::Ok => {
             let (time, digest) = (row.seconds * 1e3, row.digest.as_deref());
@@ -337,7 +340,7 @@ fn line(row: &Row) -> String {
             let step = row.step.as_ref().map(|s| format!("{s}: "));
             let step = step.unwrap_or_default();
             let message = row.message.as_deref().unwrap_or_default();
-            format!("FAILED {input}: {step}{}\n", shown(message))
+            format!("FAILED {input}: {step}{}\n", escape_control(message))
         }
         State::Skipped => String::new(),
     }

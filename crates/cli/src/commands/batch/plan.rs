@@ -1,4 +1,4 @@
-//! What a batch will do: the recipe, the files, and where each file's outputs go.
+//! The plan of a batch: the recipe, the input files, and the outputs of each.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf, absolute};
@@ -10,38 +10,38 @@ use recipe::{Other, Param, Parameter, Source, did_you_mean};
 use super::inputs::{self, Input};
 use super::row::Header;
 use crate::args::BatchArgs;
-use crate::commands::run::refuse;
+use crate::commands::run::report_errors;
 use crate::loading::load_text;
 use engine::Loaded;
 
-/// A batch that can run.
+/// A batch that can be run.
 pub(super) struct Batch<'a> {
     pub(super) args: &'a BatchArgs,
     pub(super) path: &'a Path,
-    /// The parameter that gets the files.
+    /// The parameter that receives the input file.
     pub(super) param: String,
     engine: &'a Engine<'a>,
-    /// The text of the recipe, read once: the same for all files.
+    /// The text of the recipe, read once for all files.
     source: Source,
-    /// The digest of what the recipe does and expects.
+    /// The digest of the steps and expectations of the recipe.
     digest: String,
-    /// All files, of all parts.
+    /// The input files of all parts.
     inputs: Vec<Input>,
 }
 
 impl<'a> Batch<'a> {
-    /// Reads the recipe, lists the files, and finds outputs that two files would write. `None` if the recipe cannot
-    /// run on any file, which was said.
+    /// Reads the recipe, lists the input files, and checks that their outputs do not collide. If the recipe has errors for
+    /// every file, prints them and returns `None`.
     pub(super) fn plan(
         args: &'a BatchArgs,
         engine: &'a Engine<'a>,
     ) -> anyhow::Result<Option<Self>> {
         let path = args.recipe.as_deref().unwrap_or(Path::new(""));
         let source = Source::open(path).map_err(anyhow::Error::msg)?;
-        // On the file that the recipe names itself, which may well be missing.
+        // Loads the recipe with its default file, which can be missing.
         let loaded = load_text(&source, &args.values, &args.out, args.many.budget, engine)?;
         if !loaded.is_read {
-            refuse(&loaded, false)?;
+            report_errors(&loaded, false)?;
             return Ok(None);
         }
         let param = parameter(args, loaded.recipe.parameters())?;
@@ -58,10 +58,10 @@ impl<'a> Batch<'a> {
         Ok(Some(batch))
     }
 
-    /// Finds outputs that two files would write, and those that would overwrite a file that is read.
+    /// Fails if two files would write the same output, or if an output would overwrite an input file.
     ///
-    /// Where outputs go depends on a file only by what stands for placeholders, in this recipe and in
-    /// those that it calls. So the recipe is planned once, on a name that no file has.
+    /// Output paths depend on the input file only through placeholders, in this recipe and in the recipes that it calls.
+    /// So the recipe is planned once with a marker as the file name, which is then replaced by each name.
     fn check_outputs(&self) -> anyhow::Result<()> {
         let [stem, name] = ["\u{1}", "\u{1}.\u{2}"];
         let marked = self.load_at(name, &self.args.out)?;
@@ -82,14 +82,14 @@ impl<'a> Batch<'a> {
                 let output = self.out(file).join(output);
                 if let Some(other) = read.get(&place(&output)) {
                     bail!(
-                        "{} would be overwritten with what {} becomes: choose another folder with --out",
+                        "the input file {} would be overwritten by the output of {}: choose a different folder with --out",
                         other.path,
                         file.path
                     );
                 }
                 if let Some(other) = writers.insert(place(&output), file) {
                     bail!(
-                        "{} and {} would both write {}: put `{{{}.stem}}` or `{{{}.name}}` into the output path, or give each file a folder with --folders",
+                        "{} and {} would both write {}: use `{{{}.stem}}` or `{{{}.name}}` in the output path, or write to separate folders with --folders",
                         other.path,
                         file.path,
                         output.display(),
@@ -102,7 +102,7 @@ impl<'a> Batch<'a> {
         Ok(())
     }
 
-    /// The output folder of a file.
+    /// Returns the output folder of an input file.
     pub(super) fn out(&self, file: &Input) -> PathBuf {
         if self.args.folders {
             self.args.out.join(&file.relative)
@@ -111,13 +111,13 @@ impl<'a> Batch<'a> {
         }
     }
 
-    /// The files of this part.
-    pub(super) fn mine(&self) -> Vec<&Input> {
-        let is_mine = |file: &&Input| self.args.shard.is_none_or(|shard| file.is_in(shard));
-        self.inputs.iter().filter(is_mine).collect()
+    /// Returns the input files of this part.
+    pub(super) fn files_of_part(&self) -> Vec<&Input> {
+        let is_in_part = |file: &&Input| self.args.shard.is_none_or(|shard| file.is_in(shard));
+        self.inputs.iter().filter(is_in_part).collect()
     }
 
-    /// Where its journal is kept.
+    /// Returns the path of the journal.
     pub(super) fn journal(&self) -> PathBuf {
         self.args.out.join(match self.args.shard {
             None => "batch.jsonl".to_owned(),
@@ -125,7 +125,7 @@ impl<'a> Batch<'a> {
         })
     }
 
-    /// Reads and checks the recipe for a file.
+    /// Checks the recipe for an input file.
     pub(super) fn load(&self, file: &Input) -> anyhow::Result<Loaded> {
         self.load_at(&file.path, &self.out(file))
     }
@@ -137,11 +137,10 @@ impl<'a> Batch<'a> {
         load_text(&self.source, &values, out, budget, self.engine)
     }
 
-    /// The digest of everything that the row of a file depends on; `None` if a file that is read cannot
-    /// be.
+    /// Returns the digest of everything that the row of an input file depends on; `None` if an input cannot be read.
     pub(super) fn key(&self, file: &Input, loaded: &Loaded) -> Option<String> {
         let mut hasher = blake3::Hasher::new();
-        // Each part with its length: no two lists of parts are the same text.
+        // The length of each part is hashed too, so that different lists of parts have different digests.
         let mut part = |bytes: &[u8]| {
             hasher.update(&(bytes.len() as u64).to_le_bytes());
             hasher.update(bytes);
@@ -177,7 +176,7 @@ impl<'a> Batch<'a> {
         Some(hasher.finalize().to_hex()[..32].to_owned())
     }
 
-    /// Removes the folders in which outputs waited when an earlier process was killed.
+    /// Removes the temporary output folders of earlier processes that were killed.
     pub(super) fn remove_stale(&self, processes: &[u32]) {
         if processes.is_empty() {
             return;
@@ -186,19 +185,19 @@ impl<'a> Batch<'a> {
         let stale: Vec<String> = stale.collect();
         let mut folders = vec![self.args.out.clone()];
         if self.args.folders {
-            folders.extend(self.mine().into_iter().map(|file| self.out(file)));
+            folders.extend(self.files_of_part().into_iter().map(|file| self.out(file)));
         }
         let lists = folders.iter().filter_map(|f| std::fs::read_dir(f).ok());
         for entry in lists.flatten().flatten() {
             let name = entry.file_name();
             if stale.iter().any(|p| name.to_string_lossy().starts_with(p)) {
-                // What cannot be removed is in nobody's way.
+                // Removal is best effort.
                 let _ = std::fs::remove_dir_all(entry.path());
             }
         }
     }
 
-    /// What the report is about.
+    /// Returns the header of the report, without counts.
     pub(super) fn header(&self) -> Header {
         let mut listed = blake3::Hasher::new();
         for file in &self.inputs {
@@ -220,7 +219,7 @@ impl<'a> Batch<'a> {
     }
 }
 
-/// The name of the parameter that gets the files.
+/// Returns the name of the parameter that receives the input file.
 fn parameter(args: &BatchArgs, parameters: &[Parameter]) -> anyhow::Result<String> {
     let is_path = |p: &&Parameter| matches!(p.param, Param::Path { .. });
     let paths = parameters.iter().filter(is_path);
@@ -243,7 +242,7 @@ fn parameter(args: &BatchArgs, parameters: &[Parameter]) -> anyhow::Result<Strin
         }
         (None, [only]) => (*only).to_owned(),
         (None, []) => bail!(
-            "the recipe has no parameter of type Path that could take the files: write `params: {{\"model\": Path(default: \"..\")}}` and `Load(path: arg(\"model\"))`"
+            "the recipe has no parameter of type Path for the input file: add `params: {{\"model\": Path(default: \"..\")}}` and `Load(path: arg(\"model\"))`"
         ),
         (None, several) => bail!(
             "the recipe has several parameters of type Path: choose one of {} with --param",
@@ -253,12 +252,12 @@ fn parameter(args: &BatchArgs, parameters: &[Parameter]) -> anyhow::Result<Strin
     let is_set = args.values.set.iter().any(|(set, _)| *set == name);
     ensure!(
         !is_set,
-        "the parameter `{name}` takes the files, so it cannot be set with --set"
+        "the parameter `{name}` receives the input files, so it cannot be set with --set"
     );
     Ok(name)
 }
 
-/// The digest of what a recipe does and expects.
+/// Returns the digest of the steps and expectations of a recipe.
 fn digest(loaded: &Loaded) -> String {
     let recipe = &loaded.recipe;
     let mut text = recipe.digest();

@@ -1,21 +1,21 @@
-//! The rows of a batch, and reports of them.
+//! The rows of a batch, and its reports.
 //!
-//! `--report FILE.json` is one object; `.jsonl` has the same without `rows` in its first line, and then
-//! a row in each; `.csv` has only the rows, lists joined by `; `:
+//! `--report FILE.json` writes one object. `.jsonl` has the same object without `rows` in its first line, followed by a
+//! line for each row. `.csv` has only the rows, with the items of lists joined by `; `.
 //!
 //! ```text
 //! {
 //!   "batch": 1, "meshwright": "0.1.0",
 //!   "recipe": "clean.ron", "recipe_digest": "..",
 //!   "preset": null, "set": {"ratio": "0.5"},
-//!   "shard": {"index": 1, "of": 3},       null if the batch is one part
-//!   "listed": 12, "listed_digest": "..",  the files of all parts
-//!   "missing_shards": [],                 parts that a joined report does not have
+//!   "shard": {"index": 1, "of": 3},       null if the batch is not divided
+//!   "listed": 12, "listed_digest": "..",  the input files of all parts
+//!   "missing_shards": [],                 parts whose reports were not merged
 //!   "ok": 10, "failed": 2, "skipped": 0,
 //!   "rows": [{
 //!     "input": "models/cow.obj",
-//!     "state": "ok",                      or "failed", or "skipped": not done before Ctrl-C
-//!     "step": null, "message": null,      the step that failed, and why
+//!     "state": "ok",                      or "failed", or "skipped": not processed because of Ctrl-C
+//!     "step": null, "message": null,      the failed step and its error
 //!     "vertices": 8, "edges": 12, "faces": 6,
 //!     "digest": "..",
 //!     "losses": [".."],
@@ -33,9 +33,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::args::Shard;
 use crate::many::csv_line;
-use crate::output::write_whole;
+use crate::output::write_atomically;
 
-/// What became of one file.
+/// The result of one input file.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct Row {
     pub(super) input: String,
@@ -68,8 +68,8 @@ pub(super) struct Output {
 }
 
 impl Row {
-    /// A row of a file that was not done.
-    pub(super) fn not_done(input: &str, state: State, message: Option<String>) -> Self {
+    /// Creates a row without counts and outputs.
+    pub(super) fn without_outputs(input: &str, state: State, message: Option<String>) -> Self {
         Self {
             input: input.to_owned(),
             state,
@@ -78,14 +78,14 @@ impl Row {
         }
     }
 
-    /// The same, whatever the time it took.
+    /// Whether two rows are equal except for the time.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         let mut other = other.clone();
         other.seconds = self.seconds;
         *self == other
     }
 
-    /// Whether the outputs are still there with the sizes that they had.
+    /// Whether all outputs still exist with their recorded sizes.
     pub(super) fn has_outputs(&self) -> bool {
         self.outputs.iter().all(|output| {
             let file = Path::new(&output.path).metadata();
@@ -128,7 +128,7 @@ impl State {
     }
 }
 
-/// What the rows are about.
+/// The batch that the rows belong to, and their counts.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub(super) struct Header {
     pub(super) batch: u32,
@@ -150,7 +150,7 @@ pub(super) struct Header {
     pub(super) skipped: usize,
 }
 
-/// A report of a batch or of a part of one.
+/// A report of a batch or of a part.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(super) struct Report {
     #[serde(flatten)]
@@ -158,23 +158,23 @@ pub(super) struct Report {
     pub(super) rows: Vec<Row>,
 }
 
-/// The forms that reports have.
+/// The file formats of reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
+pub(super) enum ReportFormat {
     Csv,
     Json,
     JsonLines,
 }
 
-impl Form {
-    /// The form that the ending of a path asks for.
+impl ReportFormat {
+    /// Returns the format for the extension of a path.
     pub(super) fn of(path: &Path) -> anyhow::Result<Self> {
         match path.extension().and_then(|e| e.to_str()) {
             Some("csv") => Ok(Self::Csv),
             Some("json") => Ok(Self::Json),
             Some("jsonl") => Ok(Self::JsonLines),
             _ => bail!(
-                "{}: expected a report that ends in .csv, .json or .jsonl",
+                "{}: expected a report with the extension .csv, .json or .jsonl",
                 path.display()
             ),
         }
@@ -182,7 +182,7 @@ impl Form {
 }
 
 impl Report {
-    /// A report with its counts.
+    /// Creates a report, and counts its rows by state.
     pub(super) fn new(mut header: Header, rows: Vec<Row>) -> Self {
         let count = |state| rows.iter().filter(|row| row.state == state).count();
         header.ok = count(State::Ok);
@@ -191,50 +191,50 @@ impl Report {
         Self { header, rows }
     }
 
-    /// Writes the report in the form that the ending of the path asks for.
+    /// Writes the report in the format given by the extension of the path.
     pub(super) fn write(&self, path: &Path) -> anyhow::Result<()> {
-        let bytes = match Form::of(path)? {
-            Form::Csv => {
+        let bytes = match ReportFormat::of(path)? {
+            ReportFormat::Csv => {
                 let rows = self.rows.iter().map(|row| csv_line(&row.cells()));
                 let lines = std::iter::once(csv_line(&COLUMNS)).chain(rows);
                 lines.collect::<String>().into_bytes()
             }
-            Form::Json => [serde_json::to_vec_pretty(self)?, b"\n".to_vec()].concat(),
-            Form::JsonLines => {
+            ReportFormat::Json => [serde_json::to_vec_pretty(self)?, b"\n".to_vec()].concat(),
+            ReportFormat::JsonLines => {
                 let mut text = json_lines(&[&self.header])?;
                 text.extend(json_lines(&self.rows)?);
                 text
             }
         };
-        write_whole(path, &bytes)
+        write_atomically(path, &bytes)
     }
 
-    /// Reads a report that was written as JSON.
+    /// Reads a report in the format JSON or JSON Lines.
     pub(super) fn read(path: &Path) -> anyhow::Result<Self> {
         let shown = path.display();
-        let form = Form::of(path)?;
+        let form = ReportFormat::of(path)?;
         ensure!(
-            form != Form::Csv,
-            "{shown}: a table does not say what it is a part of: join reports in .json or .jsonl"
+            form != ReportFormat::Csv,
+            "{shown}: reports in .csv cannot be merged, since they do not record their batch: use .json or .jsonl"
         );
         let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {shown}"))?;
-        let no_report = || format!("{shown} is no report of a batch");
-        if form == Form::Json {
-            return serde_json::from_str(&text).with_context(no_report);
+        let not_a_report = || format!("{shown} is not a report of a batch");
+        if form == ReportFormat::Json {
+            return serde_json::from_str(&text).with_context(not_a_report);
         }
         let mut lines = text.lines().enumerate();
-        let (_, first) = lines.next().with_context(no_report)?;
-        let header = serde_json::from_str(first).with_context(no_report)?;
+        let (_, first) = lines.next().with_context(not_a_report)?;
+        let header = serde_json::from_str(first).with_context(not_a_report)?;
         let row = |(i, line): (usize, &str)| {
             let row: Result<Row, _> = serde_json::from_str(line);
-            row.with_context(|| format!("{shown}:{}: this is no row of a batch", i + 1))
+            row.with_context(|| format!("{shown}:{}: expected a row of a batch", i + 1))
         };
         let rows = lines.map(row).collect::<anyhow::Result<_>>()?;
         Ok(Self { header, rows })
     }
 }
 
-/// Values as JSON, each on its own line.
+/// Formats values as JSON, one per line.
 pub(super) fn json_lines(values: &[impl Serialize]) -> serde_json::Result<Vec<u8>> {
     let mut text = Vec::new();
     for value in values {
@@ -257,7 +257,7 @@ pub(super) mod tests {
                 bytes: 12,
             }],
             seconds: 0.25,
-            ..Row::not_done(input, State::Ok, None)
+            ..Row::without_outputs(input, State::Ok, None)
         }
     }
 
@@ -278,7 +278,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn reports_read_back_as_they_were() {
+    fn reports_are_read_back_unchanged() {
         let folder = tempfile::tempdir().unwrap();
         for name in ["a.json", "a.jsonl"] {
             let path = folder.path().join(name);

@@ -1,4 +1,4 @@
-//! The cells of a sweep: each is a run with values of its own.
+//! The cells of a sweep: each is a run with its own parameter values.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -10,62 +10,63 @@ use scene::Scene;
 use view::Extent;
 
 use crate::args::{SweepArgs, ValueArgs};
-use crate::listener::QUIET;
+use crate::listener::INTERRUPT;
 use crate::loading::load_text;
-use crate::many::{Ended, all, first_error, interrupted};
+use crate::many::{JobResult, error_message, first_error, run_all};
 
-/// All cells.
+/// The cells of a sweep, and how they are run.
 pub(super) struct Cells<'a> {
     pub(super) args: &'a SweepArgs,
-    /// Steps that cells share run once.
+    /// The cache, so that steps with equal inputs run only once for all cells.
     pub(super) cache: Option<&'a Cache>,
     pub(super) engine: &'a Engine<'a>,
     /// The text of the recipe.
     pub(super) source: &'a Source,
     pub(super) grid: &'a Grid,
     pub(super) keep: &'a [(Metric, Span)],
-    /// Whether the recipe's expectations must hold.
+    /// Whether the recipe's expectations are checked.
     pub(super) expects: bool,
-    /// If scenes are drawn: takes the scene of a cell and the number of bytes that making it needed.
-    pub(super) see: Option<&'a (dyn Fn(Scene, u64) -> Seen + Sync)>,
+    /// If a sheet is drawn: takes the scene of a cell and the peak memory of its run in bytes.
+    pub(super) collect: Option<&'a (dyn Fn(Scene, u64) -> CellScene + Sync)>,
 }
 
-/// A cell that is checked, or why it cannot run.
+/// The loaded recipe of a cell, or an error.
 pub(super) struct Task(Result<Loaded, String>);
 
 impl Task {
-    /// The bytes that it takes at its peak.
+    /// The peak memory of the run, in bytes.
     pub(super) fn bytes(&self) -> u64 {
         self.0.as_ref().map_or(0, |l| l.forecast.peak_bytes())
     }
 }
 
-/// What came of a cell.
+/// The result of a cell.
 #[derive(Debug, Default)]
 pub(super) struct CellResult {
-    /// What is kept, if it succeeded.
+    /// The values of `keep`, if the cell succeeded.
     pub(super) measures: Option<Vec<Measured>>,
-    /// The files that were written, if outputs are kept.
+    /// The written files, if outputs are kept.
     pub(super) outputs: Vec<PathBuf>,
     pub(super) error: Option<String>,
-    /// What the sheet knows of it, if there is one and it succeeded.
-    pub(super) seen: Option<Seen>,
-    /// Whether Ctrl-C came before it was done.
+    /// The scene for the sheet, if one is drawn and the cell succeeded.
+    pub(super) scene: Option<CellScene>,
+    /// Whether Ctrl-C was pressed before the cell was finished.
     pub(super) is_not_run: bool,
 }
 
-/// What is known of a cell that succeeded.
+/// The scene of a cell that succeeded, for the sheet.
 #[derive(Debug)]
-pub(super) struct Seen {
+pub(super) struct CellScene {
+    /// What the camera and the colors must cover, or why the scene cannot be drawn.
     pub(super) extent: Result<Extent, String>,
-    /// The scene, if there is memory to keep it.
+    /// The scene, if there is enough memory to keep it.
     pub(super) scene: Option<Scene>,
-    /// The bytes that it takes to make it.
+    /// The peak memory of the run, in bytes.
     pub(super) bytes: u64,
 }
 
 impl CellResult {
-    pub(super) fn of(end: Ended<Self>) -> Self {
+    pub(super) fn of(end: JobResult<Self>) -> Self {
         end.unwrap_or_else(|error| Self {
             is_not_run: error.is_none(),
             error,
@@ -75,13 +76,13 @@ impl CellResult {
 }
 
 impl Cells<'_> {
-    /// Reads and checks the recipe for these cells.
+    /// Checks the recipe for a range of cells.
     pub(super) fn check(&self, cells: Range<usize>) -> anyhow::Result<Vec<Task>> {
-        let ends = all(cells.len(), self.args.many.limits(), |i| {
+        let ends = run_all(cells.len(), self.args.many.limits(), |i| {
             self.load(cells.start + i)
                 .map_err(|error| format!("{error:#}"))
         })?;
-        let task = |end: Ended<_>| Task(end.unwrap_or_else(|e| Err(interrupted(e))));
+        let task = |end: JobResult<_>| Task(end.unwrap_or_else(|e| Err(error_message(e))));
         Ok(ends.into_iter().map(task).collect())
     }
 
@@ -108,8 +109,8 @@ impl Cells<'_> {
         Ok(loaded)
     }
 
-    /// Runs a cell; an error is as that of [`outcome`](Self::outcome).
-    pub(super) fn run(&self, task: &Task) -> Ended<CellResult> {
+    /// Runs a cell. Errors are those of [`outcome`](Self::outcome).
+    pub(super) fn run(&self, task: &Task) -> JobResult<CellResult> {
         let loaded = task.0.as_ref().map_err(|error| Some(error.clone()))?;
         if loaded.has_errors() {
             return Err(Some(first_error(&loaded.diagnostics)));
@@ -120,17 +121,18 @@ impl Cells<'_> {
             measured.map_err(|problem| Some(format!("{metric:?}: {problem}")))
         };
         let measures = self.keep.iter().map(measure).collect::<Result<_, _>>()?;
-        let seen = self.see.zip(outcome.scene.take());
+        let scene = self.collect.zip(outcome.scene.take());
         Ok(CellResult {
             measures: Some(measures),
             outputs: outcome.written,
-            seen: seen.map(|(see, scene)| see(scene, loaded.forecast.peak_bytes())),
+            scene: scene.map(|(collect, scene)| collect(scene, loaded.forecast.peak_bytes())),
             ..CellResult::default()
         })
     }
 
-    /// How the run of a cell that is checked ended, if it succeeded; else its error, or none if Ctrl-C ended it.
-    fn outcome(&self, loaded: &Loaded, keeps: bool) -> Ended<Outcome> {
+    /// Runs a checked cell and returns its outcome. If the run fails, returns its first error; if Ctrl-C cancels it,
+    /// `None`.
+    fn outcome(&self, loaded: &Loaded, keeps: bool) -> JobResult<Outcome> {
         let cache = self.cache.map(|cache| Caching {
             cache,
             recipe: None,
@@ -140,18 +142,18 @@ impl Cells<'_> {
             keep_outputs: keeps,
             cache: cache.as_ref().map(|caching| caching as _),
         };
-        let outcome = loaded.run(run, &QUIET);
+        let outcome = loaded.run(run, &INTERRUPT);
         if outcome.succeeded() && !outcome.cancelled {
             return Ok(outcome);
         }
         Err((!outcome.cancelled).then(|| first_error(&outcome.failures)))
     }
 
-    /// The scene of a cell that has run before, made again.
+    /// Runs a cell again and returns its scene.
     pub(super) fn scene(&self, i: usize) -> Result<Scene, String> {
         let loaded = self.load(i).map_err(|error| format!("{error:#}"))?;
-        let outcome = self.outcome(&loaded, false).map_err(interrupted)?;
-        let missing = || "the scene stayed in the cache".to_owned();
+        let outcome = self.outcome(&loaded, false).map_err(error_message)?;
+        let missing = || "internal error: the run returned no scene (please report it)".to_owned();
         outcome.scene.ok_or_else(missing)
     }
 }

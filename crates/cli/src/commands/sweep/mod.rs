@@ -1,23 +1,22 @@
-//! `meshwright sweep`: one recipe with many values of its parameters, and what comes out as a table.
+//! `meshwright sweep`: runs one recipe with many parameter values and tabulates the results.
 //!
-//! [`recipe::read_sweep`] describes the file. The table has a row for each cell, in the order of the
-//! grid: its number, the values of the parameters that change, what is kept, and the error of a cell
-//! that failed. `--out FILE.csv` writes it as it is. `--out FILE.json` and `--format json` are one
-//! object:
+//! [`recipe::read_sweep`] describes the file. The table has a row for each cell, in the order of the grid, with
+//! its number, the values of the varying parameters, the values of `keep`, and the error of a failed cell.
+//! `--out FILE.csv` writes the table. `--out FILE.json` and `--format json` write one object:
 //!
 //! ```text
 //! {
 //!   "sweep": "levels.sweep.ron", "recipe": "cow.ron",
-//!   "succeeded": true,                  no cell failed, none was left out by Ctrl-C
-//!   "set": {"smooth": true},            the same in every cell
-//!   "parameters": ["levels"],           those that change
+//!   "succeeded": true,                  no cell failed, Ctrl-C was not pressed
+//!   "set": {"smooth": true},            values shared by all cells
+//!   "parameters": ["levels"],           the varying parameters
 //!   "keep": ["Faces", "Area"],
 //!   "sheet": "levels.png",              the image of --sheet, or null
 //!   "cells": [{
 //!     "cell": 1,
 //!     "parameters": {"levels": 0},
 //!     "measures": {"Faces": 6, "Area": 6.0},    null if the cell failed; infinite numbers are null
-//!     "outputs": ["kept/1/cow.glb"],    if they are kept
+//!     "outputs": ["kept/1/cow.glb"],    with --keep-outputs
 //!     "error": null
 //!   }]
 //! }
@@ -39,11 +38,14 @@ use serde_json::{Value as Json, json};
 use crate::args::{Format, SweepArgs, ValueArgs};
 use crate::cache;
 use crate::commands::picture::write_png;
-use crate::commands::run::refuse;
+use crate::commands::run::report_errors;
 use crate::listener::catch_interrupts;
 use crate::loading::load_text;
-use crate::many::{CHECKED_AHEAD, csv_line, in_order};
-use crate::output::{complain, counted, print, print_json, show_texts, shown, table, write_whole};
+use crate::many::{CHECKED_AHEAD, csv_line, run_in_order};
+use crate::output::{
+    counted, escape_control, print, print_diagnostics_in, print_error, print_json, table,
+    write_atomically,
+};
 use cell::{CellResult, Cells};
 use engine::Loaded;
 use sheet::{Sheet, kept_bytes};
@@ -53,7 +55,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
         let ending = path.extension().and_then(|e| e.to_str());
         ensure!(
             matches!(ending, Some("csv" | "json")),
-            "{}: expected a table that ends in .csv or .json",
+            "{}: expected a table with the extension .csv or .json",
             path.display()
         );
     }
@@ -61,7 +63,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
         return Ok(false);
     };
     catch_interrupts();
-    // What is measured in seconds must run.
+    // Times are only meaningful if every step runs.
     let is_timed = |(metric, _): &(Metric, recipe::Span)| matches!(metric, Metric::Seconds);
     let cache = if plan.sweep.keep.iter().any(is_timed) {
         None
@@ -69,7 +71,8 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
         cache::open(&args.cache)?
     };
     let sheet = Sheet::new(args, &plan)?;
-    let see = (sheet.as_ref()).map(|sheet| |scene: Scene, bytes: u64| sheet.see(scene, bytes));
+    let collect =
+        (sheet.as_ref()).map(|sheet| |scene: Scene, bytes: u64| sheet.collect(scene, bytes));
     let cells = Cells {
         args,
         cache: cache.as_ref(),
@@ -78,7 +81,7 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
         grid: &plan.grid,
         keep: &plan.sweep.keep,
         expects: plan.sweep.expects,
-        see: see.as_ref().map(|see| see as _),
+        collect: collect.as_ref().map(|collect| collect as _),
     };
     let mut limits = args.many.limits();
     if sheet.is_some() {
@@ -89,22 +92,22 @@ pub(crate) fn run(args: &SweepArgs, engine: &Engine) -> anyhow::Result<bool> {
     for first in (0..count).step_by(CHECKED_AHEAD) {
         let tasks = cells.check(first..count.min(first + CHECKED_AHEAD))?;
         let (bytes, run) = (|i: usize| tasks[i].bytes(), |i: usize| cells.run(&tasks[i]));
-        in_order(tasks.len(), limits, bytes, run, |_, end| {
+        run_in_order(tasks.len(), limits, bytes, run, |_, end| {
             results.push(CellResult::of(end.and_then(|result| result)));
         })?;
     }
-    // What is measured is not lost if it cannot be drawn.
+    // If the sheet cannot be drawn, the table is still written.
     let sheet_is_written = match &sheet {
         None => true,
         Some(sheet) => write_sheet(sheet, &plan, &cells, &results).unwrap_or_else(|error| {
-            complain(&format!("error: {error:#}\n"));
+            print_error(&format!("error: {error:#}\n"));
             false
         }),
     };
     Ok(finish(args, &plan, &results)? && sheet_is_written)
 }
 
-/// Draws and writes the sheet. Whether it shows every cell that succeeded.
+/// Draws and writes the sheet. Returns whether it shows every cell that succeeded.
 fn write_sheet(
     sheet: &Sheet,
     plan: &Plan,
@@ -113,21 +116,21 @@ fn write_sheet(
 ) -> anyhow::Result<bool> {
     let drawn = sheet.draw(plan, cells, results)?;
     for note in &drawn.notes {
-        complain(&format!("note: {note}\n"));
+        print_error(&format!("note: {note}\n"));
     }
     for (i, error) in &drawn.errors {
-        complain(&format!(
+        print_error(&format!(
             "error: cell {} cannot be drawn: {}\n",
             i + 1,
-            shown(error)
+            escape_control(error)
         ));
     }
-    let says = cells.args.format == Format::Human;
-    write_png(&drawn.image, sheet.path(), says)?;
+    let is_human = cells.args.format == Format::Human;
+    write_png(&drawn.image, sheet.path(), is_human)?;
     Ok(drawn.errors.is_empty())
 }
 
-/// A sweep that can run.
+/// A valid sweep.
 struct Plan {
     sweep: Sweep,
     /// The text of the sweep.
@@ -140,8 +143,7 @@ struct Plan {
 }
 
 impl Plan {
-    /// Reads the sweep and its recipe, and holds one against the other. `None` if something is wrong,
-    /// which was said.
+    /// Reads the sweep and its recipe, and checks that they match. If there are errors, prints them and returns `None`.
     fn read(args: &SweepArgs, engine: &Engine) -> anyhow::Result<Option<Self>> {
         let source = Source::open(&args.sweep).map_err(anyhow::Error::msg)?;
         let reading = read_sweep(&source.text);
@@ -160,8 +162,8 @@ impl Plan {
                     engine,
                 )?;
                 if !loaded.is_read {
-                    show_texts(&[source], &diagnostics);
-                    return refuse(&loaded, args.format == Format::Json).map(|_| None);
+                    print_diagnostics_in(&[source], &diagnostics);
+                    return report_errors(&loaded, args.format == Format::Json).map(|_| None);
                 }
                 check_files(&sweep, &loaded, &mut diagnostics);
                 match sweep.grid(loaded.recipe.parameters(), source.folder()) {
@@ -169,12 +171,12 @@ impl Plan {
                     Err(wrong) => diagnostics.extend(wrong),
                 }
             } else {
-                let message = format!("there is no file {}", path.display());
+                let message = format!("the file {} does not exist", path.display());
                 diagnostics.push(Diagnostic::error(sweep.recipe_span, message));
             }
         }
         diagnostics.sort_by_key(|d| d.span);
-        show_texts(std::slice::from_ref(&source), &diagnostics);
+        print_diagnostics_in(std::slice::from_ref(&source), &diagnostics);
         let is_error = |d: &&Diagnostic| d.severity == Severity::Error;
         let n = diagnostics.iter().filter(is_error).count();
         match plan {
@@ -186,13 +188,13 @@ impl Plan {
                 grid,
             })),
             _ => {
-                complain(&format!("{}, nothing was run\n", counted(n, "error")));
+                print_error(&format!("{}, no cell was run\n", counted(n, "error")));
                 Ok(None)
             }
         }
     }
 
-    /// What is kept, as it is written in the sweep.
+    /// Returns the entries of `keep`, as written in the sweep.
     fn names(&self) -> Vec<String> {
         let keep = self.sweep.keep.iter();
         let words = keep.map(|(_, span)| span.of(&self.source.text).split_whitespace());
@@ -202,20 +204,20 @@ impl Plan {
     }
 }
 
-/// Every file that cells are compared with is there.
+/// Checks that every file that cells are compared with exists.
 fn check_files(sweep: &Sweep, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>) {
     for (metric, span) in &sweep.keep {
         if let Some(Other::File(path)) = Metric::other(metric) {
             let path = loaded.files.to_read(path);
             if !path.is_file() {
-                let message = format!("there is no file {}", path.display());
+                let message = format!("the file {} does not exist", path.display());
                 diagnostics.push(Diagnostic::error(*span, message));
             }
         }
     }
 }
 
-/// Prints and writes what came out.
+/// Prints and writes the results.
 fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Result<bool> {
     let failed = results.iter().filter(|r| r.error.is_some()).count();
     let not_run = results.iter().filter(|r| r.is_not_run).count();
@@ -228,7 +230,7 @@ fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Resu
         } else {
             rows.iter().map(|row| csv_line(row)).collect()
         };
-        write_whole(path, text.as_bytes())?;
+        write_atomically(path, text.as_bytes())?;
     }
     if args.format == Format::Json {
         print_json(&object(args, plan, results, succeeded))?;
@@ -237,7 +239,11 @@ fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Resu
     print(&table(&on_a_terminal(rows)))?;
     for (i, result) in results.iter().enumerate() {
         if let Some(error) = &result.error {
-            complain(&format!("error: cell {}: {}\n", i + 1, shown(error)));
+            print_error(&format!(
+                "error: cell {}: {}\n",
+                i + 1,
+                escape_control(error)
+            ));
         }
     }
     let mut summary = counted(results.len(), "cell");
@@ -247,22 +253,18 @@ fn finish(args: &SweepArgs, plan: &Plan, results: &[CellResult]) -> anyhow::Resu
     if not_run > 0 {
         summary += &format!(", {not_run} not run: interrupted");
     }
-    let unheld = plan.loaded.recipe.expectations.len();
-    if unheld > 0 && !plan.sweep.expects {
-        let (was, them) = match unheld {
-            1 => ("was", "it"),
-            _ => ("were", "them"),
-        };
-        let what = counted(unheld, "expectation");
+    let unchecked = plan.loaded.recipe.expectations.len();
+    if unchecked > 0 && !plan.sweep.expects {
+        let expectations = counted(unchecked, "expectation");
         summary += &format!(
-            "; the {what} of the recipe {was} not held, write `expect: true` to hold {them}"
+            "; {expectations} of the recipe not checked: set `expect: true` to check expectations"
         );
     }
     print(&format!("{summary}\n"))?;
     Ok(succeeded)
 }
 
-/// The table, with its heads.
+/// Returns the rows of the table, with its header.
 fn rows(plan: &Plan, results: &[CellResult]) -> Vec<Vec<String>> {
     let mut heads = vec!["cell".to_owned()];
     heads.extend(plan.grid.parameters.iter().cloned());
@@ -287,7 +289,7 @@ fn rows(plan: &Plan, results: &[CellResult]) -> Vec<Vec<String>> {
     rows
 }
 
-/// The value of a parameter in a table: a text without its quotes.
+/// Formats the value of a parameter for a table: texts without quotes.
 fn plain(setting: &Setting) -> String {
     match setting.json() {
         Json::String(text) => text,
@@ -295,15 +297,15 @@ fn plain(setting: &Setting) -> String {
     }
 }
 
-/// A text for people: a number without digits that nobody reads.
+/// Shortens a long decimal number to six decimals. Escapes other texts for the terminal.
 fn short(text: &str) -> String {
     match text.parse::<f64>() {
         Ok(number) if text.contains('.') && text.len() > 10 => format!("{number:.6}"),
-        _ => shown(text).into_owned(),
+        _ => escape_control(text).into_owned(),
     }
 }
 
-/// The table as it is shown: errors stand below it, and numbers are short.
+/// Shortens the table for a terminal: errors become a mark, since they are printed below, and numbers are shortened.
 fn on_a_terminal(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     rows.into_iter()
         .map(|mut row| {

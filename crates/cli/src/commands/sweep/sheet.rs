@@ -1,10 +1,10 @@
-//! The sheet of a sweep: the scenes at the ends of its cells in one image.
+//! The sheet of a sweep: the final scenes of its cells in one image.
 //!
 //! ```text
 //!   cell by cell: scene --> extent (small) ---join---> extent of all
 //!                   |                                       |
-//!                   +-- kept, if there is memory, or -------+--> image --> sheet
-//!                       else made again
+//!                   +-- kept if memory allows, -------------+--> image --> sheet
+//!                       else computed again
 //! ```
 
 use std::collections::BTreeSet;
@@ -23,52 +23,55 @@ use scene::Scene;
 use view::Extent;
 use view::sheet::{Cell, Heads, SheetStyle, notice, sheet_size, sheet_with_heads};
 
-use super::cell::{CellResult, Cells, Seen};
+use super::cell::{CellResult, CellScene, Cells};
 use super::{Plan, short};
 use crate::args::{SweepArgs, WrongUsage};
 use crate::commands::picture::{SHEET_CELL, check_names, parameters};
-use crate::listener::{QUIET, is_interrupted};
-use crate::many::{in_order, interrupted};
+use crate::listener::{INTERRUPT, is_interrupted};
+use crate::many::{error_message, run_in_order};
 
-/// Most lines below a cell: its values, and what is kept of it.
-const LINES: [usize; 2] = [2, 3];
+/// Maximum number of lines below a cell: for its parameter values, and for its values of `keep`.
+const MAX_LINES: [usize; 2] = [2, 3];
 
-/// The ink of errors.
+/// The color of errors.
 const RED: Color = [0xb9, 0x1c, 0x1c, 255];
 
-/// How the sheet is drawn, before anything has run.
+/// The options and layout of the sheet, and the memory used for scenes.
 pub(super) struct Sheet<'a> {
     args: &'a SweepArgs,
     picture: Picture,
     files: Files,
     layout: Layout,
-    /// The bytes of the scenes that are kept until all are there.
+    /// The bytes of the scenes that are kept until all cells have run.
     kept: AtomicU64,
 }
 
-/// The sheet.
-pub(super) struct Drawn {
+/// The finished sheet.
+pub(super) struct DrawnSheet {
     pub(super) image: Image,
-    /// The cells, from 0, that succeeded and cannot be drawn, with the reason.
+    /// The indices of cells that succeeded but cannot be drawn, with the reason.
     pub(super) errors: Vec<(usize, String)>,
-    /// What is not shown as the scenes have it.
+    /// Notes on what the images do not show.
     pub(super) notes: BTreeSet<String>,
 }
 
 impl<'a> Sheet<'a> {
-    /// Reads the options, if a sheet is wanted.
+    /// Checks the options of the sheet. Returns `None` without `--sheet`.
     pub(super) fn new(args: &'a SweepArgs, plan: &Plan) -> anyhow::Result<Option<Self>> {
         let Some(path) = &args.sheet else {
             return Ok(None);
         };
         let ending = path.extension().unwrap_or_default();
         if !ending.eq_ignore_ascii_case("png") {
-            let message = format!("{}: expected an image that ends in .png", path.display());
+            let message = format!(
+                "{}: expected an image with the extension .png",
+                path.display()
+            );
             return Err(WrongUsage(message).into());
         }
         let picture = parameters(&args.draw, path, SHEET_CELL, Vec::new())?;
         if picture.turntable.is_some() {
-            return Err(WrongUsage("the cells on a sheet do not move".to_owned()).into());
+            return Err(WrongUsage("a sheet cannot have a turntable".to_owned()).into());
         }
         let sheet = Self {
             args,
@@ -84,14 +87,17 @@ impl<'a> Sheet<'a> {
         Ok(Some(sheet))
     }
 
-    /// The size of the image of each cell.
+    /// Returns the size of the image of each cell, in pixels.
     fn cell_size(&self) -> [u32; 2] {
         let views = self.picture.views.len().max(1);
         let columns = self.picture.columns.map_or(4, |n| n.get() as usize);
         let columns = columns.min(views);
-        let of = |side: u32, n: usize| side.saturating_mul(u32::try_from(n).unwrap_or(u32::MAX));
+        let times = |side: u32, n: usize| side.saturating_mul(u32::try_from(n).unwrap_or(u32::MAX));
         let [width, height] = self.picture.size.map(op::Count::get);
-        [of(width, columns), of(height, views.div_ceil(columns))]
+        [
+            times(width, columns),
+            times(height, views.div_ceil(columns)),
+        ]
     }
 
     fn style(&self) -> SheetStyle {
@@ -102,7 +108,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Whether the sheet can be made, however much stands below its cells.
+    /// Checks that the sheet fits into the memory budget with the longest possible captions.
     fn check_size(&self, n: usize) -> anyhow::Result<()> {
         let [width, height] = self.cell_size();
         let image = Image {
@@ -110,7 +116,7 @@ impl<'a> Sheet<'a> {
             height,
             pixels: Vec::new(),
         };
-        let caption = "\n".repeat(LINES.iter().sum());
+        let caption = "\n".repeat(MAX_LINES.iter().sum());
         let cell = Cell {
             image: &image,
             caption: &caption,
@@ -122,18 +128,18 @@ impl<'a> Sheet<'a> {
         Ok(())
     }
 
-    /// Takes in the scene of a cell that took `bytes` to make.
-    pub(super) fn see(&self, scene: Scene, bytes: u64) -> Seen {
+    /// Takes the scene of a cell, whose run needed `bytes` of memory. Keeps the scene if the budget allows.
+    pub(super) fn collect(&self, scene: Scene, bytes: u64) -> CellScene {
         let check = check_names(&self.args.draw.on, &[&scene]);
         let extent = check.map_err(|e| e.to_string()).and_then(|()| {
             let extent = self.picture.extent(&scene, &mut self.context());
             extent.map_err(|error| error.to_string())
         });
-        let most = kept_bytes(self.args.many.budget);
-        let keep = |kept: u64| kept.checked_add(bytes).filter(|all| *all <= most);
+        let max = kept_bytes(self.args.many.budget);
+        let keep = |kept: u64| kept.checked_add(bytes).filter(|sum| *sum <= max);
         let order = Ordering::Relaxed;
         let is_kept = extent.is_ok() && self.kept.fetch_update(order, order, keep).is_ok();
-        Seen {
+        CellScene {
             extent,
             scene: is_kept.then_some(scene),
             bytes,
@@ -141,7 +147,7 @@ impl<'a> Sheet<'a> {
     }
 
     fn context(&self) -> Context<'_> {
-        let mut cx = Context::new(&QUIET, &self.files);
+        let mut cx = Context::new(&INTERRUPT, &self.files);
         cx.budget = self.args.many.budget;
         let on = &self.args.draw.on;
         cx.on = (!on.is_empty()).then_some(on);
@@ -154,16 +160,16 @@ impl<'a> Sheet<'a> {
         plan: &Plan,
         cells: &Cells,
         results: &[CellResult],
-    ) -> anyhow::Result<Drawn> {
-        let extent_of = |result: &CellResult| result.seen.as_ref()?.extent.clone().ok();
+    ) -> anyhow::Result<DrawnSheet> {
+        let extent_of = |result: &CellResult| result.scene.as_ref()?.extent.clone().ok();
         let mut extent = Extent::default();
         for one in results.iter().filter_map(extent_of) {
             extent.join(one);
         }
         let [width, height] = self.cell_size();
         let pixels = u64::from(width) * u64::from(height);
-        let bytes = |i: usize| match &results[i].seen {
-            Some(seen) if seen.scene.is_none() => seen.bytes.saturating_add(256 * pixels),
+        let bytes = |i: usize| match &results[i].scene {
+            Some(cell) if cell.scene.is_none() => cell.bytes.saturating_add(256 * pixels),
             Some(_) => 256 * pixels,
             None => 0,
         };
@@ -175,10 +181,10 @@ impl<'a> Sheet<'a> {
             ..self.style()
         };
         let limits = self.args.many.limits();
-        in_order(results.len(), limits, bytes, draw, |i, end| {
+        run_in_order(results.len(), limits, bytes, draw, |i, end| {
             let drawn = end.unwrap_or_else(|panicked| {
                 stopped |= panicked.is_none();
-                Err(interrupted(panicked))
+                Err(error_message(panicked))
             });
             images.push(match drawn {
                 Ok((image, more)) => {
@@ -210,14 +216,14 @@ impl<'a> Sheet<'a> {
         if let Some(legend) = extent.legend() {
             image = with_legend(&image, &legend, self.style().background)?;
         }
-        Ok(Drawn {
+        Ok(DrawnSheet {
             image,
             errors,
             notes,
         })
     }
 
-    /// The image of a cell, and what it does not show.
+    /// Draws a cell. Returns its image, and notes on what it does not show.
     fn image(
         &self,
         cells: &Cells,
@@ -225,16 +231,16 @@ impl<'a> Sheet<'a> {
         result: &CellResult,
         extent: &Extent,
     ) -> Result<(Image, Vec<String>), String> {
-        let Some(seen) = &result.seen else {
+        let Some(cell) = &result.scene else {
             return Err(result.error.clone().unwrap_or_else(|| "not run".to_owned()));
         };
-        seen.extent.as_ref().map_err(String::clone)?;
-        let again;
-        let scene = if let Some(scene) = &seen.scene {
+        cell.extent.as_ref().map_err(String::clone)?;
+        let recomputed;
+        let scene = if let Some(scene) = &cell.scene {
             scene
         } else {
-            again = cells.scene(i)?;
-            &again
+            recomputed = cells.scene(i)?;
+            &recomputed
         };
         let drawn = self
             .picture
@@ -243,23 +249,23 @@ impl<'a> Sheet<'a> {
         Ok((images.remove(0), notes))
     }
 
-    /// The path of the sheet.
+    /// Returns the path of the sheet.
     pub(super) fn path(&self) -> &'a Path {
         self.args.sheet.as_deref().unwrap_or(Path::new("sheet.png"))
     }
 }
 
-/// The sheet with a legend to its right.
+/// Adds a legend to the right of the sheet.
 fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Image, PictureError> {
-    /// What the corner keeps free beside the legend, in pixels.
-    const FREE: f64 = 20.0;
+    /// Margin beside the legend, in pixels.
+    const MARGIN: f64 = 20.0;
     let figure = legend_figure(legend);
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a legend is no larger than its words"
+        reason = "the size of a legend is positive and limited by its text"
     )]
-    let [width, height] = [figure.width, figure.height].map(|side| (side + FREE).ceil() as u32);
+    let [width, height] = [figure.width, figure.height].map(|side| (side + MARGIN).ceil() as u32);
     let mut wide = Image::filled(
         sheet.width.saturating_add(width),
         sheet.height.max(height),
@@ -273,20 +279,20 @@ fn with_legend(sheet: &Image, legend: &Legend, background: Color) -> Result<Imag
     Ok(wide)
 }
 
-/// How much of the budget scenes may take that wait to be drawn; runs get the rest.
+/// Returns the part of the memory budget for scenes that wait to be drawn. Runs use the rest.
 pub(super) fn kept_bytes(budget: u64) -> u64 {
     budget / 4
 }
 
-/// Where cells stand on a sheet, in their order from left to right and from top to bottom.
+/// The places of cells on a sheet, in order from left to right and from top to bottom.
 struct Layout {
     columns: usize,
-    /// The values that rows and columns share, if those are all that change; else none.
+    /// The labels of rows and columns, if exactly two parameters vary; otherwise empty.
     heads: [Vec<String>; 2],
 }
 
-/// A row is not broken up to here.
-const LONG_ROW: usize = 6;
+/// Up to this number, cells are placed in one row.
+const MAX_SINGLE_ROW: usize = 6;
 
 impl Layout {
     fn of(plan: &Plan, columns: Option<u32>) -> Self {
@@ -297,17 +303,17 @@ impl Layout {
         let columns = match (columns, &changing[..]) {
             (Some(columns), _) => columns as usize,
             (None, [rows, columns]) => {
-                // The last one changes first.
+                // The last parameter changes fastest.
                 let row = |i: usize| values(plan, rows, i * columns.len).join(", ");
                 let column = |i: usize| values(plan, columns, i).join(", ");
                 heads[0].extend((0..rows.len).map(row));
                 heads[1].extend((0..columns.len).map(column));
                 columns.len
             }
-            (None, [.., last]) if changing.len() > 2 && last.len <= 2 * LONG_ROW => last.len,
+            (None, [.., last]) if changing.len() > 2 && last.len <= 2 * MAX_SINGLE_ROW => last.len,
             _ => {
-                // As square as a long list can be, in rows of one length.
-                let widest = LONG_ROW.max(n.isqrt());
+                // A long list becomes nearly square, with rows of equal length.
+                let widest = MAX_SINGLE_ROW.max(n.isqrt());
                 n.div_ceil(n.div_ceil(widest).max(1))
             }
         };
@@ -319,22 +325,22 @@ impl Layout {
         Heads { columns, rows }
     }
 
-    /// What stands below a cell: its values, unless they are heads, and what is kept of it, as much as fits. Times
-    /// do not: they are others in each run.
+    /// Returns the text below a cell: its parameter values, unless they are labels of rows and columns, and its values
+    /// of `keep` that fit. Times are left out, since they differ between runs.
     fn caption(&self, plan: &Plan, cell: usize, result: &CellResult, width: u32) -> String {
         let style = SheetStyle::default();
         let (size, room) = (f64::from(style.letters), f64::from(width + style.gap / 2));
-        let fill = |parts: &[String], most: usize| {
+        let fill = |parts: &[String], max_lines: usize| {
             let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
             let mut lines = filled(&parts, ", ", Font::Plain, size, room);
-            lines.truncate(most);
+            lines.truncate(max_lines);
             lines
         };
         let mut lines = Vec::new();
         if self.heads[0].is_empty() {
             let changing = plan.grid.axes.iter().filter(|axis| axis.len > 1);
             let parts: Vec<String> = changing.flat_map(|a| values(plan, a, cell)).collect();
-            lines = fill(&parts, LINES[0]);
+            lines = fill(&parts, MAX_LINES[0]);
         }
         let Some(measures) = &result.measures else {
             return lines.join("\n");
@@ -345,15 +351,15 @@ impl Layout {
             .filter(|(((metric, _), _), _)| !matches!(metric, Metric::Seconds))
             .map(|((_, name), measured)| format!("{name} {}", short(&measured.to_string())))
             .collect();
-        // What is too long for a line says nothing when it is shortened.
+        // Values that are too long for a line are left out, not shortened.
         let fits = |part: &&String| fill(&[(*part).clone()], 1) == [(*part).clone()];
         let parts: Vec<String> = parts.iter().filter(fits).cloned().collect();
-        lines.extend(fill(&parts, LINES[1]));
+        lines.extend(fill(&parts, MAX_LINES[1]));
         lines.join("\n")
     }
 }
 
-/// The values of parameters in a cell, as in `size = 0.5`.
+/// Formats the values of an axis in a cell, such as `size = 0.5`.
 fn values(plan: &Plan, axis: &Axis, cell: usize) -> Vec<String> {
     let grid = &plan.grid;
     let settings = &grid.cells[cell][axis.parameters.clone()];

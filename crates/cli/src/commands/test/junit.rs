@@ -1,13 +1,13 @@
-//! Results of tests as JUnit XML, which servers that build and test software read.
+//! Writes test results as JUnit XML, which CI servers read.
 //!
-//! There is one suite, `recipes`. Each recipe is a test case with its path as name and its folder as class. The text of a
-//! failure is what a terminal shows.
+//! There is one suite, `recipes`. Each recipe is a test case, with its path as name and its folder as class. The text of
+//! a failure is the same as on a terminal.
 
 use std::path::Path;
 
 use super::{State, Test, TestResult};
 
-/// The results as text.
+/// Returns the results as XML.
 pub(super) fn report(tests: &[Test], results: &[TestResult]) -> String {
     let cases: String = tests.iter().zip(results).map(|(t, r)| case(t, r)).collect();
     let count = |is: fn(State) -> bool| results.iter().filter(|r| is(r.state)).count();
@@ -26,12 +26,12 @@ pub(super) fn report(tests: &[Test], results: &[TestResult]) -> String {
 }
 
 fn case(test: &Test, result: &TestResult) -> String {
-    let skipped = |why: &str| format!(r#"<skipped message="{why}"/>"#);
+    let skipped = |reason: &str| format!(r#"<skipped message="{reason}"/>"#);
     let outcome = match result.state {
         State::Passed => String::new(),
         State::Failed => failure(test, result),
         State::NoExpectations => skipped("no expectations"),
-        State::Called => skipped("called by others"),
+        State::Called => skipped("called by other recipes"),
         State::NotRun => skipped("interrupted"),
     };
     let path = &test.found.path;
@@ -55,7 +55,7 @@ fn failure(test: &Test, result: &TestResult) -> String {
     format!(r#"<failure message="{message}">{text}</failure>"#)
 }
 
-/// The text as XML, in an attribute or between tags. Characters that XML does not allow are left out.
+/// Escapes a text for an XML attribute or for XML content. Removes characters that XML does not allow.
 fn escaped(text: &str) -> String {
     let mut xml = String::with_capacity(text.len());
     for c in text.chars() {
@@ -64,7 +64,7 @@ fn escaped(text: &str) -> String {
             '<' => xml += "&lt;",
             '>' => xml += "&gt;",
             '"' => xml += "&quot;",
-            // An attribute would read them as blanks.
+            // In attributes, XML parsers replace these characters by spaces.
             '\t' | '\n' | '\r' => xml += &format!("&#{};", u32::from(c)),
             '\0'..='\x1f' | '\u{fffe}' | '\u{ffff}' => {}
             c => xml.push(c),

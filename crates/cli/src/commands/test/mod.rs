@@ -1,24 +1,23 @@
 //! `meshwright test`: runs recipes as tests, several at once.
 //!
-//! A line for each recipe, in the order of their paths, and a summary; or with `--format json` one
-//! object:
+//! Prints a line for each recipe, in the order of their paths, and a summary. With `--format json`, prints one object:
 //!
 //! ```text
 //! {
-//!   "succeeded": true,            none failed, none was left out by Ctrl-C
+//!   "succeeded": true,            at least one passed, none failed, Ctrl-C was not pressed
 //!   "passed": 1, "failed": 0,
-//!   "no_expectations": 1,         read, and not run
-//!   "called_by_others": 0,        read, and not run by themselves
+//!   "no_expectations": 1,         checked, but not run
+//!   "called_by_others": 0,        called by other recipes, and not run by themselves
 //!   "not_run": 0,                 because of Ctrl-C
 //!   "recipes": [{
 //!     "recipe": "scenes/a.ron",
 //!     "state": "passed",          or "failed", "no expectations", "called by others", "not run"
-//!     "expectations": 3,          how many were held against the scene
-//!     "digest": "..",             of the scene at the end; null if it was not run
+//!     "expectations": 3,          the number of expectations that were checked
+//!     "digest": "..",             of the final scene; null if the recipe was not run
 //!     "milliseconds": 12.5,
-//!     "changes": ["scenes/a.ron:7: Faces(eq: 4) -> 6"],          what --update has written
+//!     "changes": ["scenes/a.ron:7: Faces(eq: 4) -> 6"],          made by --update
 //!     "failures": [{"severity": "error", "line": 4, "column": 9, "message": "..", "help": null}],
-//!     "pictures": ["a-error-1.png"]                               of failures, with --picture-errors
+//!     "pictures": ["a-error-1.png"]                               pictures of failures, with --picture-errors
 //!   }]
 //! }
 //! ```
@@ -35,18 +34,20 @@ use engine::{Engine, Loaded, Run};
 use recipe::Diagnostic;
 use serde_json::{Value as Json, json};
 
-use super::test_update::renew;
+use super::test_update::update_recorded_values;
 use crate::args::{Format, TestArgs, ValueArgs};
 use crate::cache;
-use crate::listener::{QUIET, catch_interrupts};
+use crate::listener::{INTERRUPT, catch_interrupts};
 use crate::loading::{RecipeFile, load_text, recipes};
-use crate::many::{Ended, all, in_order, interrupted};
-use crate::output::{complain, counted, print, print_json, problems_json, show, write_whole};
-use crate::picture_errors::{Pictures, Picturing};
+use crate::many::{JobResult, error_message, run_all, run_in_order};
+use crate::output::{
+    counted, print, print_diagnostics, print_error, print_json, problems_json, write_atomically,
+};
+use crate::picture_errors::{PictureListener, Pictures};
 
 pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     let recipes = recipes(&args.paths)?;
-    ensure!(!recipes.is_empty(), "there are no recipes (*.ron) to test");
+    ensure!(!recipes.is_empty(), "found no recipes (*.ron) to test");
     catch_interrupts();
     let tests = tests(&recipes, args, engine)?;
     let cache = cache::open(&args.cache)?;
@@ -54,7 +55,7 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     let run = |i: usize| tests[i].run(args, cache.as_ref());
     let bytes = |i: usize| tests[i].bytes();
     let (mut results, mut printed) = (Vec::new(), Ok(()));
-    in_order(tests.len(), args.many.limits(), bytes, run, |i, end| {
+    run_in_order(tests.len(), args.many.limits(), bytes, run, |i, end| {
         let result = end.unwrap_or_else(|panicked| TestResult {
             state: match panicked {
                 Some(_) => State::Failed,
@@ -70,11 +71,11 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
     })?;
     printed?;
     if let Some(problem) = cache.as_ref().and_then(Cache::problem) {
-        complain(&cache::warning(problem));
+        print_error(&cache::warning(problem));
     }
 
     if let Some(path) = &args.junit {
-        write_whole(path, junit::report(&tests, &results).as_bytes())?;
+        write_atomically(path, junit::report(&tests, &results).as_bytes())?;
     }
     let count = |state: State| results.iter().filter(|r| r.state == state).count();
     let (failed, not_run) = (count(State::Failed), count(State::NotRun));
@@ -97,7 +98,7 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
             summary += &format!(", {unexpecting} without expectations");
         }
         if called > 0 {
-            summary += &format!(", {called} called by others");
+            summary += &format!(", {called} called by other recipes");
         }
         if not_run > 0 {
             summary += &format!(", {not_run} not run: interrupted");
@@ -105,20 +106,20 @@ pub(crate) fn run(args: &TestArgs, engine: &Engine) -> anyhow::Result<bool> {
         print(&format!("{summary}\n"))?;
     }
     if passed + failed + not_run == 0 {
-        complain(
-            "error: nothing was tested: no recipe has expectations, or others call all that have\n",
+        print_error(
+            "error: nothing was tested: each recipe either has no expectations or is called by other recipes\n",
         );
     }
     Ok(failed == 0 && not_run == 0 && passed > 0)
 }
 
-/// Reads and checks the recipes, and chooses those that were asked for.
+/// Reads and checks the recipes, and keeps those that the filter selects.
 fn tests<'a>(
     recipes: &'a [RecipeFile],
     args: &TestArgs,
     engine: &Engine,
 ) -> anyhow::Result<Vec<Test<'a>>> {
-    let loaded = all(recipes.len(), args.many.limits(), |i| {
+    let loaded = run_all(recipes.len(), args.many.limits(), |i| {
         load(&recipes[i], args, engine)
     })?;
     let made = recipes.iter().zip(loaded);
@@ -134,10 +135,10 @@ fn tests<'a>(
     }
     if let Some(filter) = &args.filter {
         tests.retain(|test| test.found.path.to_string_lossy().contains(filter));
-        let n = recipes.len();
+        let found = counted(recipes.len(), "recipe");
         ensure!(
             !tests.is_empty(),
-            "none of {n} recipes has \"{filter}\" in its path"
+            "no recipe with \"{filter}\" in its path, of {found} found"
         );
     }
     if let Some(out) = &args.out {
@@ -145,7 +146,7 @@ fn tests<'a>(
         for Test { found, .. } in &tests {
             if let Some(other) = owners.insert(&found.own_folder, &found.path) {
                 anyhow::bail!(
-                    "{} and {} would both write into {}: test them one after the other",
+                    "{} and {} would both write to the folder {}: test them in separate runs",
                     other.display(),
                     found.path.display(),
                     out.join(&found.own_folder).display()
@@ -174,15 +175,15 @@ fn load(found: &RecipeFile, args: &TestArgs, engine: &Engine) -> anyhow::Result<
 /// A recipe to test.
 struct Test<'a> {
     found: &'a RecipeFile,
-    /// What runs it; or why it cannot even be read.
+    /// The loaded recipe, or an error if it cannot be read.
     loaded: Result<Loaded, String>,
-    /// Whether it was found beside recipes that call it, which hold its expectations then.
+    /// Whether other tested recipes call this recipe, and so test it.
     is_part: bool,
 }
 
 impl<'a> Test<'a> {
-    fn new(found: &'a RecipeFile, loaded: Ended<anyhow::Result<Loaded>>) -> Self {
-        let loaded = loaded.map_err(interrupted);
+    fn new(found: &'a RecipeFile, loaded: JobResult<anyhow::Result<Loaded>>) -> Self {
+        let loaded = loaded.map_err(error_message);
         Self {
             found,
             loaded: loaded.and_then(|loaded| loaded.map_err(|error| format!("{error:#}"))),
@@ -190,7 +191,7 @@ impl<'a> Test<'a> {
         }
     }
 
-    /// The recipe that can run, if it can and should.
+    /// Returns the recipe if it can and should be run.
     fn to_run(&self) -> Option<&Loaded> {
         let loaded = self.loaded.as_ref().ok()?;
         let runs = !loaded.has_errors() && !self.is_part && expects(loaded);
@@ -207,7 +208,7 @@ impl<'a> Test<'a> {
             Ok(loaded) => loaded,
             Err(message) => return TestResult::failed(&[], Some(message.clone())),
         };
-        // What a part of other recipes needs from them is missing when it is checked alone.
+        // A recipe that others call may need their objects, so errors of checking it alone are ignored.
         if loaded.is_read && (self.is_part || !expects(loaded)) {
             let state = if self.is_part {
                 State::Called
@@ -223,17 +224,17 @@ impl<'a> Test<'a> {
             return TestResult::failed(&loaded.diagnostics, None);
         }
         let pictures = if args.update {
-            // What it mends is no failure.
+            // Failures that the update fixes are not drawn.
             Pictures::default()
         } else {
             let name = &self.found.own_folder;
             args.picture_errors.named(name, loaded.budget)
         };
-        let listener = Picturing {
-            listener: &QUIET,
+        let listener = PictureListener {
+            listener: &INTERRUPT,
             pictures: &pictures,
         };
-        let caching = cache.map(|cache| cache::using(cache, &self.found.path));
+        let caching = cache.map(|cache| cache::caching_for(cache, &self.found.path));
         let run = Run {
             keep_outputs: args.out.is_some(),
             cache: caching.as_ref().map(|caching| caching as _),
@@ -241,7 +242,7 @@ impl<'a> Test<'a> {
         let mut outcome = loaded.run(run, &listener);
         let mut changes = Vec::new();
         if args.update {
-            match renew(&self.found.path, loaded, &mut outcome) {
+            match update_recorded_values(&self.found.path, loaded, &mut outcome) {
                 Ok(lines) => changes = lines,
                 Err(error) => {
                     return TestResult::failed(&outcome.failures, Some(format!("{error:#}")));
@@ -265,7 +266,7 @@ impl<'a> Test<'a> {
         }
     }
 
-    /// Prints the line of the recipe, and what is wrong with it.
+    /// Prints the line of the recipe, and its errors.
     fn show(&self, result: &TestResult) -> anyhow::Result<()> {
         let path = self.found.path.display();
         let word = match result.state {
@@ -275,13 +276,13 @@ impl<'a> Test<'a> {
         };
         let rest = match (result.state, &result.digest) {
             (State::NoExpectations, _) => " (no expectations, not run)".to_owned(),
-            (State::Called, _) => " (a part that others call, not run)".to_owned(),
+            (State::Called, _) => " (called by other recipes, not run)".to_owned(),
             (State::NotRun, _) => " (not run)".to_owned(),
             (_, None) => String::new(),
             (_, Some(digest)) => {
                 let (n, time) = (result.expectations, result.time.as_secs_f64() * 1e3);
-                let held = counted(n, "expectation");
-                format!(" ({held}, {time:.0} ms, digest {digest})")
+                let expectations = counted(n, "expectation");
+                format!(" ({expectations}, {time:.0} ms, digest {digest})")
             }
         };
         for line in &result.changes {
@@ -289,12 +290,12 @@ impl<'a> Test<'a> {
         }
         print(&format!("{word} {path}{rest}\n"))?;
         if let Some(message) = &result.message {
-            complain(&format!("error: {message}\n"));
+            print_error(&format!("error: {message}\n"));
         }
         if let Ok(loaded) = &self.loaded {
-            show(loaded, &result.diagnostics);
+            print_diagnostics(loaded, &result.diagnostics);
         }
-        result.pictures.tell();
+        result.pictures.print_list();
         Ok(())
     }
 
@@ -319,7 +320,7 @@ impl<'a> Test<'a> {
     }
 }
 
-/// Whether the recipe says what must come out, or what must be refused.
+/// Whether the recipe has expectations, or steps that must be refused.
 fn expects(loaded: &Loaded) -> bool {
     let recipe = &loaded.recipe;
     !recipe.expectations.is_empty() || recipe.steps.iter().any(|step| step.refused.is_some())
@@ -351,23 +352,23 @@ impl State {
 #[derive(Default)]
 struct TestResult {
     state: State,
-    /// How many expectations were held against the scene.
+    /// The number of expectations that were checked.
     expectations: usize,
-    /// The digest of the scene at the end, if the recipe was run.
+    /// The digest of the final scene, if the recipe was run.
     digest: Option<String>,
     time: Duration,
-    /// What was written anew in the recipe, a line each.
+    /// The changes that `--update` made, one line for each.
     changes: Vec<String>,
-    /// What is wrong with the recipe or with what it made.
+    /// The problems of the recipe or of its run.
     diagnostics: Vec<Diagnostic>,
-    /// What is wrong beside that.
+    /// An error that is not a diagnostic of the recipe.
     message: Option<String>,
-    /// The pictures of what is wrong.
+    /// The pictures of the failures.
     pictures: Pictures,
 }
 
 impl TestResult {
-    /// A recipe that was not run.
+    /// Returns the result of a recipe that could not be run or updated.
     fn failed(diagnostics: &[Diagnostic], message: Option<String>) -> Self {
         Self {
             diagnostics: diagnostics.to_vec(),

@@ -40,7 +40,7 @@ fn keeps(scene: &Scene, eq: Option<u64>, max: Option<u64>) -> bool {
     };
     let files = Files::default();
     symmetric
-        .hold(Subject {
+        .check(Subject {
             scene,
             on: None,
             files: &files,

@@ -1,4 +1,4 @@
-//! Blobs: the long arrays of scenes, and the files that steps have written.
+//! Blobs: files with the long arrays of scenes, or with the output files of steps.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -8,14 +8,14 @@ use scene::{Arrays, Scene};
 use serde::{Deserialize, Serialize};
 
 use crate::folder::{
-    Folder, Hash, Kind, Unusable, copy_hashed, hash, hash_rest, open, open_own, read_hashed,
+    Folder, Hash, Kind, Unusable, copy_hashed, hash, hash_rest, open, open_cache_file, read_hashed,
     unreadable,
 };
 
-/// Arrays of fewer bytes stand in the record itself.
-const LONG: usize = 1 << 14;
+/// Arrays of fewer bytes are stored in the record itself.
+const MIN_BLOB_LEN: usize = 1 << 14;
 
-/// The name of a blob.
+/// A reference to a blob: the digest and the length of its content.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct BlobRef {
     pub(crate) hash: Hash,
@@ -25,7 +25,7 @@ pub(crate) struct BlobRef {
 /// A scene whose long arrays are blobs.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct SceneRef {
-    /// The canonical form without the long arrays.
+    /// The canonical encoding without the long arrays.
     #[serde(with = "serde_bytes")]
     pub(crate) rest: Vec<u8>,
     pub(crate) arrays: Vec<BlobRef>,
@@ -35,7 +35,7 @@ pub(crate) struct SceneRef {
 pub(crate) fn store_scene(folder: &Folder, scene: &Scene) -> Option<SceneRef> {
     let mut arrays = Vec::new();
     let mut stored = true;
-    let rest = scene.encode_apart(LONG, &mut |bytes| {
+    let rest = scene.encode_apart(MIN_BLOB_LEN, &mut |bytes| {
         let blob = BlobRef {
             hash: hash(bytes),
             len: bytes.len() as u64,
@@ -46,34 +46,34 @@ pub(crate) fn store_scene(folder: &Folder, scene: &Scene) -> Option<SceneRef> {
     stored.then_some(SceneRef { rest, arrays })
 }
 
-/// Brings a scene back. What is damaged is removed.
+/// Loads a scene. Damaged blobs are removed.
 pub(crate) fn load_scene(folder: &Folder, scene: &SceneRef) -> Result<Scene, Unusable> {
-    let mut arrays = Stored {
+    let mut arrays = StoredArrays {
         folder,
-        left: &scene.arrays,
+        remaining: &scene.arrays,
         failed: None,
     };
-    let decoded = Scene::decode(&scene.rest, LONG, &mut arrays);
+    let decoded = Scene::decode(&scene.rest, MIN_BLOB_LEN, &mut arrays);
     decoded.map_err(|error| {
         let failed = arrays.failed.take();
         failed.unwrap_or_else(|| Unusable::Damaged(error.to_string()))
     })
 }
 
-struct Stored<'a> {
+struct StoredArrays<'a> {
     folder: &'a Folder,
-    left: &'a [BlobRef],
+    remaining: &'a [BlobRef],
     failed: Option<Unusable>,
 }
 
-impl Arrays for Stored<'_> {
+impl Arrays for StoredArrays<'_> {
     fn next_len(&self) -> Option<u64> {
-        self.left.first().map(|blob| blob.len)
+        self.remaining.first().map(|blob| blob.len)
     }
 
     fn read(&mut self, bytes: &mut [u8]) -> Result<(), String> {
-        let (blob, left) = self.left.split_first().ok_or("there is no further array")?;
-        self.left = left;
+        let (blob, remaining) = self.remaining.split_first().ok_or("an array is missing")?;
+        self.remaining = remaining;
         load_bytes(self.folder, blob, bytes).map_err(|why| {
             self.failed = Some(why);
             "an array cannot be read".to_owned()
@@ -90,25 +90,25 @@ fn store_bytes(folder: &Folder, blob: BlobRef, bytes: &[u8]) -> bool {
         })
 }
 
-/// Whether a blob is stored already. Its content is looked at when it is read.
+/// Whether a blob is already stored. If so, marks it as used. Its content is checked only when it is read.
 fn is_stored(folder: &Folder, blob: &BlobRef) -> bool {
-    let is_there = seems_there(folder, blob);
-    if is_there {
+    let exists = exists(folder, blob);
+    if exists {
         Folder::touch(&folder.path(Kind::Blob, &blob.hash));
     }
-    is_there
+    exists
 }
 
 fn load_bytes(folder: &Folder, blob: &BlobRef, into: &mut [u8]) -> Result<(), Unusable> {
     let path = folder.path(Kind::Blob, &blob.hash);
     let read = open_blob(&path, blob).and_then(|mut file| {
         let found = read_hashed(&mut file, into).map_err(unreadable)?;
-        matches(blob, (found, into.len() as u64))
+        check_content(blob, (found, into.len() as u64))
     });
-    done_with(&path, read)
+    touch_or_discard(&path, read)
 }
 
-/// Stores a file that a step has written. `None` if it cannot be read or stored.
+/// Stores an output file of a step. `None` if it cannot be read or stored.
 pub(crate) fn store_file(folder: &Folder, path: &Path) -> Option<BlobRef> {
     let (mut file, _) = open(path).ok()?;
     let (hash, len) = hash_rest(&mut file).ok()?;
@@ -122,22 +122,22 @@ pub(crate) fn store_file(folder: &Folder, path: &Path) -> Option<BlobRef> {
     (is_stored(folder, &blob) || folder.write(&to, copy)).then_some(blob)
 }
 
-/// Whether a blob seems to be there, without reading it.
-pub(crate) fn seems_there(folder: &Folder, blob: &BlobRef) -> bool {
+/// Whether a blob exists and has the right length. Does not read it.
+pub(crate) fn exists(folder: &Folder, blob: &BlobRef) -> bool {
     let path = folder.path(Kind::Blob, &blob.hash);
     fs::symlink_metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() == blob.len)
 }
 
-/// Writes a blob to a file. After an error there is none.
+/// Writes a blob to a file. Leaves no file if it fails.
 pub(crate) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result<(), Unusable> {
     let path = folder.path(Kind::Blob, &blob.hash);
     let mut file = open_blob(&path, blob)?;
     let written = |error: io::Error| Unusable::Damaged(format!("{}: {error}", to.display()));
     let mut out = File::create(to).map_err(written)?;
     let mut failed = None;
-    // No more than was stored, even if the file grows meanwhile.
+    // Copies no more bytes than were stored, even if another process extends the file.
     let copied = copy_hashed(&mut (&mut file).take(blob.len), |piece| {
-        // The cache is not to blame for what happens here.
+        // A failure to write must not count as a damaged blob.
         let done = out.write_all(piece);
         done.inspect_err(|error| failed = Some(error.to_string()))
     });
@@ -147,31 +147,33 @@ pub(crate) fn restore_file(folder: &Folder, blob: &BlobRef, to: &Path) -> Result
     }
     let restored = copied
         .map_err(unreadable)
-        .and_then(|copied| matches(blob, copied));
+        .and_then(|copied| check_content(blob, copied));
     if restored.is_err() {
         Folder::discard(to);
     }
-    done_with(&path, restored)
+    touch_or_discard(&path, restored)
 }
 
 fn open_blob(path: &Path, blob: &BlobRef) -> Result<File, Unusable> {
-    match open_own(path) {
+    match open_cache_file(path) {
         Ok((file, len)) if len == blob.len => Ok(file),
-        Ok(_) => done_with(path, Err(Unusable::Damaged("it has another length".into()))),
+        Ok(_) => touch_or_discard(path, Err(Unusable::Damaged("its length is wrong".into()))),
         Err(error) => Err(error),
     }
 }
 
-fn matches(blob: &BlobRef, found: (Hash, u64)) -> Result<(), Unusable> {
+fn check_content(blob: &BlobRef, found: (Hash, u64)) -> Result<(), Unusable> {
     if found == (blob.hash, blob.len) {
         Ok(())
     } else {
-        Err(Unusable::Damaged("its content has changed".to_owned()))
+        Err(Unusable::Damaged(
+            "its content does not match its digest".to_owned(),
+        ))
     }
 }
 
-/// Removes a blob that is damaged.
-fn done_with<T>(path: &Path, result: Result<T, Unusable>) -> Result<T, Unusable> {
+/// Marks a blob as used, or removes it if it is damaged.
+fn touch_or_discard<T>(path: &Path, result: Result<T, Unusable>) -> Result<T, Unusable> {
     match &result {
         Ok(_) => _ = Folder::touch(path),
         Err(Unusable::Damaged(_)) => Folder::discard(path),

@@ -1,4 +1,4 @@
-//! The size of a cache, and keeping it below its limit.
+//! Measures the size of a cache and keeps it below its limit.
 
 use std::fs::{self, DirEntry, Metadata, OpenOptions};
 use std::io::{self, Write};
@@ -8,10 +8,10 @@ use std::time::{Duration, SystemTime};
 use crate::CacheSize;
 use crate::folder::{Folder, Kind, Unusable, write_all};
 
-/// What a process leaves that was killed while it wrote is removed after this time.
-const LEFT: Duration = Duration::from_secs(3600);
-/// The file with what each run has added is written anew beyond this length, in bytes.
-const LONG: u64 = 1 << 16;
+/// Temporary files older than this were left by killed processes and are removed.
+const MAX_TEMPORARY_AGE: Duration = Duration::from_secs(3600);
+/// If the file `sizes` is longer than this, in bytes, it is replaced by a single total.
+const MAX_SIZES_LEN: u64 = 1 << 16;
 
 struct Entry {
     path: PathBuf,
@@ -20,13 +20,13 @@ struct Entry {
     used: SystemTime,
 }
 
-/// All files of the cache but those that are being written.
+/// Lists all files of the cache except those that are being written.
 fn entries(folder: &Folder) -> io::Result<Vec<Entry>> {
     let mut entries = Vec::new();
     for kind in Kind::ALL {
         for part in list(&folder.root().join(kind.name()))? {
             for file in list(&part.path())? {
-                // It may be gone by now.
+                // Another process may have removed the file.
                 if let Ok(meta) = file.metadata()
                     && meta.is_file()
                 {
@@ -47,7 +47,7 @@ fn modified(meta: &Metadata) -> SystemTime {
     meta.modified().unwrap_or(SystemTime::UNIX_EPOCH)
 }
 
-/// What is in a folder; nothing if there is no such folder.
+/// Lists a folder. A missing folder is empty.
 fn list(folder: &Path) -> io::Result<Vec<DirEntry>> {
     match fs::read_dir(folder) {
         Ok(found) => found.collect(),
@@ -82,7 +82,7 @@ pub(crate) fn clear(folder: &Folder) -> io::Result<CacheSize> {
     }
     remove(&sizes(folder))?;
     remove(&folder.key_file())?;
-    // What is not ours stays, and the folders that hold it.
+    // Files of others stay, and so do the folders that contain them.
     for kind in Kind::ALL {
         let kind = folder.root().join(kind.name());
         for part in list(&kind)? {
@@ -101,24 +101,24 @@ fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// The file that each run adds eight bytes to: how many bytes it has stored.
+/// Returns the path of the file to which each run appends the number of bytes that it has stored, as 8 bytes.
 fn sizes(folder: &Folder) -> PathBuf {
     folder.root().join("sizes")
 }
 
-/// Keeps the cache below its limit, if something was added since the last call. Failures are left to the next run.
+/// Keeps the cache below its limit, if something was stored since the last call. Ignores errors; the next run tries again.
 pub(crate) fn after_run(folder: &Folder, limit: u64) {
     let added = folder.take_written();
     if added > 0 {
-        let _ = account(folder, added, limit);
+        let _ = add_to_total(folder, added, limit);
     }
 }
 
-fn account(folder: &Folder, added: u64, limit: u64) -> io::Result<()> {
-    clean(&folder.temporary())?;
+fn add_to_total(folder: &Folder, added: u64, limit: u64) -> io::Result<()> {
+    remove_old_temporaries(&folder.temporary())?;
     let path = sizes(folder);
-    // What is longer, or no plain file, is written anew.
-    let before = Folder::read(&path, LONG);
+    // If the file is too long or not a regular file, it is replaced.
+    let before = Folder::read(&path, MAX_SIZES_LEN);
     if let Err(Unusable::Damaged(_)) = before {
         Folder::discard(&path);
     }
@@ -128,25 +128,25 @@ fn account(folder: &Folder, added: u64, limit: u64) -> io::Result<()> {
         runs.fold(added, u64::saturating_add)
     });
     if total.is_some_and(|total| total <= limit) {
-        // So few bytes are appended at once or not at all.
+        // An append of 8 bytes is atomic.
         let mut file = OpenOptions::new().append(true).create(true).open(&path)?;
         file.write_all(&added.to_le_bytes())?;
     } else {
-        let left = evict(folder, limit)?;
-        folder.write(&path, |file| write_all(file, &[&left.to_le_bytes()]));
+        let remaining = evict(folder, limit)?;
+        folder.write(&path, |file| write_all(file, &[&remaining.to_le_bytes()]));
         folder.take_written();
     }
     Ok(())
 }
 
-/// Removes what killed processes have left.
-fn clean(temporary: &Path) -> io::Result<()> {
+/// Removes temporary files that killed processes have left.
+fn remove_old_temporaries(temporary: &Path) -> io::Result<()> {
     let now = SystemTime::now();
     for file in list(temporary)? {
         let meta = file.metadata();
         if meta.is_ok_and(|meta| {
             now.duration_since(modified(&meta))
-                .is_ok_and(|age| age > LEFT)
+                .is_ok_and(|age| age > MAX_TEMPORARY_AGE)
         }) {
             remove(&file.path())?;
         }
@@ -154,8 +154,8 @@ fn clean(temporary: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// If the files take more than the limit, removes those that were not used for the longest time, down to nine
-/// tenths of it. Returns how many bytes are left.
+/// If the files exceed the limit, removes the least recently used ones until at most nine tenths of the limit remain.
+/// Returns the number of remaining bytes.
 fn evict(folder: &Folder, limit: u64) -> io::Result<u64> {
     let mut entries = entries(folder)?;
     let mut total: u64 = entries.iter().map(|e| e.len).sum();
@@ -178,7 +178,7 @@ fn evict(folder: &Folder, limit: u64) -> io::Result<u64> {
 mod tests {
     use super::*;
 
-    /// A cache of files of 1000 bytes, the first the one that was not used for the longest time.
+    /// Returns a cache with `n` files of 1000 bytes each, the least recently used one first.
     fn filled(n: u8) -> (tempfile::TempDir, Folder) {
         let temporary = tempfile::tempdir().unwrap();
         let folder = Folder::new(temporary.path().join("cache"));
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn over_the_limit_the_files_that_were_used_least_lately_go() {
+    fn over_the_limit_the_least_recently_used_files_are_removed() {
         let (_temporary, folder) = filled(10);
         after_run(&folder, 10_000);
         assert_eq!(size(&folder).unwrap().bytes, 10_000);
@@ -205,18 +205,21 @@ mod tests {
             ))
         );
         after_run(&folder, 10_000);
-        let left = size(&folder).unwrap();
-        assert_eq!((left.bytes, left.steps, left.blobs), (8003, 1, 8));
+        let remaining = size(&folder).unwrap();
+        assert_eq!(
+            (remaining.bytes, remaining.steps, remaining.blobs),
+            (8003, 1, 8)
+        );
         assert!(!folder.path(Kind::Blob, &[1; 32]).exists());
         assert!(folder.path(Kind::Blob, &[2; 32]).exists());
     }
 
     #[test]
-    fn files_are_listed_only_when_the_sum_is_over_the_limit() {
+    fn files_are_listed_only_if_the_recorded_total_exceeds_the_limit() {
         let (_temporary, folder) = filled(3);
         after_run(&folder, 10_000);
         assert_eq!(fs::read(sizes(&folder)).unwrap(), 3000_u64.to_le_bytes());
-        // Nobody has counted these.
+        // These files are not in the recorded total.
         for i in 100..120 {
             let path = folder.path(Kind::Blob, &[i; 32]);
             fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -235,21 +238,22 @@ mod tests {
     }
 
     #[test]
-    fn what_killed_processes_left_is_removed_after_a_while() {
+    fn old_temporary_files_are_removed() {
         let (_temporary, folder) = filled(1);
         let [old, new] = ["old", "new"].map(|name| folder.temporary().join(name));
         for path in [&old, &new] {
             fs::write(path, "half").unwrap();
         }
         let file = fs::File::options().write(true).open(&old).unwrap();
-        file.set_modified(SystemTime::now() - 2 * LEFT).unwrap();
+        file.set_modified(SystemTime::now() - 2 * MAX_TEMPORARY_AGE)
+            .unwrap();
         after_run(&folder, 10_000);
         assert!(!old.exists() && new.exists());
     }
 
     #[cfg(unix)]
     #[test]
-    fn sizes_that_are_a_link_to_a_device_are_not_read() {
+    fn a_link_in_place_of_the_sizes_file_is_replaced() {
         let (_temporary, folder) = filled(3);
         for target in ["/dev/zero", "/dev/full", "/nowhere"] {
             remove(&sizes(&folder)).unwrap();
@@ -266,11 +270,11 @@ mod tests {
     #[test]
     fn clearing_removes_what_was_stored_and_nothing_else() {
         let (_temporary, folder) = filled(4);
-        let mine = folder.root().join("blobs").join("mine");
-        fs::write(&mine, "x").unwrap();
+        let foreign = folder.root().join("blobs").join("mine");
+        fs::write(&foreign, "x").unwrap();
         assert_eq!(clear(&folder).unwrap().blobs, 4);
         assert_eq!(size(&folder).unwrap(), CacheSize::default());
-        assert!(mine.exists());
+        assert!(foreign.exists());
         assert_eq!(clear(&folder).unwrap(), CacheSize::default());
     }
 }

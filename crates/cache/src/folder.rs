@@ -1,4 +1,4 @@
-//! The files of a cache: their names, and writing and reading them whole.
+//! The files of a cache: their paths, and functions that read, write and hash them.
 
 use std::collections::hash_map::RandomState;
 use std::fs::{self, File, FileTimes};
@@ -12,12 +12,12 @@ use std::time::{Duration, SystemTime};
 /// A BLAKE3 digest.
 pub(crate) type Hash = [u8; 32];
 
-/// From this size on several threads read, write and hash, in pieces of this size.
+/// Larger files are read, written and hashed by several threads, in pieces of this size (in bytes).
 const PIECE: usize = 4 << 20;
-/// A file that was used is marked so again after this time.
-const FRESH: Duration = Duration::from_secs(3600);
+/// A file that was marked as used less than this time ago is not marked again.
+const TOUCH_INTERVAL: Duration = Duration::from_secs(3600);
 
-/// Kinds of files, each with a folder of its own.
+/// Kinds of files. Each kind has its own folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Step,
@@ -40,9 +40,9 @@ impl Kind {
 /// Why a file of the cache cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Unusable {
-    /// It is not there.
+    /// The file does not exist.
     Missing,
-    /// It is not what it was when it was stored, or cannot be read.
+    /// The file was changed after it was stored, or cannot be read; with the reason.
     Damaged(String),
 }
 
@@ -51,7 +51,7 @@ pub(crate) enum Unusable {
 pub(crate) struct Folder {
     root: PathBuf,
     problem: OnceLock<String>,
-    /// The bytes that were written and not yet counted.
+    /// The number of bytes written since the last [`take_written`](Self::take_written).
     written: AtomicU64,
 }
 
@@ -72,7 +72,7 @@ impl Folder {
         self.problem.get().map(String::as_str)
     }
 
-    /// The bytes that were written since the last call.
+    /// Returns the number of bytes written since the last call.
     pub(crate) fn take_written(&self) -> u64 {
         self.written.swap(0, Ordering::Relaxed)
     }
@@ -87,13 +87,13 @@ impl Folder {
         self.root.join("tmp")
     }
 
-    /// Writes a file whole or not at all, and returns whether it is there. The first failure is kept as the
-    /// problem, and nothing is written after it.
+    /// Writes a file, completely or not at all, and returns whether that succeeded. The first failure is kept as
+    /// [`problem`](Self::problem); after it, nothing more is written.
     pub(crate) fn write(&self, path: &Path, fill: impl Fn(&mut File) -> io::Result<u64>) -> bool {
         if self.problem.get().is_some() {
             return false;
         }
-        let once = || -> io::Result<u64> {
+        let try_write = || -> io::Result<u64> {
             let temporary = self.temporary();
             fs::create_dir_all(&temporary)?;
             let mut file = tempfile::NamedTempFile::new_in(temporary)?;
@@ -104,18 +104,18 @@ impl Folder {
             file.persist(path)?;
             Ok(n)
         };
-        // Once more: another process may just have cleared the folder.
-        let gone = |error: io::Error| match error.kind() {
-            io::ErrorKind::NotFound => once(),
+        // Another process may just have cleared the folder, so try again.
+        let retry = |error: io::Error| match error.kind() {
+            io::ErrorKind::NotFound => try_write(),
             _ => Err(error),
         };
-        match once().or_else(gone) {
+        match try_write().or_else(retry) {
             Ok(n) => {
                 self.written.fetch_add(n, Ordering::Relaxed);
                 true
             }
             Err(error) => {
-                // Without the name of the temporary file, which tells nothing.
+                // Without the name of the temporary file, which is of no use to the user.
                 let error = error.to_string();
                 let error = error.split(" at path ").next().unwrap_or_default();
                 let root = self.root.display();
@@ -126,61 +126,60 @@ impl Folder {
         }
     }
 
-    /// The file with the key of this cache.
+    /// Returns the path of the file with the key of this cache.
     pub(crate) fn key_file(&self) -> PathBuf {
         self.root.join("key")
     }
 
-    /// The key of this cache, which enters the digest of every record: random bytes that only the user can read. A
-    /// record that was edited elsewhere does not match its digest, even if the digest was computed anew. It is read
-    /// each time because another process may have cleared the folder.
+    /// Returns the key of this cache: random bytes that only the user can read and that enter the digest of every record.
+    /// So a record that someone without the key has edited is rejected, even if its digest was computed again. The key is
+    /// read each time, because another process may have cleared the folder.
     pub(crate) fn key(&self) -> Result<Hash, Unusable> {
         let path = self.key_file();
-        let key = Self::read(&path, size_of::<Hash>() as u64)
-            .and_then(|key| Hash::try_from(key).map_err(|_| Unusable::Damaged("no key".into())));
+        let key = Self::read(&path, size_of::<Hash>() as u64).and_then(|key| {
+            Hash::try_from(key).map_err(|_| Unusable::Damaged("it is not a key".into()))
+        });
         if let Err(Unusable::Damaged(_)) = key {
             Self::discard(&path);
         }
         key
     }
 
-    /// The key of this cache, which is made if there is none. `None` if it cannot be written.
+    /// Returns the key of this cache. If it does not exist, creates it. `None` if it cannot be written.
     pub(crate) fn key_or_new(&self) -> Option<Hash> {
         if let Ok(key) = self.key() {
             return Some(key);
         }
         self.write(&self.key_file(), |file| write_all(file, &[&random()]));
-        // Another process may have made one at the same time, and the later one stays.
+        // Read again: another process may have created a key at the same time, and the last one written is valid.
         self.key().ok()
     }
 
-    /// Reads a file of the cache of at most `most` bytes.
-    pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, Unusable> {
-        let (file, len) = open_own(path)?;
-        if len > most {
-            return Err(Unusable::Damaged(format!("it has {len} bytes")));
+    /// Reads a file of the cache of at most `max` bytes.
+    pub(crate) fn read(path: &Path, max: u64) -> Result<Vec<u8>, Unusable> {
+        let (file, len) = open_cache_file(path)?;
+        if len > max {
+            return Err(Unusable::Damaged(format!("it is too large: {len} bytes")));
         }
         let mut bytes = Vec::new();
-        file.take(most)
-            .read_to_end(&mut bytes)
-            .map_err(unreadable)?;
+        file.take(max).read_to_end(&mut bytes).map_err(unreadable)?;
         Ok(bytes)
     }
 
-    /// Removes a file that is no good.
+    /// Removes a file. Ignores errors: a damaged file that remains is detected again by its digest.
     pub(crate) fn discard(path: &Path) {
-        // If it cannot be removed, it is found damaged again.
         let _ = fs::remove_file(path);
     }
 
-    /// Marks a file as used now. Returns whether it was long ago that it was used before.
+    /// Marks a file as used, unless it was marked within [`TOUCH_INTERVAL`]. Returns whether it was not.
     pub(crate) fn touch(path: &Path) -> bool {
         let now = SystemTime::now();
         let Ok(file) = File::open(path) else {
             return false;
         };
         let modified = file.metadata().and_then(|meta| meta.modified());
-        let is_fresh = modified.is_ok_and(|at| now.duration_since(at).is_ok_and(|d| d < FRESH));
+        let is_fresh =
+            modified.is_ok_and(|at| now.duration_since(at).is_ok_and(|d| d < TOUCH_INTERVAL));
         if !is_fresh {
             let _ = file.set_times(FileTimes::new().set_modified(now));
         }
@@ -188,8 +187,8 @@ impl Folder {
     }
 }
 
-/// A file of the cache and its length. The cache makes no links, so a link is damage, wherever it leads.
-pub(crate) fn open_own(path: &Path) -> Result<(File, u64), Unusable> {
+/// Opens a file of the cache. Returns it with its length. The cache creates no links, so any link counts as damage.
+pub(crate) fn open_cache_file(path: &Path) -> Result<(File, u64), Unusable> {
     let meta = fs::symlink_metadata(path).map_err(unreadable)?;
     if meta.is_symlink() {
         return Err(Unusable::Damaged("it is a link".to_owned()));
@@ -197,11 +196,11 @@ pub(crate) fn open_own(path: &Path) -> Result<(File, u64), Unusable> {
     open(path)
 }
 
-/// A plain file and its length.
+/// Opens a regular file. Returns it with its length.
 pub(crate) fn open(path: &Path) -> Result<(File, u64), Unusable> {
     let meta = fs::metadata(path).map_err(unreadable)?;
     if !meta.is_file() {
-        return Err(Unusable::Damaged("it is no plain file".to_owned()));
+        return Err(Unusable::Damaged("it is not a regular file".to_owned()));
     }
     let file = File::open(path).map_err(unreadable)?;
     Ok((file, meta.len()))
@@ -215,7 +214,7 @@ pub(crate) fn unreadable(error: io::Error) -> Unusable {
     }
 }
 
-/// Random bytes: the standard library takes the keys of its hash tables from the system.
+/// Returns random bytes. They come from the hash keys of the standard library, which the operating system generates.
 fn random() -> Hash {
     let mut hasher = blake3::Hasher::new();
     for i in 0..4 {
@@ -231,7 +230,7 @@ pub(crate) fn hash(bytes: &[u8]) -> Hash {
 }
 
 fn update(hasher: &mut blake3::Hasher, bytes: &[u8]) {
-    // Threads help with long pieces only.
+    // More threads are faster only for long inputs.
     if bytes.len() < 1 << 17 {
         hasher.update(bytes);
     } else {
@@ -239,8 +238,7 @@ fn update(hasher: &mut blake3::Hasher, bytes: &[u8]) {
     }
 }
 
-/// Reads exactly as many bytes as `into` has, and returns their digest. While one piece is hashed, the next
-/// is read.
+/// Fills `into` from a file and returns the digest of the bytes. While one piece is hashed, the next one is read.
 pub(crate) fn read_hashed(file: &mut (impl Read + Send), into: &mut [u8]) -> io::Result<Hash> {
     let mut hasher = blake3::Hasher::new();
     let mut last: &[u8] = &[];
@@ -257,8 +255,8 @@ pub(crate) fn read_hashed(file: &mut (impl Read + Send), into: &mut [u8]) -> io:
     Ok(*hasher.finalize().as_bytes())
 }
 
-/// Copies a file to its end, or to `sink` as the case may be, and returns its digest and length. While one piece
-/// is hashed and written, the next is read.
+/// Reads a file to its end, passes its content to `sink`, and returns its digest and length. While one piece is hashed
+/// and written, the next one is read.
 pub(crate) fn copy_hashed(
     from: &mut (impl Read + Send),
     mut sink: impl FnMut(&[u8]) -> io::Result<()> + Send,
@@ -273,7 +271,7 @@ pub(crate) fn copy_hashed(
             sink(&full)?;
             update(&mut hasher, &full);
             full.clear();
-            // A short piece is not always the last one.
+            // A piece can be short without being the last one.
             read_piece(from, &mut full)?;
             continue;
         }
@@ -296,12 +294,12 @@ fn read_piece(from: &mut impl Read, piece: &mut Vec<u8>) -> io::Result<()> {
     from.take(PIECE as u64).read_to_end(piece).map(|_| ())
 }
 
-/// The digest and length of what is behind in a file.
+/// Returns the digest and the length of the rest of a file.
 pub(crate) fn hash_rest(file: &mut File) -> io::Result<(Hash, u64)> {
     copy_hashed(file, |_| Ok(()))
 }
 
-/// Writes bytes and returns how many.
+/// Writes the pieces and returns the number of bytes.
 pub(crate) fn write_all(file: &mut File, pieces: &[&[u8]]) -> io::Result<u64> {
     let mut n = 0;
     for piece in pieces {

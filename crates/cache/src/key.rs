@@ -1,25 +1,25 @@
-//! What a step is made of, and the digests that name it and the state behind it.
+//! The key of a step, the ingredients that it is computed from, and the state of a scene.
 
 use op::Refusal;
 use serde::{Deserialize, Serialize};
 
 use crate::folder::Hash;
-use crate::seen::FileState;
+use crate::inputs::FileState;
 use recipe::RecipeStep;
 
-/// The form of everything that is stored; another one never meets the files of this one.
-const FORM: &str = "meshwright step cache 1";
+/// The version of the storage format. It is part of every digest, so that other versions never find these files.
+const FORMAT: &str = "meshwright step cache 1";
 
-/// All that decides the result of a step before it runs.
+/// Everything that determines the result of a step before it runs.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Ingredients {
     pub(crate) program: String,
     pub(crate) operation: String,
     pub(crate) version: u32,
-    /// With every default written out.
+    /// The parameters in canonical form, with all defaults written out.
     pub(crate) parameters: String,
     pub(crate) on: Option<Vec<String>>,
-    /// The name that keys random choices.
+    /// The name that seeds random choices.
     pub(crate) stream: String,
     pub(crate) refused: Option<Refusal>,
     pub(crate) budget: u64,
@@ -27,16 +27,16 @@ pub(crate) struct Ingredients {
     pub(crate) before: State,
 }
 
-/// The key of a step: what its result is stored under.
+/// The key of a step, under which its records are stored.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Key(pub(crate) Hash);
 
-/// The state of a scene, by how it came to be.
+/// The identity of a scene, derived from the steps that produced it.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct State(pub(crate) Hash);
 
 impl Ingredients {
-    /// What a step is made of; `None` if it could not be read.
+    /// Returns the ingredients of a step; `None` if the step could not be read.
     pub(crate) fn of(step: &RecipeStep, program: &str, budget: u64, before: State) -> Option<Self> {
         let operation = step.step.as_ref()?;
         Some(Self {
@@ -58,32 +58,32 @@ impl Ingredients {
 }
 
 impl Key {
-    /// The state after a step that has read these files.
+    /// Returns the state after a step that has read these files.
     pub(crate) fn after(self, read: &[FileState]) -> State {
         let files: Vec<_> = read
             .iter()
-            .map(|file| (file.path.as_os_str().as_encoded_bytes(), file.seen))
+            .map(|file| (file.path.as_os_str().as_encoded_bytes(), file.state))
             .collect();
         State(digest("state", &(self, files)))
     }
 }
 
 impl State {
-    /// The state of an empty scene.
+    /// Returns the state of the empty scene at the start of a run.
     pub(crate) fn start() -> Self {
         Self(digest("start", &()))
     }
 
-    /// The state of a scene of which only the content is known.
+    /// Returns the state of a scene that is identified by its content, because the inputs of a step are unknown.
     pub(crate) fn of_scene(digest_of_scene: scene::Digest) -> Self {
         Self(digest("scene", &digest_of_scene.to_bytes()))
     }
 }
 
-/// The digest of plain data; `what` keeps different uses apart.
+/// Returns the digest of serialized data. `what` separates the digests of different kinds of data.
 pub(crate) fn digest(what: &str, data: &impl Serialize) -> Hash {
     let bytes = postcard::to_stdvec(data).expect("plain data of known lengths");
-    let mut hasher = blake3::Hasher::new_derive_key(FORM);
+    let mut hasher = blake3::Hasher::new_derive_key(FORMAT);
     hasher.update(&(what.len() as u64).to_le_bytes());
     hasher.update(what.as_bytes());
     hasher.update(&bytes);
@@ -95,9 +95,9 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::seen::Seen;
+    use crate::inputs::PathState;
 
-    fn made_of() -> Ingredients {
+    fn ingredients() -> Ingredients {
         Ingredients {
             program: "p".into(),
             operation: "Op".into(),
@@ -131,14 +131,14 @@ mod tests {
         let keys: BTreeSet<Hash> = changes
             .iter()
             .map(|change| {
-                let mut changed = made_of();
+                let mut changed = ingredients();
                 change(&mut changed);
                 changed.key().0
             })
             .collect();
         assert_eq!(keys.len(), changes.len());
-        // Text does not move from one part to another.
-        let (mut a, mut b) = (made_of(), made_of());
+        // The boundary between two fields matters.
+        let (mut a, mut b) = (ingredients(), ingredients());
         (a.program, a.operation) = ("pO".into(), "p".into());
         (b.program, b.operation) = ("p".into(), "Op".into());
         assert_ne!(a.key(), b.key());
@@ -146,20 +146,20 @@ mod tests {
 
     #[test]
     fn the_state_changes_with_every_file_that_was_read() {
-        let key = made_of().key();
-        let file = |path: &str, seen| FileState {
+        let key = ingredients().key();
+        let file = |path: &str, state| FileState {
             path: path.into(),
-            seen,
+            state,
         };
-        let a = || file("a", Seen::Content([1; 32]));
+        let a = || file("a", PathState::Content([1; 32]));
         let states = [
             key.after(&[]),
             key.after(&[a()]),
             key.after(&[a(), a()]),
-            key.after(&[file("b", Seen::Content([1; 32]))]),
-            key.after(&[file("a", Seen::Content([2; 32]))]),
-            key.after(&[file("a", Seen::Plain)]),
-            key.after(&[file("a", Seen::Nothing)]),
+            key.after(&[file("b", PathState::Content([1; 32]))]),
+            key.after(&[file("a", PathState::Content([2; 32]))]),
+            key.after(&[file("a", PathState::Exists)]),
+            key.after(&[file("a", PathState::Missing)]),
             State::start(),
         ];
         let different: BTreeSet<Hash> = states.iter().map(|state| state.0).collect();
@@ -168,13 +168,13 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn paths_that_are_no_text_are_told_apart() {
+    fn paths_that_are_not_unicode_have_different_keys() {
         use std::os::unix::ffi::OsStrExt;
         let file = |bytes: &[u8]| FileState {
             path: std::ffi::OsStr::from_bytes(bytes).into(),
-            seen: Seen::Plain,
+            state: PathState::Exists,
         };
-        let key = made_of().key();
+        let key = ingredients().key();
         assert_ne!(key.after(&[file(b"\xff")]), key.after(&[file(b"\xfe")]));
     }
 }

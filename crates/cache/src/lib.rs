@@ -1,46 +1,46 @@
-//! The cache of steps: what steps have made, by content, in a folder that several processes share.
+//! The step cache: stores the results of steps in a folder that several processes can share.
 //!
 //! ```text
-//! steps/ab/cdef..     what a step did, by its key: report, counts, files, and the scene as
-//! blobs/12/3456..     arrays and output files, each by the BLAKE3 of its content
-//! recipes/..          what the steps of the last run of a recipe were made of, to say what changed
+//! steps/ab/cdef..     the records of a step, by its key: report, counts, files, and references to blobs
+//! blobs/12/3456..     arrays of scenes and output files, each by the BLAKE3 digest of its content
+//! recipes/..          the key ingredients of the steps in the last run of a recipe, to explain what changed
 //! tmp/                files that are being written
-//! sizes               how many bytes each run has added
-//! key                 random bytes that enter the digests of records
+//! sizes               the number of bytes that each run has added
+//! key                 the secret key of the cache: random bytes that enter the digests of records
 //! ```
 //!
-//! **Keys.** The key of a step is the digest of all that it is made of before it runs: the
-//! program, the operation with its version and parameters, the objects, the name that keys random choices, the
-//! budget, and the state before it. The state after it is made of its key and of the contents of the files that it
-//! read, which are known when it has run, and looked at again before its result is taken. Times of files are
-//! not trusted.
+//! **Keys.** The key of a step is the digest of everything that determines its result before it runs: the program, the
+//! operation with its version and parameters, the objects in `on`, the name that seeds random choices, the memory budget,
+//! and the state before the step. The state after a step is the digest of its key and of the contents of the files that
+//! it read. These files are known only after the step has run; their contents are compared again before a cached result
+//! is used. Modification times are not trusted.
 //!
-//! **Trust.** Only plain files are read, no links and no more bytes than were stored. Every blob must match the digest
-//! that is its name, and every record its digest under the key of the cache, which only the user can read: a record that
-//! was edited is not taken, even if its digest was computed anew. A scene is only made of arrays
-//! that form one. What is damaged is removed and counts as not there. Files are written under a temporary
-//! name and renamed, so that neither a second process nor a killed one leaves half of one under its name; nothing is
-//! locked. A folder that cannot be written is told once, and the run goes on without it.
+//! **Integrity.** Only regular files are read, never links, and never more bytes than were stored. Every blob must match
+//! the digest in its name, and every record its digest, which depends on the secret key of the cache. Only the user can
+//! read that key, so an edited record is rejected even if its digest was computed again. The arrays of a scene are
+//! validated. A damaged file is removed and treated as missing. Files are written under a temporary name and then
+//! renamed, so that neither concurrent nor killed processes leave incomplete files; no locks are needed. If the folder
+//! cannot be written, this is reported once, and the run continues without storing anything.
 //!
-//! **What is kept.** The small part of a result is always kept, and scenes and files below [`SMALL`] bytes. A
-//! larger scene is kept when what was computed since the last kept one took longer than storing it takes, at
-//! [`SPEED`] bytes a second: so the cache at most about doubles the time of a first run, and never makes
-//! a later one compute more than storing would have cost. Large outputs are kept by the same measure, with
-//! the time that bringing back their scene takes. Equal arrays are stored once: a step that changes one
-//! attribute adds that attribute.
+//! **What is stored.** Records are always stored, and so are scenes and files of fewer than [`ALWAYS_STORED`] bytes. A
+//! larger scene is stored if the computation since the last stored scene took longer than storing the scene takes (at
+//! [`BYTES_PER_SECOND`]). So the cache at most about doubles the time of a first run, and a later run never spends more
+//! time on recomputing a scene than storing it would have taken. Large outputs are stored by the same rule, where the
+//! time includes that of loading their scene. Equal arrays are stored once: a step that changes one attribute adds only
+//! that attribute.
 //!
-//! **Size.** A run that has added something adds up what all runs have added. Over the limit, all files are listed
-//! and those that were not used for the longest time are removed, down to nine tenths of it.
+//! **Size.** Each run that has stored something adds up the bytes that all runs have added. If the sum exceeds the limit,
+//! all files are listed, and the least recently used ones are removed until nine tenths of the limit remain.
 
 mod blob;
 mod evict;
+mod expectations;
 mod folder;
-mod held;
+mod history;
+mod inputs;
 mod key;
 mod record;
-mod seen;
 mod session;
-mod why;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -49,14 +49,14 @@ use folder::Folder;
 use recipe::{CachedRun, StepCache};
 use session::Session;
 
-/// Scenes and files of fewer bytes are always kept.
-pub const SMALL: u64 = 1 << 20;
-/// How many bytes a second are hashed and written, in estimates.
-pub const SPEED: f64 = 1e9;
-/// The size of a cache unless told otherwise, in bytes.
-pub const LIMIT: u64 = 4 << 30;
+/// Scenes and files of fewer bytes are always stored.
+pub const ALWAYS_STORED: u64 = 1 << 20;
+/// The estimated rate, in bytes per second, at which results are hashed and written.
+pub const BYTES_PER_SECOND: f64 = 1e9;
+/// The default size limit of a cache, in bytes.
+pub const DEFAULT_LIMIT: u64 = 4 << 30;
 
-/// A folder of results of steps, for any number of runs at once.
+/// A folder that stores the results of steps. Any number of runs can use it at the same time.
 #[derive(Debug)]
 pub struct Cache {
     folder: Folder,
@@ -70,21 +70,21 @@ pub struct Cache {
 pub struct Caching<'a> {
     /// The cache.
     pub cache: &'a Cache,
-    /// The recipe's file, if it has one: what its steps are made of is kept, to tell in the next run what
-    /// has changed.
+    /// The file of the recipe, if it has one. The key ingredients of its steps are stored, so that the next run can
+    /// report what changed.
     pub recipe: Option<&'a Path>,
-    /// Whether [`Outcome::scene`](recipe::Outcome::scene) is wanted even where no step needs it.
+    /// Whether [`Outcome::scene`](recipe::Outcome::scene) must be available even if no step needs it.
     pub want_scene: bool,
 }
 
-/// What a cache holds.
+/// The size of a cache.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CacheSize {
-    /// The bytes of all files.
+    /// The size of all files in bytes.
     pub bytes: u64,
-    /// The number of steps.
+    /// The number of stored steps.
     pub steps: u64,
-    /// The number of arrays and output files.
+    /// The number of stored arrays and output files.
     pub blobs: u64,
 }
 
@@ -95,8 +95,8 @@ impl StepCache for Caching<'_> {
 }
 
 impl Cache {
-    /// The cache in `folder`, which is made when something is stored. It is kept below `limit` bytes. `program`
-    /// names the program with its version: results of another program are not taken.
+    /// Returns the cache in `folder`, which is created when something is stored. Its size is kept below `limit` bytes.
+    /// `program` identifies the program and its version: results of other programs are not used.
     pub fn new(folder: impl Into<PathBuf>, limit: u64, program: impl Into<String>) -> Self {
         Self {
             folder: Folder::new(folder.into()),
@@ -105,22 +105,22 @@ impl Cache {
         }
     }
 
-    /// The folder.
+    /// Returns the folder.
     pub fn folder(&self) -> &Path {
         self.folder.root()
     }
 
-    /// The limit in bytes.
+    /// Returns the size limit in bytes.
     pub fn limit(&self) -> u64 {
         self.limit
     }
 
-    /// Why nothing can be stored, once that was found.
+    /// Returns the problem that prevents the cache from storing anything, if one has occurred.
     pub fn problem(&self) -> Option<&str> {
         self.folder.problem()
     }
 
-    /// Lists all files and adds them up. A folder that is not there is empty.
+    /// Returns the size of all files. A missing folder counts as empty.
     ///
     /// # Errors
     ///
@@ -129,7 +129,7 @@ impl Cache {
         evict::size(&self.folder)
     }
 
-    /// Removes everything that the cache has stored, and nothing else, and returns what that was.
+    /// Removes everything that the cache has stored, and no other files. Returns the size of what was removed.
     ///
     /// # Errors
     ///

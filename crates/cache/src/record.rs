@@ -1,71 +1,71 @@
-//! The record of a step: what it did, small enough to be read for every step of every run.
+//! The record of a step: its result without long arrays and output files, so that it can be read quickly.
 
 use std::path::PathBuf;
 
-use recipe::Finding;
+use recipe::StepResult;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::blob::{BlobRef, SceneRef};
+use crate::expectations::MetExpectation;
 use crate::folder::{Folder, Hash, Kind, Unusable, write_all};
-use crate::held::Held;
+use crate::inputs::Inputs;
 use crate::key::Key;
-use crate::seen::Inputs;
 
 /// The first bytes of every file that is not a blob.
 const MAGIC: &[u8] = b"meshwright cache\n";
-/// No record is larger, in bytes.
-const MOST_BYTES: u64 = 1 << 26;
-/// So many results are kept for one key, which differ in the files that were read.
-const MOST_RESULTS: usize = 4;
+/// The maximum size of a record in bytes.
+const MAX_BYTES: u64 = 1 << 26;
+/// The maximum number of records for one key. They differ in the contents of the input files.
+const MAX_RECORDS: usize = 4;
 
-/// What a step did.
+/// The record of a step.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(crate) struct Record {
-    pub(crate) read: Inputs,
+    pub(crate) inputs: Inputs,
     pub(crate) outputs: Option<Outputs>,
-    pub(crate) finding: Finding,
-    /// Whether the scene is the one from before.
-    pub(crate) same: bool,
-    /// The scene after the step, if it is kept.
+    pub(crate) result: StepResult,
+    /// Whether the step left the scene unchanged.
+    pub(crate) keeps_scene: bool,
+    /// The scene after the step, if it is stored.
     pub(crate) scene: Option<SceneRef>,
     /// The digest of the scene, if it was computed.
     pub(crate) digest: Option<[u8; 16]>,
-    /// The expectations that held after the step.
-    pub(crate) held: Vec<Held>,
+    /// The expectations that hold after the step.
+    pub(crate) met_expectations: Vec<MetExpectation>,
 }
 
-/// What a step has written.
+/// The output files of a step.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct Outputs {
-    /// The line on where the files come from, which may stand in them.
+    /// The provenance, which the files may record.
     pub(crate) provenance: Option<String>,
-    /// The paths that were asked for, as the recipe has them and below the output folder.
-    pub(crate) asked: Vec<(String, PathBuf)>,
-    /// The files, unless they are not kept.
+    /// The requested paths: as written in the recipe, and relative to the output folder.
+    pub(crate) requested: Vec<(String, PathBuf)>,
+    /// The files, if they are stored.
     pub(crate) files: Option<Vec<OutputFile>>,
 }
 
-/// A file that a step has written.
+/// An output file of a step.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
 pub(crate) struct OutputFile {
-    /// Below the output folder.
+    /// The path relative to the output folder.
     pub(crate) path: PathBuf,
     pub(crate) content: BlobRef,
 }
 
 impl Record {
-    /// Whether both are about the same files: then the later one takes the place of the other.
-    fn is_about_the_same(&self, other: &Self) -> bool {
+    /// Whether both records are for the same input files and outputs. Then the newer one replaces the older one.
+    fn is_replaced_by(&self, other: &Self) -> bool {
         let provenance = |r: &Self| {
             r.outputs
                 .as_ref()
-                .map(|o| (o.provenance.clone(), o.asked.clone()))
+                .map(|o| (o.provenance.clone(), o.requested.clone()))
         };
-        self.read == other.read && provenance(self) == provenance(other)
+        self.inputs == other.inputs && provenance(self) == provenance(other)
     }
 
-    /// The arrays and files that belong to it.
+    /// Returns the arrays and output files that the record refers to.
     pub(crate) fn blobs(&self) -> impl Iterator<Item = &BlobRef> {
         let outputs = self.outputs.iter().filter_map(|o| o.files.as_ref());
         let scene = self.scene.iter().flat_map(|scene| &scene.arrays);
@@ -73,39 +73,40 @@ impl Record {
     }
 }
 
-/// The results that are known for a key, the latest first.
+/// Loads the records for a key, the newest first.
 pub(crate) fn load(folder: &Folder, key: Key) -> Result<Vec<Record>, Unusable> {
     load_data(folder, Kind::Step, &key.0)
 }
 
-/// Stores a result beside those that are known for its key.
+/// Adds a record to those for its key.
 pub(crate) fn store(folder: &Folder, key: Key, record: Record) {
     let mut records = load(folder, key).unwrap_or_default();
-    records.retain(|known| !known.is_about_the_same(&record));
+    records.retain(|known| !known.is_replaced_by(&record));
     records.insert(0, record);
-    records.truncate(MOST_RESULTS);
+    records.truncate(MAX_RECORDS);
     store_data(folder, Kind::Step, &key.0, &records);
 }
 
-/// Reads plain data, which must match its digest under the key of the cache. What is damaged is removed.
+/// Loads serialized data and checks it against its digest, which depends on the key of the cache. A damaged file is
+/// removed.
 pub(crate) fn load_data<T: DeserializeOwned>(
     folder: &Folder,
     kind: Kind,
     id: &Hash,
 ) -> Result<T, Unusable> {
     let path = folder.path(kind, id);
-    let bytes = Folder::read(&path, MOST_BYTES);
+    let bytes = Folder::read(&path, MAX_BYTES);
     let read = bytes.and_then(|bytes| {
         let damaged = |what: &str| Unusable::Damaged(what.to_owned());
         let rest = bytes.strip_prefix(MAGIC);
         let (digest, data) = rest
             .and_then(|rest| rest.split_at_checked(size_of::<Hash>()))
-            .ok_or_else(|| damaged("it is no file of this cache"))?;
-        // A record under another name is a whole one, and still the wrong one.
-        if digest != of(&folder.key()?, id, data) {
-            return Err(damaged("its content is not what was stored"));
+            .ok_or_else(|| damaged("it is not a cache file"))?;
+        // The digest includes the id, so that a file that was renamed to another id is rejected too.
+        if digest != keyed_digest(&folder.key()?, id, data) {
+            return Err(damaged("its content does not match its digest"));
         }
-        postcard::from_bytes(data).map_err(|_| damaged("it holds something else"))
+        postcard::from_bytes(data).map_err(|_| damaged("its content cannot be decoded"))
     });
     if let Err(Unusable::Damaged(_)) = read {
         Folder::discard(&path);
@@ -113,21 +114,21 @@ pub(crate) fn load_data<T: DeserializeOwned>(
     read
 }
 
-/// Stores plain data under a name.
+/// Stores serialized data.
 pub(crate) fn store_data(folder: &Folder, kind: Kind, id: &Hash, data: &impl Serialize) {
-    // Paths that are no text cannot be stored.
+    // Serialization fails for paths that are not valid Unicode; these are not stored.
     if let Ok(data) = postcard::to_stdvec(data)
-        && (data.len() as u64) < MOST_BYTES / 2
+        && (data.len() as u64) < MAX_BYTES / 2
         && let Some(key) = folder.key_or_new()
     {
-        let digest = of(&key, id, &data);
+        let digest = keyed_digest(&key, id, &data);
         folder.write(&folder.path(kind, id), |file| {
             write_all(file, &[MAGIC, &digest, &data])
         });
     }
 }
 
-fn of(key: &Hash, id: &Hash, data: &[u8]) -> Hash {
+fn keyed_digest(key: &Hash, id: &Hash, data: &[u8]) -> Hash {
     let mut hasher = blake3::Hasher::new_keyed(key);
     hasher.update(id).update(data);
     *hasher.finalize().as_bytes()

@@ -1,71 +1,73 @@
-//! One run and its cache: looks steps up, stores what ran, and brings scenes back.
+//! One run with the cache: looks up steps, stores the results of steps that ran, and loads scenes.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use op::{FileUse, Files};
-use recipe::{CachedRun, Done, Finding, RecipeExpectation, RecipeStep, RerunReason, mebibytes};
+use recipe::{
+    CachedRun, CompletedStep, RecipeExpectation, RecipeStep, RerunReason, StepResult, mebibytes,
+};
 use scene::{Digest, Geometry, Scene};
 
-use super::{Caching, SMALL, SPEED, evict};
-use crate::blob::{load_scene, restore_file, seems_there, store_file, store_scene};
+use super::{ALWAYS_STORED, BYTES_PER_SECOND, Caching, evict};
+use crate::blob::{SceneRef, exists, load_scene, restore_file, store_file, store_scene};
+use crate::expectations::{MetExpectation, is_known_to_hold};
 use crate::folder::{Folder, Kind, Unusable};
-use crate::held::{Held, holds};
+use crate::history::History;
+use crate::inputs::FileChecker;
 use crate::key::{Ingredients, Key, State};
 use crate::record::{OutputFile, Outputs, Record, load, store};
-use crate::seen::Eyes;
-use crate::why::History;
 
-/// What is known of the scene before a step, or at the end.
+/// What is known about the scene between two steps, at the start, or at the end.
 #[derive(Default)]
 struct Position {
-    /// `None` if nobody can tell what it is.
+    /// The identity of the scene, if it is known.
     state: Option<State>,
-    /// The step that led here, with its key.
+    /// The key and the record of the step before this position.
     step: Option<(Key, Record)>,
-    /// Whether the record has something that is not stored yet.
+    /// Whether the record has changes that are not stored yet.
     is_dirty: bool,
     digest: Option<Digest>,
-    /// Why the scene could not be brought back.
-    lost: Option<RerunReason>,
+    /// Why the scene could not be loaded.
+    load_failure: Option<RerunReason>,
 }
 
 /// A run with a cache.
 pub(crate) struct Session<'a> {
     folder: &'a Folder,
     caching: Caching<'a>,
-    eyes: Eyes,
+    checker: FileChecker,
     history: History,
-    /// One more than steps are done.
+    /// The position at the start, and one after each step that is done.
     positions: Vec<Position>,
-    /// What the next step is made of.
-    made_of: Option<Ingredients>,
-    /// What computing took since the last scene that is stored.
-    since: Duration,
-    /// The last step that has left another state than before by itself: its number from 1 and its label.
-    changed: Option<(usize, String)>,
+    /// The ingredients of the step that was looked up last and must run.
+    ingredients: Option<Ingredients>,
+    /// The computing time since the last stored scene.
+    unstored_time: Duration,
+    /// The last step whose own changes made later steps run again: its number (counted from 1) and its label.
+    last_changed: Option<(usize, String)>,
     notes: Vec<String>,
 }
 
 impl CachedRun for Session<'_> {
-    fn find(
+    fn look_up(
         &mut self,
         step: &RecipeStep,
         budget: u64,
         files: &Files,
         stage: Option<&Path>,
-    ) -> Result<Finding, RerunReason> {
-        self.made_of = None;
+    ) -> Result<StepResult, RerunReason> {
+        self.ingredients = None;
         let before = self.last().state.ok_or(RerunReason::NoState)?;
         let program = &self.caching.cache.program;
-        let made_of = Ingredients::of(step, program, budget, before).ok_or(RerunReason::New)?;
-        let key = made_of.key();
-        let found = self.look_up(key, &made_of, files, stage);
+        let ingredients = Ingredients::of(step, program, budget, before).ok_or(RerunReason::New)?;
+        let key = ingredients.key();
+        let found = self.find_record(key, &ingredients, files, stage);
         let record = match found {
             Ok(record) => record,
             Err(why) => {
-                self.made_of = Some(made_of);
+                self.ingredients = Some(ingredients);
                 let keeps_state = matches!(
                     why,
                     RerunReason::Earlier(..)
@@ -75,7 +77,7 @@ impl CachedRun for Session<'_> {
                         | RerunReason::NotKept
                 );
                 if !keeps_state {
-                    self.changed = Some((self.positions.len(), step.label().to_owned()));
+                    self.last_changed = Some((self.positions.len(), step.label().to_owned()));
                 }
                 return Err(why);
             }
@@ -85,139 +87,140 @@ impl CachedRun for Session<'_> {
                 Folder::touch(&self.folder.path(Kind::Blob, &blob.hash));
             }
         }
-        self.history.push(made_of, None);
-        let finding = record.finding.clone();
+        self.history.push(ingredients, None);
+        let result = record.result.clone();
         let digest = record.digest.map(Digest::from_bytes);
         self.positions.push(Position {
-            state: Some(key.after(&record.read.files)),
-            digest: digest.or_else(|| self.last().digest.filter(|_| record.same)),
+            state: Some(key.after(&record.inputs.files)),
+            digest: digest.or_else(|| self.last().digest.filter(|_| record.keeps_scene)),
             step: Some((key, record)),
             ..Position::default()
         });
-        Ok(finding)
+        Ok(result)
     }
 
-    fn ran(&mut self, number: usize, label: &str, files: &Files, done: &Done) {
-        self.since += done.time;
-        let same = done.same;
-        let made_of = self.made_of.take();
-        let read = self.eyes.read(done.uses);
+    fn record_step(&mut self, number: usize, label: &str, files: &Files, done: &CompletedStep) {
+        self.unstored_time += done.time;
+        let keeps_scene = done.keeps_scene;
+        let ingredients = self.ingredients.take();
+        let inputs = self.checker.inputs(done.uses);
         let mut position = Position {
-            digest: self.last().digest.filter(|_| same),
+            digest: self.last().digest.filter(|_| keeps_scene),
             ..Position::default()
         };
-        let Some(made_of) = made_of else {
+        let Some(ingredients) = ingredients else {
             self.positions.push(position);
             return;
         };
-        let key = made_of.key();
-        match read {
-            Ok(read) => {
-                position.state = Some(key.after(&read.files));
-                let outputs = self.outputs(files, done);
+        let key = ingredients.key();
+        match inputs {
+            Ok(inputs) => {
+                position.state = Some(key.after(&inputs.files));
+                let outputs = self.store_outputs(files, done);
                 let scene = self.last().step.as_ref().and_then(|(_, r)| r.scene.clone());
-                let scene = scene.filter(|_| same);
-                let scene = scene.or_else(|| self.keep(done.scene, number, label));
+                let scene = scene.filter(|_| keeps_scene);
+                let scene = scene.or_else(|| self.store_scene(done.scene, number, label));
                 let record = Record {
-                    read,
+                    inputs,
                     outputs,
-                    finding: done.finding.clone(),
-                    same,
+                    result: done.result.clone(),
+                    keeps_scene,
                     scene,
                     digest: position.digest.map(Digest::to_bytes),
-                    held: Vec::new(),
+                    met_expectations: Vec::new(),
                 };
                 position.step = Some((key, record));
                 position.is_dirty = true;
-                self.history.push(made_of, None);
+                self.history.push(ingredients, None);
             }
             Err((path, why)) => {
                 self.notes.push(format!(
-                    "step {number} {label} is not stored: what it read cannot be told: {}, {why}",
+                    "step {number} {label} is not stored: its input files are unknown: {}: {why}",
                     path.display()
                 ));
-                // What comes after it depends on what it left.
+                // Later steps can still be cached: their state is derived from the content of the scene.
                 if is_dense(done.scene) {
                     let digest = position.digest.unwrap_or_else(|| done.scene.digest());
                     position.digest = Some(digest);
                     position.state = Some(State::of_scene(digest));
                 }
-                self.history.push(made_of, Some((path, why.to_owned())));
+                self.history.push(ingredients, Some((path, why.to_owned())));
             }
         }
         self.positions.push(position);
     }
 
-    fn ran_again(
+    fn record_rerun(
         &mut self,
-        place: usize,
+        number: usize,
         label: &str,
         scene: &Scene,
         time: Duration,
     ) -> RerunReason {
-        self.since += time;
-        if let Some(stored) = self.keep(scene, place, label)
-            && let Some(position) = self.positions.get_mut(place)
+        self.unstored_time += time;
+        if let Some(stored) = self.store_scene(scene, number, label)
+            && let Some(position) = self.positions.get_mut(number)
             && let Some((key, record)) = &mut position.step
         {
             record.scene = Some(stored);
             store(self.folder, *key, record.clone());
         }
-        let lost = self.positions.get_mut(place).and_then(|p| p.lost.take());
-        lost.unwrap_or(RerunReason::NotKept)
+        let position = self.positions.get_mut(number);
+        let load_failure = position.and_then(|p| p.load_failure.take());
+        load_failure.unwrap_or(RerunReason::NotKept)
     }
 
-    fn bring(&mut self, from: usize, to: usize) -> Option<(usize, Scene)> {
-        for place in (from + 1..=to).rev() {
-            let position = &mut self.positions[place];
+    fn load_scene(&mut self, from: usize, to: usize) -> Option<(usize, Scene)> {
+        for index in (from + 1..=to).rev() {
+            let position = &mut self.positions[index];
             let Some((_, record)) = &mut position.step else {
                 continue;
             };
             let Some(stored) = &record.scene else {
                 continue;
             };
-            let seem = stored
-                .arrays
-                .iter()
-                .all(|blob| seems_there(self.folder, blob));
-            let loaded = if seem {
+            let all_exist = stored.arrays.iter().all(|blob| exists(self.folder, blob));
+            let loaded = if all_exist {
                 load_scene(self.folder, stored)
             } else {
                 Err(Unusable::Missing)
             };
             match loaded {
                 Ok(scene) => {
-                    self.since = Duration::ZERO;
-                    return Some((place, scene));
+                    self.unstored_time = Duration::ZERO;
+                    return Some((index, scene));
                 }
                 Err(why) => {
                     record.scene = None;
-                    let why = lost(why);
-                    self.notes
-                        .push(format!("the scene after step {place}: {why}"));
-                    position.lost = Some(why);
+                    let why = rerun_reason(why);
+                    self.notes.push(format!(
+                        "the scene after step {index} cannot be loaded: {why}"
+                    ));
+                    position.load_failure = Some(why);
                 }
             }
         }
         None
     }
 
-    fn is_same(&self, place: usize) -> bool {
-        let step = self.positions.get(place + 1).and_then(|p| p.step.as_ref());
-        step.is_some_and(|(_, record)| record.same)
+    fn keeps_scene(&self, index: usize) -> bool {
+        let step = self.positions.get(index + 1).and_then(|p| p.step.as_ref());
+        step.is_some_and(|(_, record)| record.keeps_scene)
     }
 
-    fn holds(&mut self, placed: &RecipeExpectation, files: &Files) -> bool {
+    fn is_known_to_hold(&mut self, placed: &RecipeExpectation, files: &Files) -> bool {
         let step = self.positions.last().and_then(|p| p.step.as_ref());
-        step.is_some_and(|(_, record)| holds(&record.held, placed, files, &mut self.eyes))
+        step.is_some_and(|(_, record)| {
+            is_known_to_hold(&record.met_expectations, placed, files, &mut self.checker)
+        })
     }
 
-    fn held(&mut self, placed: &RecipeExpectation, uses: &[FileUse]) {
-        if let Some(held) = Held::new(placed, uses, &mut self.eyes)
+    fn record_met_expectation(&mut self, placed: &RecipeExpectation, uses: &[FileUse]) {
+        if let Some(met) = MetExpectation::new(placed, uses, &mut self.checker)
             && let Some(position) = self.positions.last_mut()
             && let Some((_, record)) = &mut position.step
         {
-            record.held.push(held);
+            record.met_expectations.push(met);
             position.is_dirty = true;
         }
     }
@@ -269,30 +272,30 @@ impl<'a> Session<'a> {
         Self {
             folder,
             caching,
-            eyes: Eyes::new(),
+            checker: FileChecker::new(),
             history: History::load(folder, caching.recipe),
             positions: vec![start],
-            made_of: None,
-            since: Duration::ZERO,
-            changed: None,
+            ingredients: None,
+            unstored_time: Duration::ZERO,
+            last_changed: None,
             notes: Vec::new(),
         }
     }
 
-    fn look_up(
+    fn find_record(
         &mut self,
         key: Key,
-        made_of: &Ingredients,
+        ingredients: &Ingredients,
         files: &Files,
         stage: Option<&Path>,
     ) -> Result<Record, RerunReason> {
         let records = load(self.folder, key).map_err(|why| match why {
-            Unusable::Missing => self.history.why(made_of, self.changed.clone()),
+            Unusable::Missing => self.history.why(ingredients, self.last_changed.clone()),
             Unusable::Damaged(how) => RerunReason::Damaged(how),
         })?;
         let mut first = None;
         for record in records {
-            match self.fits(&record, files, stage) {
+            match self.use_record(&record, files, stage) {
                 Ok(()) => return Ok(record),
                 Err(why) => _ = first.get_or_insert(why),
             }
@@ -300,62 +303,63 @@ impl<'a> Session<'a> {
         Err(first.unwrap_or(RerunReason::Gone))
     }
 
-    /// Whether the record is what the step would do now. Its outputs are then in their places.
-    fn fits(
+    /// Checks that the step would have the result in the record if it ran now. If so, restores its output files into the
+    /// stage.
+    fn use_record(
         &mut self,
         record: &Record,
         files: &Files,
         stage: Option<&Path>,
     ) -> Result<(), RerunReason> {
-        if !record.read.are_asked_for_in(files) {
+        if !record.inputs.resolve_as_before(files) {
             return Err(RerunReason::Folder);
         }
-        if let Some((path, change)) = self.eyes.changed(&record.read.files) {
+        if let Some((path, change)) = self.checker.first_change(&record.inputs.files) {
             return Err(RerunReason::File(path, change));
         }
         let Some(outputs) = &record.outputs else {
             return Ok(());
         };
-        // It stands in the files only, and nobody may want them.
+        // The provenance matters only if the output files are needed.
         if stage.is_some() && outputs.provenance != files.provenance {
             return Err(RerunReason::Provenance);
         }
-        let is_asked = |(path, relative): &(String, PathBuf)| {
+        let is_same_path = |(path, relative): &(String, PathBuf)| {
             files
                 .to_write(path)
                 .is_ok_and(|to| to == files.output.join(relative))
         };
-        if !outputs.asked.iter().all(is_asked) {
+        if !outputs.requested.iter().all(is_same_path) {
             return Err(RerunReason::Outputs);
         }
         let Some(stage) = stage else { return Ok(()) };
         let written = outputs.files.as_ref().ok_or(RerunReason::NotKept)?;
-        // First all of them beside their places: what is there stays if one of them is damaged.
+        // Restore all files under temporary names first: if one is damaged, the files in the stage stay as they are.
         let part = |i: usize| stage.join(format!(".part-{i}"));
         let mut restored = written.iter().enumerate().try_for_each(|(i, file)| {
             if !is_below(&file.path) {
                 let how = "a path leads out of the output folder";
                 return Err(RerunReason::Damaged(how.to_owned()));
             }
-            restore_file(self.folder, &file.content, &part(i)).map_err(lost)
+            restore_file(self.folder, &file.content, &part(i)).map_err(rerun_reason)
         });
         for (i, file) in written.iter().enumerate() {
             if restored.is_ok() {
-                restored = put(&part(i), &stage.join(&file.path));
+                restored = move_file(&part(i), &stage.join(&file.path));
             }
-            // Nothing is left there if all went well.
+            // Removes the temporary file if it was not moved.
             Folder::discard(&part(i));
         }
         restored
     }
 
-    /// Stores a scene, if that is worth it.
-    fn keep(&mut self, scene: &Scene, number: usize, label: &str) -> Option<crate::blob::SceneRef> {
-        let bytes = bytes(scene);
+    /// Stores the scene after a step, if it can be restored exactly and storing it is faster than computing it again.
+    fn store_scene(&mut self, scene: &Scene, number: usize, label: &str) -> Option<SceneRef> {
+        let bytes = estimated_bytes(scene);
         let why = if !is_dense(scene) {
             "it has removed elements"
-        } else if !is_worth(bytes, self.since) {
-            "making it took less time than storing it would"
+        } else if !is_worth_storing(bytes, self.unstored_time) {
+            "computing it is faster than storing it"
         } else {
             ""
         };
@@ -367,13 +371,14 @@ impl<'a> Session<'a> {
             return None;
         }
         let stored = store_scene(self.folder, scene)?;
-        self.since = Duration::ZERO;
+        self.unstored_time = Duration::ZERO;
         Some(stored)
     }
 
-    /// Stores what a step has written, if that is worth it.
-    fn outputs(&mut self, files: &Files, done: &Done) -> Option<Outputs> {
-        let asked: Vec<_> = done
+    /// Stores the output files of a step, if storing them is faster than computing them again. `None` if the step has no
+    /// outputs.
+    fn store_outputs(&mut self, files: &Files, done: &CompletedStep) -> Option<Outputs> {
+        let requested: Vec<_> = done
             .uses
             .iter()
             .filter_map(|file| match file {
@@ -381,18 +386,19 @@ impl<'a> Session<'a> {
                 _ => None,
             })
             .collect();
-        if asked.is_empty() && done.written.is_empty() {
+        if requested.is_empty() && done.written.is_empty() {
             return None;
         }
         let stored = done.stage.and_then(|stage| {
-            // A file that was written twice within a tick of the clock looks as it did before.
-            let asked = asked.iter().map(|(_, path)| path);
-            let asked = asked.filter(|path| stage.join(path).is_file());
-            let written: BTreeSet<&PathBuf> = done.written.iter().chain(asked).collect();
+            // `done.written` lacks files that were written twice within the resolution of modification times.
+            let requested = requested.iter().map(|(_, path)| path);
+            let requested = requested.filter(|path| stage.join(path).is_file());
+            let written: BTreeSet<&PathBuf> = done.written.iter().chain(requested).collect();
             let len = |path: &PathBuf| std::fs::metadata(path).map_or(0, |meta| meta.len());
             let total = written.iter().map(|path| len(&stage.join(path))).sum();
-            let again = done.time + Duration::from_secs_f64(bytes(done.scene) as f64 / SPEED);
-            if !is_worth(total, again) {
+            let loading = estimated_bytes(done.scene) as f64 / BYTES_PER_SECOND;
+            let rerun_time = done.time + Duration::from_secs_f64(loading);
+            if !is_worth_storing(total, rerun_time) {
                 return None;
             }
             let store = |path: &PathBuf| {
@@ -404,7 +410,7 @@ impl<'a> Session<'a> {
         });
         Some(Outputs {
             provenance: files.provenance.clone(),
-            asked,
+            requested,
             files: stored,
         })
     }
@@ -414,39 +420,39 @@ impl<'a> Session<'a> {
     }
 }
 
-/// Whether a path stays in its folder.
+/// Whether a relative path stays inside its folder.
 fn is_below(path: &Path) -> bool {
     let mut parts = path.components();
     parts.all(|part| matches!(part, std::path::Component::Normal(_)))
 }
 
-/// Moves a file to its place.
-fn put(from: &Path, to: &Path) -> Result<(), RerunReason> {
+/// Moves a file, and creates the folder that it is moved to.
+fn move_file(from: &Path, to: &Path) -> Result<(), RerunReason> {
     let folder = to.parent().map_or(Ok(()), std::fs::create_dir_all);
     let moved = folder.and_then(|()| std::fs::rename(from, to));
     moved.map_err(|error| RerunReason::Damaged(format!("{}: {error}", to.display())))
 }
 
-fn lost(why: Unusable) -> RerunReason {
+fn rerun_reason(why: Unusable) -> RerunReason {
     match why {
         Unusable::Missing => RerunReason::Gone,
         Unusable::Damaged(how) => RerunReason::Damaged(how),
     }
 }
 
-/// Whether storing so many bytes takes no more than `time`.
-fn is_worth(bytes: u64, time: Duration) -> bool {
-    bytes < SMALL || bytes as f64 / SPEED <= time.as_secs_f64()
+/// Whether storing this number of bytes takes at most `time`.
+fn is_worth_storing(bytes: u64, time: Duration) -> bool {
+    bytes < ALWAYS_STORED || bytes as f64 / BYTES_PER_SECOND <= time.as_secs_f64()
 }
 
-/// Only the scene of dense meshes is the same when it comes back.
+/// Whether no mesh has removed elements. Only then is the scene the same after it is stored and loaded.
 fn is_dense(scene: &Scene) -> bool {
     let mut meshes = scene.objects().iter().filter_map(|o| o.as_mesh());
     meshes.all(|mesh| mesh.is_dense())
 }
 
-/// About how many bytes a scene takes.
-fn bytes(scene: &Scene) -> u64 {
+/// Returns the approximate size of a scene in bytes.
+fn estimated_bytes(scene: &Scene) -> u64 {
     let points = |n: usize| n * size_of::<mesh::DVec3>();
     let of = |geometry: &Geometry| match geometry {
         Geometry::Mesh(mesh) => mesh.bytes(),

@@ -1,4 +1,4 @@
-//! The cache of steps: what runs again and what does not, and that nothing else is different.
+//! Tests of the step cache: which steps run again and why, and that the outcome is the same as without the cache.
 
 mod damage;
 mod law;
@@ -20,7 +20,7 @@ use recipe::{Outcome, Reader, RerunReason, Settings, Silent};
 use self::operations::{registry, steps};
 use crate::{Cache, Caching};
 
-/// A file that holds a number n is read as a grid of n faces.
+/// Reads a file that contains a number n as a grid of n faces.
 struct GridReader;
 
 impl Reader for GridReader {
@@ -37,19 +37,19 @@ impl Reader for GridReader {
         _: (&Path, &[u8]),
         _: u8,
     ) -> Result<Option<String>, String> {
-        Err("no pictures are compared here".to_owned())
+        Err("these tests compare no pictures".to_owned())
     }
 }
 
-/// Makes a sheet of as many squares as a file says.
+/// Makes a sheet whose number of squares is read from a file.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 struct FromFile {
     /// The file.
     path: String,
-    /// Whether to say that the file was read.
+    /// Whether the step reports that it has read the file.
     #[serde(default)]
-    tells: bool,
+    reports: bool,
 }
 
 impl Operation for FromFile {
@@ -64,7 +64,7 @@ impl Operation for FromFile {
 
     fn apply(&self, scene: &mut Scene, cx: &mut Context) -> Result<Report, OpError> {
         let path = cx.files().to_read(&self.path);
-        if self.tells {
+        if self.reports {
             cx.files().has_read(path.as_path());
             cx.files()
                 .has_checked_existence(path.with_extension("beside"));
@@ -78,7 +78,7 @@ impl Operation for FromFile {
     }
 }
 
-/// A folder with inputs, a cache and outputs.
+/// A test folder with inputs, a cache and outputs.
 struct Place {
     folder: TempDir,
     cache: Cache,
@@ -143,7 +143,7 @@ impl Place {
         recipe::run(&reading.recipe, settings, &Silent)
     }
 
-    /// Runs a recipe with the cache and without it, and asks for the same outcome.
+    /// Runs a recipe with the cache and without it, and asserts that the outcomes are the same.
     #[track_caller]
     fn run(&self, text: &str) -> Outcome {
         let plain = self.run_with(text, None, "plain");
@@ -160,7 +160,7 @@ impl Place {
         cached
     }
 
-    /// The steps that run, counted from 1, and why.
+    /// Runs a recipe. Returns the numbers (counted from 1) of the steps that ran, and why they ran.
     #[track_caller]
     fn ran(&self, text: &str) -> Vec<(usize, String)> {
         let outcome = self.run(text);
@@ -180,7 +180,7 @@ impl Place {
     }
 }
 
-/// Asks for the same outcome but for times and what is told of the cache.
+/// Asserts that two outcomes are the same, except for times and messages about the cache.
 #[track_caller]
 fn assert_same(a: &Outcome, b: &Outcome) {
     let steps = |outcome: &Outcome| {
@@ -199,6 +199,7 @@ fn assert_same(a: &Outcome, b: &Outcome) {
     }
 }
 
+/// Returns a recipe of ten steps. Step i lifts the sheet by `change(i)`.
 fn ten(change: impl Fn(usize) -> f64) -> String {
     let lift = |i| format!("(id: \"lift{i}\", run: Lift(by: {:?}))", change(i));
     let lifts: Vec<String> = (2..=10).map(lift).collect();
@@ -215,7 +216,7 @@ fn a_second_run_runs_nothing() {
 }
 
 #[test]
-fn only_what_comes_behind_an_edit_runs_again() {
+fn only_the_changed_step_and_later_steps_run_again() {
     let place = Place::new();
     place.run(&ten(|_| 1.5));
     let last = ten(|i| if i == 10 { 2.5 } else { 1.5 });
@@ -225,7 +226,7 @@ fn only_what_comes_behind_an_edit_runs_again() {
     let ninth = ten(|i| if i == 9 { 2.5 } else { 1.5 });
     let after = "step 9 lift9 ran again".to_owned();
     assert_eq!(place.ran(&ninth), [(9, why), (10, after)]);
-    // Both are known now.
+    // The results of both versions are in the cache now.
     place.runs_nothing(&ten(|_| 1.5));
     place.runs_nothing(&ninth);
 }
@@ -241,7 +242,7 @@ fn recipes_with_the_same_steps_share_their_results() {
 }
 
 #[test]
-fn everything_that_a_step_is_made_of_runs_it_again() {
+fn a_change_of_any_key_ingredient_runs_a_step_again() {
     let base = "Sheet(columns: 2), Sheet(columns: 3, name: \"b\"), (id: \"x\", run: Lift(by: 1))";
     let with = |last: &str| base.replace("(id: \"x\", run: Lift(by: 1))", last);
     for (changed, why) in [
@@ -251,7 +252,7 @@ fn everything_that_a_step_is_made_of_runs_it_again() {
         ),
         (
             with("(id: \"y\", run: Lift(by: 1))"),
-            "its id changed, which keys random choices",
+            "its id changed, which seeds random choices",
         ),
         (
             with("(id: \"x\", run: Lift(by: 1), on: [\"b\"])"),
@@ -282,7 +283,7 @@ fn everything_that_a_step_is_made_of_runs_it_again() {
 }
 
 #[test]
-fn another_budget_or_program_runs_all_steps_again() {
+fn a_different_budget_or_program_runs_all_steps_again() {
     let mut place = Place::new();
     let text = steps("Sheet(columns: 2), Lift(by: 1)");
     place.run(&text);
@@ -291,14 +292,14 @@ fn another_budget_or_program_runs_all_steps_again() {
     assert_eq!(ran[0], (1, "the memory budget changed".to_owned()));
     assert_eq!(ran[1].0, 2);
     place.cache = Cache::new(place.path("cache"), u64::MAX, "tests 2");
-    let another = "the program is another one".to_owned();
-    assert_eq!(place.ran(&text), [(1, another.clone()), (2, another)]);
+    let why = "the program is a different version or build".to_owned();
+    assert_eq!(place.ran(&text), [(1, why.clone()), (2, why)]);
 }
 
 #[test]
-fn a_file_that_changes_goes_or_appears_is_named() {
+fn an_input_file_that_changes_disappears_or_appears_is_named() {
     let place = Place::new();
-    let text = steps("FromFile(path: \"n.txt\", tells: true), Lift(by: 1)");
+    let text = steps("FromFile(path: \"n.txt\", reports: true), Lift(by: 1)");
     let n = place.path("n.txt").display().to_string();
     let beside = place.path("n.beside").display().to_string();
     place.write("n.txt", "3");
@@ -311,15 +312,15 @@ fn a_file_that_changes_goes_or_appears_is_named() {
         ),
         (
             Box::new(|| fs::remove_file(place.path("n.txt")).unwrap()),
-            format!("the file {n} is gone"),
+            format!("the file {n} no longer exists"),
         ),
         (
             Box::new(|| place.write("n.txt", "5")),
-            format!("the file {n} was not there before"),
+            format!("the file {n} did not exist before"),
         ),
         (
             Box::new(|| place.write("n.beside", "")),
-            format!("the file {beside} was not there before"),
+            format!("the file {beside} did not exist before"),
         ),
     ] {
         change();
@@ -327,14 +328,14 @@ fn a_file_that_changes_goes_or_appears_is_named() {
         assert_eq!(ran[0], (1, why));
         place.runs_nothing(&text);
     }
-    // As it was: that is known too.
+    // An earlier state of the files: its result is still in the cache.
     fs::remove_file(place.path("n.beside")).unwrap();
     place.write("n.txt", "4");
     place.runs_nothing(&text);
 }
 
 #[test]
-fn a_file_that_is_only_said_to_be_wanted_is_read_in_every_run() {
+fn a_step_that_does_not_report_what_it_reads_runs_every_time() {
     let place = Place::new();
     let text = steps("FromFile(path: \"n.txt\"), Lift(by: 1), Lift(by: 2)");
     place.write("n.txt", "3");
@@ -342,24 +343,24 @@ fn a_file_that_is_only_said_to_be_wanted_is_read_in_every_run() {
     let ran = place.ran(&text);
     assert_eq!(ran.len(), 1);
     assert!(
-        ran[0].1.starts_with("what it read cannot be told: "),
+        ran[0].1.starts_with("its input files are unknown: "),
         "{ran:?}"
     );
     place.write("n.txt", "4");
     assert_eq!(place.numbers(&text), [1, 2, 3]);
-    // What follows depends on what was made, not on how.
+    // Later steps depend only on the scene, which is the same.
     place.write("n.txt", " 3");
     assert_eq!(place.numbers(&text), [1]);
 }
 
 #[test]
-fn the_same_path_in_another_folder_is_another_file() {
+fn the_same_path_in_a_different_folder_is_a_different_file() {
     let (a, mut b) = (Place::new(), Place::new());
     b.cache = Cache::new(a.path("cache"), u64::MAX, "tests 1");
     a.write("n.txt", "3");
     b.write("n.txt", "4");
     for (steps, expect) in [
-        ("FromFile(path: \"n.txt\", tells: true)", "Not(Closed)"),
+        ("FromFile(path: \"n.txt\", reports: true)", "Not(Closed)"),
         ("Sheet(columns: 3)", "Same(as: File(\"n.txt\"))"),
     ] {
         let text = format!("(recipe: 1, steps: [{steps}], expect: [{expect}])");
@@ -373,7 +374,7 @@ fn the_same_path_in_another_folder_is_another_file() {
 }
 
 #[test]
-fn a_loss_that_is_not_allowed_fails_from_the_cache_too() {
+fn on_loss_is_checked_for_cached_results_too() {
     let place = Place::new();
     let text = "(recipe: 1, steps: [Sheet(columns: 2), (run: Lift(by: 1), on_loss: Error)])";
     place.run(text);
@@ -390,7 +391,7 @@ fn outputs_come_from_the_cache_with_the_same_bytes() {
     fs::remove_dir_all(place.path("out")).unwrap();
     place.runs_nothing(&text);
     assert_eq!(fs::read(place.path("out/deep/a.txt")).unwrap(), b"sheet");
-    // What is written may say from which recipe it is.
+    // The output files may record the provenance, so they are written again.
     let edited = text.replace("by: 1", "by: 2");
     let ran = place.ran(&edited);
     assert_eq!(ran[0], (2, RerunReason::Provenance.to_string()));
@@ -402,7 +403,7 @@ fn outputs_come_from_the_cache_with_the_same_bytes() {
 }
 
 #[test]
-fn a_refused_step_is_known_and_leaves_the_scene() {
+fn an_expected_refusal_is_cached_and_leaves_the_scene_unchanged() {
     let place = Place::new();
     let text =
         steps("Sheet(columns: 2), (run: Lift(by: 1, fails: Seam), refused: Seam), Lift(by: 3)");
@@ -423,7 +424,7 @@ fn a_failing_step_is_not_stored_and_fails_again() {
 }
 
 #[test]
-fn expectations_that_held_are_not_asked_again() {
+fn expectations_that_hold_are_not_checked_again() {
     let place = Place::new();
     place.write("n.txt", "2");
     let text = r#"(recipe: 1, steps: [(id: "sheet", run: Sheet(columns: 2)), (id: "up", run: Lift(by: 1))],
@@ -431,21 +432,21 @@ fn expectations_that_held_are_not_asked_again() {
     place.run(text);
     let outcome = place.run(text);
     assert_eq!(outcome.checked, 3);
-    assert!(outcome.scene.is_none(), "nobody needed the scene");
-    // The file that is compared with counts.
+    assert!(outcome.scene.is_none(), "the scene was not needed");
+    // A change of the file to compare with matters.
     place.write("n.txt", "3");
     let outcome = place.run(text);
     assert_eq!(outcome.failures.len(), 1);
     place.write("n.txt", "2");
     assert!(place.run(text).scene.is_none());
-    // Another expectation is asked, of the scene after its step.
+    // A new expectation is checked, on the scene after its step.
     let outcome = place.run(&text.replace("Faces(eq: 2)", "Vertices(eq: 7)"));
     assert_eq!(outcome.failures.len(), 1);
     assert!(outcome.steps.iter().all(|step| step.ran.is_none()));
 }
 
 #[test]
-fn the_scene_comes_if_it_is_wanted() {
+fn the_final_scene_is_loaded_if_it_is_wanted() {
     let mut place = Place::new();
     let text = steps("Sheet(columns: 2), Lift(by: 1)");
     place.run(&text);
@@ -457,11 +458,11 @@ fn the_scene_comes_if_it_is_wanted() {
 }
 
 #[test]
-fn a_large_scene_that_is_made_in_no_time_is_made_again() {
+fn a_large_scene_that_is_fast_to_compute_may_be_computed_again() {
     let place = Place::new();
     let text = steps("Sheet(columns: 60000), Write(path: \"a.txt\")");
     place.run(&text);
-    // Whether it is stored depends on the machine; the outcome does not.
+    // Whether the scene is stored depends on the speed of the machine; the outcome does not.
     let more = text.replace("])", ", Sheet(columns: 1, name: \"b\")])");
     let outcome = place.run(&more);
     assert_eq!(outcome.steps.len(), 3);
@@ -469,7 +470,7 @@ fn a_large_scene_that_is_made_in_no_time_is_made_again() {
 }
 
 #[test]
-fn what_a_run_asks_for_is_not_mixed_with_what_others_ask_for() {
+fn file_logs_can_be_taken_through_any_clone() {
     let files = Files::default();
     files.to_read("elsewhere");
     assert_eq!(files.log.take().len(), 1);

@@ -1,16 +1,16 @@
-//! Cancelling a run from another thread.
+//! Cancels a run from another thread.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use op::Progress;
 use recipe::Listener;
 
-/// A listener that hears nothing, and cancels the runs that it follows once it is set.
+/// A listener that ignores all events, and cancels its runs once it is set.
 #[derive(Debug, Default)]
 pub struct Cancel(AtomicBool);
 
 impl Cancel {
-    /// One that is not set.
+    /// Returns a listener that is not set.
     pub const fn new() -> Self {
         Self(AtomicBool::new(false))
     }
@@ -20,7 +20,7 @@ impl Cancel {
         self.0.swap(true, Ordering::Relaxed)
     }
 
-    /// Whether it is set.
+    /// Whether the runs are cancelled.
     pub fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

@@ -9,48 +9,49 @@ use crate::FileReader;
 /// A recipe that was read and checked.
 #[derive(Debug)]
 pub struct Loaded {
-    /// The path of its text, as it is shown.
+    /// The path of the recipe file, for messages.
     pub path: String,
-    /// The recipe, as far as it could be read.
+    /// The recipe. If it has errors, only the parts that could be read.
     pub recipe: Recipe,
-    /// Its folders and its store.
+    /// The input and output folders, and the store of files.
     pub files: Files,
-    /// How many bytes meshes may take.
+    /// The memory budget for meshes, in bytes.
     pub budget: u64,
-    /// What is known of the scene after each step.
+    /// The forecast of the scene after each step.
     pub forecast: Forecast,
     /// Whether every step and expectation could be read.
     pub is_read: bool,
-    /// Everything that is wrong, from reading and from checking, in order.
+    /// All errors and warnings from reading and checking, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// How a recipe is run. By default outputs are not kept, and there is no cache.
+/// The settings of a run. By default, outputs are not kept and no cache is used.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Run<'a> {
-    /// Whether outputs are kept.
+    /// Whether outputs are kept after the run.
     pub keep_outputs: bool,
-    /// The step cache, if there is one.
+    /// The step cache, if one is used.
     pub cache: Option<&'a dyn StepCache>,
 }
 
 impl Loaded {
-    /// Whether the recipe cannot run.
+    /// Whether the recipe has errors, so that it cannot run.
     pub fn has_errors(&self) -> bool {
         self.n_errors() > 0
     }
 
-    /// How many errors there are.
+    /// Returns the number of errors.
     pub fn n_errors(&self) -> usize {
         self.diagnostics.iter().filter(|d| d.is_error()).count()
     }
 
-    /// Runs the recipe, which must have no errors.
+    /// Runs the recipe, which must not have errors.
     pub fn run(&self, run: Run, listener: &dyn Listener) -> Outcome {
         self.run_from(0, Scene::new(), run, listener)
     }
 
-    /// Runs the recipe from the step of number `first` on, as [`recipe::run_from`] does: `scene` is that before it.
+    /// Runs the recipe starting at the step with index `first`, where `scene` is the scene before that step. See
+    /// [`recipe::run_from`].
     pub fn run_from(
         &self,
         first: usize,
@@ -69,7 +70,7 @@ impl Loaded {
         recipe::run_from(&self.recipe, first, scene, settings, listener)
     }
 
-    /// The scene before a step. `None` if a step before it fails.
+    /// Runs the steps before the step with this index and returns the scene. `None` if one of them fails.
     pub fn scene_before(&mut self, step: usize, listener: &dyn Listener) -> Option<Scene> {
         let later = self.recipe.steps.split_off(step);
         let expectations = std::mem::take(&mut self.recipe.expectations);
@@ -80,7 +81,7 @@ impl Loaded {
         outcome.scene.filter(|_| succeeded)
     }
 
-    /// Diagnostics as a compiler shows them.
+    /// Renders diagnostics as text with excerpts of the recipe, like those of a compiler.
     pub fn render(&self, diagnostics: &[Diagnostic], colours: bool) -> String {
         recipe::render(&self.recipe.sources, diagnostics, colours)
     }

@@ -1,4 +1,4 @@
-//! The files that expectations name.
+//! Reads the files that expectations refer to.
 
 use std::path::Path;
 
@@ -28,13 +28,13 @@ impl Reader for FileReader {
         expected: (&Path, &[u8]),
         tolerance: u8,
     ) -> Result<Option<String>, String> {
-        let named = |error| match error {
+        let message = |error| match error {
             PictureError::Unreadable { file, why } => {
                 let path = [found.0, expected.0][file];
                 format!("{} cannot be read as a picture: {why}", path.display())
             }
             error => error.to_string(),
         };
-        render::compare(found.1, expected.1, tolerance).map_err(named)
+        render::compare(found.1, expected.1, tolerance).map_err(message)
     }
 }

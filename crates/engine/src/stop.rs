@@ -1,33 +1,33 @@
-//! Where a recipe stops.
+//! Shortens a recipe so that it stops after or before a given step.
 
 use recipe::{RecipeStep, did_you_mean};
 
 use crate::Loaded;
 
-/// Where a recipe stops. By default it does not.
+/// Where a recipe stops. By default it runs to the end.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stop<'a> {
-    /// After the step or call of this id, or of this label; after its last turn.
+    /// Stop after the step or call with this id or label. If it is repeated, after its last repetition.
     pub after: Option<&'a str>,
-    /// Before the step or call of this id, or of this label; before its first turn.
+    /// Stop before the step or call with this id or label. If it is repeated, before its first repetition.
     pub before: Option<&'a str>,
 }
 
-/// No step of the recipe has this id.
+/// No step of the recipe has the given id.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no step of {path} has the id \"{id}\": {help}")]
 pub struct UnknownStep {
-    /// The recipe.
+    /// The path of the recipe.
     pub path: String,
-    /// The id.
+    /// The given id.
     pub id: String,
-    /// The nearest ids.
+    /// A suggestion of the most similar ids.
     pub help: String,
 }
 
 impl Loaded {
-    /// Cuts the recipe off where it stops, and its expectations away. Returns what keys the random choices of the step
-    /// that it stopped before; empty if there is none.
+    /// Removes the steps after the stop, and all expectations. Returns the label of the step in [`Stop::before`], which
+    /// seeds the random choices of that step, or an empty string if none is given.
     ///
     /// # Errors
     ///
@@ -44,11 +44,11 @@ impl Loaded {
         };
         let (mut n, mut stream) = (steps.len(), String::new());
         if let Some(id) = stop.after {
-            let place = steps.iter().rposition(|step| is_meant(step, id));
+            let place = steps.iter().rposition(|step| is_match(step, id));
             n = place.ok_or_else(|| unknown(id))? + 1;
         }
         if let Some(id) = stop.before {
-            let place = steps.iter().position(|step| is_meant(step, id));
+            let place = steps.iter().position(|step| is_match(step, id));
             n = place.ok_or_else(|| unknown(id))?;
             steps[n].label().clone_into(&mut stream);
         }
@@ -59,7 +59,7 @@ impl Loaded {
 }
 
 /// Whether a step has the id or the label, or is part of a call that has it.
-fn is_meant(step: &RecipeStep, id: &str) -> bool {
+fn is_match(step: &RecipeStep, id: &str) -> bool {
     let inside = step.label.strip_prefix(id);
     step.label == id
         || (step.scope == 0 && step.id.as_deref() == Some(id))

@@ -26,17 +26,17 @@ fn loaded(text: &str) -> Loaded {
     loaded
 }
 
-/// Keeps the scene after each step.
+/// A listener that collects the scene after each step.
 #[derive(Default)]
-struct Kept(Mutex<Vec<Scene>>);
+struct SceneCollector(Mutex<Vec<Scene>>);
 
-impl Progress for Kept {
+impl Progress for SceneCollector {
     fn advance(&self, _: &str, _: u64, _: u64) -> bool {
         true
     }
 }
 
-impl Listener for Kept {
+impl Listener for SceneCollector {
     fn step_begins(&self, _: usize, _: &str) {}
     fn step_done(&self, _: usize, _: &StepDone) {}
 
@@ -45,21 +45,21 @@ impl Listener for Kept {
     }
 
     fn scene_after(&self, number: usize, scene: &Scene) {
-        let mut kept = self.0.lock().unwrap();
-        assert_eq!(kept.len(), number);
-        kept.push(scene.clone());
+        let mut scenes = self.0.lock().unwrap();
+        assert_eq!(scenes.len(), number);
+        scenes.push(scene.clone());
     }
 }
 
 #[test]
-fn a_run_from_any_step_ends_as_the_whole_run() {
+fn a_run_from_any_step_has_the_same_result_as_the_whole_run() {
     let recipe = loaded(RECIPE);
-    let kept = Kept::default();
-    let whole = recipe.run(Run::default(), &kept);
+    let collector = SceneCollector::default();
+    let whole = recipe.run(Run::default(), &collector);
     assert!(whole.succeeded());
-    let kept = kept.0.into_inner().unwrap();
-    assert_eq!(kept.len(), recipe.recipe.steps.len());
-    for (i, scene) in kept.into_iter().enumerate() {
+    let scenes = collector.0.into_inner().unwrap();
+    assert_eq!(scenes.len(), recipe.recipe.steps.len());
+    for (i, scene) in scenes.into_iter().enumerate() {
         let rest = recipe.run_from(i + 1, scene, Run::default(), &Silent);
         assert!(rest.succeeded());
         assert_eq!((rest.digest, rest.first), (whole.digest, i + 1));
@@ -68,7 +68,7 @@ fn a_run_from_any_step_ends_as_the_whole_run() {
 }
 
 #[test]
-fn a_run_is_cancelled_from_outside() {
+fn cancel_cancels_a_run() {
     let cancel = Cancel::new();
     assert!(loaded(RECIPE).run(Run::default(), &cancel).succeeded());
     assert!(!cancel.set() && cancel.set());
@@ -77,7 +77,7 @@ fn a_run_is_cancelled_from_outside() {
 }
 
 #[test]
-fn a_recipe_stops_where_it_is_told() {
+fn a_recipe_stops_after_or_before_the_given_step() {
     let faces = |stop: Stop| {
         let mut recipe = loaded(RECIPE);
         let stream = recipe.stop(stop).unwrap();
@@ -109,7 +109,7 @@ fn a_recipe_stops_where_it_is_told() {
 }
 
 #[test]
-fn the_scene_before_a_step_leaves_the_recipe_as_it_is() {
+fn scene_before_leaves_the_recipe_unchanged() {
     let mut recipe = loaded(RECIPE);
     let scene = recipe.scene_before(2, &Silent).unwrap();
     assert_eq!(scene.objects()[0].as_mesh().unwrap().n_faces(), 24);
@@ -117,7 +117,7 @@ fn the_scene_before_a_step_leaves_the_recipe_as_it_is() {
 }
 
 #[test]
-fn recipes_that_are_called_are_read_from_the_store() {
+fn called_recipes_are_read_from_the_store() {
     let store = Arc::new(Memory::default());
     let registry = registry();
     let engine = Engine::new(&registry).with_store(store.clone());
@@ -138,7 +138,7 @@ fn recipes_that_are_called_are_read_from_the_store() {
 }
 
 #[test]
-fn files_of_steps_are_those_of_the_store() {
+fn steps_read_and_write_files_in_the_store() {
     let store = Arc::new(Memory::default());
     let registry = registry();
     let engine = Engine::new(&registry).with_store(store.clone());
@@ -153,7 +153,7 @@ fn files_of_steps_are_those_of_the_store() {
         keep_outputs: true,
         cache: None,
     };
-    // The first run writes what the second is compared with.
+    // The first run writes the file that the second run is compared with.
     let load = |text: &str| engine.load(&Source::new("a.ron", text), &Options::default());
     let first = text.replace(", Same(as: File(\"out/new/b.obj\"))", "");
     for text in [first.as_str(), text] {

@@ -36,7 +36,7 @@ pub use describe::{
     FieldDoc, TypeDoc, VariantDoc, expectations, fields, refusals, selections, types,
 };
 pub use diagnostic::render;
-pub use expect::{ActualValue, Expectation, Other, Reader};
+pub use expect::{ActualValue, Expectation, OtherMesh, Reader};
 pub use jobs::{InOrder, JobEnd, JobLimits, Jobs, JobsError};
 pub use params::{Move, Param, ParamError};
 pub use read::{Reading, VERSION, Values, read, read_by};
@@ -45,8 +45,8 @@ pub use recipe::{
 };
 pub use ron_tree::{Diagnostic, LineIndex, Severity, Span};
 pub use run::{
-    CachedRun, Change, Done, Failure, Finding, Listener, Outcome, RerunReason, Settings, Silent,
-    StepCache, StepDone, UnmetExpectation, run, run_from,
+    CachedRun, CompletedStep, Failure, FileChange, Listener, Outcome, RerunReason, Settings,
+    Silent, StepCache, StepDone, StepResult, UnmetExpectation, run, run_from,
 };
 pub use schema::{Schemas, schema, step_kinds};
 pub use select::{read_selection, read_step, resolve};

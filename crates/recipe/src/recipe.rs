@@ -232,7 +232,7 @@ impl Recipe {
     }
 
     /// Whether files that it writes are held against others.
-    pub(crate) fn holds_outputs(&self) -> bool {
+    pub(crate) fn checks_outputs(&self) -> bool {
         self.expectations
             .iter()
             .any(|placed| placed.that.output().is_some())

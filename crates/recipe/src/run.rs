@@ -1,15 +1,16 @@
-//! Running a recipe.
+//! Runs a recipe.
 //!
-//! Steps run one after another on a scene. If one fails, the run ends and nothing is written: outputs
-//! go to a folder of their own beside their places, and are moved there when everything has held.
+//! Steps run one after another on a scene. If a step fails, the run ends and no outputs are written: steps write to
+//! a temporary folder inside the output folder, and the files are moved to the output folder only after all steps
+//! have run and all expectations hold.
 //!
-//! With a [cache](StepCache) a step runs only if the cache does not have its result, and a scene is
-//! brought back from it only where a step runs or an expectation must be held against it.
+//! With a [cache](StepCache), a step runs only if the cache does not have its result. A scene is loaded from the cache
+//! only if a step must run on it or an expectation must be checked against it.
 
-mod before;
 mod cache;
 mod listener;
 mod outcome;
+mod snapshot;
 mod stage;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -22,28 +23,28 @@ use web_time::Instant;
 use crate::check::forbidden;
 use crate::expect::{ActualValue, Reader, Subject};
 use crate::recipe::{Recipe, RecipeStep};
-use before::Before;
 use ron_tree::Diagnostic;
+use snapshot::SceneSnapshot;
 use stage::{deliver, listing, staging, written};
 
-pub use cache::{CachedRun, Change, Done, Finding, RerunReason, StepCache};
+pub use cache::{CachedRun, CompletedStep, FileChange, RerunReason, StepCache, StepResult};
 pub use listener::{Failure, Listener, Silent, StepDone};
 pub use outcome::{Outcome, UnmetExpectation};
 
-/// What a run needs beside its recipe.
+/// The settings of a run.
 #[derive(Clone, Copy)]
 pub struct Settings<'a> {
-    /// Where files are.
+    /// The input and output folders, and the store of files.
     pub files: &'a Files,
-    /// How many bytes meshes may take.
+    /// The memory budget for meshes, in bytes.
     pub budget: u64,
-    /// How files are read for expectations.
+    /// Reads the files that expectations refer to.
     pub reader: &'a dyn Reader,
-    /// Whether outputs are kept.
+    /// Whether outputs are kept after the run.
     pub keep_outputs: bool,
-    /// Whether the recipe writes anything.
+    /// Whether a step of the recipe writes files.
     pub writes: bool,
-    /// The cache, if there is one.
+    /// The step cache, if one is used.
     pub cache: Option<&'a dyn StepCache>,
 }
 
@@ -52,11 +53,13 @@ pub fn run(recipe: &Recipe, settings: Settings, listener: &dyn Listener) -> Outc
     run_from(recipe, 0, Scene::new(), settings, listener)
 }
 
-/// Runs a recipe from the step of number `first` on: `scene` is that before it, as [`Listener::scene_after`] or an
-/// [`Outcome`] gave it. A change of a step costs no step before it.
+/// Runs a recipe starting at the step with index `first`. `scene` is the scene before that step, as passed to
+/// [`Listener::scene_after`] or returned in an [`Outcome`]. After a change to one step, the steps before it need not
+/// run again.
 ///
-/// Expectations after earlier steps are not held again, and what earlier steps write is not written again. There is no
-/// cache then: it knows a scene by the steps that led to it, and nobody checks that these led to `scene`.
+/// Expectations after earlier steps are not checked again, and earlier steps do not write their files again. If `first`
+/// is not 0, the cache is not used: it identifies a scene by the steps before it, and whether these steps produced
+/// `scene` is not known.
 pub fn run_from(
     recipe: &Recipe,
     first: usize,
@@ -64,9 +67,9 @@ pub fn run_from(
     settings: Settings,
     listener: &dyn Listener,
 ) -> Outcome {
-    // The cache reads inputs and outputs from the disk by itself.
-    let is_useful = first == 0 && settings.files.store.is_disk();
-    let cache = settings.cache.filter(|_| is_useful);
+    // The cache accesses inputs and outputs directly on disk.
+    let is_usable = first == 0 && settings.files.store.is_disk();
+    let cache = settings.cache.filter(|_| is_usable);
     let mut runner = Runner {
         recipe,
         settings,
@@ -75,7 +78,7 @@ pub fn run_from(
         stage: None,
         session: cache.map(StepCache::begin),
         scene,
-        at: first,
+        scene_index: first,
         first,
         n_done: first,
         steps: Vec::new(),
@@ -88,7 +91,7 @@ pub fn run_from(
     match staging(&settings) {
         Ok(stage) => {
             let mut files = settings.files.clone();
-            // Only what this run asks for counts.
+            // A new log, so that it has only the file accesses of this run.
             files.log.clone_from(&runner.log);
             if let Some(stage) = &stage {
                 stage.path().clone_into(&mut files.output);
@@ -114,18 +117,19 @@ pub fn run_from(
 struct Runner<'a> {
     recipe: &'a Recipe,
     settings: Settings<'a>,
-    /// Where the steps of each scope read, and the stage that they write to.
+    /// For each scope, the folder that its steps read from, and the stage that they write to.
     files: Vec<Files>,
-    /// What they ask for.
+    /// The file accesses of the current step or expectation.
     log: FileLog,
     stage: Option<PathBuf>,
     session: Option<Box<dyn CachedRun + 'a>>,
-    /// The scene before the step of number `at`. Later steps than that were found in the cache.
+    /// The scene before the step with index `scene_index`. The results of later steps came from the cache, so that
+    /// `scene` can be behind `n_done`.
     scene: Scene,
-    at: usize,
-    /// The step that the run began with.
+    scene_index: usize,
+    /// The index of the step that the run starts with.
     first: usize,
-    /// How many steps are done: one more than are listed if the last one lost what it must not.
+    /// The number of steps that are done. Larger than `steps.len()` by one if the last step had a forbidden loss.
     n_done: usize,
     steps: Vec<StepDone>,
     failures: Vec<Diagnostic>,
@@ -134,24 +138,24 @@ struct Runner<'a> {
     checked: usize,
 }
 
-/// Why a step failed, and the places that it is about.
-pub(crate) struct Fault {
+/// Why a step failed, and the places in the scene that the failure is about.
+pub(crate) struct StepError {
     pub(crate) message: String,
     places: Vec<ErrorLocation>,
 }
 
-/// Why a run goes no further: it was cancelled, or a failure was reported.
+/// The run ends early: it was cancelled, or a failure was reported.
 struct Stopped;
 
 impl Runner<'_> {
     fn run(&mut self, listener: &dyn Listener) {
-        // What stopped it is told already.
+        // The reason for an early end has already been reported.
         let _ = self.run_steps(listener);
         if self.failures.is_empty()
             && !self.cancelled
             && self.session.as_ref().is_some_and(|s| s.wants_scene())
         {
-            let _ = self.bring(self.n_done, listener);
+            let _ = self.advance_scene(self.n_done, listener);
         }
     }
 
@@ -159,7 +163,7 @@ impl Runner<'_> {
         let recipe = self.recipe;
         for (i, step) in recipe.steps.iter().enumerate().skip(self.first) {
             listener.step_begins(i, step.label());
-            let mut done = self.found_or_run(i, step, listener)?;
+            let mut done = self.look_up_or_run(i, step, listener)?;
             self.n_done = i + 1;
             if listener.wants_digests() {
                 done.digest = Some(self.digest(listener)?);
@@ -171,21 +175,21 @@ impl Runner<'_> {
             listener.step_done(i, &done);
             self.steps.push(done);
             if listener.wants_scenes() {
-                self.bring(self.n_done, listener)?;
+                self.advance_scene(self.n_done, listener)?;
                 listener.scene_after(i, &self.scene);
             }
-            self.expectations(Some(i), listener)?;
+            self.check_expectations(Some(i), listener)?;
             if i + 1 < recipe.steps.len()
                 && let Some(session) = &mut self.session
             {
                 session.flush();
             }
         }
-        self.expectations(None, listener)
+        self.check_expectations(None, listener)
     }
 
     /// Takes the result of a step from the cache, or runs it.
-    fn found_or_run(
+    fn look_up_or_run(
         &mut self,
         i: usize,
         step: &RecipeStep,
@@ -194,33 +198,34 @@ impl Runner<'_> {
         let begin = Instant::now();
         let files = &self.files[step.scope];
         let why = if let Some(session) = &mut self.session {
-            // Outputs that are held against others must be there, even if nobody keeps them.
-            let is_wanted = |_: &&Path| self.settings.keep_outputs || self.recipe.holds_outputs();
-            let stage = self.stage.as_deref().filter(is_wanted);
-            match session.find(step, self.settings.budget, files, stage) {
-                Ok(found) => {
+            // Expectations about outputs need the files, even if the outputs are not kept.
+            let needs_files =
+                |_: &&Path| self.settings.keep_outputs || self.recipe.checks_outputs();
+            let stage = self.stage.as_deref().filter(needs_files);
+            match session.look_up(step, self.settings.budget, files, stage) {
+                Ok(result) => {
                     if !listener.advance(step.label(), 1, 1) {
                         self.cancelled = true;
                         return Err(Stopped);
                     }
-                    return Ok(StepDone::new(step, found, begin.elapsed(), None));
+                    return Ok(StepDone::new(step, result, begin.elapsed(), None));
                 }
                 Err(why) => why,
             }
         } else {
             RerunReason::NoCache
         };
-        self.bring(i, listener)?;
+        self.advance_scene(i, listener)?;
         let session = self.session.as_ref();
-        let before = session.map(|_| Before::of(&self.scene));
+        let before = session.map(|_| SceneSnapshot::of(&self.scene));
         let stage = self.stage.as_deref().filter(|_| session.is_some());
         let listed = stage.map(|stage| listing(stage, &self.files[step.scope]));
         self.log.take();
         let begin = Instant::now();
         let (report, refused) = self.apply(step, listener)?;
         let time = begin.elapsed();
-        self.at = i + 1;
-        let finding = Finding {
+        self.scene_index = i + 1;
+        let result = StepResult {
             report,
             refused,
             counts: counts(&self.scene),
@@ -228,10 +233,10 @@ impl Runner<'_> {
         if let (Some(session), Some(before)) = (&mut self.session, before) {
             let stage = self.stage.as_deref();
             let files = &self.files[step.scope];
-            let done = Done {
-                finding: &finding,
+            let done = CompletedStep {
+                result: &result,
                 scene: &self.scene,
-                same: before.is_still(&self.scene),
+                keeps_scene: before.is_unchanged(&self.scene),
                 time,
                 uses: &self.log.take(),
                 written: (stage.zip(listed.as_ref())).map_or_else(Vec::new, |(stage, before)| {
@@ -239,17 +244,17 @@ impl Runner<'_> {
                 }),
                 stage,
             };
-            session.ran(i + 1, step.label(), files, &done);
+            session.record_step(i + 1, step.label(), files, &done);
         }
-        Ok(StepDone::new(step, finding, time, Some(why)))
+        Ok(StepDone::new(step, result, time, Some(why)))
     }
 
-    /// The digest of the scene after the steps that are done.
+    /// Returns the digest of the scene after the steps that are done.
     fn digest(&mut self, listener: &dyn Listener) -> Result<Digest, Stopped> {
         if let Some(known) = self.session.as_ref().and_then(|s| s.digest()) {
             return Ok(known);
         }
-        self.bring(self.n_done, listener)?;
+        self.advance_scene(self.n_done, listener)?;
         let digest = self.scene.digest();
         if let Some(session) = &mut self.session {
             session.set_digest(digest);
@@ -257,48 +262,48 @@ impl Runner<'_> {
         Ok(digest)
     }
 
-    /// Makes the scene that of the place before step `to`, all steps before which are done: from the cache, and by
-    /// running steps again whose scenes are not there.
-    fn bring(&mut self, to: usize, listener: &dyn Listener) -> Result<(), Stopped> {
-        if self.at < to
+    /// Advances `scene` to the scene before step `to`, whose predecessors are all done: loads a scene from the cache and
+    /// runs the steps after it again.
+    fn advance_scene(&mut self, to: usize, listener: &dyn Listener) -> Result<(), Stopped> {
+        if self.scene_index < to
             && let Some(session) = &mut self.session
-            && let Some((place, scene)) = session.bring(self.at, to)
+            && let Some((index, scene)) = session.load_scene(self.scene_index, to)
         {
-            (self.at, self.scene) = (place, scene);
+            (self.scene_index, self.scene) = (index, scene);
         }
         let recipe = self.recipe;
-        while self.at < to {
-            let place = self.at;
-            if !self.session.as_ref().is_some_and(|s| s.is_same(place)) {
-                let step = &recipe.steps[place];
+        while self.scene_index < to {
+            let index = self.scene_index;
+            if !(self.session.as_ref()).is_some_and(|s| s.keeps_scene(index)) {
+                let step = &recipe.steps[index];
                 let begin = Instant::now();
                 self.apply(step, listener)?;
                 let time = begin.elapsed();
                 if let Some(session) = &mut self.session {
-                    let why = session.ran_again(place + 1, step.label(), &self.scene, time);
-                    let done = place.checked_sub(self.first);
+                    let why = session.record_rerun(index + 1, step.label(), &self.scene, time);
+                    let done = index.checked_sub(self.first);
                     if let Some(done) = done.and_then(|i| self.steps.get_mut(i)) {
                         done.time += time;
                         done.ran.get_or_insert(why);
                     }
                 }
             }
-            self.at += 1;
+            self.scene_index += 1;
         }
         Ok(())
     }
 
-    /// Does a step. The scene is as it was before if that fails.
+    /// Runs a step. If it fails, the scene is unchanged.
     fn apply(
         &mut self,
         step: &RecipeStep,
         listener: &dyn Listener,
     ) -> Result<(Report, Option<Refusal>), Stopped> {
         let (files, budget) = (&self.files[step.scope], self.settings.budget);
-        attempt(step, &mut self.scene, files, budget, listener).map_err(|fault| {
-            match fault {
+        run_step(step, &mut self.scene, files, budget, listener).map_err(|error| {
+            match error {
                 None => self.cancelled = true,
-                Some(Fault { message, places }) => {
+                Some(StepError { message, places }) => {
                     let failure = Diagnostic::error(step.span, message);
                     self.fail(step.scope, failure, (&places, None), listener);
                 }
@@ -324,8 +329,8 @@ impl Runner<'_> {
         self.failures.push(diagnostic);
     }
 
-    /// Holds the expectations after this step, or at the end, against the scene.
-    fn expectations(
+    /// Checks the expectations after the step with this index, or those at the end if `None`.
+    fn check_expectations(
         &mut self,
         after: Option<usize>,
         listener: &dyn Listener,
@@ -337,14 +342,14 @@ impl Runner<'_> {
             if self
                 .session
                 .as_mut()
-                .is_some_and(|s| s.holds(placed, &self.files[placed.scope]))
+                .is_some_and(|s| s.is_known_to_hold(placed, &self.files[placed.scope]))
             {
                 self.checked += 1;
                 continue;
             }
             let is_about_files = placed.that.output().is_some();
             if !is_about_files || listener.wants_places() {
-                self.bring(self.n_done, listener)?;
+                self.advance_scene(self.n_done, listener)?;
             }
             self.log.take();
             let subject = Subject {
@@ -354,15 +359,15 @@ impl Runner<'_> {
                 reader: self.settings.reader,
             };
             self.checked += 1;
-            match placed.that.hold(subject) {
+            match placed.that.check(subject) {
                 Ok(()) => {
                     let session = self.session.as_mut().filter(|_| !is_about_files);
                     if let Some(session) = session {
-                        session.held(placed, &self.log.take());
+                        session.record_met_expectation(placed, &self.log.take());
                     }
                 }
-                Err(broken) => {
-                    let failure = Diagnostic::error(placed.span, broken.message);
+                Err(violation) => {
+                    let failure = Diagnostic::error(placed.span, violation.message);
                     let step = after.and_then(|i| recipe.steps.get(i));
                     let failure = match step.filter(|step| step.scope == placed.scope) {
                         Some(step) => failure.with_label(step.span, "after this step"),
@@ -373,13 +378,13 @@ impl Runner<'_> {
                     } else {
                         Vec::new()
                     };
-                    let place = self.failures.len();
-                    let found = broken.found.as_ref();
+                    let index = self.failures.len();
+                    let found = violation.found.as_ref();
                     self.fail(placed.scope, failure, (&places, found), listener);
                     self.unmet.push(UnmetExpectation {
                         expectation: i,
-                        failure: place,
-                        found: broken.found,
+                        failure: index,
+                        found: violation.found,
                     });
                 }
             }
@@ -388,17 +393,17 @@ impl Runner<'_> {
     }
 
     fn end(mut self, written: Vec<PathBuf>) -> Outcome {
-        let is_whole = self.at == self.n_done;
+        let is_current = self.scene_index == self.n_done;
         let known = self.session.as_ref().and_then(|s| s.digest());
-        if known.is_none() && !is_whole && !self.cancelled {
-            // A step that is run again for its scene and fails was told before.
-            let _ = self.bring(self.n_done, &Silent);
+        if known.is_none() && !is_current && !self.cancelled {
+            // If a step fails when it runs again for its scene, `apply` has added the failure.
+            let _ = self.advance_scene(self.n_done, &Silent);
         }
-        let is_whole = self.at == self.n_done;
+        let is_current = self.scene_index == self.n_done;
         let digest = known.unwrap_or_else(|| self.scene.digest());
         let (mut cache_problem, mut cache_notes) = (None, Vec::new());
         if let Some(mut session) = self.session {
-            if is_whole {
+            if is_current {
                 session.set_digest(digest);
             }
             (cache_problem, cache_notes) = session.finish();
@@ -410,7 +415,7 @@ impl Runner<'_> {
             unmet: self.unmet,
             cancelled: self.cancelled,
             checked: self.checked,
-            scene: is_whole.then_some(self.scene),
+            scene: is_current.then_some(self.scene),
             digest,
             written,
             cache_problem,
@@ -419,36 +424,39 @@ impl Runner<'_> {
     }
 }
 
-/// Does a step. Fails with a message and the places that it is about, or without them if it was cancelled; the
-/// scene is then as it was before.
-pub(crate) fn attempt(
+/// Runs a step. Returns its report and, if the step was refused as the recipe expects, the reason.
+///
+/// # Errors
+///
+/// `None` if the step was cancelled, or else why it failed. The scene is then unchanged.
+pub(crate) fn run_step(
     step: &RecipeStep,
     scene: &mut Scene,
     files: &Files,
     budget: u64,
     progress: &dyn Progress,
-) -> Result<(Report, Option<Refusal>), Option<Fault>> {
-    let fault = |message: String, places: &[ErrorLocation]| {
+) -> Result<(Report, Option<Refusal>), Option<StepError>> {
+    let error = |message: String, places: &[ErrorLocation]| {
         let places = places.to_vec();
-        Err(Some(Fault { message, places }))
+        Err(Some(StepError { message, places }))
     };
     let Some(operation) = &step.step else {
-        return fault("this step could not be read".to_owned(), &[]);
+        return error("this step could not be read".to_owned(), &[]);
     };
-    // Held only where it is needed: whoever changes a mesh that is held copies it first.
-    let is_needed = step.refused.is_some() || !operation.is_atomic();
-    let before = is_needed.then(|| scene.clone());
+    // Cloned only if needed: while the clone exists, an operation copies each mesh before it changes it.
+    let needs_rollback = step.refused.is_some() || !operation.is_atomic();
+    let before = needs_rollback.then(|| scene.clone());
     let on = step.on_names();
     let mut cx = Context::new(progress, files);
     cx.on = on.as_deref();
     cx.stream = step.label();
     cx.budget = budget;
-    // After a panic nothing is known of the scene, and nobody asks for it: the run ends.
+    // Safe to assert: after a panic the scene is replaced and the run ends.
     let apply = AssertUnwindSafe(|| operation.apply(scene, &mut cx));
     let Ok(result) = catch_unwind(apply) else {
         *scene = before.unwrap_or_default();
-        let message = format!("{} has panicked, which is a mistake in it", step.name);
-        return fault(message, &[]);
+        let message = format!("internal error in {} (please report it)", step.name);
+        return error(message, &[]);
     };
     if (result.is_err() || step.refused.is_some())
         && let Some(before) = before
@@ -459,8 +467,8 @@ pub(crate) fn attempt(
         (Err(OpError::Cancelled), _) => Err(None),
         (Ok(report), None) => Ok((report, None)),
         (Ok(_), Some(expected)) => {
-            let message = format!("expected to be refused as {expected:?}, but it was done");
-            fault(message, &[])
+            let message = format!("expected the refusal {expected:?}, but the step succeeded");
+            error(message, &[])
         }
         (
             Err(OpError::Refused {
@@ -471,20 +479,21 @@ pub(crate) fn attempt(
             let report = Report::default().note(format!("refused as expected: {message}"));
             Ok((report, Some(reason)))
         }
-        (Err(error), None) => fault(error.to_string(), error.places()),
-        (Err(error), Some(expected)) => {
-            let message = format!("expected to be refused as {expected:?}, but: {error}");
-            fault(message, error.places())
+        (Err(found), None) => error(found.to_string(), found.places()),
+        (Err(found), Some(expected)) => {
+            let message =
+                format!("expected the refusal {expected:?}, but the step failed: {found}");
+            error(message, found.places())
         }
     }
 }
 
-/// Whether one place of an expectation comes before another: the end is the last one.
+/// Whether step `a` comes before step `b`, where `None` stands for the end of the recipe.
 fn is_before(a: Option<usize>, b: Option<usize>) -> bool {
     a.is_some_and(|a| b.is_none_or(|b| a < b))
 }
 
-/// Vertices, edges and faces of all meshes together; points of polylines are vertices.
+/// Returns the number of vertices, edges and faces of all meshes together. Points of polylines count as vertices.
 fn counts(scene: &Scene) -> [usize; 3] {
     let mut counts = [0; 3];
     for object in scene.objects() {

@@ -13,7 +13,7 @@ use scene::{Geometry, Scene};
 
 use crate::check::forbidden;
 use crate::recipe::RecipeStep;
-use crate::run::attempt;
+use crate::run::run_step;
 
 /// How a step fails on a scene; `None` if it does what the recipe wants of it. The scene stays as it is.
 ///
@@ -27,7 +27,7 @@ pub fn failure(
     budget: u64,
     progress: &dyn Progress,
 ) -> Result<Option<String>, OpError> {
-    match attempt(step, &mut scene.clone(), files, budget, progress) {
+    match run_step(step, &mut scene.clone(), files, budget, progress) {
         Ok((report, _)) => {
             let lost = step.on_loss.forbidden(&report.losses);
             Ok(lost.map(|loss| forbidden(step, loss).message))

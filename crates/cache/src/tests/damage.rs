@@ -1,8 +1,8 @@
-//! Caches that are damaged, full, in the way or gone: never an error and never another result.
+//! Tests of damaged, full, blocked or missing caches: they never cause an error or a different result.
 
 use super::*;
 
-/// All files below a folder, sorted.
+/// Returns all files below a folder, sorted.
 pub(super) fn all_files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
@@ -20,10 +20,10 @@ pub(super) fn all_files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Damages a file, and is given the contents of all.
+/// Damages a file. The second argument is the contents of all files.
 type Damage = fn(&Path, &[Vec<u8>]);
 
-/// Large enough for arrays that are files of their own.
+/// Returns a recipe whose scene is large enough for arrays to be stored as blobs.
 fn recipe() -> String {
     r#"(recipe: 1, steps: [
         Sheet(columns: 700), (id: "up", run: Lift(by: 1)), Write(path: "a.txt"), Lift(by: 2)],
@@ -32,7 +32,7 @@ fn recipe() -> String {
 }
 
 #[test]
-fn every_file_that_is_damaged_in_any_way_is_noticed() {
+fn damage_to_any_file_is_noticed() {
     let place = Place::new();
     let text = recipe();
     place.run(&text);
@@ -53,11 +53,11 @@ fn every_file_that_is_damaged_in_any_way_is_noticed() {
         },
         |path, _| fs::write(path, "").unwrap(),
         |path, _| fs::remove_file(path).unwrap(),
-        // Whole files in the wrong place.
+        // Intact files under a wrong name.
         |path, others| fs::write(path, &others[0]).unwrap(),
         |path, others| fs::write(path, others.last().unwrap()).unwrap(),
     ];
-    // An edit of the last step needs the scene from before it.
+    // If the last step is edited, the scene before it is needed.
     let edited = text.replace("Lift(by: 2)", "Lift(by: 3)");
     let plain = [&text, &edited].map(|text| place.run_with(text, None, "plain"));
     for damage in damages {
@@ -72,13 +72,13 @@ fn every_file_that_is_damaged_in_any_way_is_noticed() {
             }
         }
     }
-    // It heals: all is there again.
+    // The cache is complete again.
     place.run(&text);
     place.runs_nothing(&text);
 }
 
 #[test]
-fn an_edited_record_is_not_taken_even_with_a_new_digest() {
+fn an_edited_record_is_rejected_even_with_a_new_digest() {
     let place = Place::new();
     let text = recipe();
     place.run(&text);
@@ -116,7 +116,7 @@ fn links_to_devices_are_not_read() {
 }
 
 #[test]
-fn a_folder_in_place_of_a_file_does_no_harm() {
+fn folders_in_place_of_files_are_ignored() {
     let place = Place::new();
     place.run(&recipe());
     for path in all_files(&place.path("cache")) {
@@ -127,7 +127,7 @@ fn a_folder_in_place_of_a_file_does_no_harm() {
 }
 
 #[test]
-fn a_scene_that_is_lost_is_made_again_and_said_so() {
+fn a_lost_scene_is_computed_again_and_reported() {
     let place = Place::new();
     let text = recipe();
     place.run(&text);
@@ -142,12 +142,12 @@ fn a_scene_that_is_lost_is_made_again_and_said_so() {
         outcome
             .cache_notes
             .iter()
-            .any(|note| note.contains("not in the cache any more"))
+            .any(|note| note.contains("no longer in the cache"))
     );
 }
 
 #[test]
-fn a_cache_that_cannot_be_written_is_told_once_and_the_run_goes_on() {
+fn a_cache_that_cannot_be_written_is_reported_and_the_run_continues() {
     let mut place = Place::new();
     place.write("file", "");
     place.cache = Cache::new(place.path("file/cache"), u64::MAX, "tests 1");
@@ -163,7 +163,7 @@ fn a_cache_that_cannot_be_written_is_told_once_and_the_run_goes_on() {
 }
 
 #[test]
-fn a_cache_of_no_size_is_emptied_after_each_run() {
+fn a_cache_with_limit_0_is_emptied_after_each_run() {
     let mut place = Place::new();
     place.cache = Cache::new(place.path("cache"), 0, "tests 1");
     for _ in 0..2 {
@@ -187,11 +187,11 @@ fn a_cache_can_be_cleared() {
 }
 
 #[test]
-fn a_step_that_changes_one_thing_stores_one_thing() {
+fn a_step_that_changes_one_array_stores_one_array() {
     let place = Place::new();
     place.run(&steps("Sheet(columns: 700)"));
     let before = place.cache.size().unwrap().blobs;
     place.run(&steps("Sheet(columns: 700), Lift(by: 1)"));
-    // The positions.
+    // Only the positions were added.
     assert_eq!(place.cache.size().unwrap().blobs, before + 1);
 }

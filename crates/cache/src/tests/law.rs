@@ -1,11 +1,11 @@
-//! The law: with a cache, whatever it holds, everything is as it is without one.
+//! Property tests: whatever the cache contains, runs with it have the same outcome as runs without it.
 
 use proptest::prelude::*;
 
 use super::damage::all_files;
 use super::*;
 
-/// A step of a random recipe.
+/// Generates a step of a random recipe.
 fn step() -> impl Strategy<Value = String> {
     let by = (1..4_u32).prop_map(|by| format!("Lift(by: {by})"));
     prop_oneof![
@@ -19,9 +19,9 @@ fn step() -> impl Strategy<Value = String> {
 }
 
 fn recipe() -> impl Strategy<Value = String> {
-    let first = (1..3_u32, any::<bool>()).prop_map(|(n, tells)| {
+    let first = (1..3_u32, any::<bool>()).prop_map(|(n, reports)| {
         format!(
-            "FromFile(path: \"n.txt\", tells: {tells}), Sheet(columns: {}, name: \"b\"),",
+            "FromFile(path: \"n.txt\", reports: {reports}), Sheet(columns: {}, name: \"b\"),",
             n * 350
         )
     });
@@ -35,15 +35,15 @@ fn recipe() -> impl Strategy<Value = String> {
         let steps: Vec<String> = steps
             .into_iter()
             .filter(|step| !step.contains("Write") || !std::mem::replace(&mut written, true))
-            .scan(false, |named, step| {
-                // An id is there once.
+            .scan(false, |has_id, step| {
+                // An id must be unique.
                 let is_named = step.contains("id:");
                 Some((
-                    is_named && std::mem::replace(named, *named || is_named),
+                    is_named && std::mem::replace(has_id, *has_id || is_named),
                     step,
                 ))
             })
-            .filter(|(again, _)| !again)
+            .filter(|(is_duplicate, _)| !is_duplicate)
             .map(|(_, step)| step)
             .collect();
         format!(
@@ -53,36 +53,36 @@ fn recipe() -> impl Strategy<Value = String> {
     })
 }
 
-/// Something that happens between two runs.
+/// A change of the input file or of the cache between two runs.
 #[derive(Clone, Debug)]
 enum Event {
-    Input(u32),
-    NoInput,
-    Flip(prop::sample::Index, usize),
-    Cut(prop::sample::Index),
+    WriteInput(u32),
+    RemoveInput,
+    FlipBit(prop::sample::Index, usize),
+    Truncate(prop::sample::Index),
     Remove(prop::sample::Index),
-    Exchange(prop::sample::Index, prop::sample::Index),
+    Overwrite(prop::sample::Index, prop::sample::Index),
     Nothing,
 }
 
 fn event() -> impl Strategy<Value = Event> {
     let index = any::<prop::sample::Index>;
     prop_oneof![
-        (1..4_u32).prop_map(Event::Input),
-        Just(Event::NoInput),
-        (index(), any::<usize>()).prop_map(|(file, at)| Event::Flip(file, at)),
-        index().prop_map(Event::Cut),
+        (1..4_u32).prop_map(Event::WriteInput),
+        Just(Event::RemoveInput),
+        (index(), any::<usize>()).prop_map(|(file, at)| Event::FlipBit(file, at)),
+        index().prop_map(Event::Truncate),
         index().prop_map(Event::Remove),
-        (index(), index()).prop_map(|(a, b)| Event::Exchange(a, b)),
+        (index(), index()).prop_map(|(a, b)| Event::Overwrite(a, b)),
         Just(Event::Nothing),
     ]
 }
 
-fn happen(place: &Place, event: &Event) {
+fn apply_event(place: &Place, event: &Event) {
     let files = all_files(&place.path("cache"));
     match event {
-        Event::Input(n) => return place.write("n.txt", &n.to_string()),
-        Event::NoInput => {
+        Event::WriteInput(n) => return place.write("n.txt", &n.to_string()),
+        Event::RemoveInput => {
             let _ = fs::remove_file(place.path("n.txt"));
             return;
         }
@@ -91,7 +91,7 @@ fn happen(place: &Place, event: &Event) {
         _ => {}
     }
     match event {
-        Event::Flip(file, at) => {
+        Event::FlipBit(file, at) => {
             let path = file.get(&files);
             let mut bytes = fs::read(path).unwrap();
             let n = bytes.len().max(1);
@@ -100,12 +100,12 @@ fn happen(place: &Place, event: &Event) {
             }
             fs::write(path, bytes).unwrap();
         }
-        Event::Cut(file) => {
+        Event::Truncate(file) => {
             let bytes = fs::read(file.get(&files)).unwrap();
             fs::write(file.get(&files), &bytes[..bytes.len() / 2]).unwrap();
         }
         Event::Remove(file) => fs::remove_file(file.get(&files)).unwrap(),
-        Event::Exchange(a, b) => _ = fs::copy(a.get(&files), b.get(&files)),
+        Event::Overwrite(a, b) => _ = fs::copy(a.get(&files), b.get(&files)),
         _ => {}
     }
 }
@@ -114,26 +114,26 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn runs_with_a_cache_are_runs_without_one(
+    fn runs_with_and_without_a_cache_have_the_same_outcome(
         recipes in prop::collection::vec(recipe(), 1..3),
         events in prop::collection::vec((event(), any::<prop::sample::Index>()), 1..8),
     ) {
         let place = Place::new();
         place.write("n.txt", "2");
         for (event, recipe) in &events {
-            happen(&place, event);
+            apply_event(&place, event);
             place.run(recipe.get::<String>(&recipes));
         }
     }
 }
 
 #[test]
-fn two_runs_at_once_are_as_one() {
+fn concurrent_runs_can_share_a_cache() {
     let place = Place::new();
     place.write("n.txt", "2");
     let text = |n: usize| {
         steps(&format!(
-            "FromFile(path: \"n.txt\", tells: true), Sheet(columns: 700), Lift(by: 1), Lift(by: {}), Write(path: \"a.txt\")",
+            "FromFile(path: \"n.txt\", reports: true), Sheet(columns: 700), Lift(by: 1), Lift(by: {}), Write(path: \"a.txt\")",
             n % 3 + 1
         ))
     };
@@ -146,7 +146,7 @@ fn two_runs_at_once_are_as_one() {
             let (plain, text) = (&plain, &text);
             let folder = place.folder.path();
             scope.spawn(move || {
-                // A place of its own over the same folder; only the cache is shared.
+                // Each thread has its own output folder; only the cache is shared.
                 for n in 0..12 {
                     let caching = Caching {
                         cache,
@@ -161,7 +161,7 @@ fn two_runs_at_once_are_as_one() {
                         b"file\nsheet"
                     );
                     if thread == 0 && n % 4 == 3 {
-                        // In the middle of what the others do.
+                        // While the other threads use the cache.
                         let _ = cache.clear();
                     }
                 }

@@ -1,6 +1,6 @@
 //! `meshwright cache`: shows or clears the step cache.
 
-use ::cache::{Cache, LIMIT};
+use ::cache::{Cache, DEFAULT_LIMIT};
 use anyhow::Context as _;
 use recipe::mebibytes;
 
@@ -9,7 +9,7 @@ use crate::cache::folder;
 use crate::output::{group_digits, print, print_json};
 
 pub(crate) fn run(args: &CacheCommandArgs) -> anyhow::Result<bool> {
-    let cache = Cache::new(folder(&args.folder)?, LIMIT, "");
+    let cache = Cache::new(folder(&args.folder)?, DEFAULT_LIMIT, "");
     let shown = cache.folder().display().to_string();
     let (size, word) = match args.action {
         CacheAction::Info => (cache.size(), "holds"),

@@ -65,7 +65,7 @@ fn a_run_explains_why_a_step_ran() {
     folder
         .run("run recipe.ron --explain --no-cache")
         .with_code(0)
-        .prints(&["1 Torus: ran because there is no cache\n"]);
+        .prints(&["1 Torus: ran because no cache is used\n"]);
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn a_file_that_an_input_refers_to_is_an_input_too() {
     let missing = run().prints(&["1 Load: ran", "material library `a.mtl` left out"]);
     run().prints(&["1 Load: cached\n", "material library `a.mtl` left out"]);
     fs::write(folder.path("a.mtl"), "newmtl x\nKd 1 0 0\n").unwrap();
-    let red = run().prints(&["1 Load: ran because the file ./a.mtl was not there before\n"]);
+    let red = run().prints(&["1 Load: ran because the file ./a.mtl did not exist before\n"]);
     assert_ne!(red.digest(), missing.digest());
     fs::write(folder.path("a.mtl"), "newmtl x\nKd 0 1 0\n").unwrap();
     let green = run().prints(&["1 Load: ran because the file ./a.mtl changed\n"]);

@@ -49,7 +49,7 @@ fn missing_reference_files_are_reported_and_written_by_update() {
     ]);
     for command in ["run recipe.ron", "test recipe.ron"] {
         folder.run(command).with_code(1).complains(&[
-            "expected \"a/sheet.png\" to be as goldens/sheet.png, which is not there",
+            "expected \"a/sheet.png\" to match goldens/sheet.png, which does not exist",
             "recipe.ron:9:9",
         ]);
     }
@@ -80,7 +80,7 @@ fn missing_reference_files_are_reported_and_written_by_update() {
 fn one_different_pixel_fails_unless_tolerated() {
     let folder = recorded();
     change_a_pixel(&folder, "goldens/sheet.png", 41, 4);
-    let message = "expected \"a/sheet.png\" to be as goldens/sheet.png: 1 of 1200 pixels differs, by 4 of 255, at (1, 1)";
+    let message = "expected \"a/sheet.png\" to match goldens/sheet.png: 1 of 1200 pixels differs, by 4 of 255, at (1, 1)";
     // Also if the step that writes the picture comes from the cache.
     for command in [
         "test recipe.ron",
@@ -136,12 +136,12 @@ fn provenance_is_not_compared_but_contents_are() {
     folder
         .run("run recipe.ron --set size=2")
         .with_code(1)
-        .complains(&["expected \"b.mws\" to be as b.mws: expected objects of the digest"]);
+        .complains(&["expected \"b.mws\" to match b.mws: expected objects with the digest"]);
     let folder = folder.with("a.bzc", "3\n0 0\n1 3\n2 0\n");
-    folder.run("test recipe.ron").with_code(1).complains(&[
-        "expected \"a.svg\" to be as a.svg: byte ",
-        "is the first that differs",
-    ]);
+    folder
+        .run("test recipe.ron")
+        .with_code(1)
+        .complains(&["expected \"a.svg\" to match a.svg: the first difference is at byte "]);
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn a_mesh_that_needs_files_beside_it_is_not_recorded() {
         .run("test recipe.ron --update")
         .with_code(1)
         .complains(&[
-            "it cannot be recorded without the files beside it: write a .glb, .ply or .mws",
+            "the written file cannot be recorded because it depends on other files: write a .glb, .ply or .mws",
         ]);
     assert!(!folder.path("golden.obj").exists());
 }
@@ -281,7 +281,7 @@ fn a_batch_processes_files_again_if_a_reference_file_has_changed() {
     let folder = folder.with("golden.off", changed);
     folder.run(batch).with_code(1).prints(&[
         "FAILED a.obj: expected",
-        "to be as golden.off: expected objects",
+        "to match golden.off: expected objects",
     ]);
 }
 

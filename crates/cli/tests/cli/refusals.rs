@@ -40,7 +40,7 @@ fn five_different_mistakes_are_five_errors_and_nothing_runs() {
         "error: unknown variant `Boundery` for `edges`\n",
         "recipe.ron:7:45\n",
         "help: did you mean `Boundary`?\n",
-        "error: it has no bound, so it can never fail\n",
+        "error: the expectation has no bound, so it can never fail\n",
         "recipe.ron:10:28\n",
         "help: give it a bound, such as `eq`, `min` or `max`\n",
         "5 errors, no step was run\n",
@@ -236,7 +236,7 @@ fn a_step_refused_for_the_expected_reason_passes() {
         ])"#,
     );
     fails(&folder).complains(&[
-        "error: expected to be refused as Seam, but: ",
+        "error: expected the refusal Seam, but the step failed: ",
         "recipe.ron:4:19\n",
     ]);
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use op::{Files, Plan, PlanContext, Problem, Range};
 
-use crate::expect::{Other, golden};
+use crate::expect::{OtherMesh, golden};
 use crate::recipe::{Recipe, RecipeExpectation, RecipeStep};
 use crate::shape::did_you_mean;
 use ron_tree::{Diagnostic, Span, field_span};
@@ -202,9 +202,9 @@ fn expected(
     let on = placed.on.as_deref().unwrap_or_default();
     let mut names: Vec<&str> = on.iter().map(String::as_str).collect();
     let mut found = Vec::new();
-    match placed.that.others() {
-        Some(Other::Object(name)) => names.push(name),
-        Some(Other::File(path)) => {
+    match placed.that.other_mesh() {
+        Some(OtherMesh::Object(name)) => names.push(name),
+        Some(OtherMesh::File(path)) => {
             let path = files[placed.scope].to_read(path);
             found.extend(missing_file(&files[placed.scope], &path, placed.span));
         }

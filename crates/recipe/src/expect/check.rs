@@ -1,28 +1,31 @@
-//! Holding an expectation against a scene.
+//! Checks an expectation against a scene.
 
 use mesh::{Domain, Mesh};
 use op::{Elements, Files};
 use scene::Object;
 
 use super::places::double_edges;
-use super::subject::{ActualValue, Ends, Subject, Violation, fails_unless, near, selected, within};
+use super::subject::{
+    ActualValue, EdgeByVertices, Subject, Violation, check_count, check_integer, check_number,
+    fails_unless, selected,
+};
 use super::{Expectation, output, same, symmetry};
 use geometry::distance::{Distance, TOLERANCE, diagonal};
 
 impl Expectation {
-    /// Holds the expectation against a scene.
+    /// Checks the expectation against a scene.
     ///
     /// # Errors
     ///
-    /// What was expected and what was found.
+    /// The expected and the actual value, if the expectation does not hold or cannot be checked.
     #[expect(clippy::too_many_lines, reason = "one arm for each expectation")]
-    pub fn hold(&self, subject: Subject) -> Result<(), Violation> {
+    pub fn check(&self, subject: Subject) -> Result<(), Violation> {
         match self {
-            Self::Not(inner) => match inner.hold(subject) {
+            Self::Not(inner) => match inner.check(subject) {
                 Ok(()) => Err(Violation::unmet(format!(
                     "expected {inner} not to hold, but it does"
                 ))),
-                Err(broken) if broken.is_unknown => Err(broken.message.into()),
+                Err(violation) if violation.is_unknown => Err(violation.message.into()),
                 Err(_) => Ok(()),
             },
             Self::Digest(expected) => {
@@ -31,7 +34,7 @@ impl Expectation {
                     return Ok(());
                 }
                 let message = format!("expected the digest {expected}, found {found}");
-                Err(Violation::recorded(message, ActualValue::Digest(found)))
+                Err(Violation::with_actual(message, ActualValue::Digest(found)))
             }
             Self::Output {
                 path,
@@ -40,35 +43,35 @@ impl Expectation {
             } => output::check(subject, path, r#as, *tolerance),
             Self::Objects { eq, min, max } => {
                 let found = subject.objects()?.len() as u64;
-                within("objects", found, [*eq, *min, *max])
+                check_count("objects", found, [*eq, *min, *max])
             }
             Self::Vertices { eq, min, max } => {
                 let found = subject.points()?.len() as u64;
-                within("vertices", found, [*eq, *min, *max])
+                check_count("vertices", found, [*eq, *min, *max])
             }
             Self::Edges { eq, min, max } => {
                 let found = subject.sum(|m| m.n_edges() as u64)?;
-                within("edges", found, [*eq, *min, *max])
+                check_count("edges", found, [*eq, *min, *max])
             }
             Self::Faces { eq, min, max } => {
                 let found = subject.sum(|m| m.n_faces() as u64)?;
-                within("faces", found, [*eq, *min, *max])
+                check_count("faces", found, [*eq, *min, *max])
             }
             Self::Components { eq, min, max } => {
                 let found = subject.sum(|m| geometry::n_components(m) as u64)?;
-                within("components", found, [*eq, *min, *max])
+                check_count("components", found, [*eq, *min, *max])
             }
             Self::BoundaryLoops { eq, min, max } => {
                 let found = subject.sum(|m| m.n_boundary_loops() as u64)?;
-                within("boundary loops", found, [*eq, *min, *max])
+                check_count("boundary loops", found, [*eq, *min, *max])
             }
             Self::EulerCharacteristic { eq, min, max } => {
                 let found = subject.sum(Mesh::euler_characteristic)?;
-                within("as Euler characteristic", found, [*eq, *min, *max])
+                check_integer("an Euler characteristic", found, [*eq, *min, *max])
             }
             Self::Genus { eq, min, max } => {
                 let found = subject.sum(geometry::genus)?;
-                within("as genus", found, [*eq, *min, *max])
+                check_integer("a genus", found, [*eq, *min, *max])
             }
             Self::Area {
                 eq,
@@ -77,7 +80,7 @@ impl Expectation {
                 tolerance,
             } => {
                 let found = subject.sum(geometry::area)?;
-                near("an area", found, [*eq, *min, *max], *tolerance)
+                check_number("an area", found, [*eq, *min, *max], *tolerance)
             }
             Self::Volume {
                 eq,
@@ -86,7 +89,7 @@ impl Expectation {
                 tolerance,
             } => {
                 let found = subject.sum(geometry::volume)?;
-                near("a volume", found, [*eq, *min, *max], *tolerance)
+                check_number("a volume", found, [*eq, *min, *max], *tolerance)
             }
             Self::Bounds {
                 min,
@@ -97,9 +100,9 @@ impl Expectation {
             Self::Closed => subject.each_mesh(|name, mesh| {
                 let open = mesh.edges().find(|&e| mesh.is_boundary_edge(e));
                 open.map_or(Ok(()), |e| {
-                    let edge = Ends(mesh, e);
+                    let edge = EdgeByVertices(mesh, e);
                     Err(Violation::unmet(format!(
-                        "expected no boundary, but {name} has one at {edge}"
+                        "expected no boundary edges, but {edge} of \"{name}\" is one"
                     )))
                 })
             }),
@@ -109,11 +112,11 @@ impl Expectation {
                     found += count(of, object, mesh, subject.files)?;
                 }
                 let what = format_args!("selected {}", of.kind().word());
-                within(what, found, [*eq, *min, *max])
+                check_count(what, found, [*eq, *min, *max])
             }
             Self::Valence { of, min, max } => subject.each_selected(of, |mesh, v| {
                 let valence = mesh.valence(v) as u64;
-                within(format_args!("edges at {v}"), valence, [None, *min, *max])
+                check_count(format_args!("edges at {v}"), valence, [None, *min, *max])
             }),
             Self::DihedralAngle {
                 of,
@@ -122,13 +125,13 @@ impl Expectation {
                 reaches,
             } => subject.dihedral(of, [*min, *max, *reaches]),
             Self::EdgeLength { of, min, max } => subject.each_selected(of, |mesh, e| {
-                let what = format_args!("a length of {}", Ends(mesh, e));
-                near(what, mesh.length(e.half_edge()), [None, *min, *max], 0.0)
+                let what = format_args!("{} to have a length", EdgeByVertices(mesh, e));
+                check_number(what, mesh.length(e.half_edge()), [None, *min, *max], 0.0)
             }),
             Self::MinAngle { of, min, max } => {
-                let (angle, at) = subject.smallest_angle(of)?;
-                let what = format_args!("a smallest corner angle, that of {at},");
-                near(what, angle, [None, *min, *max], 0.0)
+                let (angle, face) = subject.smallest_angle(of)?;
+                let what = format_args!("a smallest corner angle (at {face})");
+                check_number(what, angle, [None, *min, *max], 0.0)
             }
             Self::MeanFaceArea { of, min, max } => subject.mean_area(of, [None, *min, *max]),
             Self::Position { of, is, tolerance } => subject.position(of, (*is).into(), *tolerance),
@@ -144,12 +147,12 @@ impl Expectation {
                 connectivity,
             } => {
                 let (_, mesh) = subject.one_mesh()?;
-                let other = subject.other(r#as)?;
+                let other = subject.other_mesh(r#as)?;
                 same::check(mesh, &other, *tolerance, *connectivity).map_err(Violation::unmet)
             }
             Self::DistanceTo { other, below } => {
                 let (_, mesh) = subject.one_mesh()?;
-                distance_below(mesh, subject.other(other)?.as_ref(), *below)
+                distance_below(mesh, subject.other_mesh(other)?.as_ref(), *below)
             }
             Self::SymmetricUnder {
                 group,
@@ -164,12 +167,12 @@ impl Expectation {
                 let found = symmetry::count(mesh, &motions, *tolerance, *connectivity);
                 let all = (eq.is_none() && min.is_none() && max.is_none())
                     .then_some(motions.len() as u64);
-                within("symmetries", found, [eq.or(all), *min, *max])
+                check_count("symmetries", found, [eq.or(all), *min, *max])
             }
             Self::HasAttribute { domain, name } => subject.each_mesh(|object, mesh| {
                 let domain = Domain::from(*domain);
                 fails_unless(mesh.attributes().column(domain, name).is_some(), || {
-                    format!("expected the {domain} attribute \"{name}\", but {object} has none")
+                    format!("expected the {domain} attribute \"{name}\", but \"{object}\" does not have it")
                 })
             }),
         }
@@ -185,13 +188,14 @@ fn count(of: &Elements, object: &Object, mesh: &Mesh, files: &Files) -> Result<u
     Ok(n as u64)
 }
 
-/// Whether the Hausdorff distance is below a limit for certain: what could be on either side of it is measured
-/// as finely as it takes.
+/// Checks that the Hausdorff distance is proven to be below a limit. The tolerance of the measurement shrinks with
+/// the limit, so that a small limit can be decided too.
 fn distance_below(mesh: &Mesh, other: &Mesh, below: f64) -> Result<(), Violation> {
     let size = diagonal(mesh, other);
     let tolerance = (TOLERANCE * size).min(1e-3 * below).max(1e-12 * size);
     let Some(found) = Distance::between(mesh, other, Some(tolerance)) else {
-        let message = format!("expected a distance below {below}, but a mesh has no faces");
+        let message =
+            format!("expected a distance below {below}, but one of the two meshes has no faces");
         return Err(Violation::unmet(message));
     };
     fails_unless(found.at_most() < below, || {
@@ -202,27 +206,27 @@ fn distance_below(mesh: &Mesh, other: &Mesh, below: f64) -> Result<(), Violation
             largest.to_string()
         };
         let (from, to) = (worst.from, worst.to);
-        let way = if found.is_worst_forth() {
-            format!("from {from} to {to} of the other")
+        let endpoints = if found.is_worst_forth() {
+            format!("from {from} to {to} of the other mesh")
         } else {
-            format!("from {from} of the other to {to}")
+            format!("from {from} of the other mesh to {to}")
         };
-        format!("expected a distance below {below}, found {range}: {way}")
+        format!("expected a distance below {below}, found {range}: {endpoints}")
     })
 }
 
 fn manifold(name: &str, mesh: &Mesh) -> Result<(), Violation> {
-    // All threads ask first: naming what is wrong takes longer.
+    // `is_valid` runs on all threads; `defects` is slower and needed only for the message.
     if !mesh.is_valid()
         && let Some(defect) = mesh.defects().first()
     {
-        let message = format!("expected a manifold, but in {name} {defect}");
+        let message = format!("expected a manifold, but \"{name}\" has a defect: {defect}");
         return Err(Violation::unmet(message));
     }
     double_edges(mesh).first().map_or(Ok(()), |&e| {
         let [v, w] = mesh.edge_vertices(e);
         Err(Violation::unmet(format!(
-            "expected a manifold, but in {name} several edges join {v} and {w}"
+            "expected a manifold, but several edges of \"{name}\" join {v} and {w}"
         )))
     })
 }

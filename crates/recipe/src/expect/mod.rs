@@ -19,218 +19,220 @@ pub(crate) use same::same_faces;
 pub use subject::{ActualValue, Reader, Subject, Violation};
 pub use symmetry::Group;
 
-/// What must hold for a scene. Where it speaks of the mesh, it means all meshes together, or those of
-/// the objects that `on:` names.
+/// A condition on a scene. It is checked for all meshes together, or only for those of the objects that
+/// `on:` names.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Expectation {
-    /// How many objects there are.
+    /// The number of objects.
     Objects {
-        /// Exactly so many.
+        /// Exactly this number.
         eq: Option<u64>,
-        /// At least so many.
+        /// At least this number.
         min: Option<u64>,
-        /// At most so many.
+        /// At most this number.
         max: Option<u64>,
     },
-    /// How many vertices; points of polylines count too.
+    /// The number of vertices, including the points of polylines, curves and patches.
     Vertices {
-        /// Exactly so many.
+        /// Exactly this number.
         eq: Option<u64>,
-        /// At least so many.
+        /// At least this number.
         min: Option<u64>,
-        /// At most so many.
+        /// At most this number.
         max: Option<u64>,
     },
-    /// How many edges.
+    /// The number of edges.
     Edges {
-        /// Exactly so many.
+        /// Exactly this number.
         eq: Option<u64>,
-        /// At least so many.
+        /// At least this number.
         min: Option<u64>,
-        /// At most so many.
+        /// At most this number.
         max: Option<u64>,
     },
-    /// How many faces.
+    /// The number of faces.
     Faces {
-        /// Exactly so many.
+        /// Exactly this number.
         eq: Option<u64>,
-        /// At least so many.
+        /// At least this number.
         min: Option<u64>,
-        /// At most so many.
+        /// At most this number.
         max: Option<u64>,
     },
-    /// How many connected parts.
+    /// The number of connected components.
     Components {
-        /// Exactly so many.
+        /// Exactly this number.
         eq: Option<u64>,
-        /// At least so many.
+        /// At least this number.
         min: Option<u64>,
-        /// At most so many.
+        /// At most this number.
         max: Option<u64>,
     },
-    /// How many holes.
+    /// The number of boundary loops: closed loops of boundary edges.
     BoundaryLoops {
-        /// Exactly so many.
+        /// Exactly this number.
         eq: Option<u64>,
-        /// At least so many.
+        /// At least this number.
         min: Option<u64>,
-        /// At most so many.
+        /// At most this number.
         max: Option<u64>,
     },
-    /// V - E + F.
+    /// The Euler characteristic: vertices - edges + faces.
     EulerCharacteristic {
-        /// Exactly this.
+        /// Exactly this value.
         eq: Option<i64>,
-        /// At least this.
+        /// At least this value.
         min: Option<i64>,
-        /// At most this.
+        /// At most this value.
         max: Option<i64>,
     },
-    /// How many handles.
+    /// The genus, which is the number of handles: 0 for a sphere, 1 for a torus.
     Genus {
-        /// Exactly so many.
+        /// Exactly this number.
         eq: Option<i64>,
-        /// At least so many.
+        /// At least this number.
         min: Option<i64>,
-        /// At most so many.
+        /// At most this number.
         max: Option<i64>,
     },
     /// The sum of the areas of the faces.
     Area {
-        /// This, within the tolerance.
+        /// This value, within the tolerance.
         eq: Option<f64>,
-        /// At least this.
+        /// At least this value.
         min: Option<f64>,
-        /// At most this.
+        /// At most this value.
         max: Option<f64>,
-        /// How far from `eq` it may be.
+        /// The allowed deviation from `eq`.
         #[serde(default = "tolerance")]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// The volume inside.
+    /// The enclosed volume.
     Volume {
-        /// This, within the tolerance.
+        /// This value, within the tolerance.
         eq: Option<f64>,
-        /// At least this.
+        /// At least this value.
         min: Option<f64>,
-        /// At most this.
+        /// At most this value.
         max: Option<f64>,
-        /// How far from `eq` it may be.
+        /// The allowed deviation from `eq`.
         #[serde(default = "tolerance")]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// The lowest and highest coordinates of all points.
+    /// The bounding box of all points.
     Bounds {
         /// The lowest coordinates.
         min: Vector,
         /// The highest coordinates.
         max: Vector,
-        /// How far each coordinate may be from that.
+        /// The allowed deviation of each coordinate.
         #[serde(default = "tolerance")]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// There is a mesh, and every mesh is a valid manifold; so is each that this program builds, and
-    /// this checks it anew. No two edges join the same vertices.
+    /// There is at least one mesh, and every mesh is a valid manifold in which no two edges join the same
+    /// vertices. Meshes are built as manifolds; this expectation validates them again.
     Manifold,
-    /// There is a mesh, and no edge is on a boundary.
+    /// There is at least one mesh, and no mesh has boundary edges.
     Closed,
-    /// How many elements a selection has.
+    /// The number of elements that a selection matches.
     Count {
         /// Which elements.
         of: Elements,
-        /// Exactly so many.
+        /// Exactly this number.
         eq: Option<u64>,
-        /// At least so many.
+        /// At least this number.
         min: Option<u64>,
-        /// At most so many.
+        /// At most this number.
         max: Option<u64>,
     },
-    /// The valences of all vertices of a selection, which must not be empty.
+    /// The valence (number of edges) of every selected vertex. Fails if the selection is empty.
     Valence {
         /// Which vertices.
         #[serde(default)]
         of: VertexSelection,
-        /// The lowest is at least this.
+        /// The lowest valence is at least this number.
         min: Option<u64>,
-        /// The highest is at most this.
+        /// The highest valence is at most this number.
         max: Option<u64>,
     },
-    /// The angles, in degrees, by which the faces turn at all edges of a selection that have two; there
-    /// must be one.
+    /// The dihedral angle, in degrees, of every selected edge between two faces: the angle between the
+    /// face normals, 0 if the faces are coplanar. Edges beside a face without area are skipped. Fails if no
+    /// selected edge has an angle.
     DihedralAngle {
         /// Which edges.
         #[serde(default)]
         of: EdgeSelection,
-        /// The smallest is at least this.
+        /// The smallest angle is at least this value.
         min: Option<f64>,
-        /// The largest is at most this.
+        /// The largest angle is at most this value.
         max: Option<f64>,
-        /// Some angle is at least this.
+        /// The largest angle is at least this value.
         reaches: Option<f64>,
     },
-    /// The lengths, in scene units, of all edges of a selection, which must not be empty.
+    /// The length, in scene units, of every selected edge. Fails if the selection is empty.
     EdgeLength {
         /// Which edges.
         #[serde(default)]
         of: EdgeSelection,
-        /// The shortest is at least this.
+        /// The shortest edge has at least this length.
         min: Option<f64>,
-        /// The longest is at most this.
+        /// The longest edge has at most this length.
         max: Option<f64>,
     },
-    /// The smallest corner angle, in degrees, of all faces of a selection, which must not be empty.
+    /// The smallest corner angle, in degrees, of all selected faces. Fails if the selection is empty.
     MinAngle {
         /// Which faces.
         #[serde(default)]
         of: FaceSelection,
-        /// At least this.
+        /// At least this value.
         min: Option<f64>,
-        /// At most this.
+        /// At most this value.
         max: Option<f64>,
     },
-    /// The mean area of the faces of a selection, in proportion to the median area of all faces.
+    /// The mean area of the selected faces, divided by the median area of all faces. Fails if the selection
+    /// is empty.
     MeanFaceArea {
         /// Which faces.
         of: FaceSelection,
-        /// At least this; 1 is the median.
+        /// The ratio is at least this value.
         min: Option<f64>,
-        /// At most this; 1 is the median.
+        /// The ratio is at most this value.
         max: Option<f64>,
     },
-    /// The place of the one vertex of a selection.
+    /// The position of one vertex.
     Position {
-        /// Which vertex.
+        /// Which vertex. The selection must match exactly one.
         of: VertexSelection,
-        /// Where it is.
+        /// The expected position.
         is: Vector,
-        /// How far it may be from there.
+        /// The allowed distance from the expected position.
         #[serde(default = "tolerance")]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// The place of a point of a polyline.
+    /// The position of one point of a polyline.
     Point {
-        /// Which polyline of the object, from 0.
+        /// The index of the polyline in its object, counted from 0.
         #[serde(default)]
         line: u32,
-        /// Which of its points, from 0.
+        /// The index of the point in the polyline, counted from 0.
         index: u32,
-        /// Where it is.
+        /// The expected position.
         is: Vector,
-        /// How far it may be from there.
+        /// The allowed distance from the expected position.
         #[serde(default = "tolerance")]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
     },
-    /// The mesh has the same vertices as another, up to their order, and the same faces.
+    /// The mesh has the same vertices and faces as another mesh, in any order.
     Same {
-        /// The other.
-        r#as: Other,
-        /// How far vertices may lie apart.
+        /// The mesh to compare with.
+        r#as: OtherMesh,
+        /// The allowed distance between two vertices that are the same.
         #[serde(default)]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
@@ -238,70 +240,72 @@ pub enum Expectation {
         #[serde(default = "yes")]
         connectivity: bool,
     },
-    /// The largest distance between the surfaces of the mesh and another: the Hausdorff distance, both ways.
-    /// What cannot be told from the limit does not hold.
+    /// The two-sided Hausdorff distance between the surface of the mesh and that of another mesh: the largest
+    /// distance from a point of one surface to the other surface. Fails unless the distance is proven to be
+    /// below the limit.
     DistanceTo {
-        /// The other.
-        other: Other,
-        /// Less than this.
+        /// The mesh to compare with.
+        other: OtherMesh,
+        /// The limit, in scene units: the distance must be below it.
         #[schemars(range(min = 0.0))]
         below: f64,
     },
-    /// The mesh comes back onto itself under the motions of a group about the origin: under all of them
-    /// unless a number is given.
+    /// The number of motions of a symmetry group about the origin that map the mesh onto itself. If `eq`, `min`
+    /// and `max` are omitted, all motions of the group must do so.
     SymmetricUnder {
-        /// The group.
+        /// The symmetry group.
         group: Group,
-        /// Under exactly so many, the one that moves nothing included.
+        /// Exactly this number of motions, including the identity.
         eq: Option<u64>,
-        /// Under at least so many.
+        /// At least this number of motions.
         min: Option<u64>,
-        /// Under at most so many.
+        /// At most this number of motions.
         max: Option<u64>,
-        /// How far a moved vertex may be from another one.
+        /// The allowed distance between a moved vertex and the vertex that it is mapped onto.
         #[serde(default = "tolerance")]
         #[schemars(range(min = 0.0))]
         tolerance: f64,
-        /// Whether faces must come onto faces too.
+        /// Whether every face must be mapped onto a face too.
         #[serde(default = "yes")]
         connectivity: bool,
     },
-    /// Every mesh has an attribute.
+    /// There is at least one mesh, and every mesh has this attribute.
     HasAttribute {
-        /// On what.
+        /// The domain of the attribute.
         domain: AttributeDomain,
-        /// Of this name.
+        /// The name of the attribute.
         name: String,
     },
-    /// A file that a step writes is the same as one beside the recipe, which `meshwright test --update` makes and
-    /// renews. Of pictures (.png, .apng) the pixels count, of meshes what is read; of other files the bytes. What a
-    /// file says of where it comes from does not count.
+    /// A file that a step writes equals a reference file, which `meshwright test --update` creates and updates.
+    /// Pictures (.png, .apng) are compared by their pixels, mesh files by the objects that are read from them, and
+    /// other files by their bytes. Recorded provenance is ignored.
     Output {
-        /// The file that is written, seen from the output folder as in the step.
+        /// The written file: the path relative to the output folder, as in the step that writes the file.
         path: String,
-        /// The file that it is held against, seen from the recipe's folder and in it.
+        /// The reference file: a path relative to the recipe's folder, and inside it.
         r#as: String,
-        /// By how many steps of 255 the colors of a picture may differ.
+        /// The allowed difference between the colors of two pictures, in steps of 1/255. Defaults to 0.
         #[serde(default)]
         tolerance: u8,
     },
-    /// The digest of the scene, as `run` prints it.
+    /// The digest of the scene, as `meshwright run` prints it.
     Digest(String),
-    /// The contrary holds. What cannot be told, as about a file that cannot be read, does not.
+    /// The inner expectation does not hold. Also fails if the inner expectation cannot be checked, for example
+    /// because a file cannot be read.
     Not(Box<Self>),
 }
 
-/// Another mesh to compare with.
+/// The mesh that an expectation compares with.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
-pub enum Other {
-    /// An object of the scene.
+pub enum OtherMesh {
+    /// The name of an object of the scene.
     Object(String),
-    /// The first mesh in a file, seen from the recipe's folder.
+    /// The first mesh in a file. The path is relative to the recipe's folder.
     File(String),
 }
 
-/// What an attribute belongs to.
+/// The elements that an attribute has values for.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum AttributeDomain {
@@ -335,7 +339,7 @@ const fn yes() -> bool {
 }
 
 impl Expectation {
-    /// What is wrong with the expectation itself: one that can never fail is an error.
+    /// Returns the error in the expectation itself, if it has one. An expectation that can never fail is an error.
     pub fn problem(&self) -> Option<&'static str> {
         let needs_bound = match self {
             Self::Objects { eq, min, max }
@@ -361,17 +365,15 @@ impl Expectation {
             Self::Output {
                 path, tolerance, ..
             } if *tolerance > 0 && !output::is_picture(path) => {
-                return Some(
-                    "a tolerance is for pictures whose pixels are compared: .png and .apng",
-                );
+                return Some("`tolerance` applies only to pictures: .png and .apng");
             }
             Self::Not(inner) => return inner.problem(),
             _ => false,
         };
-        needs_bound.then_some("it has no bound, so it can never fail")
+        needs_bound.then_some("the expectation has no bound, so it can never fail")
     }
 
-    /// The file that a step writes and the one beside the recipe, if it is about these.
+    /// Returns the paths of the written file and of the reference file if this is an `Output` expectation.
     pub fn output(&self) -> Option<(&str, &str)> {
         match self {
             Self::Output { path, r#as, .. } => Some((path, r#as)),
@@ -380,12 +382,12 @@ impl Expectation {
         }
     }
 
-    /// The objects and files that it compares with.
-    pub fn others(&self) -> Option<&Other> {
+    /// Returns the mesh that the expectation compares with, if any.
+    pub fn other_mesh(&self) -> Option<&OtherMesh> {
         match self {
             Self::Same { r#as, .. } => Some(r#as),
             Self::DistanceTo { other, .. } => Some(other),
-            Self::Not(inner) => inner.others(),
+            Self::Not(inner) => inner.other_mesh(),
             _ => None,
         }
     }

@@ -1,7 +1,8 @@
-//! The expectation about files that steps write: held against files beside the recipe.
+//! The expectation `Output`: compares a file that a step has written with a reference file beside the recipe (called
+//! the golden file in the code).
 //!
-//! Pictures are the same if their pixels are, meshes if they are read as the same objects, and everything else if
-//! the bytes are. Where a file comes from, which it may say of itself, counts for nothing.
+//! Pictures are equal if their pixels are, mesh files if the objects read from them are, and all other files if their
+//! bytes are. Provenance that is recorded in a file is ignored.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -11,22 +12,22 @@ use store::TemporaryFolder;
 
 use super::subject::{ActualValue, Subject, Violation, fails_unless};
 
-/// The bytes of a larger file are not kept to renew what it is held against.
-const LARGEST: u64 = 64 << 20;
+/// The largest file, in bytes, that `test --update` copies over its reference file.
+const MAX_RECORDED: u64 = 64 << 20;
 
-/// Whether the ending is that of a picture whose pixels are compared.
+/// Whether the extension is that of a picture whose pixels are compared.
 pub(super) fn is_picture(path: &str) -> bool {
-    let ending = Path::new(path).extension().unwrap_or_default();
+    let extension = Path::new(path).extension().unwrap_or_default();
     ["png", "apng"]
         .iter()
-        .any(|e| ending.eq_ignore_ascii_case(e))
+        .any(|e| extension.eq_ignore_ascii_case(e))
 }
 
-/// The file beside the recipe that `path` names, which `test --update` may write.
+/// Returns the full path of a reference file, which `test --update` may write.
 ///
 /// # Errors
 ///
-/// If the path leaves the recipe's folder, by itself or through a link, or names no file: a folder, a link, a device.
+/// If the path leads out of the recipe's folder, directly or through a link, or is a folder, a link or a device.
 pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, String> {
     let relative = Path::new(path);
     let is_plain = relative
@@ -56,12 +57,12 @@ pub(crate) fn golden(files: &Files, path: &str) -> Result<PathBuf, String> {
     match files.store.entry(&full) {
         _ if files.store.is_link(&full) => Err(format!("\"{path}\" is a link, not a file")),
         Some(found) if !found.is_file() => Err(format!("\"{path}\" is not a file")),
-        // What is not there can be made.
+        // A missing file can be created.
         _ => Ok(full),
     }
 }
 
-/// Holds a file that a step has written against the one beside the recipe.
+/// Compares a file that a step has written with the reference file.
 pub(super) fn check(
     subject: Subject,
     path: &str,
@@ -72,58 +73,61 @@ pub(super) fn check(
     let written = files.to_write(path).map_err(|error| error.to_string())?;
     let golden = golden(files, beside)?;
     if !files.store.is_file(&written) {
-        return Err(format!("no step has written \"{path}\" so far").into());
+        return Err(format!("no step has written \"{path}\" yet").into());
     }
-    let after_colon = |broken: Violation| Violation {
-        message: format!(": {}", broken.message),
-        ..broken
+    let after_colon = |violation: Violation| Violation {
+        message: format!(": {}", violation.message),
+        ..violation
     };
     let compared = if !files.store.exists(&golden) {
-        Err(", which is not there: `meshwright test --update` makes it".into())
+        Err(", which does not exist: create it with `meshwright test --update`".into())
     } else if is_picture(path) {
         compare_pictures(&written, &golden, tolerance, subject).map_err(after_colon)
     } else {
         compare(&written, &golden, subject).map_err(after_colon)
     };
-    compared.map_err(|mut broken| {
-        let (shown, why) = (golden.display(), &broken.message);
-        broken.message = format!("expected \"{path}\" to be as {shown}{why}");
-        recorded(broken, &written, &golden, tolerance, subject)
+    compared.map_err(|mut violation| {
+        let (shown, why) = (golden.display(), &violation.message);
+        violation.message = format!("expected \"{path}\" to match {shown}{why}");
+        with_written_file(violation, &written, &golden, tolerance, subject)
     })
 }
 
-/// The same with what is found in place of the golden file, if that can be said in one file.
-fn recorded(
-    mut broken: Violation,
+/// Adds the bytes of the written file to the violation, so that `test --update` can record them. If that is not
+/// possible, adds the reason to the message.
+fn with_written_file(
+    mut violation: Violation,
     written: &Path,
     golden: &Path,
     tolerance: u8,
     subject: Subject,
 ) -> Violation {
     let store = &subject.files.store;
-    let why = if store.len(written).is_none_or(|len| len > LARGEST) {
+    let why = if store.len(written).is_none_or(|len| len > MAX_RECORDED) {
         "is too large to be recorded".to_owned()
     } else {
         match store.read(written) {
             Ok(bytes) if stands_alone(written, golden, &bytes, subject) => {
                 let golden = golden.to_path_buf();
-                broken.found = Some(ActualValue::File {
+                violation.found = Some(ActualValue::File {
                     golden,
                     bytes,
                     tolerance,
                 });
-                return broken;
+                return violation;
             }
-            Ok(_) => "cannot be recorded without the files beside it: write a .glb, .ply or .mws"
-                .to_owned(),
+            Ok(_) => {
+                "cannot be recorded because it depends on other files: write a .glb, .ply or .mws"
+                    .to_owned()
+            }
             Err(error) => format!("cannot be read: {}", error.error),
         }
     };
-    Violation::unmet(format!("{}; it {why}", broken.message))
+    Violation::unmet(format!("{}; the written file {why}", violation.message))
 }
 
-/// Whether a file says the same without those beside it, such as the materials of an OBJ file, under the name of
-/// the file beside the recipe.
+/// Whether a copy of the file, alone in a folder and under the name of the reference file, is read as the same
+/// objects. An OBJ file with a material library is not.
 fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -> bool {
     let Ok(objects) = subject.reader.objects(written, subject.files) else {
         return true;
@@ -141,7 +145,7 @@ fn stands_alone(written: &Path, golden: &Path, bytes: &[u8], subject: Subject) -
     alone().is_ok_and(|[then, now]| then == now)
 }
 
-/// How the pixels of pictures differ.
+/// Compares the pixels of two pictures.
 fn compare_pictures(
     written: &Path,
     golden: &Path,
@@ -159,15 +163,15 @@ fn compare_pictures(
     differs.map_or(Ok(()), |message| Err(Violation::unmet(message)))
 }
 
-/// What is other in files that are no pictures.
+/// Compares two files that are not pictures.
 fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violation> {
     let (reader, files) = (subject.reader, subject.files);
-    // What is no file of objects is a file of bytes.
+    // A file that cannot be read as objects is compared by its bytes.
     if let Ok(now) = reader.objects(written, files) {
         let then = reader.objects(golden, files)?;
         let [now, then] = digests((written, now), (golden, then))?;
         return fails_unless(now == then, || {
-            format!("expected objects of the digest {then}, found {now}")
+            format!("expected objects with the digest {then}, found {now}")
         });
     }
     let bytes = |path: &Path| {
@@ -182,13 +186,13 @@ fn compare(written: &Path, golden: &Path, subject: Subject) -> Result<(), Violat
     Err(Violation::unmet(match at {
         Some(at) => {
             let line = then[..at].split(|b| *b == b'\n').count();
-            format!("byte {at}, in line {line}, is the first that differs")
+            format!("the first difference is at byte {at}, in line {line}")
         }
         None => format!("expected {} bytes, found {}", then.len(), now.len()),
     }))
 }
 
-/// The digests of the objects in two files. Objects that have their names from their files count as of one name.
+/// Returns the digests of the objects in two files. Names that objects take from their file are treated as equal.
 fn digests(
     (path, objects): (&Path, Vec<Object>),
     (other_path, mut others): (&Path, Vec<Object>),
@@ -210,7 +214,7 @@ fn digests(
     Ok([digest(objects)?, digest(others)?])
 }
 
-/// What a file holds beside the line that says where it comes from: the metadata of an SVG, the comment of a GIF.
+/// Removes the recorded provenance from the bytes of a file: the metadata of an SVG, the comment of a GIF.
 fn without_stamp(mut bytes: Vec<u8>) -> Vec<u8> {
     let find = |bytes: &[u8], text: &[u8]| bytes.windows(text.len()).position(|w| w == text);
     let (open, close): (&[u8], &[u8]) = (b"<metadata>meshwright ", b"</metadata>");
@@ -222,7 +226,7 @@ fn without_stamp(mut bytes: Vec<u8>) -> Vec<u8> {
     let is_gif = bytes.starts_with(b"GIF8");
     let is_comment = |w: &[u8]| w.starts_with(b"\x21\xfe") && w.ends_with(b"meshwright ");
     if is_gif && let Some(start) = bytes.windows(14).position(is_comment) {
-        // Parts that say how long they are, up to one of no length.
+        // The comment is a list of blocks. Each starts with its length; a block of length 0 ends the list.
         let mut end = start + 2;
         while let Some(&length) = bytes.get(end) {
             end += 1 + usize::from(length);
@@ -240,13 +244,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn where_a_file_comes_from_is_no_part_of_it() {
+    fn provenance_is_removed_from_svg_and_gif_files() {
         let svg =
             |stamp: &str| format!("<svg>\n  {stamp}\n  <path d=\"M 0 0\"/>\n</svg>").into_bytes();
         let one = without_stamp(svg("<metadata>meshwright 1, recipe 0a</metadata>"));
         assert_eq!(one, without_stamp(svg("<metadata>meshwright 2</metadata>")));
         assert_eq!(one, svg(""));
-        // Only what is ours, and only if it ends.
+        // Foreign metadata and unterminated metadata stay.
         for other in ["<metadata>by hand</metadata>", "<metadata>meshwright 1"] {
             assert_eq!(without_stamp(svg(other)), svg(other));
         }
@@ -257,7 +261,7 @@ mod tests {
             without_stamp(gif(b"\x21\xfe\x02by\x00")),
             gif(b"\x21\xfe\x02by\x00")
         );
-        // It may be cut off anywhere.
+        // Truncated input does not panic.
         for end in 0..gif(&long).len() {
             without_stamp(gif(&long)[..end].to_vec());
         }

@@ -1,21 +1,21 @@
-//! Where an expectation does not hold: the elements that break it, for pictures.
+//! Finds the elements that violate an expectation, so that pictures can mark them.
 
 use geometry::distance::Distance;
 use mesh::{DVec3, EdgeId, Element, FaceId, Mesh, VertexId};
 use op::{Elements, ErrorLocation, Select};
 use scene::Object;
 
-use super::same::Points;
-use super::subject::{Subject, least_angle, selected};
+use super::same::PositionIndex;
+use super::subject::{Subject, selected, smallest_corner_angle};
 use super::{Expectation, symmetry};
 
 impl Expectation {
-    /// The places in the scene that break the expectation, at most [`ErrorLocation::MOST`]. None if it is not about
-    /// elements, and for the contrary of another one.
+    /// Returns the places in the scene that violate the expectation, at most [`ErrorLocation::MOST`]. Empty for
+    /// expectations that are not about elements, and for `Not`.
     pub fn places(&self, subject: Subject) -> Vec<ErrorLocation> {
         let mut places = Vec::new();
         for (object, mesh) in subject.meshes().unwrap_or_default() {
-            let found = Meant {
+            let found = CheckedMesh {
                 subject,
                 object,
                 mesh,
@@ -38,73 +38,74 @@ impl Expectation {
     }
 }
 
-/// A mesh that an expectation is about.
-struct Meant<'a> {
+/// A mesh that an expectation is checked on.
+struct CheckedMesh<'a> {
     subject: Subject<'a>,
     object: &'a Object,
     mesh: &'a Mesh,
 }
 
-impl Meant<'_> {
+impl CheckedMesh<'_> {
     fn places(&self, expectation: &Expectation) -> Vec<ErrorLocation> {
         let mesh = self.mesh;
         match expectation {
             Expectation::Closed | Expectation::BoundaryLoops { .. } => {
-                self.named(mesh.edges().filter(|&e| mesh.is_boundary_edge(e)))
+                self.locations(mesh.edges().filter(|&e| mesh.is_boundary_edge(e)))
             }
-            Expectation::Manifold => self.named(double_edges(mesh)),
+            Expectation::Manifold => self.locations(double_edges(mesh)),
             Expectation::Count { of, .. } => match of {
-                Elements::Vertices(of) => self.named(self.selected(of)),
-                Elements::Edges(of) => self.named(self.selected(of)),
-                Elements::Faces(of) => self.named(self.selected(of)),
+                Elements::Vertices(of) => self.locations(self.selected(of)),
+                Elements::Edges(of) => self.locations(self.selected(of)),
+                Elements::Faces(of) => self.locations(self.selected(of)),
             },
             Expectation::Valence { of, min, max } => {
-                self.outside(of, |v| Some(mesh.valence(v) as u64), *min, *max)
+                self.out_of_bounds(of, |v| Some(mesh.valence(v) as u64), *min, *max)
             }
             Expectation::DihedralAngle { of, min, max, .. } => {
                 let angle = |e| mesh.dihedral_angle(e).map(f64::to_degrees);
-                self.outside(of, angle, *min, *max)
+                self.out_of_bounds(of, angle, *min, *max)
             }
             Expectation::EdgeLength { of, min, max } => {
-                self.outside(of, |e| Some(mesh.length(e.half_edge())), *min, *max)
+                self.out_of_bounds(of, |e| Some(mesh.length(e.half_edge())), *min, *max)
             }
             Expectation::MinAngle { of, min, .. } => {
                 let angles = self
                     .selected(of)
                     .into_iter()
-                    .map(|f| (least_angle(mesh, f), f));
+                    .map(|f| (smallest_corner_angle(mesh, f), f));
                 let mut off: Vec<(f64, FaceId)> = angles
                     .filter(|(angle, _)| !within(*angle, *min, None))
                     .collect();
-                // The smallest one is the one that is told.
+                // The message names the smallest angle, so its face comes first.
                 off.sort_by(|a, b| a.0.total_cmp(&b.0));
-                self.named(off.into_iter().map(|(_, f)| f))
+                self.locations(off.into_iter().map(|(_, f)| f))
             }
-            Expectation::MeanFaceArea { of, .. } => self.named(self.selected(of)),
+            Expectation::MeanFaceArea { of, .. } => self.locations(self.selected(of)),
             Expectation::Position { of, is, .. } => {
-                let mut places = self.named(self.selected(of));
+                let mut places = self.locations(self.selected(of));
                 places.push(expected((*is).into()));
                 places
             }
             Expectation::Same {
                 r#as, tolerance, ..
-            } => match self.subject.other(r#as) {
-                Ok(other) => self.unlike(&other, *tolerance),
+            } => match self.subject.other_mesh(r#as) {
+                Ok(other) => self.unmatched_vertices(&other, *tolerance),
                 Err(_) => Vec::new(),
             },
             Expectation::DistanceTo { other, .. } => {
-                let other = self.subject.other(other).ok();
+                let other = self.subject.other_mesh(other).ok();
                 let found = other.and_then(|other| Distance::between(mesh, &other, None));
                 found.map_or_else(Vec::new, |found| self.farthest(&found))
             }
             Expectation::SymmetricUnder {
                 group, tolerance, ..
             } => {
-                let points = Points::new(mesh);
+                let points = PositionIndex::new(mesh);
                 let motions = group.motions();
-                let is_off =
-                    |v: &VertexId| symmetry::is_alone(mesh, &points, &motions, *v, *tolerance);
-                self.named(mesh.vertices().filter(is_off))
+                let is_off = |v: &VertexId| {
+                    symmetry::has_unmatched_image(mesh, &points, &motions, *v, *tolerance)
+                };
+                self.locations(mesh.vertices().filter(is_off))
             }
             _ => Vec::new(),
         }
@@ -115,8 +116,8 @@ impl Meant<'_> {
         found.unwrap_or_default()
     }
 
-    /// The selected elements whose measure, if they have one, is not within bounds.
-    fn outside<S: Select, T: PartialOrd + Copy>(
+    /// Returns the selected elements whose measure, if they have one, is out of bounds.
+    fn out_of_bounds<S: Select, T: PartialOrd + Copy>(
         &self,
         of: &S,
         measure: impl Fn(S::Id) -> Option<T>,
@@ -127,10 +128,13 @@ impl Meant<'_> {
         S::Id: Into<Element>,
     {
         let is_off = |id: &S::Id| measure(*id).is_some_and(|found| !within(found, min, max));
-        self.named(self.selected(of).into_iter().filter(is_off))
+        self.locations(self.selected(of).into_iter().filter(is_off))
     }
 
-    fn named<E: Into<Element>>(&self, elements: impl IntoIterator<Item = E>) -> Vec<ErrorLocation> {
+    fn locations<E: Into<Element>>(
+        &self,
+        elements: impl IntoIterator<Item = E>,
+    ) -> Vec<ErrorLocation> {
         let places = elements.into_iter();
         places
             .filter_map(|element| ErrorLocation::of(&self.object.name, self.mesh, element))
@@ -138,22 +142,22 @@ impl Meant<'_> {
             .collect()
     }
 
-    /// The vertices of either mesh that lie on none of the other.
-    fn unlike(&self, other: &Mesh, tolerance: f64) -> Vec<ErrorLocation> {
-        let (these, others) = (Points::new(self.mesh), Points::new(other));
-        let mut places = self.named(self.mesh.vertices().filter(|&v| {
+    /// Returns the vertices of each mesh that have no vertex of the other mesh within the tolerance.
+    fn unmatched_vertices(&self, other: &Mesh, tolerance: f64) -> Vec<ErrorLocation> {
+        let (these, others) = (PositionIndex::new(self.mesh), PositionIndex::new(other));
+        let mut places = self.locations(self.mesh.vertices().filter(|&v| {
             let p = self.mesh.position(v);
             !others.any_near(p, tolerance)
         }));
         let missing = other.vertices().map(|v| other.position(v));
-        // Some of either.
+        // Each mesh gets half of the places.
         places.truncate(ErrorLocation::MOST / 2);
         let missing = missing.filter(|&p| !these.any_near(p, tolerance));
         places.extend(missing.map(expected).take(ErrorLocation::MOST / 2));
         places
     }
 
-    /// Where two surfaces are farthest apart: the place of this one, and the way to or from the other.
+    /// Returns where two surfaces are farthest apart: the element of this mesh, and the line between the surfaces.
     fn farthest(&self, found: &Distance) -> Vec<ErrorLocation> {
         let worst = found.worst();
         let on = if found.is_worst_forth() {
@@ -161,7 +165,7 @@ impl Meant<'_> {
         } else {
             worst.to.on
         };
-        let mut places = self.named([on]);
+        let mut places = self.locations([on]);
         places.push(ErrorLocation {
             object: self.object.name.clone(),
             name: String::new(),
@@ -175,7 +179,7 @@ fn within<T: PartialOrd + Copy>(found: T, min: Option<T>, max: Option<T>) -> boo
     min.is_none_or(|min| found >= min) && max.is_none_or(|max| found <= max)
 }
 
-/// Where something is that has no name.
+/// A place without a name.
 fn point(at: DVec3) -> ErrorLocation {
     ErrorLocation {
         object: String::new(),
@@ -184,7 +188,7 @@ fn point(at: DVec3) -> ErrorLocation {
     }
 }
 
-/// Where something should be.
+/// An expected place.
 fn expected(at: DVec3) -> ErrorLocation {
     ErrorLocation {
         name: ErrorLocation::EXPECTED.to_owned(),
@@ -192,7 +196,7 @@ fn expected(at: DVec3) -> ErrorLocation {
     }
 }
 
-/// All edges that join the same vertices as another one.
+/// Returns all edges that join the same two vertices as another edge.
 pub(super) fn double_edges(mesh: &Mesh) -> Vec<EdgeId> {
     let ends = |e: EdgeId| {
         let [v, w] = mesh.edge_vertices(e);

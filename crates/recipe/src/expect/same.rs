@@ -1,21 +1,24 @@
-//! Whether two meshes are the same up to the order of their elements.
+//! Checks whether two meshes are the same up to the order of their elements.
 
 use mesh::{DVec3, Mesh, VertexId};
 
-/// The vertices of a mesh in order of x, to be found by position.
-pub(super) struct Points<'m> {
+use super::subject::counted;
+
+/// The vertices of a mesh sorted by x, for searches by position.
+pub(super) struct PositionIndex<'m> {
     mesh: &'m Mesh,
     by_x: Vec<VertexId>,
 }
 
-impl<'m> Points<'m> {
+impl<'m> PositionIndex<'m> {
     pub(super) fn new(mesh: &'m Mesh) -> Self {
         let mut by_x: Vec<VertexId> = mesh.vertices().collect();
         by_x.sort_by(|&v, &w| mesh.position(v).x.total_cmp(&mesh.position(w).x));
         Self { mesh, by_x }
     }
 
-    /// The vertex nearest to `p` within the tolerance of those that are `free`.
+    /// Returns the `free` vertex nearest to `p`, if one lies within the tolerance. If several are equally near, returns
+    /// the one with the lowest id.
     fn nearest(
         &self,
         p: DVec3,
@@ -29,7 +32,7 @@ impl<'m> Points<'m> {
             .map(|(_, v)| v)
     }
 
-    /// The vertices whose x is within the tolerance of that of `p`.
+    /// Returns the vertices whose x differs from that of `p` by at most the tolerance.
     fn near(&self, p: DVec3, tolerance: f64) -> impl Iterator<Item = VertexId> {
         let x = |v: VertexId| self.mesh.position(v).x;
         let start = self.by_x.partition_point(|&v| x(v) < p.x - tolerance);
@@ -43,8 +46,8 @@ impl<'m> Points<'m> {
             .any(|v| self.mesh.position(v).distance(p) <= tolerance)
     }
 
-    /// For each vertex of `other`, by index, the vertex that its image lies on; `None` if they do not
-    /// match one to one.
+    /// Returns, for each vertex of `other` (by index), the vertex within the tolerance of its image. `None` if the
+    /// vertices do not match one to one.
     pub(super) fn matching(
         &self,
         other: &Mesh,
@@ -65,8 +68,8 @@ impl<'m> Points<'m> {
     }
 }
 
-/// Whether the faces of `other`, their vertices mapped, are those of `mesh`; turned round if
-/// `reversed`.
+/// Whether the faces of `other`, with their vertices mapped by `map`, are those of `mesh`. If `reversed`, the winding of
+/// the mapped faces is reversed first.
 pub(crate) fn same_faces(mesh: &Mesh, other: &Mesh, map: &[VertexId], reversed: bool) -> bool {
     let canonical = |mut corners: Vec<VertexId>| {
         let lowest = corners
@@ -96,8 +99,7 @@ pub(crate) fn same_faces(mesh: &Mesh, other: &Mesh, map: &[VertexId], reversed: 
     faces == others
 }
 
-/// Whether the two meshes have the same vertices within the tolerance and, if `connectivity` is asked
-/// for, the same faces.
+/// Checks that two meshes have the same vertices within the tolerance and, if `connectivity` is set, the same faces.
 pub(super) fn check(
     mesh: &Mesh,
     other: &Mesh,
@@ -107,16 +109,18 @@ pub(super) fn check(
     let (n, m) = (mesh.n_vertices(), other.n_vertices());
     if n != m {
         return Err(format!(
-            "expected {m} vertices as in the other mesh, found {n}"
+            "the mesh has {}, the other mesh {m}",
+            counted(n, "vertices")
         ));
     }
-    let Some(map) = Points::new(mesh).matching(other, |v| other.position(v), tolerance) else {
+    let Some(map) = PositionIndex::new(mesh).matching(other, |v| other.position(v), tolerance)
+    else {
         return Err(format!(
-            "expected the vertices of the other mesh within {tolerance}"
+            "the vertices do not match those of the other mesh (tolerance: {tolerance})"
         ));
     };
     if connectivity && !same_faces(mesh, other, &map, false) {
-        return Err("expected the faces of the other mesh, found others".to_owned());
+        return Err("the faces differ from those of the other mesh".to_owned());
     }
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! What expectations are held against, and the measures that several of them take.
+//! The subject of an expectation (a scene), and the measures that several expectations use.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -12,23 +12,23 @@ use op::{
 };
 use scene::{Geometry, Object, Scene};
 
-use super::Other;
+use super::OtherMesh;
 
-/// Reads the files that expectations name.
+/// Reads the files that expectations refer to.
 pub trait Reader: Sync {
-    /// Reads the objects of a file, and tells [`Files::has_read`] what was read.
+    /// Reads the objects of a file, and reports each file that it reads to [`Files::has_read`].
     ///
     /// # Errors
     ///
-    /// Why the file cannot be read, with its path.
+    /// The path and the reason, if the file cannot be read.
     fn objects(&self, path: &Path, files: &Files) -> Result<Vec<Object>, String>;
 
-    /// How the pixels of two PNG files, each with its path, differ by more than `tolerance` steps of 255; `None` if they
-    /// do not.
+    /// Compares the pixels of two PNG files, each given by its path and bytes. Returns a description of the differences
+    /// that exceed `tolerance` steps of 1/255, or `None` if there are none.
     ///
     /// # Errors
     ///
-    /// Why one of them cannot be read, with its path.
+    /// The path and the reason, if one of the files cannot be read.
     fn compare_pictures(
         &self,
         found: (&Path, &[u8]),
@@ -37,19 +37,19 @@ pub trait Reader: Sync {
     ) -> Result<Option<String>, String>;
 }
 
-/// An expectation that does not hold.
+/// Why an expectation does not hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Violation {
-    /// What was expected and what was found, in one line.
+    /// The expected and the actual value, in one line.
     pub message: String,
-    /// What was found, if a value that the expectation records is another one.
+    /// The actual value, if replacing the expected value by it makes the expectation hold.
     pub found: Option<ActualValue>,
-    /// Whether nothing could be compared: then the contrary does not hold either.
+    /// Whether the expectation could not be checked. Then its `Not` does not hold either.
     pub(super) is_unknown: bool,
 }
 
 impl Violation {
-    /// The scene is not as expected.
+    /// A violation without an actual value that could be recorded.
     pub(super) fn unmet(message: impl Into<String>) -> Self {
         Self {
             message: message.into(),
@@ -58,8 +58,8 @@ impl Violation {
         }
     }
 
-    /// A value that the recipe records is another one in the scene.
-    pub(super) fn recorded(message: String, found: ActualValue) -> Self {
+    /// A violation whose expected value can be replaced by the actual one.
+    pub(super) fn with_actual(message: String, found: ActualValue) -> Self {
         Self {
             found: Some(found),
             ..Self::unmet(message)
@@ -82,52 +82,52 @@ impl From<&str> for Violation {
     }
 }
 
-/// What was found in place of a value that an expectation records.
+/// The actual value, which can replace the expected value in the recipe.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ActualValue {
-    /// A whole number, in place of `eq`.
+    /// An integer for `eq`.
     Count(i128),
-    /// A number, in place of `eq`.
+    /// A number for `eq`.
     Number(f64),
     /// The digest of the scene.
     Digest(String),
-    /// A file, in place of the one beside the recipe.
+    /// A reference file beside the recipe.
     File {
-        /// The file beside the recipe.
+        /// The path of the reference file.
         golden: PathBuf,
-        /// What it should hold.
+        /// The bytes that the step has written.
         bytes: Vec<u8>,
-        /// By how many steps of 255 the colors of a picture may differ.
+        /// The allowed difference between the colors of two pictures, in steps of 1/255.
         tolerance: u8,
     },
-    /// A place, in place of `is`.
+    /// A position for `is`.
     Position {
-        /// The place.
+        /// The actual position.
         at: DVec3,
-        /// How far from there it might be.
+        /// The allowed distance from the expected position.
         tolerance: f64,
     },
-    /// The lowest and highest coordinates.
+    /// The bounding box.
     Bounds {
-        /// The lowest.
+        /// The lowest coordinates.
         min: DVec3,
-        /// The highest.
+        /// The highest coordinates.
         max: DVec3,
-        /// How far from there each might be.
+        /// The allowed deviation of each coordinate.
         tolerance: f64,
     },
 }
 
-/// What expectations are held against.
+/// The scene that an expectation is checked against.
 #[derive(Clone, Copy)]
 pub struct Subject<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// The objects that are meant; all if `None`.
+    /// The names of the objects to check. If `None`, all objects.
     pub on: Option<&'a [String]>,
-    /// Where files are.
+    /// The input and output folders, and the store of files.
     pub files: &'a Files,
-    /// How files are read.
+    /// Reads the files that the expectation refers to.
     pub reader: &'a dyn Reader,
 }
 
@@ -158,7 +158,7 @@ impl<'a> Subject<'a> {
             ref meshes => {
                 let n = meshes.len();
                 Err(format!(
-                    "this expectation is about one mesh, found {n}: name it with `on:`"
+                    "this expectation needs exactly 1 mesh, found {n}: name one with `on:`"
                 ))
             }
         }
@@ -170,7 +170,7 @@ impl<'a> Subject<'a> {
 
     pub(super) fn each_mesh(
         &self,
-        ask: impl Fn(&str, &Mesh) -> Result<(), Violation>,
+        check: impl Fn(&str, &Mesh) -> Result<(), Violation>,
     ) -> Result<(), Violation> {
         let meshes = self.meshes()?;
         if meshes.is_empty() {
@@ -178,10 +178,10 @@ impl<'a> Subject<'a> {
         }
         meshes
             .into_iter()
-            .try_for_each(|(object, mesh)| ask(&object.name, mesh))
+            .try_for_each(|(object, mesh)| check(&object.name, mesh))
     }
 
-    /// All points: vertices of meshes and points of polylines, patches and curves.
+    /// Returns all points: vertices of meshes, points of polylines, and control points of patches and curves.
     pub(crate) fn points(&self) -> Result<Vec<DVec3>, String> {
         let mut points = Vec::new();
         for object in self.objects()? {
@@ -199,9 +199,9 @@ impl<'a> Subject<'a> {
         Ok(points)
     }
 
-    pub(crate) fn other(&self, other: &Other) -> Result<Arc<Mesh>, String> {
+    pub(crate) fn other_mesh(&self, other: &OtherMesh) -> Result<Arc<Mesh>, String> {
         match other {
-            Other::Object(name) => {
+            OtherMesh::Object(name) => {
                 let object = self
                     .scene
                     .object(name)
@@ -211,25 +211,25 @@ impl<'a> Subject<'a> {
                     .cloned()
                     .ok_or(format!("\"{name}\" is not a mesh"))
             }
-            Other::File(path) => self
+            OtherMesh::File(path) => self
                 .reader
                 .objects(&self.files.to_read(path), self.files)?
                 .iter()
                 .find_map(Object::as_mesh)
                 .cloned()
-                .ok_or(format!("{path} holds no mesh")),
+                .ok_or(format!("{path} does not contain a mesh")),
         }
     }
 
     pub(super) fn bounds(&self, min: Vector, max: Vector, tolerance: f64) -> Result<(), Violation> {
         let points = self.points()?;
         let Some(&first) = points.first() else {
-            return Err("expected points, found none".into());
+            return Err("expected at least 1 point, found none".into());
         };
         let low = points.iter().fold(first, |a, &b| a.min(b));
         let high = points.iter().fold(first, |a, &b| a.max(b));
-        let off = |a: DVec3, b: Vector| (a - DVec3::from(b)).abs().max_element();
-        if off(low, min) <= tolerance && off(high, max) <= tolerance {
+        let deviation = |a: DVec3, b: Vector| (a - DVec3::from(b)).abs().max_element();
+        if deviation(low, min) <= tolerance && deviation(high, max) <= tolerance {
             return Ok(());
         }
         let (min, max) = (DVec3::from(min), DVec3::from(max));
@@ -239,24 +239,24 @@ impl<'a> Subject<'a> {
             max: high,
             tolerance,
         };
-        Err(Violation::recorded(message, found))
+        Err(Violation::with_actual(message, found))
     }
 
-    /// Asks about every element of a selection, of which there must be one.
+    /// Checks every element of a selection, which must not be empty.
     pub(super) fn each_selected<S: Select>(
         &self,
         of: &S,
-        mut ask: impl FnMut(&Mesh, S::Id) -> Result<(), Violation>,
+        mut check: impl FnMut(&Mesh, S::Id) -> Result<(), Violation>,
     ) -> Result<(), Violation> {
         let mut is_empty = true;
         for (object, mesh) in self.meshes()? {
             for id in selected(of, object, mesh, self.files)? {
                 is_empty = false;
-                ask(mesh, id)?;
+                check(mesh, id)?;
             }
         }
         if is_empty {
-            let message = format!("expected {} to be selected, found none", S::WORD);
+            let message = format!("the selection contains no {}", S::WORD);
             return Err(message.into());
         }
         Ok(())
@@ -273,12 +273,11 @@ impl<'a> Subject<'a> {
                 return Ok(());
             };
             largest = Some(largest.map_or(angle, |l| l.max(angle)));
-            let what = format_args!("a dihedral angle at {}", Ends(mesh, e));
-            near(what, angle, [None, min, max], 0.0)
+            let what = format_args!("a dihedral angle at {}", EdgeByVertices(mesh, e));
+            check_number(what, angle, [None, min, max], 0.0)
         })?;
-        let largest =
-            largest.ok_or("expected edges between two faces to be selected, found none")?;
-        near(
+        let largest = largest.ok_or("the selection contains no edges between two faces")?;
+        check_number(
             "a largest dihedral angle",
             largest,
             [None, reaches, None],
@@ -286,11 +285,11 @@ impl<'a> Subject<'a> {
         )
     }
 
-    /// The smallest corner angle of the faces of a selection, in degrees, and the face that has it.
+    /// Returns the smallest corner angle of the selected faces, in degrees, and the face that has it.
     pub(crate) fn smallest_angle(&self, of: &FaceSelection) -> Result<(f64, FaceId), Violation> {
         let mut smallest = (f64::INFINITY, FaceId::NONE);
         self.each_selected(of, |mesh, f| {
-            let angle = least_angle(mesh, f);
+            let angle = smallest_corner_angle(mesh, f);
             if angle < smallest.0 {
                 smallest = (angle, f);
             }
@@ -309,11 +308,11 @@ impl<'a> Subject<'a> {
         let mut areas: Vec<f64> = mesh.faces().map(|f| mesh.face_area(f)).collect();
         areas.sort_by(f64::total_cmp);
         if chosen.is_empty() {
-            return Err("expected faces to be selected, found none".into());
+            return Err("the selection contains no faces".into());
         }
         let sum: f64 = chosen.iter().map(|&f| mesh.face_area(f)).sum();
         let found = sum / chosen.len() as f64 / areas[areas.len() / 2];
-        near("a mean face area over the median", found, bounds, 0.0)
+        check_number("a ratio of mean to median face area", found, bounds, 0.0)
     }
 
     pub(super) fn position(
@@ -325,14 +324,14 @@ impl<'a> Subject<'a> {
         let (object, mesh) = self.one_mesh()?;
         let chosen = selected(of, object, mesh, self.files)?;
         let [v] = chosen[..] else {
-            let message = format!("expected one vertex to be selected, found {}", chosen.len());
+            let message = format!("expected exactly 1 selected vertex, found {}", chosen.len());
             return Err(message.into());
         };
         let found = mesh.position(v);
-        found_at(found, is, tolerance, || v.to_string())
+        check_position(found, is, tolerance, || v.to_string())
     }
 
-    /// The polylines of the one object that has any.
+    /// Returns the polylines of the only object that has polylines.
     pub(super) fn polylines(&self) -> Result<&'a [Vec<DVec3>], String> {
         let objects = self.objects()?;
         let lines: Vec<&Vec<Vec<DVec3>>> = objects
@@ -348,7 +347,7 @@ impl<'a> Subject<'a> {
         let [lines] = lines[..] else {
             let n = lines.len();
             return Err(format!(
-                "this expectation is about one object of polylines, found {n}"
+                "this expectation needs exactly 1 object with polylines, found {n}"
             ));
         };
         Ok(lines)
@@ -363,17 +362,17 @@ impl<'a> Subject<'a> {
     ) -> Result<(), Violation> {
         let lines = self.polylines()?;
         let Some(&found) = lines.get(line as usize).and_then(|l| l.get(index as usize)) else {
-            let message = format!("there is no point {index} on a polyline {line}");
+            let message = format!("point {index} of polyline {line} does not exist");
             return Err(Violation::unmet(message));
         };
-        found_at(found, is, tolerance, || {
+        check_position(found, is, tolerance, || {
             format!("point {index} of polyline {line}")
         })
     }
 }
 
-/// The elements of a selection on one object. A selection that is refused, as one that names an edge
-/// that is not there, is an answer.
+/// Returns the elements that a selection matches on one object. A refused selection, for example one that names a
+/// missing edge, violates the expectation, so its `Not` holds.
 pub(super) fn selected<S: Select>(
     selection: &S,
     object: &Object,
@@ -388,23 +387,23 @@ pub(super) fn selected<S: Select>(
     })
 }
 
-/// An edge by its vertices, as messages name it.
-pub(super) struct Ends<'m>(pub(super) &'m Mesh, pub(super) EdgeId);
+/// Displays an edge as "the edge v0-v1".
+pub(super) struct EdgeByVertices<'m>(pub(super) &'m Mesh, pub(super) EdgeId);
 
-impl fmt::Display for Ends<'_> {
+impl fmt::Display for EdgeByVertices<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [v, w] = self.0.edge_vertices(self.1);
         write!(f, "the edge {v}-{w}")
     }
 }
 
-/// The smallest corner angle of a face, in degrees.
-pub(super) fn least_angle(mesh: &Mesh, f: FaceId) -> f64 {
+/// Returns the smallest corner angle of a face, in degrees.
+pub(super) fn smallest_corner_angle(mesh: &Mesh, f: FaceId) -> f64 {
     let angles = mesh.face_half_edges(f).map(|h| mesh.corner_angle(h));
     angles.fold(f64::INFINITY, f64::min).to_degrees()
 }
 
-fn found_at(
+fn check_position(
     at: DVec3,
     is: DVec3,
     tolerance: f64,
@@ -414,7 +413,7 @@ fn found_at(
         return Ok(());
     }
     let message = format!("expected {} at {is}, found it at {at}", what());
-    Err(Violation::recorded(
+    Err(Violation::with_actual(
         message,
         ActualValue::Position { at, tolerance },
     ))
@@ -428,29 +427,48 @@ pub(super) fn fails_unless(holds: bool, message: impl FnOnce() -> String) -> Res
     }
 }
 
-pub(super) fn within<T: PartialOrd + fmt::Display + Copy + Into<i128>>(
+/// Checks a count against `eq`, `min` and `max`. `what` is a plural, such as "faces".
+pub(super) fn check_count(
     what: impl fmt::Display,
-    found: T,
-    bounds: [Option<T>; 3],
+    found: u64,
+    bounds: [Option<u64>; 3],
 ) -> Result<(), Violation> {
-    let is_equal = bounds[0].is_none_or(|n| found == n);
-    bounded(
-        found,
-        bounds,
-        is_equal,
-        ActualValue::Count(found.into()),
-        |word, n| {
-            let what = what.to_string();
-            let what = counted(&what, n.into());
-            format!("expected {word}{n} {what}, found {found}")
-        },
-    )
+    check_exact(found, bounds, |word, n| {
+        let what = what.to_string();
+        let what = singular_if_one(n, &what);
+        format!("expected {word}{n} {what}, found {found}")
+    })
 }
 
-/// The word for so many: `what` for several.
-fn counted(what: &str, n: i128) -> Cow<'_, str> {
-    let is_noun = !what.starts_with("as ");
-    if n != 1 || !is_noun {
+/// Checks an integer against `eq`, `min` and `max`. `what` is a noun with its article, such as "a genus".
+pub(super) fn check_integer(
+    what: &str,
+    found: i64,
+    bounds: [Option<i64>; 3],
+) -> Result<(), Violation> {
+    check_exact(found, bounds, |word, n| {
+        format!("expected {what} of {word}{n}, found {found}")
+    })
+}
+
+fn check_exact<T: PartialOrd + Copy + Into<i128>>(
+    found: T,
+    bounds: [Option<T>; 3],
+    message: impl Fn(&str, T) -> String,
+) -> Result<(), Violation> {
+    let is_equal = bounds[0].is_none_or(|n| found == n);
+    let actual = ActualValue::Count(found.into());
+    check_bounds(found, bounds, is_equal, actual, message)
+}
+
+/// Returns the number with its noun, such as "1 vertex" or "2 vertices". `what` is the plural.
+pub(super) fn counted(n: usize, what: &str) -> String {
+    format!("{n} {}", singular_if_one(n as u64, what))
+}
+
+/// Returns the plural `what`, or its singular if `n` is 1.
+fn singular_if_one(n: u64, what: &str) -> Cow<'_, str> {
+    if n != 1 {
         Cow::Borrowed(what)
     } else if let Some(stem) = what.strip_suffix("vertices") {
         Cow::Owned(format!("{stem}vertex"))
@@ -461,14 +479,16 @@ fn counted(what: &str, n: i128) -> Cow<'_, str> {
     }
 }
 
-pub(super) fn near(
+/// Checks a number against `eq`, within the tolerance, `min` and `max`. `what` is a noun with its article, such as
+/// "an area".
+pub(super) fn check_number(
     what: impl fmt::Display,
     found: f64,
     bounds: [Option<f64>; 3],
     tolerance: f64,
 ) -> Result<(), Violation> {
     let is_equal = bounds[0].is_none_or(|x| (found - x).abs() <= tolerance);
-    bounded(
+    check_bounds(
         found,
         bounds,
         is_equal,
@@ -477,20 +497,20 @@ pub(super) fn near(
     )
 }
 
-/// Fails with the first of the bounds `eq`, `min` and `max` that is broken. Only where `eq` alone is broken, recording
-/// the found value mends it.
-fn bounded<T: PartialOrd + Copy>(
+/// Fails with the first of the bounds `eq`, `min` and `max` that is violated. The violation has the actual value only if
+/// `eq` alone is violated, because only then recording that value makes the expectation hold.
+fn check_bounds<T: PartialOrd + Copy>(
     found: T,
     [eq, min, max]: [Option<T>; 3],
     is_equal: bool,
-    recorded: ActualValue,
+    actual: ActualValue,
     message: impl Fn(&str, T) -> String,
 ) -> Result<(), Violation> {
     let is_high_enough = min.is_none_or(|min| found >= min);
     let is_low_enough = max.is_none_or(|max| found <= max);
     match (eq, min, max) {
         (Some(eq), ..) if !is_equal => Err(Violation {
-            found: (is_high_enough && is_low_enough).then_some(recorded),
+            found: (is_high_enough && is_low_enough).then_some(actual),
             ..Violation::unmet(message("", eq))
         }),
         (_, Some(min), _) if !is_high_enough => Err(Violation::unmet(message("at least ", min))),

@@ -1,20 +1,20 @@
-//! Symmetry: how many motions of a group bring a mesh back onto itself.
+//! Symmetry: counts the motions of a group that map a mesh onto itself.
 
 use mesh::{DVec3, Mesh, VertexId};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::same::{Points, same_faces};
+use super::same::{PositionIndex, same_faces};
 
-/// A group of motions about the origin.
+/// A symmetry group about the origin.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Group {
-    /// The 24 rotations of a cube along the axes.
+    /// The 24 rotations of an axis-aligned cube.
     CubeRotations,
-    /// The 48 motions of a cube along the axes, mirror images included.
+    /// The 48 symmetries of an axis-aligned cube: its rotations and reflections.
     CubeMotions,
-    /// The 8 mirror images in the three coordinate planes and their combinations.
+    /// The 8 combinations of the reflections in the three coordinate planes.
     AxisMirrors,
 }
 
@@ -22,18 +22,18 @@ pub enum Group {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Motion {
     axes: [DVec3; 3],
-    turns: bool,
+    is_rotation: bool,
 }
 
 impl Motion {
     fn apply(&self, p: DVec3) -> DVec3 {
-        // Each axis goes to an axis, so that the sums are exact.
+        // Every image of an axis is an axis, so the sums are exact.
         p.x * self.axes[0] + p.y * self.axes[1] + p.z * self.axes[2]
     }
 }
 
 impl Group {
-    /// The motions of the group.
+    /// Returns the motions of the group.
     pub(super) fn motions(self) -> Vec<Motion> {
         let axes = [DVec3::X, DVec3::Y, DVec3::Z];
         let orders = [
@@ -50,35 +50,35 @@ impl Group {
                 let axes = [0, 1, 2].map(|i| sign(bits, i) * axes[order[i]]);
                 Motion {
                     axes,
-                    turns: axes[0].cross(axes[1]).dot(axes[2]) > 0.0,
+                    is_rotation: axes[0].cross(axes[1]).dot(axes[2]) > 0.0,
                 }
             })
         });
         match self {
-            Self::CubeRotations => all.filter(|m| m.turns).collect(),
+            Self::CubeRotations => all.filter(|m| m.is_rotation).collect(),
             Self::CubeMotions => all.collect(),
             Self::AxisMirrors => all.take(8).collect(),
         }
     }
 }
 
-/// Under how many of the motions every vertex comes onto a vertex within the tolerance and, if
-/// `connectivity` is asked for, every face onto a face.
+/// Counts the motions that map every vertex onto a vertex within the tolerance and, if `connectivity` is set, every face
+/// onto a face.
 pub(super) fn count(mesh: &Mesh, motions: &[Motion], tolerance: f64, connectivity: bool) -> u64 {
-    let points = Points::new(mesh);
+    let points = PositionIndex::new(mesh);
     let keeps = |motion: &Motion| {
         let image = |v: VertexId| motion.apply(mesh.position(v));
         points
             .matching(mesh, image, tolerance)
-            .is_some_and(|map| !connectivity || same_faces(mesh, mesh, &map, !motion.turns))
+            .is_some_and(|map| !connectivity || same_faces(mesh, mesh, &map, !motion.is_rotation))
     };
     motions.iter().filter(|motion| keeps(motion)).count() as u64
 }
 
-/// Whether one of the motions brings a vertex to where no vertex is.
-pub(super) fn is_alone(
+/// Whether one of the motions maps the vertex to a place without a vertex.
+pub(super) fn has_unmatched_image(
     mesh: &Mesh,
-    points: &Points,
+    points: &PositionIndex,
     motions: &[Motion],
     v: VertexId,
     tolerance: f64,

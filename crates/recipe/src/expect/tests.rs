@@ -1,4 +1,4 @@
-//! Expectations against small scenes: what holds, and the message of what does not.
+//! Checks expectations against small scenes, and the messages of those that do not hold.
 
 mod counts;
 mod logic;
@@ -16,7 +16,7 @@ use scene::{Geometry, Object, Scene};
 use super::{Expectation, Subject};
 use crate::tests::objects;
 
-/// A scene with these meshes.
+/// Returns a scene with these meshes.
 fn scene(meshes: impl IntoIterator<Item = (&'static str, Mesh)>) -> Scene {
     let mut scene = Scene::new();
     for (name, mesh) in meshes {
@@ -29,11 +29,11 @@ fn cube() -> Scene {
     scene([("cube", shapes::cube())])
 }
 
-fn of(positions: &[DVec3], polygons: &[&[u32]]) -> Mesh {
+fn mesh_from(positions: &[DVec3], polygons: &[&[u32]]) -> Mesh {
     Mesh::from_polygons(positions.to_vec(), polygons).unwrap().0
 }
 
-/// A polyline of three points.
+/// Returns a scene with one polyline of three points.
 fn lines() -> Scene {
     let line = vec![DVec3::ZERO, DVec3::X, DVec3::new(3.0, 1.0, 0.0)];
     let mut scene = Scene::new();
@@ -46,8 +46,8 @@ fn expectation(text: &str) -> Expectation {
     ron_tree::from_str(text).unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
-/// Holds an expectation against some objects of a scene. The file `octahedron.obj` holds one, every
-/// other file is broken.
+/// Checks an expectation against some objects of a scene. The file `octahedron.obj` contains an octahedron;
+/// every other file cannot be read.
 fn check_on(scene: &Scene, on: Option<&[String]>, text: &str) -> Result<(), String> {
     let files = Files {
         input: "folder".into(),
@@ -67,15 +67,15 @@ fn check_on(scene: &Scene, on: Option<&[String]>, text: &str) -> Result<(), Stri
         reader: &reader,
     };
     expectation(text)
-        .hold(subject)
-        .map_err(|broken| broken.message)
+        .check(subject)
+        .map_err(|violation| violation.message)
 }
 
 fn check(scene: &Scene, text: &str) -> Result<(), String> {
     check_on(scene, None, text)
 }
 
-/// One expectation holds, another fails with a message.
+/// Asserts that the expectation `holds` holds, and that `fails` fails with the message.
 #[track_caller]
 fn holds_and_fails(scene: &Scene, holds: &str, fails: &str, message: &str) {
     assert_eq!(check(scene, holds), Ok(()), "{holds}");

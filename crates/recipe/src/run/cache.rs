@@ -1,4 +1,4 @@
-//! What a run asks of a cache of steps. How results are stored is the business of the cache.
+//! The interface between a run and a step cache. How results are stored is up to the cache.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -10,179 +10,182 @@ use serde::{Deserialize, Serialize};
 
 use crate::recipe::{RecipeExpectation, RecipeStep};
 
-/// A cache of steps, set up for runs of one recipe.
+/// A step cache, set up for runs of one recipe.
 pub trait StepCache: fmt::Debug + Sync {
-    /// Begins a run.
+    /// Starts a run.
     fn begin(&self) -> Box<dyn CachedRun + '_>;
 }
 
-/// A run with a cache: looks steps up, stores what ran, and brings scenes back. The run calls either
-/// [`find`](Self::find) for a step, or after an error of that [`ran`](Self::ran) too.
+/// A run with a cache: looks up steps, stores the results of steps that ran, and loads scenes. For each step, the run
+/// calls [`look_up`](Self::look_up) and, if that fails, runs the step and calls [`record_step`](Self::record_step).
 pub trait CachedRun {
-    /// Looks the next step up. What it has written is put below `stage`, if there is one.
+    /// Looks up the next step. If `stage` is given, the files that the step wrote are restored into it.
     ///
     /// # Errors
     ///
-    /// Why the step must run.
-    fn find(
+    /// The reason why the step must run.
+    fn look_up(
         &mut self,
         step: &RecipeStep,
         budget: u64,
         files: &Files,
         stage: Option<&Path>,
-    ) -> Result<Finding, RerunReason>;
+    ) -> Result<StepResult, RerunReason>;
 
-    /// Keeps what step `number`, counted from 1, has done, which was not found.
-    fn ran(&mut self, number: usize, label: &str, files: &Files, done: &Done);
+    /// Stores the result of step `number` (counted from 1), which was not in the cache.
+    fn record_step(&mut self, number: usize, label: &str, files: &Files, done: &CompletedStep);
 
-    /// Takes note that the step that leads to a place ran once more for its scene, and says why.
-    fn ran_again(
+    /// Records that step `number` (counted from 1) ran again because its scene was needed. Returns the reason why the
+    /// scene was not in the cache.
+    fn record_rerun(
         &mut self,
-        place: usize,
+        number: usize,
         label: &str,
         scene: &Scene,
         time: Duration,
     ) -> RerunReason;
 
-    /// The last place from `from` up to `to` at which the scene can be brought back, and that scene.
-    fn bring(&mut self, from: usize, to: usize) -> Option<(usize, Scene)>;
+    /// Loads the latest scene that is stored, from those after more than `from` and at most `to` steps. Returns the
+    /// number of steps before the scene, and the scene.
+    fn load_scene(&mut self, from: usize, to: usize) -> Option<(usize, Scene)>;
 
-    /// Whether the step behind a place leaves the scene as it was.
-    fn is_same(&self, place: usize) -> bool;
+    /// Whether the step with this index (counted from 0) leaves the scene unchanged.
+    fn keeps_scene(&self, index: usize) -> bool;
 
     /// Whether an expectation is known to hold for the current scene.
-    fn holds(&mut self, placed: &RecipeExpectation, files: &Files) -> bool;
+    fn is_known_to_hold(&mut self, placed: &RecipeExpectation, files: &Files) -> bool;
 
-    /// Takes note that an expectation holds for the current scene.
-    fn held(&mut self, placed: &RecipeExpectation, uses: &[FileUse]);
+    /// Records that an expectation holds for the current scene.
+    fn record_met_expectation(&mut self, placed: &RecipeExpectation, uses: &[FileUse]);
 
-    /// The digest of the current scene, if it is known.
+    /// Returns the digest of the current scene, if it is known.
     fn digest(&self) -> Option<Digest>;
 
-    /// Takes note of the digest of the current scene.
+    /// Records the digest of the current scene.
     fn set_digest(&mut self, digest: Digest);
 
-    /// Whether the scene at the end is wanted even where no step needs it.
+    /// Whether the final scene must be available even if no step needs it.
     fn wants_scene(&self) -> bool;
 
-    /// Stores what has become known of the last step.
+    /// Writes what has been recorded about the last step to the cache.
     fn flush(&mut self);
 
-    /// Ends the run. Returns why nothing can be stored any more, if that is so, and lines on what was not stored or
-    /// not found.
+    /// Ends the run. Returns the problem that prevents the cache from storing anything, if any, and one line for each
+    /// result that was not stored or not found.
     fn finish(self: Box<Self>) -> (Option<String>, Vec<String>);
 }
 
-/// What a step did, as a cache keeps it.
+/// The result of a step that a cache stores.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub struct Finding {
-    /// What it reported.
+pub struct StepResult {
+    /// The report of the step.
     pub report: Report,
-    /// The reason for which it was refused, as the recipe says it must be.
+    /// The reason why the step was refused, if the recipe expects a refusal.
     pub refused: Option<Refusal>,
-    /// Vertices, edges and faces of all meshes together.
+    /// The numbers of vertices, edges and faces of all meshes together.
     pub counts: [usize; 3],
 }
 
-/// What a step has just done.
+/// A step that has just run.
 #[derive(Clone, Debug)]
-pub struct Done<'a> {
-    /// What a cache finds of it later.
-    pub finding: &'a Finding,
-    /// The scene after it.
+pub struct CompletedStep<'a> {
+    /// The result to store.
+    pub result: &'a StepResult,
+    /// The scene after the step.
     pub scene: &'a Scene,
-    /// Whether the scene is certainly the one before it.
-    pub same: bool,
-    /// How long it took.
+    /// Whether the step is known to have left the scene unchanged.
+    pub keeps_scene: bool,
+    /// How long the step took.
     pub time: Duration,
-    /// What it asked for of files.
+    /// The file accesses of the step.
     pub uses: &'a [FileUse],
-    /// The files that it has written below `stage`.
+    /// The files that the step has written, relative to `stage`.
     pub written: Vec<PathBuf>,
-    /// Where outputs wait until the run succeeds, if it writes any.
+    /// The folder that holds the outputs until the run succeeds, if the recipe writes files.
     pub stage: Option<&'a Path>,
 }
 
-/// Why a step ran. Shown as the end of a sentence that begins with "because".
+/// Why a step ran. Displayed as the end of a sentence that begins with "because".
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RerunReason {
-    /// There is no cache.
-    #[error("there is no cache")]
+    /// No cache is used.
+    #[error("no cache is used")]
     NoCache,
-    /// The cache knows no run of this step.
+    /// The cache has no record of an earlier run of this step.
     #[error("it has not run before")]
     New,
-    /// Another version of the program, or another build of it.
-    #[error("the program is another one")]
+    /// The program has a different version, or is a different build of it.
+    #[error("the program is a different version or build")]
     Program,
-    /// The operation has another version.
+    /// The version of the operation changed.
     #[error("the version of the operation changed: {from} -> {to}")]
     Version {
-        /// The version then.
+        /// The version in the last run.
         from: u32,
-        /// The version now.
+        /// The current version.
         to: u32,
     },
-    /// Parameters have other values: which, and what they were and are.
+    /// Parameters changed: a list of their names with the old and the new values.
     #[error("parameters changed: {0}")]
     Parameters(String),
-    /// `on` names other objects.
+    /// The list of objects in `on` changed.
     #[error("`on` changed")]
     On,
-    /// The id is another one, and keys the random choices.
-    #[error("its id changed, which keys random choices")]
+    /// The id changed, which seeds the random choices of the step.
+    #[error("its id changed, which seeds random choices")]
     Id,
-    /// `refused` is another one.
+    /// The expected refusal changed.
     #[error("`refused` changed")]
     Refused,
-    /// The memory budget is another one.
+    /// The memory budget changed.
     #[error("the memory budget changed")]
     Budget,
-    /// It reads from another folder.
-    #[error("it reads from another folder")]
+    /// The paths of its input files now refer to a different folder.
+    #[error("it reads from a different folder")]
     Folder,
-    /// A file is not what it was.
+    /// An input file changed.
     #[error("the file {} {}", .0.display(), .1)]
-    File(PathBuf, Change),
-    /// The recipe or its parameters are others, and the files that the step writes say which.
-    #[error("the recipe changed, and what is written says from which one it is")]
+    File(PathBuf, FileChange),
+    /// The recipe or its parameters changed, and the output files of the step record them.
+    #[error("the recipe changed, and the output files record which recipe wrote them")]
     Provenance,
-    /// The names of the files that the step writes are others.
-    #[error("the names of its outputs changed")]
+    /// The names of its output files changed.
+    #[error("the names of its output files changed")]
     Outputs,
-    /// An earlier step, by its number from 1 and its label, ran.
+    /// An earlier step ran: its number (counted from 1) and its label.
     #[error("step {0} {1} ran again")]
     Earlier(usize, String),
-    /// There are other steps before it.
-    #[error("there are other steps before it")]
+    /// The earlier steps are different ones or in a different order.
+    #[error("the steps before it changed")]
     Order,
-    /// The cache does not have its result any more.
-    #[error("its result is not in the cache any more")]
+    /// Its result was removed from the cache.
+    #[error("its result is no longer in the cache")]
     Gone,
-    /// Its result in the cache was damaged: how.
-    #[error("its result in the cache was damaged: {0}")]
+    /// Its result in the cache is damaged, with the reason.
+    #[error("its result in the cache is damaged: {0}")]
     Damaged(String),
-    /// Its result was not stored: making it took less time than storing it would have.
-    #[error("its result was not stored: making it took less time than storing it would")]
+    /// Its result was not stored, because computing it took less time than storing it would have taken.
+    #[error("its result was not stored: computing it is faster than storing it")]
     NotKept,
-    /// What it depends on cannot be told: a file and the reason.
-    #[error("what it read cannot be told: {}, {}", .0.display(), .1)]
+    /// Its input files could not be determined: a path and the reason.
+    #[error("its input files are unknown: {}: {}", .0.display(), .1)]
     Unknown(PathBuf, String),
-    /// What it depends on cannot be told, because an earlier step has left a scene with removed elements.
-    #[error("what an earlier step has left cannot be told")]
+    /// The scene before it has no known identity: an earlier step with unknown input files left a scene with removed
+    /// elements.
+    #[error("an earlier step with unknown input files left removed elements in the scene")]
     NoState,
 }
 
-/// What became of a file.
+/// How an input file changed since the last run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Change {
-    /// It has another content.
+pub enum FileChange {
+    /// The content of the file changed.
     #[error("changed")]
     Changed,
-    /// It is not there any more.
-    #[error("is gone")]
+    /// The file no longer exists.
+    #[error("no longer exists")]
     Gone,
-    /// It was not there.
-    #[error("was not there before")]
+    /// The file did not exist in the last run.
+    #[error("did not exist before")]
     Appeared,
 }

@@ -1,35 +1,36 @@
-//! Who follows a run, and what they hear.
+//! The listener interface: receives the events of a run.
 
 use std::time::Duration;
 
 use op::{ErrorLocation, Progress, Refusal, Report};
 use scene::{Digest, Scene};
 
-use super::cache::{Finding, RerunReason};
+use super::cache::{RerunReason, StepResult};
 use crate::expect::ActualValue;
 use crate::recipe::RecipeStep;
 use ron_tree::Diagnostic;
 
-/// Follows a run.
+/// Receives the events of a run. Steps are numbered from 0.
 pub trait Listener: Progress {
-    /// A step begins.
+    /// Called when a step begins.
     fn step_begins(&self, _number: usize, _label: &str) {}
-    /// A step is done.
+    /// Called when a step is done.
     fn step_done(&self, _number: usize, _done: &StepDone) {}
-    /// Whether to tell the digest of the scene after each step, which takes a while for large ones.
+    /// Whether to compute the digest of the scene after each step. Slow for large scenes.
     fn wants_digests(&self) -> bool {
         false
     }
-    /// Whether to show the scene after each step, for which scenes are brought back from the cache.
+    /// Whether to call [`scene_after`](Self::scene_after). Scenes are then loaded from the cache even if no step needs
+    /// them.
     fn wants_scenes(&self) -> bool {
         false
     }
-    /// The scene after a step, if it is wanted. A copy shares the meshes; the next step that changes one of them
-    /// copies it then.
+    /// Called with the scene after each step, if [`wants_scenes`](Self::wants_scenes). A clone of the scene shares its
+    /// meshes until the next step that changes one of them, which then copies it.
     fn scene_after(&self, _number: usize, _scene: &Scene) {}
-    /// A step or an expectation has failed.
+    /// Called when a step fails or an expectation does not hold.
     fn failed(&self, _: &Failure) {}
-    /// Whether to find the scene and the elements that break an expectation, which takes a while.
+    /// Whether to find the elements that violate an expectation, which takes time.
     fn wants_places(&self) -> bool {
         false
     }
@@ -38,51 +39,51 @@ pub trait Listener: Progress {
 /// A step that failed, or an expectation that does not hold.
 #[derive(Clone, Copy, Debug)]
 pub struct Failure<'a> {
-    /// What is told of it.
+    /// The error to report.
     pub diagnostic: &'a Diagnostic,
-    /// The scene at that time; before a step that failed.
+    /// The current scene. For a failed step, the scene before the step.
     pub scene: &'a Scene,
-    /// The places in the scene that it is about, if any are known.
+    /// The places in the scene that the failure is about, if any are known.
     pub places: &'a [ErrorLocation],
-    /// What was found in place of a value that an expectation records.
+    /// The actual value, if the recipe can be updated with it.
     pub found: Option<&'a ActualValue>,
 }
 
-/// What a step left behind.
+/// A step that is done.
 #[derive(Clone, Debug)]
 pub struct StepDone {
-    /// The step's id or operation.
+    /// The step's id or, if it has none, its operation.
     pub label: String,
-    /// What it did.
+    /// The report of the step.
     pub report: Report,
-    /// The reason for which it was refused, as the recipe says it must be.
+    /// The reason why the step was refused, if the recipe expects a refusal.
     pub refused: Option<Refusal>,
-    /// The vertices of all meshes together, after it; points of polylines count too.
+    /// The number of vertices of all meshes together after the step, including points of polylines.
     pub vertices: usize,
-    /// The edges.
+    /// The number of edges after the step.
     pub edges: usize,
-    /// The faces.
+    /// The number of faces after the step.
     pub faces: usize,
-    /// The digest of the scene after it, if the listener wants it.
+    /// The digest of the scene after the step, if the listener wants it.
     pub digest: Option<Digest>,
-    /// How long it took.
+    /// How long the step took.
     pub time: Duration,
-    /// Why it ran; `None` if its result was taken from the cache.
+    /// Why the step ran. `None` if its result was taken from the cache.
     pub ran: Option<RerunReason>,
 }
 
 impl StepDone {
     pub(super) fn new(
         step: &RecipeStep,
-        what: Finding,
+        result: StepResult,
         time: Duration,
         ran: Option<RerunReason>,
     ) -> Self {
-        let [vertices, edges, faces] = what.counts;
+        let [vertices, edges, faces] = result.counts;
         Self {
             label: step.label().to_owned(),
-            report: what.report,
-            refused: what.refused,
+            report: result.report,
+            refused: result.refused,
             vertices,
             edges,
             faces,
@@ -93,7 +94,7 @@ impl StepDone {
     }
 }
 
-/// Follows nothing and never stops.
+/// A listener that ignores all events and never cancels.
 pub use op::NoProgress as Silent;
 
 impl Listener for Silent {}

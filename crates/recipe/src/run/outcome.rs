@@ -1,4 +1,4 @@
-//! How a run ended.
+//! The outcome of a run.
 
 use std::path::PathBuf;
 
@@ -8,41 +8,42 @@ use super::listener::StepDone;
 use crate::expect::ActualValue;
 use ron_tree::Diagnostic;
 
-/// How a run ended.
+/// The outcome of a run.
 #[derive(Debug)]
 pub struct Outcome {
-    /// The number of the step that the run began with.
+    /// The index of the step that the run started with.
     pub first: usize,
     /// The steps that were done.
     pub steps: Vec<StepDone>,
-    /// What went wrong: one failed step, or expectations that do not hold.
+    /// The errors: a failed step, expectations that do not hold, or outputs that cannot be written.
     pub failures: Vec<Diagnostic>,
     /// The expectations that do not hold.
     pub unmet: Vec<UnmetExpectation>,
     /// Whether the run was cancelled.
     pub cancelled: bool,
-    /// How many expectations were held against the scene.
+    /// The number of expectations that were checked.
     pub checked: usize,
-    /// The scene at the end; `None` only if it stayed in the cache because nobody wanted it.
+    /// The scene at the end. `None` if it was not loaded from the cache because it was not needed, or could not be
+    /// recomputed.
     pub scene: Option<Scene>,
     /// The digest of the scene at the end.
     pub digest: Digest,
     /// The files that were written.
     pub written: Vec<PathBuf>,
-    /// Why nothing can be stored in the cache any more, if that is so.
+    /// The problem that prevents the cache from storing anything, if any.
     pub cache_problem: Option<String>,
-    /// What was not stored in the cache, and why, and what was not found there, each one line.
+    /// One line for each result that was not stored in the cache or could not be loaded from it, with the reason.
     pub cache_notes: Vec<String>,
 }
 
 /// An expectation that does not hold.
 #[derive(Clone, Debug)]
 pub struct UnmetExpectation {
-    /// Its place in [`Recipe::expectations`](crate::Recipe::expectations).
+    /// The index of the expectation in [`Recipe::expectations`](crate::Recipe::expectations).
     pub expectation: usize,
-    /// The place of what is told of it in [`Outcome::failures`].
+    /// The index of its error in [`Outcome::failures`].
     pub failure: usize,
-    /// What was found, if a value that it records is another one.
+    /// The actual value, if the recipe can be updated with it.
     pub found: Option<ActualValue>,
 }
 

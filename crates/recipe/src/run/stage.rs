@@ -1,4 +1,4 @@
-//! The folder where outputs wait until everything has held.
+//! The stage: a temporary folder that holds the outputs until the run succeeds.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use store::{Entry, TemporaryFolder, files_below};
 
 use super::Settings;
 
-/// A folder inside the output folder where files wait until everything has held.
+/// Creates the stage if the recipe writes files. If outputs are kept, the stage is inside the output folder.
 pub(super) fn staging<'a>(settings: &Settings<'a>) -> Result<Option<TemporaryFolder<'a>>, String> {
     if !settings.writes {
         return Ok(None);
@@ -25,12 +25,12 @@ pub(super) fn staging<'a>(settings: &Settings<'a>) -> Result<Option<TemporaryFol
     }
 }
 
-/// Moves all files to their places.
+/// Moves all files from the stage to the output folder, and returns their paths.
 pub(super) fn deliver(stage: &Path, files: &Files) -> Result<Vec<PathBuf>, String> {
     let store = &*files.store;
-    let told = |error: store::StoreError| error.to_string();
+    let message = |error: store::StoreError| error.to_string();
     let mut moves = Vec::new();
-    for from in files_below(store, stage).map_err(told)? {
+    for from in files_below(store, stage).map_err(message)? {
         let relative = from.strip_prefix(stage).expect("found below the stage");
         let to = files.output.join(relative);
         files.check_links(relative).map_err(|e| e.to_string())?;
@@ -40,22 +40,22 @@ pub(super) fn deliver(stage: &Path, files: &Files) -> Result<Vec<PathBuf>, Strin
         }
         if store.is_folder(&to) {
             return Err(format!(
-                "cannot write {}: there is a folder of that name",
+                "cannot write {}: a folder with that name exists",
                 to.display()
             ));
         }
         moves.push((from, to));
     }
     for (from, to) in &moves {
-        store.rename(from, to).map_err(told)?;
+        store.rename(from, to).map_err(message)?;
     }
     Ok(moves.into_iter().map(|(_, to)| to).collect())
 }
 
-/// The files of a stage with what changes when they are written.
+/// The files of a stage, each with the metadata that changes when the file is written.
 pub(super) type Listing = BTreeMap<PathBuf, Entry>;
 
-/// Lists a stage. What cannot be listed is found out when it is delivered.
+/// Lists a stage. Skips files that cannot be listed; `deliver` reports them.
 pub(super) fn listing(stage: &Path, files: &Files) -> Listing {
     let paths = files_below(&*files.store, stage).unwrap_or_default();
     let files = paths.into_iter().filter_map(|path| {
@@ -65,7 +65,7 @@ pub(super) fn listing(stage: &Path, files: &Files) -> Listing {
     files.collect()
 }
 
-/// The files that are new or other ones.
+/// Returns the files that are new or changed.
 pub(super) fn written(before: &Listing, after: &Listing) -> Vec<PathBuf> {
     let is_new = |(path, state): &(&PathBuf, &_)| before.get(*path) != Some(state);
     let new = after.iter().filter(is_new);

@@ -7,7 +7,7 @@ use op::{FaceSelection, Files};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::expect::{Other, Reader, Subject};
+use crate::expect::{OtherMesh, Reader, Subject};
 use crate::run::Outcome;
 use geometry::distance::Distance;
 
@@ -41,7 +41,7 @@ pub enum Metric {
     /// measures it, in scene units.
     DistanceTo {
         /// The other.
-        other: Other,
+        other: OtherMesh,
         /// The object that is meant, if there are several meshes.
         on: Option<String>,
     },
@@ -100,7 +100,7 @@ impl Metric {
             Self::DistanceTo { other, on } => {
                 let on = on.as_ref().map(std::slice::from_ref);
                 let (_, mesh) = Subject { on, ..subject }.one_mesh()?;
-                let other = subject.other(other)?;
+                let other = subject.other_mesh(other)?;
                 let distance = Distance::between(mesh, other.as_ref(), None);
                 Measured::Number(distance.map_or(f64::INFINITY, |d| d.largest()))
             }
@@ -113,7 +113,7 @@ impl Metric {
     }
 
     /// The object or file that it compares with.
-    pub fn other(&self) -> Option<&Other> {
+    pub fn other(&self) -> Option<&OtherMesh> {
         match self {
             Self::DistanceTo { other, .. } => Some(other),
             _ => None,

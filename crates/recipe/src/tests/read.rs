@@ -55,7 +55,7 @@ fn five_different_mistakes_are_five_errors_at_their_places() {
             ),
             (
                 "Faces()",
-                "it has no bound, so it can never fail",
+                "the expectation has no bound, so it can never fail",
                 "give it a bound, such as `eq`, `min` or `max`"
             ),
         ]

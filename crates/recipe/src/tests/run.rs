@@ -118,11 +118,11 @@ fn a_step_that_is_not_refused_as_expected_fails_and_leaves_the_scene_as_it_was()
     for (lift, message) in [
         (
             "Lift(by: 1)",
-            "expected to be refused as Boundary, but it was done",
+            "expected the refusal Boundary, but the step succeeded",
         ),
         (
             "Lift(by: 1, fails: Seam)",
-            "expected to be refused as Boundary, but: v3 refuses",
+            "expected the refusal Boundary, but the step failed: v3 refuses",
         ),
     ] {
         let text = steps(&format!(
@@ -166,7 +166,7 @@ fn expectations_that_do_not_hold_are_all_reported_and_nothing_is_written() {
             ("Vertices(eq: 5)", "expected 5 vertices, found 6", ""),
             (
                 "Closed",
-                "expected no boundary, but sheet has one at the edge v0-v1",
+                "expected no boundary edges, but the edge v0-v1 of \"sheet\" is one",
                 ""
             ),
         ]
@@ -213,7 +213,7 @@ fn an_output_does_not_replace_a_folder() {
     let outcome = ran(&text, folder.path());
     let path = folder.path().join("b.txt");
     let message = format!(
-        "cannot write {}: there is a folder of that name",
+        "cannot write {}: a folder with that name exists",
         path.display()
     );
     assert_eq!(
@@ -356,7 +356,7 @@ fn a_step_that_panics_fails_the_run_and_nothing_is_written() {
     let outcome = ran(&text, folder.path());
     assert_eq!(
         shown(&text, &outcome.failures),
-        [("Lift", "Lift has panicked, which is a mistake in it", "")]
+        [("Lift", "internal error in Lift (please report it)", "")]
     );
     assert_eq!(outcome.steps.len(), 2);
     assert_eq!(entries(folder.path()), [""; 0]);

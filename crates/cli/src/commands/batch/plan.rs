@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf, absolute};
 
 use anyhow::{bail, ensure};
 use engine::Engine;
-use recipe::{Other, Param, Parameter, Source, did_you_mean};
+use recipe::{OtherMesh, Param, Parameter, Source, did_you_mean};
 
 use super::inputs::{self, Input};
 use super::row::Header;
@@ -159,8 +159,8 @@ impl<'a> Batch<'a> {
         }
         let folders = loaded.recipe.files(&loaded.files);
         let compared = loaded.recipe.expectations.iter().filter_map(|placed| {
-            let path = match (placed.that.others(), placed.that.output()) {
-                (Some(Other::File(path)), _) => path,
+            let path = match (placed.that.other_mesh(), placed.that.output()) {
+                (Some(OtherMesh::File(path)), _) => path,
                 (_, Some((_, beside))) => beside,
                 _ => return None,
             };

@@ -30,7 +30,7 @@ use std::path::Path;
 use anyhow::ensure;
 use engine::Engine;
 use recipe::{
-    Diagnostic, Grid, Measured, Metric, Other, Setting, Severity, Source, Sweep, read_sweep,
+    Diagnostic, Grid, Measured, Metric, OtherMesh, Setting, Severity, Source, Sweep, read_sweep,
 };
 use scene::Scene;
 use serde_json::{Value as Json, json};
@@ -207,7 +207,7 @@ impl Plan {
 /// Checks that every file that cells are compared with exists.
 fn check_files(sweep: &Sweep, loaded: &Loaded, diagnostics: &mut Vec<Diagnostic>) {
     for (metric, span) in &sweep.keep {
-        if let Some(Other::File(path)) = Metric::other(metric) {
+        if let Some(OtherMesh::File(path)) = Metric::other(metric) {
             let path = loaded.files.to_read(path);
             if !path.is_file() {
                 let message = format!("the file {} does not exist", path.display());

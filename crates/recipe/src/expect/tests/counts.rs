@@ -1,4 +1,4 @@
-//! Counts of elements, and what is there or not: manifolds, boundaries, attributes.
+//! Tests of the expectations about counts, manifolds, boundaries and attributes.
 
 use bezier::Curve;
 use geometry::shapes;
@@ -8,7 +8,7 @@ use scene::{Geometry, Object, Scene};
 use super::{check, check_on, cube, holds_and_fails, lines, scene};
 
 #[test]
-fn counts_have_an_exact_number_a_least_and_a_most() {
+fn counts_are_compared_with_eq_min_and_max() {
     let cases = [
         ("Objects", 1, "objects"),
         ("Vertices", 8, "vertices"),
@@ -16,8 +16,6 @@ fn counts_have_an_exact_number_a_least_and_a_most() {
         ("Faces", 6, "faces"),
         ("Components", 1, "components"),
         ("BoundaryLoops", 0, "boundary loop"),
-        ("EulerCharacteristic", 2, "as Euler characteristic"),
-        ("Genus", 0, "as genus"),
     ];
     for (name, n, what) in cases {
         let over = n + 1;
@@ -34,6 +32,18 @@ fn counts_have_an_exact_number_a_least_and_a_most() {
             &format!("expected at least {over} {what}, found {n}"),
         );
     }
+    for (name, n, what) in [
+        ("EulerCharacteristic", 2, "an Euler characteristic"),
+        ("Genus", 0, "a genus"),
+    ] {
+        let over = n + 1;
+        holds_and_fails(
+            &cube(),
+            &format!("{name}(eq: {n})"),
+            &format!("{name}(min: {over})"),
+            &format!("expected {what} of at least {over}, found {n}"),
+        );
+    }
     holds_and_fails(
         &cube(),
         "Faces(max: 6)",
@@ -43,7 +53,7 @@ fn counts_have_an_exact_number_a_least_and_a_most() {
 }
 
 #[test]
-fn counts_are_of_all_meshes_or_of_those_in_on() {
+fn counts_are_summed_over_all_meshes_or_those_named_in_on() {
     let two = scene([
         ("cube", shapes::cube()),
         ("torus", shapes::torus(4, 3, 2.0, 1.0)),
@@ -52,9 +62,9 @@ fn counts_are_of_all_meshes_or_of_those_in_on() {
     assert_eq!(check(&two, "Genus(eq: 1)"), Ok(()));
     let torus = ["torus".to_owned()];
     assert_eq!(check_on(&two, Some(&torus), "Faces(eq: 12)"), Ok(()));
-    let nobody = ["sphere".to_owned()];
+    let missing = ["sphere".to_owned()];
     assert_eq!(
-        check_on(&two, Some(&nobody), "Faces(eq: 12)"),
+        check_on(&two, Some(&missing), "Faces(eq: 12)"),
         Err("no object is named \"sphere\"".to_owned())
     );
 }
@@ -111,7 +121,10 @@ fn a_manifold_has_no_defects() {
     assert_eq!(check(&cube(), "Manifold"), Ok(()));
     assert_eq!(
         check(&scene([("broken", broken)]), "Manifold"),
-        Err("expected a manifold, but in broken the position of v3 is not finite".to_owned())
+        Err(
+            "expected a manifold, but \"broken\" has a defect: the position of v3 is not finite"
+                .to_owned()
+        )
     );
     assert_eq!(
         check(&Scene::new(), "Manifold"),
@@ -119,7 +132,8 @@ fn a_manifold_has_no_defects() {
     );
 }
 
-/// Five triangles, two edges of which join v0 and v1, and two v1 and v2; around each vertex is one fan.
+/// Returns a mesh of five triangles in which two edges join v0 and v1, and two edges join v1 and v2. The faces around
+/// each vertex form one fan.
 pub(super) fn with_double_edges() -> Mesh {
     let origins = [
         [0, 1],
@@ -144,15 +158,17 @@ pub(super) fn with_double_edges() -> Mesh {
             face[corners[i]] = FaceId::new(f);
         }
     }
-    let leaving = |v: VertexId| {
+    let boundary_half_edge = |v: VertexId| {
         let boundary = (0..n).find(|&h| face[h] == FaceId::NONE && origin[h] == v);
         HalfEdgeId::new(boundary.unwrap())
     };
     for h in (0..n).filter(|&h| face[h] == FaceId::NONE) {
-        next[h] = leaving(origin[h ^ 1]);
+        next[h] = boundary_half_edge(origin[h ^ 1]);
     }
     let connectivity = Connectivity {
-        vertex_half_edge: (0..5).map(|v| leaving(VertexId::new(v))).collect(),
+        vertex_half_edge: (0..5)
+            .map(|v| boundary_half_edge(VertexId::new(v)))
+            .collect(),
         face_half_edge: faces.map(|corners| HalfEdgeId::new(corners[0])).to_vec(),
         next,
         origin,
@@ -163,12 +179,12 @@ pub(super) fn with_double_edges() -> Mesh {
 }
 
 #[test]
-fn two_edges_between_the_same_vertices_are_no_manifold() {
+fn two_edges_between_the_same_vertices_are_not_manifold() {
     let mesh = with_double_edges();
     assert_eq!(mesh.defects(), []);
     assert_eq!(
         check(&scene([("double", mesh)]), "Manifold"),
-        Err("expected a manifold, but in double several edges join v0 and v1".to_owned())
+        Err("expected a manifold, but several edges of \"double\" join v0 and v1".to_owned())
     );
 }
 
@@ -177,7 +193,7 @@ fn a_closed_mesh_has_no_boundary() {
     assert_eq!(check(&cube(), "Closed"), Ok(()));
     assert_eq!(
         check(&scene([("sheet", shapes::square())]), "Closed"),
-        Err("expected no boundary, but sheet has one at the edge v0-v1".to_owned())
+        Err("expected no boundary edges, but the edge v0-v1 of \"sheet\" is one".to_owned())
     );
     assert_eq!(
         check(&lines(), "Closed"),
@@ -186,7 +202,7 @@ fn a_closed_mesh_has_no_boundary() {
 }
 
 #[test]
-fn an_attribute_is_on_every_mesh() {
+fn an_attribute_must_exist_on_every_mesh() {
     let mut tagged = shapes::cube();
     let column = mesh::Column {
         name: "rim".to_owned(),
@@ -198,12 +214,12 @@ fn an_attribute_is_on_every_mesh() {
         &scene([("cube", tagged)]),
         "HasAttribute(domain: Edge, name: \"rim\")",
         "HasAttribute(domain: Corner, name: \"uv\")",
-        "expected the corner attribute \"uv\", but cube has none",
+        "expected the corner attribute \"uv\", but \"cube\" does not have it",
     );
 }
 
 #[test]
-fn one_of_something_is_no_several() {
+fn messages_use_the_singular_for_one() {
     for (text, message) in [
         ("Vertices(eq: 1)", "expected 1 vertex, found 8"),
         ("Faces(max: 1)", "expected at most 1 face, found 6"),
@@ -212,7 +228,7 @@ fn one_of_something_is_no_several() {
             "BoundaryLoops(min: 1)",
             "expected at least 1 boundary loop, found 0",
         ),
-        ("Genus(eq: 1)", "expected 1 as genus, found 0"),
+        ("Genus(eq: 1)", "expected a genus of 1, found 0"),
         (
             "Count(of: Vertices(All), eq: 1)",
             "expected 1 selected vertex, found 8",

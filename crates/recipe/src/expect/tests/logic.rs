@@ -1,12 +1,12 @@
-//! `Not`, and what an expectation says about itself.
+//! Tests of `Not`, and of expectations that are wrong in themselves.
 
 use scene::Scene;
 
 use super::{check, cube, expectation, holds_and_fails};
-use crate::expect::Other;
+use crate::expect::OtherMesh;
 
 #[test]
-fn not_is_the_contrary() {
+fn not_inverts_an_expectation() {
     holds_and_fails(
         &cube(),
         "Not(Faces(eq: 7))",
@@ -22,7 +22,7 @@ fn not_is_the_contrary() {
 }
 
 #[test]
-fn not_does_not_hold_for_what_cannot_be_told() {
+fn not_fails_if_the_inner_expectation_cannot_be_checked() {
     assert_eq!(
         check(&cube(), "Not(Same(as: File(\"other.obj\")))"),
         Err("folder/other.obj is broken".to_owned())
@@ -35,7 +35,7 @@ fn not_does_not_hold_for_what_cannot_be_told() {
         check(&cube(), "Not(Not(Same(as: Object(\"sphere\"))))"),
         Err("no object is named \"sphere\"".to_owned())
     );
-    // A selection that is refused is an answer: there is no such edge.
+    // A refused selection violates the inner expectation: the edge does not exist.
     assert_eq!(
         check(&cube(), "Not(Count(of: Edges(Between(0, 7)), eq: 1))"),
         Ok(())
@@ -43,7 +43,7 @@ fn not_does_not_hold_for_what_cannot_be_told() {
 }
 
 #[test]
-fn what_has_no_bound_is_a_problem() {
+fn an_expectation_without_a_bound_is_an_error() {
     for text in [
         "Objects()",
         "Vertices()",
@@ -66,7 +66,7 @@ fn what_has_no_bound_is_a_problem() {
         let problem = expectation(text).problem();
         assert_eq!(
             problem,
-            Some("it has no bound, so it can never fail"),
+            Some("the expectation has no bound, so it can never fail"),
             "{text}"
         );
     }
@@ -86,15 +86,15 @@ fn what_has_no_bound_is_a_problem() {
 }
 
 #[test]
-fn what_it_compares_with_is_named() {
-    let object = Other::Object("b".to_owned());
+fn other_mesh_returns_the_object_or_file_of_a_comparison() {
+    let object = OtherMesh::Object("b".to_owned());
     assert_eq!(
-        expectation("Not(Same(as: Object(\"b\")))").others(),
+        expectation("Not(Same(as: Object(\"b\")))").other_mesh(),
         Some(&object)
     );
     assert_eq!(
-        expectation("DistanceTo(other: File(\"b\"), below: 1)").others(),
-        Some(&Other::File("b".to_owned()))
+        expectation("DistanceTo(other: File(\"b\"), below: 1)").other_mesh(),
+        Some(&OtherMesh::File("b".to_owned()))
     );
-    assert_eq!(expectation("Closed").others(), None);
+    assert_eq!(expectation("Closed").other_mesh(), None);
 }

@@ -1,10 +1,10 @@
-//! Areas, volumes, bounds, angles, lengths and places.
+//! Tests of the expectations about areas, volumes, bounds, angles, lengths and positions.
 
 use geometry::shapes;
 use mesh::DVec3;
 use scene::Scene;
 
-use super::{check, cube, holds_and_fails, lines, of, scene};
+use super::{check, cube, holds_and_fails, lines, mesh_from, scene};
 
 #[test]
 fn area_and_volume_are_compared_within_a_tolerance() {
@@ -51,7 +51,7 @@ fn bounds_are_those_of_all_points() {
     let nothing = Scene::new();
     assert_eq!(
         check(&nothing, "Bounds(min: (0, 0, 0), max: (0, 0, 0))"),
-        Err("expected points, found none".to_owned())
+        Err("expected at least 1 point, found none".to_owned())
     );
 }
 
@@ -67,7 +67,7 @@ fn valences_lie_in_a_range() {
         &cube(),
         "Valence(of: Vertices([5]), max: 3)",
         "Valence(of: Boundary, max: 3)",
-        "expected vertices to be selected, found none",
+        "the selection contains no vertices",
     );
 }
 
@@ -78,7 +78,7 @@ fn dihedral_angles_lie_in_a_range() {
     let positions: Vec<DVec3> = [p(0.0, 0.0), p(1.0, 0.0), p(2.0, 0.0), p(2.0, 1.0)].concat();
     let stairs = scene([(
         "stairs",
-        of(&positions, &[&[0, 2, 3, 1], &[2, 4, 5, 3], &[4, 6, 7, 5]]),
+        mesh_from(&positions, &[&[0, 2, 3, 1], &[2, 4, 5, 3], &[4, 6, 7, 5]]),
     )]);
     holds_and_fails(
         &stairs,
@@ -94,7 +94,7 @@ fn dihedral_angles_lie_in_a_range() {
     );
     assert_eq!(
         check(&stairs, "DihedralAngle(of: Boundary, max: 180)"),
-        Err("expected edges between two faces to be selected, found none".to_owned())
+        Err("the selection contains no edges between two faces".to_owned())
     );
 }
 
@@ -106,17 +106,17 @@ fn the_mean_area_of_faces_is_in_proportion_to_the_median() {
         .concat();
     let strip = scene([(
         "strip",
-        of(&positions, &[&[0, 2, 3, 1], &[2, 4, 5, 3], &[4, 6, 7, 5]]),
+        mesh_from(&positions, &[&[0, 2, 3, 1], &[2, 4, 5, 3], &[4, 6, 7, 5]]),
     )]);
     holds_and_fails(
         &strip,
         "MeanFaceArea(of: Faces([0, 2]), min: 2.5, max: 2.5)",
         "MeanFaceArea(of: Faces([2]), max: 3)",
-        "expected a mean face area over the median of at most 3, found 4",
+        "expected a ratio of mean to median face area of at most 3, found 4",
     );
     assert_eq!(
         check(&strip, "MeanFaceArea(of: Degree(3), max: 3)"),
-        Err("expected faces to be selected, found none".to_owned())
+        Err("the selection contains no faces".to_owned())
     );
 }
 
@@ -126,7 +126,7 @@ fn lengths_of_edges_and_angles_of_corners_are_measured() {
     // Angles of 90, 60 and 30 degrees, sides of 1, 2 and the root of 3.
     let triangle = scene([(
         "a",
-        of(
+        mesh_from(
             &[p(0.0, 0.0), p(1.0, 0.0), p(0.0, 3_f64.sqrt())],
             &[&[0, 1, 2]],
         ),
@@ -135,12 +135,12 @@ fn lengths_of_edges_and_angles_of_corners_are_measured() {
         &triangle,
         "EdgeLength(min: 1, max: 2.000001)",
         "EdgeLength(of: Between(0, 1), max: 0.5)",
-        "expected a length of the edge v0-v1 of at most 0.5, found 1",
+        "expected the edge v0-v1 to have a length of at most 0.5, found 1",
     );
     assert!(check(&triangle, "MinAngle(min: 29.9999, max: 30.0001)").is_ok());
     let error = check(&triangle, "MinAngle(min: 31)").unwrap_err();
     assert!(
-        error.starts_with("expected a smallest corner angle, that of f0, of at least 31, found 30"),
+        error.starts_with("expected a smallest corner angle (at f0) of at least 31, found 30"),
         "{error}"
     );
     assert!(check(&triangle, "EdgeLength(of: Not(All), min: 0)").is_err());
@@ -157,7 +157,7 @@ fn one_vertex_is_at_a_place() {
     );
     assert_eq!(
         check(&cube(), "Position(of: Vertices([6, 7]), is: (1, 1, 1))"),
-        Err("expected one vertex to be selected, found 2".to_owned())
+        Err("expected exactly 1 selected vertex, found 2".to_owned())
     );
 }
 
@@ -171,10 +171,10 @@ fn one_point_of_a_polyline_is_at_a_place() {
     );
     assert_eq!(
         check(&lines(), "Point(index: 3, is: (0, 0, 0))"),
-        Err("there is no point 3 on a polyline 0".to_owned())
+        Err("point 3 of polyline 0 does not exist".to_owned())
     );
     assert_eq!(
         check(&cube(), "Point(index: 0, is: (0, 0, 0))"),
-        Err("this expectation is about one object of polylines, found 0".to_owned())
+        Err("this expectation needs exactly 1 object with polylines, found 0".to_owned())
     );
 }

@@ -1,4 +1,4 @@
-//! Which elements break an expectation.
+//! Tests of the elements that violate an expectation.
 
 use geometry::shapes;
 use mesh::{DVec3, EdgeId, VertexId};
@@ -6,7 +6,7 @@ use op::{ErrorLocation, Files};
 use scene::Scene;
 
 use super::counts::with_double_edges;
-use super::{cube, expectation, lines, of, scene};
+use super::{cube, expectation, lines, mesh_from, scene};
 use crate::expect::Subject;
 use crate::tests::objects;
 
@@ -22,13 +22,13 @@ fn places(scene: &Scene, text: &str) -> Vec<ErrorLocation> {
     })
 }
 
-/// The names of the places.
+/// Returns the names of the places.
 fn names(scene: &Scene, text: &str) -> Vec<String> {
     places(scene, text).into_iter().map(|p| p.name).collect()
 }
 
-/// A square, beside it a triangle whose sides are 1, 2 and √5 long.
-fn two() -> Scene {
+/// Returns a scene with a square and a triangle beside it with sides of length 1, 2 and √5.
+fn square_and_triangle() -> Scene {
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = [
         at(0.0, 0.0),
@@ -39,12 +39,12 @@ fn two() -> Scene {
         at(7.0, 0.0),
         at(7.0, 1.0),
     ];
-    scene([("two", of(&positions, &[&[0, 1, 2, 3], &[4, 5, 6]]))])
+    scene([("two", mesh_from(&positions, &[&[0, 1, 2, 3], &[4, 5, 6]]))])
 }
 
 #[test]
-fn elements_of_a_selection_that_are_off_are_named_and_others_are_not() {
-    let two = two();
+fn only_the_selected_elements_out_of_bounds_are_named() {
+    let two = square_and_triangle();
 
     assert_eq!(names(&two, "MinAngle(min: 30)"), ["f1"]);
     assert_eq!(names(&two, "MinAngle(min: 20)"), [""; 0]);
@@ -65,14 +65,17 @@ fn elements_of_a_selection_that_are_off_are_named_and_others_are_not() {
 }
 
 #[test]
-fn boundaries_break_what_is_to_be_closed() {
-    assert_eq!(places(&two(), "Closed").len(), 7);
+fn boundary_edges_violate_closed() {
+    assert_eq!(places(&square_and_triangle(), "Closed").len(), 7);
     assert!(places(&cube(), "Closed").is_empty());
-    assert_eq!(places(&two(), "BoundaryLoops(eq: 1)").len(), 7);
+    assert_eq!(
+        places(&square_and_triangle(), "BoundaryLoops(eq: 1)").len(),
+        7
+    );
 }
 
 #[test]
-fn double_edges_break_a_manifold() {
+fn double_edges_violate_manifold() {
     let mesh = with_double_edges();
     let between = |e| {
         let [v, w] = mesh.edge_vertices(e).map(VertexId::index);
@@ -95,7 +98,7 @@ fn double_edges_break_a_manifold() {
 }
 
 #[test]
-fn what_should_be_elsewhere_has_two_places() {
+fn a_wrong_position_has_an_actual_and_an_expected_place() {
     let found = places(&cube(), "Position(of: Vertices([0]), is: (5, 5, 5))");
     assert_eq!(found[0].name, "v0");
     assert_eq!(
@@ -109,7 +112,7 @@ fn what_should_be_elsewhere_has_two_places() {
 }
 
 #[test]
-fn vertices_without_a_partner_are_named_on_both_sides() {
+fn unmatched_vertices_of_both_meshes_are_named() {
     let scene = scene([("cube", shapes::cube())]);
 
     let found = places(&scene, "Same(as: File(\"octahedron.obj\"))");
@@ -135,7 +138,7 @@ fn the_farthest_points_of_two_surfaces_are_joined() {
 }
 
 #[test]
-fn vertices_that_a_motion_brings_to_where_none_is_break_a_symmetry() {
+fn vertices_with_an_unmatched_image_violate_a_symmetry() {
     assert!(places(&cube(), "SymmetricUnder(group: CubeMotions)").is_empty());
     let mut mesh = shapes::cube();
     mesh.positions_mut()[5] *= 1.5;
@@ -143,12 +146,12 @@ fn vertices_that_a_motion_brings_to_where_none_is_break_a_symmetry() {
 
     let found = names(&scene, "SymmetricUnder(group: CubeRotations)");
 
-    // The rotations bring each corner to the place of each other one.
+    // Every vertex has a rotation that maps it to the place that the moved vertex left.
     assert_eq!(found.len(), 8);
 }
 
 #[test]
-fn what_is_not_about_elements_has_no_places() {
+fn expectations_that_are_not_about_elements_have_no_places() {
     for text in [
         "Genus(eq: 3)",
         "Not(Closed)",

@@ -1,14 +1,14 @@
-//! Comparisons with another mesh, with a digest, and with the mesh itself after motions.
+//! Tests of the expectations that compare with another mesh, with a digest, or with the mesh itself after motions.
 
 use geometry::shapes;
 use mesh::{DVec3, Mesh};
 
-use super::{check, check_on, cube, holds_and_fails, of, scene};
+use super::{check, check_on, cube, holds_and_fails, mesh_from, scene};
 
-/// The mesh with its vertices numbered anew, its faces in another order and each begun at another corner.
+/// Returns the mesh with its vertices renumbered, its faces reversed in order, and the corners of its faces rotated.
 fn shuffled(mesh: &Mesh) -> Mesh {
     let n = mesh.n_vertices();
-    // A permutation, because 7 divides no number of vertices in these tests.
+    // `new` is a permutation only if 7 does not divide n.
     assert_ne!(n % 7, 0);
     let new = |v: usize| (v * 7 + 3) % n;
     let mut positions = vec![DVec3::ZERO; n];
@@ -31,7 +31,7 @@ fn shuffled(mesh: &Mesh) -> Mesh {
 }
 
 #[test]
-fn a_mesh_is_the_same_up_to_numbers_of_vertices_and_first_corners_of_faces() {
+fn vertex_ids_face_order_and_first_corners_do_not_matter() {
     for mesh in [
         shapes::cube(),
         shapes::icosahedron(),
@@ -47,12 +47,12 @@ fn a_mesh_is_the_same_up_to_numbers_of_vertices_and_first_corners_of_faces() {
 }
 
 #[test]
-fn a_mesh_with_other_vertices_or_faces_is_not_the_same() {
+fn a_mesh_with_different_vertices_or_faces_is_not_the_same() {
     let quads = shapes::cube();
     let triangles = diagonal_cube();
     let mut moved = shapes::cube();
     moved.positions_mut()[0].x -= 0.25;
-    let inside_out = of(
+    let inside_out = mesh_from(
         quads.positions(),
         &[
             &[1, 3, 2, 0],
@@ -72,16 +72,16 @@ fn a_mesh_with_other_vertices_or_faces_is_not_the_same() {
     ]);
     let on = ["quads".to_owned()];
     let check = |text: &str| check_on(&all, Some(&on), text);
-    let others = Err("expected the faces of the other mesh, found others".to_owned());
-    assert_eq!(check("Same(as: Object(\"triangles\"))"), others);
-    assert_eq!(check("Same(as: Object(\"inside out\"))"), others);
+    let different_faces = Err("the faces differ from those of the other mesh".to_owned());
+    assert_eq!(check("Same(as: Object(\"triangles\"))"), different_faces);
+    assert_eq!(check("Same(as: Object(\"inside out\"))"), different_faces);
     assert_eq!(
         check("Same(as: Object(\"triangles\"), connectivity: false)"),
         Ok(())
     );
     assert_eq!(
         check("Same(as: Object(\"moved\"))"),
-        Err("expected the vertices of the other mesh within 0".to_owned())
+        Err("the vertices do not match those of the other mesh (tolerance: 0)".to_owned())
     );
     assert_eq!(
         check("Same(as: Object(\"moved\"), tolerance: 0.25)"),
@@ -89,7 +89,7 @@ fn a_mesh_with_other_vertices_or_faces_is_not_the_same() {
     );
     assert_eq!(
         check("Same(as: Object(\"tetrahedron\"))"),
-        Err("expected 4 vertices as in the other mesh, found 8".to_owned())
+        Err("the mesh has 8 vertices, the other mesh 4".to_owned())
     );
     assert_eq!(
         check("Same(as: Object(\"sphere\"))"),
@@ -98,7 +98,7 @@ fn a_mesh_with_other_vertices_or_faces_is_not_the_same() {
 }
 
 #[test]
-fn the_other_mesh_can_be_in_a_file_beside_the_recipe() {
+fn the_other_mesh_can_come_from_a_file_beside_the_recipe() {
     holds_and_fails(
         &scene([("a", shapes::octahedron())]),
         "Same(as: File(\"octahedron.obj\"))",
@@ -121,18 +121,19 @@ fn the_distance_to_another_surface_is_below_a_limit() {
     assert_eq!(
         check("DistanceTo(other: Object(\"far\"), below: 0.5)"),
         Err(
-            "expected a distance below 0.5, found 0.5: from v0 at [-1, -1, -1] to f5 at [-1, -1, -0.5] of the other"
+            "expected a distance below 0.5, found 0.5: from v0 at [-1, -1, -1] to f5 at [-1, -1, -0.5] of the other \
+             mesh"
                 .to_owned()
         )
     );
     assert_eq!(
         check_on(&two, None, "DistanceTo(other: Object(\"far\"), below: 1)"),
-        Err("this expectation is about one mesh, found 2: name it with `on:`".to_owned())
+        Err("this expectation needs exactly 1 mesh, found 2: name one with `on:`".to_owned())
     );
 }
 
 #[test]
-fn the_digest_is_that_of_the_scene() {
+fn the_digest_of_the_scene_is_compared() {
     let digest = cube().digest();
     holds_and_fails(
         &cube(),
@@ -142,7 +143,7 @@ fn the_digest_is_that_of_the_scene() {
     );
 }
 
-/// A cube with one diagonal on each face.
+/// Returns a cube with one diagonal on each face.
 fn diagonal_cube() -> Mesh {
     let cube = shapes::cube();
     let polygons: Vec<[u32; 3]> = [
@@ -176,7 +177,7 @@ fn a_cube_has_24_rotations_and_48_motions() {
 
 #[test]
 fn a_tetrahedron_has_half_of_the_symmetries_of_a_cube() {
-    // The corners of a tetrahedron are every second one of a cube: half of its motions keep them.
+    // The vertices of the tetrahedron are every second vertex of a cube: half of the cube's motions keep them.
     let tetrahedron = scene([("a", shapes::tetrahedron())]);
     holds_and_fails(
         &tetrahedron,
@@ -196,7 +197,7 @@ fn a_tetrahedron_has_half_of_the_symmetries_of_a_cube() {
 }
 
 #[test]
-fn a_diagonal_on_each_face_breaks_the_symmetry_of_faces_and_not_of_vertices() {
+fn a_diagonal_on_each_face_breaks_the_symmetry_of_faces_but_not_of_vertices() {
     let cube = scene([("cube", diagonal_cube())]);
     assert_eq!(
         check(
@@ -213,7 +214,7 @@ fn a_diagonal_on_each_face_breaks_the_symmetry_of_faces_and_not_of_vertices() {
         found.parse::<u64>().unwrap()
     };
     let (rotations, motions) = (count("CubeRotations"), count("CubeMotions"));
-    // Those that are left are a group of their own: their number divides that of all.
+    // The remaining motions are a subgroup, so their number divides that of the group.
     assert!(rotations < 24 && 24 % rotations == 0, "{rotations}");
     assert!(motions < 48 && 48 % motions == 0, "{motions}");
     assert_eq!(
@@ -230,7 +231,7 @@ fn a_vertex_that_moves_breaks_symmetries_unless_the_tolerance_allows_it() {
     let mut dented = shapes::cube();
     dented.positions_mut()[7] *= 0.99;
     let dented = scene([("dented", dented)]);
-    // The three rotations about the diagonal through the dent are left.
+    // Only the three rotations about the diagonal through the dent remain.
     assert_eq!(
         check(&dented, "SymmetricUnder(group: CubeRotations)"),
         Err("expected 24 symmetries, found 3".to_owned())

@@ -1,4 +1,4 @@
-//! The steps of the last run of a recipe, to say why a step runs again.
+//! The steps of the last run of a recipe, which explain why a step runs again.
 
 use std::path::PathBuf;
 
@@ -11,70 +11,78 @@ use crate::record::{load_data, store_data};
 
 /// A step of the last run.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
-pub(crate) struct Past {
-    pub(crate) made_of: Ingredients,
-    /// Why it was not stored.
-    pub(crate) unknown: Option<(PathBuf, String)>,
+pub(crate) struct PastStep {
+    pub(crate) ingredients: Ingredients,
+    /// The path and the reason, if the result was not stored because the input files are unknown.
+    pub(crate) unknown_input: Option<(PathBuf, String)>,
 }
 
-/// The steps of the last run of a recipe, and those of this one.
+/// The steps of the last run of a recipe, and those of the current run.
 #[derive(Debug, Default)]
 pub(crate) struct History {
     id: Option<Hash>,
-    past: Vec<Past>,
-    now: Vec<Past>,
+    last_run: Vec<PastStep>,
+    this_run: Vec<PastStep>,
 }
 
 impl History {
-    /// What is known of a recipe; nothing without one.
+    /// Loads the history of a recipe. Empty if `recipe` is `None` or has not run before.
     pub(crate) fn load(folder: &Folder, recipe: Option<&std::path::Path>) -> Self {
         let absolute = recipe.map(|path| std::path::absolute(path).unwrap_or_else(|_| path.into()));
         let id = absolute.map(|path| digest("recipe", &path.as_os_str().as_encoded_bytes()));
         Self {
-            past: id
+            last_run: id
                 .and_then(|id| load_data(folder, Kind::Recipe, &id).ok())
                 .unwrap_or_default(),
             id,
-            now: Vec::new(),
+            this_run: Vec::new(),
         }
     }
 
     /// Adds a step of this run.
-    pub(crate) fn push(&mut self, made_of: Ingredients, unknown: Option<(PathBuf, String)>) {
-        self.now.push(Past { made_of, unknown });
+    pub(crate) fn push(
+        &mut self,
+        ingredients: Ingredients,
+        unknown_input: Option<(PathBuf, String)>,
+    ) {
+        self.this_run.push(PastStep {
+            ingredients,
+            unknown_input,
+        });
     }
 
-    /// Stores the steps of this run, and behind them those of the last one that this one did not come to.
+    /// Stores the steps of this run, followed by the steps of the last run that this run did not reach.
     pub(crate) fn store(&mut self, folder: &Folder) {
         let Some(id) = self.id else { return };
-        let n = self.now.len();
-        let (now, past) = (
-            std::mem::take(&mut self.now),
-            std::mem::take(&mut self.past),
+        let n = self.this_run.len();
+        let (this_run, last_run) = (
+            std::mem::take(&mut self.this_run),
+            std::mem::take(&mut self.last_run),
         );
-        if now != past {
-            let all: Vec<Past> = now.into_iter().chain(past.into_iter().skip(n)).collect();
+        if this_run != last_run {
+            let unreached = last_run.into_iter().skip(n);
+            let all: Vec<PastStep> = this_run.into_iter().chain(unreached).collect();
             store_data(folder, Kind::Recipe, &id, &all);
         }
     }
 
-    /// Why a step has another key than in the last run; `ran` is the last earlier step that ran in this one, with
-    /// its number.
-    pub(crate) fn why(&self, now: &Ingredients, ran: Option<(usize, String)>) -> RerunReason {
-        let here = self.now.len();
-        let is_it = |past: &&Past| {
-            past.made_of.operation == now.operation && past.made_of.stream == now.stream
+    /// Returns why the key of a step differs from that in the last run. `rerun` is the number and the label of the last
+    /// earlier step that ran again in this run.
+    pub(crate) fn why(&self, now: &Ingredients, rerun: Option<(usize, String)>) -> RerunReason {
+        let index = self.this_run.len();
+        let is_same_step = |past: &&PastStep| {
+            past.ingredients.operation == now.operation && past.ingredients.stream == now.stream
         };
-        let past = self.past.get(here).filter(is_it);
-        let past = past.or_else(|| self.past.iter().find(is_it));
-        // A step that was given another id.
-        let same_operation = |past: &&Past| past.made_of.operation == now.operation;
-        let past = past.or_else(|| self.past.get(here).filter(same_operation));
-        let Some(Past { made_of, unknown }) = past else {
+        let past = self.last_run.get(index).filter(is_same_step);
+        let past = past.or_else(|| self.last_run.iter().find(is_same_step));
+        // The id of the step may have changed.
+        let is_same_operation = |past: &&PastStep| past.ingredients.operation == now.operation;
+        let past = past.or_else(|| self.last_run.get(index).filter(is_same_operation));
+        let Some(past) = past else {
             return RerunReason::New;
         };
-        let why = made_of.differs(now, ran);
-        why.unwrap_or_else(|| match unknown {
+        let why = past.ingredients.difference(now, rerun);
+        why.unwrap_or_else(|| match &past.unknown_input {
             Some((path, why)) => RerunReason::Unknown(path.clone(), why.clone()),
             None => RerunReason::Gone,
         })
@@ -82,8 +90,8 @@ impl History {
 }
 
 impl Ingredients {
-    /// In what the step of now differs from this one.
-    fn differs(&self, now: &Self, ran: Option<(usize, String)>) -> Option<RerunReason> {
+    /// Returns the first difference from the current step.
+    fn difference(&self, now: &Self, rerun: Option<(usize, String)>) -> Option<RerunReason> {
         Some(if self.program != now.program {
             RerunReason::Program
         } else if self.version != now.version {
@@ -92,7 +100,7 @@ impl Ingredients {
                 to: now.version,
             }
         } else if self.parameters != now.parameters {
-            RerunReason::Parameters(changes(&self.parameters, &now.parameters))
+            RerunReason::Parameters(parameter_changes(&self.parameters, &now.parameters))
         } else if self.on != now.on {
             RerunReason::On
         } else if self.stream != now.stream {
@@ -102,7 +110,7 @@ impl Ingredients {
         } else if self.budget != now.budget {
             RerunReason::Budget
         } else if self.before != now.before {
-            ran.map_or(RerunReason::Order, |(number, label)| {
+            rerun.map_or(RerunReason::Order, |(number, label)| {
                 RerunReason::Earlier(number, label)
             })
         } else {
@@ -111,8 +119,8 @@ impl Ingredients {
     }
 }
 
-/// The fields that differ: `levels 1 -> 2, at 0.5 -> 0.25`.
-fn changes(from: &str, to: &str) -> String {
+/// Lists the parameters that differ, such as `levels 1 -> 2, at 0.5 -> 0.25`.
+fn parameter_changes(from: &str, to: &str) -> String {
     let (from, to) = (ron_tree::parse(from).value, ron_tree::parse(to).value);
     let name = |field: &ron_tree::Field| field.name.text.to_string();
     let mut names: Vec<String> = from.fields().iter().map(name).collect();
@@ -122,7 +130,7 @@ fn changes(from: &str, to: &str) -> String {
         }
     }
     let text = |value: Option<&ron_tree::Value>| {
-        // As recipes have it.
+        // Shown as in recipes: without `Some`.
         let value = value.map(|value| value.some().unwrap_or(value));
         value.map_or_else(|| "nothing".to_owned(), ToString::to_string)
     };
@@ -132,7 +140,7 @@ fn changes(from: &str, to: &str) -> String {
         if from == to {
             None
         } else if from_short == to_short {
-            // Long values that are alike at their beginning.
+            // Shortened, both values look the same.
             Some(name.clone())
         } else {
             Some(format!("{name} {from_short} -> {to_short}"))
@@ -141,11 +149,11 @@ fn changes(from: &str, to: &str) -> String {
     changed.collect::<Vec<_>>().join(", ")
 }
 
-/// The beginning of a text that may be long.
+/// Shortens a long text.
 fn short(text: &str) -> String {
-    const MOST: usize = 40;
+    const MAX_CHARS: usize = 40;
     let mut chars = text.chars();
-    let mut short: String = chars.by_ref().take(MOST).collect();
+    let mut short: String = chars.by_ref().take(MAX_CHARS).collect();
     if chars.next().is_some() {
         short.push_str("..");
     }
@@ -158,7 +166,7 @@ mod tests {
 
     #[test]
     fn changed_parameters_are_named_with_their_values() {
-        let changes = |from, to| changes(from, to);
+        let changes = parameter_changes;
         assert_eq!(
             changes("(levels:1,at:0.5)", "(levels:2,at:0.5)"),
             "levels 1 -> 2"

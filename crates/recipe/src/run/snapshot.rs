@@ -1,15 +1,15 @@
-//! Whether a step has left the scene as it was.
+//! Detects whether a step has left the scene unchanged.
 
 use std::sync::{Arc, Weak};
 
 use mesh::Mesh;
 use scene::{Material, Scene};
 
-/// A scene as it was before a step, to be told apart from the one after it. Owns no mesh: whoever changes a
-/// shared mesh copies it first.
-pub(super) struct Before(Vec<(String, Vec<Material>, Option<Weak<Mesh>>)>);
+/// A snapshot of a scene, to be compared with a later state of the scene. It holds only weak references to meshes: a
+/// strong reference would make an operation copy each mesh before it changes it.
+pub(super) struct SceneSnapshot(Vec<(String, Vec<Material>, Option<Weak<Mesh>>)>);
 
-impl Before {
+impl SceneSnapshot {
     pub(super) fn of(scene: &Scene) -> Self {
         let objects = scene.objects().iter().map(|o| {
             let mesh = o.as_mesh().map(Arc::downgrade);
@@ -18,8 +18,9 @@ impl Before {
         Self(objects.collect())
     }
 
-    /// Whether the scene is certainly the same. A mesh that is changed while it is known here moves away.
-    pub(super) fn is_still(&self, scene: &Scene) -> bool {
+    /// Whether the scene is known to be unchanged. Changing a mesh with weak references moves it to a new
+    /// allocation, so equal pointers mean an unchanged mesh.
+    pub(super) fn is_unchanged(&self, scene: &Scene) -> bool {
         let same =
             |(object, (name, materials, mesh)): (&scene::Object, &(_, _, Option<Weak<_>>))| {
                 let before = mesh.as_ref().and_then(Weak::upgrade);

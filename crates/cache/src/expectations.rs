@@ -1,0 +1,50 @@
+//! Expectations that are known to hold for a scene, so that they need not be checked again.
+
+use op::{FileUse, Files};
+use serde::{Deserialize, Serialize};
+
+use crate::folder::Hash;
+use crate::inputs::{FileChecker, Inputs};
+use crate::key::digest;
+use recipe::RecipeExpectation;
+
+/// An expectation that holds for a scene.
+#[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
+pub(crate) struct MetExpectation {
+    /// The digest of its text and of its `on`.
+    id: Hash,
+    /// The files that it compares with.
+    inputs: Inputs,
+}
+
+impl MetExpectation {
+    /// Records an expectation with its file accesses. `None` if the state of a file cannot be determined.
+    pub(crate) fn new(
+        placed: &RecipeExpectation,
+        uses: &[FileUse],
+        checker: &mut FileChecker,
+    ) -> Option<Self> {
+        Some(Self {
+            id: id(placed),
+            inputs: checker.inputs(uses).ok()?,
+        })
+    }
+}
+
+/// Whether the expectation is among those in `met`, and its input files are unchanged.
+pub(crate) fn is_known_to_hold(
+    met: &[MetExpectation],
+    placed: &RecipeExpectation,
+    files: &Files,
+    checker: &mut FileChecker,
+) -> bool {
+    let id = id(placed);
+    let mut same = met.iter().filter(|met| met.id == id);
+    same.any(|met| {
+        met.inputs.resolve_as_before(files) && checker.first_change(&met.inputs.files).is_none()
+    })
+}
+
+fn id(placed: &RecipeExpectation) -> Hash {
+    digest("expectation", &(placed.that.to_string(), &placed.on))
+}

@@ -1,0 +1,158 @@
+//! The files that steps read: their state when they were read, and whether they have changed since.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use op::{FileUse, Files};
+use serde::{Deserialize, Serialize};
+
+use crate::folder::{Hash, Unusable, hash_rest, open};
+use recipe::FileChange;
+
+/// What a path referred to when a step looked at it.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
+pub(crate) enum PathState {
+    /// A regular file with this content.
+    Content(Hash),
+    /// A regular file whose content does not matter.
+    Exists,
+    /// Not a regular file.
+    Missing,
+}
+
+/// A path and its state.
+#[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
+pub(crate) struct FileState {
+    pub(crate) path: PathBuf,
+    pub(crate) state: PathState,
+}
+
+/// The input files of a step or an expectation.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Eq, Serialize)]
+pub(crate) struct Inputs {
+    /// The requested paths: as written in the recipe, and as resolved. In a different input folder, the same text
+    /// refers to a different file.
+    requested: Vec<(String, PathBuf)>,
+    /// The files that were read or looked for.
+    pub(crate) files: Vec<FileState>,
+}
+
+impl Inputs {
+    /// Whether the requested paths still resolve to the same files.
+    pub(crate) fn resolve_as_before(&self, files: &Files) -> bool {
+        let mut requested = self.requested.iter();
+        requested.all(|(path, full)| files.input.join(path) == *full)
+    }
+}
+
+/// Checks files for changes. Reads each file once per run.
+#[derive(Debug)]
+pub(crate) struct FileChecker {
+    run_start: SystemTime,
+    /// The digests of the files that were read. `None` if the path is not a regular file; an error if the file cannot be
+    /// read.
+    known: BTreeMap<PathBuf, Result<Option<Hash>, String>>,
+}
+
+impl FileChecker {
+    pub(crate) fn new() -> Self {
+        Self {
+            run_start: SystemTime::now(),
+            known: BTreeMap::new(),
+        }
+    }
+
+    fn content(&mut self, path: &Path) -> Result<Option<Hash>, String> {
+        if let Some(known) = self.known.get(path) {
+            return known.clone();
+        }
+        let found = digest_of(path).map_err(|error| error.to_string());
+        self.known.insert(path.to_owned(), found.clone());
+        found
+    }
+
+    /// Returns the first of these files that has changed, and how.
+    pub(crate) fn first_change(&mut self, files: &[FileState]) -> Option<(PathBuf, FileChange)> {
+        files.iter().find_map(|file| {
+            let exists = file.path.is_file();
+            let change = match file.state {
+                PathState::Missing if exists => FileChange::Appeared,
+                PathState::Content(_) | PathState::Exists if !exists => FileChange::Gone,
+                PathState::Content(before) if self.content(&file.path) != Ok(Some(before)) => {
+                    FileChange::Changed
+                }
+                _ => return None,
+            };
+            Some((file.path.clone(), change))
+        })
+    }
+
+    /// Returns the inputs of a step, given the file accesses that it has reported.
+    ///
+    /// # Errors
+    ///
+    /// The path and the reason, if the state of a file cannot be determined.
+    pub(crate) fn inputs(&mut self, uses: &[FileUse]) -> Result<Inputs, (PathBuf, &'static str)> {
+        let (mut read, mut checked, mut requested) =
+            (BTreeSet::new(), BTreeSet::new(), Vec::new());
+        for file in uses {
+            match file {
+                FileUse::Requested { path, full } => requested.push((path.clone(), full.clone())),
+                FileUse::Read(path) => _ = read.insert(path),
+                FileUse::ExistenceChecked(path) => _ = checked.insert(path),
+                FileUse::Written { .. } => {}
+            }
+        }
+        if let Some((_, path)) = requested.iter().find(|(_, path)| !read.contains(path)) {
+            return Err((
+                path.clone(),
+                "the operation does not report what it reads there",
+            ));
+        }
+        let mut files = Vec::new();
+        for path in &read {
+            // The file may have changed since its digest was computed.
+            self.known.remove(*path);
+            let state = match self.content(path) {
+                Ok(Some(_)) if self.is_new(path) => {
+                    return Err(((*path).clone(), "the file changed during the run"));
+                }
+                Ok(Some(hash)) => PathState::Content(hash),
+                Ok(None) => PathState::Missing,
+                Err(_) => return Err(((*path).clone(), "the file cannot be read")),
+            };
+            let path = (*path).clone();
+            files.push(FileState { path, state });
+        }
+        for path in checked.difference(&read) {
+            let state = if path.is_file() {
+                PathState::Exists
+            } else {
+                PathState::Missing
+            };
+            let path = (*path).clone();
+            files.push(FileState { path, state });
+        }
+        Ok(Inputs { requested, files })
+    }
+
+    /// Whether a file was modified after the run started. Then it is unknown which version of it was read.
+    fn is_new(&self, path: &Path) -> bool {
+        let modified = std::fs::metadata(path).and_then(|meta| meta.modified());
+        modified.is_ok_and(|at| at > self.run_start)
+    }
+}
+
+/// Returns the digest of a regular file, or `None` if the path is not one.
+fn digest_of(path: &Path) -> io::Result<Option<Hash>> {
+    if !path.is_file() {
+        return Ok(None);
+    }
+    match open(path) {
+        Ok((mut file, _)) => hash_rest(&mut file).map(|(hash, _)| Some(hash)),
+        Err(Unusable::Missing) => Ok(None),
+        Err(Unusable::Damaged(why)) => Err(io::Error::other(why)),
+    }
+}

@@ -95,8 +95,7 @@ impl FileChecker {
     ///
     /// The path and the reason, if the state of a file cannot be determined.
     pub(crate) fn inputs(&mut self, uses: &[FileUse]) -> Result<Inputs, (PathBuf, &'static str)> {
-        let (mut read, mut checked, mut requested) =
-            (BTreeSet::new(), BTreeSet::new(), Vec::new());
+        let (mut read, mut checked, mut requested) = (BTreeSet::new(), BTreeSet::new(), Vec::new());
         for file in uses {
             match file {
                 FileUse::Requested { path, full } => requested.push((path.clone(), full.clone())),

@@ -1,4 +1,4 @@
-//! The files that a file refers to: they must stay inside its folder.
+//! The files that a file refers to. They must be inside its folder.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use store::{Store, StoreError, folder_of};
 
-/// The part of a path that stays inside a folder: no root, no drive, and `..` only as far as the
-/// folder itself.
+/// Resolves a path that must stay inside a folder: relative, without a drive, and with `..` only as long as the
+/// path does not leave the folder.
 ///
 /// # Errors
 ///
-/// Why the path is refused, as words that follow its name.
+/// The reason why the path is refused, as words that follow the path.
 pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
     if name.is_empty() {
         return Err("is empty");
@@ -35,17 +35,17 @@ pub(crate) fn inside(name: &str) -> Result<PathBuf, &'static str> {
         }
     }
     if parts.is_empty() {
-        Err("names no file")
+        Err("does not name a file")
     } else {
         Ok(parts.iter().collect())
     }
 }
 
-/// As [`inside`], for a URI reference as glTF has it: percent signs spell bytes.
+/// As [`inside`], for a URI reference in glTF, in which bytes are percent-encoded.
 ///
 /// # Errors
 ///
-/// Why the URI is refused, as words that follow it.
+/// The reason why the URI is refused, as words that follow the URI.
 pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     if uri.contains('\\') {
         return Err("has a backslash");
@@ -55,17 +55,17 @@ pub(crate) fn inside_uri(uri: &str) -> Result<PathBuf, &'static str> {
     }
     let mut decoded = Vec::new();
     for segment in uri.split('/') {
-        let part = percent_decoded(segment).ok_or("has a percent sign that spells no text")?;
-        // Decoded after splitting: an escaped separator or dot must not act as one.
+        let part = percent_decoded(segment).ok_or("has an invalid percent-encoding")?;
+        // Decoded after splitting, so that an encoded separator or dot does not act as one.
         if part.contains(['/', '\\']) || (part != segment && (part == "." || part == "..")) {
-            return Err("hides a separator or a dot behind a percent sign");
+            return Err("has a percent-encoded separator or dot segment");
         }
         decoded.push(part);
     }
     inside(&decoded.join("/"))
 }
 
-/// The text that a part of a URI spells, if it is one.
+/// Decodes the percent-encoded bytes of a part of a URI; `None` if it is not valid.
 pub(crate) fn percent_decoded(segment: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(segment.len());
     let mut rest = segment.as_bytes();
@@ -90,7 +90,7 @@ fn hex(digit: u8) -> Option<u8> {
         .and_then(|value| u8::try_from(value).ok())
 }
 
-/// A file name as a URI reference (RFC 3986): all but the unreserved characters are escaped.
+/// Encodes a file name as a URI reference (RFC 3986): all characters except the unreserved ones are escaped.
 pub(crate) fn percent_encoded(name: &str) -> String {
     let encode = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
@@ -101,21 +101,21 @@ pub(crate) fn percent_encoded(name: &str) -> String {
     name.bytes().map(encode).collect()
 }
 
-/// A file that a reader has looked at.
+/// A file that the result of reading depends on.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct FileSeen {
-    /// Its path.
+pub struct FileDependency {
+    /// The path of the file.
     pub path: PathBuf,
-    /// Whether its content was wanted, be it there or not; otherwise only whether there is such a file.
+    /// True if the content of the file matters, even if the file is missing; false if only its existence matters.
     pub is_read: bool,
 }
 
-/// The files beside the one that is read, and which of them were looked at.
+/// Access to the files that the requested file refers to. Records which of them were accessed.
 pub(crate) struct Assets<'a> {
     store: &'a dyn Store,
-    /// The file that is read.
+    /// The requested file.
     pub(crate) path: &'a Path,
-    seen: BTreeSet<FileSeen>,
+    seen: BTreeSet<FileDependency>,
 }
 
 impl<'a> Assets<'a> {
@@ -127,20 +127,20 @@ impl<'a> Assets<'a> {
         }
     }
 
-    /// Where a file is, by a path from [`inside`] or [`inside_uri`].
+    /// The full path of a file, from a path that [`inside`] or [`inside_uri`] returned.
     pub(crate) fn place(&self, name: &Path) -> PathBuf {
         folder_of(self.path).join(name)
     }
 
-    /// Whether there is such a file.
+    /// Whether the file exists.
     pub(crate) fn has(&mut self, name: &Path) -> bool {
         let path = self.place(name);
-        let is_there = self.store.is_file(&path);
-        self.seen.insert(FileSeen {
+        let exists = self.store.is_file(&path);
+        self.seen.insert(FileDependency {
             path,
             is_read: false,
         });
-        is_there
+        exists
     }
 
     /// Reads at most `limit` bytes of a file.
@@ -150,7 +150,7 @@ impl<'a> Assets<'a> {
     /// If the file is missing, is not a regular file, or a link leads out of the folder.
     pub(crate) fn read(&mut self, name: &Path, limit: u64) -> io::Result<Vec<u8>> {
         let path = self.place(name);
-        self.seen.insert(FileSeen {
+        self.seen.insert(FileDependency {
             path: path.clone(),
             is_read: true,
         });
@@ -168,8 +168,8 @@ impl<'a> Assets<'a> {
         self.store.read_up_to(&real, limit).map_err(because)
     }
 
-    /// The files that were looked at, sorted.
-    pub(crate) fn into_files(self) -> Vec<FileSeen> {
+    /// The files that were accessed, sorted.
+    pub(crate) fn into_files(self) -> Vec<FileDependency> {
         self.seen.into_iter().collect()
     }
 }
@@ -179,7 +179,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn paths_that_stay_inside_are_taken() {
+    fn paths_that_stay_inside_are_accepted() {
         assert_eq!(inside("a.mtl"), Ok(PathBuf::from("a.mtl")));
         assert_eq!(inside("./sub//../a b.mtl"), Ok(PathBuf::from("a b.mtl")));
         assert_eq!(inside("sub\\a.mtl"), Ok(PathBuf::from("sub/a.mtl")));
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn paths_that_leave_are_refused() {
+    fn paths_that_leave_the_folder_are_refused() {
         for name in [
             "",
             ".",
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn tricks_in_uris_are_refused() {
+    fn uris_that_disguise_a_path_out_of_the_folder_are_refused() {
         for uri in [
             "file:///etc/passwd",
             "http://example.com/a.bin",

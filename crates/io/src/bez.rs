@@ -1,4 +1,4 @@
-//! `.bez`: bicubic Bezier patches, and `.bzc`: one Bezier curve in the plane. Both are plain numbers.
+//! `.bez`: bicubic Bezier patches, and `.bzc`: a Bezier curve in the plane. Both contain only numbers.
 //!
 //! ```text
 //! 2                                   the number of patches
@@ -7,24 +7,24 @@
 //! ...
 //! ```
 //!
-//! A `.bzc` file is the number of control points and then `x y` of each. Numbers are separated by
-//! blanks and line ends in any number. There are no comments.
+//! A `.bzc` file contains the number of control points, followed by `x y` of each. Numbers are separated by any
+//! number of blanks and line ends. There are no comments.
 
 use bezier::{Curve, Patch};
 use glam::{DVec2, DVec3};
 use scene::{Geometry, Scene};
 
-use crate::One;
+use crate::SingleFile;
 use crate::error::Unwritable;
 use crate::fault::Fault;
 use crate::loss::Losses;
-use crate::text::{Cursor, Place, check_encoding, number, parsed, push_number};
+use crate::text::{Cursor, TextPosition, check_encoding, number, parsed, push_number};
 
 /// Reads the patches of a `.bez` file.
 ///
 /// # Errors
 ///
-/// The place of the first thing that is not what it should be.
+/// The position of the first error.
 pub(crate) fn read_patches(bytes: &[u8]) -> Result<Geometry, Fault> {
     patches(bytes).map(Geometry::Patches)
 }
@@ -56,7 +56,7 @@ fn patches(bytes: &[u8]) -> Result<Vec<Patch>, Fault> {
 ///
 /// # Errors
 ///
-/// The place of the first thing that is not what it should be.
+/// The position of the first error.
 pub(crate) fn read_curve(bytes: &[u8]) -> Result<Geometry, Fault> {
     curve(bytes).map(Geometry::Curve)
 }
@@ -78,21 +78,24 @@ fn curve(bytes: &[u8]) -> Result<Curve<DVec2>, Fault> {
     Curve::new(points).map_err(|e| place.error(e.to_string()))
 }
 
-/// The file that holds the patches of `scene`, and what it does not hold.
+/// Writes the patches of `scene`, and lists what the file does not store.
 ///
 /// # Errors
 ///
-/// If an object has none.
-pub(crate) fn write_bez(scene: &Scene) -> Result<One, Unwritable> {
+/// If an object does not consist of patches.
+pub(crate) fn write_bez(scene: &Scene) -> Result<SingleFile, Unwritable> {
     let mut all = Vec::new();
     let mut losses = Vec::new();
     for object in scene.objects() {
         let Geometry::Patches(patches) = &object.geometry else {
-            return Err(Unwritable::kind("a .bez file holds Bezier patches", object));
+            return Err(Unwritable::kind(
+                "a .bez file stores Bezier patches",
+                object,
+            ));
         };
         all.extend_from_slice(patches);
         let mut losses = Losses::of(&object.name, &mut losses);
-        let reason = "a .bez file has no materials";
+        let reason = "a .bez file cannot store materials";
         losses.add(None, "materials", object.materials.len(), reason);
         let several = usize::from(scene.objects().len() > 1);
         let reason = "the patches of all objects are written as one list";
@@ -101,22 +104,22 @@ pub(crate) fn write_bez(scene: &Scene) -> Result<One, Unwritable> {
     Ok((write_patches(&all), losses))
 }
 
-/// The file that holds the curve of `scene`, and what it does not hold.
+/// Writes the curve of `scene`, and lists what the file does not store.
 ///
 /// # Errors
 ///
-/// If the scene is not one curve.
-pub(crate) fn write_bzc(scene: &Scene) -> Result<One, Unwritable> {
+/// If the scene does not consist of a single curve.
+pub(crate) fn write_bzc(scene: &Scene) -> Result<SingleFile, Unwritable> {
     let [object] = scene.objects() else {
         let n = scene.objects().len();
-        let message = format!("a .bzc file holds one curve, found {n} objects");
+        let message = format!("a .bzc file stores one curve, found {n} objects");
         return Err(Unwritable::scene(message));
     };
     let Geometry::Curve(curve) = &object.geometry else {
-        return Err(Unwritable::kind("a .bzc file holds a curve", object));
+        return Err(Unwritable::kind("a .bzc file stores a curve", object));
     };
     let mut losses = Vec::new();
-    let reason = "a .bzc file has no materials";
+    let reason = "a .bzc file cannot store materials";
     let mut of_object = Losses::of(&object.name, &mut losses);
     of_object.add(None, "materials", object.materials.len(), reason);
     Ok((write_curve(curve), losses))
@@ -154,14 +157,14 @@ fn push_line(out: &mut Vec<u8>, numbers: &[f64]) {
     out.push(b'\n');
 }
 
-/// The whole number at the start of a file, checked against what the rest of the file can hold.
+/// Reads the integer at the beginning of a file, and checks that the rest of the file can hold this many items.
 fn count(cursor: &mut Cursor, what: &str, numbers_each: usize) -> Result<usize, Fault> {
     let (place, word) = cursor.next_word();
     let n = parsed(word)
-        .ok_or_else(|| expected(place, format!("the number of {what}, a whole number"), word))?;
+        .ok_or_else(|| expected(place, format!("the number of {what} (an integer)"), word))?;
     if !cursor.has_room(n, numbers_each) {
         return Err(place.error(format!(
-            "the file says {n} {what}, but is too short for them: {} bytes follow",
+            "the file declares {n} {what} but is too short: only {} bytes follow",
             cursor.remaining()
         )));
     }
@@ -189,7 +192,7 @@ fn expect_end(cursor: &mut Cursor, last: &str) -> Result<(), Fault> {
     }
 }
 
-fn expected(place: Place, what: String, found: &[u8]) -> Fault {
+fn expected(place: TextPosition, what: String, found: &[u8]) -> Fault {
     let mut fault = place.expected(what, found);
     fault.message += comment_hint(found);
     fault
@@ -216,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn patches_are_rows_of_points() {
+    fn patches_are_read_as_rows_of_points() {
         let patches = patches(format!("\u{feff}1\r\n\r\n{}", patch_text()).as_bytes()).unwrap();
 
         assert_eq!(patches.len(), 1);
@@ -224,7 +227,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_is_a_count_and_its_points() {
+    fn a_curve_is_read_as_a_count_and_its_points() {
         let curve = curve(b"3\n0 0   0.5 1\n1 0").unwrap();
         assert_eq!(
             curve.points(),
@@ -233,14 +236,14 @@ mod tests {
     }
 
     #[test]
-    fn broken_patch_files_are_refused_at_the_place() {
+    fn errors_in_patch_files_name_the_position() {
         let one = patch_text();
         let short = one.trim_end().rsplit_once(' ').unwrap().0;
         for (text, line, column, words) in [
             (String::new(), 1, 1, "expected the number of patches"),
             ("# teapot\n1\n".to_owned(), 1, 1, "no comments"),
-            ("1.5\n".to_owned(), 1, 1, "whole number, found `1.5`"),
-            ("-1\n".to_owned(), 1, 1, "whole number"),
+            ("1.5\n".to_owned(), 1, 1, "(an integer), found `1.5`"),
+            ("-1\n".to_owned(), 1, 1, "integer"),
             ("4000000000 0 0".to_owned(), 1, 1, "too short"),
             ("18446744073709551615 0".to_owned(), 1, 1, "too short"),
             (
@@ -277,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_curve_files_are_refused_at_the_place() {
+    fn errors_in_curve_files_name_the_line() {
         for (text, line, words) in [
             ("", 1, "expected the number of control points"),
             ("\n0", 2, "at least one control point"),
@@ -311,7 +314,7 @@ mod tests {
         }
 
         #[test]
-        fn any_bytes_are_read_or_refused(bytes: Vec<u8>, text in "[0-9 #.\\-e\n]{0,300}") {
+        fn random_bytes_do_not_panic(bytes: Vec<u8>, text in "[0-9 #.\\-e\n]{0,300}") {
             for input in [&bytes[..], text.as_bytes()] {
                 let _ = patches(input);
                 let _ = curve(input);

@@ -1,4 +1,4 @@
-//! Cleaning polygons by the [`Policies`] of the reader, before a mesh is built of them.
+//! Cleans polygons according to the [`Policies`] of the reader, before a mesh is built from them.
 
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -8,19 +8,23 @@ use mesh::{Attributes, Domain, Elements, VertexId};
 use crate::note::{NoteKind, Notes};
 use crate::{CleanupPolicy, Policies, Polygons, parallel};
 
-/// A face is degenerate if its area is below this share of the square of its longest side: what rounding
-/// leaves of an area of zero.
-const NO_AREA: f64 = 1e-14;
+/// A face is degenerate if its area is less than this multiple of the square of its longest side, which is the
+/// rounding error of an area of zero.
+const DEGENERATE_RATIO: f64 = 1e-14;
 
-/// The number of groups, by hash, in which faces are compared.
-const SHARES: usize = 16;
+/// The number of groups, by hash, within which faces are compared. Groups are processed in parallel.
+const N_GROUPS: usize = 16;
 
-/// Which polygon of the file each polygon is; `None` if each is its own.
-pub(crate) type Kept = Option<Vec<u32>>;
+/// For each polygon, its index in the file; `None` if the indices are the same.
+pub(crate) type SourcePolygons = Option<Vec<u32>>;
 
-/// Takes corners that repeat the one before them once, and leaves out what the policies say. Returns which
-/// polygons are left.
-pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Notes) -> Kept {
+/// Removes corners that repeat the corner before them, and the faces and vertices that the policies drop. Returns
+/// which polygons are left.
+pub(crate) fn clean(
+    polygons: &mut Polygons,
+    policies: Policies,
+    notes: &mut Notes,
+) -> SourcePolygons {
     let mut is_corner_kept = vec![];
     let repeated = repeated_corners(polygons, &mut is_corner_kept);
     let unwanted: [(_, fn(&Polygons) -> _, _, _); 2] = [
@@ -49,7 +53,7 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
             note(polygons, what, Elements::Faces(faces), notes);
         }
     }
-    let what = "faces that repeat a corner: taken once";
+    let what = "faces with repeated corners: each corner used once";
     note(polygons, what, Elements::Faces(repeated), notes);
     let kept = keep(polygons, &is_dropped, &is_corner_kept);
     if policies.isolated == CleanupPolicy::Drop {
@@ -58,9 +62,9 @@ pub(crate) fn clean(polygons: &mut Polygons, policies: Policies, notes: &mut Not
     kept
 }
 
-/// Notes that these elements are changed, and where they are.
+/// Adds a note that these elements are changed, with their positions.
 fn note(polygons: &Polygons, what: &str, elements: Elements, notes: &mut Notes) {
-    let places = polygons.given().places(&elements);
+    let places = polygons.arrays().places(&elements);
     notes.elements(NoteKind::Changed, what, elements, places);
 }
 
@@ -71,8 +75,8 @@ fn corners(polygons: &Polygons, f: usize) -> &[u32] {
     &polygons.corners[polygons.offsets[f] as usize..polygons.offsets[f + 1] as usize]
 }
 
-/// The polygons in which a corner has the vertex of the one before it, and at least three are left
-/// without such corners. `is_kept` gets a mark for each corner then.
+/// Returns the polygons in which a corner has the vertex of the corner before it and at least three corners are
+/// left without the repeated ones. For these, fills `is_kept` with a flag for each corner.
 fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> {
     let kept_in = |corners: &[u32]| {
         let before = corners.iter().cycle().skip(corners.len().max(1) - 1);
@@ -92,7 +96,7 @@ fn repeated_corners(polygons: &Polygons, is_kept: &mut Vec<bool>) -> Vec<usize> 
         let corners = corners(polygons, f);
         let first = polygons.offsets[f] as usize;
         for (i, &v) in corners.iter().enumerate() {
-            // The first of a run stays; a run may go around the end.
+            // The first corner of a run is kept. A run can continue past the last corner.
             is_kept[first + i] = v != corners[(i + corners.len() - 1) % corners.len()];
         }
     }
@@ -107,7 +111,7 @@ fn degenerate(polygons: &Polygons) -> Vec<usize> {
         let points: Option<Vec<DVec3>> = points
             .map(|&v| polygons.positions.get(v as usize).copied())
             .collect();
-        // What is out of range is reported where the mesh is built.
+        // Indices out of range are reported when the mesh is built.
         points.is_some_and(|points| is_degenerate(&points))
     };
     parallel::filter(polygons.n_faces(), has_no_area)
@@ -125,22 +129,21 @@ fn is_degenerate(points: &[DVec3]) -> bool {
     let longest = sides
         .map(|(a, b)| a.distance_squared(*b))
         .fold(0.0, f64::max);
-    // Not `>`: a face whose numbers overflow is none to drop.
-    double.length() <= 2.0 * NO_AREA * longest
+    // Not `>`, so that a face whose numbers overflow is kept.
+    double.length() <= 2.0 * DEGENERATE_RATIO * longest
 }
 
 // ---- Duplicates --------------------------------------------------------------------------------
 
-/// The polygons that have the vertices of one before them, in the same circular order or in the
-/// opposite one.
+/// The polygons with the vertices of an earlier polygon in the same or the opposite circular order.
 fn duplicates(polygons: &Polygons) -> Vec<usize> {
     let hashes = parallel::collect(polygons.n_faces(), |f| sum_of_hashes(corners(polygons, f)));
-    // Each thread sorts the faces of one share of the hashes.
-    let shares = parallel::map(SHARES, |share| {
+    // Each task sorts the faces of one group of hashes.
+    let shares = parallel::map(N_GROUPS, |share| {
         let own = hashes
             .iter()
             .zip(0..)
-            .filter(|(hash, _)| **hash % SHARES as u64 == share as u64);
+            .filter(|(hash, _)| **hash % N_GROUPS as u64 == share as u64);
         let mut keys: Vec<(u64, u32)> = own.map(|(&hash, f)| (hash, f)).collect();
         keys.sort_unstable();
         let mut duplicates = Vec::new();
@@ -163,19 +166,19 @@ fn duplicates(polygons: &Polygons) -> Vec<usize> {
     duplicates
 }
 
-/// A number that does not depend on the order of the corners: the sum of their scrambled vertices.
+/// A hash that does not depend on the order of the corners: the sum of the hashes of their vertices.
 fn sum_of_hashes(corners: &[u32]) -> u64 {
     // The finalizer of SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014).
-    let scrambled = corners.iter().map(|&v| {
+    let hashes = corners.iter().map(|&v| {
         let x = (u64::from(v) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         x ^ (x >> 31)
     });
-    scrambled.fold(corners.len() as u64, u64::wrapping_add)
+    hashes.fold(corners.len() as u64, u64::wrapping_add)
 }
 
-/// The corners from the lowest vertex on, towards the lower of its neighbors.
+/// The corners beginning with the lowest vertex, in the direction of its lower neighbor.
 fn canonical(corners: &[u32]) -> Vec<u32> {
     let Some(start) = (0..corners.len()).min_by_key(|&i| corners[i]) else {
         return Vec::new();
@@ -190,11 +193,15 @@ fn id(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
 }
 
-// ---- Leaving out -------------------------------------------------------------------------------
+// ---- Removing -------------------------------------------------------------------------------
 
-/// Keeps the polygons that are not dropped and in them the corners that are kept; empty lists of marks
-/// stand for all.
-pub(crate) fn keep(polygons: &mut Polygons, is_dropped: &[bool], is_corner_kept: &[bool]) -> Kept {
+/// Removes the polygons that are dropped, and the corners of the remaining polygons that are not kept. An empty
+/// list of flags keeps everything.
+pub(crate) fn keep(
+    polygons: &mut Polygons,
+    is_dropped: &[bool],
+    is_corner_kept: &[bool],
+) -> SourcePolygons {
     if is_dropped.is_empty() && is_corner_kept.is_empty() {
         return None;
     }
@@ -224,7 +231,7 @@ pub(crate) fn keep(polygons: &mut Polygons, is_dropped: &[bool], is_corner_kept:
 
 fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
     let n = polygons.positions.len();
-    let used = parallel::named(n, &polygons.corners);
+    let used = parallel::index_flags(n, &polygons.corners);
     let (kept, isolated): (Vec<u32>, Vec<u32>) =
         (0..id(n)).partition(|&v| used[v as usize].load(Relaxed));
     if isolated.is_empty() {
@@ -249,7 +256,7 @@ fn drop_isolated(polygons: &mut Polygons, notes: &mut Notes) {
     gather(&mut polygons.attributes, Domain::Vertex, &kept);
 }
 
-/// The columns of a domain with the values at `sources`.
+/// Replaces the columns of a domain by their values at `sources`.
 pub(crate) fn gather(attributes: &mut Attributes, domain: Domain, sources: &[u32]) {
     for (of, mut column) in std::mem::take(attributes) {
         if of == domain {
@@ -265,7 +272,7 @@ mod tests {
 
     use super::*;
 
-    fn made(faces: &[&[u32]]) -> Polygons {
+    fn polygons_of(faces: &[&[u32]]) -> Polygons {
         let points = [
             [0.0, 0.0],
             [1.0, 0.0],
@@ -292,8 +299,8 @@ mod tests {
         polygons
     }
 
-    fn cleaned(faces: &[&[u32]], policies: Policies) -> (Polygons, Kept, Vec<String>) {
-        let mut polygons = made(faces);
+    fn cleaned(faces: &[&[u32]], policies: Policies) -> (Polygons, SourcePolygons, Vec<String>) {
+        let mut polygons = polygons_of(faces);
         let mut notes = Notes::of(Path::new("a"));
         let kept = clean(&mut polygons, policies, &mut notes);
         let notes = notes.into_vec().iter().map(ToString::to_string).collect();
@@ -314,12 +321,12 @@ mod tests {
         };
         let faces: &[&[u32]] = &[&[0, 1, 3], &[1, 2, 5]];
         let (polygons, _, notes) = cleaned(faces, all);
-        assert_eq!(polygons, made(faces));
+        assert_eq!(polygons, polygons_of(faces));
         assert!(notes.is_empty());
     }
 
     #[test]
-    fn a_corner_that_repeats_the_one_before_is_taken_once() {
+    fn a_corner_that_repeats_the_one_before_is_removed() {
         let faces: &[&[u32]] = &[&[0, 1, 1, 3], &[3, 0, 1, 3, 3], &[0, 0, 1]];
         let (polygons, kept, notes) = cleaned(faces, Policies::default());
         assert_eq!(polygons.corners, [0, 1, 3, 0, 1, 3, 0, 0, 1]);
@@ -327,7 +334,7 @@ mod tests {
         assert_eq!(kept, Some(vec![0, 1, 2]));
         assert_eq!(
             notes,
-            ["a: 2 faces that repeat a corner: taken once (faces 0, 1)"]
+            ["a: 2 faces with repeated corners: each corner used once (faces 0, 1)"]
         );
     }
 
@@ -346,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn of_duplicates_either_way_round_the_first_is_kept() {
+    fn the_first_of_the_duplicates_in_either_direction_is_kept() {
         let policies = Policies {
             duplicates: CleanupPolicy::Drop,
             ..Policies::default()
@@ -365,7 +372,7 @@ mod tests {
     }
 
     #[test]
-    fn isolated_vertices_are_dropped_and_the_others_close_up() {
+    fn isolated_vertices_are_dropped_and_the_remaining_ones_renumbered() {
         let policies = Policies {
             isolated: CleanupPolicy::Drop,
             ..Policies::default()

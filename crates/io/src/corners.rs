@@ -1,4 +1,4 @@
-//! Numbering the different values on the corners around vertices, for writers.
+//! Numbers the distinct values on the corners around vertices, for writers.
 
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
@@ -6,28 +6,29 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::parallel;
 use mesh::{FaceId, HalfEdgeId, Mesh, VertexId};
 
-/// Of more different values than this at a vertex only the latest are compared.
-const LOOKED_AT: usize = 64;
+/// The largest number of distinct values at a vertex that a corner is compared with.
+const MAX_COMPARED: usize = 64;
 
-/// The numbers of the different values on the corners around each vertex of a mesh, for all corners, in
-/// the order of the faces and their corners.
+/// Numbers for the distinct values on the corners around each vertex of a mesh, over all corners, in the order of
+/// the faces and their corners.
 #[derive(Debug)]
 pub(crate) struct CornerNumbers {
-    /// For each half-edge of a face the first one that leaves the same vertex with the same value.
+    /// For each half-edge of a face, the first half-edge that leaves the same vertex with the same value.
     same: Vec<AtomicU32>,
-    /// The numbers of half-edges that are the first with their value, from 0.
+    /// For each half-edge that is the first with its value, the number of the value, from 0.
     numbers: Vec<AtomicU32>,
-    /// For each number the half-edge that is the first.
+    /// For each number, the first half-edge with that value.
     firsts: Vec<HalfEdgeId>,
 }
 
 impl CornerNumbers {
-    /// Numbers values of which `equal` says whether those of two corners at one vertex are the same. Of a
-    /// crowd at a vertex only the latest [`LOOKED_AT`] values are compared, so that a vertex with a million
-    /// corners costs no more than others; a value may then get a second number.
+    /// Numbers the values of corners. `equal` returns whether two corners of one vertex have the same value. A
+    /// corner is compared with the latest [`MAX_COMPARED`] distinct values at its vertex, so that the time for a
+    /// vertex with a million corners stays linear. If a vertex has more distinct values, a value can get a second
+    /// number.
     pub(crate) fn new(mesh: &Mesh, equal: impl Fn(HalfEdgeId, HalfEdgeId) -> bool + Sync) -> Self {
-        // Each half-edge is written by the task of the one vertex that it leaves, or the one face that it
-        // lies at.
+        // Each entry is written by a single task: that of the vertex which the half-edge leaves, or that of its
+        // face.
         let unset = || -> Vec<AtomicU32> { mesh::zeroed(mesh.n_half_edges()) };
         let (same, numbers) = (unset(), unset());
         let number_of = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
@@ -40,7 +41,7 @@ impl CornerNumbers {
                 corners.sort_unstable();
                 different.clear();
                 for &(_, h) in &corners {
-                    let mut looked_at = different.iter().rev().take(LOOKED_AT);
+                    let mut looked_at = different.iter().rev().take(MAX_COMPARED);
                     let known = looked_at.find(|&&known| equal(known, h)).copied();
                     if known.is_none() {
                         different.push(h);
@@ -68,14 +69,14 @@ impl CornerNumbers {
         }
     }
 
-    /// The number of the value of a corner, from 0.
+    /// The number of the value at a corner, from 0.
     #[inline]
     pub(crate) fn number(&self, h: HalfEdgeId) -> usize {
         let first = self.same[h.index()].load(Relaxed);
         self.numbers[first as usize].load(Relaxed) as usize
     }
 
-    /// For each number a corner that has the value.
+    /// For each number, a corner with that value.
     pub(crate) fn firsts(&self) -> &[HalfEdgeId] {
         &self.firsts
     }
@@ -88,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_are_numbered_in_the_order_in_which_the_corners_name_them() {
+    fn values_are_numbered_in_the_order_of_the_corners() {
         let mesh = geometry::shapes::fans(&geometry::shapes::torus(80, 60, 2.0, 0.5));
         let value = |h: HalfEdgeId| h.index() * 7919 % 5;
         let numbers = CornerNumbers::new(&mesh, |a, b| value(a) == value(b));
@@ -106,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn a_crowd_at_one_place_takes_no_quadratic_time() {
+    fn many_values_at_one_vertex_take_linear_time() {
         let n = 200_000;
         let fan: Vec<[u32; 3]> = (1..n).map(|i| [0, i, i + 1]).collect();
         let points = (0..=n).map(|i| mesh::DVec3::splat(f64::from(i)));

@@ -1,32 +1,32 @@
-//! Decimal numbers as text: reading them correctly rounded, writing the shortest that reads back the
-//! same.
+//! Decimal numbers as text: reading correctly rounded numbers, and writing the shortest text that reads back as the
+//! same number.
 
-/// The finite number that `text` begins with, correctly rounded, and how many bytes spell it.
+/// Parses the finite number at the beginning of `text`, correctly rounded. Returns it with its length in bytes.
 #[inline]
 pub(crate) fn leading_number(text: &[u8]) -> Option<(f64, usize)> {
     let unsigned = match text {
         [b'+' | b'-', rest @ ..] => rest,
         _ => text,
     };
-    // Not the words for what is no number.
+    // Excludes words such as `nan` and `inf`.
     matches!(unsigned, [b'0'..=b'9' | b'.', ..]).then_some(())?;
     let (x, length) = fast_float2::parse_partial::<f64, _>(text).ok()?;
     x.is_finite().then_some((x, length))
 }
 
-/// The number that the digits at `at` spell, and how many they are: at most eight are looked at.
+/// Parses the digits at `at`, at most eight. Returns their value and their number.
 ///
-/// All at once, as bytes of one word (Lemire, "Quickly parsing eight digits", 2018).
+/// Processes all digits at once as the bytes of one word (Lemire, "Quickly parsing eight digits", 2018).
 #[inline]
 pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     let word = eight_bytes(text, at) ^ 0x3030_3030_3030_3030;
-    // The high bit of each byte that is no digit, up to the first such.
-    let others = (word.wrapping_add(0x7676_7676_7676_7676) | word) & 0x8080_8080_8080_8080;
-    let count = others.trailing_zeros() / 8;
+    // The high bit of each byte that is not a digit. Only the lowest of these bits is exact.
+    let non_digits = (word.wrapping_add(0x7676_7676_7676_7676) | word) & 0x8080_8080_8080_8080;
+    let count = non_digits.trailing_zeros() / 8;
     if count == 0 {
         return (0, 0);
     }
-    // The digits move to the end of the word, and zeros come before them.
+    // Shifts the digits to the end of the word, after leading zeros.
     let digits = word << (64 - 8 * count);
     let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
     let low = (pairs & 0x0000_00ff_0000_00ff).wrapping_mul(0x000f_4240_0000_0064);
@@ -34,7 +34,7 @@ pub(crate) fn up_to_eight_digits(text: &[u8], at: usize) -> (u64, usize) {
     (low.wrapping_add(high) >> 32, count as usize)
 }
 
-/// The bytes from `at` on, the first as the lowest of the word; zeros stand for bytes beyond the end.
+/// The bytes from `at` on as a word, the first byte lowest. Bytes beyond the end are 0.
 #[inline]
 fn eight_bytes(text: &[u8], at: usize) -> u64 {
     if let Some(&[a, b, c, d, e, f, g, h]) = text.get(at..at + 8) {
@@ -47,8 +47,8 @@ fn eight_bytes(text: &[u8], at: usize) -> u64 {
     u64::from_le_bytes(bytes)
 }
 
-/// Appends the shortest decimal number that reads back as `x`, which is finite: in plain digits where
-/// that is short, with an exponent where it is not (`1e300`, `2.5e-9`).
+/// Appends the shortest decimal number that reads back as `x`, which must be finite. Very large and very small
+/// numbers get an exponent (`1e300`, `2.5e-9`).
 pub(crate) fn push_number(out: &mut Vec<u8>, x: f64) {
     let mut buffer = zmij::Buffer::new();
     let text = buffer.format_finite(x).as_bytes();
@@ -59,7 +59,7 @@ pub(crate) fn push_number(out: &mut Vec<u8>, x: f64) {
     }
 }
 
-/// Appends a text of at most 24 bytes: copies of a known length need no call.
+/// Appends a text of at most 24 bytes. Copies of constant length are inlined, which is faster than a call.
 #[inline]
 fn push_short(out: &mut Vec<u8>, text: &[u8]) {
     let (room, start) = if let Some(start) = text.first_chunk::<16>() {
@@ -73,8 +73,8 @@ fn push_short(out: &mut Vec<u8>, text: &[u8]) {
     };
     match text.last_chunk::<8>() {
         Some(&end) if text.len() <= room => {
-            let known = 8 * (room - text.len());
-            let rest = u64::from_le_bytes(end).checked_shr(u32::try_from(known).unwrap_or(0));
+            let copied_bits = 8 * (room - text.len());
+            let rest = u64::from_le_bytes(end).checked_shr(u32::try_from(copied_bits).unwrap_or(0));
             push_bytes(out, rest.unwrap_or(0), text.len() - start);
         }
         _ => out.extend_from_slice(&text[start..]),
@@ -89,13 +89,13 @@ fn push_bytes(out: &mut Vec<u8>, word: u64, n: usize) {
     out.truncate(end);
 }
 
-/// Appends a whole number.
+/// Appends an integer.
 #[inline]
 pub(crate) fn push_whole(out: &mut Vec<u8>, value: usize) {
     match u64::try_from(value) {
         Ok(value) if value < 100_000_000 => {
-            // All eight digits at once: halves, then quarters, then digits, the first in the lowest
-            // byte. The products stand for divisions by 100 and 10.
+            // Computes all eight digits at once: first halves, then pairs, then digits, the first digit in the
+            // lowest byte. The multiplications replace divisions by 100 and 10.
             let halves = (value / 10_000) | (value % 10_000) << 32;
             let hundreds = ((halves * 10_486) >> 20) & 0x0000_007f_0000_007f;
             let pairs = hundreds | (halves - 100 * hundreds) << 16;

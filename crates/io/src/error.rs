@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use scene::Object;
 use store::StoreError;
 
-/// Why a file could not be read. Nothing of it was taken.
+/// Why a file could not be read. Nothing was loaded.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
@@ -15,10 +15,10 @@ pub enum ReadError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// The extension of the file's name is not that of a known format.
+    /// The file name does not have the extension of a known format.
     #[error("{}: expected a file name that ends in one of {known}", path.display())]
     UnknownFormat {
         /// The file.
@@ -35,7 +35,7 @@ pub enum ReadError {
         line: usize,
         /// The byte in the line, from 1.
         column: usize,
-        /// What was expected and what was there.
+        /// What was expected and what was found.
         message: String,
     },
     /// A glTF file breaks the rules of its format.
@@ -45,20 +45,19 @@ pub enum ReadError {
         path: PathBuf,
         /// The place in the JSON document as a JSON pointer (RFC 6901), such as `/accessors/3/count`.
         pointer: String,
-        /// What was expected and what was there.
+        /// What was expected and what was found.
         message: String,
     },
-    /// The polygons of the file could not become a mesh.
+    /// The polygons of the file do not form a valid mesh.
     #[error("{}: {source}", path.display())]
     Mesh {
         /// The file.
         path: PathBuf,
-        /// What is wrong with them.
+        /// What is wrong with the polygons.
         source: mesh::BuildError,
     },
-    /// Something would have been left out, and [`ReadOptions::strict`](crate::ReadOptions::strict) forbids
-    /// that.
-    #[error("{}: not everything can be taken: {left_out}", path.display())]
+    /// Something would be left out, which [`ReadOptions::strict`](crate::ReadOptions::strict) forbids.
+    #[error("{}: strict reading does not allow anything to be left out: {left_out}", path.display())]
     Strict {
         /// The file.
         path: PathBuf,
@@ -70,9 +69,9 @@ pub enum ReadError {
     Binary {
         /// The file.
         path: PathBuf,
-        /// The place in the file in bytes, from 0.
+        /// The position in the file in bytes, from 0.
         offset: usize,
-        /// What was expected and what was there.
+        /// What was expected and what was found.
         message: String,
     },
 }
@@ -87,7 +86,7 @@ impl From<StoreError> for ReadError {
 }
 
 impl ReadError {
-    /// The file that could not be read: the one that was asked for, or one that it refers to.
+    /// The file that could not be read: the requested file or a file that it refers to.
     pub fn path(&self) -> &Path {
         match self {
             Self::Io { path, .. }
@@ -110,33 +109,33 @@ pub enum WriteError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the operating system.
         source: io::Error,
     },
-    /// The extension of the file's name is not that of a known format.
+    /// The file name does not have the extension of a format that can be written.
     #[error("{}: expected a file name that ends in one of {known}", path.display())]
     UnknownFormat {
         /// The file.
         path: PathBuf,
-        /// The known extensions.
+        /// The extensions of the formats that can be written.
         known: String,
     },
-    /// The format cannot hold an object of the scene at all.
+    /// The format cannot store an object of the scene.
     #[error("{}: object `{object}`: {message}", path.display())]
     Object {
         /// The file.
         path: PathBuf,
         /// The name of the object.
         object: String,
-        /// What the format holds and what was there.
+        /// What the format can store and what was found.
         message: String,
     },
-    /// The format cannot hold the scene as a whole.
+    /// The format cannot store the scene as a whole.
     #[error("{}: {message}", path.display())]
     Scene {
         /// The file.
         path: PathBuf,
-        /// What the format holds and what was there.
+        /// What the format can store and what was found.
         message: String,
     },
 }
@@ -150,10 +149,10 @@ impl From<StoreError> for WriteError {
     }
 }
 
-/// Why a scene does not fit a format, before the name of the file is known.
+/// Why a format cannot store a scene, before the name of the file is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Unwritable {
-    /// The object that does not fit; `None` for the scene as a whole.
+    /// The object that the format cannot store; `None` for the scene as a whole.
     object: Option<String>,
     message: String,
 }
@@ -169,7 +168,7 @@ impl Unwritable {
         Self { object, message }
     }
 
-    /// An object of another kind than the format `holds`.
+    /// The error for an object of a kind that the format cannot store. `holds` says which kinds it can store.
     pub(crate) fn kind(holds: &str, object: &Object) -> Self {
         let kind = object.geometry.kind();
         Self::object(&object.name, format!("{holds}, found {kind}"))

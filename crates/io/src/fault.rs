@@ -1,40 +1,40 @@
-//! What is wrong with a file, and where.
+//! Errors in a file, with their positions.
 
 use std::fmt;
 use std::path::Path;
 
 use crate::error::ReadError;
 
-/// What is wrong at one place of a file, before the name of the file is known.
+/// An error at one position of a file, before the name of the file is known.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
-    pub(crate) at: At,
-    /// What was expected and what was there.
+    pub(crate) at: Location,
+    /// What was expected and what was found.
     pub(crate) message: String,
 }
 
-/// A place in a file.
+/// A position in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum At {
-    /// Of a text.
-    Text(Place),
-    /// Of a JSON document, as a JSON pointer.
+pub(crate) enum Location {
+    /// In a text file.
+    Text(TextPosition),
+    /// In a JSON document, as a JSON pointer.
     Json(String),
-    /// In a binary file: the offset in bytes from its beginning.
+    /// In a binary file, as the offset in bytes from the beginning.
     Byte(usize),
 }
 
 impl Fault {
     pub(crate) fn json(pointer: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
-            at: At::Json(pointer.into()),
+            at: Location::Json(pointer.into()),
             message: message.into(),
         }
     }
 
     pub(crate) fn byte(offset: usize, message: impl Into<String>) -> Self {
         Self {
-            at: At::Byte(offset),
+            at: Location::Byte(offset),
             message: message.into(),
         }
     }
@@ -43,18 +43,18 @@ impl Fault {
         let Self { at, message } = self;
         let path = path.to_path_buf();
         match at {
-            At::Text(Place { line, column }) => ReadError::Text {
+            Location::Text(TextPosition { line, column }) => ReadError::Text {
                 path,
                 line,
                 column,
                 message,
             },
-            At::Json(pointer) => ReadError::Json {
+            Location::Json(pointer) => ReadError::Json {
                 path,
                 pointer,
                 message,
             },
-            At::Byte(offset) => ReadError::Binary {
+            Location::Byte(offset) => ReadError::Binary {
                 path,
                 offset,
                 message,
@@ -63,17 +63,17 @@ impl Fault {
     }
 }
 
-/// A place in a text.
+/// A position in a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Place {
+pub(crate) struct TextPosition {
     /// The line, from 1.
     pub(crate) line: usize,
     /// The byte in the line, from 1.
     pub(crate) column: usize,
 }
 
-impl Place {
-    /// Where every text begins.
+impl TextPosition {
+    /// The first position of every text.
     pub(crate) const START: Self = Self::of_line(1);
 
     /// The beginning of a line.
@@ -83,18 +83,18 @@ impl Place {
 
     pub(crate) fn error(self, message: impl Into<String>) -> Fault {
         Fault {
-            at: At::Text(self),
+            at: Location::Text(self),
             message: message.into(),
         }
     }
 
-    /// The error that a word is not what is expected.
+    /// The error for a word other than the expected one.
     pub(crate) fn expected(self, what: impl fmt::Display, found: &[u8]) -> Fault {
         self.error(format!("expected {what}, found {}", quoted(found)))
     }
 }
 
-/// A word of a file for a message: between backticks, cut if it is long.
+/// Quotes a word of a file for a message: between backticks, and cut if it is long.
 pub(crate) fn quoted(word: &[u8]) -> String {
     const LONGEST: usize = 40;
     if word.is_empty() {
@@ -105,7 +105,7 @@ pub(crate) fn quoted(word: &[u8]) -> String {
     format!("`{}{dots}`", text.escape_debug())
 }
 
-/// A name in a file: UTF-8 if it is that, and otherwise Latin-1, in which any bytes are text.
+/// Decodes a name in a file as UTF-8 or, if it is not valid UTF-8, as Latin-1, which accepts any bytes.
 pub(crate) fn name(bytes: &[u8]) -> String {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
@@ -118,8 +118,8 @@ impl Fault {
     /// The line and the column of an error in a text.
     pub(crate) fn place(&self) -> (usize, usize) {
         match self.at {
-            At::Text(Place { line, column }) => (line, column),
-            _ => panic!("{self:?} is in no text"),
+            Location::Text(TextPosition { line, column }) => (line, column),
+            _ => panic!("{self:?} is not in a text file"),
         }
     }
 }

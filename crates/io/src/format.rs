@@ -1,4 +1,4 @@
-//! The table of formats: names, extensions, and which of them can be written.
+//! The table of formats: names, extensions, and which formats can be written.
 
 use std::fmt;
 use std::path::Path;
@@ -18,13 +18,13 @@ pub enum Format {
     Stl,
     /// Object file format (Geomview): polygons as text.
     Off,
-    /// COLLADA: polygons, materials and placed objects as XML. Only read.
+    /// COLLADA: polygons, materials and placed objects as XML. Read only.
     Dae,
     /// A whole Meshwright scene, bit for bit.
     Mws,
     /// Bicubic Bezier patches as text.
     Bez,
-    /// One plane Bezier curve as text.
+    /// SingleFile planar Bezier curve as text.
     Bzc,
 }
 
@@ -53,26 +53,26 @@ impl Format {
         TABLE[self as usize].1
     }
 
-    /// The format that the extension of `path` names, in upper or lower case; `None` if it is
-    /// unknown or missing.
+    /// The format with the extension of `path`, in upper or lower case; `None` if the extension is unknown or
+    /// missing.
     pub fn from_path(path: &Path) -> Option<Self> {
         let extension = path.extension()?;
         Self::all().find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }
 
-    /// Whether files of this format can be written, and not only read.
-    pub const fn is_written(self) -> bool {
+    /// Whether files of this format can be written. All formats can be read.
+    pub const fn can_write(self) -> bool {
         !matches!(self, Self::Dae)
     }
 
-    /// The extensions that can be read as messages list them: `.obj, .gltf, ...`.
-    pub fn known() -> String {
+    /// The extensions of all formats, as messages list them: `.obj, .gltf, ...`.
+    pub fn readable_extensions() -> String {
         list(Self::all())
     }
 
-    /// The extensions that can be written as messages list them: `.obj, .gltf, ...`.
-    pub fn known_to_write() -> String {
-        list(Self::all().filter(|format| format.is_written()))
+    /// The extensions of the formats that can be written, as messages list them: `.obj, .gltf, ...`.
+    pub fn writable_extensions() -> String {
+        list(Self::all().filter(|format| format.can_write()))
     }
 }
 
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_extension_decides_whatever_its_case() {
+    fn the_extension_determines_the_format_in_upper_or_lower_case() {
         assert_eq!(
             Format::from_path(Path::new("a/Teapot.OBJ")),
             Some(Format::Obj)
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn every_extension_leads_back_to_its_format() {
+    fn every_extension_maps_back_to_its_format() {
         for format in Format::all() {
             assert_eq!(TABLE[format as usize].0, format);
             let path = format!("x.{}", format.extension());

@@ -1,4 +1,4 @@
-//! All meshes of a scene as one, for formats that hold one object.
+//! Joins all meshes of a scene, for formats that store one object.
 
 use std::borrow::Cow;
 
@@ -10,22 +10,22 @@ use crate::loss::{Loss, Losses};
 use crate::polygons::OBJECT_TAG;
 use crate::writing::dense;
 
-/// The one mesh of a scene.
+/// The joined mesh of a scene.
 #[derive(Debug)]
 pub(crate) struct Joined<'a> {
-    /// Without dead elements. The meshes of several objects follow each other in their order.
+    /// The mesh without dead elements. The meshes of several objects are appended in order.
     pub(crate) mesh: Cow<'a, Mesh>,
-    /// The name for losses: that of the first object.
+    /// The object that losses name: the first object.
     pub(crate) name: String,
     pub(crate) losses: Vec<Loss>,
 }
 
-/// The mesh of a scene's objects. Where there are several, faces get the tag `o:` with the name of
-/// their object if the format keeps `tags`. Materials are lost.
+/// Joins the meshes of a scene's objects. If there are several objects and the format stores `tags`, faces get the
+/// tag `o:` followed by the name of their object. Materials are lost.
 ///
 /// # Errors
 ///
-/// If an object is no mesh, or all together are too large for one.
+/// If an object is not a mesh, or if the joined mesh would be too large.
 pub(crate) fn joined<'a>(
     scene: &'a Scene,
     format: &str,
@@ -36,12 +36,12 @@ pub(crate) fn joined<'a>(
     for object in scene.objects() {
         let Geometry::Mesh(mesh) = &object.geometry else {
             return Err(Unwritable::kind(
-                &format!("{format} files hold meshes"),
+                &format!("{format} files store meshes"),
                 object,
             ));
         };
         meshes.push(dense(mesh));
-        let reason = format!("{format} has no place for materials");
+        let reason = format!("{format} cannot store materials");
         let count = object.materials.len();
         Losses::of(&object.name, &mut losses).add(None, "materials", count, reason);
     }
@@ -58,7 +58,7 @@ pub(crate) fn joined<'a>(
     let n_vertices: usize = meshes.iter().map(|mesh| mesh.n_vertices()).sum();
     if n_half_edges.max(n_vertices) >= u32::MAX as usize {
         let message = format!(
-            "a {format} file holds one mesh, and all objects together are too large for one"
+            "a {format} file stores one mesh, and the objects together are too large for one mesh"
         );
         return Err(Unwritable::scene(message));
     }
@@ -68,7 +68,7 @@ pub(crate) fn joined<'a>(
     } else {
         ""
     };
-    let reason = format!("a {format} file holds one mesh{became}");
+    let reason = format!("a {format} file stores one mesh{became}");
     losses_of_all.add(None, "name", meshes.len(), reason);
     let (mut all, mut positions) = (Connectivity::default(), Vec::new());
     for mesh in &meshes {
@@ -84,12 +84,12 @@ pub(crate) fn joined<'a>(
     })
 }
 
-fn lens(mesh: &Mesh) -> [usize; 4] {
+fn domain_lengths(mesh: &Mesh) -> [usize; 4] {
     Domain::ALL.map(|domain| mesh.domain_len(domain))
 }
 
-/// The columns one behind the other; the numbers of materials go on from object to object. Faces get the tag of
-/// their object if there are `tags`.
+/// Appends the columns of all meshes. The material indices of each object are shifted by the number of materials
+/// before it. If `tags` is set, faces get the tag of their object.
 fn appended(
     objects: &[Object],
     meshes: &[Cow<Mesh>],
@@ -131,9 +131,12 @@ fn appended(
         }
         let own = i32::try_from(object.materials.len()).unwrap_or(i32::MAX);
         n_materials = n_materials.saturating_add(own);
-        let part = lens(mesh);
+        let part = domain_lengths(mesh);
         for (domain, name) in all.append(len, &attributes, part) {
-            let reason = format!("object `{}` has it with another type", object.name);
+            let reason = format!(
+                "object `{}` has this attribute with a different type",
+                object.name
+            );
             losses.add(domain, &name, part[domain as usize], reason);
         }
         len = std::array::from_fn(|i| len[i] + part[i]);

@@ -1,34 +1,36 @@
 //! Reading and writing OBJ, glTF, PLY, STL, OFF, COLLADA and Bezier files.
 //!
-//! [`read()`] takes a file and gives objects, [`write()`] takes a scene and makes files, [`peek()`] says
-//! how large a file is without building it. The extension of the name chooses the [`Format`]:
+//! [`read()`] reads the objects of a file, [`write()`] writes a scene to files, and [`peek()`] returns what a file
+//! holds (formats, kinds, counts) without building meshes. The extension of the file name chooses the [`Format`]:
 //!
-//! | extension | holds | module |
+//! | extension | content | module |
 //! | --- | --- | --- |
 //! | `.obj` (and `.mtl`) | polygons, polylines, groups, materials | `obj` |
 //! | `.gltf`, `.glb` | triangles, materials, placed objects | `gltf` |
 //! | `.ply` | polygons with any properties | `ply` |
 //! | `.stl` | triangles | `stl` |
 //! | `.off` | polygons | `off` |
-//! | `.dae` (only read) | polygons, materials, placed objects | `dae` |
+//! | `.dae` (read only) | polygons, materials, placed objects | `dae` |
 //! | `.bez` | Bezier patches | `bez` |
 //! | `.bzc` | a Bezier curve | `bez` |
 //!
-//! Nothing is dropped silently: what a reader left out or changed is a [`Note`] with a count, what a
-//! file cannot hold is a [`Loss`]. Errors say where: the line and column of a text, the JSON pointer
-//! of a glTF file. Paths inside a file stay inside its folder. Files are written whole or not at all.
+//! Nothing is dropped silently: whatever a reader leaves out or changes becomes a [`Note`] with a count, and
+//! whatever a format cannot store becomes a [`Loss`]. Errors name the position: line and column in a text, the byte
+//! offset in a binary file, the JSON pointer in a glTF file. Paths inside a file must stay inside the folder of the
+//! file. A file is written completely or not at all.
 //!
-//! The folder of a format has `read` (from bytes to polygons), `write` and `peek`, and its `mod.rs` says what becomes
-//! of what: faces of OBJ are read in `obj/statement.rs`, those of glTF in `gltf/primitives.rs`. All formats share:
+//! The folder of a format has `read` (from bytes to polygons), `write` and `peek`, and its `mod.rs` lists what each
+//! construct of the format becomes. For example, faces of OBJ are read in `obj/statement.rs` and those of glTF in
+//! `gltf/primitives.rs`. All formats share these modules:
 //!
-//! | module | |
+//! | module | purpose |
 //! | --- | --- |
-//! | `text` | words and numbers of a text with their lines; `decimal` is how numbers are read and written |
-//! | `fault` | what is wrong with a file, and where |
-//! | `note`, `loss` | what a reader left out or changed, what a file does not hold |
-//! | `polygons`, `clean`, `weld` | from polygons with attributes to a mesh |
-//! | `joined`, `corners`, `writing` | from a scene to what a file has room for |
-//! | `assets`, `save` | the files beside the one that is read; writing files whole |
+//! | `text` | words and numbers of a text with their lines; `decimal` reads and writes numbers |
+//! | `fault` | errors in a file, with their positions |
+//! | `note`, `loss` | what a reader left out or changed; what a written file does not store |
+//! | `polygons`, `clean`, `weld` | building a mesh from polygons with attributes |
+//! | `joined`, `corners`, `writing` | reducing a scene to what a format can store |
+//! | `assets`, `save` | the files that a file refers to; writing files atomically |
 //! | `parallel` | work on all threads |
 //!
 //! # Examples
@@ -85,7 +87,7 @@ use std::path::{Path, PathBuf};
 use scene::{Geometry, Object, Scene};
 use store::Store;
 
-pub use assets::FileSeen;
+pub use assets::FileDependency;
 pub use error::{ReadError, WriteError};
 pub use format::Format;
 pub use loss::Loss;
@@ -102,43 +104,43 @@ use save::{Content, save};
 /// How to read a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReadOptions {
-    /// The name of the object, in files that hold one without a name; `None` for the name of the file
-    /// without its extension. The objects of a glTF file have the names of their nodes; the name given
-    /// here stands for those that have none.
+    /// The name of an object that has no name in the file. If `None`, the name of the file without its extension.
+    /// In glTF files, objects are named after their nodes, and this name is used for nodes without a name.
     pub name: Option<String>,
-    /// What to do with polygons that make no clean mesh.
+    /// How to handle polygons that do not form a clean mesh.
     pub policies: Policies,
-    /// Whether to fail where something of the file would be left out.
+    /// Whether reading fails if anything in the file would be left out.
     pub strict: bool,
 }
 
-/// What was read from a file.
+/// The content of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Loaded {
-    /// The objects in the order of the file. Their names are unique among themselves.
+    /// The objects in the order of the file. Their names are unique within the file.
     pub objects: Vec<Object>,
-    /// What was left out or changed.
+    /// What was left out or changed by reading.
     pub notes: Vec<Note>,
-    /// The files that this depends on, each once, sorted by path.
-    pub files: Vec<FileSeen>,
+    /// The files that the result depends on, without duplicates, sorted by path.
+    pub files: Vec<FileDependency>,
 }
 
 /// How to write a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WriteOptions {
-    /// Where the content comes from, such as the digest of a recipe: a comment in OBJ, MTL, PLY and OFF, in
-    /// the header of STL, `asset.extras.meshwright` in glTF, the head of `.mws`. The Bezier formats have no place for it.
+    /// The origin of the content, such as the digest of a recipe. Stored as a comment in OBJ, MTL, PLY and OFF, in
+    /// the header of STL, as `asset.extras.meshwright` in glTF, and in the header of `.mws`. The Bezier formats
+    /// cannot store it.
     pub provenance: Option<String>,
 }
 
-/// What was written.
+/// The files that were written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WriteReport {
-    /// The files: the one that was asked for is the last.
+    /// The files. The last one is the requested file.
     pub files: Vec<PathBuf>,
-    /// How many bytes they have together.
+    /// The total size of the files in bytes.
     pub bytes: u64,
-    /// What of the scene they do not hold.
+    /// What the files do not store of the scene.
     pub losses: Vec<Loss>,
 }
 
@@ -146,11 +148,11 @@ pub struct WriteReport {
 ///
 /// # Errors
 ///
-/// [`ReadError`] if the file cannot be read or breaks the rules of its format, with the place.
+/// [`ReadError`] with the position if the file cannot be read or breaks the rules of its format.
 pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loaded, ReadError> {
     known_format(path)?;
     let mut loaded = read_bytes(store, path, store.read(path)?, options)?;
-    let seen = FileSeen {
+    let seen = FileDependency {
         path: path.to_path_buf(),
         is_read: true,
     };
@@ -160,8 +162,8 @@ pub fn read(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Loa
     Ok(loaded)
 }
 
-/// Reads the objects of a file whose bytes are given. `path` says which format it has, what errors call it
-/// and where the files beside it are. Only these are among the [`files`](Loaded::files) then.
+/// Reads the objects of a file from its bytes. `path` chooses the format, is named in errors, and locates the files
+/// that this file refers to. [`Loaded::files`] then lists the referenced files only, without `path` itself.
 ///
 /// # Errors
 ///
@@ -175,7 +177,7 @@ pub fn read_bytes(
     let mut notes = Notes::of(path);
     let mut assets = Assets::of(store, path);
     let mut objects = Vec::new();
-    for Found { name, shape } in find(bytes, options, &mut assets, &mut notes)? {
+    for ParsedObject { name, shape } in find(bytes, options, &mut assets, &mut notes)? {
         objects.push(match shape {
             Shape::Polygons(polygons) => {
                 let (mesh, materials) = polygons.into_mesh(path, options, &mut notes)?;
@@ -184,13 +186,13 @@ pub fn read_bytes(
                     ..Object::mesh(name, mesh)
                 }
             }
-            Shape::Other(geometry) => Object::new(name, geometry),
-            Shape::Whole(object) => *object,
+            Shape::Geometry(geometry) => Object::new(name, geometry),
+            Shape::Object(object) => *object,
         });
     }
     let notes = notes.into_vec();
     if options.strict {
-        refuse_left_out(path, &notes)?;
+        fail_if_left_out(path, &notes)?;
     }
     Ok(Loaded {
         objects,
@@ -199,12 +201,12 @@ pub fn read_bytes(
     })
 }
 
-/// Reads the polygons of a file as they are, without building meshes: for programs that need no
-/// connectivity. Curves, patches and polylines are left out.
+/// Reads the polygons of a file as they are, without building meshes, for programs that need no connectivity.
+/// Curves, patches and polylines are left out.
 ///
 /// # Errors
 ///
-/// As [`read()`], but for what only building finds.
+/// As [`read()`], except errors that only building a mesh can find.
 pub fn read_polygons(
     store: &dyn Store,
     path: &Path,
@@ -220,22 +222,22 @@ pub fn read_polygons(
     )?;
     let polygons = found.into_iter().filter_map(|found| match found.shape {
         Shape::Polygons(polygons) => Some((found.name, polygons)),
-        Shape::Other(_) | Shape::Whole(_) => None,
+        Shape::Geometry(_) | Shape::Object(_) => None,
     });
     Ok(polygons.collect())
 }
 
-/// What a reader finds in a file.
-struct Found {
+/// An object as a format's reader returns it.
+struct ParsedObject {
     name: String,
     shape: Shape,
 }
 
 enum Shape {
     Polygons(Polygons),
-    Other(Geometry),
-    /// An object with its name and its materials, as it was written.
-    Whole(Box<Object>),
+    Geometry(Geometry),
+    /// An object with the name and the materials that its file stores.
+    Object(Box<Object>),
 }
 
 fn find(
@@ -243,12 +245,12 @@ fn find(
     options: &ReadOptions,
     assets: &mut Assets,
     notes: &mut Notes,
-) -> Result<Vec<Found>, ReadError> {
+) -> Result<Vec<ParsedObject>, ReadError> {
     let path = assets.path;
     let name = options.name_in(path);
     let one = |shape| {
         let name = name.clone();
-        vec![Found { name, shape }]
+        vec![ParsedObject { name, shape }]
     };
     let found = match known_format(path)? {
         Format::Obj => obj::read(&bytes, assets, notes).map(one),
@@ -258,13 +260,13 @@ fn find(
         Format::Off => off::read(&bytes, notes).map(Shape::Polygons).map(one),
         Format::Dae => dae::read(&bytes, &name, notes),
         Format::Mws => mws::read(&bytes, options.name.as_deref()),
-        Format::Bez => bez::read_patches(&bytes).map(Shape::Other).map(one),
-        Format::Bzc => bez::read_curve(&bytes).map(Shape::Other).map(one),
+        Format::Bez => bez::read_patches(&bytes).map(Shape::Geometry).map(one),
+        Format::Bzc => bez::read_curve(&bytes).map(Shape::Geometry).map(one),
     };
     found.map_err(|fault| fault.in_file(path))
 }
 
-fn refuse_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
+fn fail_if_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
     let left_out = notes.iter().filter(|note| note.kind == NoteKind::LeftOut);
     let list: Vec<String> = left_out.map(ToString::to_string).collect();
     if list.is_empty() {
@@ -276,14 +278,14 @@ fn refuse_left_out(path: &Path, notes: &[Note]) -> Result<(), ReadError> {
     })
 }
 
-/// Says what reading a file will give, from its headers where it has some.
+/// Returns what reading a file will give, from the headers of the file if it has any.
 ///
-/// Bezier files are checked whole, glTF files as far as their JSON, OBJ files not at all: their
-/// statements are counted.
+/// Bezier files are checked completely and glTF files up to the end of their JSON. OBJ files are not checked: their
+/// statements are only counted.
 ///
 /// # Errors
 ///
-/// [`ReadError`] if the file cannot be read, or breaks the rules of its format where they were checked.
+/// [`ReadError`] if the file cannot be read or if the checked part breaks the rules of its format.
 pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Peek, ReadError> {
     let format = known_format(path)?;
     let bytes = match format {
@@ -311,13 +313,13 @@ pub fn peek(store: &dyn Store, path: &Path, options: &ReadOptions) -> Result<Pee
     Ok(Peek { format, objects })
 }
 
-/// Writes a scene to a file and, where the format needs them, to files beside it: `a.obj` comes with
-/// `a.mtl` if there are materials, `a.gltf` with `a.bin`. Files of these names are replaced.
+/// Writes a scene to a file and to the files that the format needs next to it: `a.obj` comes with `a.mtl` if there
+/// are materials, `a.gltf` with `a.bin`. Existing files with these names are replaced.
 ///
 /// # Errors
 ///
-/// [`WriteError`] if the format cannot hold the scene or the files cannot be written. Files of these
-/// names are then as they were.
+/// [`WriteError`] if the format cannot store the scene or the files cannot be written. Existing files are then
+/// unchanged.
 pub fn write(
     store: &dyn Store,
     path: &Path,
@@ -326,7 +328,7 @@ pub fn write(
 ) -> Result<WriteReport, WriteError> {
     let unknown = || WriteError::UnknownFormat {
         path: path.to_path_buf(),
-        known: Format::known_to_write(),
+        known: Format::writable_extensions(),
     };
     let one = |(bytes, losses)| Written {
         files: vec![(path.to_path_buf(), bytes)],
@@ -356,25 +358,25 @@ pub fn write(
     })
 }
 
-/// The bytes of files before they are saved, and what they do not hold.
+/// The bytes of files before they are saved, and what the files do not store.
 struct Written {
-    /// In the order in which they appear in their folder.
+    /// The files in the order in which they are saved.
     files: Vec<(PathBuf, Vec<u8>)>,
     losses: Vec<Loss>,
 }
 
-/// The bytes of one file, and what it does not hold.
-type One = (Vec<u8>, Vec<Loss>);
+/// The bytes of one file, and what the file does not store.
+type SingleFile = (Vec<u8>, Vec<Loss>);
 
 fn known_format(path: &Path) -> Result<Format, ReadError> {
     Format::from_path(path).ok_or_else(|| ReadError::UnknownFormat {
         path: path.to_path_buf(),
-        known: Format::known(),
+        known: Format::readable_extensions(),
     })
 }
 
 impl ReadOptions {
-    /// The name of an object without one.
+    /// The name of an object that has no name in the file.
     fn name_in(&self, path: &Path) -> String {
         let given = self.name.clone();
         let stem = || {

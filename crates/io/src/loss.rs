@@ -1,21 +1,21 @@
-//! What a written file does not hold.
+//! What a written file does not store of a scene.
 
 use std::fmt;
 
 use mesh::{Column, Domain, Mesh};
 
-/// Something of the scene that a written file does not hold.
+/// Something of a scene that a written file does not store.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Loss {
     /// The name of the object.
     pub object: String,
-    /// What the lost values belong to; `None` if they belong to the object as a whole.
+    /// The domain of the lost values; `None` if they belong to the object as a whole.
     pub domain: Option<Domain>,
-    /// The name of the attribute, or what else it is.
+    /// The name of the attribute, or of another part of the object, such as `materials`.
     pub attribute: String,
-    /// How many values or elements it concerns.
+    /// The number of lost values or elements.
     pub count: usize,
-    /// Why the file does not hold them.
+    /// Why the file does not store them.
     pub reason: String,
 }
 
@@ -29,7 +29,7 @@ impl fmt::Display for Loss {
     }
 }
 
-/// The losses of one object.
+/// Collects the losses of one object.
 #[derive(Debug)]
 pub(crate) struct Losses<'a> {
     object: &'a str,
@@ -60,17 +60,17 @@ impl<'a> Losses<'a> {
         }
     }
 
-    /// Adds every column of `mesh` that is not `held`.
+    /// Adds a loss for every column of `mesh` that the format does not store according to `is_stored`.
     pub(crate) fn add_columns(
         &mut self,
         mesh: &Mesh,
         format: &str,
-        held: impl Fn(Domain, &Column) -> bool,
+        is_stored: impl Fn(Domain, &Column) -> bool,
     ) {
         for (domain, column) in mesh.attributes().iter() {
-            if !held(domain, column) {
+            if !is_stored(domain, column) {
                 let kind = column.values.type_name();
-                let reason = format!("{format} has no place for this {domain} attribute ({kind})");
+                let reason = format!("{format} cannot store this {domain} attribute ({kind})");
                 let count = column.values.len().max(1);
                 self.add(domain, &column.name, count, reason);
             }

@@ -2,32 +2,34 @@
 //!
 //! ```text
 //! MWS1            4 bytes
-//! u64             how many bytes the provenance has, little-endian
+//! u64             length of the provenance in bytes, little-endian
 //! ..              the provenance, UTF-8
-//! ..              the canonical form of the scene, as its digest takes it
+//! ..              the canonical form of the scene, from which its digest is computed
 //! ```
 //!
-//! Everything comes back as it was: the order of all elements, every attribute with its rule, names,
-//! materials with what they hold. For what another program is to read, take another format.
+//! Reading restores everything: the order of all elements, every attribute with its rule, names, and materials with
+//! their content. Other programs do not read this format.
 
 use scene::{NoArrays, Object, Scene};
 
 use crate::fault::Fault;
-use crate::{Found, One, PeekGeometry, PeekObject, Shape, WriteOptions};
+use crate::{ParsedObject, PeekGeometry, PeekObject, Shape, SingleFile, WriteOptions};
 
 const MAGIC: &[u8; 4] = b"MWS1";
 const HEADER: usize = MAGIC.len() + size_of::<u64>();
 
-/// Reads the objects of a file. One object alone may be given another name.
-pub(crate) fn read(bytes: &[u8], name: Option<&str>) -> Result<Vec<Found>, Fault> {
-    let objects = objects(bytes, name)?.into_iter().map(|object| Found {
-        name: object.name.clone(),
-        shape: Shape::Whole(object.into()),
-    });
+/// Reads the objects of a file. If the file holds a single object, `name` replaces its name.
+pub(crate) fn read(bytes: &[u8], name: Option<&str>) -> Result<Vec<ParsedObject>, Fault> {
+    let objects = objects(bytes, name)?
+        .into_iter()
+        .map(|object| ParsedObject {
+            name: object.name.clone(),
+            shape: Shape::Object(object.into()),
+        });
     Ok(objects.collect())
 }
 
-/// What reading will give: the file is read whole, since all of it must be sound.
+/// Returns what reading will give. Decodes the whole file, because all of it must be valid.
 pub(crate) fn peek(bytes: &[u8], name: Option<&str>) -> Result<Vec<PeekObject>, Fault> {
     let objects = objects(bytes, name)?.into_iter().map(|object| PeekObject {
         geometry: PeekGeometry::of(&object.geometry),
@@ -48,8 +50,8 @@ fn objects(bytes: &[u8], name: Option<&str>) -> Result<Vec<Object>, Fault> {
     Ok(objects)
 }
 
-/// The file of a scene. Nothing is lost.
-pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> One {
+/// Writes a scene. Nothing is lost.
+pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> SingleFile {
     let provenance = options.provenance.as_deref().unwrap_or_default();
     let mut bytes = MAGIC.to_vec();
     bytes.extend_from_slice(&(provenance.len() as u64).to_le_bytes());
@@ -58,14 +60,14 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> One {
     (bytes, Vec::new())
 }
 
-/// The provenance of a file, if its beginning is that of a scene.
+/// Returns the provenance of a file, if the file is a Meshwright scene and stores one.
 pub(crate) fn provenance(bytes: &[u8]) -> Option<String> {
     let (provenance, _) = split(bytes)?;
     let text = std::str::from_utf8(provenance).ok()?;
     (!text.is_empty()).then(|| text.to_owned())
 }
 
-/// The provenance and the canonical form.
+/// Splits a file into the provenance and the canonical form.
 fn split(bytes: &[u8]) -> Option<(&[u8], &[u8])> {
     let rest = bytes.strip_prefix(MAGIC)?;
     let (length, rest) = rest.split_first_chunk()?;
@@ -104,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_comes_back_bit_for_bit() {
+    fn reading_restores_a_written_scene_bit_for_bit() {
         let (store, path) = (Memory::default(), "a.mws".as_ref());
         let report = write_file(&store, path, &scene(), &WriteOptions::default()).unwrap();
         assert_eq!(report.losses, []);
@@ -132,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn every_shortened_and_every_changed_file_is_read_or_refused() {
+    fn shortened_files_fail_and_changed_files_fail_or_give_valid_meshes() {
         let (whole, _) = write(&scene(), &WriteOptions::default());
         for n in 0..whole.len() {
             assert!(objects(&whole[..n], None).is_err(), "{n} bytes");
@@ -140,7 +142,7 @@ mod tests {
         for i in 0..whole.len() {
             let mut changed = whole.clone();
             changed[i] ^= 1 << (i % 8);
-            // What is still a scene is a sound one.
+            // A changed file that can still be decoded gives valid meshes.
             for object in objects(&changed, None).into_iter().flatten() {
                 if let Some(mesh) = object.as_mesh() {
                     assert_eq!(mesh.defects(), [], "byte {i}");

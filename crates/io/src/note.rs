@@ -1,4 +1,4 @@
-//! What reading changed or left out: nothing is dropped silently.
+//! What reading changed or left out. Nothing is dropped silently.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -7,44 +7,44 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use mesh::{Elements, VertexId};
 
-/// Something that a reader did not take as it stands in the file.
+/// Something in a file that a reader changed or left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Note {
-    /// Whether something is missing from the scene or only has another form.
+    /// Whether something is missing from the scene or only has a different form.
     pub kind: NoteKind,
-    /// The file that holds it: the one that was read or one that it refers to.
+    /// The file that the note is about: the requested file or a file that it refers to.
     pub path: PathBuf,
-    /// The first line that it concerns, from 1, in text files.
+    /// The first line that the note is about, from 1. Only in text files.
     pub line: Option<usize>,
-    /// How many there are of what the note is about.
+    /// The number of things that the note is about.
     pub count: usize,
-    /// What it is and what became of it, as words that follow the count: `statements 'vp' left out`.
+    /// The things and what became of them, as words that follow the count: `statements 'vp' left out`.
     pub what: String,
-    /// The elements of the file that it concerns, where they are known.
+    /// The affected elements of the file, if they are known.
     pub elements: Option<Elements>,
-    /// Where the first of these elements are, at most [`MOST_PLACES`](Self::MOST_PLACES) of them, in scene units: one
-    /// point of a vertex, both ends of an edge, the corners of a face in order.
+    /// The positions of the first elements, at most [`MAX_PLACES`](Self::MAX_PLACES), in scene units: one point for
+    /// a vertex, both ends for an edge, the corners in order for a face.
     pub places: Vec<Vec<DVec3>>,
 }
 
 impl Note {
-    /// Of so many elements it is kept where they are.
-    pub const MOST_PLACES: usize = 10_000;
+    /// The largest number of elements whose positions are stored.
+    pub const MAX_PLACES: usize = 10_000;
 }
 
-/// Polygons as a file gives them, to say where elements of them are.
+/// The polygons of a file, to look up the positions of elements.
 #[derive(Clone, Copy)]
-pub(crate) struct Given<'a> {
-    /// Of the vertices.
+pub(crate) struct PolygonArrays<'a> {
+    /// The position of each vertex.
     pub(crate) positions: &'a [DVec3],
-    /// Where the corners of each polygon begin, and where the last one's end.
+    /// Where the corners of each polygon begin, followed by where those of the last one end.
     pub(crate) offsets: &'a [u32],
-    /// The vertices of the corners.
+    /// The vertex of each corner.
     pub(crate) corners: &'a [u32],
 }
 
-impl Given<'_> {
-    /// As [`Note::places`].
+impl PolygonArrays<'_> {
+    /// The positions of elements, as [`Note::places`] stores them.
     pub(crate) fn places(&self, elements: &Elements) -> Vec<Vec<DVec3>> {
         let at = |v: usize| self.positions.get(v).copied();
         let vertex = |v: VertexId| at(v.index());
@@ -53,7 +53,7 @@ impl Given<'_> {
             let corners = self.corners.get(first as usize..end as usize)?.iter();
             corners.map(|&v| at(v as usize)).collect()
         };
-        let most = Note::MOST_PLACES;
+        let most = Note::MAX_PLACES;
         let edge = |ends: &[VertexId; 2]| ends.iter().map(|&v| vertex(v)).collect();
         match elements {
             Elements::Vertices(list) => {
@@ -66,12 +66,12 @@ impl Given<'_> {
     }
 }
 
-/// What kind of news a [`Note`] is.
+/// What a [`Note`] reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NoteKind {
     /// The file holds something that the scene does not.
     LeftOut,
-    /// The scene holds it in another form than the file.
+    /// The scene holds it in a different form than the file.
     Changed,
 }
 
@@ -89,16 +89,17 @@ impl fmt::Display for Note {
     }
 }
 
-/// Behind so many notes further ones are only counted: a file can give cause for one with every few bytes.
-const MOST: usize = 1000;
+/// The largest number of notes in the list. Further notes are only counted, because every few bytes of a file can
+/// cause a note.
+const MAX_LISTED: usize = 1000;
 
-/// The notes about one file, while it is being read.
+/// Collects the notes about one file while it is read.
 #[derive(Debug)]
 pub(crate) struct Notes {
     path: PathBuf,
     list: Vec<Note>,
-    /// How many there are behind those of the list.
-    further: BTreeMap<NoteKind, usize>,
+    /// The number of notes that are counted but not listed.
+    unlisted: BTreeMap<NoteKind, usize>,
 }
 
 impl Notes {
@@ -106,7 +107,7 @@ impl Notes {
         Self {
             path: path.to_path_buf(),
             list: Vec::new(),
-            further: BTreeMap::new(),
+            unlisted: BTreeMap::new(),
         }
     }
 
@@ -130,7 +131,7 @@ impl Notes {
         self.add(NoteKind::Changed, count, line.into(), what.into());
     }
 
-    /// Adds a note about these elements, which are at these places, unless there are none.
+    /// Adds a note about these elements and their positions, unless there are none.
     pub(crate) fn elements(
         &mut self,
         kind: NoteKind,
@@ -168,28 +169,28 @@ impl Notes {
         if note.count == 0 {
             return;
         }
-        if self.list.len() < MOST {
+        if self.list.len() < MAX_LISTED {
             self.list.push(note);
         } else {
-            *self.further.entry(note.kind).or_default() += 1;
+            *self.unlisted.entry(note.kind).or_default() += 1;
         }
     }
 
-    /// Adds the notes about another file.
+    /// Adds the notes about a file that this file refers to.
     pub(crate) fn append(&mut self, other: Self) {
         for note in other.list {
             self.push(note);
         }
-        for (kind, count) in other.further {
-            *self.further.entry(kind).or_default() += count;
+        for (kind, count) in other.unlisted {
+            *self.unlisted.entry(kind).or_default() += count;
         }
     }
 
     pub(crate) fn into_vec(mut self) -> Vec<Note> {
-        for (kind, count) in std::mem::take(&mut self.further) {
+        for (kind, count) in std::mem::take(&mut self.unlisted) {
             let what = match kind {
-                NoteKind::LeftOut => "further notes of what is left out",
-                NoteKind::Changed => "further notes of what is changed",
+                NoteKind::LeftOut => "more notes about content left out",
+                NoteKind::Changed => "more notes about changed content",
             };
             let note = self.note(kind, count, None, what.to_owned());
             self.list.push(note);
@@ -198,16 +199,16 @@ impl Notes {
     }
 }
 
-/// Makes names different from each other.
+/// Makes names unique.
 #[derive(Default)]
 pub(crate) struct Names {
     taken: BTreeSet<String>,
-    /// The number that was last put behind a name.
+    /// The last number that was appended to each name.
     last: BTreeMap<String, usize>,
 }
 
 impl Names {
-    /// `name`, or `name.2`, `name.3` and so on if that is taken, with a note.
+    /// Returns `name` or, if it is taken, `name.2`, `name.3` and so on, with a note.
     pub(crate) fn unique(&mut self, name: &str, notes: &mut Notes) -> String {
         let mut new = name.to_owned();
         while !self.taken.insert(new.clone()) {
@@ -215,7 +216,7 @@ impl Names {
             *last += 1;
             new = format!("{name}.{last}");
         }
-        let what = format!("node named `{name}` is now called `{new}`: the name is taken");
+        let what = format!("node named `{name}` renamed to `{new}`: the name is taken");
         notes.changed(usize::from(new != name), None, what);
         new
     }
@@ -237,7 +238,7 @@ mod tests {
         let list = all.into_vec();
         assert_eq!(list.len(), 1002);
         let [left_out, changed] = [&list[1000], &list[1001]].map(ToString::to_string);
-        assert_eq!(left_out, "b: 1000 further notes of what is left out");
-        assert_eq!(changed, "b: 1000 further notes of what is changed");
+        assert_eq!(left_out, "b: 1000 more notes about content left out");
+        assert_eq!(changed, "b: 1000 more notes about changed content");
     }
 }

@@ -1,8 +1,7 @@
-//! Work on all threads, in blocks of elements.
+//! Runs work on all threads, in blocks of elements.
 //!
-//! One loop of rayon does all of it. The compiler makes a copy of such a loop for every closure that it is
-//! called with, and each copy costs more than the work in it: so the loop knows its work by a pointer, which is
-//! followed once a block.
+//! All functions share one rayon loop. The compiler generates a copy of a generic loop for every closure, and these
+//! copies are expensive, so the shared loop calls its work through a pointer, once for each block.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -11,7 +10,7 @@ use std::sync::{Mutex, PoisonError};
 use bytemuck::Zeroable;
 use rayon::prelude::*;
 
-/// How many elements a block has: enough that handing them to a thread takes no time beside the work.
+/// The number of elements in a block: enough to make the cost of scheduling negligible.
 pub(crate) const BLOCK: usize = 4096;
 
 /// Calls `work` with each number below `n`.
@@ -19,12 +18,12 @@ fn each(n: usize, work: &(dyn Fn(usize) + Sync)) {
     match n {
         0 => {}
         1 => work(0),
-        // Any thread may take any of them: each is worth the trouble.
+        // Each item is large enough to be scheduled separately.
         _ => (0..n).into_par_iter().with_max_len(1).for_each(work),
     }
 }
 
-/// Hands each item to `work`, with its number. Returns what it makes of them.
+/// Calls `work` with the index of each item and the item, and returns the results in order.
 pub(crate) fn consume<P: Send, R: Send>(
     items: impl IntoIterator<Item = P>,
     work: impl Fn(usize, P) -> R + Sync,
@@ -37,31 +36,34 @@ pub(crate) fn consume<P: Send, R: Send>(
             slot.1 = Some(work(i, item));
         }
     });
-    let made = slots
+    let results = slots
         .into_iter()
         .map(|slot| slot.into_inner().unwrap_or_else(PoisonError::into_inner).1);
-    made.flatten().collect()
+    results.flatten().collect()
 }
 
-/// What `make` makes of each number below `n`.
+/// Returns the results of `make` for each number below `n`.
 pub(crate) fn map<R: Send>(n: usize, make: impl Fn(usize) -> R + Sync) -> Vec<R> {
     consume(0..n, |_, i| make(i))
 }
 
-/// What `make` makes of each block of the numbers below `n`.
+/// Returns the results of `make` for each block of the numbers below `n`.
 pub(crate) fn blocks<R: Send>(n: usize, make: impl Fn(Range<usize>) -> R + Sync) -> Vec<R> {
     map(n.div_ceil(BLOCK), |block| {
         make(block * BLOCK..n.min((block + 1) * BLOCK))
     })
 }
 
-/// Hands blocks of `out` to `work`, each with the number of its first element.
+/// Calls `work` with each block of `out` and the index of its first element.
 pub(crate) fn fill<T: Send>(out: &mut [T], work: impl Fn(usize, &mut [T]) + Sync) {
     consume(out.chunks_mut(BLOCK), |block, out| work(block * BLOCK, out));
 }
 
-/// The parts of a list that end at these places: the first begins at 0.
-pub(crate) fn parts<T>(mut list: &mut [T], ends: impl IntoIterator<Item = usize>) -> Vec<&mut [T]> {
+/// Splits a list into parts that end at the given indices. The first part begins at 0.
+pub(crate) fn split_at_ends<T>(
+    mut list: &mut [T],
+    ends: impl IntoIterator<Item = usize>,
+) -> Vec<&mut [T]> {
     let mut start = 0;
     let part = |end| {
         let (part, rest) = std::mem::take(&mut list).split_at_mut(end - start);
@@ -71,7 +73,7 @@ pub(crate) fn parts<T>(mut list: &mut [T], ends: impl IntoIterator<Item = usize>
     ends.into_iter().map(part).collect()
 }
 
-/// The value of each number below `n`.
+/// Returns the value for each number below `n`.
 pub(crate) fn collect<T: Zeroable + Send>(n: usize, value: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let mut all = mesh::zeroed(n);
     fill(&mut all, |first, out| {
@@ -87,20 +89,20 @@ pub(crate) fn change<T: Send>(all: &mut [T], change: impl Fn(&mut T) + Sync) {
     fill(all, |_, block| block.iter_mut().for_each(&change));
 }
 
-/// The numbers below `n` for which `is` holds, in their order.
+/// Returns the numbers below `n` for which `is` returns true, in order.
 pub(crate) fn filter(n: usize, is: impl Fn(usize) -> bool + Sync) -> Vec<usize> {
     blocks(n, |block| block.filter(|&i| is(i)).collect::<Vec<_>>()).concat()
 }
 
-/// For how many of the numbers below `n` it holds.
+/// Counts the numbers below `n` for which `is` returns true.
 pub(crate) fn count(n: usize, is: impl Fn(usize) -> bool + Sync) -> usize {
     blocks(n, |block| block.filter(|&i| is(i)).count())
         .into_iter()
         .sum()
 }
 
-/// For each number below `n` whether it is among the `indices`.
-pub(crate) fn named(n: usize, indices: &[u32]) -> Vec<AtomicBool> {
+/// Returns for each number below `n` whether it occurs in `indices`.
+pub(crate) fn index_flags(n: usize, indices: &[u32]) -> Vec<AtomicBool> {
     let named: Vec<AtomicBool> = (0..n).map(|_| AtomicBool::new(false)).collect();
     blocks(indices.len(), |block| {
         for &index in &indices[block] {
@@ -112,7 +114,7 @@ pub(crate) fn named(n: usize, indices: &[u32]) -> Vec<AtomicBool> {
     named
 }
 
-/// Whether it holds for all numbers below `n`.
+/// Returns whether `is` returns true for all numbers below `n`.
 pub(crate) fn all(n: usize, is: impl Fn(usize) -> bool + Sync) -> bool {
     let all = AtomicBool::new(true);
     blocks(n, |mut block| {
@@ -128,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_element_is_met_once_and_in_order() {
+    fn every_element_is_processed_once_and_in_order() {
         for n in [0, 1, BLOCK, BLOCK + 1, 5 * BLOCK - 1] {
             assert_eq!(map(n, |i| i), (0..n).collect::<Vec<_>>());
             assert_eq!(collect(n, |i| i), (0..n).collect::<Vec<_>>());
@@ -150,9 +152,9 @@ mod tests {
     }
 
     #[test]
-    fn parts_follow_each_other() {
+    fn split_parts_follow_each_other() {
         let mut list = [1, 2, 3, 4];
-        let parts = parts(&mut list, [1, 1, 4]);
+        let parts = split_at_ends(&mut list, [1, 1, 4]);
         assert_eq!(parts, [&[1][..], &[], &[2, 3, 4]]);
     }
 }

@@ -1,4 +1,4 @@
-//! What a file holds, found out without building it: for a forecast before anything runs.
+//! What a file holds, without building its objects. Used to estimate a run before it starts.
 
 use mesh::{COLOR, CORNER_NORMAL, Domain, MATERIAL, Mesh, UV, VERTEX_NORMAL};
 use scene::Geometry;
@@ -10,39 +10,39 @@ use crate::Format;
 pub struct Peek {
     /// The format of the file.
     pub format: Format,
-    /// The objects that reading would give, in their order and with their names.
+    /// The objects that reading the file would give, in order and with their names.
     pub objects: Vec<PeekObject>,
 }
 
-/// What an object of a file will be.
+/// An object that reading a file would give.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PeekObject {
-    /// The name that it will have.
+    /// The name of the object.
     pub name: String,
-    /// The kind of its geometry and its counts.
+    /// The kind and the counts of its geometry.
     pub geometry: PeekGeometry,
 }
 
-/// The kind of geometry of an object, and how large it is.
+/// The kind and the counts of an object's geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PeekGeometry {
     /// A mesh.
     Mesh(PeekMesh),
     /// Bezier patches.
     Patches {
-        /// How many.
+        /// The number of patches.
         patches: u64,
     },
     /// A Bezier curve.
     Curve {
-        /// How many control points.
+        /// The number of control points.
         points: u64,
     },
-    /// Open chains of points.
+    /// Open polylines.
     Polylines {
-        /// How many chains.
+        /// The number of polylines.
         lines: u64,
-        /// How many points in all of them.
+        /// The total number of points.
         points: u64,
     },
 }
@@ -65,25 +65,25 @@ impl PeekGeometry {
     }
 }
 
-/// The counts and attributes of a mesh as its file states them.
+/// The counts and attributes of a mesh according to its file.
 ///
-/// The mesh that is read has no more faces and corners. It may have more vertices where the faces are
-/// no manifold, by the split copies, and fewer where a glTF file has one for each side of a seam.
+/// Reading never gives more faces or corners than this. It can give more vertices, because non-manifold vertices
+/// and edges are split, and fewer vertices, because a glTF file has a vertex for each side of a seam.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[expect(
     clippy::struct_excessive_bools,
     reason = "attributes do not depend on each other"
 )]
 pub struct PeekMesh {
-    /// How many vertices.
+    /// The number of vertices.
     pub vertices: u64,
-    /// How many faces.
+    /// The number of faces.
     pub faces: u64,
-    /// How many corners all faces have together.
+    /// The number of corners of all faces.
     pub corners: u64,
-    /// The fewest corners of a face; 0 without faces.
+    /// The smallest number of corners of a face; 0 without faces.
     pub min_degree: u64,
-    /// The most corners of a face; 0 without faces.
+    /// The largest number of corners of a face; 0 without faces.
     pub max_degree: u64,
     /// Whether corners have texture coordinates.
     pub uvs: bool,
@@ -113,7 +113,7 @@ impl PeekMesh {
         peek
     }
 
-    /// Adds the faces of another.
+    /// Adds the faces of `other`.
     pub(crate) fn add(&mut self, other: &Self) {
         if other.faces == 0 {
             return;

@@ -1,25 +1,25 @@
-//! What to do with polygons that make no clean mesh.
+//! How a reader handles polygons that do not form a clean mesh.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What to do with polygons that make no clean mesh.
+/// How to handle polygons that do not form a clean mesh.
 ///
-/// Two things need no choice: a corner that repeats the one before it is taken once (`f 1 2 2 3` is a
-/// triangle), and a face that still visits a vertex twice is left out, because no mesh has it. Whatever is
-/// done is counted in a [`Note`](crate::Note) with its elements.
+/// Two cases are not configurable. A corner that repeats the corner before it is removed (`f 1 2 2 3` is a
+/// triangle), and a face that still visits a vertex twice is left out, because a mesh cannot represent it. Every
+/// change is reported as a [`Note`](crate::Note) with the affected elements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Policies {
-    /// Edges with more than two faces, vertices that join faces which share no edge.
+    /// Edges with more than two faces, and vertices that join faces which share no edge.
     pub non_manifold: NonManifold,
-    /// Neighbors that run the same way along the edge between them.
+    /// Neighboring faces with opposite orientation, which run in the same direction along their common edge.
     pub orientation: Orientation,
-    /// Faces with the same vertices as an earlier one in the same circular order, either way round.
+    /// Faces with the same vertices as an earlier face in the same circular order, in either direction.
     pub duplicates: CleanupPolicy,
-    /// Faces without area: below 1e-14 of the square of their longest side, which is what rounding leaves
-    /// of zero.
+    /// Faces without area: less than 1e-14 times the square of their longest side, which is the rounding error of
+    /// an area of zero.
     pub degenerate: CleanupPolicy,
-    /// Vertices that no face uses.
+    /// Vertices without a face.
     pub isolated: CleanupPolicy,
 }
 
@@ -27,31 +27,31 @@ pub struct Policies {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum NonManifold {
-    /// Split edges and vertices until they do, and list it.
+    /// Split edges and vertices until the faces form a manifold, and list the splits.
     #[default]
     Split,
     /// Fail.
     Refuse,
 }
 
-/// What to do where neighboring faces disagree about their orientation.
+/// What to do where neighboring faces have opposite orientations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Orientation {
-    /// Reverse faces where that makes neighbors agree, and list them.
+    /// Reverse faces so that neighbors agree, where that is possible, and list the reversed faces.
     #[default]
     Orient,
-    /// Leave every face as it is. Neighbors that disagree form no manifold.
+    /// Keep the orientation of every face. An edge between faces of opposite orientation counts as non-manifold.
     Keep,
 }
 
-/// What to do with elements that may be of no use.
+/// What to do with elements that are probably not needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum CleanupPolicy {
     /// Keep them.
     #[default]
     Keep,
-    /// Leave them out, and list them. Of duplicates the first stays.
+    /// Leave them out, and list them. Of several duplicates, the first is kept.
     Drop,
 }

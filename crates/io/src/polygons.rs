@@ -1,4 +1,4 @@
-//! Polygons with attributes as a file has them, and the way from there to a mesh.
+//! Polygons with attributes as a file stores them, and building a mesh from them.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -10,30 +10,32 @@ use mesh::{
 };
 use scene::Material;
 
-use crate::clean::{Kept, clean, gather};
+use crate::clean::{SourcePolygons, clean, gather};
 use crate::error::ReadError;
-use crate::note::{Given, NoteKind, Notes};
+use crate::note::{NoteKind, Notes, PolygonArrays};
 use crate::{NonManifold, Orientation, Policies, ReadOptions, parallel};
 
-/// Polygons as flat arrays in the order of a file: nothing merged, split or left out.
+/// Polygons as flat arrays in the order of a file. Nothing is merged, split or left out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygons {
-    /// Where the vertices are.
+    /// The position of each vertex.
     pub positions: Vec<DVec3>,
-    /// Polygon f has the corners from `offsets[f]` to `offsets[f + 1]`; one more than there are polygons.
+    /// Polygon f has the corners from `offsets[f]` to `offsets[f + 1]`, exclusive. Has one more entry than there
+    /// are polygons.
     pub offsets: Vec<u32>,
-    /// For each corner its vertex, from 0; counter-clockwise around each polygon.
+    /// The index of the vertex of each corner, counter-clockwise around each polygon.
     pub corners: Vec<u32>,
-    /// Values of vertices, of corners (in the order of `corners`) and of faces.
+    /// Attributes of vertices, of corners (in the order of `corners`) and of faces.
     pub attributes: Attributes,
-    /// What the face attribute `material` refers to.
+    /// The materials that the face attribute `material` refers to.
     pub materials: Vec<Material>,
 }
 
-/// What the tag of an object's faces begins with.
+/// The prefix of tags that mark the faces of an object.
 pub(crate) const OBJECT_TAG: &str = "o:";
 
-/// How many groups, objects or solids of a file become tags of so many faces. A tag takes a byte for each face.
+/// The largest number of groups, objects or solids of a file that become tags, for a mesh with `n_faces` faces. A
+/// tag takes a byte for each face.
 pub(crate) fn most_tags(n_faces: usize) -> usize {
     const MOST: usize = 4096;
     const MOST_BYTES: usize = 1 << 28;
@@ -53,26 +55,26 @@ impl Default for Polygons {
 }
 
 impl Polygons {
-    /// How many polygons there are.
+    /// The number of polygons.
     pub fn n_faces(&self) -> usize {
         self.offsets.len() - 1
     }
 
-    /// What stands where, for notes.
-    pub(crate) fn given(&self) -> Given<'_> {
-        Given {
+    /// The arrays from which notes look up positions.
+    pub(crate) fn arrays(&self) -> PolygonArrays<'_> {
+        PolygonArrays {
             positions: &self.positions,
             offsets: &self.offsets,
             corners: &self.corners,
         }
     }
 
-    /// Where each of `n` polygons of the same degree begins, and where the last one ends; the total fits 32 bits.
+    /// The offsets of `n` polygons of the same degree. The total must fit in 32 bits.
     pub(crate) fn even_offsets(n: usize, degree: usize) -> Vec<u32> {
         parallel::collect(n + 1, |f| u32::try_from(f * degree).unwrap_or(u32::MAX))
     }
 
-    /// Adds a column of values.
+    /// Adds an attribute.
     pub(crate) fn insert<T: Value>(
         &mut self,
         domain: Domain,
@@ -88,7 +90,7 @@ impl Polygons {
         self.attributes.insert(domain, column);
     }
 
-    /// Adds a known attribute.
+    /// Adds a predefined attribute.
     pub(crate) fn insert_known<I: Id, T: Value>(
         &mut self,
         attribute: Attribute<I, T>,
@@ -97,19 +99,19 @@ impl Polygons {
         self.insert(I::DOMAIN, attribute.name, attribute.rule, values);
     }
 
-    /// Puts the polygons where a node has them: its placement turns normals too, and turns faces round where it
-    /// mirrors them. Returns how many normals are left out because the placement is flat.
-    pub(crate) fn place(&mut self, to_scene: &DAffine3) -> usize {
+    /// Applies the transform of a node: transforms positions and normals, and reverses the faces if the transform
+    /// mirrors. Returns the number of normals that are left out because the transform is singular.
+    pub(crate) fn apply_transform(&mut self, to_scene: &DAffine3) -> usize {
         if *to_scene == DAffine3::IDENTITY {
             return 0;
         }
         parallel::change(&mut self.positions, |p| *p = to_scene.transform_point3(*p));
-        let turn = to_scene.matrix3.inverse().transpose();
+        let normal_matrix = to_scene.matrix3.inverse().transpose();
         let mut lost = 0;
         if let Some(mut column) = self.attributes.remove(Domain::Corner, CORNER_NORMAL.name) {
-            if turn.is_finite() {
+            if normal_matrix.is_finite() {
                 let normals = DVec3::of_mut(&mut column.values).unwrap_or_default();
-                parallel::change(normals, |n| *n = (turn * *n).normalize_or_zero());
+                parallel::change(normals, |n| *n = (normal_matrix * *n).normalize_or_zero());
                 self.attributes.insert(Domain::Corner, column);
             } else {
                 lost = column.values.len();
@@ -118,7 +120,7 @@ impl Polygons {
         if to_scene.matrix3.determinant() < 0.0 {
             let mut order: Vec<u32> = (0..).take(self.corners.len()).collect();
             for ends in self.offsets.windows(2) {
-                // The first corner stays the first.
+                // The first corner stays first.
                 order[ends[0] as usize + 1..ends[1] as usize].reverse();
             }
             let corners = &self.corners;
@@ -128,13 +130,13 @@ impl Polygons {
         lost
     }
 
-    /// The mesh of these polygons, and their materials. Values of corners become values of vertices where
-    /// the corners of each vertex agree, unless vertices have some of this name; texture coordinates (names
-    /// that begin with `uv`) stay with the corners.
+    /// Builds a mesh of these polygons, and returns it with the materials. A corner attribute becomes a vertex
+    /// attribute if the corners of each vertex have the same value and no vertex attribute has its name. Texture
+    /// coordinates (names that begin with `uv`) stay on the corners.
     ///
     /// # Errors
     ///
-    /// [`ReadError::Mesh`] if the polygons cannot become a mesh, or the options refuse what they are.
+    /// [`ReadError::Mesh`] if the polygons do not form a valid mesh or the policies refuse them.
     pub(crate) fn into_mesh(
         mut self,
         path: &Path,
@@ -149,14 +151,14 @@ impl Polygons {
         }
         let sources = Sources::of(&built, n_positions);
         for (domain, mut column) in self.attributes {
-            column.values = sources.moved(domain, column.values);
+            column.values = sources.gather(domain, column.values);
             let mut domain = domain;
-            // Those of vertices come first, and stay.
+            // Vertex attributes come first and take precedence.
             let vertices = built.mesh.attributes();
             if domain == Domain::Corner
                 && !column.name.starts_with("uv")
                 && vertices.column(Domain::Vertex, &column.name).is_none()
-                && let Some(values) = agreed(&built.mesh, &column.values, |a, b| {
+                && let Some(values) = vertex_values(&built.mesh, &column.values, |a, b| {
                     column.values.are_equal(a, b)
                 })
             {
@@ -167,16 +169,16 @@ impl Polygons {
         Ok((built.mesh, self.materials))
     }
 
-    /// Builds a mesh of polygons; see [`mesh::build()`]. `kept` says which polygons of the file they are.
+    /// Builds a mesh of the polygons; see [`mesh::build()`]. `kept` lists the indices of the polygons in the file.
     ///
     /// # Errors
     ///
-    /// If there are too many, or they are no manifold and the policies refuse that.
+    /// If there are too many elements, or if the polygons do not form a manifold and the policies refuse that.
     fn build(
         &mut self,
         path: &Path,
         policies: Policies,
-        kept: &Kept,
+        kept: &SourcePolygons,
         notes: &mut Notes,
     ) -> Result<BuildOutput, ReadError> {
         let positions = std::mem::take(&mut self.positions);
@@ -197,8 +199,8 @@ impl Polygons {
                 source,
             }
         })?;
-        // Copies of vertices come behind the vertices that were given.
-        let given = Given {
+        // Copies of split vertices come after the original vertices.
+        let given = PolygonArrays {
             positions: built.mesh.positions(),
             offsets,
             corners,
@@ -211,7 +213,7 @@ impl Polygons {
             let places = given.places(&repair.elements);
             let elements = match repair.elements {
                 Elements::Faces(faces) => Elements::Faces(faces.into_iter().map(in_file).collect()),
-                others => others,
+                elements => elements,
             };
             notes.elements(kind, repair.description, elements, places);
         }
@@ -219,14 +221,14 @@ impl Polygons {
     }
 }
 
-/// For each element that was built the one of the input that it takes its values from.
+/// For each element of the mesh, the element of the input that it takes its attribute values from.
 struct Sources {
     n_positions: usize,
-    /// The vertices behind the positions, in order.
+    /// The original vertex of each copy. Copies come after the original vertices.
     copies: Vec<usize>,
-    /// For each half-edge one more than its corner, 0 where there is no face. Each is written once.
+    /// For each half-edge, the index of its corner plus 1; 0 without a face. Each entry is written once.
     corners: Vec<AtomicU32>,
-    /// For each face its polygon; `None` if every polygon is the face of its number.
+    /// For each face its polygon; `None` if faces and polygons have the same indices.
     faces: Option<Vec<u32>>,
 }
 
@@ -259,8 +261,8 @@ impl Sources {
         }
     }
 
-    /// Values of the input as values of what was built.
-    fn moved(&self, domain: Domain, values: Values) -> Values {
+    /// Reorders values of the input for the elements of the mesh.
+    fn gather(&self, domain: Domain, values: Values) -> Values {
         match (domain, &self.faces) {
             (Domain::Vertex, _) if !self.copies.is_empty() => {
                 let n = self.n_positions + self.copies.len();
@@ -278,8 +280,9 @@ impl Sources {
     }
 }
 
-/// The values of vertices, if the corners of each have the `same`; zero where a vertex has no corner.
-pub(crate) fn agreed(
+/// The values of vertices, if the corners of each vertex have the `same` value; otherwise `None`. Zero for vertices
+/// without a corner.
+pub(crate) fn vertex_values(
     mesh: &Mesh,
     values: &Values,
     same: impl Fn(usize, usize) -> bool + Sync,

@@ -1,4 +1,4 @@
-//! What a file says of where it comes from: the counterpart of
+//! Reading the provenance that a file stores: the counterpart of
 //! [`WriteOptions::provenance`](crate::WriteOptions::provenance).
 
 use std::path::Path;
@@ -8,13 +8,13 @@ use store::Store;
 
 use crate::{Format, ReadError, gltf, mws};
 
-/// As much of the beginning of a file is looked at.
+/// The number of bytes at the beginning of a file that are searched.
 const HEAD: u64 = 1 << 20;
 
-/// The text that a file carries about where it comes from; `None` if it carries none, or is of a format
-/// without a place for it. MTL files and glTF's buffers are known by their endings too.
+/// Reads the provenance that a file stores; `None` if the file stores none or its format cannot store it. MTL
+/// files, and the PNG and SVG pictures that the program writes, are recognised too.
 ///
-/// STL has room for about 60 bytes only. The pictures that the program writes are known as well: PNG and SVG.
+/// In STL, provenance is cut to about 60 bytes.
 ///
 /// # Errors
 ///
@@ -29,7 +29,7 @@ pub fn provenance(store: &dyn Store, path: &Path) -> Result<Option<String>, Read
         Some(Format::Gltf | Format::Glb) => of_document(&gltf::document_of(store, path)?),
         Some(Format::Stl) => {
             let head = head(80)?;
-            // The name of the program stands before it.
+            // The name of the program comes before the provenance.
             let text = String::from_utf8_lossy(&head);
             let rest = text
                 .strip_prefix("meshwright ")
@@ -57,11 +57,11 @@ fn of_document(json: &[u8]) -> Option<String> {
     text.as_str().map(str::to_owned)
 }
 
-/// The international text of a PNG file with the keyword "Software", if it is not compressed.
+/// The uncompressed international text of a PNG file with the keyword "Software".
 ///
-/// A chunk is its length, four letters, the data, and a checksum. The data of `iTXt` are the keyword, whether and how
-/// the text is compressed, its language, the keyword in it, and the text, with zeros between (W3C, "Portable Network
-/// Graphics (PNG) Specification", 3rd edition, 2025, §11.3.3.4).
+/// A chunk consists of its length, four letters, the data, and a checksum. The data of `iTXt` are the keyword,
+/// whether and how the text is compressed, the language, the translated keyword, and the text, with zero bytes
+/// between (W3C, "Portable Network Graphics (PNG) Specification", 3rd edition, 2025, §11.3.3.4).
 fn of_png(bytes: &[u8]) -> Option<String> {
     let mut rest = bytes.strip_prefix(b"\x89PNG\r\n\x1a\n")?;
     loop {
@@ -82,9 +82,9 @@ fn of_png(bytes: &[u8]) -> Option<String> {
     }
 }
 
-/// The metadata of an SVG file, if it is a plain text.
+/// The metadata of an SVG file, if it is plain text.
 fn of_svg(bytes: &[u8]) -> Option<String> {
-    // The head may end within a character.
+    // The searched part of the file can end within a character.
     let text = String::from_utf8_lossy(bytes);
     let (_, behind) = text.split_once("<metadata>")?;
     let (text, _) = behind.split_once("</metadata>")?;
@@ -104,7 +104,7 @@ mod tests {
     use store::Disk;
 
     #[test]
-    fn every_format_gives_back_what_it_was_given() {
+    fn every_format_returns_the_provenance_that_was_written() {
         let folder = tempfile::tempdir().unwrap();
         let text = r#"meshwright 1.2.3, recipe 0123456789abcdef0123456789abcdef, {"a":"\"ä"}"#;
         let options = WriteOptions {
@@ -114,7 +114,7 @@ mod tests {
         scene
             .insert(Object::mesh("a", shapes::tetrahedron()))
             .unwrap();
-        for format in Format::all().filter(|f| f.is_written()) {
+        for format in Format::all().filter(|f| f.can_write()) {
             let path = folder.path().join(format!("a.{}", format.extension()));
             if write(&Disk, &path, &scene, &options).is_err() {
                 continue;
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn pictures_give_back_what_they_were_given() {
+    fn pictures_return_the_provenance_that_was_written() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
         let stamp = r#"meshwright 1, recipe 01, {"a":"<&>ä"}"#;
@@ -190,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn files_of_others_and_broken_ones_carry_nothing() {
+    fn files_of_other_programs_and_broken_files_have_no_provenance() {
         let folder = tempfile::tempdir().unwrap();
         let path = |name: &str| folder.path().join(name);
         for (name, bytes) in [

@@ -1,4 +1,4 @@
-//! Writing files whole or not at all, blocks of them on all threads.
+//! Writes files completely or not at all. Large files are produced in blocks on all threads.
 
 use std::io;
 use std::path::PathBuf;
@@ -8,25 +8,25 @@ use store::{NewFile, Store};
 use crate::error::WriteError;
 use crate::parallel::consume;
 
-/// What a file will hold.
+/// The content of a file that is about to be written.
 pub(crate) enum Content<'a> {
-    /// These bytes.
+    /// The bytes as they are.
     Bytes(Vec<u8>),
-    /// What these append, in their order. They are made as they are written, several at a time, so that a
-    /// large text is never in memory as a whole.
+    /// The bytes that the blocks append, in order. Blocks are produced while the file is written, several at a
+    /// time, so that a large text is never in memory as a whole.
     Blocks(Vec<Block<'a>>),
 }
 
-/// Appends a block of a file, of some hundred kilobytes.
+/// Appends a block of some hundred kilobytes to a file.
 pub(crate) type Block<'a> = Box<dyn Fn(&mut Vec<u8>) + Send + Sync + 'a>;
 
-/// Writes all files beside their places first, and puts them there only when every one is complete, in the
-/// given order. Returns their paths, and how many bytes they have together.
+/// Writes all files to temporary files first, and moves them to their paths in the given order when all are
+/// complete. Returns the paths and the total size in bytes.
 ///
 /// # Errors
 ///
-/// [`WriteError::Io`] with the file that could not be written. The files of the same names are then
-/// as they were, unless the system refused one of the last renamings.
+/// [`WriteError::Io`] with the file that could not be written. Existing files are then unchanged, unless the system
+/// refused to rename one of the last files.
 pub(crate) fn save(
     store: &dyn Store,
     files: Vec<(PathBuf, Content)>,
@@ -50,7 +50,7 @@ pub(crate) fn save(
 }
 
 impl Content<'_> {
-    /// Returns how many bytes it has.
+    /// Returns the number of bytes written.
     fn write(&self, out: &mut dyn NewFile) -> io::Result<u64> {
         let n_bytes = match self {
             Content::Bytes(bytes) => {
@@ -64,18 +64,18 @@ impl Content<'_> {
     }
 }
 
-/// Writes what the blocks append and returns how many bytes that is. While one thread writes a group of
-/// blocks, the others make the next.
+/// Writes the bytes that the blocks append, and returns their number. While one thread writes a group of blocks,
+/// the other threads produce the next group.
 fn write_blocks(out: &mut dyn NewFile, blocks: &[Block]) -> io::Result<u64> {
     let in_group = 4 * rayon::current_num_threads();
-    let mut made: Vec<Vec<u8>> = Vec::new();
+    let mut ready: Vec<Vec<u8>> = Vec::new();
     let mut spare: Vec<Vec<u8>> = Vec::new();
     let mut n_bytes = 0;
-    // The last round has nothing to make.
+    // The last round only writes.
     for group in blocks.chunks(in_group).chain([&[][..]]) {
         spare.resize_with(group.len(), Vec::new);
         let (written, ()) = rayon::join(
-            || made.iter().try_for_each(|bytes| out.write_all(bytes)),
+            || ready.iter().try_for_each(|bytes| out.write_all(bytes)),
             || {
                 consume(&mut spare, |i, bytes: &mut Vec<u8>| {
                     bytes.clear();
@@ -84,8 +84,8 @@ fn write_blocks(out: &mut dyn NewFile, blocks: &[Block]) -> io::Result<u64> {
             },
         );
         written?;
-        n_bytes += made.iter().map(|bytes| bytes.len() as u64).sum::<u64>();
-        std::mem::swap(&mut made, &mut spare);
+        n_bytes += ready.iter().map(|bytes| bytes.len() as u64).sum::<u64>();
+        std::mem::swap(&mut ready, &mut spare);
     }
     Ok(n_bytes)
 }
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn if_one_file_cannot_be_written_none_is() {
+    fn if_one_file_cannot_be_written_no_file_is_written() {
         let folder = tempfile::tempdir().unwrap();
         let a = folder.path().join("a");
         let missing = folder.path().join("no/such/b");
@@ -149,7 +149,7 @@ mod tests {
         let error = save_all(&[(&a, b""), (&missing, b"")]).unwrap_err();
 
         let expected = format!(
-            "cannot write {}: there is no such folder",
+            "cannot write {}: the folder does not exist",
             missing.display()
         );
         assert_eq!(error.to_string(), expected);
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_in_the_way_is_an_error() {
+    fn a_folder_with_the_name_of_the_file_is_an_error() {
         let folder = tempfile::tempdir().unwrap();
         assert!(save_all(&[(folder.path(), b"")]).is_err());
     }

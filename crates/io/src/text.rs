@@ -1,16 +1,16 @@
-//! Reads words and numbers from the bytes of a text, and knows the line and the column.
+//! Reads words and numbers from the bytes of a text, and tracks the line and the column.
 
 use std::str::FromStr;
 
 use crate::decimal::leading_number;
 pub(crate) use crate::decimal::push_number;
 use crate::fault::Fault;
-pub(crate) use crate::fault::{Place, name, quoted};
+pub(crate) use crate::fault::{TextPosition, name, quoted};
 
 /// The byte order mark of UTF-8.
-pub(crate) const MARK: &[u8] = b"\xef\xbb\xbf";
+pub(crate) const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Walks over the bytes of a text. Lines end in LF, CR LF or CR.
+/// Reads the bytes of a text in order. Lines end in LF, CR LF or CR.
 #[derive(Clone, Debug)]
 pub(crate) struct Cursor<'a> {
     bytes: &'a [u8],
@@ -20,10 +20,10 @@ pub(crate) struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    /// Stands on the first byte of `bytes`, behind a byte order mark.
+    /// Creates a cursor at the first byte of `bytes`, after a byte order mark if there is one.
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
-        let start = if bytes.starts_with(MARK) {
-            MARK.len()
+        let start = if bytes.starts_with(BYTE_ORDER_MARK) {
+            BYTE_ORDER_MARK.len()
         } else {
             0
         };
@@ -34,14 +34,14 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    pub(crate) fn place(&self) -> Place {
-        Place {
+    pub(crate) fn place(&self) -> TextPosition {
+        TextPosition {
             line: self.line,
             column: self.at - self.line_start + 1,
         }
     }
 
-    /// As [`Cursor::new`], for a part of a text: a byte order mark is no mark there.
+    /// Creates a cursor for a part of a text that is not at its beginning, where a byte order mark is not skipped.
     pub(crate) fn inside(bytes: &'a [u8]) -> Self {
         Self {
             bytes,
@@ -51,25 +51,25 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The bytes from the cursor on.
+    /// The bytes from the cursor to the end.
     pub(crate) fn ahead(&self) -> &'a [u8] {
         &self.bytes[self.at..]
     }
 
-    /// Passes over `length` bytes, which are the rest of a line and its end.
+    /// Skips `length` bytes, which must be the rest of a line including its end.
     pub(crate) fn pass_line(&mut self, length: usize) {
         self.at += length;
         self.line += 1;
         self.line_start = self.at;
     }
 
-    /// How many bytes are left.
+    /// The number of bytes left.
     pub(crate) fn remaining(&self) -> usize {
         self.bytes.len() - self.at
     }
 
-    /// Whether so many words may follow: each takes a byte and what parts it from the next; the last line may
-    /// have no end.
+    /// Whether the remaining bytes can hold `n` times `words_each` words. Each word takes at least one byte and a
+    /// separator; the last line can lack a line end.
     pub(crate) fn has_room(&self, n: usize, words_each: usize) -> bool {
         let least = n.checked_mul(2 * words_each);
         least.is_some_and(|least| least <= self.remaining() + 1)
@@ -83,8 +83,7 @@ impl<'a> Cursor<'a> {
         self.bytes.get(self.at).copied()
     }
 
-    /// Passes over blanks within the line, and over a backslash at the end of a line together with
-    /// the line's end.
+    /// Skips blanks within the line, and line ends that are escaped by a backslash.
     pub(crate) fn skip_blanks(&mut self) {
         while let Some(byte) = self.peek() {
             if is_blank(byte) {
@@ -95,7 +94,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Passes over blanks and line ends.
+    /// Skips blanks and line ends.
     pub(crate) fn skip_white(&mut self) {
         while let Some(byte) = self.peek() {
             if is_blank(byte) {
@@ -106,7 +105,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next word, up to a blank, the line's end or a backslash before it; empty at the end.
+    /// Reads the next word, which ends before a blank, a line end or a backslash that continues the line. Empty at
+    /// the end.
     pub(crate) fn word(&mut self) -> &'a [u8] {
         let start = self.at;
         while let Some(byte) = self.peek() {
@@ -118,8 +118,8 @@ impl<'a> Cursor<'a> {
         &self.bytes[start..self.at]
     }
 
-    /// The next word of the line; `None` at the line's end and before a comment.
-    pub(crate) fn argument(&mut self) -> Option<(Place, &'a [u8])> {
+    /// Reads the next word of the line; `None` at the end of the line and before a comment.
+    pub(crate) fn argument(&mut self) -> Option<(TextPosition, &'a [u8])> {
         self.skip_blanks();
         let place = self.place();
         match self.peek() {
@@ -128,16 +128,16 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next word of the line, empty at its end and before a comment.
-    pub(crate) fn argument_or_nothing(&mut self) -> (Place, &'a [u8]) {
+    /// Reads the next word of the line; empty at the end of the line and before a comment.
+    pub(crate) fn argument_or_nothing(&mut self) -> (TextPosition, &'a [u8]) {
         self.argument().unwrap_or((self.place(), b""))
     }
 
-    /// Refuses further words in the line. `why` may say more.
+    /// Checks that the line has no more words. `why` is appended to the error message.
     ///
     /// # Errors
     ///
-    /// If there is one.
+    /// If there is another word.
     pub(crate) fn end_of_line(&mut self, why: &str) -> Result<(), Fault> {
         match self.argument() {
             None => Ok(()),
@@ -147,13 +147,13 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next word of any line, empty at the end of the text.
-    pub(crate) fn next_word(&mut self) -> (Place, &'a [u8]) {
+    /// Reads the next word of any line; empty at the end of the text.
+    pub(crate) fn next_word(&mut self) -> (TextPosition, &'a [u8]) {
         self.skip_white();
         (self.place(), self.word())
     }
 
-    /// Stands on the first line that has a word, or at the end.
+    /// Moves to the first line that has a word, or to the end of the text.
     pub(crate) fn skip_empty_lines(&mut self) {
         loop {
             self.skip_white();
@@ -164,7 +164,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Passes over all lines that are left, and says how many have words and which is the first.
+    /// Skips all remaining lines. Returns the number of lines with words and the number of the first of them.
     pub(crate) fn count_rest(&mut self) -> (usize, usize) {
         self.skip_empty_lines();
         let first = self.place().line;
@@ -177,7 +177,7 @@ impl<'a> Cursor<'a> {
         (lines, first)
     }
 
-    /// The rest of the line without the blanks around it. Continued lines are joined by a space.
+    /// Reads the rest of the line without surrounding blanks. Continued lines are joined by a space.
     pub(crate) fn rest_of_line(&mut self) -> Vec<u8> {
         let mut rest = Vec::new();
         self.skip_blanks();
@@ -196,8 +196,7 @@ impl<'a> Cursor<'a> {
         rest
     }
 
-    /// Passes over the rest of the line and its end. A comment ends with its line, a backslash
-    /// continues any other.
+    /// Skips the rest of the line and its end. A backslash continues a line except in a comment.
     pub(crate) fn skip_line(&mut self) {
         let mut comment = false;
         while let Some(byte) = self.peek() {
@@ -212,7 +211,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Whether a line ends right behind the byte under the cursor.
+    /// Whether a line end follows the byte at the cursor.
     fn continues(&self) -> bool {
         self.bytes
             .get(self.at + 1)
@@ -250,12 +249,12 @@ fn is_line_end(byte: u8) -> bool {
     matches!(byte, b'\n' | b'\r')
 }
 
-/// The finite number that `word` spells, correctly rounded.
+/// Parses a finite number, correctly rounded.
 ///
 /// # Errors
 ///
-/// If the word is no decimal number, or one that is not finite.
-pub(crate) fn number(place: Place, word: &[u8]) -> Result<f64, Fault> {
+/// If the word is not a decimal number or is not finite.
+pub(crate) fn number(place: TextPosition, word: &[u8]) -> Result<f64, Fault> {
     if let Some((x, length)) = leading_number(word)
         && length == word.len()
     {
@@ -263,7 +262,7 @@ pub(crate) fn number(place: Place, word: &[u8]) -> Result<f64, Fault> {
     }
     let text = std::str::from_utf8(word).unwrap_or_default();
     let parsed = text.parse::<f64>().or_else(|error| {
-        // Fortran has a `d` before the exponent of long numbers.
+        // Fortran writes `d` before the exponent of double-precision numbers.
         let (mantissa, exponent) = text.split_once(['d', 'D']).ok_or(error)?;
         format!("{mantissa}e{exponent}").parse()
     });
@@ -272,7 +271,7 @@ pub(crate) fn number(place: Place, word: &[u8]) -> Result<f64, Fault> {
         Err(_) if !is_not_finite(word) => {
             let mut error = place.expected("a number", word);
             if word.contains(&b',') {
-                error.message += " (numbers have a point and no commas)";
+                error.message += " (use a decimal point instead of a comma)";
             }
             Err(error)
         }
@@ -280,12 +279,12 @@ pub(crate) fn number(place: Place, word: &[u8]) -> Result<f64, Fault> {
     }
 }
 
-/// What a word spells, as the standard library reads it.
+/// Parses a word with the standard library.
 pub(crate) fn parsed<T: FromStr>(word: &[u8]) -> Option<T> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// Whether a word is what programs write for a number that is infinite or none: `nan`, `-inf`, `1.#IND`.
+/// Whether a word is a common spelling of infinity or not-a-number: `nan`, `-inf`, `1.#IND`.
 pub(crate) fn is_not_finite(word: &[u8]) -> bool {
     let unsigned = word.strip_prefix(b"-").unwrap_or(word);
     let unsigned = unsigned.strip_prefix(b"+").unwrap_or(unsigned);
@@ -295,11 +294,11 @@ pub(crate) fn is_not_finite(word: &[u8]) -> bool {
         .any(|with| start.eq_ignore_ascii_case(with.as_bytes()))
 }
 
-/// Refuses text in which a character takes two or four bytes.
+/// Checks that the text is not in UTF-16 or UTF-32.
 ///
 /// # Errors
 ///
-/// At the beginning, with the name of the encoding.
+/// At the beginning of the text, with the name of the encoding.
 pub(crate) fn check_encoding(bytes: &[u8]) -> Result<(), Fault> {
     let is_wide = |first: usize| {
         let mut pairs = bytes.chunks_exact(2).take(16);
@@ -312,7 +311,7 @@ pub(crate) fn check_encoding(bytes: &[u8]) -> Result<(), Fault> {
         _ => return Ok(()),
     };
     let message = format!("expected text in UTF-8 or ASCII, found {encoding}");
-    Err(Place::START.error(message))
+    Err(TextPosition::START.error(message))
 }
 
 #[cfg(test)]
@@ -321,7 +320,7 @@ mod tests {
 
     use super::*;
 
-    const HERE: Place = Place { line: 1, column: 1 };
+    const HERE: TextPosition = TextPosition { line: 1, column: 1 };
 
     fn written(x: f64) -> String {
         let mut out = Vec::new();
@@ -330,7 +329,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_take_every_usual_spelling() {
+    fn common_spellings_of_numbers_are_read() {
         for (text, x) in [
             ("1", 1.0),
             ("+1.5", 1.5),
@@ -348,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_finite_number_is_refused() {
+    fn words_other_than_finite_numbers_are_refused() {
         for text in [
             "",
             "abc",
@@ -372,13 +371,13 @@ mod tests {
     }
 
     #[test]
-    fn the_sign_of_zero_survives() {
+    fn the_sign_of_zero_is_preserved() {
         assert_eq!(written(-0.0), "-0");
         assert!(number(HERE, b"-0").unwrap().is_sign_negative());
     }
 
     #[test]
-    fn lines_end_in_three_ways_and_places_count_from_one() {
+    fn lines_end_in_three_ways_and_positions_start_at_one() {
         let mut cursor = Cursor::new(b"a\r\nb\rc\n  d");
         let mut lines = Vec::new();
         while !cursor.is_at_end() {
@@ -419,7 +418,7 @@ mod tests {
         }
 
         #[test]
-        fn the_short_way_agrees_with_the_standard_library(text in "[-+]?[0-9]{0,12}\\.?[0-9]{0,10}") {
+        fn numbers_equal_those_of_the_standard_library(text in "[-+]?[0-9]{0,12}\\.?[0-9]{0,10}") {
             let expected = text.parse::<f64>().ok().map(f64::to_bits);
             prop_assert_eq!(number(HERE, text.as_bytes()).ok().map(f64::to_bits), expected);
         }

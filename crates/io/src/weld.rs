@@ -1,8 +1,8 @@
-//! Joining vertices at exactly the same position.
+//! Merges vertices with exactly equal positions.
 //!
-//! Positions are put into buckets by a hash, and each bucket finds its equal ones in a small table that
-//! stays in the cache, all buckets at once. What is found does not depend on the hash: the first of equal
-//! positions stands for them all, in the order in which the first ones come.
+//! Positions are distributed over buckets by a hash, and each bucket finds its equal positions in a small table
+//! that fits in the processor cache. Buckets are processed in parallel. The result does not depend on the hash: the
+//! first of several equal positions represents them all, and these first positions keep their order.
 
 use std::hash::{BuildHasher, RandomState};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -12,14 +12,14 @@ use mesh::{Mesh, VertexId};
 
 use crate::parallel;
 
-/// How many positions are hashed and numbered at a time.
+/// The number of positions that are hashed and numbered at a time.
 const CHUNK: usize = 1 << 15;
-/// How many positions a bucket has, about.
+/// The approximate number of positions in a bucket.
 const BUCKET: usize = 1 << 14;
-const MOST_BUCKETS: usize = 1 << 10;
+const MAX_BUCKETS: usize = 1 << 10;
 
-/// How many vertices with faces are at the place of an earlier one, when positions have 32 bits: formats that
-/// know vertices by their places have one for them.
+/// Counts the vertices with faces whose position, rounded to 32 bits, equals that of an earlier vertex. Formats
+/// that identify vertices by position merge them.
 pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     let used = parallel::filter(mesh.n_vertices(), |v| {
         mesh.vertex_half_edge(VertexId::new(v)).is_some()
@@ -30,14 +30,14 @@ pub(crate) fn n_merged(mesh: &Mesh) -> usize {
     used.len() - weld(places).0.len()
 }
 
-/// The different positions in the order in which each comes first, and for each position its place among
-/// them. Zero is the same with either sign. There must be fewer than 2^32 - 1 positions.
+/// Returns the distinct positions in order of first occurrence, and for each position its index among them. 0 and
+/// -0 are equal. There must be fewer than 2^32 - 1 positions.
 ///
-/// If no two positions are equal, they come back as they are.
+/// If all positions are distinct, the list is returned unchanged.
 pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     let mut vertex_of = firsts(&positions);
     let is_first = |i: usize, first: u32| i == first as usize;
-    // How many different positions come before each chunk.
+    // The number of distinct positions that begin in each chunk.
     let counts = parallel::consume(vertex_of.chunks(CHUNK), |chunk, firsts| {
         let own = (chunk * CHUNK..).zip(firsts);
         own.filter(|&(i, &first)| is_first(i, first)).count()
@@ -54,7 +54,7 @@ pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
         before
     });
     let ends: Vec<usize> = ends.collect();
-    let parts = parallel::parts(&mut unique, ends.iter().copied());
+    let parts = parallel::split_at_ends(&mut unique, ends.iter().copied());
     parallel::consume(
         parts.into_iter().zip(numbers.chunks_mut(CHUNK)),
         |chunk, (unique, numbers)| {
@@ -73,13 +73,13 @@ pub(crate) fn weld(positions: Vec<DVec3>) -> (Vec<DVec3>, Vec<u32>) {
     (unique, vertex_of)
 }
 
-/// For each position the first one that is equal.
+/// For each position, the index of the first equal position.
 fn firsts(positions: &[DVec3]) -> Vec<u32> {
     let buckets = (positions.len() / BUCKET + 1)
         .next_power_of_two()
-        .min(MOST_BUCKETS);
+        .min(MAX_BUCKETS);
     let keys = Keys::new();
-    // Within each chunk the positions of each bucket follow each other, as hash and number.
+    // Within each chunk, positions are sorted by bucket and stored as hash and index.
     let mut sorted = mesh::zeroed::<u64>(positions.len());
     let chunks = sorted.chunks_mut(CHUNK).zip(positions.chunks(CHUNK));
     let starts: Vec<Vec<usize>> = parallel::consume(chunks, |chunk, (sorted, positions)| {
@@ -116,34 +116,34 @@ fn firsts(positions: &[DVec3]) -> Vec<u32> {
     first.into_iter().map(AtomicU32::into_inner).collect()
 }
 
-/// The half of an entry that is a part of the hash; the other half is a number.
+/// The bits of an entry that hold a part of the hash. The other bits hold an index.
 const HIGH: u64 = !0 << 32;
 
-/// An open hash table of entries, at most half full.
+/// A hash table of entries with open addressing, at most half full.
 struct Table {
     slots: Vec<u64>,
     shift: u32,
 }
 
 impl Table {
-    /// A number that no position has.
-    const FREE: u64 = u32::MAX as u64;
+    /// An index that no position has.
+    const EMPTY: u64 = u32::MAX as u64;
 
     fn new(n: usize) -> Self {
         let bits = (2 * n).next_power_of_two().trailing_zeros().clamp(1, 31);
         Self {
-            slots: vec![Self::FREE; 1 << bits],
+            slots: vec![Self::EMPTY; 1 << bits],
             shift: u64::BITS - bits,
         }
     }
 
-    /// The number of the entry that came first at the position of this one.
+    /// Returns the index of the first entry with the position of this entry.
     fn first(&mut self, entry: u64, positions: &[DVec3]) -> u32 {
         let number = low(entry);
         let mut at = low(entry >> self.shift) as usize;
         loop {
             let known = self.slots[at];
-            if known == Self::FREE {
+            if known == Self::EMPTY {
                 self.slots[at] = entry;
                 return number;
             }
@@ -158,12 +158,12 @@ impl Table {
     }
 }
 
-/// Adding 0 turns -0 into 0: they are the same place.
+/// Adding 0 turns -0 into 0, so that both are equal.
 fn bits(p: DVec3) -> [u64; 3] {
     p.to_array().map(|x| (x + 0.0).to_bits())
 }
 
-/// Hashes with secrets that no file knows, so that none can make all its positions meet.
+/// Random keys of the hash, so that a file cannot be crafted to make all its positions collide.
 struct Keys([u64; 3]);
 
 impl Keys {
@@ -183,24 +183,18 @@ impl Keys {
     }
 }
 
-/// The number in an entry.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the other half is not wanted"
-)]
+/// The index in an entry.
+#[expect(clippy::cast_possible_truncation, reason = "only the low half is used")]
 fn low(entry: u64) -> u32 {
     entry as u32
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the other half is not wanted"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "only the low half is used")]
 fn low_half(product: u128) -> u64 {
     product as u64
 }
 
-/// The number `i`; there are fewer than 2^32.
+/// Converts `i`, which is less than 2^32.
 fn index(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }
@@ -213,7 +207,7 @@ mod tests {
 
     use super::*;
 
-    /// One after the other, with the standard library.
+    /// A simple implementation with the standard library, to compare with.
     fn slow(positions: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
         let mut numbers = HashMap::new();
         let mut unique = Vec::new();
@@ -228,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_of_equal_positions_stands_for_them() {
+    fn the_first_of_equal_positions_represents_them() {
         let (a, b) = (DVec3::new(0.0, 1.0, 2.0), DVec3::new(-0.0, 1.0, 2.0));
         let (unique, vertex_of) = weld(vec![DVec3::ONE, b, a, DVec3::ONE, DVec3::ZERO]);
         assert_eq!(vertex_of, [0, 1, 1, 0, 2]);
@@ -237,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn large_arrays_are_welded_as_small_ones() {
+    fn large_arrays_are_welded_as_the_simple_implementation_does() {
         for (n, period) in [(200_000, 70_000), (100_000, 100_000), (150_000, 1)] {
             let positions: Vec<_> = (0..n)
                 .map(|i| DVec3::new(f64::from(i % period), f64::from(i % period % 7), 0.5))
@@ -248,7 +242,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_positions_are_welded(
+        fn random_positions_are_welded_as_the_simple_implementation_does(
             numbers in prop::collection::vec([-2..3_i8, -2..3, -2..3], 0..300),
         ) {
             let positions: Vec<_> = numbers

@@ -1,4 +1,4 @@
-//! What the writers share.
+//! Functions that several writers share.
 
 use std::borrow::Cow;
 
@@ -7,9 +7,9 @@ use mesh::{Column, Domain, Mesh, Value, Values};
 
 use crate::loss::Losses;
 use crate::parallel;
-use crate::polygons::agreed;
+use crate::polygons::vertex_values;
 
-/// The mesh, or a compact copy if it has dead elements.
+/// Returns the mesh, or a compacted copy if it has dead elements.
 pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     if mesh.is_dense() {
         return Cow::Borrowed(mesh);
@@ -19,7 +19,7 @@ pub(crate) fn dense(mesh: &Mesh) -> Cow<'_, Mesh> {
     Cow::Owned(copy)
 }
 
-/// Appends a comment, each of its lines behind a word.
+/// Appends a comment, each of its lines after `word`.
 pub(crate) fn push_comment(out: &mut Vec<u8>, word: &str, comment: Option<&str>) {
     for line in comment
         .into_iter()
@@ -29,32 +29,32 @@ pub(crate) fn push_comment(out: &mut Vec<u8>, word: &str, comment: Option<&str>)
     }
 }
 
-/// The number of 255ths that is nearest to a part of a color.
+/// Converts a color component to the nearest number of 255ths.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "a cast ends at the lowest and the highest byte"
+    reason = "the cast saturates at the lowest and the highest byte"
 )]
 pub(crate) fn to_byte(x: f64) -> u8 {
     (x * 255.0).round() as u8
 }
 
-/// Whether a part of a color is exactly a number of 255ths.
+/// Whether a color component is exactly a number of 255ths.
 pub(crate) fn is_byte(x: f64) -> bool {
     (f64::from(to_byte(x)) / 255.0).to_bits() == x.to_bits()
 }
 
-/// Texture coordinates of vertices, if all corners of each have the same bits; zero where a vertex has no
-/// corner.
+/// Returns texture coordinates per vertex, if all corners of each vertex have the same bits; otherwise `None`. Zero
+/// for vertices without a corner.
 pub(crate) fn uvs_of_vertices(mesh: &Mesh, uvs: &Values) -> Option<Values> {
     let bits = |h: usize| DVec2::of(uvs).map(|uvs| uvs[h].to_array().map(f64::to_bits));
-    agreed(mesh, uvs, |a, b| bits(a) == bits(b))
+    vertex_values(mesh, uvs, |a, b| bits(a) == bits(b))
 }
 
-/// What becomes of numbers for which texts have no word.
-pub(crate) const NOT_FINITE: &str = "not finite: written as 0";
+/// The reason of a loss of numbers that text formats cannot represent.
+pub(crate) const NOT_FINITE: &str = "non-finite numbers, written as 0";
 
-/// The values of a column with zero in place of those that are not finite, which are lost.
+/// Returns the values of a column with zero in place of non-finite values, and adds a loss for these.
 pub(crate) fn finite<'a>(
     domain: Domain,
     column: &'a Column,
@@ -62,7 +62,7 @@ pub(crate) fn finite<'a>(
 ) -> Cow<'a, Values> {
     let mut values = Cow::Borrowed(&column.values);
     if !all_finite(&values) {
-        let broken = mend(values.to_mut());
+        let broken = zero_non_finite(values.to_mut());
         losses.add(domain, &column.name, broken, NOT_FINITE);
     }
     values
@@ -83,8 +83,8 @@ fn is_finite(values: &Values, i: usize) -> bool {
     }
 }
 
-/// Puts zero in place of values that are not finite, and counts them.
-pub(crate) fn mend(values: &mut Values) -> usize {
+/// Replaces non-finite values with zero, and counts them.
+pub(crate) fn zero_non_finite(values: &mut Values) -> usize {
     if all_finite(values) {
         return 0;
     }

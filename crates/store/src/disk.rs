@@ -1,4 +1,4 @@
-//! The files of the machine.
+//! The file system of the machine.
 
 use std::fs::{self, File, Permissions};
 use std::io::{self, Read as _, Write};
@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use tempfile::NamedTempFile;
 
-use crate::{Entry, Kind, NewFile, Store, StoreError, check_place, folder_of};
+use crate::{Entry, Kind, NewFile, Store, StoreError, check_target, folder_of};
 
-/// The files of the machine.
+/// The file system of the machine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Disk;
 
@@ -19,13 +19,13 @@ impl Store for Disk {
         true
     }
 
-    fn read_up_to(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
-        read_plain(path, most).map_err(|error| StoreError::new("read", path, error))
+    fn read_up_to(&self, path: &Path, limit: u64) -> Result<Vec<u8>, StoreError> {
+        read_plain(path, limit).map_err(|error| StoreError::new("read", path, error))
     }
 
-    fn read_stream(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
+    fn read_stream(&self, path: &Path, limit: u64) -> Result<Vec<u8>, StoreError> {
         let mut bytes = Vec::new();
-        match File::open(path).and_then(|file| file.take(most).read_to_end(&mut bytes)) {
+        match File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes)) {
             Ok(_) => Ok(bytes),
             Err(error) => Err(StoreError::new("read", path, error)),
         }
@@ -90,10 +90,10 @@ impl Store for Disk {
     }
 
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError> {
-        check_place(self, path)?;
+        check_target(self, path)?;
         let file = beside(path).map_err(|error| StoreError::new("write", path, error))?;
         let path = path.to_owned();
-        Ok(Box::new(Begun { file, path }))
+        Ok(Box::new(UnfinishedFile { file, path }))
     }
 
     fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError> {
@@ -101,7 +101,7 @@ impl Store for Disk {
     }
 }
 
-/// Puts bytes in place of those of a file. A link stays a link, and who may read and write the file stays as it was.
+/// Replaces the content of a file. If the path is a link, it stays a link. The permissions of the file are kept.
 ///
 /// # Errors
 ///
@@ -120,18 +120,19 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     replaced().map_err(|error| StoreError::new("write", path, error))
 }
 
-/// How the names of the temporary folders of a process begin. They remain only if the process is killed.
+/// The prefix of the names of the temporary folders of a process. These folders are only left behind if the process
+/// is killed.
 pub fn temporary_prefix(process: u32) -> String {
     format!(".meshwright-{process}-")
 }
 
-/// A file that waits beside its place.
-struct Begun {
+/// A temporary file that replaces the file at its path when it is committed.
+struct UnfinishedFile {
     file: NamedTempFile,
     path: PathBuf,
 }
 
-impl Write for Begun {
+impl Write for UnfinishedFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.file.write(bytes)
     }
@@ -141,7 +142,7 @@ impl Write for Begun {
     }
 }
 
-impl NewFile for Begun {
+impl NewFile for UnfinishedFile {
     fn sync(&mut self) -> io::Result<()> {
         self.file.as_file().sync_all()
     }
@@ -158,7 +159,8 @@ impl NewFile for Begun {
 fn beside(path: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".meshwright-");
-    // A temporary file is private to its user; the file that it becomes is as open as any other.
+    // Temporary files are private to the user by default. This one becomes a normal file, so it gets normal
+    // permissions.
     #[cfg(unix)]
     let open: Permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
     #[cfg(unix)]
@@ -168,8 +170,7 @@ fn beside(path: &Path) -> io::Result<NamedTempFile> {
         .map_err(without_temporary_name)
 }
 
-/// The error without the path that tempfile puts behind it: the name of a file that is gone tells a
-/// person nothing.
+/// Removes the path that `tempfile` appends to an error, because the temporary file no longer exists.
 fn without_temporary_name(error: io::Error) -> io::Error {
     match error.to_string().split_once(" at path ") {
         Some((what, _)) => io::Error::new(error.kind(), what),
@@ -177,8 +178,9 @@ fn without_temporary_name(error: io::Error) -> io::Error {
     }
 }
 
-/// Reads at most `most` bytes of a plain file: a pipe or a device could go on for ever.
-fn read_plain(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+/// Reads at most `limit` bytes of a regular file. Other files are refused, because reading a pipe or a device might
+/// never end.
+fn read_plain(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     let meta = fs::metadata(path)?;
     if meta.is_dir() {
         return Err(io::Error::new(
@@ -188,10 +190,10 @@ fn read_plain(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     }
     if !meta.is_file() {
         return Err(io::Error::other(
-            "expected a plain file, found a pipe or a device",
+            "expected a regular file, found a pipe or a device",
         ));
     }
-    let expected = usize::try_from(meta.len().min(most)).unwrap_or(usize::MAX);
+    let expected = usize::try_from(meta.len().min(limit)).unwrap_or(usize::MAX);
     let mut bytes = Vec::new();
     bytes.try_reserve_exact(expected)?;
     let mut file = File::open(path)?;
@@ -201,18 +203,17 @@ fn read_plain(path: &Path, most: u64) -> io::Result<Vec<u8>> {
         bytes = read_at_once(&file, expected)?;
         io::Seek::seek(&mut file, io::SeekFrom::Start(expected as u64))?;
     }
-    // What is left: all of a small file, and what was added to a large one since it was looked at.
-    let rest = most - bytes.len() as u64;
+    // The rest: all of a small file, or bytes that were added to a large file since its size was determined.
+    let rest = limit - bytes.len() as u64;
     file.take(rest).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
-/// From this size on several threads read a file, in pieces of this size.
+/// Files of at least this size are read by several threads, in pieces of this size.
 #[cfg(unix)]
 const LARGE: usize = 1 << 20;
 
-/// The first `n` bytes of a file, read by all threads: most of the time goes into making the pages of
-/// memory that the bytes are copied to.
+/// Reads the first `n` bytes of a file on all threads. Most of the time is spent on page faults in the new memory.
 #[cfg(unix)]
 fn read_at_once(file: &File, n: usize) -> io::Result<Vec<u8>> {
     use std::os::unix::fs::FileExt;

@@ -1,6 +1,6 @@
-//! Where files are read and written: the [`Disk`], or the [`Memory`] where there is no disk, as in a browser.
+//! Reading and writing files: on the [`Disk`], or in [`Memory`] if there is no disk, as in a browser.
 //!
-//! No crate below the program names `std::fs`: they are handed a [`Store`]. A file is written whole or not at all.
+//! Libraries do not use `std::fs`; their callers pass a [`Store`]. A file is written completely or not at all.
 //!
 //! # Examples
 //!
@@ -27,87 +27,88 @@ pub use disk::{Disk, replace, temporary_prefix};
 pub use memory::Memory;
 pub use temporary::TemporaryFolder;
 
-/// Files and folders. Paths are those of the platform; relative ones are seen from the working directory.
+/// A file system. Paths have the form of the platform. Relative paths are relative to the working directory.
 pub trait Store: Debug + Send + Sync {
-    /// Whether the paths are those of the machine, so that whoever knows no store can open them too.
+    /// Whether paths refer to the file system of the machine, so that other code can open them without the store.
     fn is_disk(&self) -> bool {
         false
     }
 
-    /// Reads at most `most` bytes from the beginning of a plain file.
+    /// Reads at most `limit` bytes from the beginning of a regular file.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file does not exist, is not a regular file, or does not fit into memory.
-    fn read_up_to(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError>;
+    /// [`StoreError`] if the file does not exist, is not a regular file, or does not fit in memory.
+    fn read_up_to(&self, path: &Path, limit: u64) -> Result<Vec<u8>, StoreError>;
 
-    /// The same, from a pipe or a device too: a text may come from one.
+    /// Reads at most `limit` bytes from the beginning of a file, which can also be a pipe or a device.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if that cannot be done.
-    fn read_stream(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
-        self.read_up_to(path, most)
+    /// [`StoreError`] if the file cannot be read.
+    fn read_stream(&self, path: &Path, limit: u64) -> Result<Vec<u8>, StoreError> {
+        self.read_up_to(path, limit)
     }
 
-    /// What there is under a path, links followed; `None` if there is nothing, or it cannot be told.
+    /// Describes the file or folder at a path, following links; `None` if it does not exist or cannot be accessed.
     fn entry(&self, path: &Path) -> Option<Entry>;
 
     /// Whether the path itself is a link.
     fn is_link(&self, path: &Path) -> bool;
 
-    /// The path of an existing file or folder with its links followed, so that two paths of one file are equal.
+    /// Resolves the links in the path of an existing file or folder, so that all paths of the same file become
+    /// equal.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if there is nothing under the path.
+    /// [`StoreError`] if the path does not exist.
     fn canonical(&self, path: &Path) -> Result<PathBuf, StoreError>;
 
     /// The paths of all files and folders in a folder, sorted.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if there is no such folder, or it cannot be listed.
+    /// [`StoreError`] if the folder does not exist or cannot be listed.
     fn list(&self, folder: &Path) -> Result<Vec<PathBuf>, StoreError>;
 
-    /// Makes a folder and those around it, unless they are there.
+    /// Creates a folder and its missing parents. Does nothing if the folder exists.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if that cannot be done.
+    /// [`StoreError`] if the folder cannot be created.
     fn make_folder(&self, folder: &Path) -> Result<(), StoreError>;
 
-    /// Makes an empty folder of a new name that begins with [`temporary_prefix`], inside of `folder` or else where
-    /// temporary files belong. [`TemporaryFolder`] removes it too.
+    /// Creates an empty folder with a new name that begins with [`temporary_prefix`], inside `folder` or, if that
+    /// is `None`, in the default location for temporary files. [`TemporaryFolder`] also removes the folder.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if that cannot be done.
+    /// [`StoreError`] if the folder cannot be created.
     fn make_temporary(&self, folder: Option<&Path>) -> Result<PathBuf, StoreError>;
 
-    /// Removes a folder with everything in it.
+    /// Removes a folder with its content.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if something remains.
+    /// [`StoreError`] if the folder or a part of its content could not be removed.
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError>;
 
-    /// Begins a file, in a folder that is there. A file of this name stays as it is until [`NewFile::commit`]; a link
-    /// of this name is replaced, not followed.
+    /// Begins to write a file in an existing folder. An existing file with this name stays unchanged until
+    /// [`NewFile::commit`]. An existing link with this name is replaced, not followed.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if the file cannot be written, or a folder of this name is there.
+    /// [`StoreError`] if the file cannot be written, or if a folder has this name.
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError>;
 
-    /// Moves a file to another name, where it replaces a file.
+    /// Renames a file. An existing file with the new name is replaced.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] with the new name.
+    /// [`StoreError`] with the new name if the file cannot be renamed.
     fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError>;
 
-    /// Reads a plain file.
+    /// Reads a regular file.
     ///
     /// # Errors
     ///
@@ -116,11 +117,11 @@ pub trait Store: Debug + Send + Sync {
         self.read_up_to(path, u64::MAX)
     }
 
-    /// Writes a file whole or not at all, and makes the folders around it.
+    /// Writes a file completely or not at all, and creates the missing folders of its path.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if that cannot be done.
+    /// [`StoreError`] if the file cannot be written. An existing file is then unchanged.
     fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
         self.make_folder(folder_of(path))?;
         let mut file = self.create(path)?;
@@ -129,71 +130,72 @@ pub trait Store: Debug + Send + Sync {
         file.commit()
     }
 
-    /// The length of a plain file in bytes, if there is one.
+    /// The length of a regular file in bytes; `None` if there is no regular file at the path.
     fn len(&self, path: &Path) -> Option<u64> {
         self.entry(path).filter(Entry::is_file).map(|file| file.len)
     }
 
-    /// Whether there is anything under a path.
+    /// Whether a file or folder exists at the path.
     fn exists(&self, path: &Path) -> bool {
         self.entry(path).is_some()
     }
 
-    /// Whether there is a plain file under a path.
+    /// Whether a regular file exists at the path.
     fn is_file(&self, path: &Path) -> bool {
         self.entry(path).is_some_and(|entry| entry.is_file())
     }
 
-    /// Whether there is a folder under a path.
+    /// Whether a folder exists at the path.
     fn is_folder(&self, path: &Path) -> bool {
         self.entry(path)
             .is_some_and(|entry| entry.kind == Kind::Folder)
     }
 }
 
-/// A file that is being written beside its place. Dropped, it leaves nothing.
+/// A file that is written to a temporary location. If it is dropped without [`commit`](Self::commit), nothing is
+/// left of it.
 pub trait NewFile: Write + Send {
-    /// Waits until the bytes are on the disk: a disk that is full may be told only here.
+    /// Waits until the bytes are on the disk. Some systems only report a full disk at this point.
     ///
     /// # Errors
     ///
-    /// What the system says.
+    /// The error of the operating system.
     fn sync(&mut self) -> io::Result<()> {
         Ok(())
     }
 
-    /// Puts the file in its place.
+    /// Moves the file to its path, and replaces an existing file.
     ///
     /// # Errors
     ///
-    /// [`StoreError`]; then the file of this name is as it was.
+    /// [`StoreError`] if the file cannot be moved. An existing file is then unchanged.
     fn commit(self: Box<Self>) -> Result<(), StoreError>;
 }
 
-/// What there is under a path.
+/// A description of a file or folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// What kind of thing it is.
+    /// Whether it is a file, a folder or something else.
     pub kind: Kind,
     /// The length of a file in bytes.
     pub len: u64,
-    /// When it was written last, if that is known. Files in memory count writes in nanoseconds.
+    /// The time of the last change, if known. Files in memory count changes in nanoseconds.
     pub modified: Option<SystemTime>,
 }
 
 /// The kind of an [`Entry`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// A plain file.
+    /// A regular file.
     File,
     /// A folder.
     Folder,
-    /// A pipe, a device, a socket.
+    /// A pipe, a device or a socket.
     Other,
 }
 
 impl Entry {
-    /// Whether it is a plain file.
+    /// Whether this is a regular file.
     pub fn is_file(&self) -> bool {
         self.kind == Kind::File
     }
@@ -207,12 +209,12 @@ pub struct StoreError {
     pub what: &'static str,
     /// The file or folder.
     pub path: PathBuf,
-    /// What the system said.
+    /// The error of the operating system.
     pub error: io::Error,
 }
 
 impl StoreError {
-    /// As of [`Store`]s: `what` is a verb such as `read`.
+    /// Creates an error. `what` is the action that failed, such as `read`.
     pub fn new(what: &'static str, path: &Path, error: io::Error) -> Self {
         let path = path.to_owned();
         Self { what, path, error }
@@ -225,7 +227,7 @@ impl From<StoreError> for io::Error {
     }
 }
 
-/// The folder that holds `path`; the working directory if the path is a bare name.
+/// The parent folder of `path`; `.` if the path is only a file name.
 pub fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -233,17 +235,17 @@ pub fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Whether a file of this name can be there.
-fn check_place(store: &dyn Store, path: &Path) -> Result<(), StoreError> {
+/// Checks that a file can be created at the path.
+fn check_target(store: &dyn Store, path: &Path) -> Result<(), StoreError> {
     let problem = match (store.is_folder(path), store.is_folder(folder_of(path))) {
-        (true, _) => "a folder of this name is there",
-        (_, false) => "there is no such folder",
+        (true, _) => "a folder with this name exists",
+        (_, false) => "the folder does not exist",
         _ => return Ok(()),
     };
     Err(StoreError::new("write", path, io::Error::other(problem)))
 }
 
-/// All plain files below a folder, sorted.
+/// The paths of all files below a folder, sorted.
 ///
 /// # Errors
 ///

@@ -1,4 +1,4 @@
-//! Files that exist as long as the program.
+//! Files that only exist in memory.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -6,23 +6,23 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, SystemTime};
 
-use crate::{Entry, Kind, NewFile, Store, StoreError, check_place};
+use crate::{Entry, Kind, NewFile, Store, StoreError, check_target};
 
-/// Files that exist as long as this does. The working directory is the root, `..` leads up by name, and there are no
-/// links.
+/// Files that exist until this value is dropped. The working directory is the root, `..` is resolved by name, and
+/// there are no links.
 #[derive(Debug, Default)]
 pub struct Memory(Mutex<Content>);
 
 #[derive(Debug, Default)]
 struct Content {
     entries: BTreeMap<PathBuf, (Entry, Arc<[u8]>)>,
-    /// How many files and folders were written so far.
+    /// The number of files and folders written so far.
     n_written: u64,
 }
 
 impl Memory {
     fn content(&self) -> MutexGuard<'_, Content> {
-        // Each change is one insertion or removal, so the map is whole even after a panic.
+        // Each change is a single insertion or removal, so the map is consistent even after a panic.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -39,8 +39,8 @@ impl Content {
     }
 }
 
-/// The path below the root.
-fn plain(path: &Path) -> PathBuf {
+/// The path relative to the root, without `.` and `..`.
+fn normalized(path: &Path) -> PathBuf {
     let mut parts = PathBuf::new();
     for part in path.components() {
         match part {
@@ -57,10 +57,10 @@ fn missing() -> io::Error {
 }
 
 impl Store for Memory {
-    fn read_up_to(&self, path: &Path, most: u64) -> Result<Vec<u8>, StoreError> {
-        let read = match self.content().entries.get(&plain(path)) {
+    fn read_up_to(&self, path: &Path, limit: u64) -> Result<Vec<u8>, StoreError> {
+        let read = match self.content().entries.get(&normalized(path)) {
             Some((entry, bytes)) if entry.is_file() => {
-                let n = usize::try_from(most).map_or(bytes.len(), |most| most.min(bytes.len()));
+                let n = usize::try_from(limit).map_or(bytes.len(), |limit| limit.min(bytes.len()));
                 Ok(bytes[..n].to_vec())
             }
             Some(_) => Err(io::Error::new(
@@ -73,7 +73,7 @@ impl Store for Memory {
     }
 
     fn entry(&self, path: &Path) -> Option<Entry> {
-        let path = plain(path);
+        let path = normalized(path);
         let root = Entry {
             kind: Kind::Folder,
             len: 0,
@@ -89,7 +89,7 @@ impl Store for Memory {
 
     fn canonical(&self, path: &Path) -> Result<PathBuf, StoreError> {
         if self.exists(path) {
-            Ok(plain(path))
+            Ok(normalized(path))
         } else {
             Err(StoreError::new("read", path, missing()))
         }
@@ -100,7 +100,7 @@ impl Store for Memory {
             return Err(StoreError::new("list", folder, missing()));
         }
         let content = self.content();
-        let inside = plain(folder);
+        let inside = normalized(folder);
         let here = content.entries.keys();
         let here = here.filter(|path| path.parent() == Some(&inside));
         let names = here.filter_map(|path| path.file_name());
@@ -108,12 +108,12 @@ impl Store for Memory {
     }
 
     fn make_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        let plain = plain(folder);
-        for folder in plain.ancestors() {
+        let path = normalized(folder);
+        for folder in path.ancestors() {
             match self.entry(folder).map(|entry| entry.kind) {
                 Some(Kind::Folder) => {}
                 Some(_) => {
-                    let error = io::Error::other("a file of this name is there");
+                    let error = io::Error::other("a file with this name exists");
                     return Err(StoreError::new("make the folder", folder, error));
                 }
                 None => (self.content()).insert(folder.to_owned(), Kind::Folder, Arc::default()),
@@ -140,7 +140,7 @@ impl Store for Memory {
     }
 
     fn remove_folder(&self, folder: &Path) -> Result<(), StoreError> {
-        let folder = plain(folder);
+        let folder = normalized(folder);
         self.content()
             .entries
             .retain(|path, _| !path.starts_with(&folder));
@@ -148,8 +148,8 @@ impl Store for Memory {
     }
 
     fn create(&self, path: &Path) -> Result<Box<dyn NewFile + '_>, StoreError> {
-        check_place(self, path)?;
-        Ok(Box::new(Begun {
+        check_target(self, path)?;
+        Ok(Box::new(UnfinishedFile {
             store: self,
             path: path.to_owned(),
             bytes: Vec::new(),
@@ -158,20 +158,20 @@ impl Store for Memory {
 
     fn rename(&self, from: &Path, to: &Path) -> Result<(), StoreError> {
         let mut content = self.content();
-        let stored = content.entries.remove(&plain(from));
+        let stored = content.entries.remove(&normalized(from));
         let stored = stored.ok_or_else(|| StoreError::new("write", to, missing()))?;
-        content.entries.insert(plain(to), stored);
+        content.entries.insert(normalized(to), stored);
         Ok(())
     }
 }
 
-struct Begun<'s> {
+struct UnfinishedFile<'s> {
     store: &'s Memory,
     path: PathBuf,
     bytes: Vec<u8>,
 }
 
-impl Write for Begun<'_> {
+impl Write for UnfinishedFile<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.bytes.extend_from_slice(bytes);
         Ok(bytes.len())
@@ -182,11 +182,11 @@ impl Write for Begun<'_> {
     }
 }
 
-impl NewFile for Begun<'_> {
+impl NewFile for UnfinishedFile<'_> {
     fn commit(self: Box<Self>) -> Result<(), StoreError> {
         let bytes = self.bytes.into();
         let mut content = self.store.content();
-        content.insert(plain(&self.path), Kind::File, bytes);
+        content.insert(normalized(&self.path), Kind::File, bytes);
         Ok(())
     }
 }

@@ -1,10 +1,10 @@
-//! Folders that go when nobody needs them any more.
+//! Temporary folders that are removed automatically.
 
 use std::path::{Path, PathBuf};
 
 use crate::{Store, StoreError};
 
-/// A folder that is removed with everything in it when this is dropped.
+/// A folder that is removed with its content when this value is dropped.
 #[derive(Debug)]
 pub struct TemporaryFolder<'s> {
     store: &'s dyn Store,
@@ -12,17 +12,17 @@ pub struct TemporaryFolder<'s> {
 }
 
 impl<'s> TemporaryFolder<'s> {
-    /// Makes a folder of a new name, as [`Store::make_temporary`] does.
+    /// Creates a folder with a new name, as [`Store::make_temporary`] does.
     ///
     /// # Errors
     ///
-    /// [`StoreError`] if that cannot be done.
+    /// [`StoreError`] if the folder cannot be created.
     pub fn new(store: &'s dyn Store, inside: Option<&Path>) -> Result<Self, StoreError> {
         let path = store.make_temporary(inside)?;
         Ok(Self { store, path })
     }
 
-    /// The folder.
+    /// The path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }

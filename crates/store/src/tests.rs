@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use super::*;
 
-/// Both stores, each with a folder of its own.
+/// Both stores, each with a separate folder.
 fn stores() -> [(Box<dyn Store>, PathBuf, Option<tempfile::TempDir>); 2] {
     let folder = tempfile::tempdir().unwrap();
     [
@@ -13,7 +13,7 @@ fn stores() -> [(Box<dyn Store>, PathBuf, Option<tempfile::TempDir>); 2] {
 }
 
 #[test]
-fn what_is_written_can_be_read_and_listed() {
+fn written_files_can_be_read_and_listed() {
     for (store, folder, _guard) in stores() {
         let path = folder.join("a/b/c.txt");
         assert_eq!((store.len(&path), store.exists(&path)), (None, false));
@@ -67,7 +67,7 @@ fn errors_name_the_path() {
         let error = store.create(&path).err().unwrap().to_string();
         assert_eq!(
             error,
-            format!("cannot write {shown}: there is no such folder")
+            format!("cannot write {shown}: the folder does not exist")
         );
         assert!(store.list(&folder.join("missing")).is_err());
         assert!(store.read(&folder).is_err() && store.create(&folder).is_err());
@@ -78,7 +78,7 @@ fn errors_name_the_path() {
 }
 
 #[test]
-fn a_file_can_be_moved_over_another_and_is_told_apart() {
+fn renaming_replaces_a_file_and_writing_changes_its_entry() {
     for (store, folder, _guard) in stores() {
         let [a, b] = ["a", "b"].map(|name| folder.join(name));
         store.write(&a, b"1").unwrap();
@@ -99,7 +99,7 @@ fn a_file_can_be_moved_over_another_and_is_told_apart() {
 }
 
 #[test]
-fn temporary_folders_go_with_what_is_in_them() {
+fn temporary_folders_are_removed_with_their_content() {
     for (store, folder, _guard) in stores() {
         let inside = folder.join("out");
         let one = TemporaryFolder::new(&*store, Some(&inside)).unwrap();
@@ -117,7 +117,7 @@ fn temporary_folders_go_with_what_is_in_them() {
 }
 
 #[test]
-fn a_large_file_is_read_whole_and_in_part() {
+fn a_large_file_is_read_completely_and_in_part() {
     let (store, folder, _guard) = stores().into_iter().nth(1).unwrap();
     let bytes: Vec<u8> = (0..3_500_000_u32)
         .map(|i| i.wrapping_mul(2_654_435_761).to_be_bytes()[0])
@@ -155,8 +155,8 @@ fn a_link_is_replaced_by_create_and_kept_by_replace() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_folder_that_takes_no_files_is_named_without_the_temporary_file() {
-    // Not even the administrator makes files here.
+fn the_error_of_a_folder_that_accepts_no_files_does_not_name_the_temporary_file() {
+    // Even the superuser cannot create files here.
     let error = Disk.create(Path::new("/proc/a.obj")).err().unwrap();
     let text = error.to_string();
     assert!(

@@ -10,34 +10,35 @@ use op::prelude::*;
 /// Reads the objects of a file into the scene.
 ///
 /// Formats: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl`, `.off`, `.dae`, `.bez` (Bezier patches), `.bzc` (a Bezier
-/// curve) and `.mws` (a whole scene). An OBJ file is one object, whose `o` and `g` become face tags; a glTF or COLLADA file has an
-/// object for each node with a mesh. What the scene cannot hold is counted and listed. A corner that repeats
-/// the one before it is taken once, and a face that still visits a vertex twice is left out.
+/// curve) and `.mws` (a complete scene). An OBJ file becomes one object, and its objects (`o`) and groups (`g`)
+/// become face tags. A glTF or COLLADA file gives an object for each node with a mesh. Content that the scene
+/// cannot hold is counted and listed. A corner that repeats the corner before it is removed, and a face that still
+/// visits a vertex twice is left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// The file, seen from the recipe's folder.
+    /// The file. A relative path is relative to the folder of the recipe.
     pub path: String,
-    /// The name of the object, in files that hold one; by default the name of the file without its
-    /// ending.
+    /// The name of the object, if the file holds a single object. Defaults to the name of the file without its
+    /// extension.
     #[serde(default)]
     pub name: Option<String>,
-    /// What to do where more than two faces share an edge, or faces at a vertex share no edge.
+    /// What to do if more than two faces share an edge, or if faces at a vertex share no edge.
     #[serde(default)]
     pub non_manifold: NonManifold,
-    /// What to do where neighboring faces disagree about their orientation.
+    /// What to do if neighboring faces have opposite orientations.
     #[serde(default)]
     pub orientation: Orientation,
-    /// What to do with faces that have the vertices of an earlier one, either way round.
+    /// What to do with faces that have the same vertices as an earlier face, in either direction.
     #[serde(default)]
     pub duplicates: CleanupPolicy,
     /// What to do with faces without area.
     #[serde(default)]
     pub degenerate: CleanupPolicy,
-    /// What to do with vertices that no face uses.
+    /// What to do with vertices without a face.
     #[serde(default)]
     pub isolated: CleanupPolicy,
-    /// Whether to fail where something of the file would be left out.
+    /// If true, the step fails if anything in the file would be left out.
     #[serde(default)]
     pub strict: bool,
 }
@@ -87,7 +88,10 @@ impl Operation for Load {
         for object in loaded.objects {
             let bytes = object.as_mesh().map_or(0, |mesh| mesh.bytes() as u64);
             if bytes > cx.budget {
-                let message = format!("\"{}\" takes {bytes} bytes, over the budget", object.name);
+                let message = format!(
+                    "\"{}\" needs {bytes} bytes, which exceeds the memory budget",
+                    object.name
+                );
                 return Err(OpError::Budget(message));
             }
             let inserted = scene.insert(object);
@@ -114,15 +118,16 @@ impl Load {
             };
             let field = if self.name.is_some() { "name" } else { "path" };
             let taken = plan.insert(&object.name, geometry);
-            let help = "give another name with `name`, or rename the first";
+            let help =
+                "give the object a different name with `name`, or rename the existing object";
             problems.extend(taken.map(|p| p.at([field]).help(help)));
         }
         problems
     }
 }
 
-/// What reading will make of a mesh of these counts. Faces may be left out, or lose corners that are there
-/// twice, and splitting may add vertices and edges.
+/// The mesh that reading gives for these counts. Reading can leave out faces and remove repeated corners, and
+/// splitting can add vertices and edges.
 fn planned(peek: &PeekMesh) -> MeshPlan {
     let mut plan = MeshPlan {
         vertices: Range::at_most(peek.vertices.saturating_add(peek.corners)),
@@ -132,19 +137,19 @@ fn planned(peek: &PeekMesh) -> MeshPlan {
         attributes: Vec::new(),
         has_unlisted_attributes: true,
     };
-    let mut perhaps = |there: bool, domain, name: &str| {
-        if there {
+    let mut provide_uncertain = |may_exist: bool, domain, name: &str| {
+        if may_exist {
             plan.provide(domain, name);
             if let Some(attribute) = plan.attributes.last_mut() {
                 attribute.certain = false;
             }
         }
     };
-    perhaps(peek.uvs, Domain::Corner, mesh::UV.name);
-    perhaps(peek.normals, Domain::Vertex, mesh::VERTEX_NORMAL.name);
-    perhaps(peek.normals, Domain::Corner, mesh::CORNER_NORMAL.name);
-    perhaps(peek.colors, Domain::Vertex, mesh::COLOR.name);
-    perhaps(peek.materials, Domain::Face, mesh::MATERIAL.name);
+    provide_uncertain(peek.uvs, Domain::Corner, mesh::UV.name);
+    provide_uncertain(peek.normals, Domain::Vertex, mesh::VERTEX_NORMAL.name);
+    provide_uncertain(peek.normals, Domain::Corner, mesh::CORNER_NORMAL.name);
+    provide_uncertain(peek.colors, Domain::Vertex, mesh::COLOR.name);
+    provide_uncertain(peek.materials, Domain::Face, mesh::MATERIAL.name);
     plan
 }
 
@@ -195,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_file_is_a_problem_at_its_path() {
+    fn a_missing_file_is_a_problem_of_the_parameter_path() {
         let files = files(std::path::Path::new("nowhere"));
         let cx = PlanContext {
             files: &files,
@@ -213,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn what_makes_no_clean_mesh_is_kept_or_dropped() {
+    fn unclean_faces_and_vertices_are_kept_or_dropped() {
         let folder = tempfile::tempdir().unwrap();
         let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 2 0 0\nv 9 9 9\nf 1 2 3\nf 3 1 2\nf 1 2 4\np 5\n";
         std::fs::write(folder.path().join("a.obj"), obj).unwrap();
@@ -235,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn all_files_that_were_looked_at_are_told() {
+    fn all_accessed_files_are_logged() {
         let folder = tempfile::tempdir().unwrap();
         let obj = "mtllib there.mtl\nmtllib not there.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
         std::fs::write(folder.path().join("a.obj"), obj).unwrap();
@@ -264,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn faces_that_are_no_manifold_can_be_refused() {
+    fn non_manifold_faces_can_be_refused() {
         let folder = tempfile::tempdir().unwrap();
         let obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\nv 0 0 1\nf 1 2 3\nf 2 1 4\nf 1 2 5\n";
         std::fs::write(folder.path().join("a.obj"), obj).unwrap();

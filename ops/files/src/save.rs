@@ -4,16 +4,16 @@ use mesh_io::{Format, WriteOptions};
 use op::prelude::*;
 use op::{Loss, Operation, target_scene};
 
-/// Writes objects to a file below the output folder.
+/// Writes objects to a file in the output folder.
 ///
-/// The ending chooses the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for
-/// Bezier patches, `.bzc` for a curve, `.mws` for everything, bit for bit. Everything that the format cannot hold is listed. The file appears
-/// when the whole recipe has succeeded.
+/// The extension chooses the format: `.obj`, `.gltf`, `.glb`, `.ply`, `.stl` or `.off` for meshes, `.bez` for
+/// Bezier patches, `.bzc` for a curve, and `.mws` for a complete scene without any loss. Content that the format
+/// cannot store is listed. The file is only created when the whole recipe has succeeded.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Save {
-    /// The file, seen from the output folder. `{name.stem}` stands for the name, without its ending, of
-    /// the file that the parameter `name` of the recipe names.
+    /// The file. The path is relative to the output folder. `{name.stem}` is replaced by the name, without
+    /// extension, of the file in the recipe parameter `name`.
     pub path: String,
 }
 
@@ -26,15 +26,18 @@ impl Operation for Save {
     fn plan(&self, plan: &mut Plan, cx: &PlanContext) -> Vec<Problem> {
         let mut problems = plan.write(cx, &self.path, |path| {
             let message = match Format::from_path(path) {
-                Some(format) if format.is_written() => return None,
-                Some(format) => format!("{format} files are only read, not written"),
-                None => format!("no format is known for \"{}\"", self.path),
+                Some(format) if format.can_write() => return None,
+                Some(format) => format!("{format} files can be read, but not written"),
+                None => format!("unknown file format: \"{}\"", self.path),
             };
-            let help = format!("endings that can be written: {}", Format::known_to_write());
+            let help = format!(
+                "extensions that can be written: {}",
+                Format::writable_extensions()
+            );
             Some(Problem::error(message).at(["path"]).help(help))
         });
         if plan.objects().is_empty() && !plan.incomplete {
-            problems.push(Problem::error("there is nothing to save at this point"));
+            problems.push(Problem::error("no objects to save at this point"));
         }
         problems
     }
@@ -82,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_saved_can_be_read_back() {
+    fn saved_files_can_be_read_back() {
         let folder = tempfile::tempdir().unwrap();
         let files = Files {
             output: folder.path().into(),
@@ -100,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn only_the_chosen_objects_are_saved() {
+    fn only_the_selected_objects_are_saved() {
         let folder = tempfile::tempdir().unwrap();
         let files = Files {
             output: folder.path().into(),
@@ -121,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_paths_are_problems_before_anything_runs() {
+    fn invalid_paths_are_problems_of_the_plan() {
         let files = Files {
             output: "out".into(),
             ..Files::default()

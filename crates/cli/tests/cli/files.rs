@@ -78,7 +78,7 @@ fn a_failed_conversion_writes_no_file() {
         ("none.obj new.obj", "none.obj: "),
         (
             "square.obj no/new.obj",
-            "no/new.obj: there is no such folder\n",
+            "no/new.obj: the folder does not exist\n",
         ),
         ("square.obj bad.obj/new.obj", "bad.obj/new.obj"),
     ] {

@@ -104,7 +104,7 @@ fn an_index_out_of_range_is_explained() {
     let recipe = LOAD.replace("FILE", "a.obj");
     let folder = Folder::with_recipe(&recipe).with("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
     fails(&folder).complains(&[
-        "a.obj:4:7: the corner refers to vertex 4, but 3 vertices are defined in the file\n",
+        "a.obj:4:7: the corner refers to vertex 4, but the file defines 3 vertices\n",
         "recipe.ron failed, no files were written\n",
     ]);
 }

@@ -1,16 +1,16 @@
-//! What parts of a file take in memory, about, in bytes.
+//! The approximate costs in bytes of the parts of a file, for its memory budget.
 
-/// A file may become this many times its size in memory, ...
-pub(super) const TIMES: usize = 64;
-/// ... and this many bytes in any case.
-pub(super) const FREE: usize = 1 << 24;
-/// How many bytes an object without faces takes, a material of it and what binds it, a vertex, a corner and a
-/// further value of a corner, about.
+/// The memory budget is this multiple of the size of the file, ...
+pub(super) const BUDGET_FACTOR: usize = 64;
+/// ... but at least this many bytes.
+pub(super) const MIN_BUDGET: usize = 1 << 24;
+/// The approximate sizes of an object without faces, a material, the binding of a material, a vertex, a corner, and
+/// an additional value of a corner.
 pub(super) const OBJECT: usize = 1000;
 pub(super) const MATERIAL: usize = 1000;
 pub(super) const BOUND: usize = 50;
 pub(super) const VERTEX: usize = 64;
 pub(super) const CORNER: usize = 48;
 pub(super) const VALUE: usize = 24;
-/// What reading a number costs each time that it is read: time rather than memory.
+/// The cost of each time that a number is read. It limits time rather than memory.
 pub(super) const NUMBER: usize = 20;

@@ -1,4 +1,4 @@
-//! The XML of a COLLADA file: elements by their ids, numbers in their texts, places of errors.
+//! The XML of a COLLADA file: elements by id, numbers in texts, and positions of errors.
 
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
@@ -9,32 +9,32 @@ use roxmltree::{Document as Xml, Error, ParsingOptions};
 use super::cost;
 use crate::fault::Fault;
 use crate::note::{NoteKind, Notes};
-use crate::text::{MARK, Place, name, number, quoted};
+use crate::text::{BYTE_ORDER_MARK, TextPosition, name, number, quoted};
 
 pub(super) type Node<'a> = roxmltree::Node<'a, 'a>;
 
-/// The text of a file: UTF-8 if it is that, and otherwise Latin-1.
+/// Decodes the text of a file as UTF-8 or, if it is not valid UTF-8, as Latin-1.
 ///
 /// # Errors
 ///
-/// If the text begins like UTF-16.
+/// If the text has a byte order mark of UTF-16.
 pub(super) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, Fault> {
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-        return Err(Place::START.error("expected text in UTF-8, found UTF-16"));
+        return Err(TextPosition::START.error("expected text in UTF-8, found UTF-16"));
     }
-    let bytes = bytes.strip_prefix(MARK).unwrap_or(bytes);
+    let bytes = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     Ok(match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
         Err(_) => Cow::Owned(name(bytes)),
     })
 }
 
-/// The tree of `text`. Document type declarations are refused, and with them all entities but the five of
-/// XML itself.
+/// Parses `text`. Document type declarations are refused, and therefore all entities except the five predefined
+/// ones.
 ///
 /// # Errors
 ///
-/// If the text is no XML, or could take far more time or memory than its size pays for.
+/// If the text is not XML, or if parsing it would take far more time or memory than is usual for its size.
 pub(super) fn parsed(text: &str) -> Result<Xml<'_>, Fault> {
     check_size(text)?;
     let options = ParsingOptions {
@@ -44,8 +44,10 @@ pub(super) fn parsed(text: &str) -> Result<Xml<'_>, Fault> {
     };
     Xml::parse_with_options(text, options).map_err(|error| {
         let message = match error {
-            Error::DtdDetected => "a document type declaration is not read here".to_owned(),
-            Error::NodesLimitReached => "far more elements than usual for its size".to_owned(),
+            Error::DtdDetected => "document type declarations are not supported".to_owned(),
+            Error::NodesLimitReached => {
+                "the file has far more elements than is usual for its size".to_owned()
+            }
             _ => {
                 let message = error.to_string();
                 let end = message.rfind(" at ").unwrap_or(message.len());
@@ -54,15 +56,16 @@ pub(super) fn parsed(text: &str) -> Result<Xml<'_>, Fault> {
         };
         let pos = error.pos();
         let (line, column) = (pos.row as usize, pos.col as usize);
-        Place { line, column }.error(message)
+        TextPosition { line, column }.error(message)
     })
 }
 
-/// Refuses what would make the parser slow or large: its tables have a place for each `<` and `=`, it compares
-/// the attributes of an element with each other, and each element with a namespace lists all of them.
+/// Refuses text for which the XML parser would take too much time or memory. The parser allocates an entry for each
+/// `<` and `=`, compares the attributes of an element with each other, and lists all namespaces at each element
+/// that declares one.
 fn check_size(text: &str) -> Result<(), Fault> {
-    const MOST_ATTRIBUTES: usize = 200;
-    const MOST_NAMESPACES: usize = 50;
+    const MAX_ATTRIBUTES: usize = 200;
+    const MAX_NAMESPACES: usize = 50;
     const SMALL: usize = 8192;
     let bytes = text.as_bytes();
     let mut prefixes = BTreeSet::new();
@@ -78,8 +81,10 @@ fn check_size(text: &str) -> Result<(), Fault> {
                 equals += 1;
                 let value = bytes[at + 1..].iter().find(|b| !b.is_ascii_whitespace());
                 in_tag += usize::from(matches!(value, Some(b'"' | b'\'')));
-                if in_tag > MOST_ATTRIBUTES {
-                    let message = format!("expected at most {MOST_ATTRIBUTES} attributes");
+                if in_tag > MAX_ATTRIBUTES {
+                    let message = format!(
+                        "expected at most {MAX_ATTRIBUTES} attributes in an element, found more"
+                    );
                     return Err(place_at(text, at).error(message));
                 }
             }
@@ -87,8 +92,9 @@ fn check_size(text: &str) -> Result<(), Fault> {
                 let rest = &bytes[at + 1..bytes.len().min(at + 257)];
                 let is_end = |b: &u8| matches!(b, b'=' | b' ' | b'\t' | b'\r' | b'\n');
                 prefixes.insert(rest.split(is_end).next());
-                if prefixes.len() > MOST_NAMESPACES {
-                    let message = format!("expected at most {MOST_NAMESPACES} namespaces");
+                if prefixes.len() > MAX_NAMESPACES {
+                    let message =
+                        format!("expected at most {MAX_NAMESPACES} namespaces, found more");
                     return Err(place_at(text, at).error(message));
                 }
             }
@@ -96,40 +102,40 @@ fn check_size(text: &str) -> Result<(), Fault> {
         }
     }
     if bytes.len() > SMALL && (tags > bytes.len() / 3 || equals > bytes.len() / 4) {
-        return Err(Place::START.error("expected XML"));
+        return Err(TextPosition::START.error("expected XML"));
     }
     Ok(())
 }
 
-/// The place of a byte. Lines end in LF.
-fn place_at(text: &str, at: usize) -> Place {
+/// The position of a byte. Lines end in LF.
+fn place_at(text: &str, at: usize) -> TextPosition {
     let before = &text.as_bytes()[..at.min(text.len())];
     let mut lines = before.split(|&b| b == b'\n');
-    Place {
+    TextPosition {
         line: lines.clone().count(),
         column: lines.next_back().map_or(0, <[u8]>::len) + 1,
     }
 }
 
-/// The count of each kind of note, and the line of the first.
+/// The count and the first line of each kind of note.
 type Tally = BTreeMap<(NoteKind, &'static str), (usize, usize)>;
 
-/// A file with its elements in order of their ids.
+/// A file, with its elements by id.
 pub(super) struct Document<'a> {
     pub(super) root: Node<'a>,
     pub(super) ids: BTreeMap<&'a str, Node<'a>>,
-    /// How many bytes the text has.
+    /// The size of the text in bytes.
     pub(super) size: usize,
-    /// What was left out or changed, added up by what it is, and the first line of each.
+    /// What was left out or changed: the total of each kind, and the first line.
     tally: RefCell<Tally>,
-    /// How much memory may still be taken. A file may repeat its geometries by instances, but not without end.
+    /// The memory that the file can still use. Instances can repeat geometries, but only within this budget.
     budget: Cell<usize>,
 }
 
 impl<'a> Document<'a> {
     /// # Errors
     ///
-    /// If the root is not that of a COLLADA file.
+    /// If the root element is not that of a COLLADA file.
     pub(super) fn new(xml: &'a Xml<'a>) -> Result<Self, Fault> {
         let root = xml.root_element();
         if root.tag_name().name() != "COLLADA" {
@@ -139,7 +145,7 @@ impl<'a> Document<'a> {
         let mut ids = BTreeMap::new();
         for node in root.descendants() {
             if let Some(id) = node.attribute("id") {
-                // Of elements with the same id the first counts.
+                // If several elements have the same id, the first is used.
                 ids.entry(id).or_insert(node);
             }
         }
@@ -149,7 +155,10 @@ impl<'a> Document<'a> {
             ids,
             size,
             tally: RefCell::default(),
-            budget: size.saturating_mul(cost::TIMES).max(cost::FREE).into(),
+            budget: size
+                .saturating_mul(cost::BUDGET_FACTOR)
+                .max(cost::MIN_BUDGET)
+                .into(),
         })
     }
 
@@ -163,39 +172,39 @@ impl<'a> Document<'a> {
 
     fn add(&self, kind: NoteKind, count: usize, node: Node, what: &'static str) {
         if count > 0 {
-            // The line is looked for only once: that takes time.
+            // The line is determined only once, because that takes time.
             let mut all = self.tally.borrow_mut();
             let (sum, _) = all.entry((kind, what)).or_insert_with(|| (0, line(node)));
             *sum = sum.saturating_add(count);
         }
     }
 
-    /// Notes what was left out or changed.
+    /// Adds notes for everything that was left out or changed.
     pub(super) fn note_all(&self, notes: &mut Notes) {
         for ((kind, what), (count, line)) in self.tally.take() {
             notes.add(kind, count, Some(line), what.to_owned());
         }
     }
 
-    /// Takes memory out of what the file pays for.
+    /// Takes memory from the budget.
     ///
     /// # Errors
     ///
-    /// If it has used up its share.
+    /// If the budget is used up.
     pub(super) fn take(&self, node: Node, bytes: usize) -> Result<(), Fault> {
-        let message = "the file repeats its polygons far more often than usual for its size";
+        let message = "the file repeats its content far more often than is usual for its size";
         let left = self.budget.get().checked_sub(bytes);
         self.budget
             .set(left.ok_or_else(|| error_at(node, message))?);
         Ok(())
     }
 
-    /// The element `kind` that the attribute `key` of `node` refers to as `#id`; `None` if that leads to
-    /// another file.
+    /// Finds the element of a `kind` that the attribute `key` of `node` refers to as `#id`; `None` if the attribute
+    /// refers to another file.
     ///
     /// # Errors
     ///
-    /// If the attribute is missing or refers to nothing, or to something else.
+    /// If the attribute is missing, or if it refers to a missing element or to an element of a different kind.
     pub(super) fn follow(
         &self,
         node: Node<'a>,
@@ -214,30 +223,33 @@ impl<'a> Document<'a> {
         self.find(node, id, kind).map(Some)
     }
 
-    /// The element `kind` with this id, to which `node` refers.
+    /// Finds the element of a `kind` with this id, to which `node` refers.
     ///
     /// # Errors
     ///
-    /// If there is none.
+    /// If the element is missing or of a different kind.
     pub(super) fn find(&self, node: Node<'a>, id: &str, kind: &[&str]) -> Result<Node<'a>, Fault> {
         let found = self.ids.get(id).copied();
         let is_wanted = |found: &Node| kind.iter().any(|kind| is(*found, kind));
         found.filter(is_wanted).ok_or_else(|| {
             let kinds: Vec<String> = kind.iter().map(|kind| format!("<{kind}>")).collect();
             let kinds = kinds.join(" or ");
-            let there = found.map_or("nothing", |found| found.tag_name().name());
+            let found = found.map_or("nothing", |found| found.tag_name().name());
             let id = quoted(id.as_bytes());
-            error_at(node, format!("{id} refers to {there}, expected {kinds}"))
+            error_at(
+                node,
+                format!("expected {id} to refer to {kinds}, found {found}"),
+            )
         })
     }
 }
 
-/// Whether `node` is an element of this name.
+/// Whether `node` is an element with this name.
 pub(super) fn is(node: Node, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name
 }
 
-/// The number of an element in its file: a key for tables.
+/// The number of an element in its file, as a key for tables.
 pub(super) fn number_of(node: Node) -> u32 {
     node.id().get()
 }
@@ -247,49 +259,51 @@ pub(super) fn elements(node: Node<'_>) -> impl Iterator<Item = Node<'_>> {
     node.children().filter(Node::is_element)
 }
 
-/// The child elements of this name.
+/// The child elements with this name.
 pub(super) fn named<'a>(node: Node<'a>, name: &'static str) -> impl Iterator<Item = Node<'a>> {
     node.children().filter(move |child| is(*child, name))
 }
 
-/// The first child element of this name.
+/// The first child element with this name.
 pub(super) fn child<'a>(node: Node<'a>, name: &'static str) -> Option<Node<'a>> {
     named(node, name).next()
 }
 
-/// The element that the names lead to, each a child of the one before.
+/// The element at a path of names, each the name of a child of the previous element.
 pub(super) fn below<'a>(node: Node<'a>, names: &[&'static str]) -> Option<Node<'a>> {
     names.iter().try_fold(node, |node, name| child(node, name))
 }
 
-/// The line where an element begins.
+/// The line in which an element begins.
 pub(super) fn line(node: Node) -> usize {
     place(node).line
 }
 
-fn place(node: Node) -> Place {
+fn place(node: Node) -> TextPosition {
     place_at(node.document().input_text(), node.range().start)
 }
 
-/// An error at the beginning of an element.
+/// Creates an error at the beginning of an element.
 pub(super) fn error_at(node: Node, message: impl Into<String>) -> Fault {
     let what = format!("<{}>: {}", node.tag_name().name(), message.into());
     place(node).error(what)
 }
 
+/// Returns the value of an attribute.
+///
 /// # Errors
 ///
 /// If the attribute is missing.
 pub(super) fn required<'a>(node: Node<'a>, key: &str) -> Result<&'a str, Fault> {
     node.attribute(key)
-        .ok_or_else(|| error_at(node, format!("expected an attribute {key}")))
+        .ok_or_else(|| error_at(node, format!("expected an attribute {key}, found none")))
 }
 
-/// The value of an attribute that is a natural number; `None` if it is missing.
+/// The value of an attribute that is a non-negative integer; `None` if the attribute is missing.
 ///
 /// # Errors
 ///
-/// If it is something else.
+/// If the value is not a non-negative integer.
 pub(super) fn natural(node: Node, key: &str) -> Result<Option<usize>, Fault> {
     let Some(value) = node.attribute(key) else {
         return Ok(None);
@@ -299,51 +313,51 @@ pub(super) fn natural(node: Node, key: &str) -> Result<Option<usize>, Fault> {
         let found = quoted(value.as_bytes());
         error_at(
             node,
-            format!("expected {key} to be a natural number, found {found}"),
+            format!("expected the attribute {key} to be a non-negative integer, found {found}"),
         )
     })
 }
 
-/// The text of an element without the blanks around it.
+/// The text of an element without surrounding blanks.
 pub(super) fn text(node: Node<'_>) -> &str {
     node.text().unwrap_or_default().trim()
 }
 
-/// The words of an element's text.
+/// The words in the text of an element.
 fn words(node: Node<'_>) -> impl Iterator<Item = &str> {
     let texts = node.children().filter(Node::is_text);
     texts.flat_map(|text| text.text().unwrap_or_default().split_ascii_whitespace())
 }
 
-/// The finite numbers in an element's text.
+/// Reads the finite numbers in the text of an element.
 ///
 /// # Errors
 ///
-/// The first word that is none.
+/// The first word that is not a finite number.
 pub(super) fn numbers(node: Node) -> Result<Vec<f64>, Fault> {
     let parse = |word: &str| {
-        let number = number(Place::START, word.as_bytes());
+        let number = number(TextPosition::START, word.as_bytes());
         number.map_err(|error| word_place(node, word).error(error.message))
     };
     words(node).map(parse).collect()
 }
 
-/// As [`numbers`], of which there must be `N`.
+/// Reads exactly `N` finite numbers in the text of an element.
 ///
 /// # Errors
 ///
-/// The first word that is no number, or how many there are.
+/// The first word that is not a number, or the number of words if it is not `N`.
 pub(super) fn exactly<const N: usize>(node: Node) -> Result<[f64; N], Fault> {
     numbers(node)?.try_into().map_err(|found: Vec<f64>| {
         error_at(node, format!("expected {N} numbers, found {}", found.len()))
     })
 }
 
-/// Adds the natural numbers in an element's text to `list`.
+/// Appends the indices in the text of an element to `list`.
 ///
 /// # Errors
 ///
-/// The first word that is none, or is too large.
+/// The first word that is not an index, or that is too large.
 pub(super) fn push_indices(node: Node, list: &mut Vec<u32>) -> Result<(), Fault> {
     for word in words(node) {
         let expected = |_| word_place(node, word).expected("an index", word.as_bytes());
@@ -352,9 +366,8 @@ pub(super) fn push_indices(node: Node, list: &mut Vec<u32>) -> Result<(), Fault>
     Ok(())
 }
 
-/// The place of a word of a text: exact where it stands in the file as it is, that of the element where an
-/// entity spells a part of it.
-fn word_place(node: Node, word: &str) -> Place {
+/// The position of a word of a text. If a part of the text is an entity, this is the position of the element.
+fn word_place(node: Node, word: &str) -> TextPosition {
     let text = node.document().input_text();
     let offset = (word.as_ptr() as usize).checked_sub(text.as_ptr() as usize);
     match offset {
@@ -363,7 +376,7 @@ fn word_place(node: Node, word: &str) -> Place {
     }
 }
 
-/// An error at the k-th word of the texts of `lists`.
+/// Creates an error at word `k` of the texts of `lists`.
 pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> Fault {
     for &list in lists {
         for word in words(list) {
@@ -373,5 +386,5 @@ pub(super) fn word_error(lists: &[Node], mut k: usize, message: String) -> Fault
             k -= 1;
         }
     }
-    Place::START.error(message)
+    TextPosition::START.error(message)
 }

@@ -1,4 +1,4 @@
-//! From a `<geometry>` to polygons.
+//! Converts a `<geometry>` to polygons.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -15,22 +15,22 @@ use super::sources::{Vectors, vectors};
 use crate::Polygons;
 use crate::fault::Fault;
 
-/// Further sets of texture coordinates are left out.
-const MOST_UV_SETS: usize = 8;
+/// The largest number of sets of texture coordinates that are read.
+const MAX_UV_SETS: usize = 8;
 
-/// The polygons of a geometry in its own coordinates.
+/// The polygons of a geometry in its local coordinates.
 #[derive(Debug, Default)]
 pub(super) struct Surface<'a> {
-    /// Without materials.
+    /// The polygons, without materials.
     pub(super) polygons: Polygons,
-    /// The material symbols of the polygons, in the order in which they come first.
+    /// The material symbols of the polygons, in order of first occurrence.
     pub(super) symbols: Vec<&'a str>,
-    /// For each polygon the place of its symbol, -1 without one.
+    /// For each polygon the index of its symbol; -1 without one.
     pub(super) symbol_of: Vec<i32>,
 }
 
 impl Surface<'_> {
-    /// The bytes that it takes, about.
+    /// The approximate size in bytes.
     pub(super) fn cost(&self) -> usize {
         let polygons = &self.polygons;
         let columns = polygons.attributes.of(Domain::Corner).len();
@@ -42,13 +42,13 @@ impl Surface<'_> {
     }
 }
 
-/// Reads geometries; vectors that several of them use are read once.
+/// Reads geometries. Vectors that several geometries use are read once.
 pub(super) struct Geometries<'a, 'd> {
     pub(super) document: &'d Document<'a>,
     sources: BTreeMap<(u32, usize), Rc<Vectors>>,
 }
 
-/// What the vectors of an input are.
+/// The kind of the vectors of an input.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Normal,
@@ -58,23 +58,23 @@ enum Kind {
 
 struct Input<'a> {
     kind: Kind,
-    /// Which index of a corner counts.
+    /// The offset of the index of this input in the indices of a corner.
     offset: usize,
     source: Node<'a>,
 }
 
 /// The inputs of a list of polygons.
 struct Inputs<'a> {
-    /// How many indices a corner has.
+    /// The number of indices of a corner.
     stride: usize,
-    /// Which of them is that of its vertex.
+    /// The offset of the index of the vertex.
     vertex: usize,
     /// The element with the positions.
     vertices: Node<'a>,
-    others: Vec<Input<'a>>,
+    attributes: Vec<Input<'a>>,
 }
 
-/// Values of corners; empty or as long as the corners.
+/// Attributes of corners; each is empty or has as many values as there are corners.
 #[derive(Default)]
 struct Columns {
     normals: Vec<DVec3>,
@@ -88,11 +88,11 @@ impl<'a, 'd> Geometries<'a, 'd> {
         Self { document, sources }
     }
 
-    /// The polygons of a geometry; `None` if it has none.
+    /// Reads the polygons of a geometry; `None` if it has none.
     ///
     /// # Errors
     ///
-    /// What of it is not as it should be.
+    /// The first error in the geometry.
     pub(super) fn surface(&mut self, geometry: Node<'a>) -> Result<Option<Surface<'a>>, Fault> {
         let Some(mesh) = child(geometry, "mesh") else {
             return Ok(None);
@@ -154,7 +154,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
 
     fn source_of(&self, input: Node<'a>) -> Result<Node<'a>, Fault> {
         let source = self.document.follow(input, "source", &["source"])?;
-        source.ok_or_else(|| error_at(input, "a source in another file is not read here"))
+        source.ok_or_else(|| error_at(input, "sources in other files are not supported"))
     }
 
     fn vectors(
@@ -175,11 +175,11 @@ impl<'a, 'd> Geometries<'a, 'd> {
         Ok(read)
     }
 
-    /// The inputs of a list of polygons; those of its vertices stand behind its own.
+    /// Reads the inputs of a list of polygons, followed by those of its vertices.
     fn inputs(&self, list: Node<'a>) -> Result<Inputs<'a>, Fault> {
         let mut stride = 0;
         let mut vertex = None;
-        let mut others: Vec<Input> = Vec::new();
+        let mut attributes: Vec<Input> = Vec::new();
         let mut add = |input: Node<'a>, offset: usize| -> Result<(), Fault> {
             let kind = match required(input, "semantic")? {
                 "VERTEX" | "POSITION" => return Ok(()),
@@ -188,14 +188,14 @@ impl<'a, 'd> Geometries<'a, 'd> {
                 "TEXCOORD" => Some(Kind::Uv(natural(input, "set")?.unwrap_or(0))),
                 _ => None,
             };
-            match kind.filter(|kind| others.iter().all(|other| other.kind != *kind)) {
-                Some(kind) if others.len() < MOST_UV_SETS + 2 => others.push(Input {
+            match kind.filter(|kind| attributes.iter().all(|input| input.kind != *kind)) {
+                Some(kind) if attributes.len() < MAX_UV_SETS + 2 => attributes.push(Input {
                     kind,
                     offset,
                     source: self.source_of(input)?,
                 }),
                 _ => {
-                    let what = "inputs left out that are no normals, colors or texture coordinates, or further ones";
+                    let what = "inputs left out: other than normals, colors and texture coordinates, or repeated";
                     self.document.left_out(1, input, what);
                 }
             }
@@ -205,7 +205,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
             let offset = natural(input, "offset")?
                 .ok_or_else(|| error_at(input, "expected an attribute offset"))?;
             if offset > 1000 {
-                let message = format!("expected an offset below 1000, found {offset}");
+                let message = format!("expected an offset of at most 1000, found {offset}");
                 return Err(error_at(input, message));
             }
             stride = stride.max(offset + 1);
@@ -216,23 +216,23 @@ impl<'a, 'd> Geometries<'a, 'd> {
         }
         let (input, vertex) = vertex.ok_or_else(|| error_at(list, "expected an input VERTEX"))?;
         let vertices = self.document.follow(input, "source", &["vertices"])?;
-        let vertices = vertices
-            .ok_or_else(|| error_at(input, "vertices in another file are not read here"))?;
+        let vertices =
+            vertices.ok_or_else(|| error_at(input, "vertices in other files are not supported"))?;
         let of_vertices: Vec<Node> = named(vertices, "input").collect();
         for &input in &of_vertices {
             add(input, vertex)?;
         }
-        // Each list reads them again.
+        // Each list of polygons reads these inputs again.
         self.document.take(list, cost::NUMBER * of_vertices.len())?;
         Ok(Inputs {
             stride,
             vertex,
             vertices,
-            others,
+            attributes,
         })
     }
 
-    /// Adds the polygons of one list.
+    /// Appends the polygons of one list.
     fn add(
         &mut self,
         list: Node<'a>,
@@ -241,13 +241,13 @@ impl<'a, 'd> Geometries<'a, 'd> {
         polygons: &mut Polygons,
         columns: &mut Columns,
     ) -> Result<(), Fault> {
-        let check = |offset: usize, there: usize, what: &str| {
+        let check = |offset: usize, n: usize, what: &str| {
             let of_input = outline.indices.iter().skip(offset).step_by(inputs.stride);
-            match of_input.enumerate().find(|(_, i)| **i as usize >= there) {
+            match of_input.enumerate().find(|(_, i)| **i as usize >= n) {
                 None => Ok(()),
                 Some((corner, i)) => {
                     let k = corner * inputs.stride + offset;
-                    let message = format!("{what} {i} does not exist: there are {there}, from 0");
+                    let message = format!("expected a {what} index below {n}, found {i}");
                     Err(word_error(&outline.lists, k, message))
                 }
             }
@@ -266,7 +266,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
             let end = u32::try_from(end).map_err(|_| error_at(list, "too many corners"))?;
             polygons.offsets.push(end);
         }
-        for input in &inputs.others {
+        for input in &inputs.attributes {
             let (names, what): (&[&str], _) = match input.kind {
                 Kind::Normal => (&["X", "Y", "Z"], "normal"),
                 Kind::Color => (&["R", "G", "B"], "color"),
@@ -289,8 +289,10 @@ impl<'a, 'd> Geometries<'a, 'd> {
                     columns.colors.extend(index.map(color));
                 }
                 Kind::Uv(set) => {
-                    if !columns.uvs.contains_key(&set) && columns.uvs.len() == MOST_UV_SETS {
-                        let message = "expected at most 8 sets of texture coordinates";
+                    if !columns.uvs.contains_key(&set) && columns.uvs.len() == MAX_UV_SETS {
+                        let message = format!(
+                            "expected at most {MAX_UV_SETS} sets of texture coordinates, found more"
+                        );
                         return Err(error_at(list, message));
                     }
                     let uv = |i| DVec2::from_array(vectors.get(i, [0.0; 2]));
@@ -305,7 +307,7 @@ impl<'a, 'd> Geometries<'a, 'd> {
 }
 
 impl Columns {
-    /// Puts the columns into `polygons`. Corners for which the file has no value get zero, and white.
+    /// Adds the columns to `polygons`. Corners without a value get zero, or white as color.
     fn finish(mut self, polygons: &mut Polygons) {
         let n = polygons.corners.len();
         if !self.normals.is_empty() {

@@ -1,4 +1,4 @@
-//! From `<material>` and `<effect>` to materials.
+//! Converts `<material>` and `<effect>` elements to materials.
 
 use std::collections::BTreeMap;
 
@@ -10,19 +10,19 @@ use super::document::{
 use crate::assets::inside_uri;
 use crate::fault::Fault;
 
-/// What a channel of a shader shows.
-enum Paint {
+/// The value of a channel of a shader.
+enum ChannelValue {
     Color([f64; 4]),
-    /// The path of a picture.
-    Picture(String),
+    /// The path of a texture file.
+    Texture(String),
 }
 
-/// The material of an element `<material>`. `known` are those of materials and effects that were read before, by the
-/// numbers of their elements.
+/// Reads the material of a `<material>` element. `known` caches the materials of elements that were read before, by
+/// the numbers of the elements.
 ///
 /// # Errors
 ///
-/// What of it is not as it should be.
+/// The first error in the material.
 pub(super) fn material<'a>(
     document: &Document<'a>,
     node: Node<'a>,
@@ -38,14 +38,14 @@ pub(super) fn material<'a>(
         match document.follow(instance, "url", &["effect"])? {
             None => document.left_out(1, instance, "effects in other files left out"),
             Some(effect) => {
-                let look = match known.get(&number_of(effect)) {
-                    Some(look) => look.clone(),
-                    None => look_of(document, effect)?,
+                let appearance = match known.get(&number_of(effect)) {
+                    Some(appearance) => appearance.clone(),
+                    None => read_effect(document, effect)?,
                 };
-                known.insert(number_of(effect), look.clone());
+                known.insert(number_of(effect), appearance.clone());
                 material = Material {
                     name: material.name,
-                    ..look
+                    ..appearance
                 };
             }
         }
@@ -54,14 +54,14 @@ pub(super) fn material<'a>(
     Ok(material)
 }
 
-/// A material without a name that looks as an element `<effect>` says.
-fn look_of<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material, Fault> {
+/// Reads the appearance that an `<effect>` element defines, as a material without a name.
+fn read_effect<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material, Fault> {
     let mut material = Material::new("");
     let others = elements(effect).filter(|profile| {
         let name = profile.tag_name().name();
         name.starts_with("profile_") && name != "profile_COMMON"
     });
-    let what = "profiles of effects left out that are not common";
+    let what = "profiles of effects other than profile_COMMON left out";
     document.left_out(others.count(), effect, what);
     let Some(profile) = child(effect, "profile_COMMON") else {
         return Ok(material);
@@ -73,7 +73,7 @@ fn look_of<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material, Fa
     let Some(shader) = shader else {
         return Ok(material);
     };
-    // A surface without shading shows what it emits.
+    // The `constant` shader is unlit and shows its emission.
     let channel = if is(shader, "constant") {
         "emission"
     } else {
@@ -83,19 +83,19 @@ fn look_of<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material, Fa
         let name = node.tag_name().name();
         name != channel && name != "transparent" && name != "transparency"
     });
-    let what = "parameters of effects left out that are no diffuse color and no transparency";
+    let what = "parameters of effects other than diffuse color and transparency left out";
     document.left_out(others.count(), shader, what);
-    let look = Look {
+    let scope = Scope {
         document,
         scopes: [profile, effect],
     };
-    let mut alpha = opacity(&look, shader)?;
-    match look.paint(child(shader, channel))? {
+    let mut alpha = opacity(&scope, shader)?;
+    match scope.channel_value(child(shader, channel))? {
         None => {}
-        Some(Paint::Picture(path)) => {
+        Some(ChannelValue::Texture(path)) => {
             material.base_color_texture = Some(Texture::file(path));
         }
-        Some(Paint::Color([red, green, blue, a])) => {
+        Some(ChannelValue::Color([red, green, blue, a])) => {
             material.base_color = [red, green, blue, 1.0].map(|x| x.clamp(0.0, 1.0));
             alpha = alpha.or(Some(a));
         }
@@ -107,24 +107,24 @@ fn look_of<'a>(document: &Document<'a>, effect: Node<'a>) -> Result<Material, Fa
     Ok(material)
 }
 
-/// How opaque a shader is, from 0 to 1; `None` if it does not say.
+/// The opacity of a shader, from 0 to 1; `None` if the shader does not declare one.
 ///
-/// COLLADA 1.4.1, "Determining transparency": `A_ONE` takes the alpha of the transparent color, `RGB_ZERO` its
-/// luminance the other way round, both times the transparency.
-fn opacity(look: &Look, shader: Node) -> Result<Option<f64>, Fault> {
+/// COLLADA 1.4.1, "Determining transparency": `A_ONE` uses the alpha of the transparent color, `RGB_ZERO` uses 1
+/// minus its luminance. Both are scaled by the transparency.
+fn opacity(scope: &Scope, shader: Node) -> Result<Option<f64>, Fault> {
     let transparent = child(shader, "transparent");
     let transparency = match child(shader, "transparency") {
-        Some(node) => look.float(node)?,
+        Some(node) => scope.float(node)?,
         None => None,
     };
     if transparent.is_none() && transparency.is_none() {
         return Ok(None);
     }
-    let color = match look.paint(transparent)? {
-        Some(Paint::Color(color)) => color,
-        Some(Paint::Picture(_)) => {
-            let what = "pictures of transparency left out";
-            look.document.left_out(1, shader, what);
+    let color = match scope.channel_value(transparent)? {
+        Some(ChannelValue::Color(color)) => color,
+        Some(ChannelValue::Texture(_)) => {
+            let what = "transparency textures left out";
+            scope.document.left_out(1, shader, what);
             return Ok(None);
         }
         None => [0.0, 0.0, 0.0, 1.0],
@@ -139,41 +139,41 @@ fn opacity(look: &Look, shader: Node) -> Result<Option<f64>, Fault> {
         "RGB_ONE" => luminance * transparency,
         _ => alpha * transparency,
     };
-    // Programs disagree about which end is which, and nobody means a surface that cannot be seen.
+    // Programs disagree about whether 0 or 1 is opaque, and completely invisible surfaces are not intended.
     if opacity <= 0.0 {
-        let what = "materials made opaque: the file makes them invisible";
-        look.document.changed(1, shader, what);
+        let what = "invisible materials made opaque";
+        scope.document.changed(1, shader, what);
         return Ok(None);
     }
     Ok(Some(opacity))
 }
 
-/// Where the names in a shader are looked up.
-struct Look<'a, 'd> {
+/// The scopes in which the names in a shader are looked up.
+struct Scope<'a, 'd> {
     document: &'d Document<'a>,
     scopes: [Node<'a>; 2],
 }
 
-impl<'a> Look<'a, '_> {
-    fn paint(&self, channel: Option<Node>) -> Result<Option<Paint>, Fault> {
+impl<'a> Scope<'a, '_> {
+    fn channel_value(&self, channel: Option<Node>) -> Result<Option<ChannelValue>, Fault> {
         let Some(channel) = channel else {
             return Ok(None);
         };
         if let Some(color) = child(channel, "color") {
-            return color4(color).map(|color| Some(Paint::Color(color)));
+            return color4(color).map(|color| Some(ChannelValue::Color(color)));
         }
         if let Some(texture) = child(channel, "texture") {
             let sid = texture.attribute("texture");
-            let path = sid.and_then(|sid| self.picture(sid));
-            let what = "textures left out that have no picture file";
+            let path = sid.and_then(|sid| self.texture_path(sid));
+            let what = "textures without an image file left out";
             let is_missing = usize::from(path.is_none());
             self.document.left_out(is_missing, texture, what);
-            return Ok(path.map(Paint::Picture));
+            return Ok(path.map(ChannelValue::Texture));
         }
         let parameter = self.parameter_of(channel);
         let color = parameter.and_then(|p| child(p, "float4").or(child(p, "float3")));
         color
-            .map(|color| color4(color).map(Paint::Color))
+            .map(|color| color4(color).map(ChannelValue::Color))
             .transpose()
     }
 
@@ -195,8 +195,8 @@ impl<'a> Look<'a, '_> {
         parameters.find(|parameter| parameter.attribute("sid") == Some(sid))
     }
 
-    /// The path of the picture behind the sampler `sid`; some programs name the picture at once.
-    fn picture(&self, sid: &str) -> Option<String> {
+    /// The path of the image of the sampler `sid`. Some programs write the id of the image instead of a sampler.
+    fn texture_path(&self, sid: &str) -> Option<String> {
         let mut image = sid;
         if let Some(sampler) = self.parameter(sid).and_then(|p| child(p, "sampler2D")) {
             if let Some(instance) = child(sampler, "instance_image") {
@@ -216,7 +216,7 @@ impl<'a> Look<'a, '_> {
     }
 }
 
-/// A color of three or four numbers.
+/// Reads a color with three or four components.
 fn color4(node: Node) -> Result<[f64; 4], Fault> {
     match numbers(node)?[..] {
         [red, green, blue] => Ok([red, green, blue, 1.0]),

@@ -6,28 +6,28 @@
 //!                                         `- material --- effect --- image
 //! ```
 //!
-//! | of the file | becomes |
+//! | in the file | in the scene |
 //! | --- | --- |
-//! | `node` with `instance_geometry` | an object with the name of the node, moved by all nodes above it |
-//! | `instance_controller` | an object of the geometry that it moves, as it is at rest |
-//! | `instance_node` | the nodes that it refers to, once more |
-//! | `matrix`, `translate`, `rotate`, `scale`, `lookat` | a part of the placement; a mirror turns the faces round |
+//! | `node` with `instance_geometry` | an object with the name of the node, transformed by the node and its ancestors |
+//! | `instance_controller` | an object with the controlled geometry in its rest pose |
+//! | `instance_node` | another instance of the referenced node |
+//! | `matrix`, `translate`, `rotate`, `scale`, `lookat` | a part of the transform; a transform that mirrors reverses the faces |
 //! | `triangles`, `polylist`, `polygons`, `tristrips`, `trifans` | faces; holes (`ph`) are left out |
-//! | input `POSITION` | the vertices, in their order and not merged |
-//! | input `NORMAL` | `normal` of corners, or of vertices where their corners agree |
-//! | input `COLOR` | `color` likewise; without an alpha it is 1 |
-//! | input `TEXCOORD` | `uv` of corners, further sets `uv1`, `uv2`, ... in the order of their numbers, at most 8 |
-//! | material of a list of polygons | `material` of faces, and a material |
-//! | effect: `diffuse` (`emission` of `constant`) | the base color or its picture, with the path of the file |
+//! | input `POSITION` | vertices, in order and not merged |
+//! | input `NORMAL` | vertex attribute `normal` if the corners of each vertex agree, otherwise corner attribute |
+//! | input `COLOR` | attribute `color`, on the same domains; alpha defaults to 1 |
+//! | input `TEXCOORD` | corner attribute `uv`, for further sets `uv1`, `uv2` and so on in the order of their numbers; at most 8 sets |
+//! | material of a list of polygons | face attribute `material`, and a material of the object |
+//! | effect: `diffuse` (`emission` of `constant`) | the base color or its texture, with the path of the image file |
 //! | effect: `transparent`, `transparency` | the alpha of the base color |
-//! | `unit`, `up_axis` | a note: coordinates are those of the file, neither scaled nor turned |
-//! | lines, splines, skins, morphs, animations, cameras, lights, physics, `skew` | left out with a note |
+//! | `unit`, `up_axis` | ignored with a note: coordinates are neither scaled nor rotated |
+//! | lines, splines, skins, morphs, animations, cameras, lights, physics, `skew` | left out, with a note |
 //!
-//! Corners for which a list has no normal or texture coordinate get zero, those without a color white. A
-//! file without a scene gives an object for each geometry. Other files that it refers to are not read.
+//! Corners without a normal or texture coordinate get zero, those without a color white. A file without a scene
+//! gives an object for each geometry. Other files that a file refers to are not read.
 //!
-//! Document type declarations are refused, so that entities cannot grow; what instances repeat may take
-//! 64 times the size of the file, and 16 MiB in any case.
+//! Document type declarations are refused, so that entities cannot expand. Content that instances repeat can use 64
+//! times the size of the file in memory, and at least 16 MiB.
 
 mod cost;
 mod document;
@@ -45,25 +45,29 @@ use scene::{Material, Texture};
 use crate::fault::Fault;
 use crate::note::{Names, Notes};
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
-use crate::{Found, Polygons, Shape};
+use crate::{ParsedObject, Polygons, Shape};
 
 use document::{Document, elements, error_at, line, number_of, text};
 use geometry::{Geometries, Surface};
-use nodes::{Placed, placed};
+use nodes::{PlacedGeometry, placed};
 
 /// Reads the objects of a file from its bytes.
 ///
 /// # Errors
 ///
-/// The first thing that breaks the rules of the format.
-pub(crate) fn read(bytes: &[u8], name: &str, notes: &mut Notes) -> Result<Vec<Found>, Fault> {
+/// The first error in the file.
+pub(crate) fn read(
+    bytes: &[u8],
+    name: &str,
+    notes: &mut Notes,
+) -> Result<Vec<ParsedObject>, Fault> {
     each_object(bytes, name, notes, |name, object| {
         let shape = Shape::Polygons(object.polygons()?);
-        Ok(Found { name, shape })
+        Ok(ParsedObject { name, shape })
     })
 }
 
-/// What reading will give.
+/// Returns what reading will give.
 ///
 /// # Errors
 ///
@@ -75,7 +79,7 @@ pub(crate) fn peek(bytes: &[u8], name: &str) -> Result<Vec<PeekObject>, Fault> {
     })
 }
 
-/// Reads the file and makes something of each object.
+/// Reads the file and calls `make` for each object.
 fn each_object<T>(
     bytes: &[u8],
     name: &str,
@@ -101,7 +105,7 @@ fn each_object<T>(
             surfaces.insert(id, surface);
         }
         let Some(Some(surface)) = surfaces.get(&id) else {
-            let what = "geometries left out that have no polygons";
+            let what = "geometries without polygons left out";
             document.left_out(1, placed.geometry, what);
             continue;
         };
@@ -121,12 +125,12 @@ fn each_object<T>(
     Ok(objects)
 }
 
-/// An object of the file with all that making its polygons needs.
+/// An object of the file, and the data from which its polygons are built.
 struct Object<'a, 'd> {
     document: &'d Document<'a>,
-    placed: &'d Placed<'a>,
+    placed: &'d PlacedGeometry<'a>,
     surface: &'d Surface<'a>,
-    /// Those of materials and effects that were read before, by the numbers of their elements.
+    /// The materials of elements that were read before, by the numbers of the elements.
     materials: &'d mut BTreeMap<u32, Material>,
 }
 
@@ -148,11 +152,11 @@ impl Object<'_, '_> {
         counts
     }
 
-    /// The polygons in the scene's coordinates, with their materials.
+    /// The polygons in scene coordinates, with their materials.
     fn polygons(self) -> Result<Polygons, Fault> {
         let mut polygons = self.surface.polygons.clone();
-        let lost = polygons.place(&self.placed.to_scene);
-        let what = "normals left out: the placement is flat";
+        let lost = polygons.apply_transform(&self.placed.to_scene);
+        let what = "normals left out: the transform of the node is singular";
         self.document.left_out(lost, self.placed.geometry, what);
         if self.surface.symbols.is_empty() {
             return Ok(polygons);
@@ -161,12 +165,12 @@ impl Object<'_, '_> {
         let mut place_of_symbol = Vec::new();
         for symbol in &self.surface.symbols {
             let next = i32::try_from(polygons.materials.len()).unwrap_or(i32::MAX);
-            // Without a binding, some programs mean the material of this id.
+            // Some programs write the id of the material instead of a binding.
             let same_id = self.document.ids.get(symbol);
             let same_id = same_id.filter(|node| document::is(**node, "material"));
             let node = self.placed.materials.get(symbol).or(same_id);
             let Some(&node) = node else {
-                let what = "names of materials that the file does not define: they are white";
+                let what = "materials that the file does not define: replaced by white materials";
                 self.document.changed(1, self.placed.geometry, what);
                 place_of_symbol.push(next);
                 polygons.materials.push(Material::new(*symbol));
@@ -195,7 +199,7 @@ impl Object<'_, '_> {
 
 // ---- Notes -------------------------------------------------------------------------------------
 
-/// Notes the unit and the direction upwards, if they are not the usual ones.
+/// Adds a note if the unit or the up axis is not the default.
 fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
     let asset = document::child(document.root, "asset");
     let unit = asset.and_then(|asset| document::child(asset, "unit"));
@@ -205,33 +209,31 @@ fn note_asset(document: &Document, notes: &mut Notes) -> Result<(), Fault> {
         && let Some(given) = unit.attribute("meter")
     {
         let parsed = given.trim().parse::<f64>().ok().filter(|x| x.is_finite());
-        meter =
-            parsed.ok_or_else(|| error_at(unit, "expected the attribute meter to be a number"))?;
+        meter = parsed
+            .ok_or_else(|| error_at(unit, "expected the attribute meter to be a finite number"))?;
     }
     let up = axis.map_or("Y_UP", text);
     if meter != 1.0 || up != "Y_UP" {
         let up = up.chars().take(20).collect::<String>();
-        let what = format!("coordinate system as it is in the file: up_axis {up}, unit {meter} m");
+        let what = format!("coordinate system kept as in the file: up_axis {up}, unit {meter} m");
         notes.changed(1, unit.or(axis).map(line), what);
     }
     Ok(())
 }
 
-/// Counts what the reader does not look at.
+/// Counts the content that the reader ignores.
 fn note_libraries(document: &Document) {
     for library in elements(document.root) {
         let what = match library.tag_name().name() {
             "library_animations" | "library_animation_clips" => "animations left out",
             "library_cameras" => "cameras left out",
             "library_lights" => "lights left out",
-            "library_controllers" => {
-                "skins and morphs left out: geometries are as they are at rest"
-            }
+            "library_controllers" => "skins and morphs left out: geometries have their rest pose",
             name if name.starts_with("library_physics") || name == "library_force_fields" => {
-                "parts of physics left out"
+                "physics elements left out"
             }
             "library_joints" | "library_articulated_systems" => "joints left out",
-            name if name.starts_with("library_kinematics") => "parts of kinematics left out",
+            name if name.starts_with("library_kinematics") => "kinematics elements left out",
             _ => continue,
         };
         let parts = elements(library).filter(|part| !document::is(*part, "asset"));

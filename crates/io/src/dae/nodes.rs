@@ -1,4 +1,4 @@
-//! The nodes of a scene: which geometries stand where, under which names, with which materials.
+//! The nodes of a scene: the geometries with their transforms, names and materials.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,19 +11,19 @@ use super::document::{
 use crate::fault::Fault;
 use crate::note::Notes;
 
-/// A geometry at its place.
-pub(super) struct Placed<'a> {
-    /// The element that places it: errors about what it costs are there.
+/// A geometry with its transform.
+pub(super) struct PlacedGeometry<'a> {
+    /// The element that instantiates the geometry, for errors about the memory budget.
     pub(super) instance: Option<Node<'a>>,
     pub(super) geometry: Node<'a>,
     pub(super) to_scene: DAffine3,
     /// The name of the node; empty if it has none.
     node_name: &'a str,
-    /// For each symbol of the geometry its element `<material>`.
+    /// The `<material>` element of each symbol of the geometry.
     pub(super) materials: BTreeMap<&'a str, Node<'a>>,
 }
 
-impl<'a> Placed<'a> {
+impl<'a> PlacedGeometry<'a> {
     pub(super) fn name(&self, otherwise: &'a str) -> &'a str {
         let names = [self.node_name, name(self.geometry)];
         let named = names.into_iter().find(|name| !name.is_empty());
@@ -36,16 +36,16 @@ fn name(node: Node<'_>) -> &str {
     given.or(node.attribute("id")).unwrap_or_default()
 }
 
-/// All geometries of the scene, parents before children, in the order of the file; without a scene those of
-/// the libraries.
+/// The geometries of the scene, parents before children, in the order of the file. In a file without a scene, the
+/// geometries of the libraries.
 ///
 /// # Errors
 ///
-/// What of the nodes is not as it should be.
+/// The first error in the nodes.
 pub(super) fn placed<'a>(
     document: &Document<'a>,
     notes: &mut Notes,
-) -> Result<Vec<Placed<'a>>, Fault> {
+) -> Result<Vec<PlacedGeometry<'a>>, Fault> {
     let geometries = || {
         let libraries = named(document.root, "library_geometries");
         libraries.flat_map(|library| named(library, "geometry"))
@@ -59,7 +59,7 @@ pub(super) fn placed<'a>(
         None => scenes.first().copied(),
     };
     let Some(scene) = shown else {
-        let alone = geometries().map(|geometry| Placed {
+        let alone = geometries().map(|geometry| PlacedGeometry {
             instance: None,
             geometry,
             to_scene: DAffine3::IDENTITY,
@@ -68,29 +68,30 @@ pub(super) fn placed<'a>(
         });
         return Ok(alone.collect());
     };
-    let others: Vec<&Node> = scenes.iter().filter(|other| **other != scene).collect();
-    let first = others.first().map(|scene| line(**scene));
-    notes.left_out(others.len(), first, "other scenes left out");
+    let other_scenes: Vec<&Node> = scenes.iter().filter(|other| **other != scene).collect();
+    let first = other_scenes.first().map(|scene| line(**scene));
+    notes.left_out(other_scenes.len(), first, "other scenes left out");
     let placed = Walk::of(document).run(scene)?;
     let used = placed.iter().map(|placed| number_of(placed.geometry));
     let used: BTreeSet<u32> = used.collect();
     let mut unused = geometries().filter(|geometry| !used.contains(&number_of(*geometry)));
     if let Some(first) = unused.next() {
-        let what = "geometries left out: no node of the scene shows them";
+        let what = "geometries left out: not used by any node of the scene";
         notes.left_out(1 + unused.count(), line(first), what);
     }
     Ok(placed)
 }
 
-/// A walk over the nodes of a scene, on a stack of its own: they may be nested as deeply as the file is long.
+/// Traverses the nodes of a scene with an explicit stack, because nodes can be nested as deeply as the file is
+/// long.
 struct Walk<'a, 'd> {
     document: &'d Document<'a>,
-    /// How many more elements may be looked at: instances can make a small file large.
+    /// How many more elements can be visited. Instances can make a small file give many elements.
     steps: usize,
-    /// The nodes that the walk is below of.
-    above: BTreeSet<u32>,
-    placements: BTreeMap<u32, DAffine3>,
-    placed: Vec<Placed<'a>>,
+    /// The nodes from the root to the current node.
+    ancestors: BTreeSet<u32>,
+    transforms: BTreeMap<u32, DAffine3>,
+    placed: Vec<PlacedGeometry<'a>>,
 }
 
 enum Step<'a> {
@@ -103,30 +104,30 @@ impl<'a, 'd> Walk<'a, 'd> {
         Self {
             document,
             steps: 4 * document.size + 10_000,
-            above: BTreeSet::new(),
-            placements: BTreeMap::new(),
+            ancestors: BTreeSet::new(),
+            transforms: BTreeMap::new(),
             placed: Vec::new(),
         }
     }
 
-    fn run(mut self, scene: Node<'a>) -> Result<Vec<Placed<'a>>, Fault> {
+    fn run(mut self, scene: Node<'a>) -> Result<Vec<PlacedGeometry<'a>>, Fault> {
         let mut open = Vec::new();
         self.open_children(scene, DAffine3::IDENTITY, &mut open)?;
         while let Some(step) = open.pop() {
-            let (node, above) = match step {
+            let (node, parent_to_scene) = match step {
                 Step::Leave(id) => {
-                    self.above.remove(&id);
+                    self.ancestors.remove(&id);
                     continue;
                 }
-                Step::Enter(node, above) => (node, above),
+                Step::Enter(node, parent_to_scene) => (node, parent_to_scene),
             };
-            if !self.above.insert(number_of(node)) {
-                return Err(error_at(node, "the node is below itself"));
+            if !self.ancestors.insert(number_of(node)) {
+                return Err(error_at(node, "the node is its own descendant"));
             }
             open.push(Step::Leave(number_of(node)));
-            let to_scene = above * self.placement(node)?;
+            let to_scene = parent_to_scene * self.transform(node)?;
             if !to_scene.is_finite() {
-                return Err(error_at(node, "the placement of the node is not finite"));
+                return Err(error_at(node, "the transform of the node is not finite"));
             }
             self.place_geometries(node, to_scene)?;
             self.open_children(node, to_scene, &mut open)?;
@@ -135,13 +136,13 @@ impl<'a, 'd> Walk<'a, 'd> {
     }
 
     fn step(&mut self, node: Node) -> Result<(), Fault> {
-        let message = "the nodes are repeated far more often than usual for a file of its size";
+        let message = "the file repeats its nodes far more often than is usual for its size";
         let left = self.steps.checked_sub(1);
         self.steps = left.ok_or_else(|| error_at(node, message))?;
         Ok(())
     }
 
-    /// Puts the nodes below `node` on the stack, the first on top.
+    /// Pushes the nodes below `node` on the stack, the first on top.
     fn open_children(
         &mut self,
         node: Node<'a>,
@@ -178,11 +179,11 @@ impl<'a, 'd> Walk<'a, 'd> {
                     .left_out(1, instance, "geometries in other files left out");
                 continue;
             };
-            // The name of an object is kept in some places.
+            // Several copies of the name of an object are stored.
             let names = name(node).len() + name(geometry).len();
             self.document.take(instance, cost::OBJECT + 8 * names)?;
             let materials = self.bound_materials(instance)?;
-            self.placed.push(Placed {
+            self.placed.push(PlacedGeometry {
                 instance: Some(instance),
                 geometry,
                 to_scene,
@@ -193,23 +194,23 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(())
     }
 
-    /// The geometry that a skin or a morph moves, as it is at rest.
+    /// The geometry that a skin or a morph controls, in its rest pose.
     fn geometry_of_controller(&self, instance: Node<'a>) -> Result<Option<Node<'a>>, Fault> {
-        const MOST: usize = 16;
+        const MAX_DEPTH: usize = 16;
         let mut controller = self.document.follow(instance, "url", &["controller"])?;
-        for _ in 0..MOST {
+        for _ in 0..MAX_DEPTH {
             let Some(node) = controller else {
                 return Ok(None);
             };
-            let moved = child(node, "skin").or(child(node, "morph"));
-            let moved = moved.ok_or_else(|| error_at(node, "expected <skin> or <morph>"))?;
+            let modifier = child(node, "skin").or(child(node, "morph"));
+            let modifier = modifier.ok_or_else(|| error_at(node, "expected <skin> or <morph>"))?;
             let kinds = ["geometry", "controller"];
-            match self.document.follow(moved, "source", &kinds)? {
+            match self.document.follow(modifier, "source", &kinds)? {
                 Some(source) if is(source, "controller") => controller = Some(source),
                 geometry => return Ok(geometry),
             }
         }
-        let message = format!("expected at most {MOST} controllers in a chain");
+        let message = format!("expected a chain of at most {MAX_DEPTH} controllers");
         Err(error_at(instance, message))
     }
 
@@ -237,9 +238,10 @@ impl<'a, 'd> Walk<'a, 'd> {
         Ok(materials)
     }
 
-    /// The placement of a node in the node above: its transforms, the first of the file outermost.
-    fn placement(&mut self, node: Node<'a>) -> Result<DAffine3, Fault> {
-        if let Some(known) = self.placements.get(&number_of(node)) {
+    /// The transform of a node relative to its parent: the product of its transforms, the first in the file
+    /// outermost.
+    fn transform(&mut self, node: Node<'a>) -> Result<DAffine3, Fault> {
+        if let Some(known) = self.transforms.get(&number_of(node)) {
             return Ok(*known);
         }
         let mut all = DAffine3::IDENTITY;
@@ -257,7 +259,7 @@ impl<'a, 'd> Walk<'a, 'd> {
                 _ => continue,
             };
         }
-        self.placements.insert(number_of(node), all);
+        self.transforms.insert(number_of(node), all);
         Ok(all)
     }
 }
@@ -265,15 +267,17 @@ impl<'a, 'd> Walk<'a, 'd> {
 fn matrix(node: Node) -> Result<DAffine3, Fault> {
     let rows: [f64; 16] = exactly(node)?;
     if rows[12..] != [0.0, 0.0, 0.0, 1.0] {
-        return Err(error_at(node, "expected 0 0 0 1 as the last row"));
+        return Err(error_at(
+            node,
+            "expected 0 0 0 1 as the last row of the matrix",
+        ));
     }
     let column = |i: usize| DVec3::new(rows[i], rows[4 + i], rows[8 + i]);
     let [x, y, z, w] = [0, 1, 2, 3].map(column);
     Ok(DAffine3::from_cols(x, y, z, w))
 }
 
-/// Rodrigues' formula: R = c I + s \[n\] + (1 - c) n n^T. The angle is in degrees; without an axis there is no
-/// rotation.
+/// Rodrigues' formula: R = c I + s \[n\] + (1 - c) n n^T. The angle is in degrees. A zero axis gives the identity.
 fn rotation([x, y, z, degrees]: [f64; 4]) -> DMat3 {
     let axis = DVec3::new(x, y, z).normalize_or_zero();
     if axis == DVec3::ZERO {
@@ -284,14 +288,14 @@ fn rotation([x, y, z, degrees]: [f64; 4]) -> DMat3 {
     DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
 }
 
-/// The frame of an eye that looks along its -z.
+/// The frame of a camera that looks along its -z axis.
 fn look_at(node: Node) -> Result<DAffine3, Fault> {
     let [a, b, c, d, e, f, g, h, i] = exactly(node)?;
     let eye = DVec3::new(a, b, c);
     let z = (eye - DVec3::new(d, e, f)).normalize_or_zero();
     let x = DVec3::new(g, h, i).cross(z).normalize_or_zero();
     if x == DVec3::ZERO {
-        let message = "expected a direction to look at, and another one upwards";
+        let message = "expected a view direction and an up direction that are not parallel";
         return Err(error_at(node, message));
     }
     Ok(DAffine3::from_cols(x, z.cross(x), z, eye))

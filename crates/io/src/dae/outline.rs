@@ -1,11 +1,11 @@
-//! How the indices of a list make polygons: triangles, polygons with counted corners, strips and fans.
+//! How the indices of a list form polygons: triangles, polygons with corner counts, strips and fans.
 
 use super::document::{
     Document, Node, child, elements, error_at, is, named, natural, push_indices, required,
 };
 use crate::fault::Fault;
 
-/// How the indices of a list make polygons.
+/// How the indices of a list form polygons.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shape {
     Triangles,
@@ -15,7 +15,7 @@ pub(super) enum Shape {
     Fans,
 }
 
-/// What kind of polygons a list has; `None` if it has none.
+/// The kind of polygons in a list; `None` if the list has none.
 pub(super) fn shape(list: Node, document: &Document) -> Result<Option<Shape>, Fault> {
     let shape = match list.tag_name().name() {
         "triangles" => Shape::Triangles,
@@ -27,28 +27,28 @@ pub(super) fn shape(list: Node, document: &Document) -> Result<Option<Shape>, Fa
     };
     let empty = elements(list).all(|part| !is(part, "p") && !is(part, "ph"));
     if empty && natural(list, "count")?.is_some_and(|count| count > 0) {
-        return Err(error_at(list, "expected indices in <p>"));
+        return Err(error_at(list, "expected indices in <p>, found none"));
     }
     if empty {
-        document.left_out(1, list, "lists of polygons left out that are empty");
+        document.left_out(1, list, "empty lists of polygons left out");
         return Ok(None);
     }
     Ok(Some(shape))
 }
 
-/// The corners of the polygons of one list, before they are looked up.
+/// The corners of the polygons of one list, before their values are looked up.
 #[derive(Default)]
 pub(super) struct Outline<'a> {
-    /// The elements that the indices are from.
+    /// The elements that contain the indices.
     pub(super) lists: Vec<Node<'a>>,
     pub(super) indices: Vec<u32>,
-    /// For each corner its number among the corners that the list has indices for.
+    /// For each corner, the index of its group of indices in the list.
     pub(super) order: Vec<usize>,
     pub(super) degrees: Vec<usize>,
 }
 
 impl Shape {
-    /// Reads the indices of a list whose corners have `stride` each.
+    /// Reads the indices of a list with `stride` indices for each corner.
     pub(super) fn read<'a>(
         self,
         list: Node<'a>,
@@ -57,7 +57,7 @@ impl Shape {
     ) -> Result<Outline<'a>, Fault> {
         let mut outline = Outline::default();
         let mut holes = 0;
-        // Where the corners of each list of indices begin.
+        // Where the corners of each element with indices begin.
         let mut starts = vec![0];
         for part in elements(list) {
             let indices = if is(part, "p") {
@@ -73,7 +73,7 @@ impl Shape {
             if !outline.indices.len().is_multiple_of(stride) {
                 let n = outline.indices.len();
                 let message =
-                    format!("expected {stride} indices for each corner, found {n} in all");
+                    format!("expected {stride} indices for each corner, found {n} in total");
                 return Err(error_at(indices, message));
             }
             starts.push(outline.indices.len() / stride);
@@ -88,7 +88,8 @@ impl Shape {
                 outline.order = (0..n).collect();
                 outline.degrees = vec![3; n / 3];
                 if !n.is_multiple_of(3) {
-                    let message = format!("expected 3 corners for each triangle, found {n} in all");
+                    let message =
+                        format!("expected 3 corners for each triangle, found {n} in total");
                     return Err(error_at(list, message));
                 }
                 n / 3
@@ -100,7 +101,9 @@ impl Shape {
                 push_indices(counts, &mut degrees)?;
                 let corners = degrees.iter().map(|&d| u64::from(d)).sum::<u64>();
                 if corners != n as u64 {
-                    let message = format!("the polygons have {corners} corners, but there are {n}");
+                    let message = format!(
+                        "expected indices of {corners} corners according to <vcount>, found {n}"
+                    );
                     return Err(error_at(counts, message));
                 }
                 let mut start = 0;
@@ -130,11 +133,13 @@ impl Shape {
                 outline.lists.len()
             }
         };
-        let what = "polygons left out that have fewer than 3 corners";
+        let what = "polygons with fewer than 3 corners left out";
         document.left_out(small, list, what);
         if count.is_some_and(|count| count != found) {
             let count = required(list, "count")?;
-            let message = format!("expected {count} of them, found {found}");
+            let message = format!(
+                "expected {count} polygons according to the attribute count, found {found}"
+            );
             return Err(error_at(list, message));
         }
         Ok(outline)
@@ -142,7 +147,7 @@ impl Shape {
 }
 
 impl Outline<'_> {
-    /// Adds a polygon; returns how many are left out because they are too small.
+    /// Adds a polygon. Returns 1 if it is left out because it has fewer than 3 corners, otherwise 0.
     fn push(&mut self, corners: std::ops::Range<usize>) -> usize {
         if corners.len() < 3 {
             return 1;

@@ -1,18 +1,18 @@
-//! Lists of vectors: a source is an array of numbers and an accessor that says which of them belong together.
+//! Lists of vectors. A source is an array of numbers with an accessor, which defines the numbers of each vector.
 //!
 //! ```text
 //! <source id="s">
 //!   <float_array id="a" count="7">9  0 0 0  1 0 0</float_array>
 //!   <technique_common>
 //!     <accessor source="#a" offset="1" count="2" stride="3">     (0 0 0) (1 0 0)
-//!       <param name="X"/> <param name="Y"/> <param name="Z"/>     without a name: passed over
+//!       <param name="X"/> <param name="Y"/> <param name="Z"/>     parameters without a name are skipped
 //! ```
 
 use super::document::{Document, Node, below, error_at, named, natural, numbers, required};
 use crate::fault::Fault;
 use crate::text::quoted;
 
-/// Vectors of 1 to 4 numbers.
+/// Vectors with 1 to 4 components.
 #[derive(Debug)]
 pub(super) struct Vectors {
     pub(super) width: usize,
@@ -24,22 +24,23 @@ impl Vectors {
         self.values.len() / self.width
     }
 
-    /// The i-th vector; what it lacks is taken from `others`.
-    pub(super) fn get<const N: usize>(&self, i: usize, mut others: [f64; N]) -> [f64; N] {
+    /// The i-th vector. Missing components are taken from `defaults`.
+    pub(super) fn get<const N: usize>(&self, i: usize, mut defaults: [f64; N]) -> [f64; N] {
         let vector = self.values[i * self.width..].iter().take(self.width);
-        for (to, from) in others.iter_mut().zip(vector) {
+        for (to, from) in defaults.iter_mut().zip(vector) {
             *to = *from;
         }
-        others
+        defaults
     }
 }
 
-/// The vectors of a source, their components ordered as `names` where the accessor has all of these, and else
-/// as it lists them; and how many numbers were read for that: sources may share them.
+/// Reads the vectors of a source. Their components are ordered as in `names` if the accessor has all of these,
+/// otherwise as the accessor lists them. Also returns how many numbers were read, because several sources can share
+/// an array.
 ///
 /// # Errors
 ///
-/// If the source is not what it should be, or has fewer than `least` components.
+/// If the source is invalid or has fewer than `least` components.
 pub(super) fn vectors(
     document: &Document,
     source: Node,
@@ -60,14 +61,17 @@ pub(super) fn vectors(
     let Some(array) = document.follow(accessor, "source", &["float_array", "int_array"])? else {
         return Err(error_at(
             accessor,
-            "an array in another file is not read here",
+            "arrays in other files are not supported",
         ));
     };
     let values = numbers(array)?;
     let n_numbers = values.len();
     if natural(array, "count")?.is_some_and(|count| count != values.len()) {
-        let stated = required(array, "count")?;
-        let message = format!("expected {stated} numbers, found {}", values.len());
+        let declared = required(array, "count")?;
+        let message = format!(
+            "expected {declared} numbers according to the attribute count, found {}",
+            values.len()
+        );
         return Err(error_at(array, message));
     }
     let last = components.iter().max().map_or(0, |last| last + 1);
@@ -84,7 +88,7 @@ pub(super) fn vectors(
     };
     if end.is_none_or(|end| end > n_numbers) {
         let source = quoted(required(accessor, "source")?.as_bytes());
-        let message = format!("{count} vectors reach beyond the {n_numbers} numbers of {source}");
+        let message = format!("{count} vectors need more than the {n_numbers} numbers of {source}");
         return Err(error_at(accessor, message));
     }
     let width = components.len();
@@ -94,7 +98,7 @@ pub(super) fn vectors(
     Ok((Vectors { width, values }, n_numbers))
 }
 
-/// Where the components of a vector stand behind its first number; at most four.
+/// The offsets of the components of a vector, at most four.
 fn components(accessor: Node, names: &[&str]) -> Result<Vec<usize>, Fault> {
     let params = named(accessor, "param").map(|param| param.attribute("name"));
     let params: Vec<&str> = params.map(Option::unwrap_or_default).collect();
@@ -107,9 +111,9 @@ fn components(accessor: Node, names: &[&str]) -> Result<Vec<usize>, Fault> {
         }
         Some(ordered) => {
             // A fourth component, such as the alpha of a color, comes last.
-            let others =
+            let further =
                 (0..params.len()).filter(|i| !ordered.contains(i) && !params[*i].is_empty());
-            ordered.iter().copied().chain(others).collect()
+            ordered.iter().copied().chain(further).collect()
         }
         None => (0..params.len())
             .filter(|&i| !params[i].is_empty())

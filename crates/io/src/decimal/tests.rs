@@ -1,4 +1,4 @@
-//! Numbers as text, against the standard library.
+//! Reading and writing numbers, compared with the standard library.
 
 use proptest::prelude::*;
 
@@ -10,13 +10,13 @@ fn written(x: f64) -> String {
     String::from_utf8(out).unwrap()
 }
 
-/// What `leading_number` says of all of `text`.
-fn quick(text: &str) -> Option<f64> {
+/// The result of `leading_number` if it covers all of `text`.
+fn parse_all(text: &str) -> Option<f64> {
     leading_number(text.as_bytes()).and_then(|(x, length)| (length == text.len()).then_some(x))
 }
 
 #[test]
-fn a_number_ends_where_its_digits_do() {
+fn a_number_ends_after_its_last_digit() {
     for (text, x, length) in [
         ("1.5 2.5", 1.5, 3),
         ("-12345678901234567\n", -12_345_678_901_234_568.0, 18),
@@ -57,7 +57,7 @@ fn ties_round_to_even() {
         "1000000000000000000.1",
         "9007199254740993e-27",
     ] {
-        assert_eq!(quick(text), text.parse().ok(), "{text}");
+        assert_eq!(parse_all(text), text.parse().ok(), "{text}");
     }
 }
 
@@ -68,14 +68,14 @@ fn the_sign_of_zero_is_written() {
 }
 
 #[test]
-fn large_and_small_numbers_get_an_exponent() {
+fn large_and_small_numbers_are_written_with_an_exponent() {
     assert_eq!(written(1e300), "1e300");
     assert_eq!(written(2.5e-9), "2.5e-9");
     assert_eq!(written(123_456.75), "123456.75");
 }
 
 #[test]
-fn whole_numbers_are_their_digits() {
+fn integers_are_written_as_their_digits() {
     let large = [99_999_999, 100_000_000, 123_456_789, usize::MAX];
     for value in (0..200_000).chain(large) {
         let mut out = Vec::new();
@@ -84,7 +84,7 @@ fn whole_numbers_are_their_digits() {
     }
 }
 
-/// The form as the standard library writes it: an exponent outside of 1e-5 to 1e16.
+/// The text that the standard library writes, with an exponent for magnitudes outside of 1e-5 to 1e16.
 fn expected(x: f64) -> String {
     if x == 0.0 || (1e-5..1e16).contains(&x.abs()) {
         format!("{x}")
@@ -97,53 +97,53 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
-    fn the_quick_way_agrees_with_the_standard_library(
+    fn numbers_are_parsed_as_by_the_standard_library(
         text in "[-+]?[0-9]{0,19}\\.?[0-9]{0,19}(e[-+]?[0-9]{1,2})?",
     ) {
-        if let Some(x) = quick(&text) {
+        if let Some(x) = parse_all(&text) {
             prop_assert_eq!(Some(x.to_bits()), text.parse::<f64>().ok().map(f64::to_bits));
         }
     }
 
     #[test]
-    fn the_quick_way_takes_what_is_usually_written(x in -1e9..1e9_f64) {
-        prop_assert_eq!(quick(&written(x)).map(f64::to_bits), Some(x.to_bits()));
+    fn written_numbers_are_parsed_unchanged(x in -1e9..1e9_f64) {
+        prop_assert_eq!(parse_all(&written(x)).map(f64::to_bits), Some(x.to_bits()));
     }
 
     #[test]
-    fn numbers_half_way_between_two_are_rounded_right(bits: u64, decimals in 1..12_usize) {
-        // Seven digits more than an f64 has, near a tie.
+    fn numbers_halfway_between_two_floats_are_rounded_correctly(bits: u64, decimals in 1..12_usize) {
+        // Seven digits more than an f64 has, close to a tie.
         let x = f64::from_bits(((1023 + 20) << 52) | (bits >> 12));
         let next = f64::from_bits(x.to_bits() + 1);
         let middle = format!("{:.1$}", x, decimals + 6);
         let text = format!("{:.1$}", f64::midpoint(x, next), decimals);
         for text in [middle, text] {
-            if let Some(x) = quick(&text) {
+            if let Some(x) = parse_all(&text) {
                 prop_assert_eq!(Some(x.to_bits()), text.parse::<f64>().ok().map(f64::to_bits));
             }
         }
     }
 
     #[test]
-    fn whole_numbers_of_eight_digits_are_their_digits(value in 0..100_000_000_usize) {
+    fn integers_of_up_to_eight_digits_are_written_as_their_digits(value in 0..100_000_000_usize) {
         let mut out = Vec::new();
         push_whole(&mut out, value);
         prop_assert_eq!(out, value.to_string().into_bytes());
     }
 
     #[test]
-    fn short_texts_are_appended_whole(text in "[0-9]{0,24}") {
+    fn short_texts_are_appended_completely(text in "[0-9]{0,24}") {
         let mut out = b"x".to_vec();
         push_short(&mut out, text.as_bytes());
         prop_assert_eq!(out, format!("x{text}").into_bytes());
     }
 
     #[test]
-    fn the_form_is_that_of_the_standard_library(bits: u64, small in -1e-4..1e-4_f64, size in -8..20_i32) {
+    fn numbers_have_the_form_of_the_standard_library(bits: u64, small in -1e-4..1e-4_f64, size in -8..20_i32) {
         let round = format!("1e{size}").parse::<f64>().unwrap();
         for x in [f64::from_bits(bits), small, round, small * round] {
             prop_assume!(x.is_finite());
-            // Of two that are equally short and near, either may be written.
+            // If two texts are equally short and equally close, either is valid.
             let (text, theirs) = (written(x), expected(x));
             prop_assert_eq!(text.len(), theirs.len(), "{} {}", text, theirs);
             prop_assert_eq!(text.find(['.', 'e']), theirs.find(['.', 'e']));

@@ -1,4 +1,4 @@
-//! Accessors: typed arrays in the buffers, with strides, normalized integers and sparse parts.
+//! Accessors: typed arrays in the buffers, with strides, normalized integers and sparse values.
 
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
@@ -14,14 +14,15 @@ use super::views::Reader;
 use crate::fault::Fault;
 use crate::parallel;
 
-/// An accessor without a buffer view is all zeros. It may have this many elements even in a tiny file.
-const FREE_ZEROS: u64 = 1 << 16;
+/// The number of elements that an accessor without a buffer view, which is all zeros, can always have, even in a
+/// tiny file.
+const MIN_ZEROS: u64 = 1 << 16;
 impl Reader<'_> {
-    /// How many elements an accessor has.
+    /// The number of elements of an accessor.
     ///
     /// # Errors
     ///
-    /// If there is no such accessor; `pointer` is the place that refers to it.
+    /// If the accessor does not exist. `pointer` is the location that refers to it.
     pub(super) fn count(&self, index: usize, pointer: &str) -> Result<u64, Fault> {
         Ok(self.accessor(index, pointer)?.count.0)
     }
@@ -40,13 +41,13 @@ impl Reader<'_> {
         get(&self.document.accessors, index, pointer, "accessor")
     }
 
-    /// The elements of an accessor, each converted from N numbers. Components that its type does not
-    /// have are `fill`; normalized integers are between 0 and 1, or between -1 and 1.
+    /// Reads the elements of an accessor, each converted from N numbers. Components that its type does not have are
+    /// set to `fill`. Normalized integers are scaled to 0 to 1, or to -1 to 1.
     ///
     /// # Errors
     ///
-    /// If the accessor is of none of the `types`, does not fit its buffer, or has a value that is not
-    /// finite. `pointer` is the place that refers to it.
+    /// If the accessor does not have one of the `types`, does not fit its buffer, or has a non-finite value.
+    /// `pointer` is the location that refers to the accessor.
     pub(super) fn vectors<const N: usize, T: Value>(
         &self,
         index: usize,
@@ -64,8 +65,8 @@ impl Reader<'_> {
         }
         let used = kind.multiplicity().min(N);
         let size = component.size();
-        // Not a number, if it comes to that, is found by a second look.
-        let broken = AtomicBool::new(false);
+        // The loop only records that there is a non-finite value. The value is located afterwards.
+        let has_non_finite = AtomicBool::new(false);
         let general = |bytes: &[u8]| {
             let mut vector = [fill; N];
             for (slot, bytes) in vector.iter_mut().zip(bytes.chunks_exact(size)).take(used) {
@@ -82,7 +83,7 @@ impl Reader<'_> {
         };
         let checked = |vector: [f64; N]| {
             if !vector.iter().all(|x| x.is_finite()) {
-                broken.store(true, Relaxed);
+                has_non_finite.store(true, Relaxed);
             }
             convert(vector)
         };
@@ -96,10 +97,10 @@ impl Reader<'_> {
             let value = |bytes: &[u8]| checked(general(bytes));
             self.elements(index, multiplicity, component, zero, value)?
         };
-        if broken.into_inner() {
+        if has_non_finite.into_inner() {
             let finite = |bytes: &[u8]| i32::from(general(bytes).iter().all(|x| x.is_finite()));
             let finite = self.elements(index, multiplicity, component, 1, finite)?;
-            // A sparse part may have replaced it.
+            // If sparse values replace all non-finite ones, there is none.
             if let Some(i) = finite.iter().position(|&is| is == 0) {
                 let message = format!("element {i} is not a finite number");
                 return Err(Fault::json(here, message));
@@ -108,7 +109,7 @@ impl Reader<'_> {
         Ok(values)
     }
 
-    /// The elements of an accessor of indices.
+    /// Reads the elements of an accessor of indices.
     ///
     /// # Errors
     ///
@@ -125,7 +126,7 @@ impl Reader<'_> {
             ComponentType::U8 | ComponentType::U16 => {
                 self.elements(index, 1, component, 0, |bytes| whole(bytes, component))
             }
-            // Known to the compiler, it becomes a copy.
+            // With a constant type, the compiler turns the loop into a copy.
             ComponentType::U32 => self.elements(index, 1, component, 0, |bytes| {
                 whole(bytes, ComponentType::U32)
             }),
@@ -136,7 +137,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads every element, from its view or as `zero`, and then the sparse ones.
+    /// Reads every element, from its view or as `zero`, and then applies the sparse values.
     fn elements<T: Copy + Zeroable + Send + Sync>(
         &self,
         index: usize,
@@ -185,17 +186,18 @@ impl Reader<'_> {
             ));
         };
         let n = sparse.count.0;
-        // Not made, but looked at each time that the accessor is used.
+        // Sparse values take no memory, but they take time each time that the accessor is used.
         self.budget.spend(n.saturating_mul(size as u64), &here)?;
         let (indices, values) = (&sparse.indices, &sparse.values);
         let (at, view) = (format!("{here}/indices"), indices.buffer_view.value());
-        let places = self.rows(view, indices.byte_offset.0, n, index_type.size(), &at)?;
+        let targets = self.rows(view, indices.byte_offset.0, n, index_type.size(), &at)?;
         let (at, view) = (format!("{here}/values"), values.buffer_view.value());
         let values = self.rows(view, values.byte_offset.0, n, size, &at)?;
-        for (place, bytes) in places.iter().zip(values.iter()) {
-            let place = whole(place, index_type);
-            let slot = elements.get_mut(place as usize).ok_or_else(|| {
-                let message = format!("refers to element {place}, but there are {count}");
+        for (target, bytes) in targets.iter().zip(values.iter()) {
+            let target = whole(target, index_type);
+            let slot = elements.get_mut(target as usize).ok_or_else(|| {
+                let message =
+                    format!("refers to element {target}, but the accessor has {count} elements");
                 Fault::json(format!("{here}/indices"), message)
             })?;
             *slot = value(bytes);
@@ -203,15 +205,15 @@ impl Reader<'_> {
         Ok(elements)
     }
 
-    /// Checks how many zeros an accessor without data says it has.
+    /// Checks how many zeros an accessor without data declares.
     fn zeros(&self, count: u64, here: &str) -> Result<usize, Fault> {
         let all: u64 = self.buffers.iter().map(|buffer| buffer.len() as u64).sum();
-        let limit = all.max(FREE_ZEROS);
+        let limit = all.max(MIN_ZEROS);
         let allowed = usize::try_from(count).ok().filter(|_| count <= limit);
         allowed.ok_or_else(|| {
             let message = format!(
-                "the accessor has no buffer view and says {count} elements; a file of this size \
-                 may have {limit}"
+                "the accessor declares {count} elements without a buffer view, but a file of this size can \\
+                have at most {limit}"
             );
             Fault::json(format!("{here}/count"), message)
         })

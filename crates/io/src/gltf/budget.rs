@@ -1,62 +1,64 @@
-//! How much memory a file may take: its pieces can be repeated, but not without end.
+//! The memory budget of a file. Parts of a file can be repeated, but only within the budget.
 
 use std::cell::Cell;
 
 use crate::fault::Fault;
 
-/// A file may become this many times its size in memory, ...
-const TIMES: u64 = 64;
-/// ... and this many bytes in any case.
-const FREE: u64 = 1 << 24;
+/// The budget is this multiple of the size of the file, ...
+const BUDGET_FACTOR: u64 = 64;
+/// ... but at least this many bytes.
+const MIN_BUDGET: u64 = 1 << 24;
 
-/// A byte of a buffer with compressed views pays for as much as this many others. A triangle with its part of the
-/// vertices takes two bytes there and twenty or more elsewhere, and the mesh of it is as large.
+/// A byte of a buffer with compressed views counts as this many other bytes. A triangle with its share of the
+/// vertices takes two bytes in a compressed view and at least twenty elsewhere, but the resulting mesh has the same
+/// size.
 const COMPRESSED: u64 = 4;
 
-/// The bytes that may still be made.
+/// The memory that can still be used, in bytes.
 #[derive(Default)]
 pub(super) struct Budget {
     left: Cell<u64>,
-    /// Those that compressed views may still become.
+    /// The number of bytes that compressed views can still be decoded to.
     inflation: Cell<u64>,
 }
 
 impl Budget {
-    /// What an object takes that has no faces, about.
+    /// The approximate size of an object without faces.
     pub(super) const OBJECT: u64 = 300;
 
-    /// `size` is that of the file.
+    /// Creates the budget of a file of `size` bytes.
     pub(super) fn of(size: usize) -> Self {
         let budget = Self::default();
         budget.grant(size as u64);
-        budget.left.set(budget.left.get().max(FREE));
+        budget.left.set(budget.left.get().max(MIN_BUDGET));
         budget
     }
 
-    /// Adds what `size` further bytes pay for.
+    /// Increases the budget by the share of `size` additional bytes of input.
     pub(super) fn grant(&self, size: u64) {
-        let more = size.saturating_mul(TIMES);
+        let more = size.saturating_mul(BUDGET_FACTOR);
         for bytes in [&self.left, &self.inflation] {
             bytes.set(bytes.get().saturating_add(more));
         }
     }
 
-    /// Adds what compressed views pay for in buffers of `size` bytes, which have been granted already.
+    /// Increases the budget by the additional share of compressed views in buffers of `size` bytes, whose normal
+    /// share was granted before.
     pub(super) fn grant_compressed(&self, size: u64) {
-        let more = size.saturating_mul(TIMES * (COMPRESSED - 1));
+        let more = size.saturating_mul(BUDGET_FACTOR * (COMPRESSED - 1));
         self.left.set(self.left.get().saturating_add(more));
     }
 
-    /// Takes bytes out of what the file pays for: many pieces may refer to the same bytes of it.
+    /// Takes bytes from the budget. Several parts of a file can refer to the same bytes of it.
     ///
     /// # Errors
     ///
-    /// If the file has used up its share; `pointer` is the place that wants more.
+    /// If the budget is used up. `pointer` is the location that needs the memory.
     pub(super) fn spend(&self, bytes: u64, pointer: &str) -> Result<(), Fault> {
         let left = self.left.get().checked_sub(bytes).ok_or_else(|| {
             let message = format!(
-                "the file refers to the same data so often that it needs more than {TIMES} times its \
-                 size in memory"
+                "the file refers to the same data so often that it needs more than {BUDGET_FACTOR} times its \\
+                size in memory"
             );
             Fault::json(pointer, message)
         })?;
@@ -64,20 +66,20 @@ impl Budget {
         Ok(())
     }
 
-    /// Takes the bytes that a compressed view becomes out of what the file pays for, and gives them as a
-    /// length in memory. Streams of zeros shrink to a thousandth, but no file consists of them.
+    /// Takes the decoded size of a compressed view from the budget, and returns it as a `usize`. Streams of zeros
+    /// are compressed to a thousandth, but real files do not consist of zeros.
     ///
     /// # Errors
     ///
-    /// If the file has used up its share; `pointer` is the place that wants more.
+    /// If the budget is used up. `pointer` is the location that needs the memory.
     pub(super) fn inflate(&self, bytes: u64, pointer: &str) -> Result<usize, Fault> {
         self.spend(bytes, pointer)?;
         let left = self.inflation.get().checked_sub(bytes);
         let length = usize::try_from(bytes).ok();
         let (Some(left), Some(length)) = (left, length) else {
             let message = format!(
-                "compressed views become {bytes} bytes more here, and together more than {TIMES} times \
-                 the size of the file"
+                "decoding this view adds {bytes} bytes, which makes the decoded views more than {BUDGET_FACTOR} times as \\
+                large as the file"
             );
             return Err(Fault::json(pointer, message));
         };

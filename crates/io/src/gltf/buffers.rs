@@ -1,4 +1,4 @@
-//! The bytes behind a glTF document: the container of a GLB file, data URIs and files beside it.
+//! The bytes of a glTF document: the container of a GLB file, data URIs, and files next to the document.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -19,19 +19,19 @@ const MAGIC: &[u8] = b"glTF";
 const JSON_CHUNK: &[u8] = b"JSON";
 const BIN_CHUNK: &[u8] = b"BIN\0";
 
-/// The bytes before the JSON of a GLB file: its header, and the length and the kind of the first chunk.
+/// The number of bytes before the JSON of a GLB file: its header, and the length and the kind of the first chunk.
 const HEAD: usize = 20;
 
-/// The largest JSON chunk of a GLB file that is looked at, in bytes.
-const LARGEST_JSON: u64 = 1 << 30;
+/// The largest JSON chunk of a GLB file that is read, in bytes.
+const MAX_JSON: u64 = 1 << 30;
 
-/// The JSON of a file, without the bytes that follow it in a GLB file.
+/// Reads the JSON of a file, without the bytes that follow it in a GLB file.
 ///
 /// # Errors
 ///
 /// If the file cannot be read.
 pub(crate) fn document_of(store: &dyn Store, path: &Path) -> Result<Vec<u8>, ReadError> {
-    // The header, the length of the first chunk, and no more.
+    // Reads only the header and the length of the first chunk.
     let head = store.read_up_to(path, HEAD as u64)?;
     let length = match head.as_slice() {
         [b'g', b'l', b'T', b'F', .., a, b, c, d, _, _, _, _] if head.len() == HEAD => {
@@ -39,11 +39,12 @@ pub(crate) fn document_of(store: &dyn Store, path: &Path) -> Result<Vec<u8>, Rea
         }
         _ => return Ok(store.read(path)?),
     };
-    let mut bytes = store.read_up_to(path, HEAD as u64 + u64::from(length).min(LARGEST_JSON))?;
+    let mut bytes = store.read_up_to(path, HEAD as u64 + u64::from(length).min(MAX_JSON))?;
     Ok(bytes.split_off(HEAD.min(bytes.len())))
 }
 
-/// The JSON and the binary chunk of a GLB file; a file that does not begin as one is JSON as a whole.
+/// Returns the JSON and the binary chunk of a GLB file. A file that does not begin like a GLB file is returned as
+/// JSON.
 ///
 /// # Errors
 ///
@@ -66,7 +67,7 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
     let length = word(8)?;
     if length > bytes.len() {
         let n = bytes.len();
-        let message = format!("the header says {length} bytes, but the file has {n}");
+        let message = format!("the header declares {length} bytes, but the file has {n} bytes");
         return Err(Fault::byte(8, message));
     }
     let mut chunks = Vec::new();
@@ -78,7 +79,10 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
         let end = start.checked_add(size).filter(|&end| end <= length);
         let end = end.ok_or_else(|| {
             let rest = length.saturating_sub(start);
-            Fault::byte(at, format!("a chunk says {size} bytes, but {rest} follow"))
+            Fault::byte(
+                at,
+                format!("a chunk declares {size} bytes, but only {rest} bytes follow"),
+            )
         })?;
         chunks.push((&bytes[at + 4..start], &bytes[start..end]));
         at = end;
@@ -86,18 +90,18 @@ pub(super) fn container(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Fault> {
     match chunks[..] {
         [(JSON_CHUNK, json), (BIN_CHUNK, binary)] => Ok((json, Some(binary))),
         [(JSON_CHUNK, json), ..] => Ok((json, None)),
-        _ => Err(Fault::byte(12, "expected a chunk of JSON first")),
+        _ => Err(Fault::byte(12, "expected a JSON chunk as the first chunk")),
     }
 }
 
-/// Finds the bytes of all buffers. `binary` is the chunk of a GLB file, which stays where it is. What files beside
-/// it pay for is added to the budget, a file that is read once more is taken from it. Of `fallbacks` nothing is
-/// read: they stay empty.
+/// Loads the bytes of all buffers. `binary` is the chunk of a GLB file, which is borrowed. Files next to the
+/// document increase the budget; reading a file again uses it. Buffers marked in `fallbacks` are not read and stay
+/// empty.
 ///
 /// # Errors
 ///
-/// If a URI leaves the folder of the file or its file cannot be read, or there are fewer bytes than a
-/// buffer says.
+/// If a URI leads out of the folder of the file, its file cannot be read, or there are fewer bytes than a buffer
+/// declares.
 pub(super) fn load<'a>(
     buffers: &[Buffer],
     fallbacks: &[bool],
@@ -116,7 +120,8 @@ pub(super) fn load<'a>(
         let mut bytes = match &buffer.uri {
             None => {
                 let chunk = if i == 0 { binary.take() } else { None };
-                // A buffer without data is legal: an extension would fill it. Nothing can be read of it.
+                // A buffer without data is valid, because an extension can define its content. It is treated as
+                // empty.
                 Cow::Borrowed(chunk.unwrap_or_default())
             }
             Some(uri) => {
@@ -125,7 +130,7 @@ pub(super) fn load<'a>(
                 Cow::Owned(if let Some(data) = uri.strip_prefix("data:") {
                     data_uri(data, &pointer)?.1
                 } else {
-                    // The beginning of a text that may be long.
+                    // Messages only show the beginning of a long URI.
                     let shown: String = uri.chars().take(80).collect();
                     let name =
                         inside_uri(uri).map_err(|why| error(format!("the URI {shown:?} {why}")))?;
@@ -143,7 +148,10 @@ pub(super) fn load<'a>(
             }
         };
         if (bytes.len() as u64) < length {
-            let message = format!("the buffer says {length} bytes, but has {}", bytes.len());
+            let message = format!(
+                "the buffer declares {length} bytes, but only has {} bytes",
+                bytes.len()
+            );
             return Err(Fault::json(format!("/buffers/{i}/byteLength"), message));
         }
         let length = usize::try_from(length).unwrap_or(usize::MAX);
@@ -156,22 +164,23 @@ pub(super) fn load<'a>(
     Ok(loaded)
 }
 
-/// The type and the bytes of a data URI (RFC 2397) behind its `data:`; `pointer` is its place.
+/// Decodes a data URI (RFC 2397) after its `data:`. Returns its media type and its bytes. `pointer` is its
+/// location.
 ///
 /// # Errors
 ///
-/// If it is not in base64.
+/// If it is not valid base64.
 pub(super) fn data_uri<'a>(data: &'a str, pointer: &str) -> Result<(&'a str, Vec<u8>), Fault> {
     let (kind, encoded) = data
         .split_once(";base64,")
-        .ok_or_else(|| Fault::json(pointer, "expected data in base64"))?;
+        .ok_or_else(|| Fault::json(pointer, "expected a data URI in base64"))?;
     let mime = kind.split(';').next().unwrap_or_default();
     let bytes = base64(encoded);
     let bytes = bytes.ok_or_else(|| Fault::json(pointer, "the data is not valid base64"))?;
     Ok((mime, bytes))
 }
 
-/// Decodes base64 (RFC 4648) in either alphabet, with or without its padding. White space in it means nothing.
+/// Decodes base64 (RFC 4648) in either alphabet, with or without padding. White space is ignored.
 fn base64(encoded: &str) -> Option<Vec<u8>> {
     const CONFIG: GeneralPurposeConfig = GeneralPurposeConfig::new()
         .with_decode_allow_trailing_bits(true)
@@ -189,7 +198,7 @@ fn base64(encoded: &str) -> Option<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fault::At;
+    use crate::fault::Location;
 
     fn glb(chunks: &[(&[u8], &[u8])]) -> Vec<u8> {
         let mut body = Vec::new();
@@ -230,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_containers_are_refused_at_the_byte() {
+    fn errors_in_containers_name_the_byte() {
         let good = glb(&[(JSON_CHUNK, b"{}  "), (BIN_CHUNK, b"abcd")]);
         let changed = |at: usize, byte: u8| {
             let mut bytes = good.clone();
@@ -247,7 +256,7 @@ mod tests {
             (changed(16, b'X'), 12),
             (changed(8, 12), 12),
         ] {
-            assert_eq!(container(&bytes).unwrap_err().at, At::Byte(place));
+            assert_eq!(container(&bytes).unwrap_err().at, Location::Byte(place));
         }
     }
 }

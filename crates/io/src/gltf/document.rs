@@ -1,4 +1,4 @@
-//! The JSON of a glTF file, piece by piece.
+//! The JSON of a glTF file.
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -16,7 +16,8 @@ use super::surface::{
 use crate::fault::Fault;
 use crate::note::Notes;
 
-/// Extensions that the reader knows. With the first, positions and texture coordinates may be integers.
+/// The extensions that the reader supports. `KHR_mesh_quantization` allows integers for positions and texture
+/// coordinates.
 const KNOWN_EXTENSIONS: [&str; 6] = [
     "KHR_mesh_quantization",
     TRANSFORM,
@@ -30,20 +31,20 @@ const LIGHTS: &str = "KHR_lights_punctual";
 
 const DRACO: &str = "KHR_draco_mesh_compression";
 
-/// What the reader needs of a glTF document.
+/// The parts of a glTF document that the reader needs.
 #[derive(Debug, Default)]
 pub(super) struct Document {
     pub(super) accessors: Vec<Accessor>,
     pub(super) buffers: Vec<Buffer>,
-    /// For each buffer whether nothing is ever read of it.
+    /// For each buffer, whether it is never read.
     pub(super) fallbacks: Vec<bool>,
     pub(super) views: Vec<View>,
-    /// For each view how it is compressed, if it is.
+    /// For each view, its compression, if it is compressed.
     pub(super) compressed: Vec<Option<Compressed>>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) meshes: Vec<Mesh>,
     pub(super) nodes: Vec<Node>,
-    /// The nodes that the scene begins with.
+    /// The root nodes of the scene.
     pub(super) roots: Vec<usize>,
     pub(super) textures: Vec<TextureJson>,
     pub(super) samplers: Vec<SamplerJson>,
@@ -51,16 +52,16 @@ pub(super) struct Document {
 }
 
 impl Document {
-    /// Takes the document apart. What the reader does not look at goes to the notes.
+    /// Deserialises the parts of the document. Adds notes for the content that the reader ignores.
     ///
     /// # Errors
     ///
-    /// The first piece that is not what it should be.
+    /// The first part that is invalid.
     pub(super) fn new(json: &Value, budget: &Budget, notes: &mut Notes) -> Result<Self, Fault> {
         check_version(json)?;
         check_extensions(json, notes)?;
         let views: Vec<View> = pieces(json, "bufferViews", budget)?;
-        // What is known of each view beside.
+        // The memory for the additional data about each view.
         let more = views.len() * size_of::<(Option<Compressed>, OnceCell<Vec<u8>>)>();
         budget.spend(more as u64, "/bufferViews")?;
         let compressed = meshopt::compressed(list(json, "bufferViews")?)?;
@@ -89,11 +90,11 @@ impl Document {
     }
 }
 
-/// The piece at `index`, or an error at `pointer`, which refers to it.
+/// Returns the part at `index`, or an error at `pointer`, the location that refers to it.
 ///
 /// # Errors
 ///
-/// If there is no such piece.
+/// If the index is out of range.
 pub(super) fn get<'a, T>(
     pieces: &'a [T],
     index: usize,
@@ -102,7 +103,7 @@ pub(super) fn get<'a, T>(
 ) -> Result<&'a T, Fault> {
     pieces.get(index).ok_or_else(|| {
         let n = pieces.len();
-        let message = format!("refers to {what} {index}, but there are {n}");
+        let message = format!("{what} {index} does not exist (the file has {n})");
         Fault::json(pointer.to_string(), message)
     })
 }
@@ -139,13 +140,11 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
         }
         let message = if name == DRACO {
             format!(
-                "the file is compressed with {name}, which is not read here: write it again without \
-                 compression, such as with `gltf-transform copy`"
+                "the file uses the compression {name}, which is not supported: write the file without \\
+                compression, for example with `gltf-transform copy`"
             )
         } else {
-            format!(
-                "the file cannot be read without the extension \"{name}\", which is not known here"
-            )
+            format!("the file requires the extension \"{name}\", which is not supported")
         };
         return Err(Fault::json(pointer, message));
     }
@@ -168,7 +167,7 @@ fn check_extensions(json: &Value, notes: &mut Notes) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Counts where extensions say something. As deep as the JSON, which has a limit.
+/// Counts the uses of extensions. The recursion is limited by the nesting limit of the JSON parser.
 fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
     match json {
         Value::Array(values) => {
@@ -184,7 +183,7 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
                             *uses.entry(name).or_default() += 1;
                         }
                     }
-                    // Whatever an application has put there.
+                    // `extras` can contain any application data.
                     _ if key == "extras" => {}
                     _ => count_extensions(value, uses),
                 }
@@ -197,7 +196,7 @@ fn count_extensions<'a>(json: &'a Value, uses: &mut BTreeMap<&'a str, usize>) {
 fn roots(json: &Value, notes: &mut Notes) -> Result<Vec<usize>, Fault> {
     let scenes = list(json, "scenes")?;
     if scenes.is_empty() {
-        // A library of nodes: those that no other node holds.
+        // Without scenes, the roots are the nodes that are not a child of another node.
         let nodes = list(json, "nodes")?;
         let mut is_child = vec![false; nodes.len()];
         for node in nodes {
@@ -242,14 +241,14 @@ fn list<'a>(json: &'a Value, key: &str) -> Result<&'a [Value], Fault> {
     }
 }
 
-/// The pieces of a list. Without their members they are far smaller in the text than in memory.
+/// Deserialises the elements of a list. In the text, an element with default values is far smaller than in memory.
 fn pieces<T: DeserializeOwned>(json: &Value, key: &str, budget: &Budget) -> Result<Vec<T>, Fault> {
     let piece = |(i, value): (usize, &Value)| {
         T::deserialize(value).map_err(|e| Fault::json(format!("/{key}/{i}"), e.to_string()))
     };
     let list = list(json, key)?;
     budget.spend((list.len() * size_of::<T>()) as u64, &format!("/{key}"))?;
-    // With exactly the room that is paid for.
+    // Allocates exactly the memory that was taken from the budget.
     let mut pieces = Vec::with_capacity(list.len());
     for numbered in list.iter().enumerate() {
         pieces.push(piece(numbered)?);

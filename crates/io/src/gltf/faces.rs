@@ -1,4 +1,4 @@
-//! The faces of an object by material, cut into triangles.
+//! The faces of an object by material, triangulated.
 
 use std::collections::BTreeMap;
 
@@ -13,11 +13,11 @@ use crate::parallel;
 /// Triangles in the order of the faces.
 pub(super) struct Faces {
     pub(super) n_triangles: usize,
-    /// The corners of the triangles, as vertices of glTF; `None` for all faces of a mesh of triangles.
+    /// The corners of the triangles, as vertices of glTF. `None` if the triangles are all faces of a triangle mesh.
     pub(super) corners: Option<Vec<u32>>,
 }
 
-/// The triangles of each material, -1 for none.
+/// Groups triangles by material; -1 is no material.
 pub(super) fn faces_by_material(
     object: &Object,
     mesh: &Mesh,
@@ -36,11 +36,11 @@ pub(super) fn faces_by_material(
     for (f, &material) in (0..).zip(materials.unwrap_or_default()) {
         lists.entry(of_face(material)).or_default().push(f);
     }
-    let reason = "the object has no such material";
+    let reason = "the object does not have a material with this index";
     losses.add(Domain::Face, "material", unknown, reason);
     for (i, material) in object.materials.iter().enumerate() {
         let used = i32::try_from(i).is_ok_and(|i| lists.contains_key(&i));
-        let reason = "no face has this material";
+        let reason = "not used by any face";
         losses.add(None, &material.name, usize::from(!used), reason);
     }
     if materials.is_none() && mesh.n_faces() > 0 {

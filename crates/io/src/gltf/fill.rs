@@ -1,4 +1,4 @@
-//! Writing arrays to where they lie in the buffer, in parallel.
+//! Writes arrays into the buffer in parallel.
 
 use glam::Vec3;
 use mesh::{FaceId, Mesh, VertexId};
@@ -62,18 +62,18 @@ fn corners(mesh: &Mesh, split: &Split, f: FaceId) -> [u32; 3] {
     corners
 }
 
-/// The box around the positions of all vertices.
+/// The bounding box of the positions of all vertices.
 #[derive(Clone, Copy)]
 pub(super) struct Bounds {
     pub(super) min: [f32; 3],
     pub(super) max: [f32; 3],
 }
 
-/// The box around positions with 32 bits.
+/// Computes the bounding box of positions rounded to 32 bits.
 ///
 /// # Errors
 ///
-/// The first vertex whose position is not finite with 32 bits.
+/// The first vertex whose position is not finite in 32 bits.
 pub(super) fn bounds(mesh: &Mesh, split: &Split) -> Result<Bounds, VertexId> {
     let position = |i| mesh.position(split.vertex(mesh, i)).as_vec3();
     let blocks = parallel::blocks(split.n, |vertices| {
@@ -90,10 +90,10 @@ pub(super) fn bounds(mesh: &Mesh, split: &Split) -> Result<Bounds, VertexId> {
         .fold(Vec3::NEG_INFINITY, |max, block| max.max(block.1));
     let finite = blocks.iter().all(|block| block.2);
     if !finite {
-        let broken = (0..split.n).find(|&i| !position(i).is_finite());
-        return Err(broken.map_or(VertexId::new(0), |i| split.vertex(mesh, i)));
+        let non_finite = (0..split.n).find(|&i| !position(i).is_finite());
+        return Err(non_finite.map_or(VertexId::new(0), |i| split.vertex(mesh, i)));
     }
-    // Adding 0 turns -0 into 0: which of the two comes out must not depend on the order.
+    // Adding 0 turns -0 into 0, so that the result does not depend on the order of the vertices.
     Ok(Bounds {
         min: (min + 0.0).to_array(),
         max: (max + 0.0).to_array(),

@@ -1,4 +1,4 @@
-//! Materials: from the document to the scene.
+//! Converts materials of the document to materials of the scene.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,12 +17,12 @@ use super::views::Reader;
 use crate::fault::Fault;
 use crate::note::Notes;
 
-/// Makes materials, each picture once.
+/// Converts materials, and loads each image once.
 pub(super) struct Materials<'a> {
     reader: &'a Reader<'a>,
     images: BTreeMap<usize, Option<Image>>,
     known: BTreeMap<usize, Material>,
-    /// How many textures have no picture.
+    /// The number of textures without an image.
     without_picture: usize,
 }
 
@@ -36,17 +36,17 @@ impl<'a> Materials<'a> {
         }
     }
 
-    /// Says what was left out.
+    /// Adds notes for what was left out.
     pub(super) fn note(self, notes: &mut Notes) {
-        let what = "textures left out: they have no picture that can be taken";
+        let what = "textures without a supported image left out";
         notes.left_out(self.without_picture, None, what);
     }
 
-    /// Material number `i` of the document, which has it.
+    /// Converts material `i` of the document, which must exist.
     ///
     /// # Errors
     ///
-    /// If it refers to a texture or its bytes that are not there.
+    /// If the material refers to a missing texture or to missing bytes.
     pub(super) fn get(&mut self, i: usize) -> Result<Material, Fault> {
         if let Some(known) = self.known.get(&i) {
             return Ok(known.clone());
@@ -71,7 +71,7 @@ impl<'a> Materials<'a> {
         to.normal_texture = texture(&from.normal_texture, "normalTexture")?;
         to.occlusion_texture = texture(&from.occlusion_texture, "occlusionTexture")?;
         to.emissive_texture = texture(&from.emissive_texture, "emissiveTexture")?;
-        // Without its texture a number has no meaning.
+        // Scale and strength only apply to an existing texture.
         if let (Some(info), Some(_)) = (&from.normal_texture, &to.normal_texture) {
             to.normal_scale = rounded(info.scale.unwrap_or(1.0));
         }
@@ -157,7 +157,7 @@ impl<'a> Materials<'a> {
     }
 }
 
-/// The type that the first bytes of a picture say.
+/// The media type that the first bytes of an image indicate.
 pub(super) fn sniffed(bytes: &[u8]) -> &'static str {
     match bytes {
         [0x89, b'P', b'N', b'G', ..] => "image/png",
@@ -166,7 +166,7 @@ pub(super) fn sniffed(bytes: &[u8]) -> &'static str {
     }
 }
 
-/// The path that a URI reference spells; a URI with a scheme as it is.
+/// Decodes a URI reference to a path. A URI with a scheme is returned as it is.
 fn decoded(uri: &str) -> String {
     if has_scheme(uri) {
         return uri.to_owned();
@@ -174,7 +174,7 @@ fn decoded(uri: &str) -> String {
     crate::assets::percent_decoded(uri).unwrap_or_else(|| uri.to_owned())
 }
 
-/// Whether a text begins with the scheme of a URI; one letter is a drive.
+/// Whether a text begins with the scheme of a URI. A single letter is a drive, not a scheme.
 pub(super) fn has_scheme(uri: &str) -> bool {
     uri.split_once(':').is_some_and(|(scheme, _)| {
         let is_fine = |c: char| c.is_ascii_alphanumeric() || "+-.".contains(c);
@@ -187,7 +187,7 @@ fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, Fault> {
     fn known<T: Copy>(list: &[(u32, T)], number: u32, pointer: String) -> Result<T, Fault> {
         let found = list.iter().find(|(known, _)| *known == number);
         found.map(|&(_, value)| value).ok_or_else(|| {
-            let message = format!("found {number}, which is none of the numbers for it");
+            let message = format!("unknown value {number}");
             Fault::json(pointer, message)
         })
     }
@@ -212,7 +212,7 @@ fn to_sampler(from: &SamplerJson, here: &str) -> Result<Sampler, Fault> {
     })
 }
 
-/// The transform of a texture, and the texture coordinates that it asks for instead.
+/// The transform of a texture, and the set of texture coordinates if the extension overrides it.
 fn transform(
     extensions: &Extensions,
     here: &str,
@@ -234,10 +234,11 @@ fn unit(x: f64) -> f64 {
     rounded(x).clamp(0.0, 1.0)
 }
 
-/// The shortest decimal number that is this one with 32 bits, and no larger than 32 bits hold.
+/// Rounds a number to 32 bits, clamps it to their range, and returns the shortest decimal number with this 32-bit
+/// value.
 #[expect(clippy::cast_possible_truncation, reason = "that is the purpose")]
 pub(super) fn rounded(x: f64) -> f64 {
     let x = (x as f32).clamp(f32::MIN, f32::MAX);
-    // 0.8 stays 0.8.
+    // For example, 0.8 is kept as 0.8.
     x.to_string().parse().unwrap_or(f64::from(x))
 }

@@ -1,16 +1,16 @@
-//! The names of attributes: in glTF and in a mesh.
+//! The names of attributes in glTF and in a mesh.
 //!
 //! ```text
 //! NORMAL <-> normal    TEXCOORD_0 <-> uv     TEXCOORD_n <-> uvn
 //! COLOR_0 <-> color    _any_name  <-> any_name
 //! ```
 //!
-//! Names that have a meaning of their own in a mesh keep their underscore when they are read: `_uv` stays
-//! `_uv`, and is written as `__uv`, which is read as `_uv` again.
+//! Reserved names of a mesh keep their underscore when they are read: `_uv` stays `_uv`. It is written as `__uv`,
+//! which is read as `_uv` again.
 
 use gltf_json::mesh::Semantic;
 
-/// The name in a mesh of an attribute of glTF; `None` for what is not read.
+/// The name in a mesh of an attribute of glTF; `None` if the attribute is not read.
 pub(super) fn attribute_name(semantic: &Semantic) -> Option<String> {
     match semantic {
         Semantic::Normals => Some("normal".to_owned()),
@@ -22,7 +22,7 @@ pub(super) fn attribute_name(semantic: &Semantic) -> Option<String> {
     }
 }
 
-/// The name in a mesh for an attribute `_name`.
+/// The name in a mesh of an attribute `_name` of glTF.
 fn custom_name(name: &str) -> String {
     if is_reserved(name) {
         format!("_{name}")
@@ -31,13 +31,13 @@ fn custom_name(name: &str) -> String {
     }
 }
 
-/// Whether a name means something in a mesh, so that no other attribute may have it.
+/// Whether a name is reserved for a predefined attribute of a mesh.
 fn is_reserved(name: &str) -> bool {
     let known = "normal color tangent material smoothing crease position";
     name.is_empty() || known.split(' ').any(|one| one == name) || uv_set(name).is_some()
 }
 
-/// The number of texture coordinates of this name: 0 for `uv`, n for `uvn`.
+/// The set of texture coordinates with this name: 0 for `uv`, n for `uvn`.
 pub(super) fn uv_set(name: &str) -> Option<u32> {
     let digits = name.strip_prefix("uv")?;
     if digits.is_empty() {
@@ -47,7 +47,7 @@ pub(super) fn uv_set(name: &str) -> Option<u32> {
     (n > 0 && n.to_string() == digits).then_some(n)
 }
 
-/// How an attribute without a meaning of its own is called in glTF; `None` if the name has one.
+/// The name in glTF of a custom attribute; `None` if the name is reserved.
 pub(super) fn custom_semantic(name: &str) -> Option<Semantic> {
     (!is_reserved(name)).then(|| Semantic::Extras(name.to_owned()))
 }
@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_come_back_and_reserved_ones_are_not_taken() {
+    fn custom_names_survive_a_round_trip_and_reserved_names_are_avoided() {
         for name in [
             "quality", "_x", "Corner", "corner", "uv0", "uv01", "uvs", "_uv", "__uv", "é",
         ] {

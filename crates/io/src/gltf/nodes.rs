@@ -1,4 +1,4 @@
-//! The nodes of a glTF scene: which meshes stand where, under which names.
+//! The nodes of a glTF scene: the meshes with their transforms and names.
 
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf_json::Node;
@@ -9,18 +9,18 @@ use crate::fault::Fault;
 use crate::note::Notes;
 
 /// A node with a mesh.
-pub(super) struct Placed {
+pub(super) struct PlacedMesh {
     node: usize,
     pub(super) mesh: usize,
     pub(super) to_scene: DAffine3,
 }
 
-impl Placed {
-    /// Takes what the object takes at least, with a name that is kept in some places.
+impl PlacedMesh {
+    /// Takes the minimal size of an object from the budget, including several copies of its name.
     ///
     /// # Errors
     ///
-    /// If the file does not pay for it.
+    /// If the budget is used up.
     pub(super) fn spend(&self, name: &str, budget: &Budget) -> Result<(), Fault> {
         let bytes = Budget::OBJECT + 8 * name.len() as u64;
         budget.spend(bytes, &format!("/nodes/{}", self.node))
@@ -38,32 +38,35 @@ impl Placed {
 ///
 /// # Errors
 ///
-/// If a node is not what it should be, or in the scene twice.
-pub(super) fn placed_meshes(document: &Document, notes: &mut Notes) -> Result<Vec<Placed>, Fault> {
+/// If a node is invalid or occurs twice in the scene.
+pub(super) fn placed_meshes(
+    document: &Document,
+    notes: &mut Notes,
+) -> Result<Vec<PlacedMesh>, Fault> {
     let mut skinned = 0;
-    let mut seen = vec![false; document.nodes.len()];
+    let mut visited = vec![false; document.nodes.len()];
     let mut placed = Vec::new();
-    // A stack of our own: a chain of nodes may be as long as the file.
+    // An explicit stack, because a chain of nodes can be as long as the file.
     let mut open: Vec<(usize, DAffine3)> = Vec::new();
     for &root in document.roots.iter().rev() {
         open.push((root, DAffine3::IDENTITY));
     }
-    while let Some((i, above)) = open.pop() {
+    while let Some((i, parent_to_scene)) = open.pop() {
         let node = get(&document.nodes, i, "/scenes", "node")?;
         let here = format!("/nodes/{i}");
-        if std::mem::replace(&mut seen[i], true) {
-            let message = "the node is in the scene twice, or below itself";
+        if std::mem::replace(&mut visited[i], true) {
+            let message = "the node occurs twice in the scene or is its own descendant";
             return Err(Fault::json(here, message));
         }
-        let to_scene = above * placement(node, &here)?;
+        let to_scene = parent_to_scene * transform(node, &here)?;
         if !to_scene.is_finite() {
-            return Err(Fault::json(here, "the placement of the node is not finite"));
+            return Err(Fault::json(here, "the transform of the node is not finite"));
         }
         if let Some(mesh) = node.mesh {
             skinned += usize::from(node.skin.is_some());
             let mesh = mesh.value();
             get(&document.meshes, mesh, format_args!("{here}/mesh"), "mesh")?;
-            placed.push(Placed {
+            placed.push(PlacedMesh {
                 node: i,
                 mesh,
                 to_scene,
@@ -76,16 +79,16 @@ pub(super) fn placed_meshes(document: &Document, notes: &mut Notes) -> Result<Ve
             open.push((child.value(), to_scene));
         }
     }
-    let what = "meshes with a skin are taken as they are before it bends them";
+    let what = "skinned meshes read in their rest pose";
     notes.changed(skinned, None, what);
     Ok(placed)
 }
 
-fn placement(node: &Node, here: &str) -> Result<DAffine3, Fault> {
+fn transform(node: &Node, here: &str) -> Result<DAffine3, Fault> {
     if let Some(matrix) = node.matrix {
         let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
         if matrix.row(3).to_array().map(f64::to_bits) != [0.0, 0.0, 0.0, 1.0].map(f64::to_bits) {
-            let message = "expected 0, 0, 0, 1 as the last row";
+            let message = "expected 0, 0, 0, 1 as the last row of the matrix";
             return Err(Fault::json(format!("{here}/matrix"), message));
         }
         return Ok(DAffine3::from_mat4(matrix));
@@ -93,7 +96,7 @@ fn placement(node: &Node, here: &str) -> Result<DAffine3, Fault> {
     let scale = DVec3::from_array(node.scale.unwrap_or([1.0; 3]).map(f64::from));
     let translation = DVec3::from_array(node.translation.unwrap_or_default().map(f64::from));
     let rotation = DQuat::from_array(node.rotation.unwrap_or_default().0.map(f64::from));
-    // Written with 32 bits, its length is only nearly 1.
+    // Because of 32-bit rounding, the length is only approximately 1.
     let length = rotation.length();
     if length == 0.0 || !length.is_finite() {
         let pointer = format!("{here}/rotation");

@@ -1,4 +1,4 @@
-//! Counting what a glTF file holds, from its JSON alone.
+//! Counts the content of a glTF file from its JSON alone.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,11 +16,11 @@ use crate::fault::Fault;
 use crate::note::{Names, Notes};
 use crate::peek::{PeekGeometry, PeekMesh, PeekObject};
 
-/// The counts of the objects of a glTF file, from its JSON.
+/// Returns the counts of the objects of a glTF file from its JSON.
 ///
 /// # Errors
 ///
-/// As [`read`](super::read()), as far as it looks.
+/// As [`read`](super::read()), for the parts that are checked.
 pub(crate) fn peek(json: &[u8], name: &str) -> Result<Vec<PeekObject>, Fault> {
     let mut notes = Notes::of("".as_ref());
     let budget = Budget::of(json.len());

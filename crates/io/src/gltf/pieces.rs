@@ -1,11 +1,11 @@
-//! The bytes of the buffer, piece by piece, and the container of a GLB file.
+//! The parts of the buffer, and the container of a GLB file.
 
 use crate::error::Unwritable;
 
-/// Writes the bytes of a piece.
+/// Writes the bytes of a part.
 pub(super) type Fill<'a> = Box<dyn Fn(&mut [u8]) + 'a>;
 
-/// A part of the buffer, and what writes it.
+/// A part of the buffer, with the function that writes it.
 pub(super) struct Piece<'a> {
     pub(super) start: usize,
     pub(super) length: usize,
@@ -13,24 +13,24 @@ pub(super) struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// The byte behind it.
+    /// The end of the part, exclusive.
     pub(super) fn end(&self) -> usize {
         self.start + self.length
     }
 }
 
-/// Writes all pieces to their places.
+/// Writes all parts to their positions.
 pub(super) fn fill(out: &mut [u8], pieces: &[Piece]) {
     for piece in pieces {
         (piece.fill)(&mut out[piece.start..piece.end()]);
     }
 }
 
-/// A GLB file: a header, a chunk of JSON and a chunk of bytes, each filled up to a multiple of 4.
+/// Creates a GLB file: a header, a JSON chunk and a binary chunk, each padded to a multiple of 4 bytes.
 ///
 /// # Errors
 ///
-/// If it would be longer than the format allows.
+/// If the file would be longer than the format allows.
 pub(super) fn container(
     json: &[u8],
     binary: usize,
@@ -47,7 +47,8 @@ pub(super) fn container(
     let (Some(all), Some(json_length), Some(binary_length)) =
         (word(length), word(padded), word(binary.next_multiple_of(4)))
     else {
-        let message = format!("a GLB file holds less than 4 GB, the scene needs {length} bytes");
+        let message =
+            format!("a GLB file must be smaller than 4 GiB, but the scene needs {length} bytes");
         return Err(Unwritable::scene(message));
     };
     let mut out = mesh::zeroed::<u8>(length);

@@ -1,4 +1,4 @@
-//! Objects before they are written: their vertices, triangles and bounds.
+//! Prepares objects for writing: vertices, triangles and bounds.
 
 use std::collections::BTreeMap;
 
@@ -14,8 +14,8 @@ use crate::error::Unwritable;
 use crate::loss::Losses;
 use crate::weld::n_merged;
 
-/// An object of which everything is known but its place in the document.
-pub(super) struct Prepared<'a> {
+/// An object with everything that writing it needs.
+pub(super) struct PreparedObject<'a> {
     pub(super) object: &'a Object,
     pub(super) mesh: &'a Mesh,
     pub(super) streams: Vec<Stream<'a>>,
@@ -24,12 +24,12 @@ pub(super) struct Prepared<'a> {
     pub(super) faces: BTreeMap<i32, Faces>,
 }
 
-impl<'a> Prepared<'a> {
-    /// Counts what there is to write, and says what is not.
+impl<'a> PreparedObject<'a> {
+    /// Determines the content to write, and adds losses for the rest.
     ///
     /// # Errors
     ///
-    /// If there are too many vertices, or one whose position glTF cannot hold.
+    /// If there are too many vertices, or if glTF cannot store the position of a vertex.
     pub(super) fn new(
         object: &'a Object,
         mesh: &'a Mesh,
@@ -38,28 +38,27 @@ impl<'a> Prepared<'a> {
         let streams = streams(mesh, losses);
         let split = split(mesh, &streams);
         if split.n >= u32::MAX as usize {
-            let (most, n) = (u32::MAX, split.n);
-            let message = format!("expected fewer than {most} vertices, found {n}");
+            let (max, n) = (u32::MAX, split.n);
+            let message = format!("expected fewer than {max} vertices, found {n}");
             return Err(Unwritable::object(&object.name, message));
         }
         for stream in &streams {
             note_changed(stream, mesh, &split, losses);
         }
         let isolated = mesh.n_isolated_vertices();
-        let reason = "isolated vertices: glTF holds triangles";
+        let reason = "isolated vertices, but glTF only stores triangles";
         losses.add(Domain::Vertex, "position", isolated, reason);
-        let reason =
-            "vertices at the place of another: glTF knows vertices of a mesh by their places";
+        let reason = "coincident vertices, which readers of glTF merge";
         losses.add(Domain::Vertex, "position", n_merged(mesh), reason);
         let polygons = mesh.faces().filter(|&f| !mesh.is_triangle(f)).count();
-        let reason = "glTF holds triangles: the polygons are cut";
+        let reason = "glTF only stores triangles, so polygons are triangulated";
         losses.add(Domain::Face, "polygon", polygons, reason);
         let is_empty = usize::from(mesh.n_faces() == 0);
-        let reason = "glTF has no meshes without faces: the object is not written";
+        let reason = "glTF cannot store meshes without faces, so the object is not written";
         losses.add(None, "mesh", is_empty, reason);
         let bounds = bounds(mesh, &split).map_err(|v| {
             let message = format!(
-                "the position of {v}, {}, is too large for the 32 bits of glTF",
+                "the position {} of {v} exceeds the range of the 32-bit numbers of glTF",
                 mesh.position(v)
             );
             Unwritable::object(&object.name, message)
@@ -75,7 +74,7 @@ impl<'a> Prepared<'a> {
         })
     }
 
-    /// How many sets of texture coordinates there are.
+    /// The number of sets of texture coordinates.
     pub(super) fn n_uvs(&self) -> u32 {
         let is_uv = |stream: &&Stream| matches!(stream.semantic, Semantic::TexCoords(_));
         let count = self.streams.iter().filter(is_uv).count();

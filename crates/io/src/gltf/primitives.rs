@@ -1,4 +1,4 @@
-//! The primitives of a glTF mesh as one list of triangles.
+//! The primitives of a glTF mesh, joined into one list of triangles.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -16,18 +16,19 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::parallel;
 
-/// What looking at an attribute that a primitive does not have costs, in bytes: time rather than memory.
+/// The cost in bytes of checking for an attribute that a primitive does not have. It limits time rather than
+/// memory.
 const SMALL: u64 = 16;
 
-/// All primitives of a mesh. A vertex here is one of glTF: one for each side of a seam.
+/// All primitives of a mesh. Vertices are those of glTF, one for each side of a seam.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Triangles {
     pub(super) positions: Vec<DVec3>,
-    /// What corners get: one value for each vertex. Texture coordinates have v upwards.
+    /// Corner attributes with one value for each vertex. The v coordinate of textures points upwards.
     pub(super) attributes: Attributes,
-    /// Three for each triangle.
+    /// Three corners for each triangle.
     pub(super) corners: Vec<u32>,
-    /// For each triangle its material in the document; empty if none has one.
+    /// For each triangle its material in the document; empty if no triangle has a material.
     pub(super) materials: Vec<Option<usize>>,
 }
 
@@ -35,31 +36,31 @@ pub(super) struct Triangles {
 ///
 /// # Errors
 ///
-/// The first accessor or index that is not what it should be.
+/// The first accessor or index that is invalid.
 pub(super) fn triangles(
     reader: &Reader,
     index: usize,
     notes: &mut Notes,
 ) -> Result<Triangles, Fault> {
     let mut all = Triangles::default();
-    // Primitives that share all their attributes, as parts of one model do, share their vertices.
+    // Primitives with the same attributes, such as parts of a model, share their vertices.
     let mut known = BTreeMap::new();
-    let mut seen = Seen::default();
+    let mut left_out = LeftOut::default();
     let mut has_materials = false;
     for (i, primitive) in reader.document.meshes[index].primitives.iter().enumerate() {
         let here = format!("/meshes/{index}/primitives/{i}");
-        seen.morphs += primitive.targets.as_ref().map_or(0, Vec::len);
+        left_out.morphs += primitive.targets.as_ref().map_or(0, Vec::len);
         let Checked::Valid(mode) = primitive.mode else {
             let message = "expected a number from 0 to 6";
             return Err(Fault::json(format!("{here}/mode"), message));
         };
         match mode {
             Mode::Points => {
-                seen.points += 1;
+                left_out.points += 1;
                 continue;
             }
             Mode::Lines | Mode::LineLoop | Mode::LineStrip => {
-                seen.lines += 1;
+                left_out.lines += 1;
                 continue;
             }
             Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => {}
@@ -67,7 +68,7 @@ pub(super) fn triangles(
         let (base, count) = match known.entry(attributes(primitive)) {
             Entry::Occupied(part) => *part.get(),
             Entry::Vacant(new) => {
-                *new.insert(all.push_vertices(reader, primitive, &here, &mut seen)?)
+                *new.insert(all.push_vertices(reader, primitive, &here, &mut left_out)?)
             }
         };
         let mut corners = corners(reader, primitive, mode, count, &here)?;
@@ -91,11 +92,11 @@ pub(super) fn triangles(
             all.corners.append(&mut corners);
         }
     }
-    seen.note(notes);
+    left_out.note(notes);
     Ok(all)
 }
 
-/// The accessors of a primitive's attributes.
+/// The accessors of the attributes of a primitive.
 pub(super) fn attributes(primitive: &Primitive) -> Vec<(Checked<Semantic>, usize)> {
     let attributes = primitive.attributes.iter();
     attributes
@@ -104,7 +105,8 @@ pub(super) fn attributes(primitive: &Primitive) -> Vec<(Checked<Semantic>, usize
 }
 
 impl Triangles {
-    /// The bytes that an object of them takes, about: each column has a value for each corner there.
+    /// The approximate size in bytes of an object with these triangles, in which each attribute has a value for
+    /// each corner.
     pub(super) fn cost(&self) -> u64 {
         const VERTEX: usize = 64;
         const CORNER: usize = 48;
@@ -113,19 +115,19 @@ impl Triangles {
         (VERTEX * self.positions.len() + (CORNER + values) * self.corners.len()) as u64
     }
 
-    /// Appends the vertices of a primitive; returns the first's index and how many there are.
+    /// Appends the vertices of a primitive. Returns the index of the first vertex, and the number of vertices.
     fn push_vertices(
         &mut self,
         reader: &Reader,
         primitive: &Primitive,
         here: &str,
-        seen: &mut Seen,
+        left_out: &mut LeftOut,
     ) -> Result<(u32, u32), Fault> {
         let pointer = |name: &str| format!("{here}/attributes/{name}");
         let semantic = Checked::Valid(Semantic::Positions);
         let Some(positions) = primitive.attributes.get(&semantic) else {
-            // Legal, and nothing to draw without an extension.
-            seen.empty += 1;
+            // Valid, but the primitive is empty without an extension.
+            left_out.empty += 1;
             return Ok((0, 0));
         };
         let (accessor, at) = (positions.value(), pointer("POSITION"));
@@ -134,7 +136,10 @@ impl Triangles {
         let base = self.positions.len();
         let fits = base.saturating_add(n) < u32::MAX as usize;
         let (true, Ok(first), Ok(count)) = (fits, u32::try_from(base), u32::try_from(n)) else {
-            let message = format!("expected fewer than {} vertices in a mesh", u32::MAX);
+            let message = format!(
+                "expected fewer than {} vertices in a mesh, found more",
+                u32::MAX
+            );
             return Err(Fault::json(at, message));
         };
         if base == 0 {
@@ -148,13 +153,13 @@ impl Triangles {
                 Checked::Valid(Semantic::Positions) => continue,
                 Checked::Valid(semantic) => semantic,
                 Checked::Invalid => {
-                    seen.attribute("of unknown names");
+                    left_out.attribute("with unknown names");
                     continue;
                 }
             };
             let at = pointer(&semantic.to_string());
             let Some(column) = read_column(reader, semantic, accessor.value(), &at)? else {
-                seen.attribute(&semantic.to_string());
+                left_out.attribute(&semantic.to_string());
                 continue;
             };
             let found = column.values.len();
@@ -166,24 +171,26 @@ impl Triangles {
             let before = self.attributes.column(Domain::Corner, &column.name);
             let kind = |column: &Column| column.values.type_name();
             if own.column(Domain::Corner, &column.name).is_some() {
-                seen.attribute(&(semantic.to_string() + " of a name that is taken"));
+                left_out.attribute(&(semantic.to_string() + " (name already used)"));
             } else if before.is_some_and(|before| kind(before) != kind(&column)) {
-                seen.attribute(&(semantic.to_string() + " of another type"));
+                left_out.attribute(
+                    &(semantic.to_string() + " (different type than in another primitive)"),
+                );
             } else {
                 if before.is_none() && base > 0 {
                     let zeros = base * column.values.bytes_per_value();
                     reader.budget.spend(zeros as u64, &at)?;
-                    seen.partial += 1;
+                    left_out.partial += 1;
                 }
                 own.insert(Domain::Corner, column);
             }
         }
-        // Attributes that only other primitives have.
+        // Attributes that only other primitives have get zeros.
         for column in self.attributes.of(Domain::Corner) {
             if own.column(Domain::Corner, &column.name).is_none() {
                 let zeros = n * column.values.bytes_per_value();
                 reader.budget.spend(SMALL + zeros as u64, here)?;
-                seen.partial += 1;
+                left_out.partial += 1;
             }
         }
         if base == 0 && self.attributes == Attributes::default() {
@@ -196,7 +203,7 @@ impl Triangles {
     }
 }
 
-/// The column of an attribute; `None` if it is not read.
+/// Reads the column of an attribute; `None` if the attribute is not read.
 fn read_column(
     reader: &Reader,
     semantic: &Semantic,
@@ -226,7 +233,7 @@ fn read_column(
         (_, Type::Vec3) => {
             DVec3::wrap(reader.vectors(accessor, at, kinds, 0.0, DVec3::from_array)?)
         }
-        // A color without alpha is opaque.
+        // Without alpha, colors are opaque.
         (_, Type::Vec4) => {
             DVec4::wrap(reader.vectors(accessor, at, kinds, 1.0, DVec4::from_array)?)
         }
@@ -240,7 +247,7 @@ fn read_column(
     Ok(Some(Column { name, rule, values }))
 }
 
-/// The triangles of a primitive whose vertices are counted from 0.
+/// The corners of the triangles of a primitive, as vertices of the primitive.
 fn corners(
     reader: &Reader,
     primitive: &Primitive,
@@ -261,7 +268,7 @@ fn corners(
                 let mut indices = order.iter().enumerate();
                 let (i, v) = indices.find(|(_, v)| **v >= count).unwrap_or((0, &0));
                 let message = format!(
-                    "index {i} refers to vertex {v}, but the primitive has {count} vertices"
+                    "index {i} refers to vertex {v}, but the number of vertices of the primitive is {count}"
                 );
                 return Err(Fault::json(pointer, message));
             }
@@ -270,12 +277,12 @@ fn corners(
     };
     let corners = match mode {
         Mode::TriangleStrip => {
-            // Every second triangle is turned, so that all face the same way.
+            // Every second triangle is reversed, so that all have the same orientation.
             let triangle = |(i, w): (usize, &[u32])| match i % 2 {
                 0 => [w[0], w[1], w[2]],
                 _ => [w[0], w[2], w[1]],
             };
-            // Strips jump by triangles without area.
+            // Parts of a strip are connected by triangles without area.
             let has_area = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
             let triangles = order.windows(3).enumerate().map(triangle);
             triangles.filter(has_area).flatten().collect()
@@ -286,7 +293,10 @@ fn corners(
         },
         _ => {
             if order.len() % 3 != 0 {
-                let message = format!("expected a multiple of 3 corners, found {}", order.len());
+                let message = format!(
+                    "expected the number of corners to be a multiple of 3, found {}",
+                    order.len()
+                );
                 return Err(Fault::json(here, message));
             }
             order
@@ -295,9 +305,9 @@ fn corners(
     Ok(corners)
 }
 
-/// What of the primitives is left out.
+/// Counts the content of primitives that is left out.
 #[derive(Default)]
-struct Seen {
+struct LeftOut {
     morphs: usize,
     points: usize,
     lines: usize,
@@ -306,7 +316,7 @@ struct Seen {
     attributes: BTreeMap<String, usize>,
 }
 
-impl Seen {
+impl LeftOut {
     fn attribute(&mut self, name: &str) {
         *self.attributes.entry(name.to_owned()).or_default() += 1;
     }
@@ -316,7 +326,7 @@ impl Seen {
         notes.left_out(self.points, None, "primitives of points left out");
         notes.left_out(self.lines, None, "primitives of lines left out");
         notes.left_out(self.empty, None, "primitives without positions left out");
-        let what = "attributes that only some primitives of a mesh have: taken as 0 elsewhere";
+        let what = "attributes that only some primitives of a mesh have: set to 0 in the others";
         notes.changed(self.partial, None, what);
         for (name, count) in self.attributes {
             notes.left_out(count, None, format!("attributes {name} left out"));

@@ -1,4 +1,4 @@
-//! From a glTF document to objects.
+//! Converts a glTF document to objects.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::Ordering::Relaxed;
@@ -19,21 +19,21 @@ use crate::assets::Assets;
 use crate::clean::gather;
 use crate::fault::Fault;
 use crate::note::{Names, Notes};
-use crate::text::{MARK, Place};
-use crate::{Found, Polygons, Shape, parallel, weld};
+use crate::text::{BYTE_ORDER_MARK, TextPosition};
+use crate::{ParsedObject, Polygons, Shape, parallel, weld};
 
-/// Reads the objects of a glTF file from its bytes, and the buffers beside it.
+/// Reads the objects of a glTF file from its bytes and from the buffers next to it.
 ///
 /// # Errors
 ///
-/// The first thing that breaks the rules of the format.
+/// The first error in the file.
 pub(crate) fn read(
     bytes: Vec<u8>,
     name: &str,
     assets: &mut Assets,
     notes: &mut Notes,
-) -> Result<Vec<Found>, Fault> {
-    // Dropped at the end: the accessors read from it as it is.
+) -> Result<Vec<ParsedObject>, Fault> {
+    // SourcePolygons until the end, because accessors read from these bytes directly.
     let bytes = bytes.into_boxed_slice();
     let (json, binary) = buffers::container(&bytes)?;
     let json = parse(json)?;
@@ -48,16 +48,16 @@ pub(crate) fn read(
     objects(&Reader::new(&document, &loaded, &budget), name, notes)
 }
 
-fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<Found>, Fault> {
+fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<ParsedObject>, Fault> {
     let document = reader.document;
     let placed = placed_meshes(document, notes)?;
-    // How often each mesh is still needed: the last object takes its arrays.
+    // How often each mesh is still used. The last object takes its arrays instead of copying them.
     let mut uses = BTreeMap::new();
     for placed in &placed {
         *uses.entry(placed.mesh).or_insert(0) += 1;
     }
     let unused = document.meshes.len() - uses.len();
-    let what = "meshes left out: no node of the scene shows them";
+    let what = "meshes left out: not used by any node of the scene";
     notes.left_out(unused, None, what);
     let mut meshes = BTreeMap::new();
     let mut materials = Materials::new(reader);
@@ -76,7 +76,10 @@ fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<Found>,
             meshes.insert(placed.mesh, triangles.clone());
         }
         if triangles.corners.len() >= u32::MAX as usize {
-            let message = format!("expected fewer than {} corners in a mesh", u32::MAX);
+            let message = format!(
+                "expected fewer than {} corners in a mesh, found more",
+                u32::MAX
+            );
             return Err(Fault::json(here, message));
         }
         let name = placed.name(document, name);
@@ -90,26 +93,26 @@ fn objects(reader: &Reader, name: &str, notes: &mut Notes) -> Result<Vec<Found>,
             ..polygons(triangles, &places, &placed.to_scene, notes)
         };
         let shape = Shape::Polygons(polygons);
-        objects.push(Found { name, shape });
+        objects.push(ParsedObject { name, shape });
     }
     materials.note(notes);
     Ok(objects)
 }
 
 pub(super) fn parse(json: &[u8]) -> Result<Value, Fault> {
-    let json = json.strip_prefix(MARK).unwrap_or(json);
+    let json = json.strip_prefix(BYTE_ORDER_MARK).unwrap_or(json);
     serde_json::from_slice(json).map_err(|error| {
         let (line, column) = (error.line(), error.column());
         let message = error.to_string();
         let what = message
             .rsplit_once(" at line ")
             .map_or(message.as_str(), |(what, _)| what);
-        Place { line, column }.error(what)
+        TextPosition { line, column }.error(what)
     })
 }
 
-/// The materials that the triangles use, in the order of the document, and where each of the
-/// document's is among them.
+/// The materials that the triangles use, in the order of the document, and the index among them of each material of
+/// the document.
 fn used_materials(
     materials: &mut Materials,
     triangles: &Triangles,
@@ -122,7 +125,7 @@ fn used_materials(
     Ok((materials.collect::<Result<_, _>>()?, places))
 }
 
-/// The bytes that a material takes, about.
+/// The approximate size of a material in bytes.
 fn cost_of_material(material: &Material) -> usize {
     let textures = [
         &material.base_color_texture,
@@ -135,7 +138,7 @@ fn cost_of_material(material: &Material) -> usize {
     size_of::<Material>() + material.name.len() + paths.map(str::len).sum::<usize>()
 }
 
-/// The polygons of a mesh that is placed in the scene, welded along the seams that glTF needs.
+/// Builds polygons from a mesh, in scene coordinates. Vertices along the seams of glTF are merged.
 fn polygons(
     triangles: Triangles,
     places: &BTreeMap<usize, i32>,
@@ -150,7 +153,7 @@ fn polygons(
     } = triangles;
     let n = positions.len();
     let (positions, vertex_of, unused) = weld(positions, &order);
-    notes.left_out(unused, None, "vertices left out: no triangle uses them");
+    notes.left_out(unused, None, "vertices left out: not used by any triangle");
     let mut polygons = Polygons {
         positions,
         offsets: Polygons::even_offsets(order.len() / 3, 3),
@@ -167,16 +170,20 @@ fn polygons(
         parallel::change(&mut order, |v| *v = vertex_of[*v as usize]);
     }
     polygons.corners = order;
-    let lost = polygons.place(to_scene);
-    notes.left_out(lost, None, "normals left out: the placement is flat");
+    let lost = polygons.apply_transform(to_scene);
+    notes.left_out(
+        lost,
+        None,
+        "normals left out: the transform of the node is singular",
+    );
     polygons
 }
 
-/// Joins vertices at exactly the same position, in the order in which each place comes first, and leaves out those
-/// that no triangle uses. Returns the positions, the place of each vertex among them, and how many are left out.
+/// Merges vertices at exactly the same position, in order of first occurrence, and leaves out vertices without a
+/// triangle. Returns the positions, the index among them of each vertex, and the number of vertices left out.
 fn weld(mut positions: Vec<DVec3>, corners: &[u32]) -> (Vec<DVec3>, Vec<u32>, usize) {
     let n = positions.len();
-    let used = parallel::named(n, corners);
+    let used = parallel::index_flags(n, corners);
     let kept = parallel::filter(n, |v| used[v].load(Relaxed));
     let unused = n - kept.len();
     if unused > 0 {

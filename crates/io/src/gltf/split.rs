@@ -1,5 +1,5 @@
-//! Splitting vertices along seams: glTF has a vertex for each different normal, texture coordinate, color
-//! and so on around a vertex of the mesh.
+//! Splits vertices along seams. glTF has a separate vertex for each combination of normal, texture coordinates,
+//! color and so on around a vertex of the mesh.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -9,27 +9,28 @@ use super::streams::Stream;
 use crate::loss::Losses;
 use crate::parallel::{self, BLOCK};
 
-/// Of a crowd of different corners around a vertex only the latest are compared, so that a vertex with a
-/// million corners costs no more than others; equal corners may then become two vertices.
-const LOOKED_AT: usize = 64;
+/// The largest number of corners around a vertex that a corner is compared with, beginning with the latest, so that
+/// the time for a vertex with a million corners stays linear. With more distinct corners, equal corners can become
+/// two vertices.
+const MAX_COMPARED: usize = 64;
 
 /// The vertices of glTF, in the order of the vertices of the mesh.
 pub(super) struct Split {
-    /// How many there are.
+    /// The number of vertices.
     pub(super) n: usize,
-    /// What differs from the mesh; `None` if the vertices are those of the mesh.
+    /// The splits; `None` if the vertices are those of the mesh.
     seams: Option<Seams>,
 }
 
 struct Seams {
-    /// For each vertex of glTF a corner that has its values.
+    /// For each vertex of glTF, a corner with its values.
     corners: Vec<u32>,
-    /// For each half-edge with a face the vertex of its corner.
+    /// For each half-edge with a face, the vertex of its corner.
     vertex_of: Vec<u32>,
 }
 
 impl Split {
-    /// The vertex of the mesh behind vertex `i` of glTF, and one of its corners.
+    /// The vertex of the mesh from which vertex `i` of glTF was made, and one of its corners.
     pub(super) fn corner(&self, mesh: &Mesh, i: usize) -> (VertexId, HalfEdgeId) {
         if let Some(seams) = &self.seams {
             let h = HalfEdgeId::new(seams.corners[i] as usize);
@@ -41,7 +42,7 @@ impl Split {
         (v, corners.next().unwrap_or(HalfEdgeId::new(0)))
     }
 
-    /// The vertex of the mesh behind vertex `i` of glTF.
+    /// The vertex of the mesh from which vertex `i` of glTF was made.
     pub(super) fn vertex(&self, mesh: &Mesh, i: usize) -> VertexId {
         match &self.seams {
             Some(seams) => mesh.origin(HalfEdgeId::new(seams.corners[i] as usize)),
@@ -58,21 +59,16 @@ impl Split {
     }
 }
 
-/// Says how many values of the written vertices are not what the mesh has.
+/// Adds losses for the values of the written vertices that differ from those of the mesh.
 pub(super) fn note_changed(stream: &Stream, mesh: &Mesh, split: &Split, losses: &mut Losses) {
-    let broken = parallel::count(split.n, |i| {
+    let changed = parallel::count(split.n, |i| {
         let (v, h) = split.corner(mesh, i);
         !stream.at(mesh, v, h).1
     });
-    losses.add(
-        stream.domain,
-        &stream.column.name,
-        broken,
-        stream.otherwise(),
-    );
+    losses.add(stream.domain, &stream.column.name, changed, stream.change());
 }
 
-/// Splits the vertices of a dense mesh. Isolated vertices become none.
+/// Splits the vertices of a dense mesh. Isolated vertices are left out.
 pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     let is_seam = |stream: &&Stream| stream.domain == Domain::Corner;
     let seams: Vec<&Stream> = streams.iter().filter(is_seam).collect();
@@ -82,7 +78,7 @@ pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
     }
     let vertex_of: Vec<AtomicU32> = mesh::zeroed(mesh.n_half_edges());
     let m = seams.len();
-    // The vertices of each block are numbered from 0 first.
+    // The vertices of each block are numbered from 0 first, and shifted later.
     let blocks = parallel::blocks(n, |vertices| {
         let mut corners = Vec::with_capacity(BLOCK);
         let (mut values, mut own) = (Vec::new(), Vec::new());
@@ -96,7 +92,7 @@ pub(super) fn split(mesh: &Mesh, streams: &[Stream]) -> Split {
                 own.clear();
                 own.extend(seams.iter().map(|stream| stream.at(mesh, v, h).0));
                 let count = corners.len() - first;
-                let known = (count.saturating_sub(LOOKED_AT)..count)
+                let known = (count.saturating_sub(MAX_COMPARED)..count)
                     .find(|&k| same(&values[k * m..(k + 1) * m], &own));
                 if known.is_none() {
                     values.extend_from_slice(&own);
@@ -130,7 +126,7 @@ fn same(a: &[[f32; 4]], b: &[[f32; 4]]) -> bool {
     pairs.all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// A number of a vertex or half-edge, of which there are fewer than 2^32.
+/// Converts the index of a vertex or half-edge, which is less than 2^32.
 fn number(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }

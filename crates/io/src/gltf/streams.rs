@@ -1,4 +1,4 @@
-//! What glTF has for each of its vertices: normals, texture coordinates, colors and attributes of any name.
+//! The vertex attributes of glTF: normals, texture coordinates, colors and custom attributes.
 
 use glam::DVec3;
 use gltf_json::accessor::Type;
@@ -8,7 +8,8 @@ use mesh::{Column, Domain, FaceId, HalfEdgeId, Mesh, Values, VertexId};
 use super::names::{custom_semantic, uv_set};
 use crate::loss::Losses;
 
-/// An attribute of a mesh as glTF has it: 32 bits, normals of length 1, v downwards, colors from 0 to 1.
+/// An attribute of a mesh in the form that glTF requires: 32 bits, unit normals, v downwards, and colors from 0 to
+/// 1.
 pub(super) struct Stream<'a> {
     pub(super) semantic: Semantic,
     pub(super) kind: Type,
@@ -22,13 +23,13 @@ enum Meaning {
     Normal,
     Uv,
     Color,
-    Other,
+    Custom,
 }
 
-/// The streams of a mesh. What is none of them is a loss.
+/// The streams of a mesh. Adds losses for all other attributes.
 pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>> {
     let mut streams: Vec<Stream> = Vec::new();
-    // Texture coordinates are counted from 0, without gaps.
+    // glTF numbers texture coordinates from 0, without gaps.
     let is_uv = |set: u32| {
         let mut columns = mesh.attributes().of(Domain::Corner).iter();
         let is_it =
@@ -40,7 +41,7 @@ pub(super) fn streams<'a>(mesh: &'a Mesh, losses: &mut Losses) -> Vec<Stream<'a>
     for domain in [Domain::Corner, Domain::Vertex] {
         for column in mesh.attributes().of(domain) {
             if let Some(stream) = stream(domain, column, n_uvs)
-                // What corners have goes before what vertices have.
+                // Corner attributes take precedence over vertex attributes.
                 && streams.iter().all(|other| other.semantic != stream.semantic)
             {
                 streams.push(stream);
@@ -73,7 +74,7 @@ fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {
             let set = uv_set(name).filter(|&set| set < n_uvs)?;
             (Semantic::TexCoords(set), Meaning::Uv)
         }
-        (name, _) => (custom_semantic(name)?, Meaning::Other),
+        (name, _) => (custom_semantic(name)?, Meaning::Custom),
     };
     Some(Stream {
         semantic,
@@ -85,7 +86,7 @@ fn stream(domain: Domain, column: &Column, n_uvs: u32) -> Option<Stream<'_>> {
 }
 
 impl Stream<'_> {
-    /// The value at a corner, as many numbers as the kind has, and whether it is what the mesh has.
+    /// The value at a corner, with as many numbers as the kind has, and whether it equals the value of the mesh.
     pub(super) fn at(&self, mesh: &Mesh, v: VertexId, h: HalfEdgeId) -> ([f32; 4], bool) {
         let i = match self.domain {
             Domain::Vertex => v.index(),
@@ -111,21 +112,21 @@ impl Stream<'_> {
                 let color = value.map(inside);
                 narrow(color, color == value)
             }
-            Meaning::Other => narrow(value, true),
+            Meaning::Custom => narrow(value, true),
         }
     }
 
-    /// What becomes of a value that glTF cannot have.
-    pub(super) fn otherwise(&self) -> &'static str {
+    /// How a value that glTF does not allow is changed.
+    pub(super) fn change(&self) -> &'static str {
         match self.meaning {
-            Meaning::Normal => "without a direction: written as that of the face",
-            Meaning::Color => "outside of 0 to 1: written as the nearest inside",
-            Meaning::Uv | Meaning::Other => "not finite with 32 bits: written as 0",
+            Meaning::Normal => "without a direction, written as the normal of the face",
+            Meaning::Color => "outside of 0 to 1, clamped",
+            Meaning::Uv | Meaning::Custom => "not finite in 32 bits, written as 0",
         }
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "glTF has 32 bits")]
+#[expect(clippy::cast_possible_truncation, reason = "glTF stores 32 bits")]
 fn narrow(value: [f64; 4], good: bool) -> ([f32; 4], bool) {
     let narrow = value.map(|x| x as f32);
     if narrow.iter().all(|x| x.is_finite()) {
@@ -134,8 +135,8 @@ fn narrow(value: [f64; 4], good: bool) -> ([f32; 4], bool) {
     (narrow.map(|x| if x.is_finite() { x } else { 0.0 }), false)
 }
 
-/// The vector with length 1, if it has a direction. A unit vector of 32 bits stays as it is: its length is not
-/// quite 1, and dividing by it would change it a little whenever it is written.
+/// Normalizes a vector, if it has a direction. A unit vector of 32 bits is returned unchanged: its length is not
+/// exactly 1, and dividing by it would change the vector slightly each time it is written.
 fn unit(v: DVec3) -> Option<DVec3> {
     const ROUNDING: f64 = 1e-6;
     if (v.length_squared() - 1.0).abs() < ROUNDING {

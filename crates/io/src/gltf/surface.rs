@@ -1,6 +1,7 @@
-//! Materials, textures, samplers and images as the JSON of glTF has them.
+//! Materials, textures, samplers and images as types for the JSON of glTF.
 //!
-//! Reading and writing share these types: a member that is `None` is not in the document. The types of `gltf_json` have no place for the transform of normal and occlusion textures.
+//! Reading and writing share these types. A member that is `None` is missing in the document. `gltf_json` has its
+//! own types, but they cannot store the transform of normal and occlusion textures.
 
 use std::collections::BTreeMap;
 
@@ -48,21 +49,21 @@ pub(super) struct PbrJson {
     pub(super) metallic_roughness_texture: Option<InfoJson>,
 }
 
-/// How a material refers to a texture.
+/// The reference of a material to a texture.
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct InfoJson {
     pub(super) index: usize,
     pub(super) tex_coord: Option<u32>,
-    /// Of a normal texture.
+    /// The scale of a normal texture.
     pub(super) scale: Option<f64>,
-    /// Of an occlusion texture.
+    /// The strength of an occlusion texture.
     pub(super) strength: Option<f64>,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) extensions: Extensions,
 }
 
-/// The extension of an [`InfoJson`].
+/// The extension `KHR_texture_transform` of an [`InfoJson`].
 #[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(rename_all = "camelCase", default)]
 pub(super) struct TransformJson {
@@ -98,7 +99,8 @@ pub(super) struct ImageJson {
 
 type Filters = (Option<Filter>, Option<Filter>);
 
-/// The numbers for how pictures are filtered, and between their sizes. Only the first two are for magnifying.
+/// The numbers of texture filters, with the filter between mipmap levels. Only the first two are valid for
+/// magnification.
 pub(super) const FILTERS: [(u32, Filters); 6] = [
     (9728, (Some(Filter::Nearest), None)),
     (9729, (Some(Filter::Linear), None)),
@@ -108,7 +110,7 @@ pub(super) const FILTERS: [(u32, Filters); 6] = [
     (9987, (Some(Filter::Linear), Some(Filter::Linear))),
 ];
 
-/// The numbers for what is beside a picture; the first is the default.
+/// The numbers of wrap modes. The first is the default.
 pub(super) const WRAPS: [(u32, Wrap); 3] = [
     (10497, Wrap::Repeat),
     (33648, Wrap::Mirror),

@@ -1,4 +1,4 @@
-//! Buffer views: parts of the buffers, as they are or compressed, and the elements in them.
+//! Buffer views: parts of the buffers, uncompressed or compressed, and the elements in them.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -9,12 +9,12 @@ use super::document::{Document, get};
 use super::meshopt::{self, Compressed};
 use crate::fault::Fault;
 
-/// Reads arrays out of the buffers of a document.
+/// Reads arrays from the buffers of a document.
 pub(super) struct Reader<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: &'a [Cow<'a, [u8]>],
     pub(super) budget: &'a Budget,
-    /// The bytes of compressed views, as far as they have been needed.
+    /// The decoded bytes of the compressed views that have been used so far.
     pub(super) decoded: Vec<OnceCell<Vec<u8>>>,
 }
 
@@ -38,7 +38,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     ///
-    /// If there is no such view or its buffer is too short; `pointer` is the place that refers to it.
+    /// If the view does not exist or its buffer is too short. `pointer` is the location that refers to the view.
     pub(super) fn view(&self, index: usize, pointer: impl fmt::Display) -> Result<&[u8], Fault> {
         let at = format!("/bufferViews/{index}");
         let view = get(&self.document.views, index, pointer, "buffer view")?;
@@ -49,7 +49,7 @@ impl Reader<'_> {
         self.part(view.buffer.value(), start, view.byte_length.0, &at)
     }
 
-    /// The bytes of a compressed view, which are decoded when they are first needed.
+    /// The bytes of a compressed view, which are decoded on first use.
     fn decoded(&self, index: usize, compressed: &Compressed) -> Result<&[u8], Fault> {
         let slot = &self.decoded[index];
         if let Some(decoded) = slot.get() {
@@ -64,7 +64,7 @@ impl Reader<'_> {
         Ok(slot.get_or_init(|| decoded))
     }
 
-    /// `length` bytes of a buffer from `start`, as the object at `at` says.
+    /// The `length` bytes of a buffer from `start`. `at` is the location of the object that declares them.
     fn part(&self, buffer: usize, start: u64, length: u64, at: &str) -> Result<&[u8], Fault> {
         let bytes = get(self.buffers, buffer, format_args!("{at}/buffer"), "buffer")?;
         let range = || {
@@ -74,12 +74,12 @@ impl Reader<'_> {
         range().ok_or_else(|| {
             let n = bytes.len();
             let message =
-                format!("the view says {length} bytes from {start}, but buffer {buffer} has {n}");
+                format!("the view declares {length} bytes from byte {start}, but buffer {buffer} has {n} bytes");
             Fault::json(format!("{at}/byteLength"), message)
         })
     }
 
-    /// `count` pieces of `size` bytes in a view, from `offset`, as far apart as the view says.
+    /// The `count` pieces of `size` bytes in a view from `offset`, at the stride of the view.
     pub(super) fn rows(
         &self,
         index: usize,
@@ -94,22 +94,22 @@ impl Reader<'_> {
         let stride = if stride == 0 { size } else { stride };
         if stride < size {
             let message =
-                format!("expected at least {size}, the size of an element, found {stride}");
+                format!("expected at least the size {size} of an element, found {stride}");
             return Err(Fault::json(format!("{at}/byteStride"), message));
         }
-        // The last element needs no room for the rest of its stride.
+        // The last element does not need a full stride.
         let before = count.saturating_sub(1).checked_mul(stride as u64);
         let needed = before.and_then(|n| n.checked_add(size as u64)?.checked_add(offset));
         let needed = if count == 0 { Some(0) } else { needed };
         if needed.is_none_or(|needed| needed > bytes.len() as u64) {
             let message = format!(
-                "{count} elements of {size} bytes, {stride} apart, from byte {offset} do not fit the \
-                 {} bytes of the view",
+                "{count} elements of {size} bytes with stride {stride} from byte {offset} do not fit in the \\
+                {} bytes of the view",
                 bytes.len()
             );
             return Err(Fault::json(format!("{here}/count"), message));
         }
-        // Both fit: they are no more than the length of the view.
+        // Both fit in a `usize`, because they do not exceed the length of the view.
         let [count, offset] = [count, offset].map(|n| usize::try_from(n).unwrap_or(0));
         Ok(Rows {
             bytes: bytes.get(offset..).unwrap_or_default(),
@@ -120,7 +120,7 @@ impl Reader<'_> {
     }
 }
 
-/// Pieces of the same size, the same distance apart. The last one needs no room behind it.
+/// Pieces of the same size at a constant stride. The last piece does not need a full stride.
 #[derive(Clone, Copy)]
 pub(super) struct Rows<'a> {
     pub(super) bytes: &'a [u8],
@@ -130,7 +130,7 @@ pub(super) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// `count` rows from the one at `first`.
+    /// The `count` rows beginning with row `first`.
     pub(super) fn block(self, first: usize, count: usize) -> Self {
         Self {
             bytes: &self.bytes[first * self.stride..],

@@ -1,14 +1,14 @@
-//! From a scene to a glTF document and its bytes.
+//! Writes a scene to a glTF document and its bytes.
 //!
-//! Everything is counted first, so that the document is known before its bytes: those are then written
-//! once, in parallel, to where they stay.
+//! All sizes are determined first, so that the document is complete before its bytes. These are then written once,
+//! in parallel, directly to their positions.
 
 use std::path::Path;
 
 use scene::{Geometry, Scene};
 
 use super::pieces::{Piece, container, fill};
-use super::prepare::Prepared;
+use super::prepare::PreparedObject;
 use super::write_document::Writer;
 use crate::assets::percent_encoded;
 use crate::error::Unwritable;
@@ -16,11 +16,12 @@ use crate::loss::Losses;
 use crate::writing::dense;
 use crate::{WriteOptions, Written};
 
-/// The files that hold `scene`, to be renamed in this order, and what they do not hold.
+/// Writes `scene` to the bytes of files, in the order in which they are to be renamed, and lists what the files do
+/// not store.
 ///
 /// # Errors
 ///
-/// If an object is no mesh, or the scene does not fit the lengths of the format.
+/// If an object is not a mesh, or if the scene exceeds the size limits of the format.
 pub(crate) fn write(
     path: &Path,
     binary: bool,
@@ -31,14 +32,14 @@ pub(crate) fn write(
     let mut meshes = Vec::new();
     for object in scene.objects() {
         let Geometry::Mesh(mesh) = &object.geometry else {
-            return Err(Unwritable::kind("glTF files hold meshes", object));
+            return Err(Unwritable::kind("glTF files store meshes", object));
         };
         meshes.push(dense(mesh));
     }
     let mut prepared = Vec::new();
     for (object, mesh) in scene.objects().iter().zip(&meshes) {
         let mut losses = Losses::of(&object.name, &mut losses);
-        prepared.push(Prepared::new(object, mesh, &mut losses)?);
+        prepared.push(PreparedObject::new(object, mesh, &mut losses)?);
     }
     let mut writer = Writer::default();
     for prepared in &prepared {
@@ -47,7 +48,8 @@ pub(crate) fn write(
     }
     let length = writer.pieces.last().map_or(0, Piece::end);
     if u32::try_from(length).is_err() {
-        let message = format!("a glTF file holds less than 4 GB, the scene needs {length} bytes");
+        let message =
+            format!("a glTF file must be smaller than 4 GiB, but the scene needs {length} bytes");
         return Err(Unwritable::scene(message));
     }
     let path = path.to_path_buf();

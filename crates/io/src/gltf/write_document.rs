@@ -1,4 +1,4 @@
-//! The document of a glTF file: nodes, meshes, accessors and views.
+//! Writes the document of a glTF file: nodes, meshes, accessors and views.
 
 use std::collections::BTreeMap;
 
@@ -11,12 +11,12 @@ use super::faces::Faces;
 use super::fill::{Bounds, fill_indices, fill_positions, fill_stream};
 use super::numbers::type_name;
 use super::pieces::Piece;
-use super::prepare::Prepared;
+use super::prepare::PreparedObject;
 use super::write_materials::MaterialWriter;
 use crate::WriteOptions;
 use crate::loss::Losses;
 
-/// Makes the document, and knows what writes the bytes that it refers to.
+/// Builds the document, and collects the functions that write the bytes it refers to.
 #[derive(Default)]
 pub(super) struct Writer<'a> {
     accessors: Vec<Value>,
@@ -28,7 +28,8 @@ pub(super) struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    /// The document, whose bytes are in the file of this name or behind it, and what writes these.
+    /// Returns the document and the parts of its buffer. The buffer is the file `uri`, or the chunk after the
+    /// document if `uri` is `None`.
     pub(super) fn into_json(
         self,
         options: &WriteOptions,
@@ -36,7 +37,7 @@ impl<'a> Writer<'a> {
     ) -> (Vec<u8>, Vec<Piece<'a>>) {
         let length = self.pieces.last().map_or(0, Piece::end);
         let nodes: Vec<usize> = (0..self.nodes.len()).collect();
-        // A scene without nodes says nothing.
+        // A scene without nodes is left out.
         let has_nodes = !nodes.is_empty();
         let mut document = json!({
             "accessors": self.accessors,
@@ -61,8 +62,8 @@ impl<'a> Writer<'a> {
         (document.to_string().into_bytes(), self.pieces)
     }
 
-    /// Adds a node with the mesh of an object, if it has faces.
-    pub(super) fn object(&mut self, prepared: &'a Prepared<'a>, losses: &mut Losses) {
+    /// Adds a node with the mesh of an object, if the mesh has faces.
+    pub(super) fn object(&mut self, prepared: &'a PreparedObject<'a>, losses: &mut Losses) {
         if prepared.faces.is_empty() {
             return;
         }
@@ -73,16 +74,16 @@ impl<'a> Writer<'a> {
         self.nodes.push(json!({ "mesh": mesh, "name": name }));
     }
 
-    /// One primitive for each material, in the order of the object's materials; they share their
-    /// vertices.
-    fn primitives(&mut self, prepared: &'a Prepared<'a>, losses: &mut Losses) -> Vec<Value> {
+    /// Creates a primitive for each material, in the order of the materials of the object. The primitives share
+    /// their vertices.
+    fn primitives(&mut self, prepared: &'a PreparedObject<'a>, losses: &mut Losses) -> Vec<Value> {
         let attributes = self.attributes(prepared);
         let mut primitives = Vec::new();
         for (&material, faces) in &prepared.faces {
             let material = usize::try_from(material).ok();
             let material = material.and_then(|m| prepared.object.materials.get(m));
-            let material =
-                material.map(|material| self.materials.place(material, prepared.n_uvs(), losses));
+            let material = material
+                .map(|material| self.materials.index_of(material, prepared.n_uvs(), losses));
             let indices = self.indices(prepared, faces);
             primitives.push(json!({
                 "attributes": attributes,
@@ -90,8 +91,8 @@ impl<'a> Writer<'a> {
                 "material": material,
             }));
         }
-        // Pictures lie behind what the first object needs of them.
-        for (place, bytes) in std::mem::take(&mut self.materials.pictures) {
+        // The bytes of textures come after the data of the first object that uses them.
+        for (place, bytes) in std::mem::take(&mut self.materials.image_bytes) {
             let length = bytes.len();
             let view = self.view(length, None, move |out| out.copy_from_slice(&bytes));
             self.materials.images[place].buffer_view = Some(view);
@@ -99,8 +100,8 @@ impl<'a> Writer<'a> {
         primitives
     }
 
-    fn attributes(&mut self, prepared: &'a Prepared<'a>) -> Map<String, Value> {
-        let Prepared { mesh, split, .. } = prepared;
+    fn attributes(&mut self, prepared: &'a PreparedObject<'a>) -> Map<String, Value> {
+        let PreparedObject { mesh, split, .. } = prepared;
         let mut attributes = BTreeMap::new();
         let fill = move |out: &mut [u8]| fill_positions(out, mesh, split);
         let positions = self.floats(split.n, Type::Vec3, fill);
@@ -125,9 +126,9 @@ impl<'a> Writer<'a> {
         self.accessor(view, count, ComponentType::F32, kind)
     }
 
-    fn indices(&mut self, prepared: &'a Prepared<'a>, faces: &'a Faces) -> usize {
-        let Prepared { mesh, split, .. } = prepared;
-        // The highest number of each size is kept free: it restarts primitives on graphics cards.
+    fn indices(&mut self, prepared: &'a PreparedObject<'a>, faces: &'a Faces) -> usize {
+        let PreparedObject { mesh, split, .. } = prepared;
+        // The largest number of each type is not used, because it restarts primitives on graphics cards.
         let short = u16::try_from(split.n).is_ok();
         let component = if short {
             ComponentType::U16
@@ -141,7 +142,7 @@ impl<'a> Writer<'a> {
         self.accessor(view, count, component, Type::Scalar)
     }
 
-    /// A view of bytes behind all others, from a multiple of 4.
+    /// Adds a view after all others, beginning at a multiple of 4 bytes.
     fn view(&mut self, length: usize, target: Option<u32>, fill: impl Fn(&mut [u8]) + 'a) -> usize {
         let start = self.pieces.last().map_or(0, Piece::end).next_multiple_of(4);
         self.pieces.push(Piece {
@@ -175,13 +176,13 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Puts a value behind a list and returns its place.
+/// Appends a value to a list and returns its index.
 fn push(list: &mut Vec<Value>, value: Value) -> usize {
     list.push(value);
     list.len() - 1
 }
 
-/// Removes the members that are null or empty lists.
+/// Removes members that are null or empty lists.
 fn remove_empty(json: &mut Value) {
     match json {
         Value::Object(members) => {

@@ -1,4 +1,4 @@
-//! Materials: from the scene to the document.
+//! Converts materials of the scene to materials of the document.
 
 use std::sync::Arc;
 
@@ -13,31 +13,35 @@ use super::surface::{
 use crate::assets::percent_encoded;
 use crate::loss::Losses;
 
-/// The materials, textures, samplers and images of a document, each once.
+/// The unique materials, textures, samplers and images of a document.
 #[derive(Default)]
 pub(super) struct MaterialWriter {
-    /// The scene's materials that `materials` stand for, with how many texture coordinates they need not
-    /// more than.
+    /// The material of the scene for each element of `materials`, without the textures that were dropped.
     known: Vec<Material>,
     pub(super) materials: Vec<MaterialJson>,
     pub(super) textures: Vec<TextureJson>,
     pub(super) samplers: Vec<SamplerJson>,
     known_images: Vec<Image>,
     pub(super) images: Vec<ImageJson>,
-    /// Pictures whose bytes have no view yet: their places, and the bytes.
-    pub(super) pictures: Vec<(usize, Arc<[u8]>)>,
+    /// Images whose bytes do not have a view yet: the indices of the images, and the bytes.
+    pub(super) image_bytes: Vec<(usize, Arc<[u8]>)>,
     extensions: [bool; 3],
 }
 
 impl MaterialWriter {
-    /// The place of a material in the document, for a mesh with `n_uvs` sets of texture coordinates.
-    /// Objects share it if all of it is the same.
-    pub(super) fn place(&mut self, material: &Material, n_uvs: u32, losses: &mut Losses) -> usize {
+    /// Returns the index in the document of a material for a mesh with `n_uvs` sets of texture coordinates. Equal
+    /// materials are shared.
+    pub(super) fn index_of(
+        &mut self,
+        material: &Material,
+        n_uvs: u32,
+        losses: &mut Losses,
+    ) -> usize {
         let mut material = material.clone();
-        let reason = "the mesh has no such texture coordinates: the texture is not written";
+        let reason = "the mesh does not have the texture coordinates of this texture, so the texture is not written";
         let dropped = drop_textures(&mut material, |texture| texture.uv_set < n_uvs);
         losses.add(None, &material.name, dropped, reason);
-        let reason = "glTF holds PNG and JPEG: the texture is not written";
+        let reason = "glTF only supports PNG and JPEG, so the texture is not written";
         let dropped = drop_textures(&mut material, |texture| match &texture.image {
             Image::File(_) => true,
             Image::Embedded { mime, .. } => matches!(mime.as_str(), "image/png" | "image/jpeg"),
@@ -45,7 +49,7 @@ impl MaterialWriter {
         losses.add(None, &material.name, dropped, reason);
         if material.unlit && material.emissive_strength != 1.0 {
             material.emissive_strength = 1.0;
-            let reason = "an unlit material has no strength of its own light: not written";
+            let reason = "unlit materials cannot have an emissive strength, so it is not written";
             losses.add(None, &material.name, 1, reason);
         }
         if let Some(place) = self.known.iter().position(|known| *known == material) {
@@ -53,14 +57,14 @@ impl MaterialWriter {
         }
         let mut changed = 0;
         let json = self.json(&material, &mut changed);
-        let reason = "values outside of what glTF allows: written as the nearest inside";
+        let reason = "values outside of the range of glTF, clamped";
         losses.add(None, &material.name, changed, reason);
         self.materials.push(json);
         self.known.push(material);
         self.materials.len() - 1
     }
 
-    /// The extensions that materials use.
+    /// The extensions that the materials use.
     pub(super) fn extensions(&self) -> Vec<&'static str> {
         let all = [TRANSFORM, STRENGTH, UNLIT]
             .into_iter()
@@ -98,7 +102,7 @@ impl MaterialWriter {
         let pbr = PbrJson {
             base_color_factor: (base_color != plain.base_color).then_some(base_color),
             base_color_texture: texture(&material.base_color_texture),
-            // The default of glTF is metal.
+            // Always written, because the default of glTF is 1.
             metallic_factor: Some(metallic),
             roughness_factor: Some(roughness),
             metallic_roughness_texture: texture(&material.metallic_roughness_texture),
@@ -123,7 +127,7 @@ impl MaterialWriter {
         }
     }
 
-    /// What a material says of a texture.
+    /// Describes the use of a texture by a material.
     fn info(&mut self, texture: &Texture) -> InfoJson {
         let TextureTransform {
             offset,
@@ -164,7 +168,7 @@ impl MaterialWriter {
         match image {
             Image::File(path) => json.uri = Some(uri(path)),
             Image::Embedded { mime, bytes } => {
-                self.pictures.push((place, bytes.clone()));
+                self.image_bytes.push((place, bytes.clone()));
                 json.mime_type = Some(mime.clone());
             }
         }
@@ -173,7 +177,7 @@ impl MaterialWriter {
     }
 }
 
-/// Takes away the textures that are not to be kept; returns how many.
+/// Removes the textures for which `keep` returns false, and counts them.
 fn drop_textures(material: &mut Material, keep: impl Fn(&Texture) -> bool) -> usize {
     let textures = [
         &mut material.base_color_texture,
@@ -192,7 +196,7 @@ fn drop_textures(material: &mut Material, keep: impl Fn(&Texture) -> bool) -> us
     textures.map(drop).iter().sum()
 }
 
-/// Whether two pictures are the same, without a look at bytes that are shared.
+/// Whether two images are equal. Shared bytes are not compared.
 fn same(a: &Image, b: &Image) -> bool {
     match (a, b) {
         (Image::Embedded { mime: s, bytes: a }, Image::Embedded { mime: t, bytes: b }) => {
@@ -214,7 +218,7 @@ fn sampler(sampler: Sampler) -> SamplerJson {
     }
 }
 
-/// The URI of a picture; one with a scheme is one already.
+/// The URI of an image file. A path with a scheme is already a URI.
 fn uri(path: &str) -> String {
     if has_scheme(path) {
         return path.to_owned();
@@ -223,7 +227,7 @@ fn uri(path: &str) -> String {
     parts.join("/")
 }
 
-/// `x` between two numbers, with 32 bits; `changed` counts what is not there already.
+/// Clamps `x` to a range and rounds it to 32 bits. Counts in `changed` if `x` was outside of the range.
 fn within(x: f64, low: f64, high: f64, changed: &mut usize) -> f64 {
     let inside = if x.is_nan() {
         high.min(1.0)

@@ -1,4 +1,4 @@
-//! The text of one mesh: vertices, texture coordinates, normals and faces.
+//! Writes the text of one mesh: vertices, texture coordinates, normals and faces.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use mesh::{CORNER_NORMAL, Domain, FaceId, HalfEdgeId, Mesh, UV, VERTEX_NORMAL, V
 use super::corner::Counts;
 use super::file::NO_MATERIAL;
 use super::library::{Library, push_name, push_values};
-use super::states::{Before, FaceStates, State, one_word};
+use super::states::{FaceState, FaceStates, TextState, one_word};
 use crate::corners::CornerNumbers;
 use crate::decimal::push_whole;
 use crate::loss::Losses;
@@ -17,21 +17,21 @@ use crate::parallel;
 use crate::save::Block;
 use crate::writing::NOT_FINITE;
 
-/// The vertices, values or faces of a block.
+/// The number of vertices, values or faces in a block.
 const BLOCK: usize = 8192;
 
-/// One mesh, and what its text needs.
+/// A mesh and the data that writing it needs.
 pub(super) struct MeshBody<'a> {
     mesh: &'a Mesh,
     library: &'a Library,
-    before: Before,
+    before: TextState,
     colors: Option<&'a [DVec4]>,
     uvs: Option<(&'a [DVec2], CornerNumbers)>,
     normals: Option<(Normals<'a>, CornerNumbers)>,
     states: FaceStates<'a>,
 }
 
-/// Where normals come from.
+/// The source of normals.
 #[derive(Clone, Copy)]
 enum Normals<'a> {
     Vertices(&'a [DVec3]),
@@ -53,7 +53,7 @@ impl<'a> MeshBody<'a> {
         places: &'a [usize],
         several: bool,
         library: &'a Library,
-        before: Before,
+        before: TextState,
         losses: &mut Losses,
     ) -> Self {
         let uvs = mesh.get(UV);
@@ -89,7 +89,8 @@ impl<'a> MeshBody<'a> {
             let isolated = parallel::count(mesh.n_vertices(), |v| {
                 mesh.vertex_half_edge(VertexId::new(v)).is_none() && normals[v] != DVec3::ZERO
             });
-            let reason = "OBJ gives normals to face corners, and isolated vertices have none";
+            let reason =
+                "OBJ stores normals at face corners, and isolated vertices have no corners";
             losses.add(Domain::Vertex, "normal", isolated, reason);
         }
         let states = FaceStates::new(mesh, places, several, losses);
@@ -104,8 +105,8 @@ impl<'a> MeshBody<'a> {
         }
     }
 
-    /// What holds behind this mesh.
-    pub(super) fn after(&self) -> Before {
+    /// The state of the text after this mesh.
+    pub(super) fn after(&self) -> TextState {
         let mut after = self.before;
         for (k, n) in self.counts().into_iter().enumerate() {
             after.counts[k] += n;
@@ -126,7 +127,7 @@ impl<'a> MeshBody<'a> {
         self.mesh.n_faces().checked_sub(1).map(FaceId::new)
     }
 
-    /// Adds the text of the mesh.
+    /// Adds the blocks of text for the mesh.
     pub(super) fn add_blocks(self, blocks: &mut Vec<Block<'a>>) {
         let [n_vertices, n_uvs, n_normals] = self.counts();
         let n_faces = self.mesh.n_faces();
@@ -186,10 +187,10 @@ impl<'a> MeshBody<'a> {
         for f in range.map(FaceId::new) {
             if before.is_none_or(|before| !self.states.same(before, f)) {
                 let from = before.map_or_else(
-                    || State {
+                    || FaceState {
                         material: self.before.material,
                         smoothing: self.before.smoothing,
-                        ..State::default()
+                        ..FaceState::default()
                     },
                     |before| self.states.of(before),
                 );
@@ -205,8 +206,8 @@ impl<'a> MeshBody<'a> {
                     push_whole(out, uvs + numbers.number(h) + 1);
                 }
                 if let Some((_, numbers)) = &self.normals {
-                    let between: &[u8] = if self.uvs.is_some() { b"/" } else { b"//" };
-                    out.extend_from_slice(between);
+                    let separator: &[u8] = if self.uvs.is_some() { b"/" } else { b"//" };
+                    out.extend_from_slice(separator);
                     push_whole(out, normals + numbers.number(h) + 1);
                 }
             }
@@ -215,8 +216,8 @@ impl<'a> MeshBody<'a> {
     }
 }
 
-/// Appends the statements that lead from one state to another.
-fn push_change(out: &mut Vec<u8>, from: &State, to: &State, library: &Library) {
+/// Appends the statements that change one face state into another.
+fn push_change(out: &mut Vec<u8>, from: &FaceState, to: &FaceState, library: &Library) {
     if let (true, Some(object)) = (to.object != from.object, to.object) {
         push_name(out, "o", object);
     }
@@ -246,16 +247,16 @@ fn lost_colors(colors: &[DVec4], losses: &mut Losses) {
     let translucent = parallel::count(n, |v| (colors[v].w - 1.0).abs() > 0.0);
     let broken = parallel::count(n, |v| !colors[v].truncate().is_finite());
     let domain = Domain::Vertex;
-    losses.add(domain, "color", translucent, "OBJ has no place for alpha");
+    losses.add(domain, "color", translucent, "OBJ cannot store alpha");
     losses.add(domain, "color", broken, NOT_FINITE);
 }
 
-/// How many different values there are.
+/// The number of distinct values.
 fn count<T>(values: Option<&(T, CornerNumbers)>) -> usize {
     values.map_or(0, |(_, numbers)| numbers.firsts().len())
 }
 
-/// Numbers each different value of a vertex's corners.
+/// Numbers the distinct values on the corners of each vertex.
 fn numbers<const N: usize>(
     mesh: &Mesh,
     value: impl Fn(HalfEdgeId) -> [f64; N] + Sync,
@@ -271,7 +272,7 @@ fn numbers<const N: usize>(
     CornerNumbers::new(mesh, |a, b| bits(a) == bits(b))
 }
 
-/// The values, zero in place of all if one is not finite.
+/// Returns the values, or zeros if any of them is not finite.
 fn finite<const N: usize>(values: [f64; N]) -> [f64; N] {
     let all = values.iter().all(|x| x.is_finite());
     if all { values } else { [0.0; N] }

@@ -1,36 +1,37 @@
-//! The corners of faces, lines and points: indices from 1, or back from the last.
+//! The corners of faces, lines and points, with indices that count from 1, or backwards from the last element if
+//! negative.
 
 use super::file::NONE;
 use crate::fault::Fault;
-use crate::text::{Place, parsed, quoted};
+use crate::text::{TextPosition, parsed, quoted};
 
-/// How many positions, texture coordinates and normals there are.
+/// The numbers of positions, texture coordinates and normals.
 pub(super) type Counts = [usize; 3];
 
-/// What a corner has of each of them: always a position.
+/// The position, texture coordinate and normal of a corner. A position is always present.
 pub(super) type Corner = [Option<Index>; 3];
 
-/// What an index refers to.
+/// The element that an index refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Index {
-    /// A place in the file, from 0.
+    /// An index in the file, from 0.
     Absolute(u32),
-    /// A place after the beginning of this part of the file; before it, if it is negative.
+    /// An offset from the first element of this part of the file; negative for elements of earlier parts.
     Relative(i64),
 }
 
-/// Where indices may point.
+/// The range of valid indices.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Limits {
-    /// Anywhere: this is a part of a file, and what the others define is not known yet.
+    /// Unlimited: this is a part of a file, and the counts of the other parts are not known yet.
     Part,
-    /// This is the whole file, but what comes behind is not known yet.
+    /// This is the whole file, but the elements defined after this line are not known yet.
     Start,
-    /// The whole file defines this many.
+    /// The numbers of elements that the whole file defines.
     Whole(Counts),
 }
 
-/// One and many.
+/// Singular and plural.
 type Noun = (&'static str, &'static str);
 const NOUNS: [Noun; 3] = [
     ("vertex", "vertices"),
@@ -38,14 +39,19 @@ const NOUNS: [Noun; 3] = [
     ("normal", "normals"),
 ];
 
-/// Reads `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` is what the text before this place defines, which
-/// negative indices count back from.
+/// A number of elements, for a message: "1 vertex", "2 vertices".
+fn counted(n: usize, (one, many): Noun) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
+}
+
+/// Parses `v`, `v/vt`, `v//vn` or `v/vt/vn`. `now` holds the numbers of elements defined before this position, from
+/// which negative indices count back.
 ///
 /// # Errors
 ///
-/// If the word is no corner or refers to what is not there.
+/// If the word is not a corner or refers to an element that does not exist.
 pub(super) fn corner(
-    place: Place,
+    place: TextPosition,
     word: &[u8],
     now: Counts,
     limits: Limits,
@@ -64,29 +70,31 @@ pub(super) fn corner(
     Ok(corner)
 }
 
-/// What `field` of the corner `word` stands for. `count` is how many of its kind are defined so far;
-/// `limit` how many there can be, `None` in a part of a file.
+/// Parses `field` of the corner `word`. `count` is the number of elements of its kind defined so far. `limit` is
+/// the number that can exist, or `None` in a part of a file.
 fn index(
-    place: Place,
+    place: TextPosition,
     word: &[u8],
     field: &[u8],
     count: usize,
     limit: Option<usize>,
-    (one, many): Noun,
+    noun: Noun,
 ) -> Result<Index, Fault> {
     let Some(written) = parsed::<i64>(field) else {
         return Err(place.expected("a corner such as 1, 1/2, 1//3 or 1/2/3", word));
     };
+    let kind = noun.0;
     if written == 0 {
         let word = quoted(word);
-        let message = format!("indices count from 1, but the corner {word} has 0");
+        let message = format!("the corner {word} has index 0, but indices start at 1");
         return Err(place.error(message));
     }
     if written < 0 {
         let relative = written.saturating_add(i64::try_from(count).unwrap_or(i64::MAX));
         if relative < 0 && limit.is_some() {
+            let defined = counted(count, noun);
             let message = format!(
-                "the corner refers to {one} {written}, but {count} {many} are defined so far"
+                "the corner refers to {kind} {written}, but the file defines {defined} before this line"
             );
             return Err(place.error(message));
         }
@@ -96,14 +104,14 @@ fn index(
     match u32::try_from(written - 1) {
         Ok(index) if (index as usize) < limit => Ok(Index::Absolute(index)),
         _ => {
-            let so = if limit == NONE as usize {
-                "at most"
+            let defined = counted(limit, noun);
+            let verb = if limit == NONE as usize {
+                "can define at most"
             } else {
-                "in the file"
+                "defines"
             };
-            let message = format!(
-                "the corner refers to {one} {written}, but {limit} {many} are defined {so}"
-            );
+            let message =
+                format!("the corner refers to {kind} {written}, but the file {verb} {defined}");
             Err(place.error(message))
         }
     }

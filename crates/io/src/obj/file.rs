@@ -1,81 +1,81 @@
-//! What an OBJ file holds, as flat arrays: everything in file order, nothing merged or split.
+//! The content of an OBJ file as flat arrays, in the order of the file. Nothing is merged or split.
 
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3, DVec4};
 
-use crate::text::Place;
+use crate::text::TextPosition;
 
-/// The index of a corner that has no texture coordinate or no normal.
+/// The index of a missing texture coordinate or normal.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// The name by which programs say that the faces that follow have no material: the format has no
-/// other way to take one back.
+/// The material name that programs write to say that the following faces have no material. The format has no other
+/// way to unset a material.
 pub(super) const NO_MATERIAL: &[u8] = b"(null)";
 
-/// What an OBJ file holds. Indices count from 0.
+/// The content of an OBJ file. Indices count from 0.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ObjFile {
     pub(super) positions: Vec<DVec3>,
-    /// One for each position, or none at all. A vertex without one is white.
+    /// SingleFile color for each position, or empty. A vertex without a color is white.
     pub(super) colors: Vec<DVec4>,
-    /// What `ZBrush` says of vertices in comments: mask, red, green and blue, from the highest byte.
-    pub(super) painted: Vec<u32>,
+    /// The values of `#MRGB` comments of `ZBrush`: mask, red, green and blue, from the highest byte.
+    pub(super) mrgb_colors: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
     /// Polygon i has the corners from `offsets[i]` to `offsets[i + 1]`.
     pub(super) offsets: Vec<u32>,
-    /// The positions, texture coordinates and normals of corners: [`NONE`] where a corner has none; empty if no
+    /// The positions, texture coordinates and normals of the corners. [`NONE`] if a corner has none; empty if no
     /// corner has one.
     pub(super) corners: [Vec<u32>; 3],
     /// Polylines: line i visits the vertices `line_corners[line_offsets[i]..line_offsets[i + 1]]`.
     pub(super) line_offsets: Vec<u32>,
     pub(super) line_corners: Vec<u32>,
-    /// What groups, object, material and smoothing the faces have: a run lasts to the next one's
-    /// first face. Empty, or the first begins with face 0.
+    /// The groups, object, material and smoothing group of the faces. A run ends at the first face of the next run.
+    /// Either empty, or the first run begins with face 0.
     pub(super) runs: Vec<Run>,
-    /// The sets of groups that runs refer to, as indices of `group_names`. Set 0 is empty.
+    /// The sets of groups that runs refer to, as indices into `group_names`. Set 0 is empty.
     pub(super) group_sets: Vec<Vec<u32>>,
     pub(super) group_names: Vec<String>,
     pub(super) object_names: Vec<String>,
     pub(super) material_names: Vec<String>,
-    /// The words after `mtllib`, each line's as one, with their places.
-    pub(super) libraries: Vec<(Place, String)>,
-    /// What was left out: a count and the first line.
+    /// The text after each `mtllib`, with its position.
+    pub(super) libraries: Vec<(TextPosition, String)>,
+    /// What was left out: the number and the first line.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
 }
 
-/// What the statements before a face say of it.
+/// The groups, object, material and smoothing group of consecutive faces.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Run {
     pub(super) first_face: usize,
-    /// An index of `group_sets`.
+    /// An index into `group_sets`.
     pub(super) groups: usize,
-    /// An index of `object_names`.
+    /// An index into `object_names`.
     pub(super) object: Option<usize>,
-    /// An index of `material_names`.
+    /// An index into `material_names`.
     pub(super) material: Option<usize>,
-    /// The smoothing group, 0 for none.
+    /// The smoothing group; 0 for none.
     pub(super) smoothing: i32,
 }
 
-/// What the reader does not take.
+/// Content that the reader leaves out.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum LeftOut {
-    /// Statements of the format that are not about polygons, by keyword.
+    /// Statements of the format that do not describe polygons, by keyword.
     Statement(String),
-    /// Words that are no statement.
+    /// Words that are not a statement of the format.
     Unknown(String),
-    /// Unknown words beyond the first few different ones.
+    /// Unknown words after the first [`MAX_LISTED_WORDS`](super::statement::MAX_LISTED_WORDS) distinct ones.
     OtherUnknown,
     /// Points (`p`), counted by vertex.
     Points,
-    /// Faces of one or two corners.
+    /// Faces with one or two corners.
     SmallFaces,
-    /// Weights of vertices (`v x y z w`) other than 1.
+    /// Vertex weights (`v x y z w`) other than 1.
     Weights,
-    /// Third coordinates of textures (`vt u v w`) other than 0.
+    /// Third texture coordinates (`vt u v w`) other than 0.
     Depths,
-    /// Numbers of texture coordinates and normals that are not finite.
+    /// Non-finite numbers in texture coordinates and normals.
     NotFinite,
 }

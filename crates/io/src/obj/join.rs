@@ -1,4 +1,4 @@
-//! Joining the parts of an OBJ file in their order.
+//! Joins the parts of an OBJ file in order.
 
 use std::collections::BTreeMap;
 
@@ -8,11 +8,11 @@ use glam::DVec4;
 use super::corner::Counts;
 use super::file::{LeftOut, NONE, ObjFile, Run};
 use super::part::{Indices, Names, Part, PartRun, to_u32};
-use super::statement::LISTED;
+use super::statement::MAX_LISTED_WORDS;
 use crate::parallel;
-use crate::text::Place;
+use crate::text::TextPosition;
 
-/// Whether every index refers to something, and there is not too much of anything.
+/// Whether every index refers to an existing element and all counts fit in 32 bits.
 pub(super) fn fits(parts: &[Part]) -> bool {
     let mut before = Counts::default();
     let mut highest = Counts::default();
@@ -36,7 +36,7 @@ fn covers(a: Counts, b: Counts) -> bool {
     a.iter().zip(b).all(|(a, b)| *a >= b)
 }
 
-/// Joins parts that [`fits`] allows.
+/// Joins parts for which [`fits`] returns true.
 pub(super) fn join(mut parts: Vec<Part>) -> ObjFile {
     let mut file = ObjFile::default();
     states(&parts, &mut file);
@@ -65,7 +65,7 @@ pub(super) fn join(mut parts: Vec<Part>) -> ObjFile {
     }
     file.colors = together(parts.iter_mut().map(|part| &mut part.colors));
     file.positions = together(parts.iter_mut().map(|part| &mut part.positions));
-    file.painted = together(parts.iter_mut().map(|part| &mut part.painted));
+    file.mrgb_colors = together(parts.iter_mut().map(|part| &mut part.mrgb_colors));
     file.uvs = together(parts.iter_mut().map(|part| &mut part.uvs));
     file.normals = together(parts.iter_mut().map(|part| &mut part.normals));
     file
@@ -73,7 +73,7 @@ pub(super) fn join(mut parts: Vec<Part>) -> ObjFile {
 
 // ---- Arrays ------------------------------------------------------------------------------------
 
-/// Where each of several pieces starts in their sequence, and where the last ends.
+/// Where each of several pieces starts in the joined array, followed by the end of the last.
 fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     let mut starts = vec![0];
     let mut end = 0;
@@ -84,7 +84,7 @@ fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     starts
 }
 
-/// An array of pieces, of which `fill` writes each; pieces are given up as they are written.
+/// Joins pieces into an array. `fill` writes each piece, which is freed afterwards.
 fn filled<T, P>(
     pieces: Vec<P>,
     starts: &[usize],
@@ -95,7 +95,7 @@ where
     P: Send,
 {
     let mut all = mesh::zeroed(starts.last().copied().unwrap_or(0));
-    let rooms = parallel::parts(&mut all, starts[1..].iter().copied());
+    let rooms = parallel::split_at_ends(&mut all, starts[1..].iter().copied());
     let tasks = pieces.into_iter().zip(rooms);
     parallel::consume(tasks, |i, (piece, room)| fill(i, room, piece));
     all
@@ -114,8 +114,8 @@ fn together<'a, T: Zeroable + Copy + Send + Sync + 'a>(
     })
 }
 
-/// A column of indices with a value for each corner; `before` are the places that relative indices count
-/// from.
+/// Joins a column of indices of corners. `before` is the number of elements before each part, from which relative
+/// indices count.
 fn column<'a>(
     pieces: impl Iterator<Item = &'a mut Indices>,
     before: &[usize],
@@ -141,10 +141,10 @@ fn column<'a>(
     })
 }
 
-/// Where each face or line begins, and where the last ends.
+/// Joins the ends of faces or lines into offsets: where each begins, followed by where the last ends.
 fn ends<'a>(pieces: impl Iterator<Item = &'a mut Vec<u32>>, corners: &[usize]) -> Vec<u32> {
     let mut pieces: Vec<Vec<u32>> = pieces.map(std::mem::take).collect();
-    // The first begins at 0.
+    // The first face or line begins at 0.
     pieces.insert(0, vec![0]);
     let starts = starts(pieces.iter().map(Vec::len));
     filled(pieces, &starts, |i, room, piece| {
@@ -157,7 +157,7 @@ fn ends<'a>(pieces: impl Iterator<Item = &'a mut Vec<u32>>, corners: &[usize]) -
 
 // ---- Names and runs ----------------------------------------------------------------------------
 
-/// What faces are said to be, and the names of it, in the order in which they come in the file.
+/// Joins the runs of faces and the names that they refer to, in the order of the file.
 fn states(parts: &[Part], file: &mut ObjFile) {
     let (mut groups, mut objects, mut materials) =
         (Names::default(), Names::default(), Names::default());
@@ -182,7 +182,7 @@ fn states(parts: &[Part], file: &mut ObjFile) {
             }
             set_places.push(place);
         }
-        let said = |run: &PartRun, before: Run| Run {
+        let resolved = |run: &PartRun, before: Run| Run {
             first_face: first_face + run.first_face,
             groups: run.groups.map_or(before.groups, |set| set_places[set]),
             object: run.object.map_or(before.object, |object| objects[object]),
@@ -190,7 +190,7 @@ fn states(parts: &[Part], file: &mut ObjFile) {
             smoothing: run.smoothing.unwrap_or(before.smoothing),
         };
         for run in &part.runs {
-            let run = said(run, now);
+            let run = resolved(run, now);
             let differs = |last: &Run| {
                 run != Run {
                     first_face: run.first_face,
@@ -201,7 +201,7 @@ fn states(parts: &[Part], file: &mut ObjFile) {
                 file.runs.push(run);
             }
         }
-        now = said(&part.last, now);
+        now = resolved(&part.last, now);
         first_face += part.face_ends.len();
     }
     file.group_names = groups.list;
@@ -209,13 +209,13 @@ fn states(parts: &[Part], file: &mut ObjFile) {
     file.material_names = materials.list;
 }
 
-/// The places of the names of a part among all; `None` for an empty name.
+/// The indices in `all` of the names of a part; `None` for an empty name.
 fn places(of_part: &Names, all: &mut Names) -> Vec<Option<usize>> {
-    let place = |name: &String| (!name.is_empty()).then(|| all.place_of(name.clone()));
+    let place = |name: &String| (!name.is_empty()).then(|| all.index_of(name.clone()));
     of_part.list.iter().map(place).collect()
 }
 
-// ---- What else there is ------------------------------------------------------------------------
+// ---- Libraries and left-out content ------------------------------------------------------------------------
 
 fn left_out(parts: &mut [Part], file: &mut ObjFile) {
     let mut lines = 0;
@@ -223,13 +223,14 @@ fn left_out(parts: &mut [Part], file: &mut ObjFile) {
     for part in parts {
         for (place, libraries) in part.libraries.drain(..) {
             let line = place.line + lines;
-            file.libraries.push((Place { line, ..place }, libraries));
+            file.libraries
+                .push((TextPosition { line, ..place }, libraries));
         }
         let mut in_order: Vec<_> = std::mem::take(&mut part.left_out).into_iter().collect();
         in_order.sort_by_key(|&(_, (_, line))| line);
         for (mut what, (count, line)) in in_order {
             if matches!(what, LeftOut::Unknown(_)) && !file.left_out.contains_key(&what) {
-                if listed < LISTED {
+                if listed < MAX_LISTED_WORDS {
                     listed += 1;
                 } else {
                     what = LeftOut::OtherUnknown;

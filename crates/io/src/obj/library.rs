@@ -1,4 +1,4 @@
-//! The text of material libraries, and what of a material they have no place for.
+//! Writes material libraries, and lists what they cannot store.
 
 use scene::{AlphaMode, Material, Object, Sampler, Texture, TextureTransform};
 
@@ -9,7 +9,7 @@ use crate::decimal::push_number;
 use crate::loss::Losses;
 use crate::writing::push_comment;
 
-/// The text of a library with these materials. Their names must fit a line.
+/// The text of a material library. The names of the materials must fit on a line.
 pub(super) fn write_library(materials: &[Material], comment: Option<&str>) -> Vec<u8> {
     let mut out = Vec::new();
     push_comment(&mut out, "#", comment);
@@ -46,7 +46,7 @@ fn push_picture(out: &mut Vec<u8>, keyword: &str, texture: Option<&Texture>) {
     }
 }
 
-/// Appends a line of numbers.
+/// Appends a line with a keyword and numbers.
 pub(super) fn push_values(out: &mut Vec<u8>, keyword: &str, values: &[f64]) {
     out.extend_from_slice(keyword.as_bytes());
     for &value in values {
@@ -56,20 +56,23 @@ pub(super) fn push_values(out: &mut Vec<u8>, keyword: &str, values: &[f64]) {
     out.push(b'\n');
 }
 
-/// Says what [`write_library`] does not write of a material.
+/// Adds losses for what [`write_library`] does not write of a material.
 fn note_losses(material: &Material, losses: &mut Losses) {
     let mut lose = |count: bool, what: &str| {
-        let reason = format!("MTL has no place for {what} of materials");
+        let reason = format!("MTL cannot store {what}");
         losses.add(None, &material.name, usize::from(count), reason);
     };
     let is_implied = material.alpha == alpha_mode(material.base_color[3]);
     let cuts = matches!(material.alpha, AlphaMode::Mask(_));
-    lose(cuts, "the alpha that cuts away");
-    let what = "whether what is behind shines through";
+    lose(cuts, "the alpha cutoff");
+    let what = "an alpha mode that does not follow from the alpha value";
     lose(!cuts && !is_implied, what);
-    lose(material.double_sided, "whether the back is seen");
-    lose(material.unlit, "whether light matters");
-    lose(material.occlusion_texture.is_some(), "the occlusion");
+    lose(material.double_sided, "that the material is double-sided");
+    lose(material.unlit, "that the material is unlit");
+    lose(
+        material.occlusion_texture.is_some(),
+        "the occlusion texture",
+    );
     let textures = [
         &material.base_color_texture,
         &material.metallic_roughness_texture,
@@ -77,40 +80,41 @@ fn note_losses(material: &Material, losses: &mut Losses) {
         &material.normal_texture,
     ];
     for texture in textures.into_iter().flatten() {
-        lose(texture.path().is_none(), "embedded pictures");
+        lose(texture.path().is_none(), "embedded textures");
         let is_renamed = texture.path().is_some_and(|path| fit_line(path) != path);
-        lose(is_renamed, "the characters in the name of a picture");
+        lose(is_renamed, "some characters in the file name of a texture");
         let is_plain = texture.sampler == Sampler::default()
             && texture.transform == TextureTransform::default()
             && texture.uv_set == 0;
-        lose(!is_plain, "how a picture is sampled");
+        lose(!is_plain, "the sampling of a texture");
     }
 }
 
-/// Appends a line of a keyword and a name.
+/// Appends a line with a keyword and a name.
 pub(super) fn push_name(out: &mut Vec<u8>, keyword: &str, name: &str) {
     out.extend_from_slice(format!("{keyword} {name}\n").as_bytes());
 }
 
-/// The materials of all objects. Their names are different and fit a line.
+/// The materials of all objects. Their names are unique and fit on a line.
 #[derive(Default)]
 pub(super) struct Library {
     pub(super) materials: Vec<Material>,
-    /// For each object, for each of its materials, its place in `materials`.
-    pub(super) places: Vec<Vec<usize>>,
+    /// For each object, the indices in `materials` of its materials.
+    pub(super) indices: Vec<Vec<usize>>,
 }
 
 impl Library {
     pub(super) fn add(&mut self, object: &Object, losses: &mut Losses) {
         let materials = object.materials.iter();
         let places = materials
-            .map(|material| self.place(material, losses))
+            .map(|material| self.index_of(material, losses))
             .collect();
-        self.places.push(places);
+        self.indices.push(places);
     }
 
-    /// Objects share a material if all of it is the same; a second one of a name gets another name.
-    fn place(&mut self, material: &Material, losses: &mut Losses) -> usize {
+    /// Returns the index of a material. Objects share materials that are equal; different materials with the same
+    /// name are renamed.
+    fn index_of(&mut self, material: &Material, losses: &mut Losses) -> usize {
         let mut base = fit_line(&material.name).into_owned();
         if base.is_empty() || base.as_bytes() == NO_MATERIAL {
             "unnamed".clone_into(&mut base);
@@ -128,7 +132,7 @@ impl Library {
             }
         }
         let renamed = usize::from(new.name != material.name);
-        let reason = format!("material is written as `{}`", new.name);
+        let reason = format!("the material is written as `{}`", new.name);
         losses.add(None, &material.name, renamed, reason);
         note_losses(material, losses);
         self.materials.push(new);

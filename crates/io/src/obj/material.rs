@@ -1,4 +1,4 @@
-//! MTL, the material libraries of OBJ files. `tobj` reads the statements.
+//! MTL, the material libraries of OBJ files. `tobj` parses the statements.
 
 use std::collections::BTreeSet;
 
@@ -12,19 +12,20 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::text::{check_encoding, name, quoted};
 
-/// No material library is larger than this, in bytes.
-const LARGEST: u64 = 1 << 28;
-/// Further names of libraries are left out, also of those that were read: looking for files takes time.
-const MOST_NAMES: usize = 512;
-/// No path is longer than this, in bytes.
-const LONGEST_PATH: usize = 1024;
+/// The largest total size in bytes of the material libraries of a file. Only this many bytes are read.
+const MAX_LIBRARY_BYTES: u64 = 1 << 28;
+/// The largest number of library names that are looked up, including repeated ones, because searching for files
+/// takes time. Further names are left out.
+const MAX_NAMES: usize = 512;
+/// The largest length of a path in bytes.
+const MAX_PATH_BYTES: usize = 1024;
 
-/// The materials of an OBJ file: those of its libraries in their order, then plain ones for the names
+/// Reads the materials of an OBJ file: those of its libraries in order, followed by default materials for the names
 /// that no library defines.
 ///
 /// # Errors
 ///
-/// If a library's path leaves the folder of the file. A missing library is a note.
+/// If the path of a library leaves the folder of the file. A missing library becomes a note.
 pub(super) fn read_libraries(
     assets: &mut Assets,
     file: &ObjFile,
@@ -34,9 +35,9 @@ pub(super) fn read_libraries(
     let mut known = BTreeSet::new();
     let mut libraries = BTreeSet::new();
     let (mut n_names, mut further) = (0, 0);
-    let mut room = LARGEST;
+    let mut room = MAX_LIBRARY_BYTES;
     for (place, words) in &file.libraries {
-        let most = MOST_NAMES - n_names;
+        let most = MAX_NAMES - n_names;
         let (names, rest) = library_names(words, most, assets);
         n_names += names.len();
         further += rest;
@@ -69,23 +70,24 @@ pub(super) fn read_libraries(
             }
         }
     }
-    let what = "names of further material libraries left out";
+    let what = "names of material libraries left out: too many";
     notes.left_out(further, None, what);
-    for wanted in &file.material_names {
-        if known.insert(wanted.clone()) {
-            let what = format!("material `{wanted}` is in no library: taken as plain white");
+    for used in &file.material_names {
+        if known.insert(used.clone()) {
+            let what =
+                format!("material `{used}` not found in any library: replaced by a white material");
             notes.changed(1, None, what);
-            materials.push(Material::new(wanted));
+            materials.push(Material::new(used));
         }
     }
     Ok(materials)
 }
 
-/// The names on an `mtllib` line: in quotes, or several words that are one file, or single words. At most so many,
-/// and how many words are behind them.
+/// The file names on an `mtllib` line: names in quotes, several words that together are the name of a file, or
+/// single words. Returns at most `most` names, and the number of words that remain.
 fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>, usize) {
     let mut is_file = |name: &str| {
-        let short = Some(name).filter(|name| name.len() <= LONGEST_PATH);
+        let short = Some(name).filter(|name| name.len() <= MAX_PATH_BYTES);
         let inside = short.and_then(|name| inside(name).ok());
         inside.is_some_and(|name| assets.has(&name))
     };
@@ -94,8 +96,8 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     while !rest.is_empty() && names.len() < most {
         let quoted = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
         let (name, behind) = quoted.unwrap_or_else(|| {
-            // The longest beginning that is a file; a single word otherwise.
-            let blanks = rest.rmatch_indices(char::is_whitespace).take(MOST_BLANKS);
+            // The longest beginning that is the name of a file, or else a single word.
+            let blanks = rest.rmatch_indices(char::is_whitespace).take(MAX_BLANKS);
             let ends = std::iter::once(rest.len()).chain(blanks.map(|(at, _)| at));
             let first = rest.find(char::is_whitespace).unwrap_or(rest.len());
             let end = ends.into_iter().find(|&end| is_file(&rest[..end]));
@@ -109,12 +111,12 @@ fn library_names(words: &str, most: usize, assets: &mut Assets) -> (Vec<String>,
     (names, rest.split_whitespace().count())
 }
 
-/// At this many blanks of a line the name of a file is looked for to end.
-const MOST_BLANKS: usize = 16;
+/// The largest number of blanks in a line at which the name of a file can end.
+const MAX_BLANKS: usize = 16;
 
-/// The materials of one library. Lines that cannot be read are left out, with a note.
+/// Reads the materials of one library. Lines that cannot be read are left out, with a note.
 fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
-    // Three kinds of line ends and names in Latin-1: tobj knows LF and UTF-8.
+    // Normalises line ends and encoding, because tobj only accepts LF and UTF-8.
     let text = name(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes));
     let text = text.replace("\r\n", "\n").replace('\r', "\n");
     if let Err(error) = check_encoding(bytes) {
@@ -129,7 +131,7 @@ fn read_library(bytes: &[u8], notes: &mut Notes) -> Vec<Material> {
     let mut ignored = Ignored::default();
     let materials = materials.into_iter().map(|m| converted(m, &mut ignored));
     let materials = materials.collect();
-    notes.left_out(ignored.0, None, "values of materials left out: only color (Kd), alpha (d, Tr), roughness (Pr), metalness (Pm), light (Ke) and the pictures of color, light, both Pr and Pm, and normals (norm) are kept");
+    notes.left_out(ignored.0, None, "material values left out: only color (Kd), alpha (d, Tr), roughness (Pr), metalness (Pm), emission (Ke), textures of color and emission, normal maps (norm), and a texture shared by Pr and Pm are read");
     materials
 }
 
@@ -137,7 +139,8 @@ fn statements(text: &str) -> Result<Vec<tobj::Material>, LoadError> {
     tobj::load_mtl_buf(&mut text.as_bytes()).map(|(materials, _)| materials)
 }
 
-/// Tries each line by itself: tobj stops at the first broken one and does not say where.
+/// Parses each line separately and leaves out invalid ones, because tobj stops at the first invalid line without
+/// naming it.
 fn without_broken_lines(text: &str, notes: &mut Notes) -> String {
     let mut kept = String::with_capacity(text.len());
     for (i, line) in text.lines().enumerate() {
@@ -158,7 +161,7 @@ fn without_broken_lines(text: &str, notes: &mut Notes) -> String {
 fn check_line(line: &str) -> Result<(), String> {
     let mut words = line.split_whitespace();
     let is_color = matches!(words.next(), Some("Ka" | "Kd" | "Ks" | "Ke"));
-    // tobj 4.0.5 panics here.
+    // tobj 4.0.5 panics in this case.
     if is_color && words.count() < 3 {
         return Err("expected 3 numbers".to_owned());
     }
@@ -167,7 +170,7 @@ fn check_line(line: &str) -> Result<(), String> {
         .map_err(|error| error.to_string())
 }
 
-/// How many values of materials were left out.
+/// Counts the material values that are left out.
 #[derive(Default)]
 struct Ignored(usize);
 
@@ -178,7 +181,7 @@ impl Ignored {
         picture
     }
 
-    /// A picture that is not multiplied.
+    /// The texture of a picture, without its multiplier.
     fn plain(&mut self, text: Option<String>) -> Option<Texture> {
         let picture = self.picture(text)?;
         self.0 += usize::from(picture.multiplier.is_some());
@@ -187,26 +190,26 @@ impl Ignored {
 }
 
 fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
-    let mut others = from.unknown_param;
-    // tobj takes a comment without a blank after its `#` for a parameter.
-    others.retain(|key, _| !key.starts_with('#'));
+    let mut unknown = from.unknown_param;
+    // tobj treats a comment without a blank after `#` as a parameter.
+    unknown.retain(|key, _| !key.starts_with('#'));
     let mut number = |key: &str| {
-        let value = others.get(key)?.parse::<f64>().ok()?;
-        others.remove(key);
+        let value = unknown.get(key)?.parse::<f64>().ok()?;
+        unknown.remove(key);
         value.is_finite().then_some(value)
     };
     let (roughness, metallic, transparency) = (number("Pr"), number("Pm"), number("Tr"));
     let base_color_texture = ignored.plain(from.diffuse_texture);
-    let emissive_texture = ignored.plain(others.remove("map_Ke"));
-    let [rough, metal] = ["map_Pr", "map_Pm"].map(|key| ignored.plain(others.remove(key)));
-    // One picture for both is that of glTF; MTL knows two.
+    let emissive_texture = ignored.plain(unknown.remove("map_Ke"));
+    let [rough, metal] = ["map_Pr", "map_Pm"].map(|key| ignored.plain(unknown.remove(key)));
+    // The material has one texture for both, as in glTF; MTL has two.
     let metallic_roughness_texture = if rough == metal {
         rough
     } else {
         ignored.0 += usize::from(rough.is_some()) + usize::from(metal.is_some());
         None
     };
-    let normals = ignored.picture(others.remove("norm"));
+    let normals = ignored.picture(unknown.remove("norm"));
     let normal_scale = normals.as_ref().and_then(|picture| picture.multiplier);
     let ignored_now = [
         from.ambient.is_some(),
@@ -220,13 +223,13 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
         from.shininess_texture.is_some(),
         from.dissolve_texture.is_some(),
     ];
-    ignored.0 += ignored_now.into_iter().filter(|&is| is).count() + others.len();
+    ignored.0 += ignored_now.into_iter().filter(|&is| is).count() + unknown.len();
     let [red, green, blue] = from.diffuse.unwrap_or([1.0; 3]).map(|x| unit(x, 1.0));
     let alpha = from.dissolve.or(transparency.map(|t| 1.0 - t));
     let alpha = unit(alpha.unwrap_or(1.0), 1.0);
     let default = emissive_texture.is_some().then_some([1.0; 3]);
-    let lit = from.emissive.or(default);
-    let (emissive, emissive_strength) = light(lit.unwrap_or_default());
+    let emitted = from.emissive.or(default);
+    let (emissive, emissive_strength) = light(emitted.unwrap_or_default());
     Material {
         base_color: [red, green, blue, alpha],
         base_color_texture,
@@ -243,14 +246,14 @@ fn converted(from: tobj::Material, ignored: &mut Ignored) -> Material {
     }
 }
 
-/// Light as a color from 0 to 1 and a strength that is more than 1 where it must.
+/// Splits emitted light into a color from 0 to 1 and a strength of at least 1.
 fn light(values: [f64; 3]) -> ([f64; 3], f64) {
     let values = values.map(|x| if x.is_finite() { x.max(0.0) } else { 0.0 });
     let strength = values.iter().copied().fold(1.0, f64::max);
     (values.map(|x| x / strength), strength)
 }
 
-/// A dissolved surface lets through what is behind it.
+/// A material with alpha below 1 is blended with what is behind it.
 pub(super) fn alpha_mode(alpha: f64) -> AlphaMode {
     if alpha < 1.0 {
         AlphaMode::Blend
@@ -259,7 +262,7 @@ pub(super) fn alpha_mode(alpha: f64) -> AlphaMode {
     }
 }
 
-/// `x` between 0 and 1, `otherwise` if it is no number.
+/// Clamps `x` to 0 to 1; `otherwise` if it is not finite.
 fn unit(x: f64, otherwise: f64) -> f64 {
     if x.is_finite() {
         x.clamp(0.0, 1.0)
@@ -305,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn written_materials_read_back_the_same() {
+    fn written_materials_are_read_unchanged() {
         let materials = vec![red(), lamp(), Material::new("plain")];
         assert_eq!(
             read(&write_library(&materials, Some("made by hand"))),
@@ -325,13 +328,13 @@ mod tests {
     }
 
     #[test]
-    fn other_values_are_counted() {
+    fn values_left_out_are_counted() {
         let (_, notes) = read(b"#x\nnewmtl a\nKa 1 1 1\nNs 10\nillum 2\naniso 0.5\nTr 0.25\n");
         assert_eq!(notes[0].count, 4);
     }
 
     #[test]
-    fn options_of_pictures_are_counted_and_no_part_of_the_name() {
+    fn texture_options_are_counted_and_are_not_part_of_the_name() {
         let (materials, notes) = read(
             b"newmtl a\nmap_Kd -s 2 2 1 -clamp on my file.png\nnorm -bm 0.5 n.png\nmap_Pr r.png\n\
               map_Pm m.png\nmap_bump b.png\nmap_Ke -s 1 1 1\n",
@@ -347,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn light_may_be_stronger_than_one() {
+    fn emission_above_one_becomes_a_strength() {
         let (materials, _) = read(b"newmtl a\nKe 2 1 -1\nnewmtl b\nmap_Ke b.png\n");
         assert_eq!(materials[0].emissive, [1.0, 0.5, 0.0]);
         assert_eq!(materials[0].emissive_strength, 2.0);
@@ -355,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn names_in_latin1_and_missing_alpha_are_understood() {
+    fn names_in_latin1_and_out_of_range_values_are_read() {
         let (materials, _) = read(b"newmtl caf\xe9\nKd 2 nan -1\nTr 0.25");
         assert_eq!(materials[0].name, "café");
         assert_eq!(materials[0].base_color, [1.0, 1.0, 0.0, 0.75]);
@@ -363,7 +366,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_bytes_are_read(
+        fn random_bytes_do_not_panic(
             bytes: Vec<u8>,
             text in "((newmtl|Kd|d|map_Kd|illum|Tr|bump|x)[ \t]?[a-z0-9.é ]{0,8}\n){0,20}",
         ) {

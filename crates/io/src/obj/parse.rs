@@ -1,4 +1,4 @@
-//! Reading an OBJ file in parts, at the same time.
+//! Parses the parts of an OBJ file in parallel.
 
 use super::corner::{Counts, Limits};
 use super::file::{LeftOut, ObjFile};
@@ -7,17 +7,17 @@ use super::part::Part;
 use super::statement::{read_part, read_whole};
 use crate::fault::Fault;
 use crate::parallel;
-use crate::text::{Place, check_encoding, quoted};
+use crate::text::{TextPosition, check_encoding, quoted};
 
-/// How many bytes a part has, as nearly as lines allow. Its arrays stay in the cache of a core.
+/// The approximate size of a part in bytes; parts end at line ends. The arrays of a part fit in the cache of a
+/// core.
 pub(super) const PART: usize = 256 << 10;
 
-/// Reads the statements of an OBJ file.
+/// Parses the statements of an OBJ file.
 ///
 /// # Errors
 ///
-/// The first line that breaks the rules of the format. If there is none: the first index that refers to
-/// nothing.
+/// The first line that breaks the rules of the format, or else the first index that refers to a missing element.
 pub(super) fn parse(bytes: &[u8]) -> Result<ObjFile, Fault> {
     check_encoding(bytes)?;
     parse_in_parts(bytes, PART)
@@ -37,20 +37,20 @@ fn parse_in_parts(bytes: &[u8], size: usize) -> Result<ObjFile, Fault> {
     }
 }
 
-/// Reads a file that is not to be read in parts: to say what is wrong with it, as a rule.
+/// Parses a file as a whole. Used if parsing in parts fails, usually to report the exact error.
 fn parse_whole(bytes: &[u8]) -> Result<Part, Fault> {
     let part = read_whole(bytes, Limits::Start)?;
     if fits(std::slice::from_ref(&part)) {
         return Ok(part);
     }
-    // A vertex may be defined after the faces that use it. Some index was too high to the end: now that
-    // all counts are known, read again to find the line.
+    // A vertex can be defined after the faces that use it, so the first pass does not know all counts. Some index
+    // was too high: parse again with the final counts to find its line.
     let counts: Counts = part.counts();
     drop(part);
     read_whole(bytes, Limits::Whole(counts))
 }
 
-/// Why the file is none of this format, if no vertex is defined.
+/// The error for the first unknown statement. A file with such a statement and without vertices is not an OBJ file.
 fn first_unknown(file: &ObjFile) -> Option<Fault> {
     let unknown = |(what, &(_, line)): (&LeftOut, &(usize, usize))| match what {
         LeftOut::Unknown(word) => Some((line, word.clone())),
@@ -58,13 +58,12 @@ fn first_unknown(file: &ObjFile) -> Option<Fault> {
     };
     let (line, word) = file.left_out.iter().filter_map(unknown).min()?;
     let word = quoted(word.as_bytes());
-    let message = format!(
-        "expected a statement of an OBJ file, found {word}, and the file defines no vertex"
-    );
-    Some(Place::of_line(line).error(message))
+    let message =
+        format!("expected a statement of an OBJ file, found {word} in a file without vertices");
+    Some(TextPosition::of_line(line).error(message))
 }
 
-/// Cuts a text into parts of about `size` bytes: each but the last ends with a line that is not continued.
+/// Cuts a text into parts of about `size` bytes. Each part except the last ends with a line that is not continued.
 pub(super) fn cut(bytes: &[u8], size: usize) -> Vec<&[u8]> {
     let mut parts = Vec::with_capacity(bytes.len() / size + 1);
     let mut start = 0;
@@ -77,14 +76,14 @@ pub(super) fn cut(bytes: &[u8], size: usize) -> Vec<&[u8]> {
     parts
 }
 
-/// The end of the first line that ends at `from` or later and is not continued.
+/// The end of the first line that ends at or after `from` and is not continued.
 fn line_end_from(bytes: &[u8], from: usize) -> usize {
     let mut at = from;
     while at < bytes.len() {
         let is_end = match bytes[at] {
             b'\n' => {
-                let mark = at - usize::from(at > 0 && bytes[at - 1] == b'\r');
-                mark == 0 || bytes[mark - 1] != b'\\'
+                let line_end = at - usize::from(at > 0 && bytes[at - 1] == b'\r');
+                line_end == 0 || bytes[line_end - 1] != b'\\'
             }
             b'\r' => bytes.get(at + 1) != Some(&b'\n') && (at == 0 || bytes[at - 1] != b'\\'),
             _ => false,

@@ -1,4 +1,4 @@
-//! What reading statements needs: the text, and what was found in it.
+//! The state of parsing: the text and the elements parsed so far.
 
 use std::collections::BTreeMap;
 
@@ -6,13 +6,13 @@ use super::corner::Limits;
 use super::part::{Part, PartRun, to_u32};
 use crate::text::Cursor;
 
-/// Reads statements one after the other.
+/// Parses statements in order.
 pub(super) struct Parser<'a> {
     pub(super) cursor: Cursor<'a>,
     pub(super) part: Part,
     pub(super) limits: Limits,
-    /// What was said last, for the faces that follow.
-    pub(super) now: PartRun,
+    /// The groups, object, material and smoothing group for the following faces.
+    pub(super) current: PartRun,
     pub(super) sets: BTreeMap<Vec<u32>, usize>,
 }
 
@@ -22,21 +22,21 @@ impl<'a> Parser<'a> {
             cursor,
             part: Part::default(),
             limits,
-            now: PartRun::default(),
+            current: PartRun::default(),
             sets: BTreeMap::new(),
         }
     }
 
-    /// Whether any corner so far has a position, texture coordinates, and a normal.
+    /// Whether any corner so far has a position, a texture coordinate, or a normal.
     pub(super) fn columns(&self) -> [bool; 3] {
         self.part.corners.each_ref().map(|column| column.len() > 0)
     }
 
-    /// Makes a face of the last corners.
+    /// Adds a face with the last corners.
     pub(super) fn end_face(&mut self) {
         let run = PartRun {
             first_face: self.part.face_ends.len(),
-            ..self.now
+            ..self.current
         };
         self.part.face_ends.push(to_u32(self.part.n_corners()));
         let differs = |last: &PartRun| {

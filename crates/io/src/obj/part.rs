@@ -1,4 +1,4 @@
-//! What a part of an OBJ file holds, before it is joined with the others.
+//! The content of a part of an OBJ file, before it is joined with the other parts.
 
 use std::collections::BTreeMap;
 
@@ -6,57 +6,57 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::corner::{Corner, Counts, Index};
 use super::file::{LeftOut, NONE};
-use crate::text::{Place, name};
+use crate::text::{TextPosition, name};
 
-/// What a part of an OBJ file holds. Lines count from the part's first, as 1; faces, sets and names from
-/// the part's first, as 0.
+/// The content of a part of an OBJ file. Lines count from 1 and faces, sets and names from 0, beginning with the
+/// part.
 #[derive(Debug, Default)]
 pub(super) struct Part {
     pub(super) positions: Vec<DVec3>,
-    /// One for each position, or none at all.
+    /// SingleFile color for each position, or empty.
     pub(super) colors: Vec<DVec4>,
-    /// Of `#MRGB` comments: mask, red, green and blue, from the highest byte.
-    pub(super) painted: Vec<u32>,
+    /// The values of `#MRGB` comments: mask, red, green and blue, from the highest byte.
+    pub(super) mrgb_colors: Vec<u32>,
     pub(super) uvs: Vec<DVec2>,
     pub(super) normals: Vec<DVec3>,
-    /// For each face how many corners there are up to its end.
+    /// For each face, the number of corners up to its end.
     pub(super) face_ends: Vec<u32>,
-    /// What the corners of faces have: vertices, and texture coordinates and normals, which are [`NONE`] where a
-    /// corner has none, and empty if no corner has one.
+    /// The positions, texture coordinates and normals of the corners. [`NONE`] if a corner has none; empty if no
+    /// corner has one.
     pub(super) corners: [Indices; 3],
-    /// For each polyline how many corners there are up to its end.
+    /// For each polyline, the number of corners up to its end.
     pub(super) line_ends: Vec<u32>,
     /// The vertices of the corners of polylines.
     pub(super) line_corners: Indices,
-    /// What faces are said to be; the first begins with face 0 if there is a face.
+    /// The state of consecutive faces. The first run begins with face 0 if there is a face.
     pub(super) runs: Vec<PartRun>,
-    /// What holds at the end.
+    /// The state after the last statement.
     pub(super) last: PartRun,
-    /// As indices of `groups`.
+    /// Sets of indices into `groups`.
     pub(super) group_sets: Vec<Vec<u32>>,
     pub(super) groups: Names,
-    /// An empty name takes the one before back.
+    /// An empty name ends the object before it.
     pub(super) objects: Names,
-    /// An empty name takes the one before back.
+    /// An empty name ends the material before it.
     pub(super) materials: Names,
-    pub(super) libraries: Vec<(Place, String)>,
-    /// A count and the first line.
+    pub(super) libraries: Vec<(TextPosition, String)>,
+    /// The number and the first line of each kind of content that was left out.
     pub(super) left_out: BTreeMap<LeftOut, (usize, usize)>,
-    /// One more than the highest absolute index of each kind.
+    /// SingleFile more than the highest absolute index of each kind.
     pub(super) highest: Counts,
-    /// How far relative indices reach back beyond the beginning.
+    /// How many elements before the beginning of the part relative indices refer to.
     pub(super) reach: Counts,
-    /// How many lines end in this part.
+    /// The number of lines that end in this part.
     pub(super) n_lines: usize,
 }
 
 impl Part {
-    /// How many of each there are.
+    /// The numbers of positions, texture coordinates and normals.
     pub(super) fn counts(&self) -> Counts {
         [self.positions.len(), self.uvs.len(), self.normals.len()]
     }
 
-    /// How many corners of faces there are.
+    /// The number of corners of faces.
     pub(super) fn n_corners(&self) -> usize {
         self.corners[0].len()
     }
@@ -71,9 +71,9 @@ impl Part {
         self.positions.push(position);
     }
 
-    /// Notes what the indices of a corner need.
+    /// Updates `highest` and `reach` for the indices of a corner.
     #[inline]
-    pub(super) fn look_at(&mut self, corner: Corner) {
+    pub(super) fn record_indices(&mut self, corner: Corner) {
         for (k, index) in corner.into_iter().enumerate() {
             match index {
                 None => {}
@@ -91,14 +91,14 @@ impl Part {
     /// Adds a corner of a face.
     #[inline]
     pub(super) fn push_corner(&mut self, corner: Corner) {
-        self.look_at(corner);
+        self.record_indices(corner);
         let n = self.n_corners();
         for (column, index) in self.corners.iter_mut().zip(corner) {
             column.push_optional(n, index);
         }
     }
 
-    /// Forgets the last corners of faces; only some of the columns `had` one before.
+    /// Removes the corners of faces from `n` on. Columns that had no corner before (`had`) become empty.
     pub(super) fn truncate_corners(&mut self, n: usize, had: [bool; 3]) {
         for (column, had) in self.corners.iter_mut().zip(had) {
             column.truncate(if had { n } else { 0 });
@@ -106,25 +106,26 @@ impl Part {
     }
 }
 
-/// What the statements before a face say of it, as far as they stand in this part of the file.
+/// The groups, object, material and smoothing group of consecutive faces; `None` if not set in this part of the
+/// file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct PartRun {
     pub(super) first_face: usize,
-    /// An index of `group_sets`.
+    /// An index into `group_sets`.
     pub(super) groups: Option<usize>,
-    /// An index of `objects`.
+    /// An index into `objects`.
     pub(super) object: Option<usize>,
-    /// An index of `materials`.
+    /// An index into `materials`.
     pub(super) material: Option<usize>,
     pub(super) smoothing: Option<i32>,
 }
 
-/// Indices of which some count from the beginning of the part.
+/// Indices, some of which are relative to the beginning of the part.
 #[derive(Debug, Default)]
 pub(super) struct Indices {
-    /// Absolute indices, and relative ones modulo 2^32.
+    /// Absolute indices, and relative indices modulo 2^32.
     pub(super) values: Vec<u32>,
-    /// Which of `values` are relative.
+    /// The positions in `values` of relative indices.
     pub(super) relative: Vec<u32>,
 }
 
@@ -145,7 +146,8 @@ impl Indices {
         }
     }
 
-    /// Appends to a column that stays empty until its first value; `n` values belong before it.
+    /// Appends to a column that stays empty until its first value. If it is the first value, it is preceded by `n`
+    /// missing ones.
     #[inline]
     pub(super) fn push_optional(&mut self, n: usize, index: Option<Index>) {
         match index {
@@ -168,7 +170,7 @@ impl Indices {
     }
 }
 
-/// Different names in the order in which they come.
+/// Unique names in order of first occurrence.
 #[derive(Debug, Default)]
 pub(super) struct Names {
     pub(super) list: Vec<String>,
@@ -176,13 +178,13 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// The place of a name.
-    pub(super) fn place(&mut self, bytes: &[u8]) -> usize {
-        self.place_of(name(bytes))
+    /// The index of a name, which is added if it is new.
+    pub(super) fn index_of_bytes(&mut self, bytes: &[u8]) -> usize {
+        self.index_of(name(bytes))
     }
 
-    /// The place of a name.
-    pub(super) fn place_of(&mut self, name: String) -> usize {
+    /// The index of a name, which is added if it is new.
+    pub(super) fn index_of(&mut self, name: String) -> usize {
         let next = self.list.len();
         match self.places.entry(name) {
             std::collections::btree_map::Entry::Occupied(known) => *known.get(),
@@ -195,7 +197,7 @@ impl Names {
     }
 }
 
-/// As 32 bits; files with more of anything are refused.
+/// Converts a count to 32 bits. Files with larger counts are refused elsewhere.
 pub(super) fn to_u32(count: usize) -> u32 {
     u32::try_from(count).unwrap_or(NONE)
 }

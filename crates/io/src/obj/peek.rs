@@ -6,7 +6,7 @@ use crate::parallel;
 use crate::peek::{PeekGeometry, PeekMesh};
 use crate::text::Cursor;
 
-/// The counts of an OBJ file. Numbers and indices are not looked at, so a broken file has counts too.
+/// Returns the counts of an OBJ file. Numbers and indices are not checked, so a broken file has counts too.
 pub(crate) fn peek(bytes: &[u8]) -> PeekGeometry {
     peek_in_parts(bytes, PART)
 }
@@ -26,15 +26,15 @@ fn peek_in_parts(bytes: &[u8], size: usize) -> PeekGeometry {
     PeekGeometry::Mesh(all.mesh)
 }
 
-/// What the statements of a part of the text count.
+/// The counts of a part of the text.
 #[derive(Default)]
 struct Counts {
     mesh: PeekMesh,
     lines: u64,
     points: u64,
-    /// Whether there are faces before the first statement about materials.
+    /// Whether there are faces before the first `usemtl`.
     faces_first: bool,
-    /// What the last statement about materials says: whether faces have one from there on.
+    /// Whether the last `usemtl` sets a material; `None` without `usemtl`.
     material: Option<bool>,
 }
 
@@ -47,7 +47,7 @@ impl Counts {
             match cursor.argument().map_or(&b""[..], |(_, word)| word) {
                 b"v" => {
                     mesh.vertices += 1;
-                    // Colors are on all vertices or on none, as a rule: one look is enough.
+                    // Usually all vertices have colors or none does, so only the first is checked.
                     mesh.colors |= mesh.vertices == 1 && arguments(&mut cursor) >= 6;
                 }
                 b"f" | b"fo" => {
@@ -81,7 +81,7 @@ impl Counts {
         counts
     }
 
-    /// Adds the part that follows.
+    /// Adds the counts of the next part.
     fn add(&mut self, next: &Self) {
         let (mesh, other) = (&mut self.mesh, &next.mesh);
         mesh.colors |= mesh.vertices == 0 && other.colors;
@@ -110,7 +110,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn statements_are_counted() {
+    fn elements_are_counted() {
         let text = b"v 0 0 0 1 1 1\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nusemtl a\n\
             f 1/1 2/1 3/1 4/1 # a square\nf 1 2 \\\n3\nf 1 2\nl 1 2\n";
         let expected = PeekMesh {
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_in_parts_counts_as_one() {
+    fn counts_do_not_depend_on_the_parts() {
         let text = b"v 0 0 0\nv 1 0 0 1 1 1\nf 1 2 3\nusemtl a\nv 1 1 0\nf 1 2 3 4\nl 1 2\nf 1/1 2 3 \\\n4 5\n\
             usemtl\nf 1//1 2 3\nl 3 4 5\n";
         for text in [&text[..], &text[..60], &text[20..], &text[24..40]] {
@@ -140,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_alone_are_polylines() {
+    fn a_file_with_lines_only_is_polylines() {
         let expected = PeekGeometry::Polylines {
             lines: 2,
             points: 5,

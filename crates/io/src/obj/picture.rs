@@ -1,21 +1,21 @@
-//! The pictures of material libraries: `map_Kd -s 2 2 1 wood.png`.
+//! The textures of material libraries: `map_Kd -s 2 2 1 wood.png`.
 
 use scene::Texture;
 
-/// A picture as a material library names it.
+/// A texture as a material library declares it.
 #[derive(Debug, PartialEq)]
 pub(super) struct Picture {
-    /// The name of the file.
+    /// The file of the texture.
     pub(super) texture: Texture,
-    /// What the value of `-bm` is.
+    /// The value of the option `-bm`.
     pub(super) multiplier: Option<f64>,
-    /// How many other options there are.
+    /// The number of other options.
     pub(super) n_options: usize,
 }
 
 impl Picture {
-    /// Reads what follows the keyword: options, and then the name of a file, in which there may be blanks.
-    /// `None` if there is no name.
+    /// Parses the text after the keyword: options, followed by the name of a file, which can contain blanks. `None`
+    /// if the name is missing.
     pub(super) fn of(text: &str) -> Option<Self> {
         let mut rest = text.trim();
         let (mut multiplier, mut n_options) = (None, 0);
@@ -45,13 +45,13 @@ impl Picture {
     }
 }
 
-/// The known option that a text begins with, and the text behind it.
+/// Splits off the option that a text begins with, and returns it with the rest of the text.
 fn cut_option(text: &str) -> Option<(&str, &str)> {
     let (word, rest) = cut_word(text);
     (most_values(word) > 0).then_some((word, rest))
 }
 
-/// How many values an option has at most; 0 for what is none.
+/// The largest number of values of an option; 0 if the word is not an option.
 fn most_values(option: &str) -> usize {
     match option {
         "-o" | "-s" | "-t" => 3,
@@ -62,13 +62,13 @@ fn most_values(option: &str) -> usize {
     }
 }
 
-/// The first word, and the text behind it.
+/// Splits off the first word, and returns it with the rest of the text.
 fn cut_word(text: &str) -> (&str, &str) {
     let end = text.find(char::is_whitespace).unwrap_or(text.len());
     (&text[..end], text[end..].trim_start())
 }
 
-/// A name without the quotes around it.
+/// Removes the quotes around a name.
 fn unquoted(name: &str) -> &str {
     let inner = name
         .strip_prefix('"')
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn options_are_no_part_of_the_name() {
+    fn options_are_not_part_of_the_name() {
         for (text, name, multiplier, n_options) in [
             ("wood.png", "wood.png", None, 0),
             (" my wood.png ", "my wood.png", None, 0),

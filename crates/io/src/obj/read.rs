@@ -1,4 +1,4 @@
-//! From the statements of an OBJ file to an object.
+//! Converts the statements of an OBJ file to an object.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -18,19 +18,19 @@ use crate::note::Notes;
 use crate::polygons::{OBJECT_TAG, most_tags};
 use crate::{Polygons, Shape, parallel};
 
-/// Reads an OBJ file from its bytes, and the material libraries beside it.
+/// Reads an OBJ file from its bytes, and its material libraries.
 ///
 /// # Errors
 ///
-/// The first line that breaks the rules of the format.
+/// The first line that breaks the rules of the format, or the path of a library that leaves the folder.
 pub(crate) fn read(bytes: &[u8], assets: &mut Assets, notes: &mut Notes) -> Result<Shape, Fault> {
     let mut file = parse(bytes)?;
     note_left_out(&file, notes);
-    take_paint(&mut file, notes);
+    use_mrgb_colors(&mut file, notes);
     let n_lines = file.line_offsets.len() - 1;
     if file.offsets.len() == 1 && n_lines > 0 {
         let lines = polylines(&file, notes);
-        return Ok(Shape::Other(Geometry::Polylines(lines)));
+        return Ok(Shape::Geometry(Geometry::Polylines(lines)));
     }
     let what = "polylines (`l`) left out: the object is a mesh";
     notes.left_out(n_lines, None, what);
@@ -38,24 +38,27 @@ pub(crate) fn read(bytes: &[u8], assets: &mut Assets, notes: &mut Notes) -> Resu
     Ok(Shape::Polygons(polygons(file, materials, notes)))
 }
 
-/// Makes colors of vertices of what comments of `ZBrush` say.
-fn take_paint(file: &mut ObjFile, notes: &mut Notes) {
-    let painted = std::mem::take(&mut file.painted);
-    if painted.is_empty() {
+/// Uses the colors in `#MRGB` comments of `ZBrush` as vertex colors.
+fn use_mrgb_colors(file: &mut ObjFile, notes: &mut Notes) {
+    let mrgb_colors = std::mem::take(&mut file.mrgb_colors);
+    if mrgb_colors.is_empty() {
         return;
     }
-    if painted.len() != file.positions.len() || !file.colors.is_empty() {
-        let what = "colors of `#MRGB` comments left out: not one for each vertex, or beside others";
-        notes.left_out(painted.len(), None, what);
+    if mrgb_colors.len() != file.positions.len() || !file.colors.is_empty() {
+        let what = "colors of `#MRGB` comments left out: their number differs from the number of vertices, or vertices have other colors";
+        notes.left_out(mrgb_colors.len(), None, what);
         return;
     }
-    let masked = painted.iter().filter(|&&color| color >> 24 != 0xff).count();
+    let masked = mrgb_colors
+        .iter()
+        .filter(|&&color| color >> 24 != 0xff)
+        .count();
     notes.left_out(masked, None, "masks of `#MRGB` comments left out");
     let color = |color: &u32| {
         let [_, red, green, blue] = color.to_be_bytes().map(f64::from);
         (DVec3::new(red, green, blue) / 255.0).extend(1.0)
     };
-    file.colors = painted.iter().map(color).collect();
+    file.colors = mrgb_colors.iter().map(color).collect();
 }
 
 fn polylines(file: &ObjFile, notes: &mut Notes) -> Vec<Vec<DVec3>> {
@@ -64,9 +67,13 @@ fn polylines(file: &ObjFile, notes: &mut Notes) -> Vec<Vec<DVec3>> {
         corners.map(|&v| file.positions[v as usize]).collect()
     };
     let unused = unused(file.positions.len(), &file.line_corners);
-    notes.left_out(unused, None, "vertices left out: no polyline uses them");
+    notes.left_out(unused, None, "vertices left out: not used by any polyline");
     let colors = file.colors.len();
-    notes.left_out(colors, None, "vertex colors left out: polylines have none");
+    notes.left_out(
+        colors,
+        None,
+        "vertex colors left out: polylines cannot have colors",
+    );
     file.line_offsets.windows(2).map(line).collect()
 }
 
@@ -81,18 +88,18 @@ fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> P
         polygons.insert_known(mesh::COLOR, std::mem::take(&mut file.colors));
     }
     let [_, of_uvs, of_normals] = &file.corners;
-    let what = "texture coordinates (`vt`) left out: no face uses them";
+    let what = "texture coordinates (`vt`) left out: not used by any face";
     notes.left_out(unused(file.uvs.len(), of_uvs), None, what);
-    let what = "normals (`vn`) left out: no face uses them";
+    let what = "normals (`vn`) left out: not used by any face";
     notes.left_out(unused(file.normals.len(), of_normals), None, what);
     if !of_uvs.is_empty() {
         polygons.insert_known(UV, values(&file.uvs, of_uvs));
-        let what = "face corners without texture coordinate: taken as 0 0";
+        let what = "face corners without texture coordinates: set to 0 0";
         notes.changed(missing(of_uvs), None, what);
     }
     if !of_normals.is_empty() {
         polygons.insert_known(CORNER_NORMAL, values(&file.normals, of_normals));
-        let what = "face corners without normal: taken as 0 0 0";
+        let what = "face corners without a normal: set to 0 0 0";
         notes.changed(missing(of_normals), None, what);
     }
     set_materials(&mut polygons, &file, &materials);
@@ -105,7 +112,7 @@ fn polygons(mut file: ObjFile, materials: Vec<Material>, notes: &mut Notes) -> P
     polygons
 }
 
-/// The value of each index, zero for [`NONE`].
+/// The value at each index; zero for [`NONE`].
 fn values<T: Copy + Send + Sync + Zeroable>(values: &[T], indices: &[u32]) -> Vec<T> {
     parallel::collect(indices.len(), |i| match indices[i] {
         NONE => T::zeroed(),
@@ -117,9 +124,9 @@ fn missing(indices: &[u32]) -> usize {
     parallel::count(indices.len(), |i| indices[i] == NONE)
 }
 
-/// How many of `n` no index names.
+/// The number of elements, out of `n`, that no index refers to.
 fn unused(n: usize, indices: &[u32]) -> usize {
-    let used = parallel::named(n, indices);
+    let used = parallel::index_flags(n, indices);
     used.iter().filter(|used| !used.load(Relaxed)).count()
 }
 
@@ -131,7 +138,7 @@ fn faces_of_run(file: &ObjFile, i: usize, n_faces: usize) -> Range<usize> {
     file.runs[i].first_face..next.map_or(n_faces, |next| next.first_face)
 }
 
-/// One value for each face, from its run.
+/// The value of each face, from its run.
 fn on_faces<T: Copy + Default>(
     polygons: &Polygons,
     file: &ObjFile,
@@ -166,11 +173,11 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
     let what = "groups and objects left out: too many for a mesh of this size";
     notes.left_out(n - n_columns, None, what);
     let mut columns: Vec<Vec<bool>> = vec![vec![false; n_faces]; n_columns];
-    // Objects come first: they matter more where not all fit.
+    // Objects come first because they matter more if not all tags fit.
     for (i, run) in file.runs.iter().enumerate() {
         let groups = file.group_sets[run.groups].iter();
         let of_groups = groups.map(|&g| objects + g as usize);
-        // Sets are in order: nothing is looked at behind the first group that is left out.
+        // The indices in a set are sorted, so the groups after the first one that is left out are left out too.
         let of_groups = of_groups.take_while(|&column| column < n_columns);
         for column in run.object.into_iter().chain(of_groups) {
             if let Some(marks) = columns.get_mut(column) {
@@ -193,15 +200,14 @@ fn set_tags(polygons: &mut Polygons, file: &ObjFile, notes: &mut Notes) {
                 values: Values::Tag(known),
                 ..
             }) => {
-                // A group named as the tag of an object.
+                // The group has the same name as the tag of an object.
                 for (mark, known) in marks.iter_mut().zip(known) {
                     *mark |= known;
                 }
                 name
             }
             Some(_) => {
-                let what =
-                    format!("group `{name}` is now called `{name} group`: the name is taken");
+                let what = format!("group `{name}` renamed to `{name} group`: the name is taken");
                 notes.changed(1, None, what);
                 format!("{name} group")
             }
@@ -216,11 +222,11 @@ fn note_left_out(file: &ObjFile, notes: &mut Notes) {
     for (what, &(count, line)) in &file.left_out {
         let text = match what {
             LeftOut::Statement(keyword) => {
-                &format!("statements `{keyword}` left out: not polygons")
+                &format!("statements `{keyword}` left out: not supported")
             }
             LeftOut::Unknown(word) => {
                 let word = word.escape_debug();
-                &format!("lines left out: `{word}` is no known statement")
+                &format!("lines left out: unknown statement `{word}`")
             }
             LeftOut::OtherUnknown => "lines with other unknown statements left out",
             LeftOut::Points => "points (`p`) left out",
@@ -228,8 +234,7 @@ fn note_left_out(file: &ObjFile, notes: &mut Notes) {
             LeftOut::Weights => "weights of vertices other than 1 left out",
             LeftOut::Depths => "third texture coordinates other than 0 left out",
             LeftOut::NotFinite => {
-                let what =
-                    "numbers of texture coordinates and normals that are not finite: taken as 0";
+                let what = "non-finite numbers in texture coordinates and normals: set to 0";
                 notes.changed(count, line, what);
                 continue;
             }

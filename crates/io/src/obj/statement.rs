@@ -1,4 +1,4 @@
-//! Reading the statements of an OBJ file, or of a part of it.
+//! Parses the statements of an OBJ file, or of a part of it.
 
 use glam::{DVec2, DVec3, DVec4};
 
@@ -7,19 +7,19 @@ use super::file::{LeftOut, NO_MATERIAL, NONE};
 use super::parser::Parser;
 use super::part::{Part, to_u32};
 use crate::fault::Fault;
-use crate::text::{Cursor, Place, is_not_finite, name, number, parsed};
+use crate::text::{Cursor, TextPosition, is_not_finite, name, number, parsed};
 
-/// What comments with colors of vertices begin with.
-const PAINT: &[u8] = b"#MRGB ";
+/// The beginning of comments with vertex colors.
+const MRGB_COMMENT: &[u8] = b"#MRGB ";
 
-/// How many different unknown words are listed by name.
-pub(super) const LISTED: usize = 8;
+/// The largest number of distinct unknown words that are listed by name.
+pub(super) const MAX_LISTED_WORDS: usize = 8;
 
-/// Reads the statements of a part of a file. Where indices point is checked when parts are joined.
+/// Parses the statements of a part of a file. The ranges of indices are checked when parts are joined.
 ///
 /// # Errors
 ///
-/// The first line that breaks the rules of the format, or has one unknown word too many to list them.
+/// The first line that breaks the rules of the format, or that has one more unknown word than can be listed.
 pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, Fault> {
     let cursor = if is_first {
         Cursor::new(bytes)
@@ -29,7 +29,7 @@ pub(super) fn read_part(bytes: &[u8], is_first: bool) -> Result<Part, Fault> {
     Parser::new(cursor, Limits::Part).run()
 }
 
-/// Reads the statements of a whole file, one after the other: slower, but the errors are exact.
+/// Parses the statements of a whole file in order. Slower than in parts, but errors are exact.
 ///
 /// # Errors
 ///
@@ -42,22 +42,22 @@ impl Parser<'_> {
     fn run(mut self) -> Result<Part, Fault> {
         let is_part = matches!(self.limits, Limits::Part);
         while !self.cursor.is_at_end() {
-            if is_part && self.usual_line() {
+            if is_part && self.fast_line() {
                 continue;
             }
             if let Some((place, keyword)) = self.cursor.argument() {
                 self.statement(place, keyword)?;
-            } else if self.cursor.ahead().starts_with(PAINT) {
-                self.paint();
+            } else if self.cursor.ahead().starts_with(MRGB_COMMENT) {
+                self.mrgb_comment();
             }
             self.cursor.skip_line();
         }
-        self.part.last = self.now;
+        self.part.last = self.current;
         self.part.n_lines = self.cursor.place().line - 1;
         Ok(self.part)
     }
 
-    fn statement(&mut self, place: Place, keyword: &[u8]) -> Result<(), Fault> {
+    fn statement(&mut self, place: TextPosition, keyword: &[u8]) -> Result<(), Fault> {
         match keyword {
             b"v" => {
                 let (values, n) = self.numbers("v", place)?;
@@ -77,14 +77,14 @@ impl Parser<'_> {
             b"g" => self.group(),
             b"o" => {
                 let object = self.cursor.rest_of_line();
-                self.now.object = Some(self.part.objects.place(&object));
+                self.current.object = Some(self.part.objects.index_of_bytes(&object));
             }
             b"usemtl" => {
                 let mut material = self.cursor.rest_of_line();
                 if material == NO_MATERIAL {
                     material.clear();
                 }
-                self.now.material = Some(self.part.materials.place(&material));
+                self.current.material = Some(self.part.materials.index_of_bytes(&material));
             }
             b"mtllib" => {
                 let libraries = self.cursor.rest_of_line();
@@ -105,14 +105,14 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Binary data may hold any number of different words: only a few are listed by name, the first of
-    /// the file, and which these are a part cannot know.
-    fn unknown(&self, place: Place, word: String) -> Result<LeftOut, Fault> {
+    /// Binary data can hold any number of distinct words. Only the first few words of the file are listed by name.
+    /// A part cannot know which words these are, so it fails and the whole file is parsed in order.
+    fn unknown(&self, place: TextPosition, word: String) -> Result<LeftOut, Fault> {
         let key = LeftOut::Unknown(word);
         let known = &self.part.left_out;
         let unknown = |key: &&LeftOut| matches!(key, LeftOut::Unknown(_));
         let listed = known.keys().filter(unknown);
-        if known.contains_key(&key) || listed.count() < LISTED {
+        if known.contains_key(&key) || listed.count() < MAX_LISTED_WORDS {
             Ok(key)
         } else if let Limits::Part = self.limits {
             Err(place.error("too many unknown statements for a part"))
@@ -121,7 +121,7 @@ impl Parser<'_> {
         }
     }
 
-    fn leave_out(&mut self, place: Place, count: usize, what: LeftOut) {
+    fn leave_out(&mut self, place: TextPosition, count: usize, what: LeftOut) {
         if count > 0 {
             self.part.left_out.entry(what).or_insert((0, place.line)).0 += count;
         }
@@ -129,8 +129,13 @@ impl Parser<'_> {
 
     // ---- Vertices, texture coordinates, normals ------------------------------------------------
 
-    /// A vertex of the first `n` values.
-    pub(super) fn vertex(&mut self, place: Place, values: [f64; 7], n: usize) -> Result<(), Fault> {
+    /// Adds a vertex with the first `n` of the values.
+    pub(super) fn vertex(
+        &mut self,
+        place: TextPosition,
+        values: [f64; 7],
+        n: usize,
+    ) -> Result<(), Fault> {
         let [x, y, z, rest @ ..] = values;
         let color = match n {
             3 => None,
@@ -143,8 +148,8 @@ impl Parser<'_> {
             7 => Some(DVec4::from_array(rest)),
             _ => {
                 let message = format!(
-                    "expected a vertex as 3 coordinates, or with a weight (4), a color (6) or a \
-                     color and alpha (7), found {n} numbers"
+                    "expected a vertex with 3 coordinates, or with an additional weight (4 numbers), color (6) or color \\
+                    and alpha (7), found {n} numbers"
                 );
                 return Err(place.error(message));
             }
@@ -154,7 +159,12 @@ impl Parser<'_> {
         Ok(())
     }
 
-    pub(super) fn uv(&mut self, place: Place, values: [f64; 3], n: usize) -> Result<(), Fault> {
+    pub(super) fn uv(
+        &mut self,
+        place: TextPosition,
+        values: [f64; 3],
+        n: usize,
+    ) -> Result<(), Fault> {
         let [u, v, w] = values;
         if n == 0 {
             return Err(place.error("expected 1 to 3 texture coordinates, found none"));
@@ -165,20 +175,25 @@ impl Parser<'_> {
         Ok(())
     }
 
-    pub(super) fn normal(&mut self, place: Place, values: [f64; 3], n: usize) -> Result<(), Fault> {
+    pub(super) fn normal(
+        &mut self,
+        place: TextPosition,
+        values: [f64; 3],
+        n: usize,
+    ) -> Result<(), Fault> {
         if n != 3 {
-            return Err(place.error(format!("expected 3 coordinates of a normal, found {n}")));
+            return Err(place.error(format!("expected a normal with 3 coordinates, found {n}")));
         }
         below_none(place, self.part.normals.len(), "normals")?;
         self.part.normals.push(DVec3::from_array(values));
         Ok(())
     }
 
-    /// The numbers up to the end of the line, at most N of them, and how many there were.
+    /// Parses the numbers up to the end of the line, at most N. Returns them with their count.
     fn numbers<const N: usize>(
         &mut self,
         keyword: &str,
-        start: Place,
+        start: TextPosition,
     ) -> Result<([f64; N], usize), Fault> {
         let mut values = [0.0; N];
         let mut n = 0;
@@ -198,21 +213,21 @@ impl Parser<'_> {
         Ok((values, n))
     }
 
-    /// Takes the colors of a comment of `ZBrush`: eight hexadecimal digits for each vertex.
-    fn paint(&mut self) {
-        let digits = self.cursor.ahead()[PAINT.len()..].trim_ascii_start();
+    /// Reads the colors in a `#MRGB` comment of `ZBrush`: eight hexadecimal digits for each vertex.
+    fn mrgb_comment(&mut self) {
+        let digits = self.cursor.ahead()[MRGB_COMMENT.len()..].trim_ascii_start();
         for digits in digits.chunks_exact(8) {
             let digits = std::str::from_utf8(digits).unwrap_or_default();
             let Ok(value) = u32::from_str_radix(digits, 16) else {
                 break;
             };
-            self.part.painted.push(value);
+            self.part.mrgb_colors.push(value);
         }
     }
 
     // ---- Faces, lines, points ------------------------------------------------------------------
 
-    fn face(&mut self, start: Place) -> Result<(), Fault> {
+    fn face(&mut self, start: TextPosition) -> Result<(), Fault> {
         let before = self.part.n_corners();
         let had = self.columns();
         while let Some((place, word)) = self.cursor.argument() {
@@ -229,13 +244,13 @@ impl Parser<'_> {
         Ok(())
     }
 
-    fn line(&mut self, start: Place) -> Result<(), Fault> {
+    fn line(&mut self, start: TextPosition) -> Result<(), Fault> {
         let before = self.part.line_corners.len();
         while let Some((place, word)) = self.cursor.argument() {
             let corner = self.corner(place, word)?;
             let n = self.part.line_corners.len();
             below_none(place, n, "corners of lines")?;
-            self.part.look_at(corner);
+            self.part.record_indices(corner);
             self.part.line_corners.push_optional(n, corner[0]);
         }
         let end = self.part.line_corners.len();
@@ -248,18 +263,18 @@ impl Parser<'_> {
         Ok(())
     }
 
-    fn points(&mut self, start: Place) -> Result<(), Fault> {
+    fn points(&mut self, start: TextPosition) -> Result<(), Fault> {
         let mut n = 0;
         while let Some((place, word)) = self.cursor.argument() {
             let corner = self.corner(place, word)?;
-            self.part.look_at(corner);
+            self.part.record_indices(corner);
             n += 1;
         }
         self.leave_out(start, n, LeftOut::Points);
         Ok(())
     }
 
-    fn corner(&self, place: Place, word: &[u8]) -> Result<Corner, Fault> {
+    fn corner(&self, place: TextPosition, word: &[u8]) -> Result<Corner, Fault> {
         corner(place, word, self.part.counts(), self.limits)
     }
 
@@ -268,7 +283,7 @@ impl Parser<'_> {
     fn group(&mut self) {
         let mut set = Vec::new();
         while let Some((_, word)) = self.cursor.argument() {
-            set.push(to_u32(self.part.groups.place(word)));
+            set.push(to_u32(self.part.groups.index_of_bytes(word)));
         }
         set.sort_unstable();
         set.dedup();
@@ -277,26 +292,26 @@ impl Parser<'_> {
         if place == next {
             self.part.group_sets.push(set);
         }
-        self.now.groups = Some(place);
+        self.current.groups = Some(place);
     }
 
-    fn smoothing(&mut self, start: Place) -> Result<(), Fault> {
+    fn smoothing(&mut self, start: TextPosition) -> Result<(), Fault> {
         let (place, word) = self.cursor.argument().unwrap_or((start, b""));
         let group = match word {
             b"off" => 0,
             b"on" => 1,
             _ => {
                 let group = parsed(word).filter(|&group: &i32| group >= 0);
-                let what = "a smoothing group, a whole number or `off`";
+                let what = "a smoothing group (a non-negative integer, `on` or `off`)";
                 group.ok_or_else(|| place.expected(what, word))?
             }
         };
-        self.now.smoothing = Some(group);
+        self.current.smoothing = Some(group);
         Ok(())
     }
 }
 
-fn below_none(place: Place, count: usize, what: &str) -> Result<(), Fault> {
+fn below_none(place: TextPosition, count: usize, what: &str) -> Result<(), Fault> {
     if count >= NONE as usize {
         return Err(place.error(format!("expected fewer than {NONE} {what}")));
     }
@@ -307,7 +322,7 @@ fn is_exactly(x: f64, value: f64) -> bool {
     x.to_bits() == value.to_bits() || (x - value).abs() == 0.0
 }
 
-/// Statements of the format that say nothing about polygons: free-form curves and surfaces, display
-/// attributes, and calls of other files.
+/// Statements of the format that do not describe polygons: free-form curves and surfaces, display attributes, and
+/// calls of other files.
 const OTHER_STATEMENTS: &str = "vp deg bmat step cstype curv curv2 surf parm trim hole scrv sp end con \
     mg bevel c_interp d_interp lod shadow_obj trace_obj ctech stech usemap maplib call csh bsp bzp cdc cdp res";

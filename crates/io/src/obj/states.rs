@@ -1,4 +1,4 @@
-//! What the statements of an OBJ file say of its faces: groups, objects, materials, smoothing.
+//! The groups, object, material and smoothing group of the faces of an OBJ file.
 
 use std::borrow::Cow;
 
@@ -9,26 +9,27 @@ use crate::loss::Losses;
 use crate::parallel;
 use crate::polygons::OBJECT_TAG;
 
-/// What the statements so far say of the faces that follow.
+/// The groups, object, material and smoothing group for the following faces.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct State<'a> {
+pub(super) struct FaceState<'a> {
     pub(super) object: Option<&'a str>,
     pub(super) groups: Vec<&'a str>,
     pub(super) material: Option<usize>,
     pub(super) smoothing: i32,
 }
 
-/// What the text so far defines, and what is in force at its end; groups are closed there.
+/// The elements that the text defines so far, and the material and smoothing group at its end. Groups are empty
+/// there.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Before {
+pub(super) struct TextState {
     pub(super) counts: Counts,
     pub(super) material: Option<usize>,
     pub(super) smoothing: i32,
 }
 
-/// The columns that groups, objects, materials and smoothing of faces come from.
+/// The columns with the groups, objects, materials and smoothing groups of faces.
 pub(super) struct FaceStates<'a> {
-    /// Tags that stand for objects: each face has exactly one of them.
+    /// Tags that represent objects: each face has exactly one of them.
     objects: Vec<(&'a str, &'a [bool])>,
     groups: Vec<(&'a str, &'a [bool])>,
     materials: Option<&'a [i32]>,
@@ -60,7 +61,8 @@ impl<'a> FaceStates<'a> {
             let is_of = |(name, marks): &&(&str, &[bool])| is_object(name) && marks[f];
             groups.iter().filter(is_of).count() == 1
         };
-        // `o` can be written only if it says the whole truth; otherwise the tags are groups like any other.
+        // `o` is only written if every face belongs to exactly one object. Otherwise object tags are written as
+        // groups.
         let objects = if !several && parallel::all(mesh.n_faces(), one_object_each) {
             groups.extract_if(.., |(name, _)| is_object(name)).collect()
         } else {
@@ -77,11 +79,11 @@ impl<'a> FaceStates<'a> {
         let exists = |m: i32| usize::try_from(m).is_ok_and(|m| m < places.len());
         let unknown = materials.into_iter().flatten();
         let unknown = unknown.filter(|&&m| m != -1 && !exists(m)).count();
-        let reason = "the object has no such material";
+        let reason = "the object does not have a material with this index";
         losses.add(Domain::Face, "material", unknown, reason);
         let smoothing = mesh.get(mesh::SMOOTHING);
         let negative = smoothing.into_iter().flatten().filter(|&&group| group < 0);
-        let reason = "OBJ has no negative groups: written as off";
+        let reason = "OBJ smoothing groups cannot be negative, written as off";
         losses.add(Domain::Face, "smoothing", negative.count(), reason);
         Self {
             objects,
@@ -92,7 +94,7 @@ impl<'a> FaceStates<'a> {
         }
     }
 
-    /// Whether two faces are in the same state.
+    /// Whether two faces have the same state.
     pub(super) fn same(&self, f: FaceId, g: FaceId) -> bool {
         let (f, g) = (f.index(), g.index());
         let mut tags = self.objects.iter().chain(&self.groups);
@@ -106,12 +108,12 @@ impl<'a> FaceStates<'a> {
         self.groups.iter().any(|(_, marks)| marks[f.index()])
     }
 
-    pub(super) fn of(&self, f: FaceId) -> State<'a> {
+    pub(super) fn of(&self, f: FaceId) -> FaceState<'a> {
         let f = f.index();
         let object = self.objects.iter().find(|(_, marks)| marks[f]);
         let groups = self.groups.iter().filter(|(_, marks)| marks[f]);
         let material = self.materials.and_then(|m| usize::try_from(m[f]).ok());
-        State {
+        FaceState {
             object: object.map(|(name, _)| &name[OBJECT_TAG.len()..]),
             groups: groups.map(|(name, _)| *name).collect(),
             material: material.and_then(|m| self.places.get(m).copied()),
@@ -120,7 +122,7 @@ impl<'a> FaceStates<'a> {
     }
 }
 
-/// A name as the rest of a line: without line ends and blanks around it.
+/// Makes a name fit on the rest of a line, without line ends and surrounding blanks.
 pub(super) fn fit_line(name: &str) -> Cow<'_, str> {
     let trimmed = name.trim_matches(|c: char| c.is_whitespace());
     if trimmed.contains(char::is_control) || trimmed.ends_with('\\') {
@@ -130,7 +132,7 @@ pub(super) fn fit_line(name: &str) -> Cow<'_, str> {
     Cow::Borrowed(trimmed)
 }
 
-/// A name as one word of a line.
+/// Turns a name into a single word.
 pub(super) fn one_word(name: &str) -> Cow<'_, str> {
     let blank = |c: char| c.is_whitespace() || c.is_control();
     if name.is_empty() || name.contains(blank) || name.starts_with('#') || name.ends_with('\\') {

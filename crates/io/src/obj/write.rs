@@ -1,4 +1,4 @@
-//! From a scene to the text of an OBJ file and its material library.
+//! Writes the objects of a scene to an OBJ file and its material library.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -10,7 +10,7 @@ use store::Store;
 
 use super::body::MeshBody;
 use super::library::{Library, push_name, push_values, write_library};
-use super::states::{Before, fit_line};
+use super::states::{TextState, fit_line};
 use crate::decimal::push_whole;
 use crate::error::{Unwritable, WriteError};
 use crate::loss::Losses;
@@ -18,7 +18,7 @@ use crate::save::{Block, Content, save};
 use crate::writing::{dense, push_comment};
 use crate::{WriteOptions, WriteReport};
 
-/// Writes `scene`: the material library, if there are materials, and the OBJ file.
+/// Writes `scene` to an OBJ file, preceded by the material library if there are materials.
 ///
 /// # Errors
 ///
@@ -46,7 +46,7 @@ pub(crate) fn write(
 
     let several = scene.objects().len() > 1;
     let mut blocks: Vec<Block> = vec![Box::new(move |out| out.extend_from_slice(&head))];
-    let mut before = Before::default();
+    let mut before = TextState::default();
     for (i, object) in scene.objects().iter().enumerate() {
         let mut losses = Losses::of(&object.name, &mut losses);
         if several {
@@ -58,7 +58,7 @@ pub(crate) fn write(
         }
         match &shapes[i] {
             Shape::Mesh(mesh) => {
-                let places = &library.places[i];
+                let places = &library.indices[i];
                 let body = MeshBody::new(mesh, places, several, &library, before, &mut losses);
                 before = body.after();
                 body.add_blocks(&mut blocks);
@@ -81,9 +81,9 @@ pub(crate) fn write(
     })
 }
 
-/// What OBJ holds.
+/// The geometry of an object, if OBJ can store it.
 enum Shape<'a> {
-    /// Without dead elements.
+    /// A mesh without dead elements.
     Mesh(Box<Cow<'a, Mesh>>),
     Polylines(&'a [Vec<DVec3>]),
 }
@@ -94,16 +94,16 @@ impl<'a> Shape<'a> {
             Geometry::Mesh(mesh) => Ok(Self::Mesh(Box::new(dense(mesh)))),
             Geometry::Polylines(lines) => Ok(Self::Polylines(lines)),
             Geometry::Patches(_) | Geometry::Curve(_) => Err(Unwritable::kind(
-                "OBJ files hold meshes and polylines",
+                "OBJ files store meshes and polylines",
                 object,
             )),
         }
     }
 }
 
-/// Adds the text of polylines.
-fn polylines<'a>(lines: &'a [Vec<DVec3>], before: &mut Before, blocks: &mut Vec<Block<'a>>) {
-    /// The lines of a block.
+/// Adds the blocks of text for polylines.
+fn polylines<'a>(lines: &'a [Vec<DVec3>], before: &mut TextState, blocks: &mut Vec<Block<'a>>) {
+    /// The number of polylines in a block.
     const BLOCK: usize = 1024;
     for lines in lines.chunks(BLOCK) {
         blocks.push(Box::new(move |out| {

@@ -1,24 +1,24 @@
 //! OFF: polygons as text, as Geomview defines it.
 //!
-//! A file is one object. What it becomes:
+//! A file is one object. Its content becomes:
 //!
 //! | in the file | in the mesh |
 //! | --- | --- |
-//! | `x y z` | position, and the order of the vertices is kept |
+//! | `x y z` | position; vertices keep their order |
 //! | `NOFF`: `nx ny nz` | vertex attribute `normal` |
 //! | `COFF`: `r g b` or `r g b a` | vertex attribute `color` |
 //! | `STOFF`: `s t` | corner attribute `uv` |
 //! | `n v0 v1 ..` | a polygon of any degree, in order |
-//! | `n v0 v1 .. r g b` or `.. r g b a` | face attribute `color`, gray (2/3) where others have one |
-//! | `n v0 v1 .. i` | face attribute `color_index`, -1 where others have one: there is no map of colors |
-//! | comments, the count of edges | not kept |
+//! | `n v0 v1 .. r g b` or `.. r g b a` | face attribute `color`, gray (2/3) for faces without a color if other faces have one |
+//! | `n v0 v1 .. i` | face attribute `color_index`, -1 for faces without one if other faces have one; color maps are not supported |
+//! | comments, the number of edges | not kept |
 //!
-//! The letters may be combined, as in `STCNOFF`; then a line has position, normal, color and texture
-//! coordinates, in this order. The word may be missing. Colors that are all whole numbers, one of them greater than 1,
-//! are 255ths; any others are parts of 1. Files with four or any number of coordinates (`4OFF`,
-//! `nOFF`) and binary ones are refused.
+//! The letters can be combined, as in `STCNOFF`. A line then has position, normal, color and texture coordinates,
+//! in this order. The keyword can be missing. If all color components of a file are integers and one of them is
+//! greater than 1, they are divided by 255; otherwise they are used as they are. Files with four or any number of
+//! coordinates (`4OFF`, `nOFF`) and binary files are refused.
 //!
-//! The writer takes the same table from right to left. Texture coordinates are written if they agree around
+//! The writer uses the same table in the other direction. Texture coordinates are only written if they agree around
 //! each vertex.
 
 mod read;

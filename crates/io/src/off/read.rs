@@ -1,4 +1,4 @@
-//! From the lines of an OFF file to polygons.
+//! Converts the lines of an OFF file to polygons.
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{COLOR, Domain, Rule, UV, VERTEX_NORMAL};
@@ -7,22 +7,22 @@ use crate::Polygons;
 use crate::fault::Fault;
 use crate::note::Notes;
 use crate::peek::PeekMesh;
-use crate::text::{Cursor, Place, check_encoding, number, parsed};
+use crate::text::{Cursor, TextPosition, check_encoding, number, parsed};
 
-/// The face attribute for places in a map of colors.
+/// The face attribute for indices into a color map.
 pub(super) const COLOR_INDEX: &str = "color_index";
 
-/// The color of faces that have none, where others have one.
+/// The color of faces without a color, if other faces have one.
 const GRAY: DVec4 = DVec4::new(2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 1.0);
 
-/// The words behind each other on a line, each with its place.
-type Words<'a, 'w> = &'w [(Place, &'a [u8])];
+/// Consecutive words on a line, each with its position.
+type Words<'a, 'w> = &'w [(TextPosition, &'a [u8])];
 
 /// Reads an OFF file from its bytes.
 ///
 /// # Errors
 ///
-/// The first place that breaks the rules of the format.
+/// The first position that breaks the rules of the format.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     check_encoding(bytes)?;
     let mut cursor = Cursor::new(bytes);
@@ -38,9 +38,9 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     Ok(polygons)
 }
 
-// ---- The first lines ---------------------------------------------------------------------------
+// ---- Header -----------------------------------------------------------------------------------
 
-/// What the first lines of a file say.
+/// The content of the first lines of a file.
 #[derive(Default)]
 struct Header {
     normals: bool,
@@ -59,18 +59,18 @@ impl Header {
             let message = "expected `OFF`, found the end of the file";
             return Err(cursor.place().error(message));
         };
-        // Old files have no keyword.
+        // Files of old programs have no keyword.
         if !word[0].is_ascii_digit() || word.ends_with(b"OFF") {
             header.keyword(place, word)?;
             *cursor = ahead;
             if let Some((place, b"BINARY")) = cursor.clone().argument() {
-                return Err(place.error("expected an OFF file as text, found a binary one"));
+                return Err(place.error("expected an OFF file as text, found a binary OFF file"));
             }
             cursor.skip_empty_lines();
         }
         header.n_vertices = count(cursor, "vertices")?;
         header.n_faces = count(cursor, "faces")?;
-        // The count of edges is never right and sometimes missing.
+        // The number of edges is often wrong or missing, so its value is ignored.
         if let Some((place, word)) = cursor.argument() {
             number(place, word)?;
             cursor.end_of_line("")?;
@@ -79,7 +79,7 @@ impl Header {
         Ok(header)
     }
 
-    fn keyword(&mut self, place: Place, word: &[u8]) -> Result<(), Fault> {
+    fn keyword(&mut self, place: TextPosition, word: &[u8]) -> Result<(), Fault> {
         let Some(mut letters) = word.strip_suffix(b"OFF") else {
             return Err(place.expected("`OFF`", word));
         };
@@ -104,22 +104,25 @@ impl Header {
 
 fn count(cursor: &mut Cursor, what: &str) -> Result<usize, Fault> {
     let (place, word) = cursor.argument_or_nothing();
-    let expected = || place.expected(format_args!("how many {what} there are"), word);
+    let expected = || place.expected(format_args!("the number of {what}"), word);
     parsed(word).ok_or_else(expected)
 }
 
-/// Refuses counts that the rest of the file has no room for.
+/// Checks that the rest of the file can hold `n` items of `words` words each.
 fn check_room(cursor: &Cursor, n: usize, words: usize, what: &str) -> Result<(), Fault> {
     if cursor.has_room(n, words) {
         return Ok(());
     }
-    let message = format!("expected {n} {what}, found {} bytes", cursor.remaining());
+    let message = format!(
+        "expected {n} {what}, but only {} bytes follow",
+        cursor.remaining()
+    );
     Err(cursor.place().error(message))
 }
 
 // ---- Vertices ----------------------------------------------------------------------------------
 
-/// Reads the vertices, and returns the texture coordinates of each.
+/// Reads the vertices. Returns the texture coordinates of the vertices.
 fn vertices(
     cursor: &mut Cursor,
     header: &Header,
@@ -127,8 +130,8 @@ fn vertices(
     notes: &mut Notes,
 ) -> Result<Vec<DVec2>, Fault> {
     let before = 3 + if header.normals { 3 } else { 0 };
-    let behind = if header.uvs { 2 } else { 0 };
-    let least = before + behind + if header.colors { 3 } else { 0 };
+    let after = if header.uvs { 2 } else { 0 };
+    let least = before + after + if header.colors { 3 } else { 0 };
     check_room(cursor, header.n_vertices, least, "vertices")?;
     polygons.positions.reserve(header.n_vertices);
     let (mut normals, mut colors, mut uvs) = (Vec::new(), Colors::default(), Vec::new());
@@ -142,7 +145,7 @@ fn vertices(
         if words.len() < least {
             let expected = match words.len() {
                 0 => format!("{} vertices, found {v}", header.n_vertices),
-                n => format!("{least} numbers of a vertex, found {n}"),
+                n => format!("a vertex with {least} numbers, found {n}"),
             };
             return Err(cursor.place().error(format!("expected {expected}")));
         }
@@ -153,7 +156,7 @@ fn vertices(
         }
         let mut at = before;
         if header.colors {
-            let n = (words.len() - before - behind).min(4);
+            let n = (words.len() - before - after).min(4);
             colors.push(&words[at..at + n])?;
             at += n;
         }
@@ -167,7 +170,7 @@ fn vertices(
         }
         cursor.skip_line();
     }
-    let what = "vertices have more numbers than the first line of the file promises: left out";
+    let what = "vertices with extra numbers, which the keyword in the first line does not declare: left out";
     notes.left_out(extra, first_extra, what);
     if header.normals {
         polygons.insert_known(VERTEX_NORMAL, normals);
@@ -178,7 +181,7 @@ fn vertices(
     Ok(uvs)
 }
 
-/// The first of some words as numbers.
+/// Parses the first N words as numbers.
 fn numbers<const N: usize>(words: Words) -> Result<[f64; N], Fault> {
     let mut numbers = [0.0; N];
     for (x, &(place, word)) in numbers.iter_mut().zip(words) {
@@ -187,10 +190,10 @@ fn numbers<const N: usize>(words: Words) -> Result<[f64; N], Fault> {
     Ok(numbers)
 }
 
-/// Colors as they are written, until it is known whether they are 255ths.
+/// The colors of a file, which are scaled when all are known.
 #[derive(Default)]
 struct Colors {
-    /// With alpha, where it is given; `None` for a face without a color.
+    /// The color and, if given, the alpha of each element; `None` for a face without a color.
     values: Vec<Option<(DVec3, Option<f64>)>>,
     fraction: bool,
     above_one: bool,
@@ -222,7 +225,7 @@ impl Colors {
 
 // ---- Faces -------------------------------------------------------------------------------------
 
-/// Reads the faces, and counts the lines behind them.
+/// Reads the faces, and counts the lines after them.
 fn faces(
     cursor: &mut Cursor,
     header: &Header,
@@ -230,7 +233,7 @@ fn faces(
     notes: &mut Notes,
 ) -> Result<(), Fault> {
     check_room(cursor, header.n_faces, 1, "faces")?;
-    // Both are empty before the first face that has one.
+    // Both are empty until the first face that has one.
     let (mut colors, mut indices) = (Colors::default(), Vec::new());
     let (mut small, mut first_small) = (0, None);
     let mut words = Vec::new();
@@ -242,17 +245,18 @@ fn faces(
             return Err(cursor.place().error(message));
         };
         let degree = parsed(word).filter(|&n| n <= cursor.remaining() / 2 + 1);
-        let degree = degree.ok_or_else(|| place.expected("how many corners a face has", word))?;
+        let degree =
+            degree.ok_or_else(|| place.expected("the number of corners of a face", word))?;
         let too_many = |_| place.error("expected fewer than 2^32 vertices and corners");
         let start = polygons.corners.len();
         for k in 0..degree {
             let (place, word) = cursor.argument().ok_or_else(|| {
-                let message = format!("expected a face of {degree} corners, found {k}");
+                let message = format!("expected a face with {degree} corners, found {k}");
                 cursor.place().error(message)
             })?;
             let Some(v) = parsed(word).filter(|&v: &usize| v < header.n_vertices) else {
                 let n = header.n_vertices;
-                return Err(place.expected(format_args!("a vertex from 0 to below {n}"), word));
+                return Err(place.expected(format_args!("a vertex index below {n}"), word));
             };
             polygons.corners.push(u32::try_from(v).map_err(too_many)?);
         }
@@ -274,7 +278,7 @@ fn faces(
                 let index: Option<i32> = parsed(word);
                 indices.resize(f, -1);
                 indices
-                    .push(index.ok_or_else(|| place.expected("a place in a map of colors", word))?);
+                    .push(index.ok_or_else(|| place.expected("an index into a color map", word))?);
             }
             [_, _, _] | [_, _, _, _] => {
                 colors.values.resize(f, None);
@@ -282,7 +286,7 @@ fn faces(
             }
             [(place, _), ..] => {
                 let message = format!(
-                    "expected nothing, a place in a map of colors or a color of 3 or 4 numbers, found {} words",
+                    "expected the end of the line, an index into a color map or a color of 3 or 4 numbers, found {} words",
                     words.len()
                 );
                 return Err(place.error(message));
@@ -292,12 +296,16 @@ fn faces(
     let what = "faces with fewer than 3 corners left out";
     notes.left_out(small, first_small, what);
     let (rest, first) = cursor.count_rest();
-    notes.left_out(rest, first, "lines behind the last face left out");
+    notes.left_out(rest, first, "lines after the last face left out");
     let n_faces = polygons.n_faces();
     if !colors.values.is_empty() {
         colors.values.resize(n_faces, None);
         let n = colors.values.iter().filter(|color| color.is_none()).count();
-        notes.changed(n, None, "faces without a color are gray: others have one");
+        notes.changed(
+            n,
+            None,
+            "faces without a color set to gray because other faces have colors",
+        );
         polygons.insert(Domain::Face, COLOR.name, Rule::Copy, colors.finish());
     }
     if !indices.is_empty() {
@@ -309,11 +317,11 @@ fn faces(
 
 // ---- Counts ------------------------------------------------------------------------------------
 
-/// The counts of an OFF file. Numbers and corners are not looked at.
+/// Returns the counts of an OFF file. Numbers and vertex indices are not checked.
 ///
 /// # Errors
 ///
-/// If the header or the count of a face breaks the rules of the format, or the file ends too early.
+/// If the header or the number of corners of a face breaks the rules of the format, or if the file ends too early.
 pub(crate) fn peek(bytes: &[u8]) -> Result<PeekMesh, Fault> {
     let mut cursor = Cursor::new(bytes);
     let header = Header::read(&mut cursor)?;

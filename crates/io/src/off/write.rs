@@ -1,4 +1,4 @@
-//! From a scene to the text of an OFF file.
+//! Writes a scene to the text of an OFF file.
 
 use std::borrow::Cow;
 
@@ -11,15 +11,17 @@ use crate::decimal::{push_number, push_whole};
 use crate::error::Unwritable;
 use crate::joined::joined;
 use crate::loss::Losses;
-use crate::writing::{NOT_FINITE, finite, is_byte, mend, push_comment, to_byte, uvs_of_vertices};
-use crate::{One, WriteOptions};
+use crate::writing::{
+    NOT_FINITE, finite, is_byte, push_comment, to_byte, uvs_of_vertices, zero_non_finite,
+};
+use crate::{SingleFile, WriteOptions};
 
-/// The file that holds `scene`, and what it does not hold.
+/// Writes `scene`, and lists what the file does not store.
 ///
 /// # Errors
 ///
-/// If an object is no mesh.
-pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwritable> {
+/// If an object is not a mesh.
+pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
     let mut joined = joined(scene, "OFF", false)?;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
     let mut out = Vec::new();
@@ -27,12 +29,12 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwrit
     Ok((out, joined.losses))
 }
 
-/// What of a mesh is written, with 0 in place of numbers that are not finite.
+/// The content to write, with 0 in place of non-finite numbers.
 struct Content<'a> {
     mesh: &'a Mesh,
-    /// Normals, colors and texture coordinates, as far as they are there.
+    /// Those of normals, colors and texture coordinates that exist.
     of_vertices: Vec<Cow<'a, Values>>,
-    /// Colors, or places in a map of colors.
+    /// Colors, or indices into a color map.
     of_faces: Option<Cow<'a, Values>>,
 }
 
@@ -57,7 +59,8 @@ impl<'a> Content<'a> {
         let of_corners = column(Domain::Corner, "uv");
         let uvs = of_corners.and_then(|column| uvs_of_vertices(mesh, &column.values));
         if uvs.is_none() && of_corners.is_some() {
-            let reason = "OFF has texture coordinates of vertices, and corners of one differ";
+            let reason =
+                "OFF stores texture coordinates at vertices, but corners of the same vertex differ";
             losses.add(Domain::Corner, "uv", mesh.n_half_edges(), reason);
         }
         let of_faces = column(Domain::Face, "color").or(column(Domain::Face, COLOR_INDEX));
@@ -71,7 +74,7 @@ impl<'a> Content<'a> {
             of_vertices.extend(column.map(|column| finite(Domain::Vertex, column, losses)));
         }
         if let Some(mut uvs) = uvs {
-            losses.add(Domain::Corner, "uv", mend(&mut uvs), NOT_FINITE);
+            losses.add(Domain::Corner, "uv", zero_non_finite(&mut uvs), NOT_FINITE);
             of_vertices.push(Cow::Owned(uvs));
         }
         Self {
@@ -137,7 +140,8 @@ fn push_numbers(out: &mut Vec<u8>, numbers: &[f64]) {
     }
 }
 
-/// Whether all colors are exactly so many 255ths, and not so dark that a reader takes them for parts of 1.
+/// Whether all colors are exact multiples of 1/255 and at least one is bright enough that a reader does not mistake
+/// the bytes for components from 0 to 1.
 fn are_bytes(values: &Values) -> bool {
     let Values::Vec4(colors) = values else {
         return false;
@@ -156,7 +160,7 @@ fn push_color(out: &mut Vec<u8>, color: DVec4, as_bytes: bool) {
         let start = out.len();
         push_number(out, x);
         let is_whole = |byte: &u8| byte.is_ascii_digit() || *byte == b'-';
-        // A point says that this is no whole number of 255ths.
+        // The decimal point marks the color as components from 0 to 1 instead of bytes.
         if out[start..].iter().all(is_whole) {
             out.extend_from_slice(b".0");
         }

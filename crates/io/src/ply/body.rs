@@ -1,23 +1,23 @@
-//! The values of a file, binary or text, as tables.
+//! The values of a PLY file, binary or text, as tables.
 //!
-//! The rows of a text are turned into binary rows first, with 64 bits for every floating-point value, so that
-//! all that follows knows one form only.
+//! The rows of a text are converted to binary rows first, with 64 bits for every floating-point value. The other
+//! modules then only handle binary rows.
 
 use std::borrow::Cow;
 
 use super::header::{Element, Encoding, Header, Property};
 use super::table::Table;
 use super::types::Type;
-use crate::fault::{At, Fault};
+use crate::fault::{Fault, Location};
 use crate::note::Notes;
-use crate::text::{Cursor, Place, is_not_finite, number, parsed};
+use crate::text::{Cursor, TextPosition, is_not_finite, number, parsed};
 
-/// The bytes of a file's values.
+/// The values of a file as bytes.
 #[derive(Debug)]
 pub(super) struct Body<'a> {
     file: &'a [u8],
     header: &'a Header,
-    /// The elements with the types that [`bytes`](Self::bytes) has.
+    /// The elements with their types in [`bytes`](Self::bytes).
     elements: Vec<Element>,
     bytes: Cow<'a, [u8]>,
     /// Where the values begin in `bytes`.
@@ -25,11 +25,11 @@ pub(super) struct Body<'a> {
 }
 
 impl<'a> Body<'a> {
-    /// Prepares the elements that are `wanted`; the others are passed over.
+    /// Prepares the elements for which `wanted` returns true; the other elements are skipped.
     ///
     /// # Errors
     ///
-    /// In a text, the first place that breaks the rules of the format.
+    /// The first position in a text that breaks the rules of the format.
     pub(super) fn new(
         file: &'a [u8],
         header: &'a Header,
@@ -59,12 +59,12 @@ impl<'a> Body<'a> {
         Ok(body)
     }
 
-    /// The tables of the wanted elements, in the order of the header; of others those of a text are
+    /// The tables of all elements, in the order of the header. In a text, the tables of unwanted elements are
     /// empty.
     ///
     /// # Errors
     ///
-    /// If the file is too short or a list has a negative count. Bytes that are left are noted.
+    /// If the file is too short or a list has a negative count. Extra bytes at the end become a note.
     pub(super) fn tables(&self, notes: &mut Notes) -> Result<Vec<Table<'_>>, Fault> {
         let mut at = self.start;
         let big = self.header.encoding == Encoding::BigEndian;
@@ -75,11 +75,11 @@ impl<'a> Body<'a> {
             at = end;
         }
         let rest = self.bytes.len() - at;
-        notes.left_out(rest, None, "bytes behind the last element left out");
+        notes.left_out(rest, None, "bytes after the last element left out");
         Ok(tables)
     }
 
-    /// An error about a value: the line and column of a text, the byte of a binary file.
+    /// Creates an error about a value, with the line and column in a text or the byte in a binary file.
     pub(super) fn error(
         &self,
         tables: &[Table],
@@ -101,8 +101,8 @@ impl<'a> Body<'a> {
             Some(_) => 1 + table.count(p, row),
             None => 1,
         });
-        let own = usize::from(table.properties[property].count.is_some());
-        let word = words.sum::<usize>() + own + item;
+        let list_count = usize::from(table.properties[property].count.is_some());
+        let word = words.sum::<usize>() + list_count + item;
         let mut cursor = Cursor::new(&self.file[self.header.length..]);
         for _ in 0..rows + row {
             cursor.skip_empty_lines();
@@ -117,7 +117,7 @@ impl<'a> Body<'a> {
     }
 
     fn text_error(&self, mut error: Fault) -> Fault {
-        if let At::Text(place) = &mut error.at {
+        if let Location::Text(place) = &mut error.at {
             place.line += self.header.lines;
         }
         error
@@ -129,7 +129,7 @@ fn stored(kind: Type) -> Type {
     if kind.is_float() { Type::Float64 } else { kind }
 }
 
-/// The rows of a text as little-endian rows.
+/// Converts the rows of a text to little-endian binary rows.
 fn transcoded(
     text: &[u8],
     header: &Header,
@@ -145,7 +145,8 @@ fn transcoded(
         let rows = element.rows;
         if !cursor.has_room(rows, element.properties.len()) {
             let rest = cursor.remaining();
-            let message = format!("expected {rows} lines of {element}, found {rest} bytes");
+            let message =
+                format!("expected {rows} lines of {element}, but only {rest} bytes follow");
             return Err(cursor.place().error(message));
         }
         let wanted = wanted(element);
@@ -163,7 +164,7 @@ fn transcoded(
     }
     let (lines, first) = cursor.count_rest();
     let first = first + header.lines;
-    notes.left_out(lines, first, "lines behind the last element left out");
+    notes.left_out(lines, first, "lines after the last element left out");
     Ok(out)
 }
 
@@ -177,7 +178,7 @@ fn push_row(out: &mut Vec<u8>, cursor: &mut Cursor, element: &Element) -> Result
                 let room = cursor.remaining() / 2 + 1;
                 match usize::try_from(count) {
                     Ok(n) if n <= room => n,
-                    _ => return Err(place.expected("a count", word)),
+                    _ => return Err(place.expected("a valid list count", word)),
                 }
             }
         };
@@ -193,7 +194,7 @@ fn next<'a>(
     cursor: &mut Cursor<'a>,
     element: &Element,
     property: &Property,
-) -> Result<(Place, &'a [u8]), Fault> {
+) -> Result<(TextPosition, &'a [u8]), Fault> {
     cursor.argument().ok_or_else(|| {
         let message =
             format!("expected a value of {property} of {element}, found the end of the line");
@@ -201,15 +202,20 @@ fn next<'a>(
     })
 }
 
-/// Puts a value behind `out`, and returns it if it is a whole number.
+/// Appends a value to `out`, and returns it if it is an integer.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "the range is checked"
 )]
-fn push_value(out: &mut Vec<u8>, kind: Type, place: Place, word: &[u8]) -> Result<i64, Fault> {
+fn push_value(
+    out: &mut Vec<u8>,
+    kind: Type,
+    place: TextPosition,
+    word: &[u8],
+) -> Result<i64, Fault> {
     if kind.is_float() {
-        // What it means is decided where it is used.
+        // Whether non-finite values are allowed is decided where they are used.
         let x = if is_not_finite(word) {
             f64::NAN
         } else {
@@ -222,7 +228,7 @@ fn push_value(out: &mut Vec<u8>, kind: Type, place: Place, word: &[u8]) -> Resul
     let value = whole(word).filter(|value| (least..=most).contains(value));
     let Some(value) = value else {
         let name = kind.name();
-        let what = format_args!("a whole number from {least} to {most} ({name})");
+        let what = format_args!("an integer from {least} to {most} ({name})");
         return Err(place.expected(what, word));
     };
     match kind.size() {

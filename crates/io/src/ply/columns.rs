@@ -1,5 +1,5 @@
-//! Whole columns of values, decoded by all threads: what the types are is looked at once for a piece of a
-//! column, not once for each value.
+//! Decodes whole columns of values on all threads. Types are dispatched once for each chunk of a column instead of
+//! once for each value.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,7 +12,7 @@ use super::types::{read, read_all, whole, with_type};
 use crate::Polygons;
 use crate::parallel::{self, BLOCK};
 
-/// The type of a column of a mesh.
+/// The type of a mesh attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Tag,
@@ -23,7 +23,7 @@ pub(super) enum Kind {
     Vec4,
 }
 
-/// Each kind with the word for it in a comment, and how many numbers a value has.
+/// Each kind with its name in comments and the number of components of a value.
 const KINDS: [(Kind, &str, usize); 6] = [
     (Kind::Tag, "tag", 1),
     (Kind::Int, "int", 1),
@@ -45,12 +45,12 @@ impl Kind {
         }
     }
 
-    /// How many numbers a value has.
+    /// The number of components of a value.
     pub(super) fn size(self) -> usize {
         KINDS[self as usize].2
     }
 
-    /// The word for it in a comment.
+    /// The name of the kind in comments.
     pub(super) fn word(self) -> &'static str {
         KINDS[self as usize].1
     }
@@ -61,17 +61,18 @@ impl Kind {
     }
 }
 
-/// Where the numbers of a column are.
+/// Where the numbers of a column are stored.
 #[derive(Clone, Copy)]
 pub(super) enum Source<'a> {
-    /// In the scalar properties from this one on.
+    /// In scalar properties, beginning with this one.
     Scalars(usize),
-    /// In the list of each row, for corners: where the corners of each face begin, and where those of the last end.
+    /// In a list property, for corner attributes. The offsets are where the corners of each face begin, followed by
+    /// the end of the last.
     List(usize, &'a [u32]),
 }
 
-/// The values of `kind` in a table. Those of corners are zero for faces whose list has not as many numbers as
-/// their corners need: returns how many such faces there are, too.
+/// Decodes the values of `kind` in a table. For corner attributes, the values are zero for faces whose list does
+/// not have as many numbers as their corners need. Returns the values and the number of such faces.
 pub(super) fn values(table: &Table, source: Source, kind: Kind) -> (Values, usize) {
     #[expect(
         clippy::cast_possible_truncation,
@@ -102,13 +103,13 @@ fn column<const N: usize, V: Value>(
     }
 }
 
-/// One value for each row, made of `N` scalar properties.
+/// Decodes one value for each row from `N` scalar properties.
 pub(super) fn numbers<const N: usize, V: Value>(
     table: &Table,
     properties: [usize; N],
     make: impl Fn([f64; N]) -> V + Sync,
 ) -> Vec<V> {
-    /// Rows whose numbers stay in the fastest cache.
+    /// The number of rows whose numbers fit in the first-level cache.
     const PIECE: usize = 256;
     let mut out = zeroed(table.rows);
     parallel::fill(&mut out, |first, out| {
@@ -137,13 +138,13 @@ fn of_corners<const N: usize, V: Value>(
     for_blocks(faces, &mut all, |rows, mut out| {
         let mut numbers = Vec::new();
         for row in rows {
-            let (these, rest) = out.split_at_mut(degree(faces, row));
+            let (own, rest) = out.split_at_mut(degree(faces, row));
             out = rest;
-            if table.count(property, row) == N * these.len() {
-                numbers.resize(N * these.len(), 0.0);
+            if table.count(property, row) == N * own.len() {
+                numbers.resize(N * own.len(), 0.0);
                 let items = &table.bytes[table.at(property, row)..];
                 read_all(kind, table.big, items, kind.size(), &mut numbers);
-                for (value, numbers) in these.iter_mut().zip(numbers.as_chunks().0) {
+                for (value, numbers) in own.iter_mut().zip(numbers.as_chunks().0) {
                     *value = make(*numbers);
                 }
             }
@@ -157,7 +158,7 @@ fn degree(offsets: &[u32], row: usize) -> usize {
     (offsets[row + 1] - offsets[row]) as usize
 }
 
-/// Calls `work` with the rows of each block and the part of `out` that is theirs.
+/// Calls `work` with the rows of each block and the part of `out` that belongs to these rows.
 fn for_blocks<V: Send>(
     offsets: &[u32],
     out: &mut [V],
@@ -166,19 +167,19 @@ fn for_blocks<V: Send>(
     let rows = offsets.len() - 1;
     let end = |block: usize| rows.min((block + 1) * BLOCK);
     let ends = (0..rows.div_ceil(BLOCK)).map(|block| offsets[end(block)] as usize);
-    parallel::consume(parallel::parts(out, ends), |block, out| {
+    parallel::consume(parallel::split_at_ends(out, ends), |block, out| {
         work(block * BLOCK..end(block), out);
     });
 }
 
-/// Where the list of each row begins, and the items of all.
+/// The offsets of the list of each row, and the items of all lists.
 type Lists = (Vec<u32>, Vec<u32>);
 
-/// The lists of a table one behind the other as vertices: where each begins, and the vertices.
+/// Reads the lists of a table as vertices. Returns the offsets and the vertices.
 ///
 /// # Errors
 ///
-/// The row and the item of the first that is no vertex; `None` if there are too many for 32 bits.
+/// The row and the item of the first value that is not a vertex; `None` if there are too many values for 32 bits.
 pub(super) fn indices(
     table: &Table,
     property: usize,
@@ -192,10 +193,10 @@ pub(super) fn indices(
         for_blocks(&offsets, &mut corners, |rows, mut out| {
             let mut all = true;
             for row in rows {
-                let (these, rest) = out.split_at_mut(degree(&offsets, row));
+                let (own, rest) = out.split_at_mut(degree(&offsets, row));
                 out = rest;
                 let items = table.bytes[table.at(property, row)..].chunks_exact(size_of::<T>());
-                for (corner, item) in these.iter_mut().zip(items) {
+                for (corner, item) in own.iter_mut().zip(items) {
                     let v = read::<T>(item, table.big);
                     all &= v >= 0.0 && v < limit;
                     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
@@ -220,15 +221,14 @@ pub(super) fn indices(
     Ok((offsets, corners))
 }
 
-/// The whole number that is an item of a list.
+/// Reads the integer at an item of a list.
 pub(super) fn item_at(table: &Table, property: usize, row: usize, item: usize) -> i64 {
     let kind = table.properties[property].value;
     let at = table.at(property, row) + item * kind.size();
     whole(kind, table.big, &table.bytes[at..])
 }
 
-/// Where the list of each row begins if all are written one behind the other, and how many items there
-/// are; `None` if there are too many for 32 bits.
+/// The offsets of the lists of all rows, and the total number of items; `None` if there are too many for 32 bits.
 fn offsets(table: &Table, property: usize) -> Option<(Vec<u32>, usize)> {
     if let Some(n) = table.even_count(property) {
         let total = table.rows.checked_mul(n)?;

@@ -1,17 +1,17 @@
-//! The header of a PLY file: which elements it has, how many and with which properties.
+//! The header of a PLY file: its elements with their numbers of rows and their properties.
 
 use std::fmt;
 
 use super::types::Type;
 use crate::fault::Fault;
-use crate::text::{MARK, Place, name, parsed, quoted};
+use crate::text::{BYTE_ORDER_MARK, TextPosition, name, parsed, quoted};
 
-/// More properties than any program writes; it bounds the passes over the data.
-pub(super) const MOST_PROPERTIES: usize = 4096;
-/// More elements than any program writes; they are looked for by their names.
-const MOST_ELEMENTS: usize = 1024;
+/// The largest number of properties, more than any program writes. It limits the passes over the data.
+pub(super) const MAX_PROPERTIES: usize = 4096;
+/// The largest number of elements, more than any program writes. It limits the searches by name.
+const MAX_ELEMENTS: usize = 1024;
 
-/// How the values of a file are written.
+/// The encoding of the values of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
     Text,
@@ -19,39 +19,39 @@ pub(super) enum Encoding {
     BigEndian,
 }
 
-/// What stands before the values.
+/// The content of a header.
 #[derive(Clone, Debug)]
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
-    /// The comments without the word `comment`.
+    /// The comments, without the word `comment`.
     pub(super) comments: Vec<String>,
     /// Where the values begin.
     pub(super) length: usize,
-    /// How many lines the header has.
+    /// The number of lines of the header.
     pub(super) lines: usize,
 }
 
-/// A table of the file: so many rows of the same properties.
+/// A table of the file, with the same properties in each row.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
     pub(super) name: String,
     pub(super) rows: usize,
     pub(super) properties: Vec<Property>,
-    /// Where it is declared.
-    pub(super) place: Place,
+    /// The position of the declaration.
+    pub(super) place: TextPosition,
 }
 
 /// A column of an element.
 #[derive(Clone, Debug)]
 pub(super) struct Property {
     pub(super) name: String,
-    /// The type of the count, if it is a list.
+    /// The type of the count, if the property is a list.
     pub(super) count: Option<Type>,
     /// The type of the value, or of the items of a list.
     pub(super) value: Type,
-    /// Where it is declared.
-    pub(super) place: Place,
+    /// The position of the declaration.
+    pub(super) place: TextPosition,
 }
 
 impl Header {
@@ -74,31 +74,31 @@ impl fmt::Display for Property {
 }
 
 impl Element {
-    /// The place of the property of this name, a list or a single value.
+    /// The index of the property with this name that is a list or a single value.
     pub(super) fn find(&self, name: &str, is_list: bool) -> Option<usize> {
         let is_it = |p: &Property| p.count.is_some() == is_list && p.name == name;
         self.properties.iter().position(is_it)
     }
 
-    /// The place of the scalar property of this name.
+    /// The index of the scalar property with this name.
     pub(super) fn scalar(&self, name: &str) -> Option<usize> {
         self.find(name, false)
     }
 
-    /// The place of the list property of this name.
+    /// The index of the list property with this name.
     pub(super) fn list(&self, name: &str) -> Option<usize> {
         self.find(name, true)
     }
 }
 
-/// Reads the header.
+/// Parses the header.
 ///
 /// # Errors
 ///
 /// The first line that breaks the rules of the format.
 pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
-    let start = if bytes.starts_with(MARK) {
-        MARK.len()
+    let start = if bytes.starts_with(BYTE_ORDER_MARK) {
+        BYTE_ORDER_MARK.len()
     } else {
         0
     };
@@ -114,7 +114,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
     let lines = bytes[start..].split_inclusive(|&byte| byte == end);
     for (line, bytes) in (1..).zip(lines) {
         (header.length, header.lines) = (header.length + bytes.len(), line);
-        let start = Place::of_line(line);
+        let start = TextPosition::of_line(line);
         let mut words = Words {
             rest: bytes.strip_suffix(&[end]).unwrap_or(bytes),
             place: start,
@@ -125,13 +125,13 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
             _ if line == 1 => return Err(place.expected("`ply`", keyword)),
             b"comment" => header.comments.push(name(words.rest.trim_ascii())),
             b"format" if encoding.is_some() => {
-                return Err(place.error("expected one line `format`, found a second"));
+                return Err(place.error("expected one `format` line, found a second one"));
             }
             b"format" => encoding = Some(format(&mut words)?),
             b"element" => header.add_element(&mut words)?,
             b"property" => header.add_property(&mut words, place)?,
             b"end_header" => {
-                let message = "expected a line `format` before the end of the header, found none";
+                let message = "expected a `format` line before the end of the header, found none";
                 header.encoding = encoding.ok_or_else(|| start.error(message))?;
                 return Ok(header);
             }
@@ -140,14 +140,14 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, Fault> {
         }
     }
     if header.lines == 0 {
-        return Err(Place::START.expected("`ply`", b""));
+        return Err(TextPosition::START.expected("`ply`", b""));
     }
     let message = "expected `end_header`, found the end of the file";
-    Err(Place::of_line(header.lines + 1).error(message))
+    Err(TextPosition::of_line(header.lines + 1).error(message))
 }
 
-/// What lines of the header end in, which the first one shows: bytes of the data behind the header may look like
-/// ends of lines.
+/// The last byte of line ends in the header, determined from the first line. Data bytes after the header can look
+/// like line ends.
 fn line_end(bytes: &[u8]) -> u8 {
     let end = bytes.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
     match end.map(|at| (bytes[at], bytes.get(at + 1))) {
@@ -177,14 +177,14 @@ impl Header {
         let (place, word) = words.named("the name of an element")?;
         let (count_place, count) = words.next();
         let rows =
-            parsed(count).ok_or_else(|| count_place.expected("how many there are", count))?;
+            parsed(count).ok_or_else(|| count_place.expected("the number of rows", count))?;
         words.end()?;
         let name = name(word);
         if self.element(&name).is_some() {
-            return Err(place.error(format!("element {} is there already", quoted(word))));
+            return Err(place.error(format!("element {} is declared twice", quoted(word))));
         }
-        if self.elements.len() == MOST_ELEMENTS {
-            let message = format!("expected at most {MOST_ELEMENTS} elements, found more");
+        if self.elements.len() == MAX_ELEMENTS {
+            let message = format!("expected at most {MAX_ELEMENTS} elements, found more");
             return Err(place.error(message));
         }
         self.elements.push(Element {
@@ -196,7 +196,7 @@ impl Header {
         Ok(())
     }
 
-    fn add_property(&mut self, words: &mut Words, keyword: Place) -> Result<(), Fault> {
+    fn add_property(&mut self, words: &mut Words, keyword: TextPosition) -> Result<(), Fault> {
         let n_properties: usize = self.elements.iter().map(|e| e.properties.len()).sum();
         let Some(element) = self.elements.last_mut() else {
             let message = "expected an element before its properties, found a property";
@@ -207,7 +207,7 @@ impl Header {
             let count = words.next();
             let count_type = scalar_type(count)?;
             if count_type.is_float() {
-                return Err(count.0.expected("a whole-number type", count.1));
+                return Err(count.0.expected("an integer type", count.1));
             }
             (Some(count_type), scalar_type(words.next())?)
         } else {
@@ -218,11 +218,11 @@ impl Header {
         let name = name(word);
         if element.properties.iter().any(|p| p.name == name) {
             let element = element.name.escape_debug();
-            let message = format!("property {} of `{element}` is there already", quoted(word));
+            let message = format!("property {} of `{element}` is declared twice", quoted(word));
             return Err(place.error(message));
         }
-        if n_properties == MOST_PROPERTIES {
-            let message = format!("expected at most {MOST_PROPERTIES} properties, found more");
+        if n_properties == MAX_PROPERTIES {
+            let message = format!("expected at most {MAX_PROPERTIES} properties, found more");
             return Err(place.error(message));
         }
         element.properties.push(Property {
@@ -235,7 +235,7 @@ impl Header {
     }
 }
 
-fn scalar_type((place, word): (Place, &[u8])) -> Result<Type, Fault> {
+fn scalar_type((place, word): (TextPosition, &[u8])) -> Result<Type, Fault> {
     Type::parse(word).ok_or_else(|| place.expected("a type such as float, uchar or int32", word))
 }
 
@@ -243,12 +243,12 @@ fn scalar_type((place, word): (Place, &[u8])) -> Result<Type, Fault> {
 struct Words<'a> {
     rest: &'a [u8],
     /// Where `rest` begins.
-    place: Place,
+    place: TextPosition,
 }
 
 impl<'a> Words<'a> {
-    /// The next word, empty at the end of the line.
-    fn next(&mut self) -> (Place, &'a [u8]) {
+    /// Reads the next word; empty at the end of the line.
+    fn next(&mut self) -> (TextPosition, &'a [u8]) {
         let rest = self.rest.trim_ascii_start();
         self.place.column += self.rest.len() - rest.len();
         let place = self.place;
@@ -259,7 +259,7 @@ impl<'a> Words<'a> {
         (place, word)
     }
 
-    fn named(&mut self, what: &str) -> Result<(Place, &'a [u8]), Fault> {
+    fn named(&mut self, what: &str) -> Result<(TextPosition, &'a [u8]), Fault> {
         let (place, word) = self.next();
         if word.is_empty() {
             return Err(place.expected(what, word));

@@ -1,35 +1,35 @@
-//! Stanford PLY: polygons with any properties, as text or as numbers of either byte order.
+//! Stanford PLY: polygons with any properties, as text or as binary numbers in either byte order.
 //!
-//! A file is one object. What its elements and properties become:
+//! A file is one object. Its elements and properties become:
 //!
 //! | in the file | in the mesh |
 //! | --- | --- |
-//! | `vertex`: `x y z` | position, and the order of the vertices is kept |
+//! | `vertex`: `x y z` | position; vertices keep their order |
 //! | `vertex`: `nx ny nz` | vertex attribute `normal` |
-//! | `vertex`: `red green blue alpha`, `diffuse_red ..` or `r g b a` | vertex attribute `color`; whole numbers are 255ths (`ushort`: 65535ths) |
+//! | `vertex`: `red green blue alpha`, `diffuse_red ..` or `r g b a` | vertex attribute `color`; integers are divided by 255 (`ushort`: by 65535) |
 //! | `vertex`: `s t`, `u v`, `texture_u texture_v` or `texture_s texture_t` | corner attribute `uv` |
 //! | `face`: `vertex_indices` or `vertex_index` | a polygon of any degree, in order |
 //! | `face`: `texcoord` (u and v for each corner, as `MeshLab` writes them) | corner attribute `uv` |
 //! | `face`: `red green blue alpha`, `nx ny nz` | face attributes `color` and `normal` |
 //! | `tristrips`: `vertex_indices` with -1 between strips | triangles, if there are no faces |
-//! | any other single value of `vertex` or `face` | an attribute of that name: whole numbers if they fit 32 bits |
-//! | `comment meshwright ..` | says what kind of attribute some properties were, see `marks` |
-//! | other lists, other elements (`edge`, `range_grid`, ..) | left out, with a note |
+//! | any other scalar of `vertex` or `face` | an attribute of that name, with integers if they fit in 32 bits |
+//! | `comment meshwright ..` | describes the attribute that some properties were, see `attribute_comments` |
+//! | other lists, other elements (`edge`, `range_grid` and so on) | left out, with a note |
 //! | other comments, `obj_info` | not kept |
 //!
-//! Floating-point properties of vertices are interpolated by edits, all others are copied. Values that are
-//! not finite become 0 with a note, but positions that are not finite are refused.
+//! Floating-point properties of vertices are interpolated by edits, all others are copied. Non-finite values become
+//! 0 with a note, except that non-finite positions are an error.
 //!
-//! The writer takes the same table from right to left, with the lowest byte first. Positions and free
-//! attributes are written with 64 bits; normals and texture coordinates with 32 if that is exact; colors as bytes if
-//! each is a 255th, so that what was written is read as it was. Texture coordinates that agree around each
-//! vertex are written as `s t`. Attributes of corners are lists of `face`. What it cannot hold: materials
-//! and attributes of edges.
+//! The writer uses the same table in the other direction and writes little-endian binary. Positions and custom
+//! attributes are written with 64 bits, normals and texture coordinates with 32 bits if that is exact, and colors
+//! as bytes if every component is a multiple of 1/255, so that reading restores the written values. Texture
+//! coordinates that agree around each vertex are written as `s t`. Corner attributes are written as lists of
+//! `face`. Materials and edge attributes cannot be stored.
 
+mod attribute_comments;
 mod body;
 mod columns;
 mod header;
-mod marks;
 mod peek;
 mod read;
 mod roles;

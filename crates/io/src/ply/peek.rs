@@ -1,4 +1,4 @@
-//! What a PLY file holds, from its header and the counts of its lists.
+//! Counts the elements of a PLY file from its header and the counts of its lists.
 
 use super::body::Body;
 use super::header::{Element, parse};
@@ -8,11 +8,11 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::peek::PeekMesh;
 
-/// The counts of a PLY file. Positions and the vertices of faces are not looked at.
+/// Returns the counts of a PLY file. Positions and the vertices of faces are not checked.
 ///
 /// # Errors
 ///
-/// If the header breaks the rules of the format, or the file is too short for what it says.
+/// If the header breaks the rules of the format, or if the file is shorter than the header declares.
 pub(crate) fn peek(bytes: &[u8]) -> Result<PeekMesh, Fault> {
     let header = parse(bytes)?;
     let roles = Roles::of(&header)?;

@@ -1,14 +1,14 @@
-//! From the tables of a PLY file to polygons.
+//! Converts the tables of a PLY file to polygons.
 
 use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3, DVec4};
 use mesh::{COLOR, Column, Domain, Rule, UV, VERTEX_NORMAL, Values};
 
+use super::attribute_comments::AttributeComment;
 use super::body::Body;
 use super::columns::{Kind, Source, indices, item_at, numbers, values};
 use super::header::{Element, Header, Property, parse};
-use super::marks::Mark;
 use super::roles::{self, Roles};
 use super::strips::triangles_of_strips;
 use super::table::Table;
@@ -16,26 +16,26 @@ use super::types::Type;
 use crate::clean::keep;
 use crate::fault::Fault;
 use crate::note::Notes;
-use crate::writing::mend;
+use crate::writing::zero_non_finite;
 use crate::{Polygons, parallel};
 
 /// Reads a PLY file from its bytes.
 ///
 /// # Errors
 ///
-/// The first place that breaks the rules of the format: line and column of a text and of the header, the byte
-/// of binary values.
+/// The first position that breaks the rules of the format: line and column in a text and in the header, the byte in
+/// binary values.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     let header = parse(bytes)?;
     let roles = Roles::of(&header)?;
     let wanted = |element: &Element| {
         let place = header.elements.iter().position(|e| e.name == element.name);
-        place.is_some_and(|place| roles.wants(place))
+        place.is_some_and(|place| roles.uses(place))
     };
     let body = Body::new(bytes, &header, wanted, notes)?;
     let tables = body.tables(notes)?;
     for (place, element) in header.elements.iter().enumerate() {
-        if !roles.wants(place) {
+        if !roles.uses(place) {
             let what = format!("rows of {element} left out");
             notes.left_out(element.rows, element.place.line, what);
         }
@@ -44,7 +44,7 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
         header: &header,
         body: &body,
         tables: &tables,
-        marks: marks(&header),
+        comments: attribute_comments(&header),
         polygons: Polygons::default(),
         names: BTreeSet::new(),
         notes,
@@ -58,31 +58,34 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     reader.vertex_columns(&roles);
     if let Some((element, list)) = roles.face {
         reader.face_columns(element, list);
-        reader.leave_small_faces_out();
+        reader.drop_small_faces();
     }
     Ok(reader.polygons)
 }
 
-/// What comments say about properties that are there; of each only the first counts.
-fn marks(header: &Header) -> Vec<Mark> {
+/// The comments that describe existing properties. If several comments describe a property, the first one is used.
+fn attribute_comments(header: &Header) -> Vec<AttributeComment> {
     let properties = header.elements.iter().flat_map(|e| &e.properties);
     let names: BTreeSet<&str> = properties.map(|p| p.name.as_str()).collect();
-    let mut marked = BTreeSet::new();
-    let marks = header.comments.iter().filter_map(|c| Mark::parse(c));
-    let mut is_first = |mark: &Mark| {
-        names.contains(mark.property.as_str())
-            && marked.insert((mark.domain, mark.property.clone()))
+    let mut described = BTreeSet::new();
+    let comments = header
+        .comments
+        .iter()
+        .filter_map(|c| AttributeComment::parse(c));
+    let mut is_first = |comment: &AttributeComment| {
+        names.contains(comment.property.as_str())
+            && described.insert((comment.domain, comment.property.clone()))
     };
-    marks.filter(|mark| is_first(mark)).collect()
+    comments.filter(|comment| is_first(comment)).collect()
 }
 
 struct Reader<'a, 'n> {
     header: &'a Header,
     body: &'a Body<'a>,
     tables: &'a [Table<'a>],
-    marks: Vec<Mark>,
+    comments: Vec<AttributeComment>,
     polygons: Polygons,
-    /// The names of the columns that are there.
+    /// The names of the columns so far.
     names: BTreeSet<(Domain, String)>,
     notes: &'n mut Notes,
 }
@@ -95,8 +98,8 @@ impl Reader<'_, '_> {
             return Ok(positions);
         }
         let numbers = positions.iter().flat_map(DVec3::to_array).enumerate();
-        let broken = numbers.into_iter().find(|(_, x)| !x.is_finite());
-        let (i, found) = broken.unwrap_or_default();
+        let non_finite = numbers.into_iter().find(|(_, x)| !x.is_finite());
+        let (i, found) = non_finite.unwrap_or_default();
         let (row, axis) = (i / 3, i % 3);
         let name = ["x", "y", "z"][axis];
         let message = format!("expected a finite number `{name}`, found {found}");
@@ -104,7 +107,7 @@ impl Reader<'_, '_> {
         Err(self.body.error(self.tables, place, message))
     }
 
-    /// The vertices of the rows of faces.
+    /// The vertices of the faces.
     fn indices(&self, element: usize, list: usize) -> Result<(Vec<u32>, Vec<u32>), Fault> {
         let n = self.polygons.positions.len();
         let table = &self.tables[element];
@@ -112,7 +115,7 @@ impl Reader<'_, '_> {
             let (row, item) = bad.unwrap_or_default();
             let message = if bad.is_some() {
                 let found = item_at(table, list, row, item);
-                format!("expected a vertex from 0 to below {n}, found {found}")
+                format!("expected a vertex index below {n}, found {found}")
             } else {
                 format!("expected fewer than {} corners, found more", u32::MAX)
             };
@@ -121,8 +124,8 @@ impl Reader<'_, '_> {
         })
     }
 
-    /// The triangles of strips, in which -1 ends a strip: every second one is turned round, and those
-    /// that visit a vertex twice only lead on to the next.
+    /// Converts strips, in which -1 ends a strip, to triangles. Every second triangle is reversed. Triangles that
+    /// visit a vertex twice only connect parts of a strip and are left out.
     fn strips(&mut self, element: usize, list: usize) -> Result<(), Fault> {
         let table = &self.tables[element];
         let found = triangles_of_strips(table, list, self.polygons.positions.len());
@@ -134,9 +137,9 @@ impl Reader<'_, '_> {
         let n = corners.len() / 3;
         self.polygons.offsets = Polygons::even_offsets(n, 3);
         self.polygons.corners = corners;
-        let what = format!("triangle strips became {n} triangles");
+        let what = format!("triangle strips converted to {n} triangles");
         self.notes.changed(strips, line, what);
-        let what = "triangles of strips left out: they visit a vertex twice";
+        let what = "triangles of strips left out because they visit a vertex twice";
         self.notes.changed(stitches, line, what);
         let lost = (table.properties.len() - 1) * table.rows;
         self.notes
@@ -148,7 +151,7 @@ impl Reader<'_, '_> {
         let element = &self.header.elements[roles.vertex];
         let mut used = vec![false; element.properties.len()];
         mark_used(&mut used, &roles.position);
-        self.marked(Domain::Vertex, roles.vertex, &mut used);
+        self.described(Domain::Vertex, roles.vertex, &mut used);
         self.normals_and_colors(Domain::Vertex, roles.vertex, &mut used);
         let faces = roles.face.map(|(face, _)| &self.header.elements[face]);
         let has_uvs = faces.is_some_and(|faces| faces.list("texcoord").is_some());
@@ -159,8 +162,8 @@ impl Reader<'_, '_> {
             mark_used(&mut used, &uv);
             let mut uvs = Values::Vec2(numbers(&self.tables[roles.vertex], uv, DVec2::from_array));
             let corners = &self.polygons.corners;
-            let what = "texture coordinates that are not finite are 0";
-            self.notes.changed(mend(&mut uvs), None, what);
+            let what = "non-finite texture coordinates set to 0";
+            self.notes.changed(zero_non_finite(&mut uvs), None, what);
             let uvs = uvs.gather(corners.len(), |c| Some(corners[c] as usize));
             self.insert(Domain::Corner, UV.name, UV.rule, uvs);
         }
@@ -172,14 +175,14 @@ impl Reader<'_, '_> {
         let table = &self.tables[place];
         let mut used = vec![false; element.properties.len()];
         used[corners] = true;
-        self.marked(Domain::Face, place, &mut used);
-        self.marked(Domain::Corner, place, &mut used);
+        self.described(Domain::Face, place, &mut used);
+        self.described(Domain::Corner, place, &mut used);
         if let Some(list) = element.list("texcoord").filter(|&list| !used[list]) {
             used[list] = true;
             let source = Source::List(list, &self.polygons.offsets);
             let (values, short) = values(table, source, Kind::Vec2);
             let line = element.properties[list].place.line;
-            let what = "faces have texture coordinates 0: `texcoord` has not two for each corner";
+            let what = "faces with texture coordinates set to 0: `texcoord` does not have 2 numbers for each corner";
             self.notes.changed(short, line, what);
             self.insert(Domain::Corner, UV.name, UV.rule, values);
         }
@@ -187,24 +190,25 @@ impl Reader<'_, '_> {
         self.plain(Domain::Face, place, &used);
     }
 
-    /// The columns that comments describe.
-    fn marked(&mut self, domain: Domain, place: usize, used: &mut [bool]) {
+    /// Adds the columns that comments describe.
+    fn described(&mut self, domain: Domain, place: usize, used: &mut [bool]) {
         let element = &self.header.elements[place];
         let table = &self.tables[place];
         let is_list = domain == Domain::Corner;
-        for mark in self
-            .marks
+        for comment in self
+            .comments
             .clone()
             .iter()
-            .filter(|mark| mark.domain == domain)
+            .filter(|comment| comment.domain == domain)
         {
-            let Some(first) = element.find(&mark.property, is_list) else {
+            let Some(first) = element.find(&comment.property, is_list) else {
                 continue;
             };
-            let size = mark.kind.size();
+            let size = comment.kind.size();
             let range = first..first + if is_list { 1 } else { size };
             let properties = element.properties.get(range.clone());
-            let is_right = |p: &Property| p.count.is_some() == is_list && fits(mark.kind, p.value);
+            let is_right =
+                |p: &Property| p.count.is_some() == is_list && fits(comment.kind, p.value);
             let mut rows = self.polygons.offsets.windows(2).enumerate();
             let fit = properties.is_some_and(|properties| properties.iter().all(is_right))
                 && (!is_list
@@ -218,8 +222,8 @@ impl Reader<'_, '_> {
                 } else {
                     Source::Scalars(first)
                 };
-                let (values, _) = values(table, source, mark.kind);
-                self.insert(domain, &mark.name, mark.rule, values);
+                let (values, _) = values(table, source, comment.kind);
+                self.insert(domain, &comment.name, comment.rule, values);
             }
         }
     }
@@ -258,7 +262,7 @@ impl Reader<'_, '_> {
         self.insert(domain, COLOR.name, rule, Values::Vec4(colors));
     }
 
-    /// Properties without a meaning, under their own names; lists are left out.
+    /// Adds the remaining properties as attributes with the names of the properties. Lists are left out.
     fn plain(&mut self, domain: Domain, place: usize, used: &[bool]) {
         let table = &self.tables[place];
         let element = &self.header.elements[place];
@@ -284,13 +288,10 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// Adds a column; a name that is taken gets a number.
+    /// Adds a column. A number is appended to a name that is taken.
     fn insert(&mut self, domain: Domain, name: &str, rule: Rule, mut values: Values) {
-        let what = format!(
-            "values of `{}` that are not finite are 0",
-            name.escape_debug()
-        );
-        self.notes.changed(mend(&mut values), None, what);
+        let what = format!("non-finite values of `{}` set to 0", name.escape_debug());
+        self.notes.changed(zero_non_finite(&mut values), None, what);
         let mut free = name.to_owned();
         let mut number = 2;
         while !self.names.insert((domain, free.clone())) {
@@ -298,8 +299,8 @@ impl Reader<'_, '_> {
             number += 1;
         }
         if free != name {
-            let new = free.escape_debug();
-            let what = format!("values are now called `{new}`: the name is taken");
+            let (old, new) = (name.escape_debug(), free.escape_debug());
+            let what = format!("values of attribute `{old}` renamed to `{new}`: the name is taken");
             self.notes.changed(values.len(), None, what);
         }
         let column = Column {
@@ -310,7 +311,7 @@ impl Reader<'_, '_> {
         self.polygons.attributes.insert(domain, column);
     }
 
-    fn leave_small_faces_out(&mut self) {
+    fn drop_small_faces(&mut self) {
         let offsets = &self.polygons.offsets;
         let n = self.polygons.n_faces();
         let is_small = |f: usize| offsets[f + 1] - offsets[f] < 3;
@@ -324,7 +325,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// What edits do with the values of a property that no comment describes.
+/// The edit rule of an attribute that no comment describes.
 pub(super) fn plain_rule(domain: Domain, kind: Type) -> Rule {
     if domain == Domain::Vertex && kind.is_float() {
         Rule::Interpolate
@@ -333,7 +334,7 @@ pub(super) fn plain_rule(domain: Domain, kind: Type) -> Rule {
     }
 }
 
-/// Whether values of a property of this type can be of this kind.
+/// Whether a property of this type can hold values of this kind.
 fn fits(kind: Kind, value: Type) -> bool {
     match kind {
         Kind::Tag => !value.is_float(),
@@ -348,7 +349,7 @@ fn mark_used(used: &mut [bool], properties: &[usize]) {
     }
 }
 
-/// The properties, if none of them is used.
+/// Returns the properties if none of them is used.
 fn free<const N: usize>(used: &[bool], properties: Option<[usize; N]>) -> Option<[usize; N]> {
     properties.filter(|properties| !properties.iter().any(|&p| used[p]))
 }

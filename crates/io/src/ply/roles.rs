@@ -1,10 +1,10 @@
-//! What the elements and properties of a header mean.
+//! The meaning of the elements and properties of a header.
 
 use super::header::{Element, Header};
 use crate::fault::Fault;
-use crate::text::Place;
+use crate::text::TextPosition;
 
-/// The elements that become a mesh, by their places in the header.
+/// The elements that become a mesh, as indices into the header.
 #[derive(Debug)]
 pub(super) struct Roles {
     pub(super) vertex: usize,
@@ -19,11 +19,11 @@ pub(super) struct Roles {
 impl Roles {
     /// # Errors
     ///
-    /// If there are no vertices, or an element has not what it needs to be what its name says.
+    /// If there are no vertices, or if an element lacks a property that its name requires.
     pub(super) fn of(header: &Header) -> Result<Self, Fault> {
         let Some((vertex, vertices)) = header.element("vertex") else {
-            let place = Place::of_line(header.lines);
-            return Err(place.error("expected an element `vertex`, found none in the header"));
+            let place = TextPosition::of_line(header.lines);
+            return Err(place.error("expected an element `vertex`, but the header has none"));
         };
         let mut position = [0; 3];
         for (place, name) in position.iter_mut().zip(POSITION) {
@@ -48,8 +48,8 @@ impl Roles {
         })
     }
 
-    /// Whether a mesh takes anything from the element at this place.
-    pub(super) fn wants(&self, element: usize) -> bool {
+    /// Whether the element at this index becomes a part of the mesh.
+    pub(super) fn uses(&self, element: usize) -> bool {
         let faces = self.face.or(self.strips).map(|(e, _)| e);
         element == self.vertex || Some(element) == faces
     }
@@ -64,30 +64,30 @@ fn scalar(element: &Element, name: &str) -> Result<usize, Fault> {
         None => (element.place, "none"),
     };
     Err(place.error(format!(
-        "expected a single value `{name}` of {element}, found {found}"
+        "expected a scalar property `{name}` in {element}, found {found}"
     )))
 }
 
-/// The list of the vertices of a face or strip.
+/// Finds the list of the vertices of a face or strip.
 fn corner_list(element: &Element) -> Result<usize, Fault> {
     if let Some(list) = CORNERS.iter().find_map(|name| element.list(name)) {
         let property = &element.properties[list];
         if property.value.is_float() {
             let found = property.value.name();
-            let message = format!("expected a list of whole numbers, found one of type {found}");
+            let message = format!("expected a list of integers, found a list of type {found}");
             return Err(property.place.error(message));
         }
         return Ok(list);
     }
     let scalar = CORNERS.iter().find_map(|name| element.scalar(name));
     let place = scalar.map_or(element.place, |p| element.properties[p].place);
-    let found = scalar.map_or("none", |_| "a single value");
+    let found = scalar.map_or("none", |_| "a scalar");
     Err(place.error(format!(
-        "expected a list `vertex_indices` of {element}, found {found}"
+        "expected a list property `vertex_indices` in {element}, found {found}"
     )))
 }
 
-/// The first of some families of names that are all there.
+/// Returns the properties of the first family of names whose members all exist.
 fn family<const N: usize>(element: &Element, names: &[[&str; N]]) -> Option<[usize; N]> {
     names.iter().find_map(|family| {
         let mut found = [0; N];
@@ -118,7 +118,7 @@ const COLORS: [[&str; 4]; 3] = [
     ["r", "g", "b", "a"],
 ];
 
-/// Names that other attributes must not have: those of all families.
+/// The names of all families, which other attributes must not have.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     let families = UVS.as_flattened().iter().chain(COLORS.as_flattened());
     let others = POSITION
@@ -139,7 +139,7 @@ pub(super) fn uv(element: &Element) -> Option<[usize; 2]> {
     family(element, &UVS)
 }
 
-/// The properties of red, green, blue and, if it is there, alpha.
+/// The properties of red, green, blue and, if it exists, alpha.
 pub(super) fn color(element: &Element) -> Option<([usize; 3], Option<usize>)> {
     COLORS
         .iter()

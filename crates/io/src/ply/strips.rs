@@ -1,17 +1,17 @@
-//! Triangle strips, as the Stanford scans have them.
+//! Triangle strips, as in the files of the Stanford scans.
 
 use super::columns::item_at;
 use super::table::Table;
 
-/// Three vertices for each triangle, how many strips there are, and how many triangles of them visit a
-/// vertex twice.
+/// Three vertices for each triangle, the number of strips, and the number of triangles left out because they visit
+/// a vertex twice.
 type Strips = (Vec<u32>, usize, usize);
 
-/// The triangles of lists in which -1 ends a strip: every second one of a strip is turned round.
+/// Converts lists, in which -1 ends a strip, to triangles. Every second triangle of a strip is reversed.
 ///
 /// # Errors
 ///
-/// The row, the item and the message of the first item that is neither a vertex nor -1.
+/// The row, the item and the message for the first item that is neither a vertex nor -1.
 pub(super) fn triangles_of_strips(
     table: &Table,
     list: usize,
@@ -29,7 +29,7 @@ pub(super) fn triangles_of_strips(
             let v = u32::try_from(value).ok();
             let Some(v) = v.filter(|&v| (v as usize) < n_vertices) else {
                 let message =
-                    format!("expected -1 or a vertex from 0 to below {n_vertices}, found {value}");
+                    format!("expected -1 or a vertex index below {n_vertices}, found {value}");
                 return Err((row, item, message));
             };
             length += 1;
@@ -39,7 +39,7 @@ pub(super) fn triangles_of_strips(
                 if a == b || b == v || v == a {
                     stitches += 1;
                 } else if corners.len() + 3 >= u32::MAX as usize {
-                    let message = format!("expected fewer than {} corners", u32::MAX);
+                    let message = format!("expected fewer than {} corners, found more", u32::MAX);
                     return Err((row, item, message));
                 } else if length % 2 == 1 {
                     corners.extend([a, b, v]);

@@ -1,11 +1,11 @@
-//! Where the values of an element are in the bytes of a file.
+//! Locates the values of an element in the bytes of a file.
 
 use super::header::{Element, Property};
 use super::types::{Type, number, read_all, whole};
 use crate::fault::Fault;
 use crate::parallel;
 
-/// The rows of one element and where each of its values is.
+/// The rows of one element, and the positions of their values.
 #[derive(Debug)]
 pub(super) struct Table<'a> {
     pub(super) properties: &'a [Property],
@@ -13,40 +13,40 @@ pub(super) struct Table<'a> {
     pub(super) big: bool,
     /// The bytes from the first row on.
     pub(super) bytes: &'a [u8],
-    /// Where they are in the file.
+    /// The position of `bytes` in the file.
     pub(super) start: usize,
     layout: Layout,
 }
 
-/// Where rows begin. Behind a list whose length differs between the rows a new segment begins, with
-/// its own list of places.
+/// The positions of rows. After a list whose length differs between rows, a new segment begins, which has its own
+/// list of positions.
 #[derive(Debug)]
 enum Layout {
-    /// Every row has the same length: the same count in each list.
+    /// All rows have the same length, because each list has the same count in every row.
     Even {
         stride: usize,
-        /// For each property its place in a row: of a list, that of its first item.
+        /// For each property, its offset in a row. For a list, the offset of its first item.
         places: Vec<usize>,
-        /// For each property the count of its list; 0 if it is none.
+        /// For each property, the count of its list; 0 if it is not a list.
         counts: Vec<usize>,
     },
     Uneven {
-        /// For each property its segment and its place there: of a list, that of its first item.
+        /// For each property, its segment and its offset in the segment. For a list, the offset of its first item.
         places: Vec<(usize, usize)>,
-        /// For each segment where it begins in each row; empty where nothing is asked for.
+        /// For each segment, where it begins in each row; empty if no property is in the segment.
         starts: Vec<Vec<usize>>,
-        /// For each property the counts of its list in each row; empty if it is none.
+        /// For each property, the counts of its list in each row; empty if it is not a list.
         counts: Vec<Vec<u32>>,
     },
 }
 
 impl<'a> Table<'a> {
-    /// Finds the rows of an element in `file` from `start` on, and where they end.
+    /// Locates the rows of an element in `file` from `start` on. Returns the table and its end.
     ///
     /// # Errors
     ///
-    /// If the file is too short for them, or a list has a negative count. Nothing is allocated for rows
-    /// that the file has no bytes for.
+    /// If the file is too short for the rows, or if a list has a negative count. Memory is only allocated for rows
+    /// that the file can hold.
     pub(super) fn locate(
         element: &'a Element,
         file: &'a [u8],
@@ -62,7 +62,7 @@ impl<'a> Table<'a> {
         let least = shortest.checked_mul(*rows);
         if least.is_none_or(|least| least > bytes.len()) {
             let message = format!(
-                "expected {rows} rows of {element} of {shortest} bytes or more, found {} bytes",
+                "expected {rows} rows of {element} with at least {shortest} bytes each, found {} bytes",
                 bytes.len()
             );
             return Err(Fault::byte(start, message));
@@ -91,7 +91,7 @@ impl<'a> Table<'a> {
         Ok((table, start + length))
     }
 
-    /// Reads the values of a scalar property from a row on.
+    /// Reads the values of a scalar property, beginning with `row`.
     pub(super) fn read(&self, property: usize, row: usize, out: &mut [f64]) {
         let kind = self.properties[property].value;
         if let Layout::Even { stride, places, .. } = &self.layout {
@@ -103,7 +103,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// Where a value is in [`bytes`](Self::bytes); of a list, the first item.
+    /// The position of a value in [`bytes`](Self::bytes). For a list, the position of its first item.
     #[inline]
     pub(super) fn at(&self, property: usize, row: usize) -> usize {
         match &self.layout {
@@ -115,7 +115,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// How many items the list of a row has.
+    /// The number of items in the list of a row.
     #[inline]
     pub(super) fn count(&self, property: usize, row: usize) -> usize {
         match &self.layout {
@@ -124,7 +124,7 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// How many items the lists of all rows have, if they have the same number.
+    /// The number of items in the list of each row, if it is the same for all rows.
     pub(super) fn even_count(&self, property: usize) -> Option<usize> {
         match &self.layout {
             Layout::Even { counts, .. } => Some(counts[property]),
@@ -133,7 +133,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// The layout if every row has the counts of the first, and how long the rows are together.
+/// The layout if the counts of every row equal those of the first row, and the total length of the rows.
 fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option<(Layout, usize)> {
     let mut at = 0_usize;
     let (mut places, mut counts, mut lists) = (Vec::new(), Vec::new(), Vec::new());
@@ -153,7 +153,7 @@ fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option
     let length = stride.checked_mul(rows)?;
     bytes.get(..length)?;
     for (at, kind, count) in lists {
-        // Most lists are counted by one byte: the type is looked at outside of the loop.
+        // Most lists have a count of one byte, so that case is kept out of the generic loop.
         let is_same = if kind == Type::UInt8 {
             parallel::all(rows, |row| usize::from(bytes[row * stride + at]) == count)
         } else {
@@ -174,7 +174,7 @@ fn even(properties: &[Property], rows: usize, bytes: &[u8], big: bool) -> Option
     Some((layout, length))
 }
 
-/// The layout of rows whose lists differ, found by walking over them, and how long they are together.
+/// Finds the layout of rows with different counts by scanning them, and the total length of the rows.
 fn scanned(
     element: &Element,
     all: &[u8],
@@ -212,22 +212,26 @@ fn scanned(
                 at += size;
                 continue;
             };
-            let broken = |message: String| {
+            let error = |message: String| {
                 let message = format!("{message} in {property} of row {row} of {element}");
                 Fault::byte(start + at.min(all.len()), message)
             };
             let end = at + kind.size();
             let Some(bytes) = all.get(at..end) else {
-                return Err(broken("expected a count, found the end of the file".into()));
+                return Err(error(
+                    "expected a list count, found the end of the file".into(),
+                ));
             };
             let count = whole(kind, big, bytes);
             let Ok(n) = u32::try_from(count) else {
-                return Err(broken(format!("expected a count, found {count}")));
+                return Err(error(format!(
+                    "expected a non-negative list count, found {count}"
+                )));
             };
             let rest = all.len() - end;
             if n as usize > rest / size {
                 let message = format!("expected {n} values of {size} bytes, found {rest} bytes");
-                return Err(broken(message));
+                return Err(error(message));
             }
             at = end + n as usize * size;
             counts[p].push(n);

@@ -1,8 +1,8 @@
-//! The scalar types of PLY files and how their bytes become numbers.
+//! The scalar types of PLY files, and decoding their bytes.
 
 use bytemuck::Pod;
 
-/// The type of a property, of a list's count or of its items.
+/// The type of a property, of the count of a list, or of the items of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Type {
     Int8,
@@ -15,7 +15,7 @@ pub(super) enum Type {
     Float64,
 }
 
-/// Each type with its names, the oldest first, and how many bytes a value takes.
+/// Each type with its old and new name and the size of a value in bytes.
 const TYPES: [(Type, [&str; 2], usize); 8] = [
     (Type::Int8, ["char", "int8"], 1),
     (Type::UInt8, ["uchar", "uint8"], 1),
@@ -28,19 +28,19 @@ const TYPES: [(Type, [&str; 2], usize); 8] = [
 ];
 
 impl Type {
-    /// The type of this name, of either family: `uchar` or `uint8`.
+    /// Parses a type name of either family: `uchar` or `uint8`.
     pub(super) fn parse(word: &[u8]) -> Option<Self> {
         let is_it = |name: &&str| name.as_bytes() == word;
         let found = TYPES.iter().find(|(_, names, _)| names.iter().any(is_it));
         found.map(|&(kind, ..)| kind)
     }
 
-    /// The name that the oldest readers know too.
+    /// The old name, which all readers accept.
     pub(super) fn name(self) -> &'static str {
         TYPES[self as usize].1[0]
     }
 
-    /// How many bytes a value takes.
+    /// The size of a value in bytes.
     pub(super) fn size(self) -> usize {
         TYPES[self as usize].2
     }
@@ -49,7 +49,7 @@ impl Type {
         matches!(self, Self::Float32 | Self::Float64)
     }
 
-    /// The least and the greatest value of a whole-number type.
+    /// The smallest and the largest value of an integer type.
     pub(super) fn range(self) -> (i64, i64) {
         let all = 1 << (8 * self.size().min(4));
         match self {
@@ -58,7 +58,7 @@ impl Type {
         }
     }
 
-    /// What a number of this type is divided by to become a part of a color from 0 to 1.
+    /// The divisor that turns a number of this type into a color component from 0 to 1.
     pub(super) fn color_unit(self) -> f64 {
         match self {
             Self::Float32 | Self::Float64 => 1.0,
@@ -68,7 +68,7 @@ impl Type {
     }
 }
 
-/// Runs `$body` with `$t` standing for the type of Rust that values have.
+/// Runs `$body` with `$t` as the Rust type of the values.
 macro_rules! with_type {
     ($type:expr, $t:ident => $body:expr) => {
         with_type!(@ $type, $t => $body;
@@ -85,7 +85,7 @@ macro_rules! with_type {
 }
 pub(super) use with_type;
 
-/// The value at the front of `bytes`, which are enough; `big` says that the highest byte comes first.
+/// Reads the value at the beginning of `bytes`, which must be long enough. `big` means big-endian.
 #[inline]
 pub(super) fn read<T: Pod + Into<f64>>(bytes: &[u8], big: bool) -> f64 {
     let mut value = T::zeroed();
@@ -97,7 +97,7 @@ pub(super) fn read<T: Pod + Into<f64>>(bytes: &[u8], big: bool) -> f64 {
     value.into()
 }
 
-/// Reads values that stand `stride` bytes apart, the first at the front of `bytes`.
+/// Reads values that are `stride` bytes apart, the first at the beginning of `bytes`.
 pub(super) fn read_all(kind: Type, big: bool, bytes: &[u8], stride: usize, out: &mut [f64]) {
     with_type!(kind, T => {
         for (i, x) in out.iter_mut().enumerate() {
@@ -106,17 +106,17 @@ pub(super) fn read_all(kind: Type, big: bool, bytes: &[u8], stride: usize, out: 
     });
 }
 
-/// The number at the front of `bytes`.
+/// Reads the number at the beginning of `bytes`.
 pub(super) fn number(kind: Type, big: bool, bytes: &[u8]) -> f64 {
     let mut number = [0.0];
     read_all(kind, big, bytes, 0, &mut number);
     number[0]
 }
 
-/// The whole number at the front of `bytes`; a fraction is cut off.
+/// Reads the number at the beginning of `bytes` and truncates it to an integer.
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "whole numbers have 32 bits"
+    reason = "integers have at most 32 bits"
 )]
 pub(super) fn whole(kind: Type, big: bool, bytes: &[u8]) -> i64 {
     number(kind, big, bytes) as i64

@@ -1,4 +1,4 @@
-//! From a scene to the bytes of a PLY file.
+//! Writes a scene to the bytes of a PLY file.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -7,9 +7,9 @@ use glam::DVec3;
 use mesh::{Column, Domain, FaceId, Mesh, Rule, UV, Values};
 use scene::Scene;
 
+use super::attribute_comments::AttributeComment;
 use super::columns::Kind;
-use super::header::MOST_PROPERTIES;
-use super::marks::Mark;
+use super::header::MAX_PROPERTIES;
 use super::read::plain_rule;
 use super::roles;
 use super::types::Type;
@@ -18,14 +18,14 @@ use crate::joined::joined;
 use crate::loss::Losses;
 use crate::parallel;
 use crate::writing::{finite, is_byte, push_comment, to_byte, uvs_of_vertices};
-use crate::{One, WriteOptions};
+use crate::{SingleFile, WriteOptions};
 
-/// The file that holds `scene`, little-endian, and what it does not hold.
+/// Writes `scene` as little-endian binary, and lists what the file does not store.
 ///
 /// # Errors
 ///
-/// If an object is no mesh.
-pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwritable> {
+/// If an object is not a mesh.
+pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
     let mut joined = joined(scene, "PLY", true)?;
     let mesh = &*joined.mesh;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
@@ -39,7 +39,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwrit
             Domain::Corner | Domain::Face => &mut faces,
             Domain::Edge => continue,
         };
-        if to.properties.len() + 4 > MOST_PROPERTIES / 2 {
+        if to.properties.len() + 4 > MAX_PROPERTIES / 2 {
             let reason = "too many attributes for one file";
             losses.add(domain, &column.name, column.values.len(), reason);
             continue;
@@ -52,7 +52,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwrit
             if let Some(uvs) = uvs_of_vertices(mesh, &values) {
                 vertices.known(&["s", "t"], Cow::Owned(uvs));
             } else {
-                // As MeshLab does where corners of a vertex differ.
+                // `MeshLab` uses the same property if the corners of a vertex differ.
                 let form = float_for(&values, 2);
                 faces.values(&["texcoord"], true, values, 2, form);
             }
@@ -74,25 +74,25 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwrit
 #[derive(Default)]
 struct Element<'a> {
     comments: Vec<String>,
-    /// The lines behind the word `property`.
+    /// The lines of the header, without the word `property`.
     properties: Vec<String>,
     names: BTreeSet<String>,
     fields: Vec<Field<'a>>,
-    /// The most corners of a face.
+    /// The largest number of corners of a face.
     most: usize,
 }
 
-/// What stands in each row.
+/// A field of each row.
 enum Field<'a> {
     Positions(&'a [DVec3]),
     /// The vertices of a face, with the type of their count.
     Corners(Type),
     Values {
         values: Cow<'a, Values>,
-        /// How many components are written: all but the alpha of opaque colors.
+        /// The number of components that are written. The alpha of opaque colors is left out.
         size: usize,
         form: Type,
-        /// The type of the count of a list: the values of the corners of a face.
+        /// The type of the count of a list, which holds the values of the corners of a face.
         count: Option<Type>,
     },
 }
@@ -127,14 +127,14 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// Adds a line to the header: of a list, if there is a type for its count.
+    /// Adds a property to the header. If `count` is given, the property is a list.
     fn property(&mut self, count: Option<Type>, form: Type, name: &str) {
         let list = count.map_or(String::new(), |count| format!("list {} ", count.name()));
         self.properties
             .push(format!("{list}{} {name}", form.name()));
     }
 
-    /// Adds the first `size` components of values under a name each, or as one list.
+    /// Adds the first `size` components of values as one property for each name, or as one list.
     fn values(
         &mut self,
         names: &[impl AsRef<str>],
@@ -169,7 +169,7 @@ impl<'a> Element<'a> {
         }
     }
 
-    /// Adds values under names that say what they are.
+    /// Adds values under standard names.
     fn known(&mut self, names: &[&str], values: Cow<'a, Values>) {
         let opaque = match &*values {
             Values::Vec4(colors) => parallel::all(colors.len(), |i| colors[i].w == 1.0),
@@ -184,8 +184,8 @@ impl<'a> Element<'a> {
         self.values(names, false, values, size, form);
     }
 
-    /// Adds values under their own name, with a comment where the name and the types do not say
-    /// enough to read them as they are.
+    /// Adds values under the name of their attribute, with a comment if the name and the types are not enough to
+    /// restore the attribute.
     fn free(&mut self, domain: Domain, column: &Column, values: Cow<'a, Values>) {
         let kind = Kind::of(&values);
         let form = match kind {
@@ -200,19 +200,19 @@ impl<'a> Element<'a> {
             && names[0] == column.name
             && plain_rule(domain, form) == column.rule;
         if !plain {
-            let mark = Mark {
+            let comment = AttributeComment {
                 domain,
                 kind,
                 rule: column.rule,
                 property: names[0].clone(),
                 name: column.name.clone(),
             };
-            self.comments.push(mark.text());
+            self.comments.push(comment.text());
         }
         self.values(&names, is_list, values, kind.size(), form);
     }
 
-    /// Words for the components of an attribute that no other property has.
+    /// Returns property names for the components of an attribute that no other property has.
     fn free_names(&mut self, name: &str, n: usize) -> Vec<String> {
         let is_fine = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.' | ':');
         let word = name.replace(|c| !is_fine(c), "_");
@@ -336,13 +336,13 @@ fn push_numbers(out: &mut Vec<u8>, numbers: &[f64], form: Type) {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "asked for where it is exact"
+    reason = "only used where the value is exact"
 )]
 fn to_float(x: f64) -> f32 {
     x as f32
 }
 
-/// The smallest floating-point type in which the first `size` numbers of all values are exact.
+/// The smallest floating-point type in which the first `size` components of all values are exact.
 fn float_for(values: &Values, size: usize) -> Type {
     let is_float = |x: f64| f64::from(to_float(x)).to_bits() == x.to_bits();
     if all_numbers(values, size, is_float) {
@@ -352,7 +352,7 @@ fn float_for(values: &Values, size: usize) -> Type {
     }
 }
 
-/// Whether it holds for the first `size` numbers of all vectors.
+/// Whether `is` returns true for the first `size` components of all vectors.
 fn all_numbers(values: &Values, size: usize, is: impl Fn(f64) -> bool + Sync) -> bool {
     parallel::all(values.len(), |i| match values {
         Values::Vec2(v) => v[i].to_array()[..size].iter().all(|&x| is(x)),

@@ -1,4 +1,4 @@
-//! Binary STL: 80 bytes of header, the count, and 50 bytes for each triangle.
+//! Binary STL: a header of 80 bytes, the number of triangles, and 50 bytes for each triangle.
 
 use glam::DVec3;
 use mesh::zeroed;
@@ -8,26 +8,26 @@ use crate::fault::Fault;
 use crate::parallel::{self, BLOCK};
 
 pub(super) const HEADER: usize = 80;
-/// Where the triangles begin: the count has 4 bytes.
+/// Where the triangles begin, after the number of triangles in 4 bytes.
 pub(super) const START: usize = HEADER + 4;
-/// A normal and three corners of 3 numbers, and 2 bytes for anything.
+/// The size of a triangle: a normal and three corners with three 32-bit numbers each, and 2 attribute bytes.
 pub(super) const FACET: usize = 50;
-/// The count in the header; `None` if the file is too short for one.
+/// The number of triangles that the file declares; `None` if the file is too short.
 pub(super) fn count(bytes: &[u8]) -> Option<u32> {
     let count = bytes.get(HEADER..)?.first_chunk()?;
     Some(u32::from_le_bytes(*count))
 }
 
-/// How long a file with the count in its header is.
+/// The size of a file with the declared number of triangles.
 pub(super) fn length(bytes: &[u8]) -> Option<u64> {
     count(bytes).map(|n| START as u64 + FACET as u64 * u64::from(n))
 }
 
-/// The corners of all facets.
+/// Reads the corners of all facets.
 ///
 /// # Errors
 ///
-/// The first number of a corner that is not finite.
+/// The first coordinate of a corner that is not finite.
 pub(super) fn read(facets: &[u8]) -> Result<Facets, Fault> {
     let n = facets.len() / FACET;
     let mut corners = zeroed::<DVec3>(3 * n);

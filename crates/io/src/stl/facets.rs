@@ -1,35 +1,35 @@
-//! Facets, and how their normals agree with their corners.
+//! Facets, and whether their normals agree with their corners.
 
 use std::ops::Range;
 
 use glam::DVec3;
 
-/// Facets as they stand in a file.
+/// The facets of a file.
 #[derive(Debug, Default)]
 pub(super) struct Facets {
-    /// Three for each facet.
+    /// Three corners for each facet.
     pub(super) corners: Vec<DVec3>,
-    /// How many facet normals agree with their corners in each way.
+    /// The number of facet normals for each [`Side`].
     pub(super) sides: [usize; 3],
-    /// How many facets have attribute bytes.
+    /// The number of facets whose attribute bytes are not 0.
     pub(super) colored: usize,
-    /// The names of solids, and which facets each has.
+    /// The names of solids, and the facets of each.
     pub(super) solids: Vec<(String, Range<usize>)>,
 }
 
-/// How a facet normal agrees with the corners.
+/// How a facet normal relates to the corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
     Same,
-    /// More than a few degrees away from the normal of the corners.
+    /// The normal deviates by more than a few degrees.
     Tilted,
-    /// Nearer to the other side.
-    Turned,
+    /// The normal is closer to the opposite direction.
+    Opposite,
 }
 
-/// Compares a facet normal with that of its corners. They agree if the sine of the angle between them is
-/// at most 1/10 (6 degrees), which is more than the rounding of a sliver explains; a normal that is zero or
-/// not finite, or a facet without area, says nothing.
+/// Compares a facet normal with the normal of the corners. They agree if the sine of the angle between them is at
+/// most 1/10 (6 degrees), which is more than rounding causes in a sliver. They also count as agreeing if the facet
+/// normal is zero or not finite, or if the facet has no area.
 #[inline]
 pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
     let area = (b - a).cross(c - a);
@@ -42,10 +42,10 @@ pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
         return if along > 0.0 {
             Side::Same
         } else {
-            Side::Turned
+            Side::Opposite
         };
     }
-    // A sliver: its corners are rounded to 24 bits, and the area may be nothing but that.
+    // A sliver. Its corners are rounded to 24 bits, and its area can be caused by rounding alone.
     let size = a.abs().max(b.abs()).max(c.abs()).max_element();
     let longest = (b - a).length_squared().max((c - a).length_squared());
     let rounding = 4.0 / f64::from(1 << 24) * size;
@@ -53,7 +53,7 @@ pub(super) fn compare(normal: DVec3, [a, b, c]: [DVec3; 3]) -> Side {
         return Side::Same;
     }
     if along < 0.0 {
-        Side::Turned
+        Side::Opposite
     } else {
         Side::Tilted
     }
@@ -73,8 +73,8 @@ mod tests {
             (DVec3::ZERO, Side::Same),
             (DVec3::NAN, Side::Same),
             (DVec3::new(0.5, 0.0, 1.0), Side::Tilted),
-            (DVec3::NEG_Z, Side::Turned),
-            (DVec3::new(1.0, 0.0, -0.1), Side::Turned),
+            (DVec3::NEG_Z, Side::Opposite),
+            (DVec3::new(1.0, 0.0, -0.1), Side::Opposite),
         ] {
             assert_eq!(compare(normal, corners), side, "{normal}");
         }
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn the_rounding_of_a_sliver_does_not_tilt_it() {
+    fn the_rounding_error_of_a_sliver_is_ignored() {
         let far = DVec3::splat(100.0);
         let sliver = [far, far + 10.0 * DVec3::X, far + DVec3::new(5.0, 1e-5, 0.0)];
         assert_eq!(compare(DVec3::Y, sliver), Side::Same);

@@ -1,20 +1,20 @@
 //! STL: triangles for 3D printing, as text or binary.
 //!
-//! A file is one object. What it becomes:
+//! A file is one object. Its content becomes:
 //!
 //! | in the file | in the mesh |
 //! | --- | --- |
 //! | facet | a triangle, in order |
-//! | corners of facets | vertices: corners at exactly the same position are one; 0 and -0 are the same |
-//! | facet normal | not kept: it follows from the corners. Noted where it is more than a few degrees off, unless zero |
-//! | `solid a`, where a text has several | face tag `o:a` |
-//! | header, `solid a` where there is one | not kept |
+//! | corners of facets | vertices: corners at exactly the same position are merged (0 and -0 are equal) |
+//! | facet normal | not kept, because it follows from the corners; a note counts normals that deviate by more than a few degrees, except zero normals |
+//! | `solid a`, if a text file has several solids | face tag `o:a` |
+//! | header, `solid a` of the only solid | not kept |
 //! | attribute bytes other than 0 (colors, in two dialects) | left out, with a note |
 //!
-//! A file is binary if it is exactly as long as its count of triangles says, whatever its first word is; and
-//! otherwise text if it begins with `solid`.
+//! A file is binary if its size matches its declared number of triangles, whatever its first word is. Otherwise it
+//! is text if it begins with `solid`.
 //!
-//! The writer makes binary files: 32 bits for a coordinate. Polygons are cut into triangles. The header holds
+//! The writer creates binary files with 32 bits for a coordinate. Polygons are triangulated. The header stores
 //! [`provenance`](crate::WriteOptions::provenance). All attributes are lost.
 
 mod binary;

@@ -1,4 +1,4 @@
-//! From the facets of an STL file to polygons.
+//! Converts the facets of an STL file to polygons.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -12,20 +12,20 @@ use crate::fault::Fault;
 use crate::note::Notes;
 use crate::peek::PeekMesh;
 use crate::polygons::{OBJECT_TAG, most_tags};
-use crate::text::MARK;
+use crate::text::BYTE_ORDER_MARK;
 use crate::weld::weld;
 
 /// Reads an STL file from its bytes.
 ///
 /// # Errors
 ///
-/// The first place that breaks the rules of the format.
+/// The first position that breaks the rules of the format.
 pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
     let facets = match kind(bytes)? {
         Kind::Text => text::read(bytes)?,
         Kind::Binary(end) => {
             let rest = bytes.len() - end;
-            notes.left_out(rest, None, "bytes behind the last facet left out");
+            notes.left_out(rest, None, "bytes after the last facet left out");
             binary::read(&bytes[binary::START..end])?
         }
     };
@@ -38,34 +38,40 @@ pub(crate) fn read(bytes: &[u8], notes: &mut Notes) -> Result<Polygons, Fault> {
 
 enum Kind {
     Text,
-    /// And where the facets end.
+    /// A binary file, with the end of its facets.
     Binary(usize),
 }
 
-/// What kind of file it is. Many binary files begin with the word `solid`, so their length decides.
+/// Determines the kind of a file. Many binary files begin with the word `solid`, so the size is checked first.
 fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
     let n_bytes = bytes.len();
     let length = binary::length(bytes);
     if length == Some(n_bytes as u64) {
         return Ok(Kind::Binary(n_bytes));
     }
-    let start = bytes.strip_prefix(MARK).unwrap_or(bytes).trim_ascii_start();
+    let start = bytes
+        .strip_prefix(BYTE_ORDER_MARK)
+        .unwrap_or(bytes)
+        .trim_ascii_start();
     let word = start.get(..5).unwrap_or_default();
-    // A header may begin with the word, and be followed by bytes that no text has.
+    // The header of a binary file can begin with `solid`, but is followed by zero bytes, which a text does not
+    // have.
     if word.eq_ignore_ascii_case(b"solid") && !bytes[..n_bytes.min(512)].contains(&0) {
         return Ok(Kind::Text);
     }
     let (Some(length), Some(count)) = (length, binary::count(bytes)) else {
         let least = binary::START;
-        let message =
-            format!("expected `solid` or a header of {least} bytes, found {n_bytes} bytes");
+        let message = format!(
+            "expected `solid` or a binary file with at least {least} bytes, found {n_bytes} bytes"
+        );
         return Err(Fault::byte(0, message));
     };
     match usize::try_from(length) {
         Ok(end) if end <= n_bytes => Ok(Kind::Binary(end)),
         _ => {
-            let message =
-                format!("expected {count} facets ({length} bytes in all), found {n_bytes} bytes");
+            let message = format!(
+                "expected {count} facets ({length} bytes in total), found a file of {n_bytes} bytes"
+            );
             Err(Fault::byte(binary::HEADER, message))
         }
     }
@@ -74,15 +80,15 @@ fn kind(bytes: &[u8]) -> Result<Kind, Fault> {
 fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     let n_corners = facets.corners.len();
     let [_, tilted, turned] = facets.sides;
-    let what = "facet normals left out that point to the other side of their corners";
+    let what = "facet normals left out because they point away from the front of their facets";
     notes.changed(turned, None, what);
-    let what = "facet normals left out that are not normal to their corners";
+    let what = "facet normals left out because they are not perpendicular to their facets";
     notes.changed(tilted, None, what);
-    let what = "facets have attribute bytes, perhaps colors: left out";
+    let what = "facets with attribute bytes (possibly colors): the bytes left out";
     notes.left_out(facets.colored, None, what);
     let (positions, corners) = weld(facets.corners);
     let n = positions.len();
-    let what = format!("corners became {n} vertices by equal positions");
+    let what = format!("corners merged into {n} vertices by equal positions");
     notes.changed(n_corners, None, what);
     let mut polygons = Polygons {
         positions,
@@ -94,7 +100,7 @@ fn polygons(facets: Facets, notes: &mut Notes) -> Polygons {
     polygons
 }
 
-/// Tags for the faces of each solid, if there are several.
+/// Adds tags for the faces of each solid, if there are several solids.
 fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &mut Notes) {
     if solids.len() < 2 {
         return;
@@ -117,16 +123,16 @@ fn set_tags(polygons: &mut Polygons, solids: &[(String, Range<usize>)], notes: &
         let name = format!("{OBJECT_TAG}{name}");
         polygons.insert(Domain::Face, name, Rule::Copy, marks);
     }
-    notes.left_out(empty, None, "solids left out: they have no facets");
+    notes.left_out(empty, None, "solids without facets left out");
     let what = "names of solids left out: too many for a mesh of this size";
     notes.left_out(too_many, None, what);
 }
 
-/// The counts of an STL file. There are no more vertices than said: corners are not compared.
+/// Returns the counts of an STL file. The number of vertices is an upper bound, because corners are not compared.
 ///
 /// # Errors
 ///
-/// If a binary file is too short for what it says.
+/// If a binary file is shorter than it declares.
 pub(crate) fn peek(bytes: &[u8]) -> Result<PeekMesh, Fault> {
     let n = match kind(bytes)? {
         Kind::Text => text::count(bytes),

@@ -1,4 +1,4 @@
-//! STL as text: words in a fixed order, however they are laid out in lines.
+//! STL as text: words in a fixed order, with any line breaks.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::facets::{Facets, compare};
 use crate::fault::Fault;
 use crate::text::{Cursor, is_not_finite, name, number, quoted};
 
-/// The facets of a text.
+/// Reads the facets of a text.
 ///
 /// # Errors
 ///
@@ -20,7 +20,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Facets, Fault> {
         let first = found.corners.len() / 3;
         solid(&mut cursor, &mut found)?;
         found.solids.push((name, first..found.corners.len() / 3));
-        // The name behind `endsolid` says nothing new.
+        // The name after `endsolid` repeats the name of the solid.
         cursor.skip_line();
         cursor.skip_white();
         if cursor.is_at_end() {
@@ -59,7 +59,8 @@ fn solid(cursor: &mut Cursor, found: &mut Facets) -> Result<(), Fault> {
     }
 }
 
-/// A normal, which some programs write as three words `nan` where a facet has no area: then it is zero.
+/// Reads a normal. Some programs write `nan` for the normal of a facet without area; the normal is zero in that
+/// case.
 fn normal(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     let mut normal = DVec3::ZERO;
     for i in 0..3 {
@@ -77,15 +78,15 @@ fn normal(cursor: &mut Cursor) -> Result<DVec3, Fault> {
     })
 }
 
-/// How many facets a text has, by the word `endfacet`.
+/// Counts the facets of a text by the word `endfacet`.
 pub(super) fn count(bytes: &[u8]) -> u64 {
     let mut n = 0;
     let mut rest = bytes;
     while let Some(at) = rest.iter().position(|byte| matches!(byte, b'e' | b'E')) {
-        let here = &rest[at..];
-        let found = here.len() >= 8 && is(&here[..8], b"endfacet");
+        let tail = &rest[at..];
+        let found = tail.len() >= 8 && is(&tail[..8], b"endfacet");
         n += u64::from(found);
-        rest = &here[if found { 8 } else { 1 }..];
+        rest = &tail[if found { 8 } else { 1 }..];
     }
     n
 }
@@ -98,7 +99,7 @@ fn expect(cursor: &mut Cursor, expected: &[u8]) -> Result<(), Fault> {
     Err(place.expected(quoted(expected), word))
 }
 
-/// Keywords are written in small or capital letters.
+/// Keywords can be in lower or upper case.
 fn is(word: &[u8], keyword: &[u8]) -> bool {
     word.eq_ignore_ascii_case(keyword)
 }

@@ -1,4 +1,4 @@
-//! From a scene to the bytes of a binary STL file.
+//! Writes a scene to the bytes of a binary STL file.
 
 use geometry::triangulate::Cutter;
 use glam::{DVec3, Vec3};
@@ -11,14 +11,15 @@ use crate::joined::joined;
 use crate::loss::Losses;
 use crate::parallel;
 use crate::weld::n_merged;
-use crate::{One, WriteOptions};
+use crate::{SingleFile, WriteOptions};
 
-/// The file that holds `scene`, and what it does not hold.
+/// Writes `scene`, and lists what the file does not store.
 ///
 /// # Errors
 ///
-/// If an object is no mesh, a position is too large for 32 bits, or there are 2^32 triangles.
-pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwritable> {
+/// If an object is not a mesh, a position exceeds the range of 32-bit numbers, or there are at least 2^32
+/// triangles.
+pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<SingleFile, Unwritable> {
     let mut joined = joined(scene, "STL", false)?;
     let mesh = &*joined.mesh;
     let mut losses = Losses::of(&joined.name, &mut joined.losses);
@@ -27,7 +28,7 @@ pub(crate) fn write(scene: &Scene, options: &WriteOptions) -> Result<One, Unwrit
     let large = |&v: &VertexId| !mesh.position(v).as_vec3().is_finite();
     if let Some(v) = mesh.vertices().find(large) {
         let message = format!(
-            "the position of {v}, {}, is too large for the 32 bits of STL",
+            "the position {} of {v} exceeds the range of the 32-bit numbers of STL",
             mesh.position(v)
         );
         return Err(Unwritable::object(&joined.name, message));
@@ -51,20 +52,20 @@ fn note_losses(mesh: &Mesh, losses: &mut Losses) {
     let positions = mesh.positions();
     let is_rounded = |v: usize| positions[v].as_vec3().as_dvec3() != positions[v];
     let rounded = parallel::count(positions.len(), is_rounded);
-    let reason = "rounded to the 32 bits of STL";
+    let reason = "rounded to the 32-bit numbers of STL";
     losses.add(Domain::Vertex, "position", rounded, reason);
     let isolated = mesh.n_isolated_vertices();
-    let reason = "isolated vertices: STL holds triangles";
+    let reason = "isolated vertices, but STL only stores triangles";
     losses.add(Domain::Vertex, "position", isolated, reason);
-    let reason = "vertices at the place of another: readers of STL see one";
+    let reason = "coincident vertices, which readers of STL merge";
     losses.add(Domain::Vertex, "position", n_merged(mesh), reason);
     let is_polygon = |f: usize| !mesh.is_triangle(FaceId::new(f));
     let polygons = parallel::count(mesh.n_faces(), is_polygon);
-    let reason = "STL holds triangles: the polygons are cut";
+    let reason = "STL only stores triangles, so polygons are triangulated";
     losses.add(Domain::Face, "polygon", polygons, reason);
 }
 
-/// 80 bytes: the program and where the content comes from. They never begin with `solid`.
+/// A header of 80 bytes with the program and the provenance. It never begins with `solid`.
 fn header(options: &WriteOptions) -> [u8; HEADER] {
     let mut text = concat!("meshwright ", env!("CARGO_PKG_VERSION")).to_owned();
     if let Some(provenance) = &options.provenance {
@@ -72,7 +73,7 @@ fn header(options: &WriteOptions) -> [u8; HEADER] {
         text += provenance;
     }
     let mut header = [b' '; HEADER];
-    // Readers that look for bytes 0 tell binary files by them.
+    // Some readers recognise binary files by zero bytes.
     header[HEADER - 1] = 0;
     let room = &mut header[..HEADER - 1];
     let printable = text
@@ -102,7 +103,7 @@ fn facets(mesh: &Mesh, faces: std::ops::Range<usize>) -> Vec<u8> {
     out
 }
 
-/// A triangle with its unit normal; zero if it has no area once it is rounded.
+/// Appends a triangle with its unit normal, which is zero if the rounded triangle has no area.
 fn push_facet(out: &mut Vec<u8>, corners: [DVec3; 3]) {
     let rounded = corners.map(DVec3::as_vec3);
     let [a, b, c] = rounded.map(Vec3::as_dvec3);

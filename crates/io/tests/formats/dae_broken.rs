@@ -70,7 +70,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "count=\"4\"",
         "count=\"5\"",
-        "7:19: <accessor>: 5 vectors reach beyond the 12 numbers",
+        "7:19: <accessor>: 5 vectors need more than the 12 numbers",
     ),
     (
         "count=\"4\"",
@@ -80,7 +80,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "count=\"4\"",
         "count=\"-4\"",
-        "expected count to be a natural number, found `-4`",
+        "expected the attribute count to be a non-negative integer, found `-4`",
     ),
     (
         "stride=\"3\"",
@@ -131,12 +131,12 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "2 2 3 3<",
         "2 2 3 4<",
-        "12:18: normal 4 does not exist: there are 4, from 0",
+        "12:18: expected a normal index below 4, found 4",
     ),
     (
         "2 2 3 3<",
         "2 2 9 3<",
-        "12:16: position 9 does not exist: there are 4, from 0",
+        "12:16: expected a position index below 4, found 9",
     ),
     (
         "2 2 3 3<",
@@ -151,7 +151,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "2 2 3 3<",
         "2 2<",
-        "11:50: <vcount>: the polygons have 4 corners, but there are 3",
+        "11:50: <vcount>: expected indices of 4 corners according to <vcount>, found 3",
     ),
     (
         "<vcount>4<",
@@ -166,7 +166,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "polylist count=\"1\"",
         "polylist count=\"2\"",
-        "expected 2 of them, found 1",
+        "expected 2 polygons according to the attribute count, found 1",
     ),
     (
         "0 0 0 1</matrix>",
@@ -198,7 +198,7 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "<instance_geometry url=\"#g\"/>",
         "<instance_node url=\"#n\"/>",
-        "the node is below itself",
+        "the node is its own descendant",
     ),
     (
         "1 0 0</color>",

@@ -144,11 +144,11 @@ fn skins_and_other_libraries_are_counted() {
         notes,
         [
             "1 other scenes left out",
-            "1 geometries left out: no node of the scene shows them",
-            "1 node named `box` is now called `box.2`: the name is taken",
+            "1 geometries left out: not used by any node of the scene",
+            "1 node named `box` renamed to `box.2`: the name is taken",
             "2 animations left out",
             "1 cameras left out",
-            "2 skins and morphs left out: geometries are as they are at rest",
+            "2 skins and morphs left out: geometries have their rest pose",
         ]
     );
 }
@@ -163,7 +163,7 @@ fn coordinates_stay_and_the_unit_is_told() {
         .replace("Y_UP", "Z_UP");
     assert_eq!(
         notes(&text),
-        ["Some(3): 1 coordinate system as it is in the file: up_axis Z_UP, unit 0.0254 m"]
+        ["Some(3): 1 coordinate system kept as in the file: up_axis Z_UP, unit 0.0254 m"]
     );
     assert_same(loaded(&text).objects[0].as_mesh().unwrap(), &shapes::cube());
 }

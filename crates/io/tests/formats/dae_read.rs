@@ -151,7 +151,7 @@ fn lines_and_small_polygons_are_left_out_and_counted() {
         notes(&file(&lists, "")),
         [
             "Some(41): 2 lines and points left out",
-            "Some(42): 1 polygons left out that have fewer than 3 corners"
+            "Some(42): 1 polygons with fewer than 3 corners left out"
         ]
     );
 }
@@ -268,7 +268,7 @@ fn what_binds_nothing_is_white_with_a_note() {
     let text = file(list, "");
     assert_eq!(
         notes(&text),
-        ["Some(20): 1 names of materials that the file does not define: they are white"]
+        ["Some(20): 1 materials that the file does not define: replaced by white materials"]
     );
     assert_eq!(
         loaded(&text).objects[0].materials,

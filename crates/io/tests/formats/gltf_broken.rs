@@ -51,7 +51,12 @@ fn broken_nodes_and_scenes_are_refused_at_the_pointer() {
             "/extensionsRequired/0",
             "KHR_draco",
         ),
-        ("/scene", json!(3), "/scene", "scene 3, but there are 1"),
+        (
+            "/scene",
+            json!(3),
+            "/scene",
+            "scene 3 does not exist (the file has 1)",
+        ),
         ("/scenes/0/nodes/0", json!(7), "/scenes", "node 7"),
         (
             "/scenes/0/nodes/0",
@@ -63,7 +68,7 @@ fn broken_nodes_and_scenes_are_refused_at_the_pointer() {
             "/nodes/0/mesh",
             json!(1),
             "/nodes/0/mesh",
-            "mesh 1, but there are 1",
+            "mesh 1 does not exist (the file has 1)",
         ),
         (
             "/nodes/0/children",

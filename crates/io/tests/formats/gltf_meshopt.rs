@@ -206,7 +206,12 @@ fn broken_streams_are_refused_at_the_pointer() {
             "/byteLength",
             "45 bytes from",
         ),
-        ("/buffer", json!(9), "/buffer", "buffer 9, but there are 2"),
+        (
+            "/buffer",
+            json!(9),
+            "/buffer",
+            "buffer 9 does not exist (the file has 2)",
+        ),
         ("/count", json!(7), "", "not the 72 bytes"),
         ("/count", json!(-1), "", "invalid value"),
         ("/mode", json!("TRIANGLES"), "", "2 or 4"),

@@ -51,7 +51,7 @@ fn normals_and_texture_coordinates_that_are_no_numbers_are_zero() {
         assert_eq!(mesh.get(VERTEX_NORMAL).unwrap()[0], DVec3::Z);
         assert_eq!(
             notes,
-            ["2 numbers of texture coordinates and normals that are not finite: taken as 0"]
+            ["2 non-finite numbers in texture coordinates and normals: set to 0"]
         );
         let message = refused(format!("{TRIANGLE}v 0 {nan} 0\nf 1 2 3\n"));
         assert_eq!(
@@ -65,7 +65,7 @@ fn normals_and_texture_coordinates_that_are_no_numbers_are_zero() {
 fn decimal_commas_are_refused_with_a_hint() {
     assert_eq!(
         refused("v 0 0,5 0\n"),
-        "a.obj:1:5: expected a number, found `0,5` (numbers have a point and no commas)"
+        "a.obj:1:5: expected a number, found `0,5` (use a decimal point instead of a comma)"
     );
 }
 
@@ -96,7 +96,9 @@ fn colors_of_zbrush_belong_to_the_vertices() {
     assert_eq!(mesh.get(COLOR), None);
     assert_eq!(
         notes,
-        ["1 colors of `#MRGB` comments left out: not one for each vertex, or beside others"]
+        [
+            "1 colors of `#MRGB` comments left out: their number differs from the number of vertices, or vertices have other colors"
+        ]
     );
 }
 
@@ -118,7 +120,7 @@ fn files_of_usual_programs_are_read() {
     assert_eq!(mesh.tag(Domain::Face, "Box001"), Some(&[true][..]));
     assert_eq!(
         notes,
-        ["1 material `wire_086086086` is in no library: taken as plain white"]
+        ["1 material `wire_086086086` not found in any library: replaced by a white material"]
     );
 
     let maya =

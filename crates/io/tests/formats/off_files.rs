@@ -199,7 +199,7 @@ fn faces_may_have_colors() {
     let (polygons, notes) = found(&text);
     assert_eq!(
         notes[0],
-        "2 faces without a color are gray: others have one"
+        "2 faces without a color set to gray because other faces have colors"
     );
     let gray = DVec4::new(2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 1.0);
     let colors = vec![
@@ -233,9 +233,9 @@ fn what_is_left_out_is_counted() {
     assert_eq!(
         found(text).1,
         [
-            "2 vertices have more numbers than the first line of the file promises: left out",
+            "2 vertices with extra numbers, which the keyword in the first line does not declare: left out",
             "2 faces with fewer than 3 corners left out",
-            "2 lines behind the last face left out",
+            "2 lines after the last face left out",
         ]
     );
 }
@@ -273,7 +273,7 @@ fn other_kinds_of_off_are_refused() {
     );
     assert_error(
         "OFF BINARY\n",
-        "1:5: expected an OFF file as text, found a binary one",
+        "1:5: expected an OFF file as text, found a binary OFF file",
     );
     assert_error(
         "XOFF\n",
@@ -321,7 +321,7 @@ fn lines_have_the_words_that_the_header_promises() {
     let good = "0 0 0\n1 0 0\n0 1 0\n";
     assert_error(
         off("0 0 0\n1 0\n0 1 0\n", "3 0 1 2\n"),
-        "4:4: expected 3 numbers of a vertex, found 2",
+        "4:4: expected a vertex with 3 numbers, found 2",
     );
     assert_error(
         off("0 0 0\n1 x 0\n0 1 0\n", "3 0 1 2\n"),
@@ -341,19 +341,19 @@ fn lines_have_the_words_that_the_header_promises() {
     );
     assert_error(
         off(good, "3 0 1 3\n"),
-        "6:7: expected a vertex from 0 to below 3, found `3`",
+        "6:7: expected a vertex index below 3, found `3`",
     );
     assert_error(
         off(good, "3 0 -1 2\n"),
-        "6:5: expected a vertex from 0 to below 3, found `-1`",
+        "6:5: expected a vertex index below 3, found `-1`",
     );
     assert_error(
         off(good, "3 0 1\n"),
-        "6:6: expected a face of 3 corners, found 2",
+        "6:6: expected a face with 3 corners, found 2",
     );
     assert_error(
         off(good, "-3 0 1\n"),
-        "6:1: expected how many corners a face has, found `-3`",
+        "6:1: expected the number of corners of a face, found `-3`",
     );
     assert_error(
         off(good, "4000000000 0 1\n"),
@@ -361,16 +361,16 @@ fn lines_have_the_words_that_the_header_promises() {
     );
     assert_error(
         off(good, "3 0 1 2 5 5\n"),
-        "6:9: expected nothing, a place in a map of colors",
+        "6:9: expected the end of the line, an index into a color map",
     );
     assert_error(
         off(good, "3 0 1 2 red\n"),
-        "6:9: expected a place in a map of colors, found `red`",
+        "6:9: expected an index into a color map, found `red`",
     );
     assert_error(off(good, "\n\n"), "8:1: expected 1 faces, found 0");
     assert_error(
         "COFF\n1 0 0\n0 0 0 1.5 1.5\n",
-        "3:14: expected 6 numbers of a vertex, found 5",
+        "3:14: expected a vertex with 6 numbers, found 5",
     );
 }
 

@@ -82,7 +82,7 @@ fn a_header_has_its_lines() {
     assert_error("ply\nproperty float x\n", "2:1: expected an element before");
     assert_error(
         "ply\nelement vertex many\n",
-        "2:16: expected how many there are, found `many`",
+        "2:16: expected the number of rows, found `many`",
     );
     assert_error("ply\nelement vertex -1\n", "2:16: expected how many");
     assert_error(
@@ -111,11 +111,11 @@ fn a_header_has_its_lines() {
 fn names_are_unique() {
     assert_error(
         "ply\nelement vertex 1\nproperty float x\nproperty int x\n",
-        "4:14: property `x` of `vertex` is there already",
+        "4:14: property `x` of `vertex` is declared twice",
     );
     assert_error(
         "ply\nelement v 1\nelement v 1\n",
-        "3:9: element `v` is there already",
+        "3:9: element `v` is declared twice",
     );
 }
 
@@ -132,11 +132,11 @@ fn properties_have_the_shape_that_their_names_ask_for() {
             "property float x\nproperty list uchar float y\nproperty float z\n",
             list,
         ),
-        "5:27: expected a single value `y` of element `vertex`, found a list",
+        "5:27: expected a scalar property `y` in element `vertex`, found a list",
     );
     assert_error(
         header("property float x\n", list),
-        "3:9: expected a single value `y`",
+        "3:9: expected a scalar property `y`",
     );
     assert_error(
         header(VERTEX, "property int vertex_indices\n"),
@@ -148,7 +148,7 @@ fn properties_have_the_shape_that_their_names_ask_for() {
     );
     assert_error(
         header(VERTEX, "property list uchar float vertex_index\n"),
-        "expected a list of whole numbers, found one of type float",
+        "expected a list of integers, found a list of type float",
     );
 }
 
@@ -173,17 +173,14 @@ fn counts_that_the_file_cannot_hold_are_refused_at_once() {
 fn vertices_of_faces_exist() {
     assert_error(
         text(CORNERS, "3 0 1 3\n"),
-        "13:7: expected a vertex from 0 to below 3, found 3",
+        "13:7: expected a vertex index below 3, found 3",
     );
     assert_error(
         text(CORNERS, "3 0 -1 2\n"),
-        "13:5: expected a vertex from 0 to below 3, found -1",
+        "13:5: expected a vertex index below 3, found -1",
     );
     let at = binary(&[]).len();
-    let expected = format!(
-        "byte {}: expected a vertex from 0 to below 3, found 3",
-        at + 8
-    );
+    let expected = format!("byte {}: expected a vertex index below 3, found 3", at + 8);
     assert_error(binary(&ints(&[3, 0, 3, 2])), &expected);
     assert_error(binary(&ints(&[3, 0, 1, -7])), "found -7");
 }
@@ -193,7 +190,9 @@ fn counts_of_lists_are_possible() {
     let at = binary(&[]).len();
     assert_error(
         binary(&ints(&[-1, 0, 1, 2])),
-        &format!("byte {at}: expected a count, found -1 in `vertex_indices` of row 0"),
+        &format!(
+            "byte {at}: expected a non-negative list count, found -1 in `vertex_indices` of row 0"
+        ),
     );
     assert_error(
         binary(&ints(&[i32::MAX, 0, 1, 2])),
@@ -201,11 +200,11 @@ fn counts_of_lists_are_possible() {
     );
     assert_error(
         text(CORNERS, "-3 0 1 2\n"),
-        "13:1: expected a whole number from 0 to 255",
+        "13:1: expected an integer from 0 to 255",
     );
     assert_error(
         text(CORNERS, "200 0 1 2\n"),
-        "13:1: expected a count, found `200`",
+        "13:1: expected a valid list count, found `200`",
     );
 }
 
@@ -245,10 +244,7 @@ fn lines_have_the_words_that_the_header_promises() {
         text(CORNERS, "3 0 1\n"),
         "13:6: expected a value of `vertex_indices`",
     );
-    assert_error(
-        text(CORNERS, "3 0 1 2.5\n"),
-        "13:7: expected a whole number",
-    );
+    assert_error(text(CORNERS, "3 0 1 2.5\n"), "13:7: expected an integer");
     assert_error(
         text("0 0 0\n1 a 0\n0 1 0\n", "3 0 1 2\n"),
         "11:3: expected a number, found `a`",
@@ -296,7 +292,7 @@ fn bytes_behind_the_last_element_are_noted() {
     assert!(
         loaded.notes[0]
             .to_string()
-            .ends_with("4 bytes behind the last element left out")
+            .ends_with("4 bytes after the last element left out")
     );
 }
 

@@ -63,7 +63,7 @@ fn unknown_elements_and_lists_are_counted() {
     assert_eq!(
         notes,
         [
-            (1, Some(25), "lines behind the last element left out"),
+            (1, Some(25), "lines after the last element left out"),
             (2, Some(3), "rows of element `edge` left out"),
             (1, Some(13), "rows of element `range_grid` left out"),
             (3, Some(10), "lists `near` of element `vertex` left out"),
@@ -99,7 +99,7 @@ fn strips_become_triangles() {
         .map(ToString::to_string)
         .collect();
     assert!(
-        notes[0].ends_with("2 triangle strips became 3 triangles"),
+        notes[0].ends_with("2 triangle strips converted to 3 triangles"),
         "{notes:?}"
     );
     let peek = mesh_io::peek(&store::Disk, &path, &ReadOptions::default()).unwrap();

@@ -79,7 +79,10 @@ fn written(mesh: Mesh) -> Vec<u8> {
 #[test]
 fn length_decides_what_is_binary() {
     let (polygons, notes) = found(binary(&[FLAT, NEXT]));
-    assert_eq!(notes, ["6 corners became 4 vertices by equal positions"]);
+    assert_eq!(
+        notes,
+        ["6 corners merged into 4 vertices by equal positions"]
+    );
     assert_eq!(polygons.corners, [0, 1, 2, 1, 3, 2]);
     assert_eq!(polygons.offsets, [0, 3, 6]);
 }
@@ -116,7 +119,10 @@ fn text_and_binary_are_the_same() {
         vertex 0 1 0\n endloop\n endfacet\nFACET NORMAL 0 0 1 OUTER LOOP\nVERTEX 1 0 -0 VERTEX 1 1 0\r\n\
         VERTEX -0 1 0 ENDLOOP ENDFACET\nendsolid a b\n\n";
     let (of_text, notes) = found(text);
-    assert_eq!(notes, ["6 corners became 4 vertices by equal positions"]);
+    assert_eq!(
+        notes,
+        ["6 corners merged into 4 vertices by equal positions"]
+    );
     assert_eq!(of_text, found(binary(&[FLAT, NEXT])).0);
 }
 
@@ -149,7 +155,7 @@ fn several_solids_become_tags() {
         loaded
             .notes
             .iter()
-            .any(|n| n.what == "solids left out: they have no facets")
+            .any(|n| n.what == "solids without facets left out")
     );
 }
 
@@ -163,11 +169,11 @@ fn normals_that_disagree_are_noted() {
     let (_, notes) = found(binary(&[turned, turned, tilted, none, broken, flat, FLAT]));
     assert_eq!(
         notes[0],
-        "2 facet normals left out that point to the other side of their corners"
+        "2 facet normals left out because they point away from the front of their facets"
     );
     assert_eq!(
         notes[1],
-        "1 facet normals left out that are not normal to their corners"
+        "1 facet normals left out because they are not perpendicular to their facets"
     );
 }
 
@@ -194,7 +200,7 @@ fn bytes_behind_the_last_facet_are_noted() {
     bytes[1] = 0;
     let (polygons, notes) = found(&bytes);
     assert_eq!(polygons.n_faces(), 1);
-    assert_eq!(notes[0], "4 bytes behind the last facet left out");
+    assert_eq!(notes[0], "4 bytes after the last facet left out");
 }
 
 #[test]
@@ -254,7 +260,7 @@ fn written_normals_are_unit_and_agree() {
     }
     assert_eq!(
         found(bytes).1,
-        ["60 corners became 12 vertices by equal positions"]
+        ["60 corners merged into 12 vertices by equal positions"]
     );
 }
 
@@ -347,15 +353,15 @@ fn counts_that_the_file_cannot_hold_are_refused_at_once() {
     bytes[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
     assert_error(
         &bytes,
-        " byte 80: expected 4294967295 facets (214748364834 bytes in all), found 134 bytes",
+        " byte 80: expected 4294967295 facets (214748364834 bytes in total), found a file of 134 bytes",
     );
     assert_error(
         b"",
-        " byte 0: expected `solid` or a header of 84 bytes, found 0 bytes",
+        " byte 0: expected `solid` or a binary file with at least 84 bytes, found 0 bytes",
     );
     assert_error(
         &binary(&[FLAT, NEXT])[..180],
-        " byte 80: expected 2 facets (184 bytes in all), found 180 bytes",
+        " byte 80: expected 2 facets (184 bytes in total), found a file of 180 bytes",
     );
 }
 

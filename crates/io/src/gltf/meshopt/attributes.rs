@@ -1,40 +1,41 @@
-//! Attributes: each byte of an element as the difference to that of the element before, in few bits.
+//! Attributes: each byte of an element is stored as a difference from the byte of the previous element, in few
+//! bits.
 //!
 //! ```text
-//! 0xa0 or 0xa1 | block | block | ... | zeros | the element before the first | modes of the channels
+//! 0xa0 or 0xa1 | block | block | ... | zeros | initial element | modes of the channels
 //!                |
 //!                up to 256 elements: | controls | byte 0 | byte 1 | ...
 //!                                                 |
 //!                                     2 bits for each 16 elements | 16 differences | 16 differences | ...
 //! ```
 //!
-//! A channel is four bytes of an element. Controls and modes are in version 1 (`0xa1`) only.
+//! A channel consists of four bytes of an element. Only version 1 (`0xa1`) has controls and modes.
 
 use super::input::Input;
 use crate::fault::Fault;
 
-/// Differences are stored for this many elements together.
+/// The number of elements whose differences are stored together.
 const GROUP: usize = 16;
-/// A block has no more bytes than this, ...
+/// A block has at most this number of bytes ...
 const BLOCK_BYTES: usize = 8192;
-/// ... and no more elements.
+/// ... and at most this number of elements.
 const BLOCK: usize = 256;
 
-/// How many bits a difference has for each of the four kinds of a group.
+/// The number of bits of a difference for each of the four kinds of groups.
 type Bits = [u8; 4];
 
 const VERSION_0: Bits = [0, 2, 4, 8];
 const FEW_BITS: Bits = [0, 1, 2, 4];
 const MORE_BITS: Bits = [1, 2, 4, 8];
 
-/// How the differences of a channel are meant.
+/// How the differences of a channel are encoded.
 #[derive(Clone, Copy)]
 enum Channel {
-    /// Each of four bytes.
+    /// Separately for each of four bytes.
     Bytes,
-    /// Each of two numbers of 16 bits.
+    /// Separately for each of two 16-bit numbers.
     Shorts,
-    /// Bits that differ, turned to the left by so many places.
+    /// As the bits that differ, rotated left by this number.
     Bits(u32),
 }
 
@@ -42,13 +43,13 @@ fn elements_in_block(stride: usize) -> usize {
     (BLOCK_BYTES / stride / GROUP * GROUP).min(BLOCK)
 }
 
-/// No stream of `count` elements of `stride` bytes, at most 256, is shorter than this. In blocks of nothing
-/// but zeros version 0 has 2 bits for each 16 bytes, version 1 has 2 bits for each byte of the element.
+/// A lower bound for the size of a stream of `count` elements of `stride` bytes, at most 256. In blocks of zeros,
+/// version 0 needs 2 bits for each 16 bytes, and version 1 needs 2 bits for each byte of an element.
 pub(super) fn shortest(count: u64, stride: u64) -> u64 {
     let stride = usize::try_from(stride).unwrap_or(BLOCK).clamp(1, BLOCK);
     let block = elements_in_block(stride) as u64;
     let controls = (stride / 4) as u64;
-    // Header and tail of version 1, which are the shorter ones.
+    // The header and the tail of version 1, which are shorter than those of version 0.
     let around = 1 + (stride + stride / 4).max(24) as u64;
     count
         .div_ceil(block)
@@ -60,7 +61,7 @@ pub(super) fn shortest(count: u64, stride: u64) -> u64 {
 ///
 /// # Errors
 ///
-/// The place at which the stream breaks the rules.
+/// The position at which the stream breaks the rules.
 pub(super) fn decode(stream: &[u8], stride: usize, out: &mut [u8]) -> Result<(), Fault> {
     let n_channels = stride / 4;
     let (is_old, in_tail) = match stream.first() {
@@ -113,7 +114,7 @@ pub(super) fn decode(stream: &[u8], stride: usize, out: &mut [u8]) -> Result<(),
     input.end()
 }
 
-/// The differences of one byte of `n` elements.
+/// Decodes the differences of one byte of `n` elements.
 fn groups(
     input: &mut Input,
     bits: Bits,
@@ -134,13 +135,13 @@ fn groups(
     Ok(())
 }
 
-/// Differences of 1, 2 or 4 bits; those with all bits set follow as bytes.
+/// Decodes differences of 1, 2 or 4 bits. Differences with all bits set are followed by a byte with their value.
 fn few_bits(input: &mut Input, bits: usize, group: &mut [u8; GROUP]) -> Result<(), Fault> {
     let packed = input.take(2 * bits)?;
     let (in_byte, all) = (8 / bits, (1 << bits) - 1);
     for (i, slot) in group.iter_mut().enumerate() {
         let place = match bits {
-            // Single bits begin with the lowest, pairs and fours with the highest.
+            // Single bits are stored from the lowest, groups of 2 and 4 bits from the highest.
             1 => i % in_byte,
             _ => bits * (in_byte - 1 - i % in_byte),
         };
@@ -152,19 +153,19 @@ fn few_bits(input: &mut Input, bits: usize, group: &mut [u8; GROUP]) -> Result<(
     Ok(())
 }
 
-/// What the mode of a channel says.
+/// Decodes the mode of a channel.
 fn channel(mode: u8) -> Result<Channel, String> {
     match (mode & 15, mode >> 4) {
         (0, 0) => Ok(Channel::Bytes),
         (1, 0) => Ok(Channel::Shorts),
         (2, turn) => Ok(Channel::Bits(turn.into())),
-        _ => Err(format!("no channel has the mode {mode:#04x}")),
+        _ => Err(format!("expected a valid channel mode, found {mode:#04x}")),
     }
 }
 
 impl Channel {
-    /// Adds differences up, into bytes 4 * `c` to 4 * `c` + 4 of each element of a block. `before` is the
-    /// element before, and the last one afterwards.
+    /// Adds differences up into bytes 4 * `c` to 4 * `c` + 4, exclusive, of each element of a block. `before` is
+    /// the previous element, and is set to the last element of the block.
     fn sum(
         self,
         before: &mut [u8; 4],
@@ -198,7 +199,7 @@ impl Channel {
     }
 }
 
-/// Makes each element's channel out of that of the one before and the differences.
+/// Computes the channel of each element from the previous element and the differences.
 #[inline]
 fn scan(
     before: &mut [u8; 4],

@@ -1,22 +1,22 @@
-//! Filters: what decoded attributes stand for, in place.
+//! Filters, which convert decoded attributes in place.
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "values are rounded before, and the nearest inside is taken"
+    reason = "values are already rounded, and casts saturate"
 )]
 
 use serde::Deserialize;
 
 use crate::parallel;
 
-/// How many bytes are looked at by one task.
+/// The number of bytes that a task processes.
 const BLOCK: usize = 1 << 15;
 
-/// What the elements are before they are what the accessors say.
+/// The encoding of the elements before the filter is applied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
 pub(super) enum Filter {
-    /// That already.
+    /// The final values.
     #[default]
     None,
     /// Unit vectors as points of an octahedron.
@@ -25,12 +25,12 @@ pub(super) enum Filter {
     Quaternion,
     /// Floats as a mantissa of 24 bits and an exponent of 8.
     Exponential,
-    /// Colors as brightness and two differences.
+    /// Colors as luminance and two differences.
     Color,
 }
 
 impl Filter {
-    /// Whether there are such elements of `stride` bytes.
+    /// Whether the filter supports elements of `stride` bytes.
     pub(super) fn fits(self, stride: u64) -> bool {
         match self {
             Self::None => true,
@@ -40,7 +40,7 @@ impl Filter {
         }
     }
 
-    /// Turns elements into what they stand for.
+    /// Decodes elements in place.
     pub(super) fn apply(self, bytes: &mut [u8], stride: usize) {
         match (self, stride) {
             (Self::None, _) => {}
@@ -80,9 +80,9 @@ impl Filter {
 }
 
 /// Applies `turn` to each N bytes, in parallel.
-fn each<const N: usize>(bytes: &mut [u8], turn: impl Fn(&mut [u8; N]) + Sync) {
+fn each<const N: usize>(bytes: &mut [u8], convert: impl Fn(&mut [u8; N]) + Sync) {
     parallel::consume(bytes.chunks_mut(BLOCK), |_, block| {
-        block.as_chunks_mut().0.iter_mut().for_each(&turn);
+        block.as_chunks_mut().0.iter_mut().for_each(&convert);
     });
 }
 
@@ -98,12 +98,12 @@ fn to_bytes(values: [u16; 4]) -> [u8; 8] {
 
 /// The unit vector at (x, y) of the unfolded octahedron, times `largest` and rounded.
 ///
-/// The third number says what 1 is. Cigolle et al., "A Survey of Efficient Representations for Independent
-/// Unit Vectors", 2014, section 3.3.
+/// The third number is the representation of 1. Cigolle et al., "A Survey of Efficient Representations for
+/// Independent Unit Vectors", 2014, section 3.3.
 fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
     let (x, y) = (x / one, y / one);
     let z = 1.0 - x.abs() - y.abs();
-    // The lower half is folded over the edges of the upper one.
+    // The lower half is folded over the edges of the upper half.
     let fold = z.min(0.0);
     let (x, y) = (x - fold.copysign(x), y - fold.copysign(y));
     let length = (x * x + y * y + z * z).sqrt();
@@ -112,7 +112,7 @@ fn octahedral([x, y, one]: [f32; 3], largest: f32) -> [f32; 3] {
 
 /// The unit quaternion whose largest component is left out, times 32767 and rounded.
 ///
-/// The last number says what 1 is, and in its lowest bits which component is the largest.
+/// The last number is the representation of 1. Its lowest two bits are the index of the largest component.
 fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
     let one = f32::from(last | 3);
     let [x, y, z] = [x, y, z].map(|x| f32::from(x) / one * std::f32::consts::FRAC_1_SQRT_2);
@@ -122,21 +122,22 @@ fn quaternion([x, y, z, last]: [i16; 4]) -> [f32; 4] {
     quaternion
 }
 
-/// The mantissa in the lower 24 bits times 2 to the exponent in the upper 8; infinite if that is too large.
+/// The mantissa in the lower 24 bits times 2 to the power of the exponent in the upper 8; infinite if the result is
+/// too large.
 fn exponential(bits: i32) -> f32 {
     let (exponent, mantissa) = (bits >> 24, bits << 8 >> 8);
-    // With 64 bits it is exact, whatever the exponent.
+    // In 64 bits the result is exact for any exponent.
     libm::ldexp(f64::from(mantissa), exponent) as f32
 }
 
-/// Red, green, blue and alpha up to `largest`, rounded, of brightness and differences: the top bit of alpha
-/// says how many bits they have.
+/// Decodes luminance and differences to rounded red, green, blue and alpha from 0 to `largest`. The highest set bit
+/// of `a` determines the number of bits of the values.
 fn color(y: i32, co: i32, cg: i32, a: i32, largest: f32) -> [f32; 4] {
     let bits = i32::BITS - a.leading_zeros();
     let all = (1 << bits) - 1;
     let alpha = a & (all >> 1);
     let alpha = (alpha << 1) | (alpha & 1);
-    // Without bits nothing is known.
+    // If `a` is 0, the number of bits is unknown.
     let scale = largest / (all.max(1) as f32);
     [y + co - cg, y + cg, y - co - cg, alpha].map(|x| (x as f32 * scale).round())
 }

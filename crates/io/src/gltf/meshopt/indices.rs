@@ -1,27 +1,27 @@
-//! Indices in any order: differences to one of two numbers.
+//! Indices in any order, each stored as a difference from one of two previous indices.
 //!
 //! ```text
 //! 0xd1 | a number for each index | 4 bytes
 //! ```
 //!
-//! The lowest bit of a number says which of the two it goes on from, the others how far.
+//! The lowest bit of a number selects one of the two previous indices, and the other bits are the difference.
 
 use super::input::{Input, header, zigzag};
 use crate::fault::Fault;
 
-/// The length of the end, which says nothing.
+/// The length of the tail, which has no content.
 const TAIL: u8 = 4;
 
-/// The shortest stream of `count` indices, in bytes.
+/// A lower bound for the size of a stream of `count` indices, in bytes.
 pub(super) fn shortest(count: u64) -> u64 {
     count.saturating_add(1 + u64::from(TAIL))
 }
 
-/// Decodes an index for each of the slots.
+/// Decodes an index for each slot.
 ///
 /// # Errors
 ///
-/// The place at which the stream breaks the rules.
+/// The position at which the stream breaks the rules.
 pub(super) fn decode(
     stream: &[u8],
     slots: impl Iterator<Item = impl FnOnce(u32)>,

@@ -1,4 +1,4 @@
-//! The bytes of a compressed stream.
+//! Reading the bytes of a compressed stream.
 
 use crate::fault::Fault;
 
@@ -9,11 +9,11 @@ pub(super) struct Input<'a> {
 }
 
 impl<'a> Input<'a> {
-    /// Stands behind the first byte; ends `tail` bytes before the end.
+    /// Starts after the first byte, and ends `tail` bytes before the end.
     ///
     /// # Errors
     ///
-    /// If the stream is shorter than that.
+    /// If the stream is too short for that.
     pub(super) fn new(stream: &'a [u8], tail: usize) -> Result<Self, Fault> {
         let end = stream.len().checked_sub(tail).filter(|&end| end > 0);
         let end = end.ok_or_else(|| {
@@ -40,7 +40,7 @@ impl<'a> Input<'a> {
         Ok(self.take(1)?[0])
     }
 
-    /// A number in groups of 7 bits, the lowest first; each byte but the last one has its top bit set.
+    /// Reads a number in groups of 7 bits, the lowest first. Each byte except the last has its highest bit set.
     pub(super) fn number(&mut self) -> Result<u32, Fault> {
         let start = self.at;
         let mut number = 0;
@@ -54,13 +54,15 @@ impl<'a> Input<'a> {
         Err(Fault::byte(start, "expected a number of at most 5 bytes"))
     }
 
+    /// Checks that the input is completely read.
+    ///
     /// # Errors
     ///
-    /// If something is left.
+    /// If bytes are left.
     pub(super) fn end(&self) -> Result<(), Fault> {
         let left = self.bytes.len() - self.at;
         if left > 0 {
-            let message = format!("expected the end, found {left} more bytes");
+            let message = format!("expected the end of the data, found {left} more bytes");
             return Err(Fault::byte(self.at, message));
         }
         Ok(())
@@ -79,7 +81,7 @@ pub(super) fn header(stream: &[u8], expected: u8) -> Result<(), Fault> {
     }
 }
 
-/// The signed difference behind a number: 0, -1, 1, -2, ...
+/// The signed difference that a number encodes: 0, -1, 1, -2 and so on.
 pub(super) fn zigzag(v: u32) -> u32 {
     (v >> 1) ^ (v & 1).wrapping_neg()
 }

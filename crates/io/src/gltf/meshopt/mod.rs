@@ -1,15 +1,15 @@
 //! Compressed buffer views: `EXT_meshopt_compression` and `KHR_meshopt_compression`.
 //!
 //! ```text
-//! buffer view     count * byteStride bytes, as if they lay in its buffer
-//!  `- extension   buffer, byteOffset, byteLength: where the stream lies
+//! buffer view     count * byteStride decoded bytes, as if they were in its buffer
+//!  `- extension   buffer, byteOffset, byteLength: the location of the stream
 //!                 mode:   ATTRIBUTES, TRIANGLES or INDICES
 //!                 filter: NONE, OCTAHEDRAL, QUATERNION, EXPONENTIAL or COLOR
 //! ```
 //!
-//! Both extensions are read the same way: the second one adds version 1 of the attributes and the filter of
-//! colors. The codecs follow appendix A of Kapoulkine et al., "`KHR_meshopt_compression`", Khronos Group,
-//! 2025, the filters appendix B.
+//! Both extensions are read the same way. The second one adds version 1 of the attribute codec and the color
+//! filter. The codecs follow appendix A of Kapoulkine et al., "`KHR_meshopt_compression`", Khronos Group, 2025, the
+//! filters appendix B.
 
 mod attributes;
 mod filters;
@@ -23,16 +23,16 @@ use gltf_json::buffer::View;
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::fault::{At, Fault};
+use crate::fault::{Fault, Location};
 use filters::Filter;
 
 /// The names of the extension.
 pub(super) const MESHOPT: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
-/// The longest element, in bytes.
+/// The largest size of an element in bytes.
 const LONGEST: u64 = 256;
 
-/// What the extension says about a buffer view.
+/// The content of the extension of a buffer view.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Compressed {
@@ -43,12 +43,12 @@ pub(super) struct Compressed {
     /// The length of the stream.
     pub(super) byte_length: u64,
     byte_stride: u64,
-    /// How many elements there are.
+    /// The number of elements.
     count: u64,
     mode: Mode,
     #[serde(default)]
     filter: Filter,
-    /// Which of the two extensions it is.
+    /// The name of the extension that the document uses.
     #[serde(skip)]
     pub(super) extension: &'static str,
 }
@@ -61,11 +61,11 @@ enum Mode {
     Indices,
 }
 
-/// What the extensions say about each of the buffer views in the document.
+/// Reads the extensions of each buffer view in the document.
 ///
 /// # Errors
 ///
-/// The first that is not what it should be.
+/// The first invalid extension.
 pub(super) fn compressed(views: &[Value]) -> Result<Vec<Option<Compressed>>, Fault> {
     let one = |(i, view): (usize, &Value)| {
         let Some((extension, json)) = extension(view) else {
@@ -85,24 +85,24 @@ fn extension(of: &Value) -> Option<(&'static str, &Value)> {
         .find_map(|&name| Some((name, extensions.get(name)?)))
 }
 
-/// Where the document says how buffer view number `view` is compressed.
+/// The JSON pointer to the extension of buffer view number `view`.
 pub(super) fn pointer(view: usize, extension: &str) -> String {
     format!("/bufferViews/{view}/extensions/{extension}")
 }
 
-/// For each buffer whether nothing is ever read of it: it says so, or only the places of compressed views
-/// are in it.
+/// For each buffer, whether it is never read, because it is declared as a fallback or is only used by the
+/// uncompressed ranges of compressed views.
 pub(super) fn fallbacks(
     buffers: &[Value],
     views: &[View],
     compressed: &[Option<Compressed>],
 ) -> Vec<bool> {
-    let mut stands_in = vec![false; buffers.len()];
+    let mut is_uncompressed_range = vec![false; buffers.len()];
     let mut is_read = vec![false; buffers.len()];
     for (view, compressed) in views.iter().zip(compressed) {
         let buffer = view.buffer.value();
         let (flags, stream) = match compressed {
-            Some(compressed) => (&mut stands_in, Some(compressed.buffer)),
+            Some(compressed) => (&mut is_uncompressed_range, Some(compressed.buffer)),
             None => (&mut is_read, None),
         };
         if let Some(flag) = flags.get_mut(buffer) {
@@ -112,23 +112,25 @@ pub(super) fn fallbacks(
             *flag = true;
         }
     }
-    let says_so = |buffer| {
+    let is_declared = |buffer| {
         let json = extension(buffer).and_then(|(_, json)| json.get("fallback"));
         json == Some(&Value::Bool(true))
     };
-    let both = stands_in.into_iter().zip(is_read);
+    let both = is_uncompressed_range.into_iter().zip(is_read);
     both.zip(buffers)
-        .map(|((stands_in, is_read), buffer)| says_so(buffer) || stands_in && !is_read)
+        .map(|((is_uncompressed_range, is_read), buffer)| {
+            is_declared(buffer) || is_uncompressed_range && !is_read
+        })
         .collect()
 }
 
 impl Compressed {
-    /// How many bytes the stream becomes.
+    /// The number of bytes to which the stream is decoded.
     ///
     /// # Errors
     ///
-    /// That is impossible: the extension, whose place is `pointer`, breaks its rules, does not agree with the view,
-    /// or promises more than any stream of this length holds.
+    /// If the extension at `pointer` breaks its rules, does not match the view, or declares more data than a stream
+    /// of its size can contain.
     pub(super) fn decoded_length(&self, view: &View, pointer: &str) -> Result<u64, Fault> {
         let (stride, count) = (self.byte_stride, self.count);
         let (allowed, expected) = match self.mode {
@@ -151,14 +153,16 @@ impl Compressed {
             Mode::Indices => indices::shortest(count),
         };
         let message = if !allowed {
-            format!("expected {expected} as byteStride, found {stride}")
+            format!("expected byteStride to be {expected}, found {stride}")
         } else if !filter_fits {
             let filter = self.filter;
-            format!("the filter {filter:?} is not for elements of {stride} bytes in this mode")
+            format!(
+                "the filter {filter:?} does not support elements of {stride} bytes in this mode"
+            )
         } else if self.mode == Mode::Triangles && !count.is_multiple_of(3) {
-            format!("expected a multiple of 3 as count, found {count}")
+            format!("expected count to be a multiple of 3, found {count}")
         } else if view_stride != stride {
-            format!("the byteStride {stride} is not that of the buffer view")
+            format!("expected the byteStride {view_stride} of the buffer view, found {stride}")
         } else if let Some(length) = length {
             if least() <= self.byte_length {
                 return Ok(length);
@@ -170,17 +174,18 @@ impl Compressed {
             )
         } else {
             format!(
-                "{count} elements of {stride} bytes are not the {view_length} bytes of the buffer view"
+                "{count} elements of {stride} bytes do not match the {view_length} bytes of the buffer view"
             )
         };
         Err(Fault::json(pointer, message))
     }
 
-    /// Decodes the stream into `length` bytes, which [`decoded_length`](Self::decoded_length) said.
+    /// Decodes the stream into `length` bytes, where `length` is the result of
+    /// [`decoded_length`](Self::decoded_length).
     ///
     /// # Errors
     ///
-    /// The byte at which it breaks the rules, and which.
+    /// The byte at which the stream breaks the rules, and the rule.
     pub(super) fn decode(
         &self,
         stream: &[u8],
@@ -188,7 +193,7 @@ impl Compressed {
         pointer: &str,
     ) -> Result<Vec<u8>, Fault> {
         let mut decoded = mesh::zeroed::<u8>(length);
-        // It is between 2 and 256.
+        // The stride is between 2 and 256.
         let stride = usize::try_from(self.byte_stride).unwrap_or(4);
         let result = match (self.mode, stride) {
             (Mode::Attributes, _) => attributes::decode(stream, stride, &mut decoded),
@@ -198,7 +203,9 @@ impl Compressed {
             (Mode::Indices, _) => indices::decode(stream, longs(&mut decoded)),
         };
         result.map_err(|Fault { at, message }| match at {
-            At::Byte(at) => Fault::json(pointer, format!("byte {at} of the stream: {message}")),
+            Location::Byte(at) => {
+                Fault::json(pointer, format!("byte {at} of the stream: {message}"))
+            }
             at => Fault { at, message },
         })?;
         self.filter.apply(&mut decoded, stride);
@@ -206,7 +213,7 @@ impl Compressed {
     }
 }
 
-/// Places for indices of 16 bits: what is above is cut off.
+/// Slots for 16-bit indices. Higher bits are dropped.
 fn shorts(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     let slots = bytes.as_chunks_mut::<2>().0.iter_mut();
     slots.map(|slot| {
@@ -217,7 +224,7 @@ fn shorts(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     })
 }
 
-/// Places for indices of 32 bits.
+/// Slots for 32-bit indices.
 fn longs(bytes: &mut [u8]) -> impl Iterator<Item = impl FnOnce(u32)> {
     let slots = bytes.as_chunks_mut::<4>().0.iter_mut();
     slots.map(|slot| move |i: u32| *slot = i.to_le_bytes())

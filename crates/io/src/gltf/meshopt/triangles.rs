@@ -1,26 +1,26 @@
-//! Triangles: most continue from an edge of one of the last triangles, with a vertex that is next in turn
-//! or was there lately.
+//! Triangles: most triangles share an edge with one of the last triangles and add a new vertex or a recently used
+//! one.
 //!
 //! ```text
-//! 0xe1 | a code for each triangle | numbers | 16 pairs of halves of a byte
+//! 0xe1 | a code for each triangle | numbers | table of 16 bytes, each a pair of 4-bit values
 //! ```
 
 use super::input::{Input, header, zigzag};
 use crate::fault::Fault;
 
-/// The length of the table of pairs at the end.
+/// The size of the table of pairs at the end.
 const TABLE: u8 = 16;
 
-/// The shortest stream of triangles with `count` corners, in bytes.
+/// A lower bound for the size of a stream of triangles with `count` corners, in bytes.
 pub(super) fn shortest(count: u64) -> u64 {
     (count / 3).saturating_add(1 + u64::from(TABLE))
 }
 
-/// Decodes `n` triangles into the slots, three for each.
+/// Decodes `n` triangles, each into three slots.
 ///
 /// # Errors
 ///
-/// The place at which the stream breaks the rules.
+/// The position at which the stream breaks the rules.
 pub(super) fn decode(
     stream: &[u8],
     n: usize,
@@ -39,11 +39,13 @@ pub(super) fn decode(
         vertices: Recent::new(),
     };
     for (i, &code) in codes.iter().enumerate() {
-        let triangle = state.triangle(code, table).map_err(|wrong| match wrong {
-            Wrong::Stream(broken) => broken,
-            Wrong::Code => Fault::byte(
+        let triangle = state.triangle(code, table).map_err(|error| match error {
+            TriangleError::Stream(fault) => fault,
+            TriangleError::Code => Fault::byte(
                 first + i,
-                format!("the code {code:#04x} refers to an edge or a vertex before the first"),
+                format!(
+                    "the code {code:#04x} refers to an edge or a vertex before the first triangle"
+                ),
             ),
         })?;
         for (index, slot) in triangle.into_iter().zip(&mut slots) {
@@ -53,31 +55,31 @@ pub(super) fn decode(
     state.input.end()
 }
 
-/// Why there is no triangle for a code.
-enum Wrong {
-    /// It refers to what has not been there.
+/// Why a code cannot be decoded.
+enum TriangleError {
+    /// The code refers to an edge or a vertex before the first triangle.
     Code,
     Stream(Fault),
 }
 
-impl From<Fault> for Wrong {
-    fn from(broken: Fault) -> Self {
-        Self::Stream(broken)
+impl From<Fault> for TriangleError {
+    fn from(fault: Fault) -> Self {
+        Self::Stream(fault)
     }
 }
 
 struct State<'a> {
     input: Input<'a>,
-    /// The first vertex that has not been there.
+    /// The next vertex that has not been used.
     next: u32,
-    /// The last vertex that was spelled out.
+    /// The last vertex that was stored explicitly.
     last: u32,
     edges: Recent<[u32; 2]>,
     vertices: Recent<u32>,
 }
 
 impl State<'_> {
-    fn triangle(&mut self, code: u8, table: &[u8]) -> Result<[u32; 3], Wrong> {
+    fn triangle(&mut self, code: u8, table: &[u8]) -> Result<[u32; 3], TriangleError> {
         let (high, low) = (code >> 4, code & 15);
         if high < 15 {
             return self.beside(high, low);
@@ -92,9 +94,9 @@ impl State<'_> {
             self.next = 0;
         }
         let a = if code == 0xff {
-            self.spelled_out()?
+            self.explicit_vertex()?
         } else {
-            self.unseen()
+            self.new_vertex()
         };
         let (z, w) = (pair >> 4, pair & 15);
         let b = self.vertex(z)?;
@@ -111,12 +113,12 @@ impl State<'_> {
         Ok([a, b, c])
     }
 
-    /// A triangle at one of the last edges.
-    fn beside(&mut self, edge: u8, third: u8) -> Result<[u32; 3], Wrong> {
-        let [a, b] = self.edges.get(edge).ok_or(Wrong::Code)?;
+    /// Decodes a triangle at one of the last edges.
+    fn beside(&mut self, edge: u8, third: u8) -> Result<[u32; 3], TriangleError> {
+        let [a, b] = self.edges.get(edge).ok_or(TriangleError::Code)?;
         let c = match third {
-            0 => self.unseen(),
-            1..13 => self.vertices.get(third).ok_or(Wrong::Code)?,
+            0 => self.new_vertex(),
+            1..13 => self.vertices.get(third).ok_or(TriangleError::Code)?,
             13 => {
                 self.last = self.last.wrapping_sub(1);
                 self.last
@@ -125,7 +127,7 @@ impl State<'_> {
                 self.last = self.last.wrapping_add(1);
                 self.last
             }
-            _ => self.spelled_out()?,
+            _ => self.explicit_vertex()?,
         };
         self.edges.push([c, b]);
         self.edges.push([a, c]);
@@ -135,32 +137,32 @@ impl State<'_> {
         Ok([a, b, c])
     }
 
-    fn unseen(&mut self) -> u32 {
-        let unseen = self.next;
-        self.next = unseen.wrapping_add(1);
-        unseen
+    fn new_vertex(&mut self) -> u32 {
+        let vertex = self.next;
+        self.next = vertex.wrapping_add(1);
+        vertex
     }
 
-    /// The vertex that half a byte stands for.
-    fn vertex(&mut self, half: u8) -> Result<u32, Wrong> {
+    /// The vertex that a 4-bit value refers to.
+    fn vertex(&mut self, half: u8) -> Result<u32, TriangleError> {
         match half {
-            0 => Ok(self.unseen()),
-            15 => Ok(self.spelled_out()?),
-            _ => self.vertices.get(half - 1).ok_or(Wrong::Code),
+            0 => Ok(self.new_vertex()),
+            15 => Ok(self.explicit_vertex()?),
+            _ => self.vertices.get(half - 1).ok_or(TriangleError::Code),
         }
     }
 
-    fn spelled_out(&mut self) -> Result<u32, Fault> {
+    fn explicit_vertex(&mut self) -> Result<u32, Fault> {
         let number = self.input.number()?;
         self.last = self.last.wrapping_add(zigzag(number));
         Ok(self.last)
     }
 }
 
-/// The last 16 of what has been there.
+/// The last 16 values.
 struct Recent<T> {
     all: [T; 16],
-    /// How many have been there.
+    /// The total number of values so far.
     n: usize,
 }
 
@@ -177,7 +179,7 @@ impl<T: Copy + Default> Recent<T> {
         self.n += 1;
     }
 
-    /// The one that came `back` before the latest.
+    /// The value that was added `back` values before the latest one.
     fn get(&self, back: u8) -> Option<T> {
         let place = self.n.checked_sub(1 + usize::from(back))?;
         Some(self.all[place % 16])

@@ -1,4 +1,4 @@
-//! The statements of OBJ files, by themselves and in parts.
+//! Parsing the statements of OBJ files, as a whole and in parts.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ fn read(text: &str) -> ObjFile {
 }
 
 #[test]
-fn polygons_of_any_degree_stay_whole_and_in_order() {
+fn polygons_of_any_degree_keep_their_corners_and_order() {
     let file = read("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nf 1 2 3 4\nf 3 2 1\n");
     assert_eq!(file.positions.len(), 5);
     assert_eq!(file.offsets, [0, 4, 7]);
@@ -48,7 +48,7 @@ fn negative_indices_count_back_from_the_line() {
 }
 
 #[test]
-fn vertices_may_come_after_the_faces_that_use_them() {
+fn vertices_can_come_after_the_faces_that_use_them() {
     assert_eq!(read(&format!("f 1 2 3\n{TRIANGLE}")).corners[0], [0, 1, 2]);
 }
 
@@ -69,7 +69,7 @@ fn colors_and_weights_follow_the_coordinates() {
 }
 
 #[test]
-fn line_ends_tabs_continuations_and_exponents_are_understood() {
+fn line_ends_tabs_continuations_and_exponents_are_parsed() {
     let file = read(
         "\u{feff}# art \\\r\nv\t1e2 -2.5E-1 +3 # here\rv 0 0 \\\n  1\r\n\nv 1 1 1\nf 1 \\\r\n2 3",
     );
@@ -80,7 +80,7 @@ fn line_ends_tabs_continuations_and_exponents_are_understood() {
 }
 
 #[test]
-fn runs_say_groups_object_material_and_smoothing() {
+fn runs_hold_groups_object_material_and_smoothing() {
     let file = read(&format!(
         "{TRIANGLE}f 1 2 3\no my thing\ng b a b\nusemtl red paint\ns 3\nf 1 2 3\nf 1 2 3\n\
          g b a\nf 1 2 3\ng\ns off\nusemtl (null)\nf 1 2 3\ng # comment\nf 1 2 3\n"
@@ -105,7 +105,7 @@ fn runs_say_groups_object_material_and_smoothing() {
 }
 
 #[test]
-fn what_is_left_out_is_counted_with_its_first_line() {
+fn content_left_out_is_counted_with_its_first_line() {
     let file = read(&format!(
         "{TRIANGLE}vp 1 2\nvp 1 2\ncstype bezier\nwhatever\np 1 2 -1\nl 1 2 3/1\nvt 0 0 0.5\n\
          f 1 2\n"
@@ -123,7 +123,7 @@ fn what_is_left_out_is_counted_with_its_first_line() {
 }
 
 #[test]
-fn broken_files_are_refused_at_the_line() {
+fn errors_name_the_line_and_column() {
     for (text, line, column, words) in [
         ("v 0 0", 4, 1, "found 2 numbers"),
         ("v 0 0 0 1 1", 4, 1, "found 5 numbers"),
@@ -135,30 +135,25 @@ fn broken_files_are_refused_at_the_line() {
         ("vt", 4, 1, "found none"),
         ("vt 0 0 0 0", 4, 1, "at most 3"),
         ("vn 0 0", 4, 1, "found 2"),
-        ("f 1 2 0", 4, 7, "count from 1"),
-        (
-            "f 1 2 4",
-            4,
-            7,
-            "vertex 4, but 3 vertices are defined in the file",
-        ),
+        ("f 1 2 0", 4, 7, "start at 1"),
+        ("f 1 2 4", 4, 7, "vertex 4, but the file defines 3 vertices"),
         (
             "f 1 2 -4",
             4,
             7,
-            "vertex -4, but 3 vertices are defined so far",
+            "vertex -4, but the file defines 3 vertices before this line",
         ),
         (
             "f 1 2 3/1",
             4,
             7,
-            "texture coordinate 1, but 0 texture coordinates",
+            "texture coordinate 1, but the file defines 0 texture coordinates",
         ),
         (
             "f 1 2 3//2\nvn 0 0 1",
             4,
             7,
-            "normal 2, but 1 normals are defined in the file",
+            "normal 2, but the file defines 1 normal",
         ),
         ("f 1 2 3 \\\n 99999999999", 5, 2, "vertex 99999999999, but"),
         ("f 1 2 99999999999999999999", 4, 7, "expected a corner"),
@@ -184,13 +179,13 @@ fn broken_files_are_refused_at_the_line() {
 }
 
 #[test]
-fn another_kind_of_file_is_refused() {
+fn a_file_of_another_format_is_refused() {
     let error = parse(b"# hello\nsolid thing\n").unwrap_err();
     assert_eq!(error.place().0, 2);
     assert!(parse(b"# nothing\n").is_ok());
 }
 
-/// What a file holds, or why it is refused, read in one piece by the general way alone.
+/// Parses a file as a whole and without parts.
 fn in_order(bytes: &[u8]) -> Result<ObjFile, Fault> {
     let file = join(vec![parse_whole(bytes)?]);
     match first_unknown(&file) {
@@ -199,10 +194,14 @@ fn in_order(bytes: &[u8]) -> Result<ObjFile, Fault> {
     }
 }
 
-fn assert_parts_do_not_matter(bytes: &[u8]) {
+fn assert_independent_of_parts(bytes: &[u8]) {
     let expected = in_order(bytes);
     for size in [1, 2, 3, 5, 8, 13, 21, 34, 55, 1000, PART] {
-        assert_eq!(parse_in_parts(bytes, size), expected, "parts of {size}");
+        assert_eq!(
+            parse_in_parts(bytes, size),
+            expected,
+            "parts of {size} bytes"
+        );
     }
 }
 
@@ -225,14 +224,14 @@ fn parts_end_with_lines_that_are_not_continued() {
 }
 
 #[test]
-fn names_runs_and_relative_indices_go_on_from_part_to_part() {
+fn names_runs_and_relative_indices_continue_across_parts() {
     let text = format!(
         "\u{feff}# art\n{TRIANGLE}vt 0 0\nvn 0 0 1\no a\ng x y\nusemtl m\ns 1\nf 1 2 3\n\
          f -3/-1 -2 -1//-1\nmtllib a.mtl\nv 1 1 1 1 0 0\ng y\nf -2 -1 -4\nusemtl\ng y x\n\
          l -1 -2 1\nf 1/1/1 2/1/1 3/1/1\no b\nvp 1\nwhat 1\ns off\no a\nusemtl m\n\
          p -1 4\nf 2 3 4 5\nv 5 5 5\nf 3 4 -1\nvp 2\nmtllib b.mtl\nf 3 4 5"
     );
-    assert_parts_do_not_matter(text.as_bytes());
+    assert_independent_of_parts(text.as_bytes());
     let file = parse_in_parts(text.as_bytes(), 1).unwrap();
     assert_eq!(file.offsets.len() - 1, 7);
     assert_eq!(file.corners[0][3..9], [0, 1, 2, 2, 3, 0]);
@@ -244,7 +243,7 @@ fn names_runs_and_relative_indices_go_on_from_part_to_part() {
 }
 
 #[test]
-fn the_first_error_is_reported_wherever_the_parts_end() {
+fn the_first_error_is_reported_independently_of_the_parts() {
     for text in [
         "v 0 0 0\nv 0 0\nv 0\nf 1 2 0\n",
         "v 0 0 0\nf 1 1 -2\nv 0 0\n",
@@ -256,15 +255,15 @@ fn the_first_error_is_reported_wherever_the_parts_end() {
         "one\ntwo\nvn 0 0 1\n",
     ] {
         assert!(in_order(text.as_bytes()).is_err(), "{text}");
-        assert_parts_do_not_matter(text.as_bytes());
+        assert_independent_of_parts(text.as_bytes());
     }
 }
 
 #[test]
-fn the_first_unknown_words_are_listed_wherever_the_parts_end() {
+fn the_first_unknown_words_are_listed_independently_of_the_parts() {
     let words: Vec<String> = (0..40).map(|i| format!("w{}", i * i % 13)).collect();
     let text = format!("v 0 0 0\n{}\nw3\nzz\n", words.join("\n"));
-    assert_parts_do_not_matter(text.as_bytes());
+    assert_independent_of_parts(text.as_bytes());
 }
 
 #[test]
@@ -280,7 +279,7 @@ fn a_line_of_ten_megabytes_is_one_face() {
 }
 
 #[test]
-fn threads_do_not_matter() {
+fn the_result_does_not_depend_on_the_number_of_threads() {
     let mut text = String::from(TRIANGLE);
     for i in 0..60_000 {
         text += &format!("v {i} 0.1 1e-3\ng g{}\nf -1 -2 {}\n", i % 7, 1 + i % 50);
@@ -296,7 +295,7 @@ fn threads_do_not_matter() {
     }
 }
 
-/// Lines of all kinds, most of them right.
+/// Lines of all kinds, most of them valid.
 const LINES: &str = "(v( -?[0-9]{1,2}(\\.[0-9]{1,20})?){3}( [01]){0,4}|vt( [0-9]\\.[0-9]{1,3}){1,3}|\
     vn( -?[0-9]){3}|f( {1,2}-?[1-9]{1,2}){2,5}|f( [1-4]/[1-3]){3,4}|f( -?[1-3]//-?[1-3]){3}|\
     f( [1-3]/-?[1-2]/[1-3]){3}|l( -?[1-3]){1,3}|p 1 -1|g( [a-d]){0,3}|o [ab]{0,2}|usemtl [a-c]?|\
@@ -307,7 +306,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
     #[test]
-    fn the_parts_of_a_file_do_not_matter(
+    fn the_result_does_not_depend_on_the_parts(
         start in "(v 1 2 3\n){0,9}(vt 0 0\n){0,3}(vn 0 0 1\n){0,3}",
         lines in prop::collection::vec(LINES, 0..30),
         size in 1..200_usize,
@@ -321,12 +320,12 @@ proptest! {
 
 proptest! {
     #[test]
-    fn any_bytes_are_read_or_refused(
+    fn random_bytes_give_the_same_result_in_parts(
         bytes: Vec<u8>,
         text in "((v|vt|vn|f|l|p|g|o|s|usemtl|mtllib|x)[ \t/0-9a.\\\\\r\\-]{0,12}\n){0,30}",
     ) {
-        assert_parts_do_not_matter(&bytes);
-        assert_parts_do_not_matter(text.as_bytes());
+        assert_independent_of_parts(&bytes);
+        assert_independent_of_parts(text.as_bytes());
         super::super::peek(&bytes);
         super::super::peek(text.as_bytes());
     }

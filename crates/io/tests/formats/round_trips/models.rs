@@ -145,11 +145,11 @@ fn geometry() -> Vec<Feature> {
     vec![
         feature("coordinates", key(Vertex, "position"), moved(0.1)),
         feature(
-            "coordinates beyond 32 bits",
+            "coordinates beyond the range of 32 bits",
             key(Vertex, "position"),
             moved(1e300),
         ),
-        feature("-0 as coordinate", key(Vertex, "position"), moved(-0.0)),
+        feature("-0 as a coordinate", key(Vertex, "position"), moved(-0.0)),
         feature(
             "order of vertices and faces",
             key(None, "order"),
@@ -167,13 +167,13 @@ fn geometry() -> Vec<Feature> {
             one(mesh_of(isolated, &faces)),
         ),
         feature(
-            "several vertices at one place",
+            "coincident vertices",
             key(Vertex, "merged"),
             one(mesh_of(shared, &twice)),
         ),
-        feature("no vertices", key(None, "name"), one(Mesh::default())),
+        feature("mesh without vertices", key(None, "name"), one(Mesh::default())),
         feature(
-            "name of the only object",
+            "name of a single object",
             key(None, "name"),
             vec![Object::mesh("thing", base())],
         ),
@@ -214,27 +214,27 @@ fn attributes() -> Vec<Feature> {
     let glass = |i: usize| color(i).with_w(0.5);
     vec![
         feature(
-            "normals of vertices",
+            "vertex normals",
             key(Vertex, "normal"),
             with(Vertex, "normal", Rule::Normal, unit),
         ),
         feature(
-            "normals of corners",
+            "corner normals",
             key(Corner, "normal"),
             with(Corner, "normal", Rule::Normal, unit),
         ),
         feature(
-            "normals of corners that agree",
+            "corner normals that agree at each vertex",
             key(None, "domain"),
             one(normals),
         ),
         feature(
-            "normals of vertices beside those of corners",
+            "vertex normals next to corner normals",
             key(Vertex, "normal"),
             one(both),
         ),
         feature(
-            "texture coordinates that agree",
+            "texture coordinates without seams",
             key(Corner, "uv"),
             one(agreeing),
         ),
@@ -244,33 +244,33 @@ fn attributes() -> Vec<Feature> {
             with(Corner, "uv", UV.rule, |h| DVec2::new(number(h), 0.25)),
         ),
         feature(
-            "texture coordinates of 64 bits",
+            "64-bit texture coordinates",
             key(Corner, "uv"),
             with(Corner, "uv", UV.rule, |h| DVec2::new(0.1 * number(h), 0.1)),
         ),
-        feature("further texture coordinates", key(Corner, "uv1"), one(sets)),
+        feature("additional sets of texture coordinates", key(Corner, "uv1"), one(sets)),
         feature(
-            "colors of vertices",
+            "vertex colors",
             key(Vertex, "color"),
             with(Vertex, "color", COLOR.rule, color),
         ),
         feature(
-            "alpha of vertices",
+            "vertex alpha",
             key(Vertex, "color"),
             with(Vertex, "color", COLOR.rule, glass),
         ),
         feature(
-            "colors of vertices beyond 1",
+            "vertex colors above 1",
             key(Vertex, "color"),
             with(Vertex, "color", COLOR.rule, |i| color(i) * 2.0),
         ),
         feature(
-            "colors of faces",
+            "face colors",
             key(Face, "color"),
             with(Face, "color", Rule::Copy, color),
         ),
         feature(
-            "tangents of vertices",
+            "vertex tangents",
             key(Vertex, "tangent"),
             with(Vertex, "tangent", TANGENT.rule, unit),
         ),
@@ -280,42 +280,42 @@ fn attributes() -> Vec<Feature> {
             with(Face, "smoothing", SMOOTHING.rule, |f| i32::from(f % 3 == 0)),
         ),
         feature(
-            "creases of edges",
+            "edge creases",
             key(Edge, "crease"),
             with(Edge, "crease", CREASE.rule, number),
         ),
         feature(
-            "sharp vertices",
+            "vertex sharpness",
             key(Vertex, "corner"),
             with(Vertex, "corner", VERTEX_SHARPNESS.rule, number),
         ),
         feature(
-            "tags of faces",
+            "face tags",
             key(Face, "left"),
             with(Face, "left", Rule::Copy, |f| f % 3 == 0),
         ),
         feature(
-            "tags of faces with odd names",
+            "face tags with special characters",
             key(Face, "a b"),
             with(Face, "a b", Rule::Copy, |f| f % 3 == 0),
         ),
         feature(
-            "tags of no faces",
+            "face tags without faces",
             key(Face, "none"),
             with(Face, "none", Rule::Copy, |_| false),
         ),
         feature(
-            "tags of vertices",
+            "vertex tags",
             key(Vertex, "left"),
             with(Vertex, "left", Rule::Copy, |v| v % 2 == 0),
         ),
         feature(
-            "tags of edges",
+            "edge tags",
             key(Edge, "left"),
             with(Edge, "left", Rule::Copy, |e| e % 2 == 0),
         ),
         feature(
-            "tags of corners",
+            "corner tags",
             key(Corner, "left"),
             with(Corner, "left", Rule::Copy, |h| h % 2 == 0),
         ),
@@ -371,16 +371,16 @@ fn materials() -> Vec<Feature> {
             mixed,
         ),
         feature("materials", material(), painted(vec![red.clone(), glass])),
-        feature("pictures in files", material(), with_uv(vec![red, wood])),
-        feature("pictures inside", material(), with_uv(vec![inside])),
+        feature("texture files", material(), with_uv(vec![red, wood])),
+        feature("embedded textures", material(), with_uv(vec![inside])),
         feature(
-            "alpha that cuts, both sides",
+            "alpha cutoff, double-sided materials",
             material(),
             painted(vec![cut_out]),
         ),
-        feature("materials without faces", material(), spare),
+        feature("unused materials", material(), spare),
         feature(
-            "materials that are not there",
+            "indices of missing materials",
             key(Domain::Face, "material"),
             unknown,
         ),
@@ -400,68 +400,68 @@ fn other_values() -> Vec<Feature> {
     column(&mut ruled, Vertex, "color", Rule::Drop, colors);
     vec![
         feature(
-            "other numbers of vertices",
+            "custom vertex floats",
             key(Vertex, "a b"),
             with(Vertex, "a b", is, number),
         ),
         feature(
-            "other numbers of corners",
+            "custom corner floats",
             key(Corner, "heat"),
             with(Corner, "heat", is, number),
         ),
         feature(
-            "other numbers of edges",
+            "custom edge floats",
             key(Edge, "heat"),
             with(Edge, "heat", is, number),
         ),
         feature(
-            "other numbers of faces",
+            "custom face floats",
             key(Face, "heat"),
             with(Face, "heat", is, number),
         ),
         feature(
-            "other numbers of 64 bits",
+            "custom 64-bit floats",
             key(Vertex, "heat"),
             with(Vertex, "heat", is, |i| 0.1 * number(i)),
         ),
         feature(
-            "other vectors of vertices",
+            "custom vertex vectors",
             key(Vertex, "wind"),
             with(Vertex, "wind", is, vec),
         ),
         feature(
-            "other vectors of corners",
+            "custom corner vectors",
             key(Corner, "wind"),
             with(Corner, "wind", is, vec),
         ),
         feature(
-            "other vectors of faces",
+            "custom face vectors",
             key(Face, "wind"),
             with(Face, "wind", is, vec),
         ),
         feature(
-            "whole numbers of vertices",
+            "custom vertex integers",
             key(Vertex, "n"),
             with(Vertex, "n", Rule::Copy, int),
         ),
         feature(
-            "whole numbers of corners",
+            "custom corner integers",
             key(Corner, "n"),
             with(Corner, "n", Rule::Copy, int),
         ),
         feature(
-            "whole numbers of edges",
+            "custom edge integers",
             key(Edge, "n"),
             with(Edge, "n", Rule::Copy, int),
         ),
         feature(
-            "whole numbers of faces",
+            "custom face integers",
             key(Face, "n"),
             with(Face, "n", Rule::Copy, int),
         ),
-        feature("what edits do with values", key(None, "rule"), one(ruled)),
+        feature("edit rules of attributes", key(None, "rule"), one(ruled)),
         feature(
-            "values that are not finite",
+            "non-finite values",
             key(Vertex, "heat"),
             with(Vertex, "heat", is, |i| {
                 if i == 2 { f64::INFINITY } else { number(i) }

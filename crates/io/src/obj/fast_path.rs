@@ -1,26 +1,24 @@
-//! The lines that OBJ files mostly consist of, read without the detours that the others need.
+//! A fast path for the common forms of `v`, `vt`, `vn` and `f` lines.
 //!
-//! What is taken here is what [`super::statement`] would make of it; whatever is unusual about a line
-//! leaves it to the general way, from the line's beginning.
+//! It gives the same result as [`super::statement`]. Any line in a less common form is left to
+//! [`super::statement`], which parses it from its beginning.
 
 use super::corner::Index;
 use super::parser::Parser;
 use crate::decimal::{leading_number, up_to_eight_digits};
 use crate::fault::Fault;
-use crate::text::{Place, is_blank};
+use crate::text::{TextPosition, is_blank};
 
 impl Parser<'_> {
-    /// Reads the line under the cursor if it is a usual `v`, `vt`, `vn` or `f`.
+    /// Parses the line at the cursor if it has the common form of `v`, `vt`, `vn` or `f`.
     #[inline]
-    pub(super) fn usual_line(&mut self) -> bool {
+    pub(super) fn fast_line(&mut self) -> bool {
         let line = self.cursor.ahead();
         let length = match line {
-            [b'v', blank, ..] if is_blank(*blank) => self.usual_numbers(line, 1, Self::vertex),
-            [b'f', blank, ..] if is_blank(*blank) => self.usual_face(line),
-            [b'v', b't', blank, ..] if is_blank(*blank) => self.usual_numbers(line, 2, Self::uv),
-            [b'v', b'n', blank, ..] if is_blank(*blank) => {
-                self.usual_numbers(line, 2, Self::normal)
-            }
+            [b'v', blank, ..] if is_blank(*blank) => self.fast_numbers(line, 1, Self::vertex),
+            [b'f', blank, ..] if is_blank(*blank) => self.fast_face(line),
+            [b'v', b't', blank, ..] if is_blank(*blank) => self.fast_numbers(line, 2, Self::uv),
+            [b'v', b'n', blank, ..] if is_blank(*blank) => self.fast_numbers(line, 2, Self::normal),
             _ => None,
         };
         let Some(length) = length else { return false };
@@ -29,21 +27,21 @@ impl Parser<'_> {
     }
 
     #[inline]
-    fn usual_numbers<const N: usize>(
+    fn fast_numbers<const N: usize>(
         &mut self,
         line: &[u8],
         at: usize,
-        take: impl Fn(&mut Self, Place, [f64; N], usize) -> Result<(), Fault>,
+        add: impl Fn(&mut Self, TextPosition, [f64; N], usize) -> Result<(), Fault>,
     ) -> Option<usize> {
         let (values, n, length) = numbers(line, at)?;
-        take(self, self.cursor.place(), values, n).ok()?;
+        add(self, self.cursor.place(), values, n).ok()?;
         Some(length)
     }
 
-    fn usual_face(&mut self, line: &[u8]) -> Option<usize> {
+    fn fast_face(&mut self, line: &[u8]) -> Option<usize> {
         let before = self.part.n_corners();
         let had = self.columns();
-        let length = self.usual_corners(line);
+        let length = self.fast_corners(line);
         if length.is_none() || self.part.n_corners() - before < 3 {
             self.part.truncate_corners(before, had);
             return None;
@@ -52,9 +50,9 @@ impl Parser<'_> {
         length
     }
 
-    /// Appends the corners of a face, some of them perhaps even if the line is not a usual one.
+    /// Appends the corners of a face. Corners can be appended even if the line does not have the common form.
     #[inline]
-    fn usual_corners(&mut self, line: &[u8]) -> Option<usize> {
+    fn fast_corners(&mut self, line: &[u8]) -> Option<usize> {
         let now = self.part.counts();
         let mut at = 1;
         loop {
@@ -84,7 +82,8 @@ impl Parser<'_> {
     }
 }
 
-/// The numbers from `at` to the end of the line, at most N, how many they are, and where the line ends.
+/// Parses the numbers from `at` to the end of the line, at most N. Returns them with their count and the end of the
+/// line.
 #[inline]
 fn numbers<const N: usize>(line: &[u8], mut at: usize) -> Option<([f64; N], usize, usize)> {
     let mut values = [0.0; N];
@@ -105,7 +104,7 @@ fn numbers<const N: usize>(line: &[u8], mut at: usize) -> Option<([f64; N], usiz
     }
 }
 
-/// An index of at most eight digits, and where it ends.
+/// Parses an index of at most eight digits. Returns it with its end.
 #[inline]
 fn index(line: &[u8], at: usize, count: usize) -> Option<(Index, usize)> {
     let negative = line.get(at) == Some(&b'-');
@@ -131,7 +130,7 @@ fn skip_blanks(line: &[u8], mut at: usize) -> usize {
     at
 }
 
-/// How many bytes the line end at `at` has, if there is one.
+/// The length of the line end at `at`; `None` if there is no line end.
 #[inline]
 fn line_end(line: &[u8], at: usize) -> Option<usize> {
     match line.get(at)? {

@@ -1,8 +1,9 @@
-//! Comments that say what a property was in a mesh, where its name and type do not.
+//! Comments that describe the attribute that some properties were in a mesh, if their names and types do not
+//! determine it.
 //!
-//! `comment meshwright vertex vec3 normal tangent_x "tangent"` says: the properties of `vertex` from
-//! `tangent_x` on are the three numbers of the attribute `tangent`, whose values are unit vectors. The name is
-//! a JSON string. Other programs see three plain properties.
+//! For example, `comment meshwright vertex vec3 normal tangent_x "tangent"` declares that three properties of
+//! `vertex`, beginning with `tangent_x`, are the components of the attribute `tangent`, whose values are unit
+//! vectors. The name is a JSON string. Other programs see three unrelated properties.
 
 use mesh::{Domain, Rule};
 
@@ -10,9 +11,9 @@ use super::columns::Kind;
 
 const WORD: &str = "meshwright";
 
-/// What a comment says about some properties.
+/// A comment that describes the attribute stored in some properties.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Mark {
+pub(super) struct AttributeComment {
     pub(super) domain: Domain,
     pub(super) kind: Kind,
     pub(super) rule: Rule,
@@ -29,8 +30,8 @@ const RULES: [(Rule, &str); 4] = [
     (Rule::Drop, "drop"),
 ];
 
-impl Mark {
-    /// The mark in a comment, if it is one.
+impl AttributeComment {
+    /// Parses a comment; `None` if it does not describe an attribute.
     pub(super) fn parse(comment: &str) -> Option<Self> {
         let mut words = comment.splitn(6, ' ');
         if words.next() != Some(WORD) {
@@ -53,7 +54,7 @@ impl Mark {
         })
     }
 
-    /// The comment without the word `comment`.
+    /// The text of the comment, without the word `comment`.
     pub(super) fn text(&self) -> String {
         let rule = RULES.iter().find(|(rule, _)| *rule == self.rule);
         format!(
@@ -72,29 +73,29 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_mark_says_what_it_was_made_of() {
+    fn written_comments_are_parsed_unchanged() {
         for name in ["tangent", "", "a \"b\"\n\\c", "žluť "] {
-            let mark = Mark {
+            let comment = AttributeComment {
                 domain: Domain::Corner,
                 kind: Kind::Vec3,
                 rule: Rule::Normal,
                 property: "p_0".to_owned(),
                 name: name.to_owned(),
             };
-            assert!(!mark.text().contains('\n'));
-            assert_eq!(Mark::parse(&mark.text()), Some(mark));
+            assert!(!comment.text().contains('\n'));
+            assert_eq!(AttributeComment::parse(&comment.text()), Some(comment));
         }
     }
 
     #[test]
-    fn other_comments_are_no_marks() {
+    fn other_comments_are_ignored() {
         for text in [
             "",
             "made by hand",
             "meshwright vertex",
             "meshwright vertex int normal a \"a\"",
         ] {
-            assert_eq!(Mark::parse(text), None);
+            assert_eq!(AttributeComment::parse(text), None);
         }
     }
 }

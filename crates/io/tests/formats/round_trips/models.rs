@@ -171,7 +171,11 @@ fn geometry() -> Vec<Feature> {
             key(Vertex, "merged"),
             one(mesh_of(shared, &twice)),
         ),
-        feature("mesh without vertices", key(None, "name"), one(Mesh::default())),
+        feature(
+            "mesh without vertices",
+            key(None, "name"),
+            one(Mesh::default()),
+        ),
         feature(
             "name of a single object",
             key(None, "name"),
@@ -248,7 +252,11 @@ fn attributes() -> Vec<Feature> {
             key(Corner, "uv"),
             with(Corner, "uv", UV.rule, |h| DVec2::new(0.1 * number(h), 0.1)),
         ),
-        feature("additional sets of texture coordinates", key(Corner, "uv1"), one(sets)),
+        feature(
+            "additional sets of texture coordinates",
+            key(Corner, "uv1"),
+            one(sets),
+        ),
         feature(
             "vertex colors",
             key(Vertex, "color"),

@@ -1,4 +1,4 @@
-//! Images one after another: APNG and GIF files.
+//! Encodes animations as APNG and GIF files.
 
 use progress::Progress;
 
@@ -7,21 +7,22 @@ use crate::palette::Palette;
 use crate::work::Work;
 use crate::{Image, PictureError};
 
-/// How long an animation shows an image, and how often it runs.
+/// The duration of the images of an animation, and the number of repetitions.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Timing {
-    /// Milliseconds for each image. GIF counts in hundredths of a second, rounded up.
+    /// The duration of each image in milliseconds. In a GIF file it is rounded up to hundredths of a second.
     pub delay: u16,
-    /// How often the images are shown; 0 for without end.
-    pub turns: u16,
+    /// The number of times that the animation plays; 0 means that it repeats forever.
+    pub plays: u16,
 }
 
-/// The images as an animated PNG file: all colors, and transparency. Each text is a keyword of 1 to 79 Latin-1
-/// characters and what it says.
+/// Encodes images as an animated PNG file, with all colors and transparency.
+///
+/// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a text.
 ///
 /// # Errors
 ///
-/// [`PictureError::Encode`] if there is no image, if one has another size than the first, or a keyword is none;
+/// [`PictureError::Encode`] if there are no images, the sizes of the images differ, or a keyword is invalid;
 /// [`PictureError::Cancelled`].
 pub fn to_apng(
     frames: &[Image],
@@ -33,7 +34,7 @@ pub fn to_apng(
     let n = u32::try_from(frames.len()).map_err(|_| encode("too many images"))?;
     let mut bytes = Vec::new();
     let (mut encoder, channels) = encoder(&mut bytes, frames, texts)?;
-    encoder.set_animated(n, u32::from(timing.turns))?;
+    encoder.set_animated(n, u32::from(timing.plays))?;
     encoder.set_frame_delay(timing.delay, 1000)?;
     let mut writer = encoder.write_header()?;
     let work = Work::new(progress, "encode", frames.len() as u64);
@@ -45,13 +46,15 @@ pub fn to_apng(
     Ok(bytes)
 }
 
-/// The images as a GIF file, in the colors of one [`Palette`] for all of them. What is less than half opaque is not
-/// seen, and the rest is opaque. `comment` is a text for whoever asks where the file comes from.
+/// Encodes images as a GIF file, with one [`Palette`] for all images.
+///
+/// Pixels that are less than half opaque become transparent, all others opaque. `comment` is a text that is stored in
+/// the file, for example to record its provenance.
 ///
 /// # Errors
 ///
-/// [`PictureError::Encode`] if there is no image, or if one has another size than the first;
-/// [`PictureError::Cancelled`].
+/// [`PictureError::Encode`] if there are no images, the sizes of the images differ, or a side is longer than 65535
+/// pixels; [`PictureError::Cancelled`].
 pub fn to_gif(
     frames: &[Image],
     timing: Timing,
@@ -65,10 +68,10 @@ pub fn to_gif(
     let colors = palette.colors().as_flattened().to_vec();
     let mut bytes = Vec::new();
     let mut encoder = gif::Encoder::new(&mut bytes, width, height, &colors)?;
-    encoder.set_repeat(match timing.turns {
+    encoder.set_repeat(match timing.plays {
         0 => gif::Repeat::Infinite,
-        // What is counted are the turns after the first.
-        turns => gif::Repeat::Finite(turns - 1),
+        // GIF counts the repetitions after the first play.
+        plays => gif::Repeat::Finite(plays - 1),
     })?;
     if let Some(comment) = comment {
         // Blocks of an extension have at most 255 bytes.
@@ -83,7 +86,7 @@ pub fn to_gif(
             width,
             height,
             delay: timing.delay.div_ceil(10),
-            // A pixel that is not seen shows what was there before.
+            // Through transparent pixels, the previous image would stay visible: it is cleared.
             dispose: if palette.transparent().is_some() {
                 gif::DisposalMethod::Background
             } else {
@@ -103,16 +106,16 @@ fn encode(message: &str) -> PictureError {
     PictureError::Encode(message.to_owned())
 }
 
-/// The size of all images.
+/// Returns the size of all images, which must be the same.
 fn common_size(frames: &[Image]) -> Result<(u32, u32), PictureError> {
-    let [Image { width, height, .. }, others @ ..] = frames else {
-        return Err(encode("expected at least one image, found none"));
+    let [Image { width, height, .. }, rest @ ..] = frames else {
+        return Err(encode("expected at least 1 image, found 0"));
     };
-    for (i, frame) in (1..).zip(others) {
+    for (number, frame) in (2..).zip(rest) {
         let (w, h) = (frame.width, frame.height);
         if (w, h) != (*width, *height) {
             return Err(PictureError::Encode(format!(
-                "expected images of one size, {width} x {height}, found {w} x {h} in image {i}"
+                "expected all images to have {width} x {height} pixels, found {w} x {h} in image {number}"
             )));
         }
     }
@@ -122,16 +125,16 @@ fn common_size(frames: &[Image]) -> Result<(u32, u32), PictureError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::work::While;
+    use crate::work::Listener;
     use progress::NoProgress;
     use std::io::Cursor;
 
     const TIMING: Timing = Timing {
         delay: 45,
-        turns: 0,
+        plays: 0,
     };
 
-    /// Frames of smooth colors, more than 256 of them, or of few.
+    /// Makes images with a smooth gradient of more than 256 colors, or with few colors.
     fn frames(n: u8, is_smooth: bool, alpha: impl Fn(u8, u8) -> u8) -> Vec<Image> {
         let color = |k: u8, x: u8, y: u8| {
             if is_smooth {
@@ -142,14 +145,14 @@ mod tests {
         };
         let frame = |k| {
             let mut image = Image::filled(64, 48, [0; 4]).unwrap();
-            let places = (0..48).flat_map(|y| (0..64).map(move |x| (x, y)));
-            image.pixels = places.map(|(x, y)| color(k, x, y)).collect();
+            let positions = (0..48).flat_map(|y| (0..64).map(move |x| (x, y)));
+            image.pixels = positions.map(|(x, y)| color(k, x, y)).collect();
             image
         };
         (0..n).map(frame).collect()
     }
 
-    /// The frames of an APNG file with their delays.
+    /// Decodes an APNG file into its frames and their delays.
     fn decoded_apng(bytes: &[u8]) -> Vec<(Vec<u8>, u16, u16)> {
         let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
         let n = reader.info().animation_control().unwrap().num_frames;
@@ -183,7 +186,7 @@ mod tests {
         }
     }
 
-    /// The frames of a GIF file as RGBA, and the delays in hundredths of a second.
+    /// Decodes a GIF file into its frames as RGBA, and the delays in hundredths of a second.
     fn decoded_gif(bytes: &[u8]) -> Vec<(Vec<[u8; 4]>, u16)> {
         let mut options = gif::DecodeOptions::new();
         options.set_color_output(gif::ColorOutput::RGBA);
@@ -198,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gif_file_of_few_colors_has_all_pixels() {
+    fn a_gif_file_with_few_colors_has_the_exact_pixels() {
         let frames = frames(4, false, |_, _| 255);
         let decoded = decoded_gif(&to_gif(&frames, TIMING, Some("test"), &NoProgress).unwrap());
         assert_eq!(decoded.len(), 4);
@@ -209,9 +212,9 @@ mod tests {
     }
 
     #[test]
-    fn a_gif_file_of_many_colors_has_colors_near_them() {
+    fn a_gif_file_with_many_colors_has_similar_colors() {
         let mut frames = frames(3, true, |_, _| 255);
-        // A background that must stay as it is.
+        // The color of the background must stay exact.
         for frame in &mut frames {
             frame.pixels[..900].fill([251, 253, 254, 255]);
         }
@@ -232,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_less_than_half_opaque_is_not_seen_in_a_gif_file() {
+    fn pixels_that_are_less_than_half_opaque_are_transparent_in_a_gif_file() {
         for is_smooth in [false, true] {
             let frames = frames(2, is_smooth, |x, _| if x < 20 { 127 } else { 128 });
             let decoded = decoded_gif(&to_gif(&frames, TIMING, None, &NoProgress).unwrap());
@@ -242,13 +245,13 @@ mod tests {
                 }
             }
         }
-        let nothing = Image::filled(3, 3, [9, 9, 9, 0]).unwrap();
-        let decoded = decoded_gif(&to_gif(&[nothing], TIMING, None, &NoProgress).unwrap());
+        let transparent = Image::filled(3, 3, [9, 9, 9, 0]).unwrap();
+        let decoded = decoded_gif(&to_gif(&[transparent], TIMING, None, &NoProgress).unwrap());
         assert!(decoded[0].0.iter().all(|p| p[3] == 0));
     }
 
     #[test]
-    fn texts_and_comments_of_any_kind_do_no_harm() {
+    fn unusual_texts_and_comments_are_encoded() {
         let frame = Image::filled(2, 2, [9, 9, 9, 255]).unwrap();
         let long = "long ".repeat(200);
         for text in crate::figure::testing::ODD_TEXTS
@@ -266,29 +269,29 @@ mod tests {
     }
 
     #[test]
-    fn images_of_several_sizes_and_no_images_are_refused() {
+    fn images_of_different_sizes_and_empty_lists_are_refused() {
         let image = |width| Image::filled(width, 2, [0; 4]).unwrap();
         for frames in [vec![], vec![image(2), image(3)]] {
-            for made in [
+            for result in [
                 to_apng(&frames, TIMING, &[], &NoProgress),
                 to_gif(&frames, TIMING, None, &NoProgress),
             ] {
-                assert!(matches!(made, Err(PictureError::Encode(_))));
+                assert!(matches!(result, Err(PictureError::Encode(_))));
             }
         }
     }
 
     #[test]
-    fn encoding_stops_when_it_is_told_to() {
+    fn encoding_can_be_cancelled() {
         let frame = Image::filled(8, 8, [7; 4]).unwrap();
         let frames = vec![frame.clone(); 9];
-        let half = While(|part| part < 0.5);
-        for made in [
-            frame.to_png_while(&[], &half),
-            to_apng(&frames, TIMING, &[], &half),
-            to_gif(&frames, TIMING, None, &half),
+        let until_half = Listener(|fraction| fraction < 0.5);
+        for result in [
+            frame.to_png_with_progress(&[], &until_half),
+            to_apng(&frames, TIMING, &[], &until_half),
+            to_gif(&frames, TIMING, None, &until_half),
         ] {
-            assert!(matches!(made, Err(PictureError::Cancelled)), "{made:?}");
+            assert!(matches!(result, Err(PictureError::Cancelled)), "{result:?}");
         }
     }
 }

@@ -1,16 +1,15 @@
-//! Colors over colors, in whole numbers: the same on every processor.
+//! Alpha compositing in integers, so that the result is the same on every processor.
 
-/// A color over another one, both not multiplied with their alphas.
+/// Composites a color over `under`. Both have straight alpha, which is not multiplied into the channels.
 pub(crate) fn over([r, g, b, a]: [u8; 4], under: [u8; 4]) -> [u8; 4] {
     blended([r, g, b].map(|c| u32::from(c) * u32::from(a)), a, under)
 }
 
-/// A color of this alpha, whose channels are multiplied with the alpha and so are of 255 * 255, over one that is not
-/// multiplied: a = s + d (1 - s), c = (S s + D d (1 - s)) / a (Porter and Duff, "Compositing digital images",
-/// 1984).
+/// Composites a color with premultiplied alpha, whose channels are from 0 to 255 * 255, over a color with straight
+/// alpha: a = s + d (1 - s), c = (S s + D d (1 - s)) / a (Porter and Duff, "Compositing digital images", 1984).
 pub(crate) fn blended(over: [u32; 3], alpha: u8, under: [u8; 4]) -> [u8; 4] {
     let s = u32::from(alpha);
-    // Alphas are of 255, and their products of 255 * 255.
+    // Alphas are in units of 1/255, and their products in units of 1/(255 * 255).
     let rest = u32::from(under[3]) * (255 - s);
     let sum = s * 255 + rest;
     if sum == 0 {
@@ -31,19 +30,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colors_lie_over_colors_as_porter_and_duff_have_it() {
+    fn colors_are_composited_by_the_over_operator_of_porter_and_duff() {
         let below = [10, 20, 30, 255];
         assert_eq!(over([90, 90, 90, 0], below), below);
         assert_eq!(over([1, 2, 3, 255], below), [1, 2, 3, 255]);
         assert_eq!(over([200, 100, 50, 128], [0; 4]), [200, 100, 50, 128]);
         assert_eq!(over([9, 9, 9, 0], [9, 9, 9, 0]), [0; 4]);
-        // Half black over white, and half over half: 1 - 1/2 * 1/2.
+        // Half-transparent black over white, and over half-transparent black: alpha is 1 - 1/2 * 1/2.
         assert_eq!(over([0, 0, 0, 128], [255; 4]), [127, 127, 127, 255]);
         assert_eq!(over([0, 0, 0, 128], [0, 0, 0, 128])[3], 192);
     }
 
     #[test]
-    fn every_pair_of_alphas_stays_between_its_colors() {
+    fn every_pair_of_alphas_is_composited_to_the_nearest_byte() {
         for s in 0..=255 {
             for d in 0..=255 {
                 let [r, g, _, a] = over([200, 0, 0, s], [100, 255, 0, d]);

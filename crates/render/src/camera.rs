@@ -1,5 +1,5 @@
-//! Cameras: where a picture is seen from. [`Camera`] is what a recipe says, [`View`] what the rasteriser
-//! needs.
+//! Cameras. A recipe describes a [`Camera`]; the rasteriser uses a [`View`], which is a camera fitted to a scene and a
+//! picture size.
 
 mod fit;
 
@@ -11,40 +11,40 @@ use crate::PictureError;
 use fit::Fit;
 pub(crate) use fit::sphere;
 
-/// Where a picture is seen from.
+/// The position, direction and projection of the camera.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Camera {
-    /// From a side, at the distance from which everything is seen.
+    /// Looks from a side, at the distance from which the picture shows the whole scene.
     Fit {
-        /// The side.
+        /// The side from which the camera looks.
         #[serde(default)]
         from: Side,
         /// The axis that points upwards.
         #[serde(default)]
         up: Up,
-        /// How distance makes things smaller.
+        /// The projection.
         #[serde(default)]
         projection: Projection,
-        /// What stays free at each border, as a fraction of the picture.
+        /// The empty margin at each border, as a fraction of the picture.
         #[serde(default = "margin")]
         #[schemars(range(min = 0.0, max = 0.45))]
         margin: f64,
-        /// Whether the same scale is taken from all sides, as a turntable needs it.
+        /// Whether the scale is the same from every direction, as a turntable needs it.
         #[serde(default)]
         steady: bool,
     },
-    /// From one point to another.
+    /// Looks from one point to another.
     LookAt {
-        /// Where the camera is: `(x, y, z)`, in scene units.
+        /// The position of the camera, `(x, y, z)`, in scene units.
         from: [f64; 3],
-        /// The point in the middle of the picture: `(x, y, z)`, in scene units.
+        /// The point in the middle of the picture, `(x, y, z)`, in scene units.
         to: [f64; 3],
         /// The axis that points upwards.
         #[serde(default)]
         up: Up,
-        /// How distance makes things smaller. Without perspective the picture shows as much as with one of 30
-        /// degrees at the distance of `to`.
+        /// The projection. An orthographic picture is as high as a perspective one of 30 degrees at the distance of
+        /// `to`.
         #[serde(default)]
         projection: Projection,
     },
@@ -63,8 +63,8 @@ impl Default for Camera {
 }
 
 impl Camera {
-    /// The camera after a turn to the right, around what it looks at, about the axis that points upwards. A camera
-    /// that fits is then [steady](Self::Fit::steady).
+    /// Returns the camera after it moves to the right, around the point that it looks at, about the axis that points
+    /// upwards. [`Self::Fit`] also becomes [steady](Self::Fit::steady).
     #[must_use]
     pub fn turned(mut self, degrees: f64) -> Self {
         match &mut self {
@@ -86,13 +86,15 @@ impl Camera {
         self
     }
 
-    /// The few of many points that decide what it shows in a picture of this size: a [`View`] of the points of many
-    /// scenes is that of these of each. None if it shows the same whatever there is.
+    /// Returns the few points that determine the view in a picture of this size.
+    ///
+    /// The [`View`] of several scenes can be computed from the extreme points of each scene. Empty if the view does not
+    /// depend on the points.
     ///
     /// # Errors
     ///
-    /// As [`View::new`].
-    pub fn decisive(
+    /// The errors of [`View::new`].
+    pub fn extreme_points(
         &self,
         points: &impl Fn(&mut dyn FnMut(DVec3)),
         [width, height]: [u32; 2],
@@ -105,16 +107,16 @@ impl Camera {
                 projection,
                 margin,
                 steady,
-            } => Ok(Fit::new(from, up, projection, margin, steady, size)?.decisive(points)),
+            } => Ok(Fit::new(from, up, projection, margin, steady, size)?.extreme_points(points)),
             Self::LookAt { .. } => self.check().map(|()| Vec::new()),
         }
     }
 
-    /// Whether its numbers are in their ranges, whatever it is to see.
+    /// Checks that all numbers are in their ranges, without a scene.
     ///
     /// # Errors
     ///
-    /// As [`View::new`].
+    /// The errors of [`View::new`].
     pub fn check(&self) -> Result<(), PictureError> {
         View::new(self, &|_| {}, [1, 1]).map(drop)
     }
@@ -124,33 +126,33 @@ fn margin() -> f64 {
     0.05
 }
 
-/// A side that things are seen from. With y upwards the front is where z is large, as in glTF; with z upwards
-/// where y is small, as on a map.
+/// The side from which the camera looks. If y points upwards, the front is the side of large z, as in glTF. If z points
+/// upwards, the front is the side of small y, as on a map.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Side {
-    /// From before.
+    /// From the front.
     Front,
-    /// From behind.
+    /// From the back.
     Back,
-    /// From its left, which is where x is small.
+    /// From the side of small x.
     Left,
-    /// From its right, which is where x is large.
+    /// From the side of large x.
     Right,
-    /// From above; the front is at the bottom of the picture.
+    /// From above. The front is at the bottom of the picture.
     Top,
-    /// From below; the front is at the top of the picture.
+    /// From below. The front is at the top of the picture.
     Bottom,
-    /// From before, above and right, so that the three axes are equally long.
+    /// From the front, right and above, so that the three axes are equally long in the picture.
     Isometric,
-    /// From before, and somewhat from above and from the right.
+    /// From the front, 30 degrees to the right and 22 degrees above.
     #[default]
     ThreeQuarter,
     /// From any direction.
     Angles {
-        /// Degrees from the front towards the right.
+        /// The angle from the front towards the right, in degrees.
         azimuth: f64,
-        /// Degrees upwards.
+        /// The angle above the horizontal plane, in degrees.
         elevation: f64,
     },
 }
@@ -162,19 +164,19 @@ pub enum Up {
     /// The y axis, as in glTF.
     #[default]
     Y,
-    /// The z axis, as in most programs for construction.
+    /// The z axis, as in most CAD programs.
     Z,
 }
 
-/// How distance makes things smaller.
+/// The projection of a camera.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Projection {
-    /// Not at all.
+    /// Parallel projection: the size of an object does not depend on its distance.
     Orthographic,
-    /// As in a photograph.
+    /// Perspective projection, as in a photograph.
     Perspective {
-        /// The angle between the lower and the upper border of the picture, in degrees.
+        /// The vertical field of view, in degrees.
         #[schemars(range(min = 1.0, max = 150.0))]
         angle: f64,
     },
@@ -182,17 +184,19 @@ pub enum Projection {
 
 impl Default for Projection {
     fn default() -> Self {
-        Self::Perspective { angle: USUAL_ANGLE }
+        Self::Perspective {
+            angle: DEFAULT_ANGLE,
+        }
     }
 }
 
-/// Degrees. Like a lens of 80 mm on a camera for 35 mm film, as for portraits.
-const USUAL_ANGLE: f64 = 25.0;
-/// Degrees: what `LookAt` shows without perspective.
-const FLAT_ANGLE: f64 = 30.0;
+/// The default field of view, in degrees. It is near that of a portrait lens of 80 mm on 35 mm film.
+const DEFAULT_ANGLE: f64 = 25.0;
+/// The field of view, in degrees, that determines the scale of an orthographic `LookAt`.
+const ORTHOGRAPHIC_ANGLE: f64 = 30.0;
 
 impl Up {
-    /// The directions to the right, upwards and to the front.
+    /// Returns the directions to the right, upwards and to the front.
     fn axes(self) -> [DVec3; 3] {
         match self {
             Self::Y => [DVec3::X, DVec3::Y, DVec3::Z],
@@ -202,7 +206,7 @@ impl Up {
 }
 
 impl Side {
-    /// Azimuth and elevation in degrees.
+    /// Returns azimuth and elevation in degrees.
     fn angles(self) -> [f64; 2] {
         match self {
             Self::Front => [0.0, 0.0],
@@ -218,50 +222,51 @@ impl Side {
         }
     }
 
-    /// The directions of the picture: to its right, upwards, and towards the camera.
+    /// Returns the directions to the right and upwards in the picture, and towards the camera.
     fn axes(self, up: Up) -> [DVec3; 3] {
         let [right, up, front] = up.axes();
         let [azimuth, elevation] = self.angles();
         let (sin, cos) = geometry::sin_cos_degrees(azimuth);
-        let (x, forth) = (right * cos - front * sin, front * cos + right * sin);
+        let (x, forward) = (right * cos - front * sin, front * cos + right * sin);
         let (sin, cos) = geometry::sin_cos_degrees(elevation);
-        [x, up * cos - forth * sin, forth * cos + up * sin]
+        [x, up * cos - forward * sin, forward * cos + up * sin]
     }
 }
 
-/// A camera that knows its picture: takes points of the scene to pixels.
+/// A camera with the size of its picture, which projects points of the scene to pixels.
 ///
-/// Pixels are counted from the upper left corner of the picture, to the right and downwards.
+/// Pixel coordinates start at the upper left corner of the picture and grow to the right and downwards.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
-    /// Directions to the right, upwards, and towards the camera. Unit vectors at right angles.
+    /// Directions to the right, upwards, and towards the camera: orthogonal unit vectors.
     axes: [DVec3; 3],
-    /// With perspective the camera, else a point in the middle of the picture.
+    /// With perspective, the position of the camera; else a point in the middle of the picture.
     eye: DVec3,
-    /// Pixels for a unit: at distance 1 with perspective, else everywhere.
+    /// Pixels per scene unit; with perspective, at distance 1.
     scale: f64,
     is_perspective: bool,
-    /// What is nearer than this is not seen; minus infinity without perspective.
+    /// Points nearer than this distance are not visible. Minus infinity without perspective.
     pub(crate) near: f64,
     /// The middle of the picture, in pixels.
     middle: DVec2,
 }
 
-/// A point seen by a camera.
+/// A point of the scene, projected to the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScreenPoint {
-    /// Pixels from the left and from the top.
+    /// Pixels from the left and from the top of the picture.
     pub at: DVec2,
     /// Grows with distance, and is linear over the picture for points of a plane.
     pub depth: f64,
 }
 
 impl View {
-    /// The view of a camera on these points, in a picture of this size.
+    /// Creates the view of these points in a picture of this size.
     ///
     /// # Errors
     ///
-    /// [`PictureError::Camera`] if a number of the camera is out of its range, or it looks nowhere.
+    /// [`PictureError::Camera`] if a number of the camera is out of its range or not finite, or the camera looks from a
+    /// point to the same point.
     pub fn new(
         camera: &Camera,
         points: &impl Fn(&mut dyn FnMut(DVec3)),
@@ -294,12 +299,12 @@ impl View {
     ) -> Result<Self, PictureError> {
         let towards = (from - to).normalize_or_zero();
         if towards == DVec3::ZERO || !(from - to).is_finite() {
-            let found =
-                "expected a camera that looks from one point to another, found no direction";
-            return Err(PictureError::Camera(found.to_owned()));
+            let message =
+                "expected `from` and `to` of the camera to be two different finite points";
+            return Err(PictureError::Camera(message.to_owned()));
         }
         let [_, upwards, front] = up.axes();
-        // Straight from above the front is at the bottom of the picture.
+        // Seen from straight above, the front is at the bottom of the picture.
         let mut right = upwards.cross(towards);
         if right.length() < 1e-9 {
             right = (front * -towards.dot(upwards).signum()).cross(towards);
@@ -308,37 +313,39 @@ impl View {
         let axes = [right, towards.cross(right), towards];
         let tangent = projection.tangent()?;
         let distance = from.distance(to);
-        let flat = tan_degrees(0.5 * FLAT_ANGLE) * distance;
+        let half_height = tan_degrees(0.5 * ORTHOGRAPHIC_ANGLE) * distance;
         Ok(Self {
             axes,
             eye: from,
-            scale: 0.5 * size.y / tangent.unwrap_or(flat),
+            scale: 0.5 * size.y / tangent.unwrap_or(half_height),
             is_perspective: tangent.is_some(),
             near: tangent.map_or(f64::NEG_INFINITY, |_| 1e-3 * distance),
             middle: 0.5 * size,
         })
     }
 
-    /// Where a point is seen; `None` if it is behind the camera.
-    pub fn see(&self, p: DVec3) -> Option<ScreenPoint> {
-        let v = self.turned(p);
+    /// Projects a point; `None` if it is behind the camera or nearer than the near plane.
+    pub fn screen_point(&self, p: DVec3) -> Option<ScreenPoint> {
+        let v = self.to_camera(p);
         (v.z >= self.near).then(|| self.project(v))
     }
 
-    /// Right, upwards and distance from the camera.
-    pub(crate) fn turned(&self, p: DVec3) -> DVec3 {
+    /// Converts a point to camera coordinates: to the right, upwards, and the distance from the camera.
+    pub(crate) fn to_camera(&self, p: DVec3) -> DVec3 {
         let [x, y, z] = self.axes;
         let p = p - self.eye;
         DVec3::new(p.dot(x), p.dot(y), -p.dot(z))
     }
 
-    /// Whether something (as [`turned`](Self::turned) gives it) is on the inner side of a border: not
-    /// negative inside, and linear in `v`. Border 0 is what is too near; the others are `far` pixels from
-    /// the upper left corner, to each side.
-    pub(crate) fn inside(&self, border: usize, far: f64, v: DVec3) -> f64 {
+    /// Returns a number that is not negative if the point `v`, in [camera coordinates](Self::to_camera), is inside of a
+    /// clipping plane. The number is linear in `v`.
+    ///
+    /// Plane 0 is the near plane. The other four planes are `far` pixels from the upper left corner of the picture, to
+    /// each side.
+    pub(crate) fn clip_distance(&self, plane: usize, far: f64, v: DVec3) -> f64 {
         let distance = if self.is_perspective { v.z } else { 1.0 };
         let (x, y) = (self.scale * v.x, -self.scale * v.y);
-        match border {
+        match plane {
             0 => v.z - self.near,
             1 => x + (far + self.middle.x) * distance,
             2 => (far - self.middle.x) * distance - x,
@@ -347,21 +354,21 @@ impl View {
         }
     }
 
-    /// Where something is seen that is not behind the camera.
+    /// Projects a point in [camera coordinates](Self::to_camera) that is not behind the camera.
     pub(crate) fn project(&self, v: DVec3) -> ScreenPoint {
-        let (shrink, depth) = if self.is_perspective {
+        let (scale, depth) = if self.is_perspective {
             (self.scale / v.z, -1.0 / v.z)
         } else {
             (self.scale, v.z)
         };
         ScreenPoint {
-            at: self.middle + DVec2::new(v.x * shrink, -v.y * shrink),
+            at: self.middle + DVec2::new(v.x * scale, -v.y * scale),
             depth,
         }
     }
 
-    /// Origin and direction of the ray through a place of the picture, in scene units. The direction has
-    /// length 1 along the axis of the camera.
+    /// Returns origin and direction of the ray through a point of the picture, in scene units. The direction has length 1
+    /// along the axis of the camera.
     pub(crate) fn ray(&self, at: DVec2) -> (DVec3, DVec3) {
         let [x, y, z] = self.axes;
         let d = (at - self.middle) / self.scale;
@@ -373,8 +380,8 @@ impl View {
         }
     }
 
-    /// The depth, in the sense of [`ScreenPoint::depth`], of the plane through `p` with the normal `n` at a place of
-    /// the picture; `None` if the plane is seen from its edge.
+    /// Returns the [depth](ScreenPoint::depth), at a point of the picture, of the plane through `p` with normal `n`.
+    /// `None` if the plane is seen edge-on.
     pub(crate) fn plane_depth(&self, p: DVec3, n: DVec3, at: DVec2) -> Option<f64> {
         let (origin, direction) = self.ray(at);
         let along = n.dot(direction);
@@ -387,8 +394,8 @@ impl View {
         depth.is_finite().then_some(depth)
     }
 
-    /// What a pixel is at this depth, in scene units.
-    pub(crate) fn pixel(&self, depth: f64) -> f64 {
+    /// Returns the size of a pixel at this depth, in scene units.
+    pub(crate) fn pixel_size(&self, depth: f64) -> f64 {
         if self.is_perspective {
             -1.0 / (depth * self.scale)
         } else {
@@ -396,8 +403,8 @@ impl View {
         }
     }
 
-    /// How much depth changes over a length in scene units, away from the camera.
-    pub(crate) fn depth_of(&self, length: f64, depth: f64) -> f64 {
+    /// Returns the change of depth over a length, in scene units, away from the camera.
+    pub(crate) fn depth_change(&self, length: f64, depth: f64) -> f64 {
         if self.is_perspective {
             length * depth * depth
         } else {
@@ -405,14 +412,14 @@ impl View {
         }
     }
 
-    /// Directions to the right, upwards, and towards the camera.
+    /// Returns the directions to the right, upwards, and towards the camera.
     pub fn axes(&self) -> [DVec3; 3] {
         self.axes
     }
 }
 
 impl Projection {
-    /// The tangent of half the angle; `None` without perspective.
+    /// Returns the tangent of half the field of view; `None` without perspective.
     fn tangent(self) -> Result<Option<f64>, PictureError> {
         match self {
             Self::Orthographic => Ok(None),
@@ -420,8 +427,9 @@ impl Projection {
                 Ok(Some(tan_degrees(0.5 * angle)))
             }
             Self::Perspective { angle } => {
-                let found = format!("expected an angle of 1 to 150 degrees, found {angle}");
-                Err(PictureError::Camera(found))
+                let message =
+                    format!("expected a perspective angle from 1 to 150 degrees, found {angle}");
+                Err(PictureError::Camera(message))
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Colors: how recipes write them, and linear light.
+//! Colors as recipes write them, and conversion between sRGB and linear light.
 
 use std::fmt;
 use std::sync::LazyLock;
@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 #[serde(try_from = "String", into = "String")]
 pub struct Color(pub [u8; 4]);
 
-/// The names of colors. The saturated ones are told apart by most color-blind people: Okabe and Ito, "Color
-/// Universal Design", 2008.
+/// The named colors. Most color-blind people can distinguish the saturated ones: Okabe and Ito, "Color Universal
+/// Design", 2008.
 pub const NAMES: [(&str, [u8; 3]); 11] = [
     ("black", [0, 0, 0]),
     ("white", [255, 255, 255]),
@@ -28,22 +28,22 @@ pub const NAMES: [(&str, [u8; 3]); 11] = [
     ("crimson", [190, 30, 60]),
 ];
 
-/// A text is no color.
+/// The text is not a color.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("expected a color like \"#4477aa\" or one of {names}, found \"{0}\"", names = names())]
-pub struct NoColor(String);
+pub struct ParseColorError(String);
 
 fn names() -> String {
     NAMES.map(|(name, _)| name).join(", ")
 }
 
 impl Color {
-    /// An opaque color of these red, green and blue in sRGB.
+    /// Returns the opaque color with these sRGB values.
     pub const fn rgb(r: u8, g: u8, b: u8) -> Self {
         Self([r, g, b, 255])
     }
 
-    /// Linear red, green and blue, and alpha, from 0 to 1.
+    /// Returns linear red, green, blue and alpha, from 0 to 1.
     pub fn linear(self) -> [f32; 4] {
         let [r, g, b, a] = self.0;
         let [r, g, b] = [r, g, b].map(to_linear);
@@ -52,9 +52,9 @@ impl Color {
 }
 
 impl TryFrom<String> for Color {
-    type Error = NoColor;
+    type Error = ParseColorError;
 
-    fn try_from(text: String) -> Result<Self, NoColor> {
+    fn try_from(text: String) -> Result<Self, ParseColorError> {
         if let Some((_, [r, g, b])) = NAMES.into_iter().find(|&(name, _)| name == text) {
             return Ok(Self::rgb(r, g, b));
         }
@@ -69,7 +69,7 @@ impl TryFrom<String> for Color {
             Some(&[r, s, g, h, b, c, a, d]) => {
                 Ok(Self([16 * r + s, 16 * g + h, 16 * b + c, 16 * a + d]))
             }
-            _ => Err(NoColor(text)),
+            _ => Err(ParseColorError(text)),
         }
     }
 }
@@ -105,7 +105,7 @@ impl JsonSchema for Color {
     }
 }
 
-/// The light of an sRGB value, from 0 to 1 (IEC 61966-2-1, 1999).
+/// Returns the linear light of an sRGB value, from 0 to 1 (IEC 61966-2-1, 1999).
 pub fn to_linear(value: u8) -> f32 {
     static TABLE: LazyLock<[f32; 256]> = LazyLock::new(|| {
         std::array::from_fn(|i| match i as f64 / 255.0 {
@@ -116,9 +116,9 @@ pub fn to_linear(value: u8) -> f32 {
     TABLE[usize::from(value)]
 }
 
-/// The sRGB value of a light, which is taken between 0 and 1 (IEC 61966-2-1, 1999).
+/// Returns the sRGB value of linear light, which is clamped to 0 to 1 (IEC 61966-2-1, 1999).
 pub fn to_srgb(light: f32) -> u8 {
-    /// Steps of the table: 20 for each value where the curve is steepest.
+    /// Steps of the table. Where the curve is steepest, 20 steps share one sRGB value.
     const STEPS: usize = 1 << 16;
     static TABLE: LazyLock<Vec<u8>> = LazyLock::new(|| {
         let value = |i: usize| match i as f64 / STEPS as f64 {
@@ -131,44 +131,47 @@ pub fn to_srgb(light: f32) -> u8 {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "from 0 to 1; not a number becomes 0"
+        reason = "from 0 to 1; NaN becomes 0"
     )]
     TABLE[(light * STEPS as f32 + 0.5) as usize]
 }
 
-/// From 0 to 1 to the nearest byte; 0 for what is not a number.
+/// Converts a value from 0 to 1 to the nearest byte; NaN becomes 0.
 pub(crate) fn byte(value: f32) -> u8 {
     let nearest = whole_u32(f64::from(value.clamp(0.0, 1.0) * 255.0 + 0.5));
     u8::try_from(nearest).unwrap_or(u8::MAX)
 }
 
-/// The number without its decimals, or the nearest one that fits; 0 for what is not a number.
+/// Truncates to a whole number, clamped to the range of `usize`; NaN becomes 0.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "what it is for"
+    reason = "the purpose of this function"
 )]
 pub(crate) fn whole(value: f64) -> usize {
     value as usize
 }
 
-/// As [`whole`], in 32 bits: processors convert to these faster.
+/// Like [`whole`], but to 32 bits, which is a faster conversion.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "what it is for"
+    reason = "the purpose of this function"
 )]
 pub(crate) fn whole_u32(value: f64) -> u32 {
     value as u32
 }
 
-/// The nearest `f32`.
-#[expect(clippy::cast_possible_truncation, reason = "what it is for")]
+/// Rounds to the nearest `f32`.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the purpose of this function"
+)]
 pub(crate) fn narrow(value: f64) -> f32 {
     value as f32
 }
 
-/// The color, or what else is mixed, at `t` on the way from `a` (0) to `b` (1).
+/// Interpolates linearly from `a` (at `t = 0`) to `b` (at `t = 1`).
 pub(crate) fn mix<const N: usize>(a: [f32; N], b: [f32; N], t: f32) -> [f32; N] {
     std::array::from_fn(|i| a[i] + (b[i] - a[i]) * t)
 }
@@ -178,14 +181,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_byte_comes_back_from_linear_light() {
+    fn converting_a_byte_to_linear_light_and_back_does_not_change_it() {
         for value in 0..=255 {
             assert_eq!(to_srgb(to_linear(value)), value);
         }
     }
 
     #[test]
-    fn colors_are_read_as_they_are_written() {
+    fn a_written_color_reads_back_the_same() {
         let read = |text: &str| Color::try_from(text.to_owned());
         assert_eq!(read("#4477aa"), Ok(Color::rgb(0x44, 0x77, 0xaa)));
         assert_eq!(read("#47a"), read("#4477aa"));

@@ -1,27 +1,28 @@
-//! Color maps: numbers as colors.
+//! Color maps, which show numbers as colors.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::color::{byte, mix, narrow, to_linear, whole};
 
-/// How numbers become colors.
+/// A color map, which shows numbers as colors.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum ColorMap {
-    /// From dark violet over green to yellow: evenly brighter, also in gray and for color-blind people.
+    /// From dark violet through green to yellow. The brightness rises evenly, so the map also works in grayscale and
+    /// for color-blind people.
     #[default]
     Viridis,
-    /// From blue over light gray to red: for numbers with a middle that matters.
+    /// From blue through light gray to red, for numbers with a meaningful middle, such as 0.
     Diverging,
     /// From black to white.
     Gray,
-    /// Colors that are easily told apart, one for each whole number: for labels and classes.
+    /// Eight easily distinguished colors, which repeat, one for each whole number. For labels and classes.
     Classes,
 }
 
-/// Viridis (Smith and van der Walt, "A Better Default Colormap for Matplotlib", 2015; released under CC0) at
-/// 17 even steps.
+/// Viridis at 17 evenly spaced values: Smith and van der Walt, "A Better Default Colormap for Matplotlib", 2015;
+/// released under CC0.
 const VIRIDIS: [[u8; 3]; 17] = [
     [68, 1, 84],
     [72, 20, 103],
@@ -42,7 +43,7 @@ const VIRIDIS: [[u8; 3]; 17] = [
     [253, 231, 37],
 ];
 
-/// Moreland, "Diverging Color Maps for Scientific Visualization", 2009, at nine even steps.
+/// A diverging map at nine evenly spaced values: Moreland, "Diverging Color Maps for Scientific Visualization", 2009.
 const DIVERGING: [[u8; 3]; 9] = [
     [59, 76, 192],
     [98, 130, 234],
@@ -55,7 +56,7 @@ const DIVERGING: [[u8; 3]; 9] = [
     [180, 4, 38],
 ];
 
-/// Okabe and Ito, "Color Universal Design", 2008.
+/// Colors for classes: Okabe and Ito, "Color Universal Design", 2008.
 const CLASSES: [[u8; 3]; 8] = [
     [86, 180, 233],
     [230, 159, 0],
@@ -68,7 +69,7 @@ const CLASSES: [[u8; 3]; 8] = [
 ];
 
 impl ColorMap {
-    /// The sRGB color of `t`, which is taken between 0 and 1.
+    /// Returns the sRGB color of `t`, which is clamped to 0 to 1.
     pub fn srgb(self, t: f64) -> [u8; 3] {
         let stops: &[[u8; 3]] = match self {
             Self::Viridis => &VIRIDIS,
@@ -77,23 +78,23 @@ impl ColorMap {
             Self::Classes => &CLASSES,
         };
         let last = stops.len() - 1;
-        let place = t.clamp(0.0, 1.0) * last as f64;
-        let below = whole(place);
+        let position = t.clamp(0.0, 1.0) * last as f64;
+        let below = whole(position);
         if self == Self::Classes {
             return stops[below];
         }
         let [from, to] = [below, (below + 1).min(last)].map(|i| stops[i].map(f32::from));
-        mix(from, to, narrow(place - below as f64)).map(|c| byte(c / 255.0))
+        mix(from, to, narrow(position - below as f64)).map(|c| byte(c / 255.0))
     }
 
-    /// The sRGB color of a whole number in [`Classes`](Self::Classes): they repeat after eight.
+    /// Returns the sRGB color of a whole number in [`Classes`](Self::Classes). The colors repeat after eight.
     pub fn class(self, class: f64) -> [u8; 3] {
-        // A little to the middle of its step, so that rounding does not find the class before.
+        // Without the small offset, rounding could select the class before.
         self.srgb(class.floor().rem_euclid(8.0) / 7.0 + 1e-9)
     }
 
-    /// Linear red, green and blue of a number where `range` becomes 0 to 1; gray if it is not a number. With
-    /// [`Classes`](Self::Classes) the color of a whole number, whatever the range.
+    /// Returns the linear red, green and blue of a number. `range` gives the numbers at the two ends of the map. NaN is
+    /// gray. [`Classes`](Self::Classes) ignores `range` and rounds the number down.
     pub fn linear(self, value: f64, [low, high]: [f64; 2]) -> [f32; 3] {
         if value.is_nan() {
             return [0.3; 3];
@@ -112,7 +113,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn maps_begin_and_end_with_their_first_and_last_color() {
+    fn the_ends_of_a_map_have_its_first_and_last_color() {
         assert_eq!(ColorMap::Viridis.srgb(0.0), [68, 1, 84]);
         assert_eq!(ColorMap::Viridis.srgb(1.0), [253, 231, 37]);
         assert_eq!(ColorMap::Diverging.srgb(0.5), [221; 3]);
@@ -121,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn viridis_becomes_brighter_all_the_way() {
+    fn the_luminance_of_viridis_rises_monotonically() {
         let luminance = |t: f64| {
             let [r, g, b] = ColorMap::Viridis.srgb(t).map(to_linear);
             0.2126 * r + 0.7152 * g + 0.0722 * b
@@ -131,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn each_class_has_its_color() {
+    fn the_colors_of_classes_repeat_after_eight() {
         for class in 0..16_u32 {
             let color = ColorMap::Classes.linear(f64::from(class), [0.0, 0.0]);
             let expected = CLASSES[class as usize % 8].map(to_linear);

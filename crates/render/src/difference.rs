@@ -1,4 +1,4 @@
-//! Where two images differ: in words, for all images of two PNG files, and as an image.
+//! Compares images: a message for two PNG files, or an image that shows the pixels that differ.
 
 use std::io::Cursor;
 
@@ -7,36 +7,36 @@ use png::Reader;
 use crate::image::{decoder, rgba};
 use crate::{Image, PictureError};
 
-/// Where pixels differ.
-const OTHER: [u8; 4] = [0xd6, 0x20, 0x28, 255];
+/// The color of pixels that differ.
+const DIFFERENT: [u8; 4] = [0xd6, 0x20, 0x28, 255];
 
-/// How much is left of the image around that.
+/// The contrast of the expected image is divided by this.
 const FAINT: u32 = 4;
 
-/// An image in which the pixels are red that differ between two others by more than `tolerance` steps of 255, over the
-/// first one, faint and gray. `None` if their sizes differ.
+/// Shows in red the pixels that differ by more than `tolerance` of 255 in a channel, over a faint gray copy of
+/// `expected`. Returns `None` if the sizes of the images differ.
 pub fn difference(expected: &Image, found: &Image, tolerance: u8) -> Option<Image> {
     let is_near =
         |a: &[u8; 4], b: &[u8; 4]| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= tolerance);
-    let is_as_large = (expected.width, expected.height) == (found.width, found.height);
-    is_as_large.then(|| {
+    let is_same_size = (expected.width, expected.height) == (found.width, found.height);
+    is_same_size.then(|| {
         let pixels = expected.pixels.iter().zip(&found.pixels);
         Image {
             width: expected.width,
             height: expected.height,
             pixels: pixels
-                .map(|(a, b)| if is_near(a, b) { faint(*a) } else { OTHER })
+                .map(|(a, b)| if is_near(a, b) { faint(*a) } else { DIFFERENT })
                 .collect(),
         }
     })
 }
 
-/// How the pixels of two PNG files, or of all images of animations, differ by more than `tolerance` steps of 255; `None`
-/// if they do not.
+/// Compares two PNG files, which can be animations. Returns a message that describes the difference, or `None` if no
+/// channel differs by more than `tolerance` of 255.
 ///
 /// # Errors
 ///
-/// [`PictureError::Unreadable`] with the number of the file, 0 for `found` and 1 for `expected`.
+/// [`PictureError::Unreadable`] with the index of the file: 0 for `found`, 1 for `expected`.
 pub fn compare(
     found: &[u8],
     expected: &[u8],
@@ -52,46 +52,48 @@ pub fn compare(
     if n_found != n {
         return Ok(Some(format!("expected {n} images, found {n_found}")));
     }
-    let mut differing = Differing::default();
+    let mut differences = Differences::default();
     for frame in 0..n {
         let (found, expected) = (found.next()?, expected.next()?);
         if found.control != expected.control {
             let number = frame + 1;
-            let message = format!("image {number} is shown at another place or for another time");
+            let message =
+                format!("image {number} has a different position, duration or blend mode");
             return Ok(Some(message));
         }
         let width = expected.width.max(1);
         for (i, (a, b)) in found.pixels.iter().zip(&expected.pixels).enumerate() {
-            differing.total += 1;
+            differences.total += 1;
             let channels = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b));
-            let most = channels.max().unwrap_or(0);
-            if most > tolerance {
-                differing.n += 1;
-                differing.most = differing.most.max(most);
-                let at = [frame as usize, i % width, i / width];
-                differing.first.get_or_insert(at);
+            let largest = channels.max().unwrap_or(0);
+            if largest > tolerance {
+                differences.n += 1;
+                differences.largest = differences.largest.max(largest);
+                let position = [frame as usize, i % width, i / width];
+                differences.first.get_or_insert(position);
             }
         }
     }
-    Ok(differing.message(n))
+    Ok(differences.message(n))
 }
 
-/// Pixels that differ.
+/// A summary of the pixels that differ.
 #[derive(Default)]
-struct Differing {
-    /// How many, of how many.
+struct Differences {
+    /// The number of pixels that differ.
     n: u64,
+    /// The number of all pixels.
     total: u64,
-    /// By how much at most.
-    most: u8,
-    /// Image, column and row.
+    /// The largest difference of a channel.
+    largest: u8,
+    /// The image, column and row of the first pixel that differs.
     first: Option<[usize; 3]>,
 }
 
-impl Differing {
+impl Differences {
     fn message(&self, n_frames: u32) -> Option<String> {
         let [frame, x, y] = self.first?;
-        let (n, total, most) = (self.n, self.total, self.most);
+        let (n, total, largest) = (self.n, self.total, self.largest);
         let image = match n_frames {
             1 => String::new(),
             _ => format!(" of image {}", frame + 1),
@@ -101,7 +103,7 @@ impl Differing {
             _ => ("pixels differ", "by at most", "; the first is at"),
         };
         Some(format!(
-            "{n} of {total} {differ}, {by} {most} of 255{at} ({x}, {y}){image}"
+            "{n} of {total} {differ}, {by} {largest} of 255{at} ({x}, {y}){image}"
         ))
     }
 }
@@ -109,14 +111,14 @@ impl Differing {
 /// The images of a PNG file, read one after another.
 struct Frames<'b> {
     reader: Reader<Cursor<&'b [u8]>>,
-    /// Which file it is.
+    /// The index of the file: 0 for `found`, 1 for `expected`.
     file: usize,
 }
 
 struct Frame {
     pixels: Vec<[u8; 4]>,
     width: usize,
-    /// Where, how and how long it is shown, in an animation.
+    /// The position, disposal, blend mode and duration, if the file is an animation.
     control: Option<([u32; 6], [u16; 2])>,
 }
 
@@ -134,7 +136,7 @@ impl<'b> Frames<'b> {
 
     fn next(&mut self) -> Result<Frame, PictureError> {
         let size = self.reader.output_buffer_size();
-        let size = size.ok_or_else(|| unreadable(self.file, &"it is too large"))?;
+        let size = size.ok_or_else(|| unreadable(self.file, &"the image is too large"))?;
         let mut bytes = vec![0; size];
         let info = self.reader.next_frame(&mut bytes);
         let info = info.map_err(|error| unreadable(self.file, &error))?;
@@ -157,7 +159,7 @@ fn unreadable(file: usize, why: &dyn std::fmt::Display) -> PictureError {
     PictureError::Unreadable { file, why }
 }
 
-/// A light gray; lighter for light colors, and for those that are seen through.
+/// Returns a light gray, which is lighter for light colors and for transparent colors.
 fn faint([r, g, b, alpha]: [u8; 4]) -> [u8; 4] {
     let [r, g, b, alpha] = [r, g, b, alpha].map(u32::from);
     let dark = alpha * (255 - (r + g + b) / 3) / 255;
@@ -178,15 +180,16 @@ mod tests {
 
         let image = difference(&expected, &found, 0).unwrap();
 
-        let red: Vec<usize> = (0..20).filter(|&i| image.pixels[i] == OTHER).collect();
+        let red: Vec<usize> = (0..20).filter(|&i| image.pixels[i] == DIFFERENT).collect();
         assert_eq!(red, [7, 19]);
         assert_eq!(image.pixels[0], [212, 212, 212, 255]);
         let image = difference(&expected, &found, 1).unwrap();
-        assert_eq!(image.pixels.iter().position(|p| *p == OTHER), Some(19));
+        let first_red = image.pixels.iter().position(|p| *p == DIFFERENT);
+        assert_eq!(first_red, Some(19));
     }
 
     #[test]
-    fn what_is_not_seen_is_white_and_other_sizes_have_no_difference() {
+    fn transparent_pixels_are_white_and_different_sizes_give_no_image() {
         let clear = Image::filled(2, 3, [0; 4]).unwrap();
         assert!(
             difference(&clear, &clear, 0)
@@ -201,7 +204,7 @@ mod tests {
         );
     }
 
-    /// A PNG file of 3 x 2 pixels, or several as an animation.
+    /// Encodes a PNG file of 3 x 2 pixels; an animation if there are several images.
     fn file(images: &[[u8; 24]], color: png::ColorType) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, 3, 2);
@@ -226,30 +229,32 @@ mod tests {
 
     const RGBA: png::ColorType = png::ColorType::Rgba;
 
-    fn compared(found: &[u8], expected: &[u8], tolerance: u8) -> Option<String> {
+    fn message(found: &[u8], expected: &[u8], tolerance: u8) -> Option<String> {
         compare(found, expected, tolerance).unwrap()
     }
 
     #[test]
-    fn one_pixel_that_differs_is_named_with_its_place() {
+    fn the_message_names_the_position_of_a_pixel_that_differs() {
         let expected = [100; 24];
         let mut found = expected;
         found[4 * 4 + 1] = 103;
-        let differs =
-            |found, tolerance| compared(&file(&[found], RGBA), &file(&[expected], RGBA), tolerance);
-        let message = "1 of 6 pixels differs, by 3 of 255, at (1, 1)";
-        assert_eq!(differs(found, 0).as_deref(), Some(message));
-        assert!(differs(found, 2).is_some());
-        assert_eq!(differs(found, 3), None);
+        let message =
+            |found, tolerance| message(&file(&[found], RGBA), &file(&[expected], RGBA), tolerance);
+        assert_eq!(
+            message(found, 0).as_deref(),
+            Some("1 of 6 pixels differs, by 3 of 255, at (1, 1)")
+        );
+        assert!(message(found, 2).is_some());
+        assert_eq!(message(found, 3), None);
         found[0] = 0;
         assert_eq!(
-            differs(found, 0).as_deref(),
+            message(found, 0).as_deref(),
             Some("2 of 6 pixels differ, by at most 100 of 255; the first is at (0, 0)")
         );
     }
 
     #[test]
-    fn colors_count_and_not_how_they_are_kept() {
+    fn files_with_the_same_pixels_in_different_color_types_are_equal() {
         let gray = [7; 24];
         let mut rgba = [7; 24];
         rgba.iter_mut()
@@ -262,31 +267,31 @@ mod tests {
             (gray, png::ColorType::Rgb),
             (rgba, RGBA),
         ] {
-            assert_eq!(compared(&file(&[image], color), &expected, 0), None);
+            assert_eq!(message(&file(&[image], color), &expected, 0), None);
         }
-        let half = file(&[gray], png::ColorType::GrayscaleAlpha);
-        let message = compared(&half, &expected, 0).unwrap();
+        let transparent = file(&[gray], png::ColorType::GrayscaleAlpha);
+        let message = message(&transparent, &expected, 0).unwrap();
         assert!(message.contains("by at most 248"), "{message}");
     }
 
     #[test]
-    fn every_image_of_an_animation_counts() {
+    fn every_image_of_an_animation_is_compared() {
         let (a, b) = ([1; 24], [2; 24]);
         let expected = file(&[a, b, a], RGBA);
-        let differs = |found: &[_]| compared(&file(found, RGBA), &expected, 0);
-        assert_eq!(differs(&[a, b, a]), None);
+        let message = |found: &[_]| message(&file(found, RGBA), &expected, 0);
+        assert_eq!(message(&[a, b, a]), None);
         assert_eq!(
-            differs(&[a, b, b]).as_deref(),
+            message(&[a, b, b]).as_deref(),
             Some("6 of 18 pixels differ, by at most 1 of 255; the first is at (0, 0) of image 3")
         );
         assert_eq!(
-            differs(&[a, b]).as_deref(),
+            message(&[a, b]).as_deref(),
             Some("expected 3 images, found 2")
         );
     }
 
     #[test]
-    fn what_is_not_a_picture_is_an_error_and_never_a_panic() {
+    fn a_broken_file_is_an_error_and_never_a_panic() {
         let good = file(&[[9; 24]; 2], RGBA);
         for i in 0..good.len() {
             let mut broken = good.clone();

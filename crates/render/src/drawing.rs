@@ -1,5 +1,4 @@
-//! What the rasteriser draws: triangles, lines, points and the places of labels. Nothing here knows meshes
-//! or styles.
+//! The input of the rasteriser: triangles, lines, points and label positions. It is independent of meshes and styles.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -8,16 +7,16 @@ use glam::{DVec2, DVec3};
 
 use crate::texture::Texture;
 
-/// Values that belong to all of a [`Part`], or to its faces, points or corners.
+/// Values for all of a [`Part`], or for each of its faces, points or corners.
 #[derive(Clone, Debug)]
 pub enum Channel<'a> {
-    /// One value for everything.
+    /// One value for the whole part.
     All([f32; 3]),
     /// A value for each face.
     Face(Cow<'a, [[f32; 3]]>),
-    /// A value for each point, mixed inside triangles.
+    /// A value for each point, interpolated inside triangles.
     Point(Cow<'a, [[f32; 3]]>),
-    /// A value for each corner, mixed inside triangles.
+    /// A value for each corner, interpolated inside triangles.
     Corner(Cow<'a, [[f32; 3]]>),
 }
 
@@ -26,45 +25,45 @@ pub enum Channel<'a> {
 pub struct Part<'a> {
     /// The points, in scene units. They must be finite.
     pub points: Cow<'a, [DVec3]>,
-    /// The points of each triangle, counter-clockwise seen from its front.
+    /// The indices of the points of each triangle, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// The corners of each triangle, if there are values of corners; else empty.
+    /// The indices of the corners of each triangle. Empty if no values are per corner.
     pub corners: Vec<[u32; 3]>,
-    /// The face that each triangle is a part of, rising; empty if each triangle is a face.
+    /// The face that each triangle belongs to, in ascending order. Empty if each triangle is a face.
     pub faces: Vec<u32>,
-    /// How many faces there are.
+    /// The number of faces.
     pub n_faces: u32,
-    /// Normals, of any length. A zero stands for that of the triangle.
+    /// Normals, of any length. A zero normal means the normal of the triangle.
     pub normals: Channel<'a>,
-    /// Linear red, green and blue of the front, from 0 to 1. Multiplied with that of the material.
+    /// Linear red, green and blue of the front, from 0 to 1. Multiplied with the color of the material.
     pub colors: Channel<'a>,
-    /// Faces with a color of their own: in place of everything else, on both sides. Its alpha says how much
-    /// of it there is. Empty, or one for each face.
-    pub marks: Vec<[f32; 4]>,
+    /// Highlight colors of faces, which cover every other color on both sides in proportion to their alpha. Empty, or
+    /// one for each face.
+    pub highlights: Vec<[f32; 4]>,
     /// The materials.
     pub materials: Vec<Surface>,
-    /// The place in `materials` of each face's; empty if all have the first.
+    /// The index in `materials` for each face. Empty if all faces have the first material.
     pub material_of_face: Vec<u32>,
-    /// Texture coordinates of corners with v upwards; for the textures of materials.
+    /// Sets of texture coordinates of corners, with v upwards, for the textures of the materials.
     pub uvs: Vec<Cow<'a, [DVec2]>>,
-    /// What the color of the front is replaced by on the back of faces; `None` for the same.
+    /// The color of the back of faces, in place of the front color. If `None`, the same as the front.
     pub back: Option<[f32; 3]>,
 }
 
 /// How faces look.
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Linear red, green, blue and alpha, from 0 to 1. So many of the samples are covered as alpha says.
+    /// Linear red, green, blue and alpha, from 0 to 1. Alpha is the fraction of the samples that the surface covers.
     pub color: [f32; 4],
-    /// Multiplies the color, alpha as well.
+    /// Multiplies the color, including alpha.
     pub texture: Option<Arc<Texture>>,
-    /// Which texture coordinates of the part.
+    /// The index in [`Part::uvs`] of the texture coordinates.
     pub uv_set: usize,
-    /// Whether the color is shown without light.
+    /// Whether the color is shown without lighting.
     pub unlit: bool,
-    /// From 0 (a mirror) to 1 (matt): how wide highlights are.
+    /// The width of highlights, from 0 (a mirror) to 1 (matt).
     pub roughness: f32,
-    /// Light that it gives off.
+    /// Linear red, green and blue of the emitted light.
     pub emissive: [f32; 3],
 }
 
@@ -82,72 +81,72 @@ impl Default for Surface {
 }
 
 impl Surface {
-    /// Whether it hides less than half of what is behind it, or has holes.
-    pub(crate) fn is_see_through(&self) -> bool {
+    /// Whether its alpha is below one half or its texture is not opaque.
+    pub(crate) fn is_transparent(&self) -> bool {
         self.color[3] < 0.5 || self.texture.as_ref().is_some_and(|t| !t.is_opaque())
     }
 }
 
-/// A line with round ends, or a round point if both ends are one.
+/// A line with round ends, or a round point if both ends are equal.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
-    /// Its ends, in scene units. They must be finite.
+    /// The two ends, in scene units. They must be finite.
     pub ends: [DVec3; 2],
-    /// In pixels.
+    /// The width in pixels.
     pub width: f32,
     /// Linear red, green, blue and alpha.
     pub color: [f32; 4],
-    /// The faces beside it, counted over all parts, on which it is always seen; [`NO_FACE`] for none.
+    /// The faces beside the line, which never hide it. Faces are numbered through all parts; [`NO_FACE`] means none.
     pub faces: [u32; 2],
-    /// How much of it is seen where something is before it, from 0 to 1. A point is a ring there.
+    /// The opacity of the line where a surface hides it, from 0 to 1. A hidden point is drawn as a ring.
     pub hidden: f32,
-    /// How far apart lines like it are, in scene units; infinite if it is not one of many. It is thinner where many of
-    /// them would cover the surface.
-    pub room: f64,
+    /// The distance to similar lines, such as other edges of a mesh, in scene units. The line is drawn thinner where
+    /// these lines would cover the surface. Infinite for a single line.
+    pub spacing: f64,
 }
 
-/// Stands where there is no face.
+/// The face index that means "no face".
 pub const NO_FACE: u32 = u32::MAX;
 
-/// A text at a place.
+/// A text at a point of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// Where it belongs, in scene units.
+    /// The position, in scene units.
     pub at: DVec3,
-    /// What it says.
+    /// The text.
     pub text: String,
 }
 
-/// Everything that is drawn.
+/// All input of the rasteriser.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing<'a> {
-    /// Triangles. All of them together are numbered in this order, as are the faces.
+    /// Parts of triangles. Triangles and faces are numbered through all parts, in this order.
     pub parts: Vec<Part<'a>>,
-    /// Lines and points: what comes later lies on top.
+    /// Lines and points. Later ones are drawn on top.
     pub lines: Vec<Line>,
-    /// Labels. The rasteriser only says where they are and whether something is before them.
+    /// Labels. The rasteriser does not draw them: it only returns their positions and whether they are hidden.
     pub labels: Vec<Label>,
 }
 
 impl Part<'_> {
-    /// The face of a triangle.
+    /// Returns the face of a triangle.
     pub fn face(&self, triangle: usize) -> usize {
         self.faces.get(triangle).map_or(triangle, |&f| f as usize)
     }
 
-    /// The positions of the points of a triangle.
+    /// Returns the positions of the corners of a triangle.
     pub fn corners_at(&self, triangle: usize) -> [DVec3; 3] {
         self.triangles[triangle].map(|p| self.points[p as usize])
     }
 }
 
 impl Drawing<'_> {
-    /// How many triangles there are.
+    /// Returns the number of triangles.
     pub fn n_triangles(&self) -> usize {
         self.parts.iter().map(|p| p.triangles.len()).sum()
     }
 
-    /// Calls `each` with all points, and the ends of all lines.
+    /// Calls `each` with all points of parts and both ends of all lines.
     pub fn each_point(&self, each: &mut dyn FnMut(DVec3)) {
         for part in &self.parts {
             part.points.iter().for_each(|&p| each(p));
@@ -157,22 +156,22 @@ impl Drawing<'_> {
         }
     }
 
-    /// Whether there is nothing to draw but labels.
+    /// Whether it has no triangles and no lines.
     pub fn is_empty(&self) -> bool {
         self.n_triangles() == 0 && self.lines.is_empty()
     }
 }
 
 impl Channel<'_> {
-    /// The value at a place in a triangle of `part` with these barycentric coordinates.
+    /// Returns the value at these barycentric coordinates in a triangle of `part`.
     pub(crate) fn at(&self, part: &Part, triangle: usize, [u, v, w]: [f32; 3]) -> [f32; 3] {
-        let (values, places) = match self {
+        let (values, indices) = match self {
             Self::All(value) => return *value,
             Self::Face(values) => return values[part.face(triangle)],
             Self::Point(values) => (values, part.triangles[triangle]),
             Self::Corner(values) => (values, part.corners[triangle]),
         };
-        let [a, b, c] = places.map(|p| values[p as usize]);
+        let [a, b, c] = indices.map(|i| values[i as usize]);
         std::array::from_fn(|i| a[i] * u + b[i] * v + c[i] * w)
     }
 }

@@ -1,48 +1,48 @@
-//! What can go wrong with a picture.
+//! The errors of this crate.
 
-/// Why there is no picture.
+/// Why a picture cannot be made or read.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
-    /// The sides of an image are not from 1 to [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
+    /// A side of an image is 0 or longer than [`LARGEST_SIDE`](crate::LARGEST_SIDE) pixels.
     #[error(
         "expected an image of 1 to {limit} pixels a side, found {width} x {height}; choose another size",
         limit = crate::LARGEST_SIDE
     )]
     Size {
-        /// Pixels from left to right.
+        /// The width in pixels.
         width: u32,
-        /// Pixels from top to bottom.
+        /// The height in pixels.
         height: u32,
     },
-    /// The picture needs more memory than it may take.
+    /// The picture needs more memory than the budget allows.
     #[error(
-        "the picture needs {needed} bytes of memory, and {budget} are allowed; make the image smaller, or \
-         allow more"
+        "the picture needs {needed} bytes of memory, which exceeds the memory budget of {budget} bytes; make the \
+         image smaller or raise the budget"
     )]
     Budget {
-        /// The bytes that it needs.
+        /// The bytes that the picture needs.
         needed: u64,
-        /// The bytes that it may take.
+        /// The bytes that it can use.
         budget: u64,
     },
-    /// There is no view of the scene from this camera.
+    /// A parameter of the camera is out of range, or its direction is undefined.
     #[error("{0}")]
     Camera(String),
-    /// The style asks for what the scene does not have.
+    /// A number of the style is out of range, or the style or an overlay does not match the scene.
     #[error("{0}")]
     Style(String),
-    /// It was asked not to go on.
+    /// The progress listener cancelled the work.
     #[error("cancelled")]
     Cancelled,
-    /// A file is no image.
+    /// The bytes are not an image that can be read.
     #[error("the image cannot be read: {0}")]
     Decode(String),
-    /// One of several files is no image.
-    #[error("the image of number {file} cannot be read: {why}")]
+    /// One of two files that are compared is not an image that can be read.
+    #[error("image file {file}, counted from 0, cannot be read: {why}")]
     Unreadable {
-        /// Which of the files, from 0.
+        /// The index of the file, from 0.
         file: usize,
-        /// Why it cannot be read.
+        /// Why the file cannot be read.
         why: String,
     },
     /// An image cannot be encoded.

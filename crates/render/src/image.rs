@@ -1,4 +1,4 @@
-//! Images in memory, and their PNG files.
+//! Images in memory, read from PNG and JPEG files and written as PNG files.
 
 use std::io::{Cursor, Write};
 
@@ -13,23 +13,23 @@ use crate::PictureError;
 use crate::blend::over;
 use crate::work::Work;
 
-/// No side of an image is longer, in pixels.
+/// The maximum width and height of an image, in pixels.
 pub const LARGEST_SIDE: u32 = 16_384;
 
 /// An image of 8-bit colors.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct Image {
-    /// Pixels from left to right.
+    /// The width in pixels.
     pub width: u32,
-    /// Pixels from top to bottom.
+    /// The height in pixels.
     pub height: u32,
-    /// The rows from top to bottom, each from left to right: red, green, blue (sRGB) and alpha, which the
-    /// colors are not multiplied with.
+    /// The rows from top to bottom, each from left to right. A pixel is red, green and blue in sRGB, and straight alpha,
+    /// which is not multiplied into the colors.
     pub pixels: Vec<[u8; 4]>,
 }
 
 impl Image {
-    /// An image of one color.
+    /// Creates an image of one color.
     ///
     /// # Errors
     ///
@@ -43,11 +43,12 @@ impl Image {
         })
     }
 
-    /// The image in a PNG or JPEG file.
+    /// Decodes a PNG or JPEG file.
     ///
     /// # Errors
     ///
-    /// [`PictureError::Size`] if it is too large, [`PictureError::Decode`] if it is neither.
+    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`], [`PictureError::Decode`] if the file is
+    /// neither PNG nor JPEG, or is broken.
     pub fn decode(bytes: &[u8]) -> Result<Self, PictureError> {
         if bytes.starts_with(b"\xff\xd8") {
             Self::from_jpeg(bytes)
@@ -56,11 +57,12 @@ impl Image {
         }
     }
 
-    /// The image in a PNG file; the first one of an animation.
+    /// Decodes a PNG file; of an animation, the first image.
     ///
     /// # Errors
     ///
-    /// [`PictureError::Size`] if it is too large, [`PictureError::Decode`] if it is no PNG.
+    /// [`PictureError::Size`] if a side is 0 or longer than [`LARGEST_SIDE`], [`PictureError::Decode`] if the file is
+    /// not PNG, or is broken.
     pub fn from_png(bytes: &[u8]) -> Result<Self, PictureError> {
         let failed = |error: png::DecodingError| PictureError::Decode(error.to_string());
         let mut reader = decoder(bytes).read_info().map_err(failed)?;
@@ -68,13 +70,14 @@ impl Image {
         let n = checked_size(width, height)?;
         let size = reader.output_buffer_size().unwrap_or(usize::MAX);
         if size > 8 * n {
-            return Err(PictureError::Decode("its rows are too long".to_owned()));
+            let message = "its pixels take more than 8 bytes each";
+            return Err(PictureError::Decode(message.to_owned()));
         }
         let mut bytes = vec![0; size];
         let info = reader.next_frame(&mut bytes).map_err(failed)?;
         let pixels = rgba(&info, bytes);
         if (info.width, info.height, pixels.len()) != (width, height, n) {
-            let message = "its first image is smaller than the file says";
+            let message = "its first image does not have the size that the file declares";
             return Err(PictureError::Decode(message.to_owned()));
         }
         Ok(Self {
@@ -93,7 +96,7 @@ impl Image {
             .set_max_height(usize::MAX);
         let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
         decoder.decode_headers().map_err(failed)?;
-        // A side of a JPEG file has 16 bits; one without pixels is refused.
+        // The format limits a side to 65535 pixels. An image without pixels is refused.
         let info = decoder.info();
         let [width, height] = info.map_or([0; 2], |i| [i.width, i.height].map(u32::from));
         checked_size(width, height)?;
@@ -106,7 +109,7 @@ impl Image {
         })
     }
 
-    /// Lays another image over this one, with its top left corner at `corner`, where it must have room.
+    /// Composites `image` over this one, with its top left corner at `corner`, the column and row. `image` must fit.
     pub fn place(&mut self, image: &Self, corner: [u64; 2]) {
         let [x, y] = corner.map(|c| usize::try_from(c).unwrap_or(usize::MAX));
         let rows = self.pixels.chunks_exact_mut(self.width as usize).skip(y);
@@ -117,22 +120,24 @@ impl Image {
         }
     }
 
-    /// The image as a PNG file: without alpha where all is opaque. Each text is a keyword of 1 to 79
-    /// Latin-1 characters and what it says, for whoever asks where the file comes from.
+    /// Encodes the image as a PNG file, without an alpha channel if all pixels are opaque.
+    ///
+    /// Each of `texts` is a keyword of 1 to 79 Latin-1 characters and a text. They are stored in the file, for example
+    /// to record its provenance.
     ///
     /// # Errors
     ///
-    /// [`PictureError::Encode`] if there is nothing to encode, or a keyword is none.
+    /// [`PictureError::Encode`] if the image has no pixels or a keyword is invalid.
     pub fn to_png(&self, texts: &[(&str, &str)]) -> Result<Vec<u8>, PictureError> {
-        self.to_png_while(texts, &NoProgress)
+        self.to_png_with_progress(texts, &NoProgress)
     }
 
-    /// As [`Self::to_png`], with progress.
+    /// Like [`Self::to_png`], with progress and cancellation.
     ///
     /// # Errors
     ///
-    /// Those of [`Self::to_png`]; [`PictureError::Cancelled`].
-    pub fn to_png_while(
+    /// The errors of [`Self::to_png`], and [`PictureError::Cancelled`].
+    pub fn to_png_with_progress(
         &self,
         texts: &[(&str, &str)],
         progress: &dyn Progress,
@@ -141,7 +146,7 @@ impl Image {
         let mut bytes = Vec::new();
         let (encoder, channels) = encoder(&mut bytes, std::slice::from_ref(self), texts)?;
         let mut writer = encoder.write_header()?;
-        // Row by row: a large image is not copied as a whole.
+        // Row by row, so that a large image is not copied as a whole.
         let mut stream = writer.stream_writer()?;
         for row in self.pixels.chunks(self.width.max(1) as usize) {
             work.add(1)?;
@@ -154,8 +159,8 @@ impl Image {
     }
 }
 
-/// A PNG encoder with these texts for images of one size, and how many channels it takes: without alpha where all
-/// images are opaque.
+/// Returns a PNG encoder with these texts for images of the same size, and the number of channels: 3 if all pixels are
+/// opaque, else 4.
 pub(crate) fn encoder<'b>(
     bytes: &'b mut Vec<u8>,
     images: &[Image],
@@ -178,7 +183,7 @@ pub(crate) fn encoder<'b>(
     Ok((encoder, channels))
 }
 
-/// The first channels of pixels.
+/// Returns the first `channels` channels of each pixel.
 pub(crate) fn samples(pixels: &[[u8; 4]], channels: usize) -> Vec<u8> {
     let mut samples = Vec::with_capacity(4 * pixels.len());
     for pixel in pixels {
@@ -187,14 +192,14 @@ pub(crate) fn samples(pixels: &[[u8; 4]], channels: usize) -> Vec<u8> {
     samples
 }
 
-/// Decodes PNG files into pixels with alpha.
+/// Returns a decoder of PNG files into gray or RGB pixels with alpha.
 pub(crate) fn decoder(bytes: &[u8]) -> png::Decoder<Cursor<&[u8]>> {
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::ALPHA | png::Transformations::EXPAND);
     decoder
 }
 
-/// The pixels of an image that a [`decoder`] gave.
+/// Converts the samples that a [`decoder`] returned to 8-bit RGBA pixels.
 pub(crate) fn rgba(info: &png::OutputInfo, mut bytes: Vec<u8>) -> Vec<[u8; 4]> {
     if info.bit_depth == png::BitDepth::Sixteen {
         bytes = (bytes.as_chunks().0.iter())
@@ -209,12 +214,12 @@ pub(crate) fn rgba(info: &png::OutputInfo, mut bytes: Vec<u8>) -> Vec<[u8; 4]> {
     }
 }
 
-/// The byte that is nearest to a sample of 16 bits.
+/// Rounds a 16-bit sample to the nearest 8-bit sample.
 fn rounded(sample: u16) -> u8 {
     u8::try_from((u32::from(sample) + 128) / 257).unwrap_or(u8::MAX)
 }
 
-/// The number of pixels of an image, if its sides are allowed.
+/// Returns the number of pixels of an image of this width and height.
 ///
 /// # Errors
 ///
@@ -232,7 +237,7 @@ pub fn checked_size(width: u32, height: u32) -> Result<usize, PictureError> {
 mod tests {
     use super::*;
 
-    /// The image in a PNG file, with the colors that it was made of.
+    /// Decodes a PNG file into its width, height, color type and unconverted samples.
     fn decoded(bytes: &[u8]) -> (u32, u32, png::ColorType, Vec<u8>) {
         let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
@@ -241,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn a_png_file_has_the_pixels_of_the_image() {
+    fn an_encoded_png_file_has_the_pixels_of_the_image() {
         let mut image = Image::filled(3, 2, [1, 2, 3, 255]).unwrap();
         image.pixels[4] = [200, 100, 50, 255];
         let (width, height, color, pixels) = decoded(&image.to_png(&[]).unwrap());
@@ -256,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_png_file_carries_texts() {
+    fn texts_are_stored_in_the_png_file() {
         let image = Image::filled(1, 1, [0; 4]).unwrap();
         let bytes = image.to_png(&[("Source", "teapot.ron")]).unwrap();
         let reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
@@ -266,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn images_without_pixels_or_too_large_are_refused() {
+    fn empty_and_too_large_images_are_refused() {
         for (width, height) in [(0, 1), (1, 0), (LARGEST_SIDE + 1, 1), (u32::MAX, u32::MAX)] {
             let refused = Image::filled(width, height, [0; 4]);
             assert!(matches!(refused, Err(PictureError::Size { .. })));
@@ -274,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn an_image_comes_back_from_its_file() {
+    fn an_encoded_image_decodes_to_the_same_image() {
         let mut image = Image::filled(7, 3, [1, 2, 3, 255]).unwrap();
         assert_eq!(Image::from_png(&image.to_png(&[]).unwrap()).unwrap(), image);
         image.pixels[4] = [9, 8, 7, 6];
@@ -286,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn every_kind_of_color_is_read() {
+    fn every_color_type_and_bit_depth_is_read() {
         for color in [
             png::ColorType::Grayscale,
             png::ColorType::GrayscaleAlpha,
@@ -313,15 +318,15 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_image_is_refused() {
-        let whole = Image::filled(7, 3, [1, 2, 3, 255])
+    fn truncated_and_too_large_files_are_refused() {
+        let complete = Image::filled(7, 3, [1, 2, 3, 255])
             .unwrap()
             .to_png(&[])
             .unwrap();
-        for end in 0..whole.len() - 12 {
-            assert!(Image::from_png(&whole[..end]).is_err(), "{end}");
+        for end in 0..complete.len() - 12 {
+            assert!(Image::from_png(&complete[..end]).is_err(), "{end}");
         }
-        // A header of more pixels than there are, and a begin of them.
+        // The header declares a side that is too long, and the data is incomplete.
         let mut huge = Vec::new();
         let encoder = png::Encoder::new(&mut huge, LARGEST_SIDE + 1, 1);
         let mut writer = encoder.write_header().unwrap();

@@ -1,19 +1,19 @@
-//! Pictures of scenes, without a graphics processor.
+//! Renders pictures of scenes without a GPU.
 //!
-//! Everything here is computed on the processor, in parallel, and gives the same bytes on every machine and
-//! for any number of threads. The crate knows meshes, curves and scenes, but no operations and no recipes; it
-//! reads and writes no files.
+//! Everything is computed on the CPU, in parallel, and gives the same bytes on every machine and for any number
+//! of threads. The crate depends on meshes, curves and scenes, but not on operations or recipes. It reads and
+//! writes no files.
 //!
 //! ```text
 //!   scene, style, overlays --build--> drawing --render--> image --to_png--> bytes
 //!                                        camera --View::new--^
 //! ```
 //!
-//! [`picture`] does it all. [`build()`] makes a [`Drawing`] of triangles, lines and points out of a scene;
-//! [`render`] finds for 16 samples a pixel what is seen, and shades it in linear light.
+//! [`picture`] runs all of these stages. [`build()`] converts a scene to a [`Drawing`] of triangles, lines and points.
+//! [`render`] finds the visible triangle for 16 samples per pixel, and shades in linear light.
 //!
-//! [`figure`] draws in the plane: constructions of curves, legends and labels. [`animation`] puts images one after
-//! another.
+//! [`figure`] draws in the plane: constructions of curves, legends and labels. [`animation`] encodes a sequence of
+//! images.
 //!
 //! # Examples
 //!
@@ -60,7 +60,7 @@ use progress::NoProgress;
 
 pub use build::{Coloring, Elements, Highlight, Overlays, PALETTE, Stroke, build, extent};
 pub use camera::{Camera, Projection, ScreenPoint, Side, Up, View};
-pub use color::{Color, NAMES, NoColor, to_linear, to_srgb};
+pub use color::{Color, NAMES, ParseColorError, to_linear, to_srgb};
 pub use colormap::ColorMap;
 pub use difference::{compare, difference};
 pub use drawing::{Channel, Drawing, Label, Line, NO_FACE, Part, Surface};
@@ -70,13 +70,16 @@ pub use raster::{Look, PlacedLabel, Rendered, bytes_needed, render};
 pub use style::{Background, Ids, Lines, Shading, Style};
 pub use texture::{Alpha, Texture};
 
-/// A picture of a scene, `size` pixels wide and high, that takes at most `budget` bytes of memory beside the
-/// scene; and which images of materials are missing and why. `images` gives the bytes of a picture file for its
-/// path in a material.
+/// Renders a picture of a scene. Returns the picture, and a message for each image of a material that is missing or
+/// unusable.
+///
+/// `size` is the width and height in pixels. Rendering uses at most `budget` bytes of memory in addition to the scene.
+/// `images` returns the bytes of an image file for its path in a material.
 ///
 /// # Errors
 ///
-/// [`PictureError::Budget`] before anything large is allocated, and those of [`build()`], [`View::new`] and [`render`].
+/// [`PictureError::Budget`] before anything large is allocated, and the errors of [`build()`], [`View::new`] and
+/// [`render`].
 pub fn picture(
     scene: &scene::Scene,
     camera: &Camera,
@@ -110,7 +113,7 @@ mod tests {
         scene
     }
 
-    fn drawn(
+    fn draw(
         scene: &Scene,
         style: &Style,
         overlays: &Overlays,
@@ -131,15 +134,15 @@ mod tests {
     #[test]
     fn a_picture_that_needs_too_much_memory_is_refused_before_it_is_drawn() {
         let cube = scene(Object::mesh("a", shapes::cube()));
-        let drawn =
-            |size, budget| drawn(&cube, &Style::default(), &Overlays::default(), size, budget);
+        let draw =
+            |size, budget| draw(&cube, &Style::default(), &Overlays::default(), size, budget);
         let side = LARGEST_SIDE;
-        // A gigabyte of pixels does not fit half of one.
-        let refused = drawn([side, side], 1 << 29);
+        // The pixels take 1 GiB, the budget is half of that.
+        let refused = draw([side, side], 1 << 29);
         assert!(matches!(refused, Err(PictureError::Budget { needed, .. }) if needed > 1 << 30));
-        assert!(drawn([100, 100], 1 << 29).is_ok());
+        assert!(draw([100, 100], 1 << 29).is_ok());
         for size in [[0, 1], [side + 1, 1], [u32::MAX, u32::MAX]] {
-            let refused = drawn(size, u64::MAX);
+            let refused = draw(size, u64::MAX);
             assert!(
                 matches!(refused, Err(PictureError::Size { .. })),
                 "{size:?}"
@@ -156,13 +159,13 @@ mod tests {
             ..Object::mesh("a", shapes::cube())
         });
         let (style, none) = (Style::default(), Overlays::default());
-        let (picture, missing) = drawn(&cube, &style, &none, [32, 32], 1 << 30).unwrap();
+        let (picture, missing) = draw(&cube, &style, &none, [32, 32], 1 << 30).unwrap();
         assert_eq!(missing, ["wood.png: not found"]);
         assert!(picture.image.pixels.iter().any(|p| *p != [255; 4]));
     }
 
     #[test]
-    fn textures_without_coordinates_are_named() {
+    fn meshes_without_texture_coordinates_for_their_textures_are_named() {
         let mut material = Material::new("wood");
         material.base_color_texture = Some(scene::Texture::file("wood.png"));
         let cube = scene(Object {
@@ -180,13 +183,13 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_with_removed_parts_is_drawn_like_a_compact_one() {
-        let mut holed = shapes::grid(5, 4);
+    fn a_mesh_with_deleted_elements_is_drawn_like_its_compacted_copy() {
+        let mut sparse = shapes::grid(5, 4);
         for i in [0, 1, 13] {
-            holed.delete_face(FaceId::new(i)).unwrap();
+            sparse.delete_face(FaceId::new(i)).unwrap();
         }
-        holed.delete_isolated_vertices();
-        let mut compact = holed.clone();
+        sparse.delete_isolated_vertices();
+        let mut compact = sparse.clone();
         compact.compact();
         let style = Style {
             wireframe: Some(Lines::default()),
@@ -196,18 +199,18 @@ mod tests {
         let picture = |mesh| {
             let scene = scene(Object::mesh("a", mesh));
             let (picture, _) =
-                drawn(&scene, &style, &Overlays::default(), [80, 60], 1 << 30).unwrap();
+                draw(&scene, &style, &Overlays::default(), [80, 60], 1 << 30).unwrap();
             picture.image
         };
-        assert!(picture(holed) == picture(compact));
+        assert!(picture(sparse) == picture(compact));
     }
 
     #[test]
-    fn styles_and_overlays_that_do_not_fit_are_refused() {
+    fn styles_and_overlays_that_do_not_match_the_scene_are_refused() {
         let cube = scene(Object::mesh("a", shapes::cube()));
         let refused = |style: Style, overlays: Overlays| {
-            let drawn = drawn(&cube, &style, &overlays, [8, 8], 1 << 30);
-            matches!(drawn, Err(PictureError::Style(_)))
+            let result = draw(&cube, &style, &overlays, [8, 8], 1 << 30);
+            matches!(result, Err(PictureError::Style(_)))
         };
         let coloring = Coloring {
             object: "a".into(),
@@ -216,12 +219,12 @@ mod tests {
             map: ColorMap::default(),
             range: [0.0, 1.0],
         };
-        let of = |occlusion| Style {
+        let with_occlusion = |occlusion| Style {
             occlusion,
             ..Style::default()
         };
-        assert!(refused(of(1.5), Overlays::default()));
-        assert!(refused(of(f64::NAN), Overlays::default()));
+        assert!(refused(with_occlusion(1.5), Overlays::default()));
+        assert!(refused(with_occlusion(f64::NAN), Overlays::default()));
         let colorings = vec![coloring];
         assert!(refused(
             Style::default(),
@@ -249,18 +252,18 @@ mod tests {
             ids: Some(Ids::Faces),
             ..Style::default()
         };
-        let many = drawn(&grid, &style, &Overlays::default(), [8, 8], 1 << 30);
-        assert!(matches!(many, Err(PictureError::Style(_))));
+        let too_many = draw(&grid, &style, &Overlays::default(), [8, 8], 1 << 30);
+        assert!(matches!(too_many, Err(PictureError::Style(_))));
     }
 
     #[test]
-    fn an_empty_scene_is_its_background() {
+    fn a_picture_of_an_empty_scene_shows_only_the_background() {
         let empty = Scene::new();
         let style = Style {
             background: Background::Plain(Color::rgb(10, 20, 30)),
             ..Style::default()
         };
-        let (picture, _) = drawn(&empty, &style, &Overlays::default(), [5, 5], 1 << 30).unwrap();
+        let (picture, _) = draw(&empty, &style, &Overlays::default(), [5, 5], 1 << 30).unwrap();
         assert!(picture.image.pixels.iter().all(|p| *p == [10, 20, 30, 255]));
     }
 }

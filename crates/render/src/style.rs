@@ -1,4 +1,4 @@
-//! How a picture looks: what a recipe can say about it.
+//! The style of a picture, as recipes write it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,32 +7,31 @@ use crate::color::narrow;
 use crate::raster::Look;
 use crate::{Color, PictureError};
 
-/// How light falls on surfaces.
+/// The lighting of surfaces.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Shading {
     /// Each face has one shade.
     Flat,
-    /// Shades change smoothly over edges that are not sharp; by the normals of corners or vertices, if there
-    /// are any.
+    /// Smooth across edges that are not sharp. Uses the normals of corners or vertices if the mesh has them.
     #[default]
     Smooth,
-    /// Smooth, with highlights.
+    /// Like `Smooth`, with highlights.
     Phong,
-    /// Like a ball of clay in a studio, wherever the surface has the same normal.
+    /// Like clay in a studio: the shade depends only on the direction of the normal as seen from the camera.
     Matcap,
-    /// No light at all: the colors as they are.
+    /// No lighting: the colors are unchanged.
     Plain,
 }
 
-/// What is behind everything.
+/// The background.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Background {
     /// White.
     #[default]
     White,
-    /// Nothing: the picture can be laid over others.
+    /// Transparent, so that the picture can be placed over other images.
     Transparent,
     /// This color.
     Plain(Color),
@@ -42,12 +41,12 @@ pub enum Background {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Lines {
-    /// Their width in pixels.
+    /// The width in pixels.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub width: f64,
-    /// Their color.
+    /// The color.
     pub color: Color,
-    /// How much of them is seen where a surface is before them, from 0 (nothing) to 1.
+    /// The opacity of the parts that a surface hides, from 0 (invisible) to 1.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub hidden: f64,
 }
@@ -62,47 +61,48 @@ impl Default for Lines {
     }
 }
 
-/// How a picture looks.
+/// The style of a picture.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Style {
-    /// How light falls on surfaces.
+    /// The lighting of surfaces.
     pub shading: Shading,
-    /// Where surfaces have no normals of their own, edges with at least this angle between their faces look
-    /// sharp, in degrees.
+    /// The angle between the normals of two faces, in degrees, from which the edge between them is shaded as sharp.
+    /// Ignored if the mesh has normals.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub sharp: f64,
-    /// How dark hollows are, from 0 (no darker) to 1.
+    /// The strength of ambient occlusion, which darkens hollows, from 0 (none) to 1.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub occlusion: f64,
-    /// What is behind everything.
+    /// The background.
     pub background: Background,
-    /// The color of all surfaces, in place of those that the scene has.
+    /// The color of all surfaces. If omitted, the colors of the scene.
     pub color: Option<Color>,
-    /// The color of the backs of faces, which show where a mesh is open or turned inside out.
+    /// The color of the back of faces, which is visible where a mesh is open or inside out.
     pub back: Option<Color>,
-    /// The edges of meshes: thinner where they are only some pixels apart, so that the surface is seen.
+    /// Draws the edges of meshes. They are thinner where they are only a few pixels apart, so that they do not cover the
+    /// surface.
     pub wireframe: Option<Lines>,
-    /// Edges with a face on one side only.
+    /// Draws the boundary edges of meshes.
     pub boundary: Option<Lines>,
-    /// Edges with a crease: the sharper the wider, up to twice the width.
+    /// Draws crease edges. The width grows with the sharpness, up to twice `width`.
     pub creases: Option<Lines>,
-    /// Normals of vertices as short lines: their length as a fraction of the size of the scene.
+    /// Draws vertex normals as short lines. The value is their length as a fraction of the size of the scene.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub normals: Option<f64>,
-    /// Dots on all vertices of meshes and all points of polylines: their diameter in pixels.
+    /// Draws dots at all vertices of meshes and all points of polylines. The value is their diameter in pixels.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub points: Option<f64>,
-    /// The control nets of Bezier patches and the control polygons of curves.
+    /// Draws the control nets of Bezier patches and the control polygons of curves.
     pub control_nets: Option<Lines>,
-    /// Elements that have their numbers written beside them; only on small meshes.
+    /// Labels vertices or faces with their ids. Only small meshes can be labeled.
     pub ids: Option<Ids>,
     /// The width of curves and polylines in pixels.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub curve_width: f64,
 }
 
-/// Elements that can have their numbers written beside them.
+/// The elements that are labeled with their ids.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub enum Ids {
@@ -113,7 +113,7 @@ pub enum Ids {
 }
 
 impl Background {
-    /// Red, green, blue and alpha, in sRGB.
+    /// Returns red, green, blue and alpha, in sRGB.
     pub fn srgb(self) -> [u8; 4] {
         match self {
             Self::White => [255; 4],
@@ -124,11 +124,11 @@ impl Background {
 }
 
 impl Style {
-    /// Whether all numbers are in their ranges.
+    /// Checks that all numbers are in their ranges.
     ///
     /// # Errors
     ///
-    /// [`PictureError::Style`] with the first that is not.
+    /// [`PictureError::Style`] that names the first number out of its range.
     pub fn check(&self) -> Result<(), PictureError> {
         let mut numbers = vec![
             ("sharp", self.sharp, 180.0),
@@ -137,28 +137,28 @@ impl Style {
         ];
         numbers.extend(self.normals.map(|n| ("normals", n, 1.0)));
         numbers.extend(self.points.map(|n| ("points", n, 100.0)));
-        let kinds = [
+        let all_lines = [
             self.wireframe,
             self.boundary,
             self.creases,
             self.control_nets,
         ];
-        for lines in kinds.into_iter().flatten() {
+        for lines in all_lines.into_iter().flatten() {
             numbers.extend([("width", lines.width, 100.0), ("hidden", lines.hidden, 1.0)]);
         }
         match numbers
             .into_iter()
-            .find(|&(_, n, most)| !(0.0..=most).contains(&n))
+            .find(|&(_, n, max)| !(0.0..=max).contains(&n))
         {
             None => Ok(()),
-            Some((name, n, most)) => {
-                let message = format!("expected `{name}` from 0 to {most}, found {n}");
+            Some((name, n, max)) => {
+                let message = format!("expected `{name}` from 0 to {max}, found {n}");
                 Err(PictureError::Style(message))
             }
         }
     }
 
-    /// How a drawing in this style is drawn.
+    /// Returns the settings of this style that the rasteriser uses.
     pub fn look(&self) -> Look {
         Look {
             shading: self.shading,

@@ -1,6 +1,7 @@
-//! Textures: pictures on surfaces, with smaller copies for what is far away.
+//! Textures with mipmaps.
 //!
-//! What is not opaque has less weight where colors are mixed: the color of what is not seen does not bleed into what is.
+//! Where colors are averaged, transparent pixels have less weight, so that the color of invisible pixels does not bleed
+//! into visible ones.
 
 use glam::DVec2;
 use scene::{Filter, Sampler, TextureTransform, Wrap};
@@ -8,40 +9,40 @@ use scene::{Filter, Sampler, TextureTransform, Wrap};
 use crate::Image;
 use crate::color::{byte, mix, narrow, to_linear, to_srgb, whole};
 
-/// A picture in memory, and how it lies on a surface.
+/// An image that is mapped to a surface.
 #[derive(Clone, Debug)]
 pub struct Texture {
-    /// The picture and its copies, each half as large as the one before.
+    /// The mipmap: the image, and copies of half the width and height of the level before.
     levels: Vec<Level>,
     sampler: Sampler,
     transform: TextureTransform,
     alpha: Alpha,
 }
 
-/// What the alpha of a texture means.
+/// How the alpha of a texture is used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Alpha {
-    /// Nothing: the surface is opaque.
+    /// Alpha is ignored: the surface is opaque.
     Ignored,
-    /// The surface is there where alpha is at least this, and not elsewhere.
+    /// The surface is opaque where alpha is at least this cutoff, and invisible elsewhere.
     Cut(f32),
-    /// The surface covers so much of what is behind it.
+    /// Alpha is the opacity of the surface.
     Blended,
 }
 
-/// Alphas of bytes that are equal as written must not differ by how they were computed.
-const SLACK: f32 = 1e-6;
+/// A tolerance for rounding errors in the comparison of alpha with a cutoff.
+const TOLERANCE: f32 = 1e-6;
 
-/// The least weight of a color: where nothing is opaque, there is a color nevertheless.
-const LEAST_WEIGHT: f32 = 1.0 / 1024.0;
+/// The minimum weight of a color, so that fully transparent pixels have a color too.
+const MIN_WEIGHT: f32 = 1.0 / 1024.0;
 
 impl Alpha {
-    /// How much of the surface a pixel covers. Level 0 is the picture itself; in place of alpha, its copies have
-    /// coverage.
+    /// Returns the fraction of a pixel that the surface covers, from the alpha of the pixel. Level 0 is the image itself;
+    /// the alpha of its smaller copies is already the coverage.
     fn coverage(self, level: usize, alpha: f32) -> f32 {
         match self {
             Self::Ignored => 1.0,
-            Self::Cut(least) if level == 0 => f32::from(u8::from(alpha >= least - SLACK)),
+            Self::Cut(cutoff) if level == 0 => f32::from(u8::from(alpha >= cutoff - TOLERANCE)),
             Self::Cut(_) | Self::Blended => alpha,
         }
     }
@@ -54,38 +55,41 @@ struct Level {
     pixels: Vec<[u8; 4]>,
 }
 
-/// What is looked at for a pixel of the picture: a place in a level and the next one, and how far it is from the first
-/// to the second.
+/// The part of a texture that one pixel of the picture shows.
 struct Footprint {
-    place: DVec2,
+    /// The position in the image, where 0 to 1 is its width and height.
+    position: DVec2,
+    /// The first of the two levels between which values are interpolated.
     level: usize,
+    /// The weight of the second level.
     t: f32,
+    /// Whether the nearest pixel is used, without interpolation.
     is_nearest: bool,
 }
 
 impl Texture {
-    /// A texture from the bytes of a PNG or JPEG file. One without alpha is opaque, whatever alpha would mean.
+    /// Creates a texture from the bytes of a PNG or JPEG file. If all pixels are opaque, `alpha` is ignored.
     ///
     /// # Errors
     ///
-    /// Why the bytes are no picture.
+    /// A message that says why the bytes cannot be read as an image.
     pub fn decode(
         bytes: &[u8],
         sampler: Sampler,
         transform: TextureTransform,
         alpha: Alpha,
     ) -> Result<Self, String> {
-        let picture = Image::decode(bytes).map_err(|error| error.to_string())?;
+        let image = Image::decode(bytes).map_err(|error| error.to_string())?;
         let first = Level {
-            width: picture.width as usize,
-            height: picture.height as usize,
-            pixels: picture.pixels,
+            width: image.width as usize,
+            height: image.height as usize,
+            pixels: image.pixels,
         };
         let is_opaque = first.pixels.iter().all(|p| p[3] == u8::MAX);
         let alpha = if is_opaque { Alpha::Ignored } else { alpha };
         let mut levels = vec![first];
         for level in 0.. {
-            let Some(half) = levels[level].half(|a| alpha.coverage(level, part(a))) else {
+            let Some(half) = levels[level].half(|a| alpha.coverage(level, unit(a))) else {
                 break;
             };
             levels.push(half);
@@ -98,22 +102,22 @@ impl Texture {
         })
     }
 
-    /// Whether it is opaque all over.
+    /// Whether the whole texture is opaque.
     pub(crate) fn is_opaque(&self) -> bool {
         self.alpha == Alpha::Ignored
     }
 
-    /// Linear red, green and blue at texture coordinates with v upwards. `beside` says how far away the
-    /// next pixels of the picture are.
-    pub(crate) fn at(&self, uv: DVec2, beside: [DVec2; 2]) -> [f32; 3] {
-        let footprint = self.footprint(uv, beside);
+    /// Returns linear red, green and blue at texture coordinates with v upwards. `steps` are the differences of the
+    /// texture coordinates to the next pixels of the picture, to the right and downwards.
+    pub(crate) fn at(&self, uv: DVec2, steps: [DVec2; 2]) -> [f32; 3] {
+        let footprint = self.footprint(uv, steps);
         if self.is_opaque() {
             let light = |[r, g, b, _]: [u8; 4]| [r, g, b].map(to_linear);
-            return footprint.mixed(|level| self.at_level(level, &footprint, light));
+            return footprint.interpolate(|level| self.at_level(level, &footprint, light));
         }
-        let [r, g, b, weight] = footprint.mixed(|level| {
+        let [r, g, b, weight] = footprint.interpolate(|level| {
             self.at_level(level, &footprint, |[r, g, b, a]| {
-                let weight = self.alpha.coverage(level, part(a)).max(LEAST_WEIGHT);
+                let weight = self.alpha.coverage(level, unit(a)).max(MIN_WEIGHT);
                 let [r, g, b] = [r, g, b].map(|c| to_linear(c) * weight);
                 [r, g, b, weight]
             })
@@ -121,45 +125,47 @@ impl Texture {
         [r, g, b].map(|c| c / weight)
     }
 
-    /// How much of the surface is there, from 0 to 1, at texture coordinates with v upwards. `beside` says how far
-    /// away the next places are that are asked for.
+    /// Returns the coverage of the surface, from 0 to 1, at texture coordinates with v upwards. `steps` are the
+    /// differences of the texture coordinates to the next samples.
     ///
-    /// Where a texture cuts, places are compared before they are averaged: what is small stays as dense as it is
-    /// from far away.
-    pub(crate) fn coverage(&self, uv: DVec2, beside: [DVec2; 2]) -> f32 {
-        let footprint = self.footprint(uv, beside);
-        let [coverage] = footprint.mixed(|level| {
-            let alpha = self.at_level(level, &footprint, |p| [part(p[3])]);
+    /// With [`Alpha::Cut`], alpha is compared with the cutoff before it is averaged over pixels. Fine structures such as
+    /// leaves so keep their density when they are seen from far away.
+    pub(crate) fn coverage(&self, uv: DVec2, steps: [DVec2; 2]) -> f32 {
+        let footprint = self.footprint(uv, steps);
+        let [coverage] = footprint.interpolate(|level| {
+            let alpha = self.at_level(level, &footprint, |p| [unit(p[3])]);
             alpha.map(|alpha| self.alpha.coverage(level, alpha))
         });
         coverage
     }
 
-    /// Which pixels of which copies are looked at: between the two copies whose pixels are as large as those of the
+    /// Returns the position in the mipmap, between the two levels whose pixels are closest in size to those of the
     /// picture. Williams, "Pyramidal Parametrics", 1983.
-    fn footprint(&self, uv: DVec2, beside: [DVec2; 2]) -> Footprint {
+    fn footprint(&self, uv: DVec2, steps: [DVec2; 2]) -> Footprint {
         let (sin, cos) = libm::sincos(self.transform.rotation);
         let [sx, sy] = self.transform.scale;
-        // Of the transform without its offset: linear, with v downwards.
-        let turned = |d: DVec2| {
+        // The linear part of the transform, without its offset, with v downwards.
+        let scale_and_rotate = |d: DVec2| {
             let (x, y) = (d.x * sx, d.y * sy);
             DVec2::new(cos * x + sin * y, cos * y - sin * x)
         };
-        let place = turned(DVec2::new(uv.x, 1.0 - uv.y)) + DVec2::from(self.transform.offset);
+        let offset = DVec2::from(self.transform.offset);
+        let position = scale_and_rotate(DVec2::new(uv.x, 1.0 - uv.y)) + offset;
         let size = DVec2::new(self.levels[0].width as f64, self.levels[0].height as f64);
-        let [a, b] = beside.map(|d| (turned(DVec2::new(d.x, -d.y)) * size).length());
-        let wide = a.max(b).max(1.0);
-        let level = libm::log2(wide).min((self.levels.len() - 1) as f64);
+        let [a, b] = steps.map(|d| (scale_and_rotate(DVec2::new(d.x, -d.y)) * size).length());
+        // In pixels of the image.
+        let width = a.max(b).max(1.0);
+        let level = libm::log2(width).min((self.levels.len() - 1) as f64);
         Footprint {
-            place,
+            position,
             level: whole(level),
             t: narrow(level.fract()),
-            // A picture of large pixels is meant to be seen as such if its file says so.
-            is_nearest: wide <= 1.0 && self.sampler.magnify == Some(Filter::Nearest),
+            is_nearest: width <= 1.0 && self.sampler.magnify == Some(Filter::Nearest),
         }
     }
 
-    /// What `texel` makes of the pixels of a level at a place from 0 to 1, and beyond as the sampler says.
+    /// Interpolates the values of `texel` for the pixels of a level at the position of `footprint`. Outside of the image,
+    /// the sampler decides.
     fn at_level<const N: usize>(
         &self,
         level: usize,
@@ -169,8 +175,8 @@ impl Texture {
         let (level, wrap) = (&self.levels[level], self.sampler.wrap);
         let (w, h) = (level.width, level.height);
         let value = |x: usize, y: usize| texel(level.pixels[y * w + x]);
-        let x = footprint.place.x * w as f64;
-        let y = footprint.place.y * h as f64;
+        let x = footprint.position.x * w as f64;
+        let y = footprint.position.y * h as f64;
         if footprint.is_nearest {
             return value(
                 wrapped(x.floor(), w, wrap[0]),
@@ -189,23 +195,24 @@ impl Texture {
 }
 
 impl Footprint {
-    /// The mean of what `of` says of two levels.
-    fn mixed<const N: usize>(&self, of: impl Fn(usize) -> [f32; N]) -> [f32; N] {
+    /// Interpolates the values of two levels.
+    fn interpolate<const N: usize>(&self, value: impl Fn(usize) -> [f32; N]) -> [f32; N] {
         if self.t > 0.0 {
-            mix(of(self.level), of(self.level + 1), self.t)
+            mix(value(self.level), value(self.level + 1), self.t)
         } else {
-            of(self.level)
+            value(self.level)
         }
     }
 }
 
-/// The part of 1 that a byte stands for.
-fn part(byte: u8) -> f32 {
+/// Scales a byte to 0 to 1.
+fn unit(byte: u8) -> f32 {
     f32::from(byte) / 255.0
 }
 
 impl Level {
-    /// The mean of each four pixels, whose alphas have these weights; `None` of a single pixel.
+    /// Returns the level of half the width and height, of the means of four pixels each. `weight` returns the weight of
+    /// a pixel for its alpha. `None` if this level is a single pixel.
     fn half(&self, weight: impl Fn(u8) -> f32) -> Option<Self> {
         if self.width * self.height == 1 {
             return None;
@@ -218,10 +225,10 @@ impl Level {
                 let [x1, y1] = [(x0 + 1).min(self.width - 1), (y0 + 1).min(self.height - 1)];
                 let four = [(x0, y0), (x1, y0), (x0, y1), (x1, y1)]
                     .map(|(x, y)| self.pixels[y * self.width + x]);
-                let covered = four.map(|p| weight(p[3]));
-                let all = covered.iter().sum::<f32>();
-                let (weights, sum) = if all > 0.0 {
-                    (covered, all)
+                let coverage = four.map(|p| weight(p[3]));
+                let total = coverage.iter().sum::<f32>();
+                let (weights, sum) = if total > 0.0 {
+                    (coverage, total)
                 } else {
                     ([1.0; 4], 4.0)
                 };
@@ -229,7 +236,7 @@ impl Level {
                     let light = four.iter().zip(weights).map(|(p, w)| to_linear(p[i]) * w);
                     to_srgb(light.sum::<f32>() / sum)
                 };
-                pixels.push([mean(0), mean(1), mean(2), byte(all / 4.0)]);
+                pixels.push([mean(0), mean(1), mean(2), byte(total / 4.0)]);
             }
         }
         Some(Self {
@@ -240,7 +247,7 @@ impl Level {
     }
 }
 
-/// The pixel for a whole number, which may lie outside of the `n` pixels that there are.
+/// Returns the index of the pixel for a whole number, which can be outside of the `n` pixels.
 fn wrapped(x: f64, n: usize, wrap: Wrap) -> usize {
     let size = n as f64;
     let inside = match wrap {
@@ -263,7 +270,7 @@ mod tests {
     const BLUE: [u8; 4] = [0, 0, 255, 255];
     const WHITE: [u8; 4] = [255; 4];
 
-    /// Red and green over blue and white.
+    /// A texture of 2 x 2 pixels: red and green above blue and white.
     fn texture(sampler: Sampler, transform: TextureTransform) -> Texture {
         let image = Image {
             width: 2,
@@ -292,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn beyond_its_border_a_texture_goes_on_as_its_sampler_says() {
+    fn the_sampler_decides_how_a_texture_continues_outside_of_its_image() {
         for (wrap, left, far) in [
             (Wrap::Repeat, [0, 255, 0], [255, 0, 0]),
             (Wrap::Mirror, [255, 0, 0], [0, 255, 0]),
@@ -309,20 +316,20 @@ mod tests {
     }
 
     #[test]
-    fn a_transform_scales_turns_and_moves() {
-        // As KHR_texture_transform has it: a quarter turn counter-clockwise about the upper left corner.
+    fn a_transform_scales_rotates_and_moves() {
+        // A quarter turn counter-clockwise about the upper left corner, as defined by KHR_texture_transform.
         let transform = TextureTransform {
             offset: [0.0, 1.0],
             rotation: std::f64::consts::FRAC_PI_2,
             scale: [1.0, 1.0],
         };
         let turned = texture(Sampler::default(), transform);
-        // (0.25, 0.25) from above becomes (0.25, -0.25 + 1).
+        // With v downwards, (0.25, 0.25) becomes (0.25, -0.25 + 1).
         assert_eq!(at(&turned, 0.25, 0.75), [0, 0, 255]);
     }
 
     #[test]
-    fn from_far_away_a_texture_is_the_mean_of_its_light() {
+    fn a_texture_seen_from_far_away_is_the_mean_of_its_linear_colors() {
         let plain = texture(Sampler::default(), TextureTransform::default());
         let light = plain.at(DVec2::splat(0.3), [DVec2::splat(9.0); 2]);
         let half = to_srgb(0.5);
@@ -330,7 +337,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_picture_is_refused() {
+    fn bytes_that_are_not_an_image_are_refused() {
         for bytes in [&b""[..], b"\x89PNG\r\n\x1a\n", b"not a picture"] {
             let (sampler, transform) = (Sampler::default(), TextureTransform::default());
             let decoded = Texture::decode(bytes, sampler, transform, Alpha::Ignored);

@@ -1,4 +1,4 @@
-//! How far a picture is, when several threads draw it.
+//! Progress and cancellation of work that several threads share.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -7,51 +7,52 @@ use rayon::prelude::*;
 
 use crate::PictureError;
 
-/// What `of` says of each number below `n`, in parallel.
-pub(crate) fn each<T: Send>(n: usize, of: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
-    let numbers = (0..n).into_par_iter().with_min_len(4096);
-    numbers.map(of).collect()
+/// Computes `f(i)` for each `i` below `n`, in parallel.
+pub(crate) fn map_indices<T: Send>(n: usize, f: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
+    let indices = (0..n).into_par_iter().with_min_len(4096);
+    indices.map(f).collect()
 }
 
-/// Work of several threads that can be cancelled. The listener is called by one of them at a time.
+/// Work that several threads share and that can be cancelled. Only one thread at a time calls the listener.
 pub(crate) struct Work<'a> {
     progress: &'a dyn Progress,
-    what: &'static str,
+    stage: &'static str,
     total: u64,
-    /// `None` once it is cancelled.
+    /// The amount of work done; `None` after it is cancelled.
     done: Mutex<Option<u64>>,
 }
 
 impl<'a> Work<'a> {
-    /// Work of this amount, in units of its own.
-    pub(crate) fn new(progress: &'a dyn Progress, what: &'static str, total: u64) -> Self {
+    /// Creates work of `total` units; the caller chooses the unit.
+    pub(crate) fn new(progress: &'a dyn Progress, stage: &'static str, total: u64) -> Self {
         Self {
             progress,
-            what,
+            stage,
             total: total.max(1),
             done: Mutex::new(Some(0)),
         }
     }
 
-    /// Adds to what is done.
+    /// Adds to the amount of work done.
     ///
     /// # Errors
     ///
-    /// [`PictureError::Cancelled`] if the listener cancels; ever after, once it has.
+    /// [`PictureError::Cancelled`] if the listener cancels the work, or has cancelled it before.
     pub(crate) fn add(&self, amount: u64) -> Result<(), PictureError> {
         let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
         let sum = done.map(|done| done.saturating_add(amount).min(self.total));
-        *done = sum.filter(|&sum| self.progress.advance(self.what, sum, self.total));
+        *done = sum.filter(|&sum| self.progress.advance(self.stage, sum, self.total));
         done.map(drop).ok_or(PictureError::Cancelled)
     }
 }
 
-/// A listener that hears how much is done, from 0 to 1, and says whether to go on.
+/// A progress listener made from a function, which takes the fraction of the work done, from 0 to 1, and returns
+/// false to cancel.
 #[cfg(test)]
-pub(crate) struct While<F>(pub(crate) F);
+pub(crate) struct Listener<F>(pub(crate) F);
 
 #[cfg(test)]
-impl<F: Fn(f64) -> bool + Sync> Progress for While<F> {
+impl<F: Fn(f64) -> bool + Sync> Progress for Listener<F> {
     fn advance(&self, _: &str, done: u64, total: u64) -> bool {
         (self.0)(done as f64 / total as f64)
     }
@@ -62,19 +63,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn work_rises_to_its_end_and_stays_cancelled() {
-        let heard = Mutex::new(Vec::new());
-        let go_on = While(|part: f64| {
-            heard.lock().unwrap().push(part);
-            part < 0.7
+    fn work_is_at_most_its_total_and_stays_cancelled() {
+        let reported = Mutex::new(Vec::new());
+        let until_seventy_percent = Listener(|fraction: f64| {
+            reported.lock().unwrap().push(fraction);
+            fraction < 0.7
         });
-        let work = Work::new(&go_on, "draw", 10);
-        let went_on: Vec<bool> = (0..4).map(|_| work.add(3).is_ok()).collect();
-        assert_eq!(went_on, [true, true, false, false]);
-        assert_eq!(*heard.lock().unwrap(), [0.3, 0.6, 0.9]);
-        // More than was expected, and nothing at all.
-        let always = While(|part| part <= 1.0);
-        assert!(Work::new(&always, "draw", 2).add(9).is_ok());
-        assert!(Work::new(&always, "draw", 0).add(0).is_ok());
+        let work = Work::new(&until_seventy_percent, "draw", 10);
+        let continued: Vec<bool> = (0..4).map(|_| work.add(3).is_ok()).collect();
+        assert_eq!(continued, [true, true, false, false]);
+        assert_eq!(*reported.lock().unwrap(), [0.3, 0.6, 0.9]);
+        // More work than the total, and a total of 0.
+        let at_most_one = Listener(|fraction| fraction <= 1.0);
+        assert!(Work::new(&at_most_one, "draw", 2).add(9).is_ok());
+        assert!(Work::new(&at_most_one, "draw", 0).add(0).is_ok());
     }
 }

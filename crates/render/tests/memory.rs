@@ -93,7 +93,7 @@ fn long_lines() -> Drawing<'static> {
             color: [0.0, 0.0, 0.0, 1.0],
             faces: [NO_FACE; 2],
             hidden: 0.0,
-            room: f64::INFINITY,
+            spacing: f64::INFINITY,
         }
     };
     Drawing {

@@ -121,7 +121,7 @@ impl Shot<'_> {
         let mut points = Vec::new();
         for camera in self.cameras {
             let each = |each: &mut dyn FnMut(DVec3)| subject.drawing.each_point(each);
-            points.extend(camera.decisive(&each, self.size)?);
+            points.extend(camera.extreme_points(&each, self.size)?);
         }
         let shown = subject.shown;
         Ok(Extent { points, shown })

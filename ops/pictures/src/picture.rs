@@ -329,7 +329,7 @@ impl Picture {
         let texts: Vec<(&str, &str)> = stamp.iter().map(|stamp| ("Software", *stamp)).collect();
         let Some(turn) = self.turntable else {
             return match images {
-                [image] => image.to_png_while(&texts, progress),
+                [image] => image.to_png_with_progress(&texts, progress),
                 _ => Err(PictureError::Encode("there is no image".to_owned())),
             };
         };
@@ -340,7 +340,7 @@ impl Picture {
             reason = "it is held to what 16 bits can say"
         )]
         let delay = delay.round().clamp(1.0, f64::from(u16::MAX)) as u16;
-        let timing = Timing { delay, turns: 0 };
+        let timing = Timing { delay, plays: 0 };
         match Format::of(Path::new(&self.path)) {
             Some(Format::Gif) => to_gif(images, timing, stamp, progress),
             _ => to_apng(images, timing, &texts, progress),

@@ -251,7 +251,7 @@ fn is_cancelled(error: &anyhow::Error) -> bool {
 
 /// Writes one image as PNG, and with `say` prints its path and size.
 pub(crate) fn write_png(image: &Image, path: &Path, say: bool) -> anyhow::Result<()> {
-    let bytes = image.to_png_while(&[("Software", STAMP)], &INTERRUPT)?;
+    let bytes = image.to_png_with_progress(&[("Software", STAMP)], &INTERRUPT)?;
     if say {
         write(path, &bytes, image)
     } else {

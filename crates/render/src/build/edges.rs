@@ -1,4 +1,4 @@
-//! Lines and points of meshes: wireframes, boundaries, creases, highlights, normals, numbers.
+//! Lines, points and labels of meshes: wireframes, boundaries, creases, highlights, normals and ids.
 
 use ::mesh::{CREASE, Domain, EdgeId, Mesh, VERTEX_NORMAL, VertexId};
 use glam::DVec3;
@@ -10,18 +10,19 @@ use crate::color::narrow;
 use crate::drawing::{Label, Line, NO_FACE};
 use crate::style::Ids;
 
-/// The diameter of vertices without edges, in pixels: of a mesh that has no others, and beside a surface.
-const LONELY: f64 = 3.0;
-const LONELY_BESIDE: f64 = 1.8;
-/// The width of the border of marked vertices on both sides together, as a part of their diameter.
+/// The diameter of isolated vertices in a mesh without edges, in pixels.
+const ISOLATED_ALONE: f64 = 3.0;
+/// The diameter of isolated vertices in a mesh with edges, in pixels.
+const ISOLATED_BESIDE_EDGES: f64 = 1.8;
+/// The width of the border of highlighted vertices, both sides together, as a fraction of their diameter.
 const BORDER: f64 = 0.25;
-/// No more labels than this: they would cover each other.
-const MOST_IDS: usize = 2000;
-/// The sharpness that never fades.
-const SHARPEST: f64 = 10.0;
+/// The maximum number of id labels of a mesh. More would cover each other.
+const MAX_IDS: usize = 2000;
+/// Creases with at least this sharpness are drawn with twice the width of the style.
+const MAX_SHARPNESS: f64 = 10.0;
 
 impl Builder<'_, '_> {
-    /// Adds what lies on the last part.
+    /// Adds the lines, points and labels of a mesh.
     pub(super) fn edges(
         &mut self,
         object: &Object,
@@ -33,7 +34,7 @@ impl Builder<'_, '_> {
             for e in mesh.edges() {
                 self.edge(mesh, e, lines.width, lines.color.linear(), lines.hidden);
                 if let Some(line) = self.drawing.lines.last_mut() {
-                    line.room = room(mesh, e);
+                    line.spacing = spacing(mesh, e);
                 }
             }
         }
@@ -45,7 +46,7 @@ impl Builder<'_, '_> {
         }
         if let (Some(lines), Some(creases)) = (style.creases, mesh.get(CREASE)) {
             for e in mesh.edges() {
-                let sharpness = (creases[e.index()] / SHARPEST).clamp(0.0, 1.0);
+                let sharpness = (creases[e.index()] / MAX_SHARPNESS).clamp(0.0, 1.0);
                 if sharpness > 0.0 {
                     let width = lines.width * (1.0 + sharpness);
                     self.edge(mesh, e, width, lines.color.linear(), lines.hidden);
@@ -69,7 +70,7 @@ impl Builder<'_, '_> {
                     }
                 }
                 Elements::Vertices(vertices) => {
-                    // The light border tells them apart from lines and from each other.
+                    // The white border separates the dots from lines and from each other.
                     let white = [1.0, 1.0, 1.0, 0.9];
                     let border = highlight.size * (1.0 + BORDER);
                     for &v in vertices.iter().filter(|&&v| mesh.has_vertex(v)) {
@@ -83,6 +84,7 @@ impl Builder<'_, '_> {
         self.ids(object, mesh)
     }
 
+    /// Adds the line of an edge.
     fn edge(&mut self, mesh: &Mesh, e: EdgeId, width: f64, color: [f32; 4], hidden: f64) {
         let ends = mesh.edge_vertices(e).map(|v| mesh.position(v));
         let faces = mesh.edge_faces(e).map(|f| {
@@ -107,7 +109,7 @@ impl Builder<'_, '_> {
             color,
             faces,
             hidden: narrow(hidden),
-            room: f64::INFINITY,
+            spacing: f64::INFINITY,
         });
     }
 
@@ -116,28 +118,28 @@ impl Builder<'_, '_> {
         self.line([at; 2], diameter, color, [NO_FACE; 2], hidden);
     }
 
-    /// Vertices without edges, normals, and dots on all vertices.
+    /// Adds isolated vertices, and the normals and dots of all vertices if the style has them.
     fn vertices(&mut self, mesh: &Mesh) {
         let dark = crate::Color::rgb(28, 34, 48).linear();
-        let is_lonely = |v: &VertexId| mesh.vertex_half_edge(*v).is_none();
-        // Beside a surface they are mostly remains, and say little.
+        let is_isolated = |v: &VertexId| mesh.vertex_half_edge(*v).is_none();
+        // Isolated vertices of a mesh with edges are rarely important, so they are small and faint.
         let (diameter, color) = if mesh.n_edges() == 0 {
-            (LONELY, dark)
+            (ISOLATED_ALONE, dark)
         } else {
-            (LONELY_BESIDE, [dark[0], dark[1], dark[2], 0.4])
+            (ISOLATED_BESIDE_EDGES, [dark[0], dark[1], dark[2], 0.4])
         };
-        for v in mesh.vertices().filter(is_lonely) {
+        for v in mesh.vertices().filter(is_isolated) {
             self.dot(mesh.position(v), diameter, color, 0.0);
         }
         if let Some(length) = self.style.normals {
-            let given = mesh.get(VERTEX_NORMAL);
-            let of = |v: VertexId| match given {
-                Some(given) => given[v.index()],
+            let attribute = mesh.get(VERTEX_NORMAL);
+            let normal = |v: VertexId| match attribute {
+                Some(normals) => normals[v.index()],
                 None => mesh.vertex_faces(v).map(|f| mesh.area_vector(f)).sum(),
             };
             let color = crate::Color::rgb(0, 114, 178).linear();
             for v in mesh.vertices() {
-                let (p, n) = (mesh.position(v), of(v).normalize_or_zero());
+                let (p, n) = (mesh.position(v), normal(v).normalize_or_zero());
                 if n != DVec3::ZERO {
                     let end = p + n * (length * self.radius);
                     self.line([p, end], 1.2, color, [NO_FACE; 2], 0.0);
@@ -151,18 +153,18 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Labels with the numbers of elements.
+    /// Adds labels with the ids of vertices or faces if the style has them.
     fn ids(&mut self, object: &Object, mesh: &Mesh) -> Result<(), PictureError> {
         let Some(ids) = self.style.ids else {
             return Ok(());
         };
-        let n = match ids {
-            Ids::Vertices => mesh.n_vertices(),
-            Ids::Faces => mesh.n_faces(),
+        let (n, elements) = match ids {
+            Ids::Vertices => (mesh.n_vertices(), "vertices"),
+            Ids::Faces => (mesh.n_faces(), "faces"),
         };
-        if n > MOST_IDS {
+        if n > MAX_IDS {
             return Err(PictureError::Style(format!(
-                "expected at most {MOST_IDS} elements to write numbers at, \"{}\" has more; leave `ids` away",
+                "expected at most {MAX_IDS} {elements} to label with ids, \"{}\" has {n}; omit `ids`",
                 object.name
             )));
         }
@@ -183,8 +185,8 @@ impl Builder<'_, '_> {
     }
 }
 
-/// The mean length of the sides of the faces beside an edge: how far apart edges are there.
-fn room(mesh: &Mesh, e: EdgeId) -> f64 {
+/// Estimates the distance between edges near `e`: the mean edge length of its adjacent faces. Infinite without faces.
+fn spacing(mesh: &Mesh, e: EdgeId) -> f64 {
     let (mut sum, mut n) = (0.0, 0);
     let faces = mesh.edge_faces(e).into_iter().flatten();
     for h in faces.flat_map(|f| mesh.face_half_edges(f)) {

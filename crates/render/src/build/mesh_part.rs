@@ -1,4 +1,4 @@
-//! Meshes: triangles, normals, colors, materials.
+//! Meshes: triangles, normals, colors and materials.
 
 use std::borrow::Cow;
 
@@ -16,13 +16,13 @@ use crate::PictureError;
 use crate::color::{Color, narrow};
 use crate::drawing::{Channel, Part, Surface};
 use crate::style::Shading;
-use crate::work::each;
+use crate::work::map_indices;
 
-/// Faces that one task cuts into triangles.
+/// The number of faces that one task triangulates.
 const CHUNK: usize = 1 << 14;
 
 impl<'s> Builder<'s, '_> {
-    /// Adds a mesh with its lines and points.
+    /// Adds a mesh with its lines, points and labels.
     pub(super) fn mesh(
         &mut self,
         object: &'s Object,
@@ -38,24 +38,24 @@ impl<'s> Builder<'s, '_> {
             let why = format!("{}: no texture coordinates for its textures", object.name);
             self.missing.push(why);
         }
-        let is_by_corner = |channel: &Channel| matches!(channel, Channel::Corner(_));
-        let needs_corners = !uvs.is_empty() || is_by_corner(&colors) || is_by_corner(&normals);
-        let cut = cut(mesh, needs_corners);
+        let is_per_corner = |channel: &Channel| matches!(channel, Channel::Corner(_));
+        let needs_corners = !uvs.is_empty() || is_per_corner(&colors) || is_per_corner(&normals);
+        let triangulation = triangulate(mesh, needs_corners);
         let n_faces = u32::try_from(mesh.domain_len(Domain::Face)).unwrap_or(u32::MAX);
-        // A closed surface has no back to be seen, but for slivers at its outline.
+        // The back of a closed surface is not visible, except for thin slivers at its outline.
         let has_no_back = object.materials.iter().any(|m| m.double_sided)
             || coloring.is_some()
             || (mesh.is_closed() && geometry::volume(mesh) > 0.0);
         let back = self.style.back.filter(|_| !has_no_back);
         let part = Part {
             points: points(mesh),
-            triangles: cut.triangles,
-            corners: cut.corners,
-            faces: cut.faces,
+            triangles: triangulation.triangles,
+            corners: triangulation.corners,
+            faces: triangulation.faces,
             n_faces,
             normals,
             colors,
-            marks: self.marks(object, mesh),
+            highlights: self.face_highlights(object, mesh),
             materials,
             material_of_face,
             uvs,
@@ -67,6 +67,7 @@ impl<'s> Builder<'s, '_> {
         Ok(())
     }
 
+    /// Returns the normals for the shading of the style.
     fn normals(&self, mesh: &'s Mesh) -> Channel<'s> {
         let is_flat = matches!(self.style.shading, Shading::Flat | Shading::Plain);
         if is_flat {
@@ -75,16 +76,16 @@ impl<'s> Builder<'s, '_> {
                 return Channel::All([0.0; 3]);
             }
             Channel::Face(normals::of_faces(mesh, self.radius).into())
-        } else if let Some(given) = mesh.get(CORNER_NORMAL) {
-            Channel::Corner(normals::narrowed(given).into())
-        } else if let Some(given) = mesh.get(VERTEX_NORMAL) {
-            Channel::Point(normals::narrowed(given).into())
+        } else if let Some(normals) = mesh.get(CORNER_NORMAL) {
+            Channel::Corner(normals::narrowed(normals).into())
+        } else if let Some(normals) = mesh.get(VERTEX_NORMAL) {
+            Channel::Point(normals::narrowed(normals).into())
         } else {
             normals::smooth(mesh, self.radius, self.style.sharp)
         }
     }
 
-    /// Colors, surfaces, and the surface of each face.
+    /// Returns the colors, the surfaces, and the index of the surface of each face.
     fn colors(
         &mut self,
         object: &Object,
@@ -93,9 +94,9 @@ impl<'s> Builder<'s, '_> {
         coloring: Option<&Coloring>,
     ) -> (Channel<'s>, Vec<Surface>, Vec<u32>) {
         let plain = vec![Surface::default()];
-        let usual = rgb(color.linear());
+        let default = rgb(color.linear());
         if let Some(c) = coloring {
-            let mapped = each(c.values.len(), |i| c.map.linear(c.values[i], c.range));
+            let mapped = map_indices(c.values.len(), |i| c.map.linear(c.values[i], c.range));
             let channel = match c.domain {
                 Domain::Vertex => Channel::Point(mapped.into()),
                 Domain::Corner => Channel::Corner(mapped.into()),
@@ -105,61 +106,61 @@ impl<'s> Builder<'s, '_> {
             return (channel, plain, Vec::new());
         }
         if self.style.color.is_some() {
-            return (Channel::All(usual), plain, Vec::new());
+            return (Channel::All(default), plain, Vec::new());
         }
-        let of_vertices = mesh.get(COLOR).map(|colors| {
+        let vertex_colors = mesh.get(COLOR).map(|colors| {
             let narrowed = colors.iter().map(|c| c.truncate().to_array().map(narrow));
             Channel::Point(narrowed.collect::<Vec<_>>().into())
         });
         if object.materials.is_empty() {
-            let colors = of_vertices.unwrap_or(Channel::All(usual));
+            let colors = vertex_colors.unwrap_or(Channel::All(default));
             return (colors, plain, Vec::new());
         }
         let materials = object.materials.iter();
         let mut surfaces: Vec<Surface> = materials.map(|m| self.surface(m)).collect();
-        // For faces without a material.
+        // The last surface is for faces without a material.
         let none = u32::try_from(surfaces.len()).unwrap_or(u32::MAX);
-        let [r, g, b] = if of_vertices.is_some() {
+        let [r, g, b] = if vertex_colors.is_some() {
             [1.0; 3]
         } else {
-            usual
+            default
         };
         surfaces.push(Surface {
             color: [r, g, b, 1.0],
             ..Surface::default()
         });
-        let place = |m: &i32| u32::try_from(*m).map_or(none, |m| m.min(none));
-        let of_face = mesh.get(MATERIAL).map_or_else(
+        let index = |m: &i32| u32::try_from(*m).map_or(none, |m| m.min(none));
+        let surface_of_face = mesh.get(MATERIAL).map_or_else(
             || vec![none; mesh.domain_len(Domain::Face)],
-            |materials| materials.iter().map(place).collect(),
+            |materials| materials.iter().map(index).collect(),
         );
-        let colors = of_vertices.unwrap_or(Channel::All([1.0; 3]));
-        (colors, surfaces, of_face)
+        let colors = vertex_colors.unwrap_or(Channel::All([1.0; 3]));
+        (colors, surfaces, surface_of_face)
     }
 
-    /// Highlighted faces.
-    fn marks(&self, object: &Object, mesh: &Mesh) -> Vec<[f32; 4]> {
-        let mut marks = Vec::new();
+    /// Returns the highlight color of each face; empty if no faces are highlighted.
+    fn face_highlights(&self, object: &Object, mesh: &Mesh) -> Vec<[f32; 4]> {
+        let mut colors = Vec::new();
         let highlights = self.overlays.highlights.iter();
         for highlight in highlights.filter(|h| h.object == object.name) {
             let Elements::Faces(faces) = &highlight.elements else {
                 continue;
             };
-            marks.resize(mesh.domain_len(Domain::Face), [0.0; 4]);
+            colors.resize(mesh.domain_len(Domain::Face), [0.0; 4]);
             for f in faces.iter().filter(|&&f| mesh.has_face(f)) {
-                marks[f.index()] = highlight.color.linear();
+                colors[f.index()] = highlight.color.linear();
             }
         }
-        marks
+        colors
     }
 }
 
-/// A linear color without its alpha.
+/// Returns a linear color without its alpha.
 pub(super) fn rgb([r, g, b, _]: [f32; 4]) -> [f32; 3] {
     [r, g, b]
 }
 
-/// The points of a mesh. Vertices that are not there lie where another one is.
+/// Returns the positions of vertices by index. Deleted vertices get the position of an existing vertex.
 fn points(mesh: &Mesh) -> Cow<'_, [DVec3]> {
     let Some(first) = mesh.vertices().next() else {
         return Cow::Borrowed(&[]);
@@ -167,14 +168,14 @@ fn points(mesh: &Mesh) -> Cow<'_, [DVec3]> {
     if mesh.is_dense() {
         return Cow::Borrowed(mesh.positions());
     }
-    let place = |i| {
+    let position = |i| {
         let v = VertexId::new(i);
         mesh.position(if mesh.has_vertex(v) { v } else { first })
     };
-    Cow::Owned((0..mesh.positions().len()).map(place).collect())
+    Cow::Owned((0..mesh.positions().len()).map(position).collect())
 }
 
-/// The sets of texture coordinates up to the last that a surface needs; none if one is missing.
+/// Returns the sets of texture coordinates, up to the last one that a surface needs. Empty if one is missing.
 fn uvs<'s>(mesh: &'s Mesh, surfaces: &[Surface]) -> Vec<Cow<'s, [DVec2]>> {
     let textured = surfaces.iter().filter(|s| s.texture.is_some());
     let Some(last) = textured.map(|s| s.uv_set).max() else {
@@ -189,57 +190,60 @@ fn uvs<'s>(mesh: &'s Mesh, surfaces: &[Surface]) -> Vec<Cow<'s, [DVec2]>> {
     sets.unwrap_or_default()
 }
 
-/// The triangles of a mesh.
+/// The triangles of a mesh: see the fields of [`Part`].
 #[derive(Default)]
-struct Cut {
+struct Triangulation {
     triangles: Vec<[u32; 3]>,
     corners: Vec<[u32; 3]>,
     faces: Vec<u32>,
 }
 
-/// Cuts the faces of a mesh into triangles, which also concave ones can be cut into.
-fn cut(mesh: &Mesh, with_corners: bool) -> Cut {
+/// Triangulates the faces of a mesh, which can be concave.
+fn triangulate(mesh: &Mesh, with_corners: bool) -> Triangulation {
     let n = mesh.domain_len(Domain::Face);
+    // Each triangle is a face, with the same index.
     let is_simple = mesh.is_dense() && 3 * mesh.n_faces() == n_corners(mesh);
-    let chunks: Vec<Cut> = (0..n.div_ceil(CHUNK))
+    let chunks: Vec<Triangulation> = (0..n.div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
-            let mut cut = Cut::default();
-            cut.triangles.reserve(CHUNK);
+            let mut triangulation = Triangulation::default();
+            triangulation.triangles.reserve(CHUNK);
             let mut cutter = Cutter::default();
-            let mut around = Vec::new();
+            let mut half_edges = Vec::new();
             for i in chunk * CHUNK..n.min((chunk + 1) * CHUNK) {
                 let f = FaceId::new(i);
                 if !mesh.has_face(f) {
                     continue;
                 }
-                around.clear();
-                around.extend(mesh.face_half_edges(f));
-                let place = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
-                let mut add = |[a, b, c]: [usize; 3]| {
-                    let three = [around[a], around[b], around[c]];
-                    let points = three.map(|h: HalfEdgeId| place(mesh.origin(h).index()));
-                    cut.triangles.push(points);
+                half_edges.clear();
+                half_edges.extend(mesh.face_half_edges(f));
+                let index = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
+                let mut add = |corners: [usize; 3]| {
+                    let corners = corners.map(|c| half_edges[c]);
+                    let points = corners.map(|h: HalfEdgeId| index(mesh.origin(h).index()));
+                    triangulation.triangles.push(points);
                     if with_corners {
-                        cut.corners.push(three.map(|h| place(h.index())));
+                        triangulation
+                            .corners
+                            .push(corners.map(|h| index(h.index())));
                     }
                     if !is_simple {
-                        cut.faces.push(place(i));
+                        triangulation.faces.push(index(i));
                     }
                 };
-                if around.len() == 3 {
+                if half_edges.len() == 3 {
                     add([0, 1, 2]);
                 } else {
-                    let how = cutter.cut(mesh, f);
-                    for triangle in how.triangles() {
+                    let cut = cutter.cut(mesh, f);
+                    for triangle in cut.triangles() {
                         add(triangle.map(|c| c as usize));
                     }
                 }
             }
-            cut
+            triangulation
         })
         .collect();
-    let mut all = Cut::default();
+    let mut all = Triangulation::default();
     all.triangles
         .reserve(chunks.iter().map(|c| c.triangles.len()).sum());
     for chunk in chunks {
@@ -250,7 +254,7 @@ fn cut(mesh: &Mesh, with_corners: bool) -> Cut {
     all
 }
 
-/// How many corners all faces have, in a dense mesh.
+/// Returns the number of corners of all faces of a dense mesh.
 fn n_corners(mesh: &Mesh) -> usize {
     let faces = &mesh.connectivity().face;
     faces.par_iter().filter(|f| f.some().is_some()).count()

@@ -1,9 +1,9 @@
-//! From a scene to a drawing.
+//! Converts a scene to a drawing.
 
+mod curves;
 mod edges;
 mod mesh_part;
 mod normals;
-mod others;
 mod surface;
 
 use ::mesh::{EdgeId, FaceId, VertexId};
@@ -16,43 +16,44 @@ use crate::colormap::ColorMap;
 use crate::drawing::{Drawing, Label};
 use crate::style::Style;
 
-/// What is shown beside the surfaces themselves.
+/// Additions to the geometry of a scene.
 #[derive(Clone, Debug, Default)]
 pub struct Overlays {
-    /// Elements in colors of their own. What comes later lies on top.
+    /// Highlighted elements. Later highlights are drawn on top.
     pub highlights: Vec<Highlight>,
-    /// Numbers as colors, at most one for each object.
+    /// Numbers shown as colors, at most one coloring for each object.
     pub colorings: Vec<Coloring>,
-    /// Lines and dots that belong to no element. They lie on top of everything.
+    /// Lines and dots that belong to no element. They are drawn on top of all other lines and dots.
     pub strokes: Vec<Stroke>,
-    /// Texts at places.
+    /// Texts at points of the scene.
     pub labels: Vec<Label>,
 }
 
 /// A line through points, or a dot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stroke {
-    /// The points, in scene units. One makes a dot. They must be finite.
+    /// The points, in scene units. A single point is drawn as a dot. They must be finite.
     pub points: Vec<DVec3>,
-    /// Its color.
+    /// The color.
     pub color: Color,
-    /// Its width, or the diameter of the dot, in pixels.
+    /// The width of the line, or the diameter of the dot, in pixels.
     pub width: f64,
-    /// How much of it is seen where a surface is before it, from 0 to 1.
+    /// The opacity where a surface hides the line or dot, from 0 to 1.
     pub hidden: f64,
 }
 
 impl Overlays {
-    /// Whether all objects that are named are meshes of the scene, and have as many elements as there are numbers.
+    /// Checks that all named objects are meshes of the scene, and that colorings have one number for each element.
     fn check(&self, scene: &Scene) -> Result<(), PictureError> {
         let mesh = |name: &str| match scene.object(name).map(|o| &o.geometry) {
             Some(Geometry::Mesh(mesh)) => Ok(mesh),
-            other => {
-                let found = other.map_or("nothing of this name", Geometry::kind);
-                Err(PictureError::Style(format!(
-                    "expected a mesh \"{name}\" to show elements of, found {found}"
-                )))
-            }
+            Some(geometry) => Err(PictureError::Style(format!(
+                "expected object \"{name}\" to be a mesh, found {}",
+                geometry.kind()
+            ))),
+            None => Err(PictureError::Style(format!(
+                "expected a mesh named \"{name}\", found no object of this name"
+            ))),
         };
         for highlight in &self.highlights {
             mesh(&highlight.object)?;
@@ -70,19 +71,18 @@ impl Overlays {
     }
 }
 
-/// Elements of an object in a color of their own.
+/// Elements of a mesh that are drawn in a highlight color.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Highlight {
-    /// The name of the object, which is a mesh.
+    /// The name of the object, which must be a mesh.
     pub object: String,
-    /// The elements. What the mesh does not have is left out.
+    /// The elements. Ids of elements that the mesh does not have are ignored.
     pub elements: Elements,
-    /// Their color.
+    /// The color.
     pub color: Color,
     /// The diameter of vertices and the width of edges, in pixels.
     pub size: f64,
-    /// How much of edges is seen where a surface is before them, and of the rings that vertices are there, from 0
-    /// to 1.
+    /// The opacity of edges and vertices where a surface hides them, from 0 to 1. Hidden vertices are drawn as rings.
     pub hidden: f64,
 }
 
@@ -97,22 +97,22 @@ pub enum Elements {
     Faces(Vec<FaceId>),
 }
 
-/// Numbers on an object, shown as colors.
+/// Numbers of the elements of a mesh, shown as colors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coloring {
-    /// The name of the object, which is a mesh.
+    /// The name of the object, which must be a mesh.
     pub object: String,
-    /// What the numbers belong to. Those of edges become colored lines.
+    /// The domain of the numbers. Numbers of edges are shown as colored lines.
     pub domain: ::mesh::Domain,
-    /// One for each element, by index; not a number where there is none.
+    /// One number for each element, by index. NaN where an element has no number.
     pub values: Vec<f64>,
-    /// How they become colors.
+    /// The color map.
     pub map: ColorMap,
     /// The numbers at the two ends of the map.
     pub range: [f64; 2],
 }
 
-/// The colors of objects that have none, one after another.
+/// The default colors of objects, in the order of the scene; they repeat.
 pub const PALETTE: [Color; 6] = [
     Color::rgb(0xa9, 0xc1, 0xe2),
     Color::rgb(0xe8, 0xc3, 0x8a),
@@ -122,14 +122,17 @@ pub const PALETTE: [Color; 6] = [
     Color::rgb(0xd6, 0xd0, 0xb0),
 ];
 
-/// Makes a drawing of a scene. `images` gives the bytes of a picture file for its path in a material; where it
-/// gives none, or they are no PNG or JPEG, the surface is drawn without, and the path is in the list that is
-/// returned, with the reason. Of a material its base color with its texture, roughness, emission and alpha are
-/// drawn; the alpha of textures is not.
+/// Converts a scene to a drawing. Returns the drawing, and a message for each texture that cannot be drawn.
+///
+/// `images` returns the bytes of an image file for its path in a material. If it returns `None`, or the bytes are not a
+/// PNG or JPEG file, the surface is drawn without this texture, and a message gives the path and the reason.
+///
+/// Of materials, base color and alpha with their texture, roughness and emission are drawn.
 ///
 /// # Errors
 ///
-/// [`PictureError::Style`] if a number of the style is out of its range, or an overlay does not fit its object.
+/// [`PictureError::Style`] if a number of the style is out of its range, an overlay does not match its object, a mesh
+/// has too many elements for labels, or Bezier patches cannot be tessellated.
 pub fn build<'s>(
     scene: &'s Scene,
     style: &Style,
@@ -172,14 +175,14 @@ struct Builder<'s, 'a> {
     images: &'a mut dyn FnMut(&str) -> Option<Vec<u8>>,
     missing: Vec<String>,
     drawing: Drawing<'s>,
-    /// How many faces the parts before have.
+    /// The number of faces of the parts so far.
     n_faces: u32,
-    /// Of the sphere around the meshes of the scene.
+    /// The radius of the sphere around the scene.
     radius: f64,
 }
 
-/// The middle and the radius of a sphere around everything in a scene, in scene units; the radius is not 0, also of
-/// one point. `None` if there is nothing.
+/// Returns center and radius of a sphere around the scene, in scene units. The radius is never 0, even for a single
+/// point. `None` if the scene has no points.
 pub fn extent(scene: &Scene) -> Option<(DVec3, f64)> {
     let mut corners: Vec<DVec3> = Vec::new();
     for object in scene.objects() {

@@ -1,16 +1,16 @@
-//! Normals for surfaces that have none: area-weighted, and split at sharp edges.
+//! Computes normals for meshes without normals: area-weighted, and split at sharp edges.
 
 use ::mesh::{Domain, EdgeId, FaceId, HalfEdgeId, Mesh, SMOOTHING, VertexId};
 use glam::DVec3;
 
 use crate::color::narrow;
 use crate::drawing::Channel;
-use crate::work::each;
+use crate::work::map_indices;
 
-/// Area vectors of faces in units of `size` squared, by index; zero for faces that are not there.
+/// Returns the area vectors of faces by index, divided by `size` squared. Deleted faces have zero vectors.
 pub(super) fn of_faces(mesh: &Mesh, size: f64) -> Vec<[f32; 3]> {
     let scale = 1.0 / (size * size);
-    each(mesh.domain_len(Domain::Face), |i| {
+    map_indices(mesh.domain_len(Domain::Face), |i| {
         let f = FaceId::new(i);
         if mesh.has_face(f) {
             (mesh.area_vector(f) * scale).to_array().map(narrow)
@@ -20,10 +20,10 @@ pub(super) fn of_faces(mesh: &Mesh, size: f64) -> Vec<[f32; 3]> {
     })
 }
 
-/// The sum of the area vectors around each vertex, by index. Gouraud, "Continuous Shading of Curved Surfaces",
-/// 1971, with weights by area.
+/// Returns the sum of the area vectors of the faces around each vertex, by index. Gouraud, "Continuous Shading of Curved
+/// Surfaces", 1971, with weights by area.
 fn of_vertices(mesh: &Mesh, areas: &[[f32; 3]]) -> Vec<[f32; 3]> {
-    each(mesh.positions().len(), |i| {
+    map_indices(mesh.positions().len(), |i| {
         let v = VertexId::new(i);
         if !mesh.has_vertex(v) {
             return [0.0; 3];
@@ -33,15 +33,15 @@ fn of_vertices(mesh: &Mesh, areas: &[[f32; 3]]) -> Vec<[f32; 3]> {
     })
 }
 
-/// Smooth normals, split at edges whose faces differ by at least `sharp` degrees; where the mesh has smoothing
-/// groups, between faces of different groups instead.
+/// Returns smooth normals that are split at sharp edges. If the mesh has smoothing groups, the edges between different
+/// groups are sharp; else the edges whose face normals differ by at least `sharp` degrees.
 pub(super) fn smooth<'a>(mesh: &Mesh, size: f64, sharp: f64) -> Channel<'a> {
     let areas = of_faces(mesh, size);
     let is_sharp = sharp_edges(mesh, &areas, sharp);
     if !is_sharp.contains(&true) {
         return Channel::Point(of_vertices(mesh, &areas).into());
     }
-    let normals = each(mesh.domain_len(Domain::Corner), |i| {
+    let normals = map_indices(mesh.domain_len(Domain::Corner), |i| {
         let h = HalfEdgeId::new(i);
         if mesh.has_edge(h.edge()) {
             of_corner(mesh, h, &areas, &is_sharp)
@@ -55,7 +55,7 @@ pub(super) fn smooth<'a>(mesh: &Mesh, size: f64, sharp: f64) -> Channel<'a> {
 fn sharp_edges(mesh: &Mesh, areas: &[[f32; 3]], sharp: f64) -> Vec<bool> {
     let groups = mesh.get(SMOOTHING);
     let limit = libm::cos(sharp.to_radians());
-    each(mesh.domain_len(Domain::Edge), |i| {
+    map_indices(mesh.domain_len(Domain::Edge), |i| {
         let e = EdgeId::new(i);
         if !mesh.has_edge(e) {
             return false;
@@ -67,19 +67,19 @@ fn sharp_edges(mesh: &Mesh, areas: &[[f32; 3]], sharp: f64) -> Vec<bool> {
             let (f, g) = (groups[f.index()], groups[g.index()]);
             return f != g || f == 0;
         }
-        let of = |f: FaceId| DVec3::from(areas[f.index()].map(f64::from)).normalize_or_zero();
-        let (n, m) = (of(f), of(g));
+        let normal = |f: FaceId| DVec3::from(areas[f.index()].map(f64::from)).normalize_or_zero();
+        let (n, m) = (normal(f), normal(g));
         n != DVec3::ZERO && m != DVec3::ZERO && n.dot(m) <= limit
     })
 }
 
-/// The sum of the area vectors around the origin of `h`, from its face to the next sharp edges.
+/// Returns the sum of the area vectors of the faces around the origin of `h` that no sharp edge separates from its face.
 fn of_corner(mesh: &Mesh, h: HalfEdgeId, areas: &[[f32; 3]], is_sharp: &[bool]) -> [f32; 3] {
     let Some(face) = mesh.face(h) else {
         return [0.0; 3];
     };
     let mut sum = areas[face.index()];
-    // Counter-clockwise, across the edge before.
+    // Counter-clockwise, across the previous edge.
     let mut g = h;
     loop {
         let before = mesh.prev(g);
@@ -112,9 +112,9 @@ fn add(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-/// Vectors as the drawing has them.
+/// Converts vectors to `f32`.
 pub(super) fn narrowed(vectors: &[DVec3]) -> Vec<[f32; 3]> {
-    each(vectors.len(), |i| vectors[i].to_array().map(narrow))
+    map_indices(vectors.len(), |i| vectors[i].to_array().map(narrow))
 }
 
 #[cfg(test)]
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn smoothing_groups_say_which_edges_are_sharp() {
+    fn smoothing_groups_determine_which_edges_are_sharp() {
         let mut cube = shapes::cube();
         cube.set(SMOOTHING, vec![1; 6]);
         assert!(matches!(smooth(&cube, 1.0, 40.0), Channel::Point(_)));

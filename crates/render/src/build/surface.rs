@@ -1,4 +1,4 @@
-//! From materials to surfaces: colors, textures, and what alpha means.
+//! Converts materials to surfaces: colors, textures and alpha.
 
 use std::sync::Arc;
 
@@ -8,17 +8,18 @@ use crate::drawing::Surface;
 use crate::texture::{Alpha, Texture};
 
 impl Builder<'_, '_> {
-    /// How a material looks, and which texture coordinates it needs.
+    /// Converts a material. If its texture cannot be read, the surface has no texture, and a message is added to
+    /// `missing`.
     pub(super) fn surface(&mut self, material: &scene::Material) -> Surface {
         let [r, g, b, base] = material.base_color.map(narrow);
-        // glTF 2.0, 3.9.4: what alpha means, without a texture and in one.
-        let (alpha, in_texture) = match material.alpha {
+        // The alpha of the material, and how the alpha of its texture is used: glTF 2.0, 3.9.4.
+        let (alpha, texture_alpha) = match material.alpha {
             scene::AlphaMode::Opaque => (1.0, Alpha::Ignored),
             scene::AlphaMode::Blend => (base, Alpha::Blended),
             scene::AlphaMode::Mask(cutoff) => {
                 let cutoff = narrow(cutoff);
-                let least = if cutoff > 0.0 { cutoff / base } else { 0.0 };
-                (if least <= 1.0 { 1.0 } else { 0.0 }, Alpha::Cut(least))
+                let cutoff = if cutoff > 0.0 { cutoff / base } else { 0.0 };
+                (if cutoff <= 1.0 { 1.0 } else { 0.0 }, Alpha::Cut(cutoff))
             }
         };
         let strength = material.emissive_strength;
@@ -31,7 +32,7 @@ impl Builder<'_, '_> {
             emissive: material.emissive.map(|e| narrow(e * strength)),
         };
         if let (Some(texture), None) = (&material.base_color_texture, self.style.color) {
-            match self.decoded(texture, in_texture) {
+            match self.decode(texture, texture_alpha) {
                 Ok(decoded) => {
                     surface.texture = Some(Arc::new(decoded));
                     surface.uv_set = texture.uv_set as usize;
@@ -42,7 +43,7 @@ impl Builder<'_, '_> {
         surface
     }
 
-    fn decoded(&mut self, texture: &scene::Texture, alpha: Alpha) -> Result<Texture, String> {
+    fn decode(&mut self, texture: &scene::Texture, alpha: Alpha) -> Result<Texture, String> {
         let (name, bytes) = match &texture.image {
             scene::Image::File(path) => {
                 let bytes = (self.images)(path).ok_or_else(|| format!("{path}: not found"))?;
@@ -66,8 +67,8 @@ mod tests {
     const CLEAR: [u8; 4] = [0, 0, 0, 0];
     const WHITE: [u8; 4] = [255; 4];
 
-    /// The bytes of a picture of `n` times `n` fields, of two colors in turn.
-    fn checks(n: u32, colors: [[u8; 4]; 2]) -> Vec<u8> {
+    /// Encodes a checkerboard of `n` times `n` pixels.
+    fn checkerboard(n: u32, colors: [[u8; 4]; 2]) -> Vec<u8> {
         let field = |i: u32| colors[((i % n + i / n) % 2) as usize];
         let image = crate::Image {
             width: n,
@@ -95,7 +96,7 @@ mod tests {
         let mut mesh: Mesh = shapes::square();
         let uvs = mesh.half_edges().map(|h| mesh.position(mesh.origin(h)));
         let uvs: Vec<DVec2> = uvs.map(DVec3::truncate).collect();
-        // The second ones are as a material expects them, the first ones one place.
+        // If the material uses the second set of texture coordinates, those of the first set are all equal.
         if material
             .base_color_texture
             .as_ref()
@@ -120,9 +121,9 @@ mod tests {
         scene
     }
 
-    /// The pixels of the unit square, `side` of them along each of its sides, seen from above.
-    fn drawn(material: Material, side: u32) -> Vec<[u8; 4]> {
-        // What `LookAt` shows without perspective, as its documentation says.
+    /// Draws the unit square, seen from above, so that it fills a picture of `side` times `side` pixels.
+    fn draw(material: Material, side: u32) -> Vec<[u8; 4]> {
+        // At this distance, an orthographic `LookAt` is 1 unit high, as its documentation says.
         let distance = 0.5 / libm::tan(15.0_f64.to_radians());
         let camera = Camera::LookAt {
             from: [0.5, 0.5, distance],
@@ -138,7 +139,7 @@ mod tests {
         let scene = square(material);
         let overlays = Overlays::default();
         let size = [side; 2];
-        let (drawn, missing) = picture(
+        let (picture, missing) = picture(
             &scene,
             &camera,
             &style,
@@ -149,10 +150,10 @@ mod tests {
         )
         .unwrap();
         assert!(missing.is_empty(), "{missing:?}");
-        drawn.image.pixels
+        picture.image.pixels
     }
 
-    /// How much of the picture is covered, from 0 to 1.
+    /// Returns the fraction of the picture that is covered, from 0 to 1.
     fn coverage(pixels: &[[u8; 4]]) -> f64 {
         let sum: f64 = pixels.iter().map(|p| f64::from(p[3]) / 255.0).sum();
         sum / pixels.len() as f64
@@ -161,26 +162,26 @@ mod tests {
     const MODES: [AlphaMode; 2] = [AlphaMode::Mask(0.5), AlphaMode::Blend];
 
     #[test]
-    fn of_a_square_with_every_other_field_cut_out_half_the_pixels_are_background() {
+    fn a_checkerboard_of_opaque_and_transparent_squares_covers_half_of_the_picture() {
         for mode in MODES {
-            // Fields of 8 pixels: each is there, or is not.
-            let pixels = drawn(
-                material(checks(8, [WHITE, CLEAR]), mode, Filter::Nearest),
+            // Squares of 8 pixels with sharp edges.
+            let pixels = draw(
+                material(checkerboard(8, [WHITE, CLEAR]), mode, Filter::Nearest),
                 64,
             );
             for (i, pixel) in pixels.iter().enumerate() {
-                let is_there = (i / 8 % 8 + i / 512) % 2 == 0;
+                let is_opaque = (i / 8 % 8 + i / 512) % 2 == 0;
                 assert_eq!(
                     *pixel,
-                    if is_there { WHITE } else { CLEAR },
+                    if is_opaque { WHITE } else { CLEAR },
                     "{mode:?}, pixel {i}"
                 );
             }
-            // Soft, about as large as a pixel, smaller, much smaller.
+            // Squares with blurred edges; as large as a pixel, smaller, and much smaller.
             for n in [8, 50, 64, 100, 400, 1000] {
                 for filter in [Filter::Nearest, Filter::Linear] {
-                    let found = coverage(&drawn(
-                        material(checks(n, [WHITE, CLEAR]), mode, filter),
+                    let found = coverage(&draw(
+                        material(checkerboard(n, [WHITE, CLEAR]), mode, filter),
                         64,
                     ));
                     assert!((found - 0.5).abs() < 0.015, "{mode:?}, {n}: {found}");
@@ -190,10 +191,10 @@ mod tests {
     }
 
     #[test]
-    fn from_far_away_each_pixel_is_covered_by_half() {
+    fn squares_much_smaller_than_pixels_cover_half_of_each_pixel() {
         for mode in MODES {
-            let pixels = drawn(
-                material(checks(512, [WHITE, CLEAR]), mode, Filter::Linear),
+            let pixels = draw(
+                material(checkerboard(512, [WHITE, CLEAR]), mode, Filter::Linear),
                 16,
             );
             assert!(pixels.iter().all(|p| p[3] == 128), "{mode:?}: {pixels:?}");
@@ -202,55 +203,55 @@ mod tests {
 
     #[test]
     fn opaque_materials_ignore_alpha() {
-        let see_through = [255, 255, 255, 9];
+        let transparent = [255, 255, 255, 9];
         let mut opaque = material(
-            checks(8, [WHITE, see_through]),
+            checkerboard(8, [WHITE, transparent]),
             AlphaMode::Opaque,
             Filter::Linear,
         );
         opaque.base_color[3] = 0.2;
-        assert!(drawn(opaque, 32).iter().all(|p| *p == WHITE));
+        assert!(draw(opaque, 32).iter().all(|p| *p == WHITE));
     }
 
     #[test]
-    fn alpha_at_the_cutoff_is_there_and_below_it_is_not() {
-        let of = |alpha: u8, base: f64, cutoff: f64| {
-            let image = checks(2, [[255, 255, 255, alpha], CLEAR]);
+    fn alpha_at_the_cutoff_is_opaque_and_alpha_below_it_is_invisible() {
+        let coverage_of = |alpha: u8, base: f64, cutoff: f64| {
+            let image = checkerboard(2, [[255, 255, 255, alpha], CLEAR]);
             let mut cut = material(image, AlphaMode::Mask(cutoff), Filter::Nearest);
             cut.base_color[3] = base;
-            coverage(&drawn(cut, 32))
+            coverage(&draw(cut, 32))
         };
-        let byte = |b: u8| f64::from(b) / 255.0;
+        let unit = |byte: u8| f64::from(byte) / 255.0;
         for b in [1, 77, 128, 254] {
-            assert_eq!(of(b, 1.0, byte(b)), 0.5, "{b}");
-            assert_eq!(of(b, 1.0, byte(b + 1)), 0.0, "{b}");
+            assert_eq!(coverage_of(b, 1.0, unit(b)), 0.5, "{b}");
+            assert_eq!(coverage_of(b, 1.0, unit(b + 1)), 0.0, "{b}");
         }
-        // The alpha of the material multiplies that of the texture.
-        assert_eq!(of(200, 0.5, byte(99)), 0.5);
-        assert_eq!(of(200, 0.5, byte(101)), 0.0);
-        assert_eq!(of(255, 0.4, 0.5), 0.0);
-        assert_eq!(of(255, 1.0, 1.1), 0.0);
-        // Everything is at least 0.
-        assert_eq!(of(200, 0.0, 0.0), 1.0);
-        // Without a texture.
+        // The alpha of the material multiplies the alpha of the texture.
+        assert_eq!(coverage_of(200, 0.5, unit(99)), 0.5);
+        assert_eq!(coverage_of(200, 0.5, unit(101)), 0.0);
+        assert_eq!(coverage_of(255, 0.4, 0.5), 0.0);
+        assert_eq!(coverage_of(255, 1.0, 1.1), 0.0);
+        // With a cutoff of 0, every alpha is opaque.
+        assert_eq!(coverage_of(200, 0.0, 0.0), 1.0);
+        // Without a texture, the alpha of the material is compared.
         for (base, expected) in [(0.49, 0.0), (0.5, 1.0), (0.9, 1.0)] {
             let mut cut = Material::new("cut");
             cut.alpha = AlphaMode::Mask(0.5);
             cut.base_color[3] = base;
-            assert_eq!(coverage(&drawn(cut, 8)), expected, "{base}");
+            assert_eq!(coverage(&draw(cut, 8)), expected, "{base}");
         }
     }
 
     #[test]
     fn blended_alphas_are_multiplied() {
         let mut half = material(
-            checks(2, [[255, 255, 255, 128], WHITE]),
+            checkerboard(2, [[255, 255, 255, 128], WHITE]),
             AlphaMode::Blend,
             Filter::Nearest,
         );
         half.base_color[3] = 0.5;
-        let pixels = drawn(half, 32);
-        // 4 of 16 samples, and 8 of them.
+        let pixels = draw(half, 32);
+        // A pixel has 4 or 8 of its 16 samples covered.
         for (i, pixel) in pixels.iter().enumerate() {
             let is_first = (i / 16 % 2 + i / 512) % 2 == 0;
             assert_eq!(pixel[3], if is_first { 64 } else { 128 }, "pixel {i}");
@@ -258,27 +259,28 @@ mod tests {
     }
 
     #[test]
-    fn the_color_of_what_is_cut_out_does_not_bleed_into_the_rest() {
+    fn the_color_of_invisible_pixels_does_not_bleed_into_visible_ones() {
         for mode in MODES {
             for n in [8, 50, 100, 400] {
-                let pixels = drawn(
-                    material(checks(n, [WHITE, CLEAR]), mode, Filter::Linear),
+                let pixels = draw(
+                    material(checkerboard(n, [WHITE, CLEAR]), mode, Filter::Linear),
                     64,
                 );
-                let seen = pixels.iter().filter(|p| p[3] > 0);
-                let darkest = seen.map(|p| p[0]).min();
+                let visible = pixels.iter().filter(|p| p[3] > 0);
+                let darkest = visible.map(|p| p[0]).min();
                 assert!(darkest > Some(230), "{mode:?}, {n}: {darkest:?}");
             }
         }
     }
 
     #[test]
-    fn a_texture_lies_on_the_texture_coordinates_that_it_names() {
-        let mut second = material(checks(4, [WHITE, CLEAR]), AlphaMode::Blend, Filter::Nearest);
-        let on_first = drawn(second.clone(), 32);
-        if let Some(texture) = &mut second.base_color_texture {
+    fn a_texture_can_use_the_second_set_of_texture_coordinates() {
+        let image = checkerboard(4, [WHITE, CLEAR]);
+        let mut material = material(image, AlphaMode::Blend, Filter::Nearest);
+        let with_first_set = draw(material.clone(), 32);
+        if let Some(texture) = &mut material.base_color_texture {
             texture.uv_set = 1;
         }
-        assert_eq!(drawn(second, 32), on_first);
+        assert_eq!(draw(material, 32), with_first_set);
     }
 }

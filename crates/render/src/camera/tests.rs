@@ -1,8 +1,8 @@
-//! Cameras held against what they must show.
+//! Tests of cameras.
 
 use super::*;
 
-/// The corners of a box.
+/// Calls `each` with the corners of a box.
 fn corners(each: &mut dyn FnMut(DVec3)) {
     for i in 0..8 {
         let side = |bit: u8, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
@@ -31,7 +31,7 @@ const PROJECTIONS: [Projection; 3] = [
 ];
 
 #[test]
-fn a_fitted_camera_sees_everything_up_to_its_margin() {
+fn a_fitted_camera_shows_all_points_inside_its_margins() {
     let size = [200, 100];
     for projection in PROJECTIONS {
         for from in [Side::Front, Side::Isometric, Side::Top, Side::ThreeQuarter] {
@@ -39,21 +39,21 @@ fn a_fitted_camera_sees_everything_up_to_its_margin() {
             let view = View::new(&camera, &corners, size).unwrap();
             let (mut min, mut max) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
             corners(&mut |p| {
-                let seen = view.see(p).unwrap();
+                let seen = view.screen_point(p).unwrap();
                 (min, max) = (min.min(seen.at), max.max(seen.at));
             });
-            // In one direction both borders are touched, in the other none is crossed.
-            let free = DVec2::new(20.0, 10.0);
-            let (before, behind) = (min - free, DVec2::new(200.0, 100.0) - free - max);
-            assert!(before.min_element() > -1e-6 && behind.min_element() > -1e-6);
-            let touched = (before + behind).min_element();
-            assert!(touched < 1e-6, "{from:?} {projection:?}: {before} {behind}");
+            // The points touch both margins in one direction, and cross neither margin in the other.
+            let margin = DVec2::new(20.0, 10.0);
+            let (low, high) = (min - margin, DVec2::new(200.0, 100.0) - margin - max);
+            assert!(low.min_element() > -1e-6 && high.min_element() > -1e-6);
+            let gap = (low + high).min_element();
+            assert!(gap < 1e-6, "{from:?} {projection:?}: {low} {high}");
         }
     }
 }
 
 #[test]
-fn a_steady_camera_sees_the_sphere_around_everything_from_all_sides() {
+fn a_steady_camera_shows_the_bounding_sphere_from_all_sides_at_the_same_scale() {
     let (center, radius) = sphere(&corners);
     for projection in PROJECTIONS {
         let mut scales = Vec::new();
@@ -65,9 +65,9 @@ fn a_steady_camera_sees_the_sphere_around_everything_from_all_sides() {
             let camera = fit(from, Up::Y, projection, 0.0, true);
             let view = View::new(&camera, &corners, [100, 100]).unwrap();
             let [x, _, _] = view.axes();
-            let middle = view.see(center).unwrap();
+            let middle = view.screen_point(center).unwrap();
             assert!((middle.at - 50.0).length() < 1e-6);
-            scales.push(view.see(center + x * radius).unwrap().at.x);
+            scales.push(view.screen_point(center + x * radius).unwrap().at.x);
         }
         assert!(
             scales
@@ -78,7 +78,7 @@ fn a_steady_camera_sees_the_sphere_around_everything_from_all_sides() {
 }
 
 #[test]
-fn sides_look_where_their_names_say() {
+fn each_side_has_its_axes() {
     for (up, side, right, above) in [
         (Up::Y, Side::Front, DVec3::X, DVec3::Y),
         (Up::Y, Side::Back, DVec3::NEG_X, DVec3::Y),
@@ -111,18 +111,18 @@ fn a_camera_straight_above_has_the_front_at_the_bottom() {
             projection: Projection::default(),
         };
         let view = View::new(&camera, &|_| {}, [10, 10]).unwrap();
-        let seen = view.see(front).unwrap().at;
+        let seen = view.screen_point(front).unwrap().at;
         assert!(seen.y > 6.0 && (seen.x - 5.0).abs() < 1e-9, "{seen}");
     }
 }
 
 #[test]
-fn the_ray_through_a_point_of_the_picture_meets_what_is_seen_there() {
+fn the_ray_through_a_point_of_the_picture_meets_the_point_projected_there() {
     for projection in PROJECTIONS {
         let camera = fit(Side::ThreeQuarter, Up::Y, projection, 0.05, false);
         let view = View::new(&camera, &corners, [64, 48]).unwrap();
         let p = DVec3::new(0.3, 0.8, 8.1);
-        let seen = view.see(p).unwrap();
+        let seen = view.screen_point(p).unwrap();
         let (origin, direction) = view.ray(seen.at);
         let aside = (p - origin).cross(direction).length();
         assert!(aside < 1e-9, "{aside}");
@@ -134,7 +134,7 @@ fn the_ray_through_a_point_of_the_picture_meets_what_is_seen_there() {
 }
 
 #[test]
-fn cameras_that_see_nothing_are_refused() {
+fn cameras_with_invalid_numbers_are_refused() {
     let look_at = |from, to| Camera::LookAt {
         from,
         to,
@@ -163,8 +163,8 @@ fn cameras_that_see_nothing_are_refused() {
 }
 
 #[test]
-fn the_decisive_points_of_each_part_show_what_all_points_show() {
-    // Two clouds of points, far from each other and from the origin.
+fn the_extreme_points_of_all_parts_give_the_same_view_as_all_points() {
+    // Two clouds of points, separate from each other and from the origin.
     let cloud = |seed: u32, middle: DVec3| -> Vec<DVec3> {
         let mut state = seed;
         let mut number = || {
@@ -184,27 +184,31 @@ fn the_decisive_points_of_each_part_show_what_all_points_show() {
     for projection in PROJECTIONS {
         for (from, up) in [(Side::Front, Up::Y), (Side::ThreeQuarter, Up::Z)] {
             let camera = fit(from, up, projection, 0.1, false);
-            let few: Vec<DVec3> = parts
+            let extreme: Vec<DVec3> = parts
                 .iter()
-                .flat_map(|part| camera.decisive(&|f| each(part, f), size).unwrap())
+                .flat_map(|part| camera.extreme_points(&|f| each(part, f), size).unwrap())
                 .collect();
-            assert!(few.len() <= 22);
+            assert!(extreme.len() <= 22);
             let view = View::new(&camera, &|f| each(&all, f), size).unwrap();
-            let same = View::new(&camera, &|f| each(&few, f), size).unwrap();
+            let same = View::new(&camera, &|f| each(&extreme, f), size).unwrap();
             for p in &all {
-                let (a, b) = (view.see(*p).unwrap(), same.see(*p).unwrap());
+                let (a, b) = (
+                    view.screen_point(*p).unwrap(),
+                    same.screen_point(*p).unwrap(),
+                );
                 assert!(a.at.distance(b.at) < 1e-9, "{from:?} {projection:?}");
             }
-            // A steady camera sees all, perhaps smaller.
+            // A steady camera shows all points, possibly at a smaller scale.
             let steady = fit(from, up, projection, 0.0, true);
-            let few = steady.decisive(&|f| each(&all, f), size).unwrap();
-            let view = View::new(&steady, &|f| each(&few, f), size).unwrap();
+            let extreme = steady.extreme_points(&|f| each(&all, f), size).unwrap();
+            let view = View::new(&steady, &|f| each(&extreme, f), size).unwrap();
             for p in &all {
-                let at = view.see(*p).unwrap().at;
+                let at = view.screen_point(*p).unwrap().at;
                 assert!(at.min_element() >= 0.0 && at.x <= 200.0 && at.y <= 100.0);
             }
         }
     }
-    let none = fit(Side::Front, Up::Y, Projection::default(), 0.1, true).decisive(&|_| {}, size);
+    let none =
+        fit(Side::Front, Up::Y, Projection::default(), 0.1, true).extreme_points(&|_| {}, size);
     assert_eq!(none.unwrap(), []);
 }

@@ -1,93 +1,97 @@
-//! Which triangles and lines touch which tile of the picture.
+//! Sorts triangles and lines into the tiles of the picture that they touch.
 //!
-//! Triangles and lines are taken in chunks, each sorted into tiles by one task with a counting sort. A tile reads its
-//! lists chunk after chunk. The lists are bounded: where most things touch many tiles, those are not listed in each of
-//! them.
+//! Triangles and lines are divided into chunks. One task sorts a chunk into tiles, with a counting sort. A tile reads its
+//! lists chunk by chunk. The size of the lists is bounded: items that touch many tiles are kept in one list that all
+//! tiles read.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::lines::{FlatLine, limits};
-use super::project::{Corner, Flat, GRID, GRID_BITS, clipped, project};
-use super::{Frame, LINED, SORTED, TILE};
+use super::lines::{ProjectedLine, limits};
+use super::project::{GRID, GRID_BITS, GridPoint, ProjectedTriangle, clipped, project};
+use super::{BIN_LINE_COST, BIN_TRIANGLE_COST, Frame, TILE};
 use crate::color::whole_u32;
 use crate::drawing::Drawing;
 use crate::work::Work;
 use crate::{PictureError, View};
 
-/// At most so many chunks, and one more for each part, because each has a number for every tile.
-const MOST_CHUNKS: usize = 32;
-/// At least so many things in a chunk, unless a part has less.
-const LEAST_CHUNK: usize = 1 << 15;
-/// What touches more tiles than this is not listed in each of them, but looked at in all.
-const MANY_TILES: usize = 64;
-/// A list has so many entries for each thing at most, and some more.
-const MOST_ENTRIES: usize = 8;
-const MORE_ENTRIES: usize = 4096;
-/// Marks an entry of a list that means a cut triangle.
-const CUT: u32 = 1 << 31;
+/// The maximum number of chunks, without the incomplete last chunk of each part. It is limited because each chunk stores
+/// a number for every tile.
+const MAX_CHUNKS: usize = 32;
+/// The minimum number of items in a chunk, unless the chunk ends with its part.
+const MIN_CHUNK: usize = 1 << 15;
+/// Items that touch more tiles than this are never listed in each of them.
+const MAX_LISTED_TILES: usize = 64;
+/// The lists of all tiles together have at most this number of entries for each item, plus `EXTRA_ENTRIES`.
+const ENTRIES_PER_ITEM: usize = 8;
+/// See `ENTRIES_PER_ITEM`.
+const EXTRA_ENTRIES: usize = 4096;
+/// The bit of a list entry that refers to a clipped triangle.
+const CLIPPED: u32 = 1 << 31;
 
-/// Things in order of the tiles that they touch.
-pub(super) struct Sorted {
-    /// Where the things of each tile begin in `items`, and the end.
+/// Items sorted by the tiles that they touch.
+pub(super) struct Bins {
+    /// The start of each tile's items in `items`, and the end of the last.
     starts: Vec<u32>,
     items: Vec<u32>,
-    /// Those that touch many tiles.
+    /// The items that touch many tiles.
     large: Vec<u32>,
 }
 
-/// A rectangle of tiles: left, top, and behind right and bottom.
+/// A rectangle of tiles: left, top, right and bottom. Right and bottom are exclusive.
 pub(super) type TileRect = [u32; 4];
 
-/// How many tiles a rectangle has.
+/// Returns the number of tiles of a rectangle.
 fn n_tiles([left, top, right, bottom]: TileRect) -> usize {
     (right - left) as usize * (bottom - top) as usize
 }
 
-/// So many tiles may be touched by what is listed in all of them, for lists that are not too long.
-fn most_tiles(things: &[(u32, TileRect)]) -> usize {
-    let mut entries = [0; MANY_TILES + 1];
-    for &(_, rect) in things {
+/// Returns the maximum number of tiles that an item can touch to be listed in each of them, so that the lists stay within
+/// their bounds.
+fn max_listed_tiles(items: &[(u32, TileRect)]) -> usize {
+    let mut entries = [0; MAX_LISTED_TILES + 1];
+    for &(_, rect) in items {
         let n = n_tiles(rect);
-        if n <= MANY_TILES {
+        if n <= MAX_LISTED_TILES {
             entries[n] += n;
         }
     }
-    let room = MOST_ENTRIES * things.len() + MORE_ENTRIES;
+    let limit = ENTRIES_PER_ITEM * items.len() + EXTRA_ENTRIES;
     let mut sum = 0;
     let fits = |n: &usize| {
         sum += entries[*n];
-        sum <= room
+        sum <= limit
     };
-    (0..=MANY_TILES).take_while(fits).last().unwrap_or(0)
+    (0..=MAX_LISTED_TILES).take_while(fits).last().unwrap_or(0)
 }
 
-/// The chunks of `n` things of `all`.
+/// Divides a part of `n` items into chunks, where all parts together have `all` items.
 fn chunks(n: usize, all: usize) -> impl Iterator<Item = Range<usize>> {
-    let size = all.div_ceil(MOST_CHUNKS).max(LEAST_CHUNK);
+    let size = all.div_ceil(MAX_CHUNKS).max(MIN_CHUNK);
     (0..n)
         .step_by(size)
         .map(move |first| first..(first + size).min(n))
 }
 
-/// The bytes that lists take at most, and what they take while they are made: for groups of so many things, which are
-/// not in one chunk.
+/// Returns the maximum number of bytes that the lists take, including the temporary memory of sorting. `groups` are the
+/// numbers of items of groups that do not share chunks.
 pub(super) fn bytes(groups: impl Iterator<Item = usize> + Clone, frame: &Frame) -> u64 {
     let all: usize = groups.clone().sum();
     let n_chunks: usize = groups.map(|n| chunks(n, all).count()).sum();
-    let lists = 4 * ((MOST_ENTRIES + 1) * all + (MORE_ENTRIES + frame.n_tiles() + 1) * n_chunks);
-    let in_work = n_chunks.min(rayon::current_num_threads());
+    let lists =
+        4 * ((ENTRIES_PER_ITEM + 1) * all + (EXTRA_ENTRIES + frame.n_tiles() + 1) * n_chunks);
+    let n_tasks = n_chunks.min(rayon::current_num_threads());
     let longest = chunks(all, all).map(|chunk| chunk.len()).max().unwrap_or(0);
-    let while_made = size_of::<(u32, TileRect)>() * longest + 4 * (frame.n_tiles() + 1);
-    (lists + in_work * while_made) as u64
+    let temporary = size_of::<(u32, TileRect)>() * longest + 4 * (frame.n_tiles() + 1);
+    (lists + n_tasks * temporary) as u64
 }
 
-impl Sorted {
-    /// Sorts things by their tiles.
-    fn new(frame: &Frame, things: &[(u32, TileRect)]) -> Self {
-        let most = most_tiles(things);
-        let n_large = things.iter().filter(|t| n_tiles(t.1) > most).count();
+impl Bins {
+    /// Sorts items by the tiles that they touch.
+    fn new(frame: &Frame, rects: &[(u32, TileRect)]) -> Self {
+        let limit = max_listed_tiles(rects);
+        let n_large = rects.iter().filter(|t| n_tiles(t.1) > limit).count();
         let mut large = Vec::with_capacity(n_large);
         let tiles = |[left, top, right, bottom]: TileRect| {
             (top..bottom)
@@ -95,8 +99,8 @@ impl Sorted {
                 .map(|tile| tile as usize)
         };
         let mut starts = vec![0_u32; frame.n_tiles() + 1];
-        for &(item, rect) in things {
-            if n_tiles(rect) > most {
+        for &(item, rect) in rects {
+            if n_tiles(rect) > limit {
                 large.push(item);
                 continue;
             }
@@ -109,11 +113,11 @@ impl Sorted {
         }
         let mut next = starts.clone();
         let mut items = vec![0; starts[frame.n_tiles()] as usize];
-        for &(item, rect) in things.iter().filter(|t| n_tiles(t.1) <= most) {
+        for &(item, rect) in rects.iter().filter(|t| n_tiles(t.1) <= limit) {
             for tile in tiles(rect) {
-                let place = &mut next[tile];
-                items[*place as usize] = item;
-                *place += 1;
+                let index = &mut next[tile];
+                items[*index as usize] = item;
+                *index += 1;
             }
         }
         Self {
@@ -123,29 +127,30 @@ impl Sorted {
         }
     }
 
-    /// What touches a tile: first what touches many, then the others, each in their order.
-    fn of(&self, tile: usize) -> impl Iterator<Item = u32> {
+    /// Returns the items of a tile: first those that touch many tiles, then the others, each in their order.
+    fn items_of(&self, tile: usize) -> impl Iterator<Item = u32> {
         let range = self.starts[tile] as usize..self.starts[tile + 1] as usize;
         self.large.iter().chain(&self.items[range]).copied()
     }
 }
 
-/// Triangles by tiles.
+/// The triangles of a drawing, sorted by tiles.
 pub(super) struct Triangles {
-    /// Where each part has its points.
-    points: Vec<Vec<Corner>>,
+    /// The projected points of each part.
+    points: Vec<Vec<GridPoint>>,
     chunks: Vec<Chunk>,
 }
 
 /// Some triangles of one part.
 struct Chunk {
     part: usize,
-    /// The first triangle in its part, and over all parts.
+    /// The index of the first triangle in its part.
     first: usize,
+    /// The index of the first triangle through all parts.
     first_of_all: u32,
-    sorted: Sorted,
-    /// What is left of triangles that were cut, with their places in the chunk.
-    cut: Vec<(u32, Flat)>,
+    bins: Bins,
+    /// The pieces of triangles that were clipped, each with the index of its triangle in the chunk.
+    clipped: Vec<(u32, ProjectedTriangle)>,
 }
 
 impl Triangles {
@@ -171,60 +176,65 @@ impl Triangles {
             .into_par_iter()
             .map(|(part, range, first_of_all)| {
                 let p = &drawing.parts[part];
-                let mut cut = Vec::new();
+                let mut pieces = Vec::new();
                 let mut rects = Vec::with_capacity(range.len());
                 for (i, triangle) in (0..).zip(&p.triangles[range.clone()]) {
-                    let flat = triangle.map(|v| points[part][v as usize]);
-                    if flat.iter().any(|c| c.is_outside()) {
-                        for flat in clipped(view, p.corners_at(range.start + i as usize)) {
-                            if let Some(rect) = touched(&flat, frame) {
-                                let place = u32::try_from(cut.len()).unwrap_or(u32::MAX);
-                                rects.push((place | CUT, rect));
-                                cut.push((i, flat));
+                    let projected = triangle.map(|v| points[part][v as usize]);
+                    if projected.iter().any(|c| c.is_outside()) {
+                        for projected in clipped(view, p.corners_at(range.start + i as usize)) {
+                            if let Some(rect) = tiles_of_triangle(&projected, frame) {
+                                let index = u32::try_from(pieces.len()).unwrap_or(u32::MAX);
+                                rects.push((index | CLIPPED, rect));
+                                pieces.push((i, projected));
                             }
                         }
-                    } else if let Some(rect) = touched(&flat, frame) {
+                    } else if let Some(rect) = tiles_of_triangle(&projected, frame) {
                         rects.push((i, rect));
                     }
                 }
-                let sorted = Sorted::new(frame, &rects);
-                work.add(SORTED * range.len() as u64)?;
+                let bins = Bins::new(frame, &rects);
+                work.add(BIN_TRIANGLE_COST * range.len() as u64)?;
                 Ok(Chunk {
                     part,
                     first: range.start,
                     first_of_all,
-                    sorted,
-                    cut,
+                    bins,
+                    clipped: pieces,
                 })
             })
             .collect::<Result<_, PictureError>>()?;
         Ok(Self { points, chunks })
     }
 
-    /// Calls `each` with the triangles that touch a tile: the number over all parts, and the place.
-    pub(super) fn of(&self, drawing: &Drawing, tile: usize, mut each: impl FnMut(u32, &Flat)) {
+    /// Calls `each` with the triangles that touch a tile: the index through all parts, and the projected triangle.
+    pub(super) fn each_of_tile(
+        &self,
+        drawing: &Drawing,
+        tile: usize,
+        mut each: impl FnMut(u32, &ProjectedTriangle),
+    ) {
         for chunk in &self.chunks {
             let part = &drawing.parts[chunk.part];
-            for item in chunk.sorted.of(tile) {
-                if item & CUT == 0 {
+            for item in chunk.bins.items_of(tile) {
+                if item & CLIPPED == 0 {
                     let triangle = part.triangles[chunk.first + item as usize];
-                    let flat = triangle.map(|v| self.points[chunk.part][v as usize]);
-                    each(chunk.first_of_all + item, &flat);
+                    let projected = triangle.map(|v| self.points[chunk.part][v as usize]);
+                    each(chunk.first_of_all + item, &projected);
                 } else {
-                    let (place, flat) = &chunk.cut[(item ^ CUT) as usize];
-                    each(chunk.first_of_all + place, flat);
+                    let (index, projected) = &chunk.clipped[(item ^ CLIPPED) as usize];
+                    each(chunk.first_of_all + index, projected);
                 }
             }
         }
     }
 }
 
-/// The tiles that a triangle touches; `None` if it has no sample.
-fn touched(flat: &Flat, frame: &Frame) -> Option<TileRect> {
-    let of = |axis: usize, end: u32| {
-        let [a, b, c] = flat.map(|corner| corner.at[axis]);
+/// Returns the tiles that a triangle touches; `None` if it covers no sample of the picture.
+fn tiles_of_triangle(projected: &ProjectedTriangle, frame: &Frame) -> Option<TileRect> {
+    let range = |axis: usize, end: u32| {
+        let [a, b, c] = projected.map(|corner| corner.at[axis]);
         let (min, max) = (a.min(b).min(c), a.max(b).max(c));
-        // Samples lie on the middles of 16 rows and columns of a pixel.
+        // A pixel has 16 rows and columns, and samples are in their middles.
         let step = GRID / 16;
         let first = (min + step / 2 - 1).div_euclid(step);
         let last = (max - step / 2).div_euclid(step);
@@ -235,55 +245,57 @@ fn touched(flat: &Flat, frame: &Frame) -> Option<TileRect> {
         let high = u32::try_from(max >> GRID_BITS).ok()?.min(end - 1);
         (low <= high).then_some([low / TILE, high / TILE + 1])
     };
-    let [left, right] = of(0, frame.width)?;
-    let [top, bottom] = of(1, frame.height)?;
+    let [left, right] = range(0, frame.width)?;
+    let [top, bottom] = range(1, frame.height)?;
     Some([left, top, right, bottom])
 }
 
-/// Lines by tiles.
+/// The lines of a drawing, sorted by tiles.
 pub(super) struct Lines {
-    flat: Vec<Option<FlatLine>>,
-    chunks: Vec<(u32, Sorted)>,
+    projected: Vec<Option<ProjectedLine>>,
+    chunks: Vec<(u32, Bins)>,
 }
 
 impl Lines {
-    /// Sorts lines by their boxes.
+    /// Sorts lines by their bounding boxes.
     pub(super) fn new(
-        flat: Vec<Option<FlatLine>>,
+        projected: Vec<Option<ProjectedLine>>,
         frame: &Frame,
         work: &Work,
     ) -> Result<Self, PictureError> {
-        let ranges: Vec<_> = chunks(flat.len(), flat.len()).collect();
+        let ranges: Vec<_> = chunks(projected.len(), projected.len()).collect();
         let chunks = ranges
             .into_par_iter()
             .map(|range| {
                 let mut rects = Vec::with_capacity(range.len());
-                for (i, line) in (0..).zip(&flat[range.clone()]) {
-                    let rect = line.as_ref().and_then(|line| around(limits(line), frame));
+                for (i, line) in (0..).zip(&projected[range.clone()]) {
+                    let rect = line
+                        .as_ref()
+                        .and_then(|line| tiles_of_box(limits(line), frame));
                     rects.extend(rect.map(|rect| (i, rect)));
                 }
-                work.add(LINED * range.len() as u64)?;
+                work.add(BIN_LINE_COST * range.len() as u64)?;
                 let first = u32::try_from(range.start).unwrap_or(u32::MAX);
-                Ok((first, Sorted::new(frame, &rects)))
+                Ok((first, Bins::new(frame, &rects)))
             })
             .collect::<Result<_, PictureError>>()?;
-        Ok(Self { flat, chunks })
+        Ok(Self { projected, chunks })
     }
 
-    /// The lines that may touch a tile, in their order, with their numbers.
-    pub(super) fn of(&self, tile: usize) -> impl Iterator<Item = (u32, &FlatLine)> {
+    /// Returns the lines whose bounding boxes touch a tile, in ascending order, with their indices.
+    pub(super) fn of_tile(&self, tile: usize) -> impl Iterator<Item = (u32, &ProjectedLine)> {
         let mut lines: Vec<u32> = Vec::new();
-        for (first, sorted) in &self.chunks {
-            lines.extend(sorted.of(tile).map(|line| first + line));
+        for (first, bins) in &self.chunks {
+            lines.extend(bins.items_of(tile).map(|line| first + line));
         }
         lines.sort_unstable();
-        let flat = |line: u32| Some((line, self.flat[line as usize].as_ref()?));
-        lines.into_iter().filter_map(flat)
+        let projected = |line: u32| Some((line, self.projected[line as usize].as_ref()?));
+        lines.into_iter().filter_map(projected)
     }
 }
 
-/// The tiles that a box touches, in pixels: left, top, right and bottom.
-fn around([left, top, right, bottom]: [f64; 4], frame: &Frame) -> Option<TileRect> {
+/// Returns the tiles that a box of pixels touches; `None` if it is outside of the picture.
+fn tiles_of_box([left, top, right, bottom]: [f64; 4], frame: &Frame) -> Option<TileRect> {
     let (w, h) = (f64::from(frame.width), f64::from(frame.height));
     if right < 0.0 || bottom < 0.0 || left >= w || top >= h {
         return None;
@@ -298,22 +310,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lists_are_bounded_and_have_everything() {
+    fn lists_are_bounded_and_complete() {
         let frame = Frame::new([640, 640]);
         for side in [1, 3, 8, 9, 20] {
-            // Squares of tiles, all over the picture.
-            let things: Vec<(u32, TileRect)> = (0..5000)
+            // Squares of `side` times `side` tiles, distributed over the picture.
+            let items: Vec<(u32, TileRect)> = (0..5000)
                 .map(|i| {
                     let (left, top) = (i % (21 - side), i / 20 % (21 - side));
                     (i, [left, top, left + side, top + side])
                 })
                 .collect();
-            let sorted = Sorted::new(&frame, &things);
-            assert!(sorted.items.len() <= MOST_ENTRIES * things.len() + MORE_ENTRIES);
+            let bins = Bins::new(&frame, &items);
+            assert!(bins.items.len() <= ENTRIES_PER_ITEM * items.len() + EXTRA_ENTRIES);
             for tile in 0..frame.n_tiles() {
                 let [x, y] = [tile % 20, tile / 20].map(|i| u32::try_from(i).unwrap());
-                let found: Vec<u32> = sorted.of(tile).collect();
-                for &(item, [left, top, right, bottom]) in &things {
+                let found: Vec<u32> = bins.items_of(tile).collect();
+                for &(item, [left, top, right, bottom]) in &items {
                     if (left..right).contains(&x) && (top..bottom).contains(&y) {
                         assert!(found.contains(&item), "{side}, {tile}");
                     }

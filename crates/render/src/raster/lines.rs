@@ -1,69 +1,73 @@
-//! Lines over triangles: of constant width, with round ends, hidden where something is before them.
+//! Draws lines over triangles: with constant width, round ends, and hidden where a triangle is in front of them.
 //!
-//! A sample of a line is compared with the surface at the nearest place on its axis: the plane of the
-//! triangle that the sample sees is continued to there. So a thick line on a slanted surface is seen from
-//! border to border, though half of it lies behind that surface.
+//! The depth test of a sample compares line and surface at the nearest point on the axis of the line. For this, the plane
+//! of the triangle that is visible at the sample is extended to that point. A thick line on a slanted surface is thus
+//! visible in its full width, although half of it is behind the surface.
 //!
-//! What is hidden of a point is a ring: a faint disc would look like a stain on what is before it.
+//! A hidden point is drawn as a ring, because a faint disc would look like a stain on the surface in front of it.
 
 use glam::{DVec2, DVec3};
 
 use super::TILE;
 use super::project::GRID;
 use super::shade::Shader;
-use super::tile::{NOTHING, PLACES, Tile};
+use super::tile::{NO_TRIANGLE, OFFSETS, Tile};
 use crate::View;
 use crate::color::whole_u32;
 use crate::drawing::{Drawing, Line};
-use crate::work::each;
+use crate::work::map_indices;
 
-/// The width of the ring that a hidden point is: a part of its radius, but so many pixels at least.
+/// The width of the ring of a hidden point, as a fraction of its radius.
 const RING: f64 = 0.35;
-const LEAST_RING: f64 = 1.2;
+/// The minimum width of that ring, in pixels.
+const MIN_RING: f64 = 1.2;
 
-/// The width of lines as a part of how far they are apart, at most. The sides of regular triangles of side 1 cover 2 √3
-/// times their width: half of everything.
-const FINE: f64 = 0.15;
+/// The maximum width of a line, as a fraction of its spacing. The edges of equilateral triangles with side 1 cover 2 √3
+/// times their width, which is half of the surface at this limit.
+const MAX_RELATIVE_WIDTH: f64 = 0.15;
 
-/// A line in the picture.
-pub(super) struct FlatLine {
+/// A line, projected to the picture.
+pub(super) struct ProjectedLine {
     /// The ends in pixels.
     ends: [DVec2; 2],
-    /// Their depths.
+    /// The depths of the ends.
     depths: [f64; 2],
     /// Half the width in pixels.
     radius: f64,
-    /// From the first end to the second, divided by the square of the length; zero for a point.
+    /// The vector from the first end to the second, divided by the square of its length; zero for a point.
     scaled: DVec2,
 }
 
-/// Where lines are seen; `None` for those behind the camera.
-pub(super) fn project(drawing: &Drawing, view: &View) -> Vec<Option<FlatLine>> {
-    each(drawing.lines.len(), |i| flat(&drawing.lines[i], view))
+/// Projects all lines; `None` for those behind the camera.
+pub(super) fn project(drawing: &Drawing, view: &View) -> Vec<Option<ProjectedLine>> {
+    map_indices(drawing.lines.len(), |i| {
+        project_line(&drawing.lines[i], view)
+    })
 }
 
-fn flat(line: &Line, view: &View) -> Option<FlatLine> {
-    let [a, b] = line.ends.map(|p| view.turned(p));
-    let [da, db] = [a, b].map(|v| view.inside(0, 0.0, v));
+/// Projects a line; `None` if it is behind the camera or has no width.
+fn project_line(line: &Line, view: &View) -> Option<ProjectedLine> {
+    let [a, b] = line.ends.map(|p| view.to_camera(p));
+    let [da, db] = [a, b].map(|v| view.clip_distance(0, 0.0, v));
     if da < 0.0 && db < 0.0 {
         return None;
     }
-    let cut = |[a, b]: [DVec3; 2], [da, db]: [f64; 2]| {
+    let clip = |[a, b]: [DVec3; 2], [da, db]: [f64; 2]| {
         if da >= 0.0 {
             return a;
         }
-        let mut cut = b + (a - b) * (db / (db - da));
-        cut.z = view.near;
-        cut
+        let mut clipped = b + (a - b) * (db / (db - da));
+        clipped.z = view.near;
+        clipped
     };
-    let seen = [cut([a, b], [da, db]), cut([b, a], [db, da])].map(|v| view.project(v));
-    let ends = seen.map(|s| s.at);
+    let points = [clip([a, b], [da, db]), clip([b, a], [db, da])].map(|v| view.project(v));
+    let ends = points.map(|p| p.at);
     let length_squared = ends[0].distance_squared(ends[1]);
-    let pixel = view.pixel(0.5 * seen[0].depth + 0.5 * seen[1].depth);
-    let width = f64::from(line.width).min(FINE * line.room / pixel);
-    let flat = FlatLine {
+    let pixel = view.pixel_size(0.5 * points[0].depth + 0.5 * points[1].depth);
+    let width = f64::from(line.width).min(MAX_RELATIVE_WIDTH * line.spacing / pixel);
+    let projected = ProjectedLine {
         ends,
-        depths: seen.map(|s| s.depth),
+        depths: points.map(|p| p.depth),
         radius: 0.5 * width,
         scaled: if length_squared > 0.0 {
             (ends[1] - ends[0]) / length_squared
@@ -71,116 +75,118 @@ fn flat(line: &Line, view: &View) -> Option<FlatLine> {
             DVec2::ZERO
         },
     };
-    (ends.iter().all(|p| p.is_finite()) && flat.radius > 0.0).then_some(flat)
+    (ends.iter().all(|p| p.is_finite()) && projected.radius > 0.0).then_some(projected)
 }
 
-/// The box of a line in pixels: left, top, right and bottom.
-pub(super) fn limits(line: &FlatLine) -> [f64; 4] {
+/// Returns the bounding box of a line in pixels: left, top, right and bottom.
+pub(super) fn limits(line: &ProjectedLine) -> [f64; 4] {
     let [a, b] = line.ends;
     let (min, max) = (a.min(b) - line.radius, a.max(b) + line.radius);
     [min.x, min.y, max.x, max.y]
 }
 
-impl FlatLine {
-    /// How far along the line the place is that is nearest to `p`, from 0 to 1.
-    fn along(&self, p: DVec2) -> f64 {
+impl ProjectedLine {
+    /// Returns the parameter, from 0 to 1, of the point of the line that is nearest to `p`.
+    fn nearest(&self, p: DVec2) -> f64 {
         (p - self.ends[0]).dot(self.scaled).clamp(0.0, 1.0)
     }
 
-    fn place(&self, t: f64) -> DVec2 {
+    /// Returns the point at a parameter.
+    fn point(&self, t: f64) -> DVec2 {
         self.ends[0] + (self.ends[1] - self.ends[0]) * t
     }
 
+    /// Returns the distance of `p` to the axis of the line.
     fn distance(&self, p: DVec2) -> f64 {
-        p.distance(self.place(self.along(p)))
+        p.distance(self.point(self.nearest(p)))
     }
 }
 
 /// Draws a line into a tile.
-pub(super) fn draw(tile: &mut Tile, number: u32, flat: &FlatLine, shader: &Shader) {
+pub(super) fn draw(tile: &mut Tile, number: u32, projected: &ProjectedLine, shader: &Shader) {
     let line = &shader.drawing.lines[number as usize];
     let corner = DVec2::new(f64::from(tile.left), f64::from(tile.top));
     let half = f64::from(TILE) / 2.0;
-    if flat.distance(corner + half) > half * std::f64::consts::SQRT_2 + flat.radius {
+    if projected.distance(corner + half) > half * std::f64::consts::SQRT_2 + projected.radius {
         return;
     }
-    let [left, top, right, bottom] = limits(flat);
+    let [left, top, right, bottom] = limits(projected);
     let pixel = |x: f64, low: u32, high: u32| whole_u32(x.clamp(low.into(), (high - 1).into()));
     let [x0, x1] = [left, right].map(|x| pixel(x, tile.left, tile.right));
     let [y0, y1] = [top, bottom].map(|y| pixel(y, tile.top, tile.bottom));
-    let radius_squared = flat.radius * flat.radius;
-    let is_point = flat.scaled == DVec2::ZERO;
-    let hole = if is_point {
-        (flat.radius - LEAST_RING.max(RING * flat.radius)).max(0.0)
+    let radius_squared = projected.radius * projected.radius;
+    let is_point = projected.scaled == DVec2::ZERO;
+    let ring_inner_radius = if is_point {
+        (projected.radius - MIN_RING.max(RING * projected.radius)).max(0.0)
     } else {
         0.0
     };
     for y in y0..=y1 {
         for x in x0..=x1 {
             let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
-            if flat.distance(middle) > flat.radius + std::f64::consts::FRAC_1_SQRT_2 {
+            if projected.distance(middle) > projected.radius + std::f64::consts::FRAC_1_SQRT_2 {
                 continue;
             }
-            let place = tile.place(x, y);
-            for (k, place_of_sample) in PLACES.iter().enumerate() {
-                let [dx, dy] = place_of_sample.map(|d| f64::from(d) / f64::from(GRID));
+            let index = tile.index(x, y);
+            for (k, offset) in OFFSETS.iter().enumerate() {
+                let [dx, dy] = offset.map(|d| f64::from(d) / f64::from(GRID));
                 let p = middle + DVec2::new(dx, dy);
-                let t = flat.along(p);
-                let distance_squared = p.distance_squared(flat.place(t));
+                let t = projected.nearest(p);
+                let distance_squared = p.distance_squared(projected.point(t));
                 if distance_squared > radius_squared {
                     continue;
                 }
-                let seen = (tile.seen[place][k], tile.depth[place][k]);
-                let is_seen = flat.is_seen(line, shader, seen, t, &mut tile.planes);
-                let over = &mut tile.over[place][k];
-                if is_seen {
-                    *over = 2 * number + 2;
+                let sample = (tile.triangles[index][k], tile.depth[index][k]);
+                let is_visible = projected.is_visible(line, shader, sample, t, &mut tile.planes);
+                let entry = &mut tile.lines[index][k];
+                if is_visible {
+                    *entry = 2 * number + 2;
                 } else if line.hidden > 0.0
-                    && distance_squared >= hole * hole
-                    && (*over == 0 || *over & 1 == 1)
+                    && distance_squared >= ring_inner_radius * ring_inner_radius
+                    && (*entry == 0 || *entry & 1 == 1)
                 {
-                    *over = 2 * number + 3;
+                    *entry = 2 * number + 3;
                 }
             }
         }
     }
 }
 
-/// The planes of triangles that were asked for lately: the triangle, its face, a point and a normal.
+/// A cache of the planes of triangles: the triangle, its face, a point and a normal.
 pub(super) type Planes = Vec<Option<(u32, (u32, DVec3, DVec3))>>;
 
-impl FlatLine {
-    /// Whether the line at `t` is before what a sample sees: a triangle at a depth.
-    fn is_seen(
+impl ProjectedLine {
+    /// Whether the line at parameter `t` is in front of the triangle that is visible at a sample, given with its depth.
+    fn is_visible(
         &self,
         line: &Line,
         shader: &Shader,
-        (seen, sample): (u32, f32),
+        (triangle, triangle_depth): (u32, f32),
         t: f64,
         planes: &mut Planes,
     ) -> bool {
-        if seen == NOTHING {
+        if triangle == NO_TRIANGLE {
             return true;
         }
         let [d0, d1] = self.depths;
         let depth = d0 + (d1 - d0) * t;
         let view = shader.view;
-        // A curved surface comes forward beside its edges by less than this.
-        let bias = view.pixel(depth) * (1.0 + self.radius);
-        let limit = depth - view.depth_of(bias, depth);
-        if f64::from(sample) >= limit {
+        // Beside a line on it, a curved surface comes towards the camera by less than this.
+        let bias = view.pixel_size(depth) * (1.0 + self.radius);
+        let limit = depth - view.depth_change(bias, depth);
+        if f64::from(triangle_depth) >= limit {
             return true;
         }
         let n = planes.len();
-        let entry = &mut planes[seen as usize % n];
-        if entry.is_none_or(|(id, ..)| id != seen) {
+        let entry = &mut planes[triangle as usize % n];
+        if entry.is_none_or(|(id, ..)| id != triangle) {
             *entry = None;
         }
-        let (_, (face, p, n)) = *entry.get_or_insert_with(|| (seen, shader.plane(seen)));
+        let (_, (face, p, n)) = *entry.get_or_insert_with(|| (triangle, shader.plane(triangle)));
         if line.faces.contains(&face) {
             return true;
         }
-        let surface = view.plane_depth(p, n, self.place(t));
+        let surface = view.plane_depth(p, n, self.point(t));
         surface.is_none_or(|surface| surface >= limit)
     }
 }

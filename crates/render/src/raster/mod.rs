@@ -1,21 +1,21 @@
-//! From a drawing to pixels.
+//! Renders a drawing to pixels.
 //!
-//! The picture is cut into tiles. Triangles are sorted into the tiles that they touch; then each tile finds
-//! what its samples see and shades it, independently of all others: the same bytes for any number of
-//! threads.
+//! The picture is divided into tiles. Triangles and lines are sorted into the tiles that they touch. Then each tile is
+//! drawn and shaded independently of all others, so that any number of threads gives the same bytes.
 //!
 //! ```text
-//!   project    points to a grid of 1/256 pixel; triangles that reach too far are cut
-//!   bins       which triangles and lines touch which tile
-//!   tile       which triangle each of 16 samples a pixel sees
-//!   holes      which samples a triangle covers that is not opaque
-//!   lines      which line lies over it
-//!   shade      the color of a triangle at a place
-//!   occlusion  how much of the surroundings a place sees
+//!   project    projects points to a grid of 1/256 pixel, and clips triangles
+//!   bins       sorts triangles and lines into tiles
+//!   tile       finds the visible triangle for each of 16 samples per pixel
+//!   coverage   selects the samples that a transparent triangle covers
+//!   lines      finds the lines that cover samples
+//!   shade      computes the color of a triangle at a point
+//!   occlusion  computes ambient occlusion at a point
 //! ```
 
 mod bins;
-mod holes;
+mod coverage;
+
 mod lines;
 mod occlusion;
 mod project;
@@ -34,56 +34,58 @@ use crate::image::{Image, checked_size};
 use crate::style::Shading;
 use crate::work::Work;
 use crate::{PictureError, View};
-use holes::Cover;
-use project::{Corner, Flat, GRID};
-use shade::{Memory, Shader};
-use tile::{NOTHING, PLACES, SAMPLES, Tile};
+use coverage::Coverage;
+use project::{GRID, GridPoint, ProjectedTriangle};
+use shade::{Shader, ShadingCache};
+use tile::{NO_TRIANGLE, OFFSETS, SAMPLES, Tile};
 
-/// Pixels of a tile along each side.
+/// The width and height of a tile in pixels.
 const TILE: u32 = 32;
 
-/// How a drawing is drawn.
+/// The settings of a style that the rasteriser uses.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
-    /// How light falls.
+    /// The lighting of surfaces.
     pub shading: Shading,
-    /// How dark places are that see little of their surroundings: from 0 (no darker) to 1.
+    /// The strength of ambient occlusion, from 0 (none) to 1.
     pub occlusion: f32,
-    /// Linear red, green and blue, and alpha, of what is behind everything.
+    /// Linear red, green, blue and alpha of the background.
     pub background: [f32; 4],
 }
 
 impl Look {
-    /// Whether it needs to know how much places see of their surroundings.
+    /// Whether ambient occlusion is computed.
     fn has_occlusion(&self) -> bool {
         self.occlusion > 0.0 && self.shading != Shading::Plain
     }
 }
 
-/// A drawing in pixels.
+/// A rendered drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rendered {
     /// The pixels.
     pub image: Image,
-    /// Where the labels of the drawing are, in its order; `None` for those behind the camera or beside the
-    /// picture.
+    /// The positions of the labels of the drawing, in the same order. `None` for labels behind the camera or outside of
+    /// the picture.
     pub labels: Vec<Option<PlacedLabel>>,
 }
 
-/// A label in a picture.
+/// The position of a label in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedLabel {
     /// Pixels from the left and from the top.
     pub at: DVec2,
-    /// Whether something is before it.
+    /// Whether a triangle hides the position.
     pub is_hidden: bool,
 }
 
-/// The size of a picture, and its tiles.
+/// The size of a picture in pixels and in tiles.
 struct Frame {
     width: u32,
     height: u32,
+    /// The number of columns of tiles.
     columns: u32,
+    /// The number of rows of tiles.
     rows: u32,
 }
 
@@ -102,10 +104,10 @@ impl Frame {
     }
 }
 
-/// The bytes of memory that [`render`] takes at most, beside the drawing: so many points, triangles and lines
-/// in a picture of this size. Triangles that the camera is among may take more.
+/// Returns the maximum number of bytes of memory that [`render`] needs for a picture of this size, in addition to the
+/// drawing. Rendering can need more if many triangles must be clipped because they surround the camera.
 pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -> u64 {
-    // Sizes that are too large are refused; here they must not overflow.
+    // Too large sizes are refused later; here they must not overflow.
     let [width, height] = [width, height].map(|side| side.min(1 << 20));
     let frame = Frame::new([width, height]);
     let pixels = u64::from(width) * u64::from(height);
@@ -117,29 +119,35 @@ pub fn bytes_needed(drawing: &Drawing, [width, height]: [u32; 2], look: &Look) -
     } else {
         0
     };
-    let points = size_of::<Corner>() as u64 * n_points;
+    let points = size_of::<GridPoint>() as u64 * n_points;
     let groups = drawing.parts.iter().map(|p| p.triangles.len());
-    let of_triangles = bins::bytes(groups, &frame);
-    let a_line = size_of::<Option<lines::FlatLine>>() as u64 + 8 * threads;
-    let of_lines = a_line * lines + bins::bytes(std::iter::once(drawing.lines.len()), &frame);
-    // A thread that waits for others begins further rows of tiles.
+    let triangle_bytes = bins::bytes(groups, &frame);
+    let bytes_per_line = size_of::<Option<lines::ProjectedLine>>() as u64 + 8 * threads;
+    let line_bins = bins::bytes(std::iter::once(drawing.lines.len()), &frame);
+    let line_bytes = bytes_per_line * lines + line_bins;
+    // A thread that waits for other threads starts more rows of tiles in the meantime.
     let rows = 4 * threads * (4 * u64::from(TILE * width) + (1 << 18));
-    4 * pixels + points + of_triangles + of_lines + maps + rows + (1 << 20)
+    4 * pixels + points + triangle_bytes + line_bytes + maps + rows + (1 << 20)
 }
 
-/// What things cost, in about nanoseconds: a triangle and a line until they are in their tiles, both there, a pixel, and
-/// a triangle in all depth maps.
-const SORTED: u64 = 60;
-const LINED: u64 = 200;
-const DRAWN: u64 = 60;
-const SHADED: u64 = 150;
-const MAPPED: u64 = 400;
+// Estimated costs for progress reports, in nanoseconds.
 
-/// Draws a drawing.
+/// The cost of projecting a triangle and sorting it into tiles.
+const BIN_TRIANGLE_COST: u64 = 60;
+/// The cost of projecting a line and sorting it into tiles.
+const BIN_LINE_COST: u64 = 200;
+/// The cost of drawing a triangle or line into its tiles.
+const DRAW_COST: u64 = 60;
+/// The cost of shading a pixel.
+const PIXEL_COST: u64 = 150;
+/// The cost of drawing a triangle into all depth maps.
+const DEPTH_MAP_COST: u64 = 400;
+
+/// Renders a drawing.
 ///
 /// # Errors
 ///
-/// [`PictureError::Size`] if the picture has no pixels or too many; [`PictureError::Cancelled`].
+/// [`PictureError::Size`] if a side of the picture is 0 or too long; [`PictureError::Cancelled`].
 pub fn render(
     drawing: &Drawing,
     view: &View,
@@ -150,23 +158,23 @@ pub fn render(
     let n_pixels = checked_size(size[0], size[1])?;
     let frame = Frame::new(size);
     let n_triangles = drawing.n_triangles() as u64;
-    let of_maps = if look.has_occlusion() {
-        MAPPED * n_triangles
+    let map_cost = if look.has_occlusion() {
+        DEPTH_MAP_COST * n_triangles
     } else {
         0
     };
     let n_lines = drawing.lines.len() as u64;
-    let of_tiles = DRAWN * (n_triangles + n_lines) + SHADED * n_pixels as u64;
-    let before = SORTED * n_triangles + LINED * n_lines;
-    let work = Work::new(progress, "draw", before + of_maps + of_tiles);
+    let tile_cost = DRAW_COST * (n_triangles + n_lines) + PIXEL_COST * n_pixels as u64;
+    let bin_cost = BIN_TRIANGLE_COST * n_triangles + BIN_LINE_COST * n_lines;
+    let work = Work::new(progress, "draw", bin_cost + map_cost + tile_cost);
     work.add(0)?;
     let triangles = bins::Triangles::new(drawing, view, &frame, &work)?;
     let lines = bins::Lines::new(lines::project(drawing, view), &frame, &work)?;
     let shader = Shader::new(drawing, view, size, look, |n_maps| {
-        work.add(of_maps / n_maps)
+        work.add(map_cost / n_maps)
     })?;
 
-    let of_tile = of_tiles / frame.n_tiles() as u64;
+    let cost_per_tile = tile_cost / frame.n_tiles() as u64;
     let mut pixels = vec![[0; 4]; n_pixels];
     let width = frame.width as usize;
     pixels
@@ -178,20 +186,20 @@ pub fn render(
                 .map_init(Tile::new, |tile, column| {
                     tile.begin(&frame, column, row);
                     let number = (row * frame.columns + column) as usize;
-                    triangles.of(drawing, number, |id, flat| {
-                        draw(tile, id, flat, &shader);
+                    triangles.each_of_tile(drawing, number, |id, projected| {
+                        draw(tile, id, projected, &shader);
                     });
-                    for (line, flat) in lines.of(number) {
-                        lines::draw(tile, line, flat, &shader);
+                    for (line, projected) in lines.of_tile(number) {
+                        lines::draw(tile, line, projected, &shader);
                     }
-                    work.add(of_tile)?;
+                    work.add(cost_per_tile)?;
                     Ok(resolve(tile, &shader, look))
                 })
                 .collect::<Result<_, PictureError>>()?;
             for (tile, left) in tiles.iter().zip((0..width).step_by(TILE as usize)) {
                 let n = (width - left).min(TILE as usize);
-                for (row, of_tile) in band.chunks_mut(width).zip(tile.chunks(n)) {
-                    row[left..left + n].copy_from_slice(of_tile);
+                for (row, tile_row) in band.chunks_mut(width).zip(tile.chunks(n)) {
+                    row[left..left + n].copy_from_slice(tile_row);
                 }
             }
             Ok::<(), PictureError>(())
@@ -211,50 +219,50 @@ pub fn render(
     })
 }
 
-/// Draws a triangle into a tile, where it is not transparent.
-fn draw(tile: &mut Tile, id: u32, flat: &Flat, shader: &Shader) {
-    if !shader.has_holes {
-        tile.draw(id, flat, u16::MAX);
+/// Draws a triangle into a tile, except for its transparent samples.
+fn draw(tile: &mut Tile, id: u32, projected: &ProjectedTriangle, shader: &Shader) {
+    if !shader.has_transparency {
+        tile.draw(id, projected, u16::MAX);
         return;
     }
-    match shader.cover(id) {
-        Cover::Same(mask) => tile.draw(id, flat, mask),
-        Cover::Textured(mut texture) => {
-            tile.draw_holed(id, flat, |pixel, sample| texture.covers(pixel, sample));
+    match shader.coverage(id) {
+        Coverage::Same(mask) => tile.draw(id, projected, mask),
+        Coverage::Textured(mut texture) => {
+            tile.draw_textured(id, projected, |pixel, sample| texture.covers(pixel, sample));
         }
     }
 }
 
-/// The pixels of a tile.
+/// Computes the pixels of a tile from its samples.
 fn resolve(tile: &Tile, shader: &Shader, look: &Look) -> Vec<[u8; 4]> {
     let n_pixels = (tile.right - tile.left) * (tile.bottom - tile.top);
     let mut pixels = Vec::with_capacity(n_pixels as usize);
-    let nothing = finished([0.0; 4], look.background);
-    let mut memory = Memory::default();
+    let empty = over_background([0.0; 4], look.background);
+    let mut cache = ShadingCache::default();
     for y in tile.top..tile.bottom {
         for x in tile.left..tile.right {
-            let place = tile.place(x, y);
-            let (seen, over) = (&tile.seen[place], &tile.over[place]);
-            let is_empty = *seen == [NOTHING; SAMPLES] && *over == [0; SAMPLES];
+            let index = tile.index(x, y);
+            let (triangles, lines) = (&tile.triangles[index], &tile.lines[index]);
+            let is_empty = *triangles == [NO_TRIANGLE; SAMPLES] && *lines == [0; SAMPLES];
             pixels.push(if is_empty {
-                nothing
+                empty
             } else {
-                memory.begin_pixel();
-                let light = shaded([x, y], seen, over, shader, &mut memory);
-                finished(light, look.background)
+                cache.begin_pixel();
+                let light = shade_pixel([x, y], triangles, lines, shader, &mut cache);
+                over_background(light, look.background)
             });
         }
     }
     pixels
 }
 
-/// Premultiplied linear light and alpha of a pixel.
-fn shaded(
+/// Returns premultiplied linear light and alpha of a pixel.
+fn shade_pixel(
     [x, y]: [u32; 2],
-    seen: &[u32; SAMPLES],
-    over: &[u32; SAMPLES],
+    triangles: &[u32; SAMPLES],
+    lines: &[u32; SAMPLES],
     shader: &Shader,
-    memory: &mut Memory,
+    cache: &mut ShadingCache,
 ) -> [f32; 4] {
     let middle = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
     let mut sum = [0.0; 4];
@@ -263,22 +271,23 @@ fn shaded(
         if done >> first & 1 == 1 {
             continue;
         }
-        // All samples that see the same.
-        let (mut n, mut place) = (0.0_f32, [0_i32; 2]);
+        // All samples with the same triangle and line are shaded together, at their mean position.
+        let (mut n, mut offset_sum) = (0.0_f32, [0_i32; 2]);
         for k in first..SAMPLES {
-            if seen[k] == seen[first] && over[k] == over[first] {
+            if triangles[k] == triangles[first] && lines[k] == lines[first] {
                 done |= 1 << k;
                 n += 1.0;
-                place = [place[0] + PLACES[k][0], place[1] + PLACES[k][1]];
+                let [dx, dy] = OFFSETS[k];
+                offset_sum = [offset_sum[0] + dx, offset_sum[1] + dy];
             }
         }
-        let line = (over[first] > 0).then(|| shader.line_color(over[first]));
+        let line = (lines[first] > 0).then(|| shader.line_color(lines[first]));
         let line_alpha = line.map_or(0.0, |c| c[3]);
         let mut color = [0.0; 4];
-        if seen[first] != NOTHING && line_alpha < 1.0 {
+        if triangles[first] != NO_TRIANGLE && line_alpha < 1.0 {
             let scale = 1.0 / (f64::from(n) * f64::from(GRID));
-            let aside = DVec2::new(f64::from(place[0]), f64::from(place[1])) * scale;
-            let [r, g, b] = shader.shade(seen[first], middle + aside, memory);
+            let offset = DVec2::from(offset_sum.map(f64::from)) * scale;
+            let [r, g, b] = shader.shade(triangles[first], middle + offset, cache);
             color = [r, g, b, 1.0];
         }
         if let Some([r, g, b, a]) = line {
@@ -292,8 +301,8 @@ fn shaded(
     sum.map(|c| c / SAMPLES as f32)
 }
 
-/// A pixel from premultiplied linear light over a background.
-fn finished([r, g, b, a]: [f32; 4], [s, t, u, v]: [f32; 4]) -> [u8; 4] {
+/// Composites premultiplied linear light over the background, and converts it to an sRGB pixel.
+fn over_background([r, g, b, a]: [f32; 4], [s, t, u, v]: [f32; 4]) -> [u8; 4] {
     let rest = (1.0 - a) * v;
     let alpha = a + rest;
     if alpha <= 0.0 {
@@ -303,7 +312,7 @@ fn finished([r, g, b, a]: [f32; 4], [s, t, u, v]: [f32; 4]) -> [u8; 4] {
     [light[0], light[1], light[2], byte(alpha)]
 }
 
-/// Where a label is, and whether a triangle is before it.
+/// Returns the position of a label in the picture, and whether a triangle hides it.
 fn place(
     at: glam::DVec3,
     drawing: &Drawing,
@@ -311,33 +320,33 @@ fn place(
     frame: &Frame,
     triangles: &bins::Triangles,
 ) -> Option<PlacedLabel> {
-    let seen = view.see(at)?;
+    let point = view.screen_point(at)?;
     let (w, h) = (f64::from(frame.width), f64::from(frame.height));
-    if !(0.0..w).contains(&seen.at.x) || !(0.0..h).contains(&seen.at.y) {
+    if !(0.0..w).contains(&point.at.x) || !(0.0..h).contains(&point.at.y) {
         return None;
     }
-    let [x, y] = seen.at.to_array().map(whole_u32);
+    let [x, y] = point.at.to_array().map(whole_u32);
     let number = (y / TILE * frame.columns + x / TILE) as usize;
-    let nearer = view.depth_of(2.0 * view.pixel(seen.depth), seen.depth);
-    let limit = narrow(seen.depth - nearer);
-    // As if it were a tile of one pixel.
+    let tolerance = view.depth_change(2.0 * view.pixel_size(point.depth), point.depth);
+    let limit = narrow(point.depth - tolerance);
+    // Draws only the pixel of the label.
     let mut tile = Tile::new();
     (tile.left, tile.top, tile.right, tile.bottom) = (x, y, x + 1, y + 1);
-    triangles.of(drawing, number, |id, flat| {
-        tile.draw(id, flat, u16::MAX);
+    triangles.each_of_tile(drawing, number, |id, projected| {
+        tile.draw(id, projected, u16::MAX);
     });
     Some(PlacedLabel {
-        at: seen.at,
-        is_hidden: tile.depth[0][nearest_sample(seen.at)] < limit,
+        at: point.at,
+        is_hidden: tile.depth[0][nearest_sample(point.at)] < limit,
     })
 }
 
-/// The sample of its pixel that is nearest to a place.
+/// Returns the sample that is nearest to a point of the picture, in the pixel of this point.
 fn nearest_sample(at: DVec2) -> usize {
-    let inside = (at - at.floor() - 0.5) * f64::from(GRID);
+    let offset = (at - at.floor() - 0.5) * f64::from(GRID);
     let distance = |k: &usize| {
-        let [x, y] = PLACES[*k];
-        inside.distance_squared(DVec2::new(f64::from(x), f64::from(y)))
+        let [x, y] = OFFSETS[*k];
+        offset.distance_squared(DVec2::new(f64::from(x), f64::from(y)))
     };
     (0..SAMPLES)
         .min_by(|a, b| distance(a).total_cmp(&distance(b)))

@@ -1,36 +1,36 @@
-//! Triangles in the picture: points on a grid of 1/256 pixel, and what of a triangle that reaches behind the
-//! camera or far beyond the picture is left.
+//! Projects points to a grid of 1/256 pixel, and clips triangles that reach behind the camera or far outside of the
+//! picture.
 //!
-//! From here on the edges of triangles are exact: two triangles with a common edge have the same two points
-//! on the grid, so that each sample on it is in one of them.
+//! After the projection, the edges of triangles are exact. Two triangles with a common edge have the same two grid
+//! points, so that each sample on the edge is in exactly one of them.
 
 use glam::DVec3;
 
 use crate::color::narrow;
-use crate::work::each;
+use crate::work::map_indices;
 use crate::{ScreenPoint, View};
 
-/// Steps of the grid for a pixel, as a power of two.
+/// The base-2 logarithm of [`GRID`].
 pub(super) const GRID_BITS: i32 = 8;
-/// Steps of the grid for a pixel.
+/// Grid steps per pixel.
 pub(super) const GRID: i32 = 1 << GRID_BITS;
-/// No point on the grid is farther from the corner of the picture, in pixels.
+/// The maximum coordinate of a grid point, in pixels from the upper left corner of the picture, to each side.
 const FAR: f64 = 32_768.0;
 
-/// A point in the picture.
+/// A point of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Corner {
-    /// Steps of the grid from the left and from the top.
+pub(super) struct GridPoint {
+    /// Grid steps from the left and from the top.
     pub(super) at: [i32; 2],
     /// See [`ScreenPoint::depth`].
     pub(super) depth: f32,
 }
 
-/// A triangle in the picture.
-pub(super) type Flat = [Corner; 3];
+/// A triangle, projected to the picture.
+pub(super) type ProjectedTriangle = [GridPoint; 3];
 
-impl Corner {
-    /// Stands for a point that is behind the camera or too far aside.
+impl GridPoint {
+    /// The value for a point that is behind the camera or too far outside of the picture.
     const OUTSIDE: Self = Self {
         at: [i32::MIN; 2],
         depth: 0.0,
@@ -40,9 +40,9 @@ impl Corner {
         self.at[0] == i32::MIN
     }
 
-    /// The nearest point of the grid.
-    fn new(seen: ScreenPoint) -> Self {
-        let at = seen.at.to_array().map(|x| {
+    /// Rounds to the nearest grid point.
+    fn new(point: ScreenPoint) -> Self {
+        let at = point.at.to_array().map(|x| {
             let x = (x.clamp(-FAR, FAR) * f64::from(GRID) + 0.5).floor();
             #[expect(clippy::cast_possible_truncation, reason = "within the limits above")]
             let x = x as i32;
@@ -50,40 +50,43 @@ impl Corner {
         });
         Self {
             at,
-            depth: narrow(seen.depth),
+            depth: narrow(point.depth),
         }
     }
 
-    fn of(view: &View, v: DVec3) -> Self {
+    /// Projects a point in camera coordinates.
+    fn projected(view: &View, v: DVec3) -> Self {
         if v.z < view.near {
             return Self::OUTSIDE;
         }
-        let seen = view.project(v);
-        if seen.at.abs().max_element() <= FAR {
-            Self::new(seen)
+        let point = view.project(v);
+        if point.at.abs().max_element() <= FAR {
+            Self::new(point)
         } else {
             Self::OUTSIDE
         }
     }
 }
 
-/// Where points are seen.
-pub(super) fn project(view: &View, points: &[DVec3]) -> Vec<Corner> {
-    each(points.len(), |i| Corner::of(view, view.turned(points[i])))
+/// Projects points.
+pub(super) fn project(view: &View, points: &[DVec3]) -> Vec<GridPoint> {
+    map_indices(points.len(), |i| {
+        GridPoint::projected(view, view.to_camera(points[i]))
+    })
 }
 
-/// What is left of a triangle inside the limits: a convex polygon cut into triangles.
+/// Clips a triangle, and divides the resulting convex polygon into triangles.
 ///
-/// Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974. Where an edge is cut depends on its two ends
-/// only, not on their order: the triangles beside it get the same point.
-pub(super) fn clipped(view: &View, corners: [DVec3; 3]) -> Vec<Flat> {
-    let mut polygon: Vec<DVec3> = corners.iter().map(|&p| view.turned(p)).collect();
-    for side in 0..5 {
-        let inside = |v: DVec3| view.inside(side, FAR, v);
+/// Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974. The point where an edge is cut does not depend on the
+/// order of its ends, so that both triangles beside the edge get the same point.
+pub(super) fn clipped(view: &View, corners: [DVec3; 3]) -> Vec<ProjectedTriangle> {
+    let mut polygon: Vec<DVec3> = corners.iter().map(|&p| view.to_camera(p)).collect();
+    for plane in 0..5 {
+        let clip_distance = |v: DVec3| view.clip_distance(plane, FAR, v);
         let mut kept = Vec::with_capacity(polygon.len() + 1);
         for (i, &a) in polygon.iter().enumerate() {
             let b = polygon[(i + 1) % polygon.len()];
-            let (da, db) = (inside(a), inside(b));
+            let (da, db) = (clip_distance(a), clip_distance(b));
             if da >= 0.0 {
                 kept.push(a);
             }
@@ -101,8 +104,8 @@ pub(super) fn clipped(view: &View, corners: [DVec3; 3]) -> Vec<Flat> {
             return Vec::new();
         }
     }
-    let seen = polygon.iter().map(|&v| Corner::new(view.project(v)));
-    let seen: Vec<Corner> = seen.collect();
-    let fan = |pair: &[Corner]| [seen[0], pair[0], pair[1]];
-    seen[1..].windows(2).map(fan).collect()
+    let points = polygon.iter().map(|&v| GridPoint::new(view.project(v)));
+    let points: Vec<GridPoint> = points.collect();
+    let fan = |pair: &[GridPoint]| [points[0], pair[0], pair[1]];
+    points[1..].windows(2).map(fan).collect()
 }

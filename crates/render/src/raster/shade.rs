@@ -1,8 +1,7 @@
-//! The color of a triangle at a place of the picture.
+//! Computes the color of a triangle at a point of the picture.
 //!
-//! Light comes from where the photographer stands: a key light from above and from the left, a weak one
-//! from the right, and a bright sky over a darker ground. Directions are those of the picture, so that every
-//! view is lit alike.
+//! There are a key light from the upper left, a weak fill light from the right, and a bright sky over a darker ground.
+//! The directions of the lights are relative to the camera, so that every view is lit alike.
 
 use glam::{DVec2, DVec3};
 
@@ -13,17 +12,20 @@ use crate::drawing::{Drawing, Part, Surface};
 use crate::style::Shading;
 use crate::{PictureError, View};
 
-/// Where the key light comes from: right, upwards, towards the camera. Not of length 1.
+/// The direction to the key light: right, upwards, towards the camera. Not a unit vector.
 pub(super) const KEY: DVec3 = DVec3::new(-0.45, 0.65, 0.75);
-/// Where the weak light comes from.
+/// The direction to the fill light. Not a unit vector.
 pub(super) const FILL: DVec3 = DVec3::new(0.8, -0.05, 0.45);
-/// Linear light of the key light on what faces it, of the weak one, of the sky and of the ground.
+/// The linear red, green and blue of the key light.
 pub(super) const KEY_LIGHT: [f32; 3] = [0.84, 0.82, 0.78];
+/// The linear red, green and blue of the fill light.
 pub(super) const FILL_LIGHT: [f32; 3] = [0.09, 0.10, 0.115];
+/// The linear red, green and blue of the light from straight above.
 pub(super) const SKY: [f32; 3] = [0.42, 0.435, 0.46];
+/// The linear red, green and blue of the light from straight below.
 pub(super) const GROUND: [f32; 3] = [0.17, 0.16, 0.15];
 
-/// What shading needs.
+/// Computes the colors of triangles and lines.
 pub(super) struct Shader<'a> {
     pub(super) drawing: &'a Drawing<'a>,
     pub(super) view: &'a View,
@@ -31,50 +33,51 @@ pub(super) struct Shader<'a> {
     occlusion: Option<Occlusion>,
     /// The first triangle and the first face of each part.
     firsts: Vec<[u32; 2]>,
-    /// Whether some surface is not opaque.
-    pub(super) has_holes: bool,
+    /// Whether a surface is not opaque.
+    pub(super) has_transparency: bool,
     key: DVec3,
     fill: DVec3,
 }
 
-/// A place whose openness is known.
+/// A point with its openness.
 #[derive(Clone, Copy)]
-struct Known {
+struct OpennessSample {
     at: DVec3,
     normal: DVec3,
-    open: f32,
+    openness: f32,
 }
 
-/// What is remembered from one place of the picture to the next.
+/// Results that are reused for the next point.
 #[derive(Default)]
-pub(super) struct Memory {
+pub(super) struct ShadingCache {
     /// The triangle that was shaded last.
-    triangle: Option<(u32, Facts)>,
-    /// Of the pixel that is being shaded.
-    known: Option<Known>,
+    triangle: Option<(u32, TriangleData)>,
+    /// The last openness in the current pixel.
+    openness: Option<OpennessSample>,
 }
 
-impl Memory {
-    /// Forgets what only holds in one pixel.
+impl ShadingCache {
+    /// Clears the results that are valid in one pixel only.
     pub(super) fn begin_pixel(&mut self) {
-        self.known = None;
+        self.openness = None;
     }
 }
 
-/// What is the same all over a triangle.
+/// The data of a triangle that does not depend on the point.
 #[derive(Clone, Copy)]
-pub(super) struct Facts {
-    /// Its part, and its number in it.
+pub(super) struct TriangleData {
+    /// The index of the part.
     part: usize,
+    /// The index of the triangle in the part.
     triangle: usize,
     corners: [DVec3; 3],
-    /// Of length 1 or 0.
+    /// The unit normal; zero if the triangle has no area.
     normal: DVec3,
-    /// What the barycentric coordinates of the second and the third corner are products with.
+    /// The gradients of the barycentric coordinates of the second and the third corner.
     gradients: [DVec3; 2],
 }
 
-impl Facts {
+impl TriangleData {
     pub(super) fn new(part: usize, triangle: usize, corners: [DVec3; 3]) -> Self {
         let [a, b, c] = corners;
         let (u, v) = (b - a, c - a);
@@ -89,8 +92,8 @@ impl Facts {
         }
     }
 
-    /// The barycentric coordinates of the place where a ray meets the plane of the triangle; `None` if it
-    /// runs along the plane.
+    /// Returns the barycentric coordinates of the point where a ray meets the plane of the triangle; `None` if the ray is
+    /// parallel to the plane.
     pub(super) fn barycentric(&self, origin: DVec3, direction: DVec3) -> Option<[f64; 3]> {
         let a = self.corners[0] - origin;
         let p = direction * (self.normal.dot(a) / self.normal.dot(direction)) - a;
@@ -99,19 +102,21 @@ impl Facts {
     }
 }
 
-/// A place on a triangle.
-struct Spot {
+/// A point on a triangle.
+struct SurfacePoint {
     at: DVec3,
+    /// The barycentric coordinates.
     weights: [f32; 3],
-    /// Of the triangle, on the side of the camera, of length 1 or 0.
+    /// The unit normal of the triangle, on the side of the camera; zero if the triangle has no area.
     normal: DVec3,
     is_back: bool,
-    /// Towards the camera.
+    /// The direction towards the camera.
     to_eye: DVec3,
 }
 
 impl<'a> Shader<'a> {
-    /// `map_done` is told how many depth maps there are whenever one of them is done.
+    /// Prepares shading, which includes the depth maps of ambient occlusion. `map_done` is called with the total number
+    /// of depth maps when a map is complete.
     pub(super) fn new(
         drawing: &'a Drawing<'a>,
         view: &'a View,
@@ -137,7 +142,7 @@ impl<'a> Shader<'a> {
             look,
             occlusion,
             firsts,
-            has_holes: surfaces
+            has_transparency: surfaces
                 .into_iter()
                 .any(|s| s.color[3] < 1.0 || s.texture.as_ref().is_some_and(|t| !t.is_opaque())),
             key: KEY.normalize(),
@@ -145,15 +150,15 @@ impl<'a> Shader<'a> {
         })
     }
 
-    /// The part of a triangle, and its number in it.
-    pub(super) fn find(&self, id: u32) -> (usize, usize) {
+    /// Returns the index of the part of a triangle, and the index of the triangle in the part.
+    pub(super) fn locate(&self, id: u32) -> (usize, usize) {
         let part = self.firsts.partition_point(|first| first[0] <= id) - 1;
         (part, (id - self.firsts[part][0]) as usize)
     }
 
-    /// The face of a triangle over all parts, one of its points, and its normal of any length.
+    /// Returns the face of a triangle, numbered through all parts, a point of the triangle, and a normal of any length.
     pub(super) fn plane(&self, id: u32) -> (u32, DVec3, DVec3) {
-        let (part, triangle) = self.find(id);
+        let (part, triangle) = self.locate(id);
         let p = &self.drawing.parts[part];
         let [a, b, c] = p.corners_at(triangle);
         let face = u32::try_from(p.face(triangle)).unwrap_or(0);
@@ -161,141 +166,146 @@ impl<'a> Shader<'a> {
         (face, a, (b - a).cross(c - a))
     }
 
-    /// The color of a line as the tile has noted it.
-    pub(super) fn line_color(&self, over: u32) -> [f32; 4] {
-        let line = &self.drawing.lines[((over - 2) / 2) as usize];
+    /// Returns the color of a line, from an entry of `Tile::lines`.
+    pub(super) fn line_color(&self, entry: u32) -> [f32; 4] {
+        let line = &self.drawing.lines[((entry - 2) / 2) as usize];
         let [r, g, b, a] = line.color;
-        let seen = if over & 1 == 1 { line.hidden } else { 1.0 };
-        [r, g, b, a * seen]
+        let opacity = if entry & 1 == 1 { line.hidden } else { 1.0 };
+        [r, g, b, a * opacity]
     }
 
-    /// Linear light of a triangle at a place of the picture.
-    pub(super) fn shade(&self, id: u32, at: DVec2, memory: &mut Memory) -> [f32; 3] {
-        let facts = match memory.triangle {
-            Some((last, facts)) if last == id => facts,
+    /// Returns the linear light of a triangle at a point of the picture.
+    pub(super) fn shade(&self, id: u32, at: DVec2, cache: &mut ShadingCache) -> [f32; 3] {
+        let data = match cache.triangle {
+            Some((last, data)) if last == id => data,
             _ => {
-                let (part, triangle) = self.find(id);
+                let (part, triangle) = self.locate(id);
                 let corners = self.drawing.parts[part].corners_at(triangle);
-                let facts = Facts::new(part, triangle, corners);
-                memory.triangle = Some((id, facts));
-                facts
+                let data = TriangleData::new(part, triangle, corners);
+                cache.triangle = Some((id, data));
+                data
             }
         };
-        let part = &self.drawing.parts[facts.part];
-        let spot = self.spot(&facts, at);
-        let (color, surface) = self.color(part, &facts, &spot, at);
+        let part = &self.drawing.parts[data.part];
+        let point = self.surface_point(&data, at);
+        let (color, surface) = self.color(part, &data, &point, at);
         let is_plain = surface.is_some_and(|s| s.unlit) || self.look.shading == Shading::Plain;
         let light = if is_plain {
             color
         } else {
-            let normal = normal(part, facts.triangle, &spot);
-            let open = self.open(&spot, &mut memory.known);
-            self.lit(color, normal, spot.to_eye, open, surface)
+            let normal = normal(part, data.triangle, &point);
+            let openness = self.openness(&point, &mut cache.openness);
+            self.lit(color, normal, point.to_eye, openness, surface)
         };
         let emissive = surface.map_or([0.0; 3], |s| s.emissive);
         std::array::from_fn(|i| light[i] + emissive[i])
     }
 
-    /// Where the ray through a place of the picture meets a triangle, or the nearest place in it.
-    fn spot(&self, facts: &Facts, at: DVec2) -> Spot {
+    /// Returns the point where the ray through a point of the picture meets a triangle. If the ray misses the triangle,
+    /// returns a nearby point in it.
+    fn surface_point(&self, data: &TriangleData, at: DVec2) -> SurfacePoint {
         let (origin, direction) = self.view.ray(at);
-        let weights = facts.barycentric(origin, direction);
+        let weights = data.barycentric(origin, direction);
         let weights = weights.map_or([1.0 / 3.0; 3], |w| {
             let w = w.map(|w| w.max(0.0));
             let sum = w[0] + w[1] + w[2];
             w.map(|w| w / sum)
         });
-        let [a, b, c] = facts.corners;
+        let [a, b, c] = data.corners;
         let to_eye = -direction.normalize();
-        let is_back = facts.normal.dot(to_eye) < 0.0;
-        Spot {
+        let is_back = data.normal.dot(to_eye) < 0.0;
+        SurfacePoint {
             at: a * weights[0] + b * weights[1] + c * weights[2],
             weights: weights.map(narrow),
-            normal: if is_back { -facts.normal } else { facts.normal },
+            normal: if is_back { -data.normal } else { data.normal },
             is_back,
             to_eye,
         }
     }
 
-    /// How much a place sees of its surroundings, as far as the style wants it.
-    fn open(&self, spot: &Spot, known: &mut Option<Known>) -> f32 {
+    /// Returns the openness of a point, weighted by the strength of occlusion in the style.
+    fn openness(&self, point: &SurfacePoint, last: &mut Option<OpennessSample>) -> f32 {
         let Some(occlusion) = &self.occlusion else {
             return 1.0;
         };
-        // The samples of a pixel are near to each other, unless one surface ends before another.
-        let near = known.filter(|k| {
-            let seen = self
+        // Points of the same pixel have nearly the same openness if they are on the same surface.
+        let near = last.filter(|k| {
+            let pixel = self
                 .view
-                .see(spot.at)
-                .map_or(0.0, |s| self.view.pixel(s.depth));
-            k.at.distance_squared(spot.at) < 4.0 * seen * seen && k.normal.dot(spot.normal) > 0.8
+                .screen_point(point.at)
+                .map_or(0.0, |s| self.view.pixel_size(s.depth));
+            k.at.distance_squared(point.at) < 4.0 * pixel * pixel
+                && k.normal.dot(point.normal) > 0.8
         });
-        let open = near.map_or_else(|| occlusion.open(spot.at, spot.normal), |k| k.open);
-        *known = Some(Known {
-            at: spot.at,
-            normal: spot.normal,
-            open,
+        let openness = near.map_or_else(
+            || occlusion.openness(point.at, point.normal),
+            |k| k.openness,
+        );
+        *last = Some(OpennessSample {
+            at: point.at,
+            normal: point.normal,
+            openness,
         });
-        1.0 - self.look.occlusion * (1.0 - open)
+        1.0 - self.look.occlusion * (1.0 - openness)
     }
 
-    /// The color without light, and the surface.
+    /// Returns the color without lighting, and the surface.
     fn color(
         &self,
         part: &'a Part,
-        facts: &Facts,
-        spot: &Spot,
+        data: &TriangleData,
+        point: &SurfacePoint,
         at: DVec2,
     ) -> ([f32; 3], Option<&'a Surface>) {
-        let triangle = facts.triangle;
-        let surface = part.materials.get(surface_place(part, triangle));
-        let mut color = part.colors.at(part, triangle, spot.weights);
+        let triangle = data.triangle;
+        let surface = part.materials.get(surface_index(part, triangle));
+        let mut color = part.colors.at(part, triangle, point.weights);
         if let Some(s) = surface {
             color = std::array::from_fn(|i| color[i] * s.color[i]);
             if let (Some(texture), Some(uvs)) = (&s.texture, part.uvs.get(s.uv_set)) {
                 let uvs = part.corners[triangle].map(|c| uvs[c as usize]);
-                let place = |w: [f64; 3]| uvs[0] * w[0] + uvs[1] * w[1] + uvs[2] * w[2];
-                let here = place(spot.weights.map(f64::from));
-                let beside = [DVec2::X, DVec2::Y].map(|step| {
+                let uv = |w: [f64; 3]| uvs[0] * w[0] + uvs[1] * w[1] + uvs[2] * w[2];
+                let here = uv(point.weights.map(f64::from));
+                let steps = [DVec2::X, DVec2::Y].map(|step| {
                     let (origin, direction) = self.view.ray(at + step);
-                    let weights = facts.barycentric(origin, direction);
-                    weights.map_or(DVec2::ZERO, |w| place(w) - here)
+                    let weights = data.barycentric(origin, direction);
+                    weights.map_or(DVec2::ZERO, |w| uv(w) - here)
                 });
-                let texel = texture.at(here, beside);
+                let texel = texture.at(here, steps);
                 color = std::array::from_fn(|i| color[i] * texel[i]);
             }
         }
-        if let (true, Some(back)) = (spot.is_back, part.back) {
+        if let (true, Some(back)) = (point.is_back, part.back) {
             color = back;
         }
-        if let Some(&[r, g, b, a]) = part.marks.get(part.face(triangle)) {
+        if let Some(&[r, g, b, a]) = part.highlights.get(part.face(triangle)) {
             color = mix(color, [r, g, b], a);
         }
         (color, surface)
     }
 
-    /// What a surface of this color sends to the camera.
+    /// Returns the light that a surface of this color reflects to the camera.
     fn lit(
         &self,
         color: [f32; 3],
         normal: DVec3,
         to_eye: DVec3,
-        open: f32,
+        openness: f32,
         surface: Option<&Surface>,
     ) -> [f32; 3] {
         let [x, y, z] = self.view.axes();
-        let seen = |v: DVec3| DVec3::new(v.dot(x), v.dot(y), v.dot(z));
-        let n = seen(normal);
+        let relative_to_camera = |v: DVec3| DVec3::new(v.dot(x), v.dot(y), v.dot(z));
+        let n = relative_to_camera(normal);
         if self.look.shading == Shading::Matcap {
-            return matcap(color, n, open);
+            return matcap(color, n, openness);
         }
         let key = narrow(n.dot(self.key).max(0.0));
         let fill = narrow(n.dot(self.fill).max(0.0));
         let sky = mix(GROUND, SKY, narrow(0.5 + 0.5 * n.y));
-        // Hollows are darker in the direct light too, but less: it casts no shadows.
-        let direct = 0.4 + 0.6 * open;
+        // The lights cast no shadows; instead, hollows are darker in direct light too, but less so.
+        let direct = 0.4 + 0.6 * openness;
         let light: [f32; 3] = std::array::from_fn(|i| {
-            color[i] * (sky[i] * open + direct * (KEY_LIGHT[i] * key + FILL_LIGHT[i] * fill))
+            color[i] * (sky[i] * openness + direct * (KEY_LIGHT[i] * key + FILL_LIGHT[i] * fill))
         });
         if self.look.shading != Shading::Phong {
             return light;
@@ -304,57 +314,57 @@ impl<'a> Shader<'a> {
         let roughness = surface.map_or(1.0, |s| s.roughness).clamp(0.0, 1.0);
         let exponent = 24.0 + 200.0 * (1.0 - roughness);
         let strength = 0.22 + 0.4 * (1.0 - roughness);
-        let half = (self.key + seen(to_eye)).normalize_or_zero();
+        let half = (self.key + relative_to_camera(to_eye)).normalize_or_zero();
         let glint = libm::powf(narrow(n.dot(half).max(0.0)), exponent) * strength * direct;
         light.map(|c| c + glint)
     }
 }
 
-/// The normal that light falls on, of length 1.
-fn normal(part: &Part, triangle: usize, spot: &Spot) -> DVec3 {
-    let given = part.normals.at(part, triangle, spot.weights);
-    if given == [0.0; 3] {
-        return spot.normal;
+/// Returns the unit normal for lighting.
+fn normal(part: &Part, triangle: usize, point: &SurfacePoint) -> DVec3 {
+    let normal = part.normals.at(part, triangle, point.weights);
+    if normal == [0.0; 3] {
+        return point.normal;
     }
-    let given = DVec3::from(given.map(f64::from)).normalize_or_zero();
-    if given == DVec3::ZERO {
-        return spot.normal;
+    let normal = DVec3::from(normal.map(f64::from)).normalize_or_zero();
+    if normal == DVec3::ZERO {
+        return point.normal;
     }
-    let n = if spot.is_back { -given } else { given };
-    // A smooth normal may point away from the camera where the triangle does not.
-    let facing = n.dot(spot.to_eye);
+    let n = if point.is_back { -normal } else { normal };
+    // An interpolated normal can point away from the camera although the triangle faces it.
+    let facing = n.dot(point.to_eye);
     if facing < 0.0 {
-        (n - spot.to_eye * facing).normalize_or(spot.normal)
+        (n - point.to_eye * facing).normalize_or(point.normal)
     } else {
         n
     }
 }
 
-/// The color of a ball of clay in a studio where its normal is `n`: broad light from the upper left, a bright
-/// border, a soft highlight.
-fn matcap(color: [f32; 3], n: DVec3, open: f32) -> [f32; 3] {
+/// Returns the color of clay in a studio, for the normal `n` relative to the camera: broad light from the upper left, a
+/// bright border, and a soft highlight.
+fn matcap(color: [f32; 3], n: DVec3, openness: f32) -> [f32; 3] {
     let wrapped = narrow(n.dot(KEY.normalize())) * 0.5 + 0.5;
     let broad = 0.16 + 0.84 * wrapped * wrapped;
     let border = 1.0 - narrow(n.z.clamp(0.0, 1.0));
     let border = border * border * border * 0.35;
     let high = narrow(n.dot(DVec3::new(-0.28, 0.42, 0.86).normalize()).max(0.0));
     let high = libm::powf(high, 30.0) * 0.16;
-    // Light that falls into hollows comes out warmer.
+    // Light that is reflected from hollows becomes warmer.
     let tint = [1.0, 0.97, 0.94];
     std::array::from_fn(|i| {
-        let shade = open + (1.0 - open) * color[i] * tint[i] * 0.5;
+        let shade = openness + (1.0 - openness) * color[i] * tint[i] * 0.5;
         (color[i] * broad + border * (0.35 + 0.65 * color[i])) * shade + high
     })
 }
 
-/// The place of a triangle's surface in the list of its part.
-pub(super) fn surface_place(part: &Part, triangle: usize) -> usize {
-    let place = part.material_of_face.get(part.face(triangle));
-    place.map_or(0, |&m| m as usize)
+/// Returns the index of the surface of a triangle in [`Part::materials`].
+pub(super) fn surface_index(part: &Part, triangle: usize) -> usize {
+    let material = part.material_of_face.get(part.face(triangle));
+    material.map_or(0, |&m| m as usize)
 }
 
-/// The direction of the cross product, of length 1 or 0, also for vectors whose product is too small or too
-/// large for a number.
+/// Returns the unit vector in the direction of the cross product, or zero. Scales the vectors so that the product neither
+/// overflows nor underflows.
 fn unit_cross(u: DVec3, v: DVec3) -> DVec3 {
     let scaled = |w: DVec3| {
         let size = w.abs().max_element();

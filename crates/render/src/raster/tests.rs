@@ -1,15 +1,15 @@
-//! The rasteriser against scenes whose pictures can be computed in another way.
+//! Compares rendered pictures with results that are computed in a different way.
 
 use glam::{DVec2, DVec3};
 use progress::NoProgress;
 
-use super::project::{Corner, GRID};
+use super::project::{GRID, GridPoint};
 use super::shade::{FILL, FILL_LIGHT, GROUND, KEY, KEY_LIGHT, SKY};
-use super::tile::{NOTHING, SAMPLES, Tile};
+use super::tile::{NO_TRIANGLE, SAMPLES, Tile};
 use super::{Look, Rendered, TILE, render};
 use crate::drawing::{Channel, Drawing, Label, Line, NO_FACE, Part, Surface};
 use crate::style::Shading;
-use crate::work::While;
+use crate::work::Listener;
 use crate::{Camera, PictureError, Projection, Side, Up, View, to_linear};
 
 const WHITE: [f32; 3] = [1.0; 3];
@@ -23,7 +23,7 @@ fn part(points: Vec<DVec3>, triangles: Vec<[u32; 3]>, color: [f32; 3]) -> Part<'
         faces: Vec::new(),
         normals: Channel::All([0.0; 3]),
         colors: Channel::All(color),
-        marks: Vec::new(),
+        highlights: Vec::new(),
         materials: vec![Surface::default()],
         material_of_face: Vec::new(),
         uvs: Vec::new(),
@@ -38,7 +38,7 @@ fn drawing(parts: Vec<Part<'static>>) -> Drawing<'static> {
     }
 }
 
-/// Colors as they are, on nothing.
+/// Unchanged colors on a transparent background.
 fn plain() -> Look {
     Look {
         shading: Shading::Plain,
@@ -47,9 +47,9 @@ fn plain() -> Look {
     }
 }
 
-/// A camera before the plane z = 0 whose picture is `height` units high.
-fn before(height: f64, size: [u32; 2]) -> View {
-    // What `LookAt` shows without perspective, as its documentation says.
+/// An orthographic camera in front of the plane z = 0, whose picture is `height` units high.
+fn front_view(height: f64, size: [u32; 2]) -> View {
+    // At this distance, an orthographic `LookAt` is `height` units high, as its documentation says.
     let distance = 0.5 * height / libm::tan(15.0_f64.to_radians());
     let camera = Camera::LookAt {
         from: [0.0, 0.0, distance],
@@ -64,13 +64,13 @@ fn rendered(drawing: &Drawing, view: &View, size: [u32; 2], look: &Look) -> Rend
     render(drawing, view, size, look, &NoProgress).unwrap()
 }
 
-/// How many pixels are covered, in parts too.
+/// Returns the covered area in pixels.
 fn covered(picture: &Rendered) -> f64 {
     let alphas = picture.image.pixels.iter().map(|p| f64::from(p[3]));
     alphas.sum::<f64>() / 255.0
 }
 
-/// Numbers that look random: `SplitMix64`.
+/// A pseudo-random number generator, `SplitMix64`.
 fn random(seed: &mut u64) -> i32 {
     *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let mut z = *seed;
@@ -80,9 +80,9 @@ fn random(seed: &mut u64) -> i32 {
 }
 
 #[test]
-fn a_sample_has_a_row_and_a_column_of_its_own() {
-    let mut rows: Vec<_> = super::tile::PLACES.iter().map(|p| p[1]).collect();
-    let mut columns: Vec<_> = super::tile::PLACES.iter().map(|p| p[0]).collect();
+fn samples_are_in_different_rows_and_columns() {
+    let mut rows: Vec<_> = super::tile::OFFSETS.iter().map(|p| p[1]).collect();
+    let mut columns: Vec<_> = super::tile::OFFSETS.iter().map(|p| p[0]).collect();
     rows.sort_unstable();
     columns.sort_unstable();
     let expected: Vec<i32> = (0..16).map(|i| i * 16 + 8 - 128).collect();
@@ -91,16 +91,17 @@ fn a_sample_has_a_row_and_a_column_of_its_own() {
 
 #[test]
 fn triangles_that_fill_a_square_cover_every_sample_once() {
-    // A grid with moved points, over the tile and beyond; the steps make both ways of counting edges run.
+    // A grid with moved points that is larger than the tile. The numbers of cells give triangles for both the 32-bit and
+    // the 64-bit arithmetic.
     for (seed, cells) in [(1, 40), (2, 7), (3, 2)] {
         let mut seed = seed;
         let tile_size = GRID * i32::try_from(TILE).unwrap();
         let (step, low) = (2 * tile_size / cells, -tile_size / 2);
-        let mut place = |i: i32| -> [i32; 2] {
+        let mut position = |i: i32| -> [i32; 2] {
             let (x, y) = (i % (cells + 1), i / (cells + 1));
             let is_inside = x > 0 && y > 0 && x < cells && y < cells;
-            // Multiples of 8: many lie exactly on samples.
-            let aside = |r: i32| {
+            // With multiples of 8, many points are exactly on samples.
+            let offset = |r: i32| {
                 if is_inside {
                     (r % (step / 3)) / 8 * 8
                 } else {
@@ -108,25 +109,25 @@ fn triangles_that_fill_a_square_cover_every_sample_once() {
                 }
             };
             [
-                low + x * step + aside(random(&mut seed)),
-                low + y * step + aside(random(&mut seed)),
+                low + x * step + offset(random(&mut seed)),
+                low + y * step + offset(random(&mut seed)),
             ]
         };
         let n = (cells + 1) * (cells + 1);
-        let corners: Vec<Corner> = (0..n)
-            .map(|i| Corner {
-                at: place(i),
+        let corners: Vec<GridPoint> = (0..n)
+            .map(|i| GridPoint {
+                at: position(i),
                 depth: 0.0,
             })
             .collect();
         let mut counts = vec![[0_u8; SAMPLES]; (TILE * TILE) as usize];
-        let mut cover = |flat: [usize; 3]| {
+        let mut count = |triangle: [usize; 3]| {
             let mut tile = Tile::new();
             (tile.right, tile.bottom) = (TILE, TILE);
-            tile.draw(0, &flat.map(|i| corners[i]), u16::MAX);
-            for (counts, seen) in counts.iter_mut().zip(&tile.seen) {
-                for (count, &seen) in counts.iter_mut().zip(seen) {
-                    *count += u8::from(seen != NOTHING);
+            tile.draw(0, &triangle.map(|i| corners[i]), u16::MAX);
+            for (counts, triangles) in counts.iter_mut().zip(&tile.triangles) {
+                for (count, &triangle) in counts.iter_mut().zip(triangles) {
+                    *count += u8::from(triangle != NO_TRIANGLE);
                 }
             }
         };
@@ -135,9 +136,9 @@ fn triangles_that_fill_a_square_cover_every_sample_once() {
             for x in 0..columns {
                 let a = y * (columns + 1) + x;
                 let [b, c, d] = [a + 1, a + columns + 2, a + columns + 1];
-                // Turned both ways: the order of corners does not matter.
-                cover([a, b, c]);
-                cover([a, d, c]);
+                // The orientation of a triangle does not matter.
+                count([a, b, c]);
+                count([a, d, c]);
             }
         }
         assert!(counts.iter().flatten().all(|&n| n == 1), "{cells} cells");
@@ -145,20 +146,20 @@ fn triangles_that_fill_a_square_cover_every_sample_once() {
 }
 
 #[test]
-fn a_square_of_whole_pixels_is_exactly_them() {
+fn a_square_with_sides_between_pixels_covers_exactly_these_pixels() {
     let size = [8, 8];
-    // From pixel 2 to pixel 6 each way.
+    // From pixel 2 to pixel 6 in each axis.
     let corners = [[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]];
     let points = corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
     let square = drawing(vec![part(points, vec![[0, 1, 2], [0, 2, 3]], WHITE)]);
-    let picture = rendered(&square, &before(8.0, size), size, &plain());
+    let picture = rendered(&square, &front_view(8.0, size), size, &plain());
     for (i, pixel) in picture.image.pixels.iter().enumerate() {
         let inside = (2..6).contains(&(i % 8)) && (2..6).contains(&(i / 8));
         assert_eq!(*pixel, if inside { [255; 4] } else { [0; 4] }, "pixel {i}");
     }
 }
 
-/// A sphere around the origin, of triangles.
+/// A triangulated sphere around the origin.
 fn sphere(radius: f64) -> Part<'static> {
     let mesh = geometry::shapes::fans(&geometry::shapes::uv_sphere(192, 96));
     let mut triangles = Vec::new();
@@ -181,11 +182,14 @@ fn sphere(radius: f64) -> Part<'static> {
 fn a_sphere_covers_the_area_of_its_outline() {
     let size = [200, 200];
     let ball = drawing(vec![sphere(1.0)]);
-    // Without perspective a disc of 80 pixels.
-    let flat = covered(&rendered(&ball, &before(2.5, size), size, &plain()));
+    // Without perspective, the outline is a circle with a radius of 80 pixels.
+    let orthographic = covered(&rendered(&ball, &front_view(2.5, size), size, &plain()));
     let expected = std::f64::consts::PI * 80.0 * 80.0;
-    assert!((flat / expected - 1.0).abs() < 2e-3, "{flat}, {expected}");
-    // From the distance d the outline is a circle with the half angle asin(1 / d).
+    assert!(
+        (orthographic / expected - 1.0).abs() < 2e-3,
+        "{orthographic}, {expected}"
+    );
+    // From the distance d, the outline is a circle with the half angle asin(1 / d).
     let camera = Camera::LookAt {
         from: [0.0, 0.0, 3.0],
         to: [0.0; 3],
@@ -193,10 +197,13 @@ fn a_sphere_covers_the_area_of_its_outline() {
         projection: Projection::Perspective { angle: 60.0 },
     };
     let view = View::new(&camera, &|_| {}, size).unwrap();
-    let seen = covered(&rendered(&ball, &view, size, &plain()));
+    let perspective = covered(&rendered(&ball, &view, size, &plain()));
     let radius = 100.0 * libm::tan(libm::asin(1.0 / 3.0)) / libm::tan(30.0_f64.to_radians());
     let expected = std::f64::consts::PI * radius * radius;
-    assert!((seen / expected - 1.0).abs() < 2e-3, "{seen}, {expected}");
+    assert!(
+        (perspective / expected - 1.0).abs() < 2e-3,
+        "{perspective}, {expected}"
+    );
 }
 
 #[test]
@@ -216,7 +223,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
             color: [0.0, 0.0, 0.0, 0.7],
             faces: [NO_FACE; 2],
             hidden: 0.2,
-            room: 0.05,
+            spacing: 0.05,
         })
         .collect();
     let look = Look {
@@ -237,7 +244,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
 }
 
 #[test]
-fn drawing_says_how_far_it_is_and_stops_where_it_is_told_to() {
+fn rendering_reports_progress_and_can_be_cancelled_at_each_stage() {
     let drawing = drawing(vec![sphere(1.0)]);
     let look = Look {
         shading: Shading::Smooth,
@@ -246,32 +253,37 @@ fn drawing_says_how_far_it_is_and_stops_where_it_is_told_to() {
     };
     let size = [200, 90];
     let view = View::new(&Camera::default(), &|each| drawing.each_point(each), size).unwrap();
-    let told = std::sync::Mutex::new(Vec::new());
-    let until = |end: f64| {
-        told.lock().unwrap().clear();
-        let go_on = While(|part| {
-            told.lock().unwrap().push(part);
-            part < end
+    let reported = std::sync::Mutex::new(Vec::new());
+    let render_until = |end: f64| {
+        reported.lock().unwrap().clear();
+        let listener = Listener(|fraction| {
+            reported.lock().unwrap().push(fraction);
+            fraction < end
         });
-        render(&drawing, &view, size, &look, &go_on)
+        render(&drawing, &view, size, &look, &listener)
     };
-    let whole = until(2.0).unwrap();
-    assert_eq!(whole, rendered(&drawing, &view, size, &look));
-    let parts = told.lock().unwrap().clone();
-    assert!(parts.is_sorted() && parts.len() > 50, "{parts:?}");
-    assert!(parts[0] == 0.0 && parts[parts.len() - 1] > 0.99);
-    // While nothing, triangles, maps and tiles are done; nobody is asked again.
+    let complete = render_until(2.0).unwrap();
+    assert_eq!(complete, rendered(&drawing, &view, size, &look));
+    let fractions = reported.lock().unwrap().clone();
+    assert!(
+        fractions.is_sorted() && fractions.len() > 50,
+        "{fractions:?}"
+    );
+    assert!(fractions[0] == 0.0 && fractions[fractions.len() - 1] > 0.99);
+    // Cancelled at the start, while triangles are sorted, while maps are drawn, and while tiles are drawn. After it has
+    // cancelled, the listener is not called again.
     for end in [0.0, 0.05, 0.3, 0.9] {
-        let stopped = until(end);
-        assert!(matches!(stopped, Err(PictureError::Cancelled)), "{end}");
-        let told = told.lock().unwrap();
-        assert_eq!(told.iter().filter(|&&part| part >= end).count(), 1, "{end}");
+        let result = render_until(end);
+        assert!(matches!(result, Err(PictureError::Cancelled)), "{end}");
+        let reported = reported.lock().unwrap();
+        let n_after_end = reported.iter().filter(|&&fraction| fraction >= end).count();
+        assert_eq!(n_after_end, 1, "{end}");
     }
 }
 
 #[test]
-fn the_nearer_of_crossing_triangles_is_seen() {
-    // Two triangles through each other along x = 0: the red one is nearer on the left.
+fn the_nearer_of_intersecting_triangles_is_visible() {
+    // Two triangles intersect along x = 0. The red one is nearer on the left.
     let size = [32, 32];
     let triangle = |slope: f64| {
         [[-3.0, -3.0], [3.0, -3.0], [0.0, 6.0]]
@@ -283,12 +295,12 @@ fn the_nearer_of_crossing_triangles_is_seen() {
         part(triangle(-0.5), vec![[0, 1, 2]], red),
         part(triangle(0.5), vec![[0, 1, 2]], blue),
     ];
-    for is_turned in [false, true] {
+    for is_reversed in [false, true] {
         let mut parts = parts.clone();
-        if is_turned {
+        if is_reversed {
             parts.reverse();
         }
-        let picture = rendered(&drawing(parts), &before(2.0, size), size, &plain());
+        let picture = rendered(&drawing(parts), &front_view(2.0, size), size, &plain());
         for (i, &[r, _, b, a]) in picture.image.pixels.iter().enumerate() {
             let expected = if i % 32 < 16 { [255, 0] } else { [0, 255] };
             assert_eq!(([r, b], a), (expected, 255), "pixel {i}");
@@ -297,13 +309,13 @@ fn the_nearer_of_crossing_triangles_is_seen() {
 }
 
 #[test]
-fn of_two_triangles_in_one_plane_the_first_is_seen() {
+fn the_first_of_two_coplanar_triangles_is_visible() {
     let size = [16, 16];
     let triangle = [[-9.0, -9.0], [9.0, -9.0], [0.0, 18.0]];
     let points = triangle.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
     let one = |color| part(points.clone(), vec![[0, 1, 2]], color);
     let both = drawing(vec![one([1.0, 0.0, 0.0]), one([0.0, 0.0, 1.0])]);
-    let picture = rendered(&both, &before(2.0, size), size, &plain());
+    let picture = rendered(&both, &front_view(2.0, size), size, &plain());
     assert!(picture.image.pixels.iter().all(|p| *p == [255, 0, 0, 255]));
 }
 
@@ -312,7 +324,7 @@ fn a_plane_is_lit_by_the_cosine_of_its_angle() {
     let size = [3, 3];
     for degrees in [-60.0_f64, -30.0, 0.0, 20.0, 45.0, 70.0] {
         let (sin, cos) = libm::sincos(degrees.to_radians());
-        // Turned about the x axis: its upper half leans back.
+        // Rotated about the x axis, with the upper half away from the camera.
         let up = DVec3::new(0.0, cos, -sin) * 50.0;
         let points = vec![
             -DVec3::X * 50.0 - up,
@@ -326,7 +338,7 @@ fn a_plane_is_lit_by_the_cosine_of_its_angle() {
             shading: Shading::Flat,
             ..plain()
         };
-        let picture = rendered(&plane, &before(2.0, size), size, &look);
+        let picture = rendered(&plane, &front_view(2.0, size), size, &look);
         // Lambert, "Photometria", 1760.
         let n = DVec3::new(0.0, sin, cos);
         let lambert = |light: DVec3| n.dot(light.normalize()).max(0.0);
@@ -338,7 +350,7 @@ fn a_plane_is_lit_by_the_cosine_of_its_angle() {
                 + f64::from(FILL_LIGHT[i]) * lambert(FILL);
             let expected = light * f64::from(color[i]);
             let found = f64::from(to_linear(picture.image.pixels[4][i]));
-            // A byte is up to 0.9 % of full light.
+            // A step of a byte is up to 0.9 % of full light.
             assert!(
                 (found - expected).abs() < 0.005,
                 "{degrees}: {found}, {expected}"
@@ -348,9 +360,9 @@ fn a_plane_is_lit_by_the_cosine_of_its_angle() {
 }
 
 #[test]
-fn a_line_has_its_width_everywhere() {
+fn a_line_covers_the_same_area_in_every_direction() {
     let size = [200, 200];
-    // At 45 degrees each pixel has the same part, which 16 samples know to some percent only.
+    // 45 degrees is left out: all border pixels have the same coverage, which 16 samples give to a few percent only.
     for degrees in [0.0_f64, 17.0, 43.0, 80.0] {
         let (sin, cos) = libm::sincos(degrees.to_radians());
         let along = DVec3::new(cos, sin, 0.0) * 60.0;
@@ -360,12 +372,12 @@ fn a_line_has_its_width_everywhere() {
             color: [0.0, 0.0, 0.0, 1.0],
             faces: [NO_FACE; 2],
             hidden: 0.0,
-            room: f64::INFINITY,
+            spacing: f64::INFINITY,
         };
         let mut lines = Drawing::default();
         lines.lines.push(line);
-        let picture = rendered(&lines, &before(200.0, size), size, &plain());
-        // A rectangle and two half discs.
+        let picture = rendered(&lines, &front_view(200.0, size), size, &plain());
+        // The line is a rectangle with two half discs.
         let expected = 120.0 * 3.0 + std::f64::consts::PI * 1.5 * 1.5;
         let found = covered(&picture);
         assert!((found / expected - 1.0).abs() < 0.01, "{degrees}: {found}");
@@ -376,42 +388,43 @@ fn a_line_has_its_width_everywhere() {
 fn lines_cover_no_more_than_half_of_a_dense_mesh() {
     let size = [128, 128];
     for (side, n) in [(1.0, 220), (3.0, 75), (6.0, 38), (20.0, 13)] {
-        // The sides of regular triangles, over the whole picture.
-        let place = |i: i32, j: i32| {
-            let aside = f64::from(i) + 0.5 * f64::from(j);
-            DVec3::new(aside, f64::from(j) * 0.75_f64.sqrt(), 0.0) * side
+        // The edges of equilateral triangles that cover the whole picture.
+        let position = |i: i32, j: i32| {
+            let x = f64::from(i) + 0.5 * f64::from(j);
+            DVec3::new(x, f64::from(j) * 0.75_f64.sqrt(), 0.0) * side
         };
         let mut lines = Drawing::default();
         for (i, j) in (-n..n).flat_map(|i| (-n..n).map(move |j| (i, j))) {
-            let p = place(i, j);
+            let p = position(i, j);
             if p.abs().max_element() > 70.0 + side {
                 continue;
             }
-            for q in [place(i + 1, j), place(i, j + 1), place(i - 1, j + 1)] {
+            let neighbors = [(i + 1, j), (i, j + 1), (i - 1, j + 1)];
+            for q in neighbors.map(|(i, j)| position(i, j)) {
                 lines.lines.push(Line {
                     ends: [p, q],
                     width: 1.0,
                     color: [0.0, 0.0, 0.0, 1.0],
                     faces: [NO_FACE; 2],
                     hidden: 0.0,
-                    room: side,
+                    spacing: side,
                 });
             }
         }
-        let picture = rendered(&lines, &before(128.0, size), size, &plain());
+        let picture = rendered(&lines, &front_view(128.0, size), size, &plain());
         let found = covered(&picture) / 128.0 / 128.0;
         let width = 1.0_f64.min(0.15 * side);
-        // Without what lies in two lines.
-        let most = 2.0 * 3.0_f64.sqrt() * width / side;
+        // Lines overlap near vertices, so the covered fraction is less than this sum.
+        let sum = 2.0 * 3.0_f64.sqrt() * width / side;
         assert!(
-            (0.7 * most..1.02 * most).contains(&found),
-            "{side}: {found}, {most}"
+            (0.7 * sum..1.02 * sum).contains(&found),
+            "{side}: {found}, {sum}"
         );
     }
 }
 
 #[test]
-fn a_line_is_hidden_behind_a_surface_and_seen_on_it() {
+fn a_line_is_hidden_behind_a_surface_and_visible_on_it() {
     let size = [64, 64];
     let plane = |z: f64| {
         let corners = [[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]];
@@ -426,23 +439,23 @@ fn a_line_is_hidden_behind_a_surface_and_seen_on_it() {
             color: [0.0, 0.0, 0.0, 1.0],
             faces: [NO_FACE; 2],
             hidden,
-            room: f64::INFINITY,
+            spacing: f64::INFINITY,
         });
-        let picture = rendered(&drawing, &before(4.0, size), size, &plain());
+        let picture = rendered(&drawing, &front_view(4.0, size), size, &plain());
         let light = |p: &[u8; 4]| 1.0 - f64::from(to_linear(p[0]));
         picture.image.pixels.iter().map(light).sum::<f64>()
     };
-    // On the surface, and before it: all of it, though the surface is slanted and the line thick.
-    let whole = with_line(0.5, 0.0);
-    assert!(whole > 300.0, "{whole}");
-    assert_eq!(with_line(0.0, 0.0), whole);
+    // On the surface and in front of it, the line is visible in its full width, although the surface is slanted.
+    let visible = with_line(0.5, 0.0);
+    assert!(visible > 300.0, "{visible}");
+    assert_eq!(with_line(0.0, 0.0), visible);
     assert_eq!(with_line(-1.0, 0.0), 0.0);
     let faint = with_line(-1.0, 0.25);
-    assert!((faint / whole - 0.25).abs() < 0.02, "{faint}");
+    assert!((faint / visible - 0.25).abs() < 0.02, "{faint}");
 }
 
 #[test]
-fn a_point_is_a_disc_and_a_ring_where_it_is_hidden() {
+fn a_visible_point_is_a_disc_and_a_hidden_point_is_a_ring() {
     let size = [41, 41];
     let corners = [[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]];
     let points = corners.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
@@ -458,10 +471,10 @@ fn a_point_is_a_disc_and_a_ring_where_it_is_hidden() {
             color: [0.0, 0.0, 0.0, 1.0],
             faces: [NO_FACE; 2],
             hidden: 0.5,
-            room: f64::INFINITY,
+            spacing: f64::INFINITY,
         });
-        let picture = rendered(&drawing, &before(4.0, size), size, &plain());
-        // From the middle to the right.
+        let picture = rendered(&drawing, &front_view(4.0, size), size, &plain());
+        // Pixels from the middle to the right.
         [0, 4, 8, 14].map(|x| to_linear(picture.image.pixels[20 * 41 + 20 + x][0]))
     };
     assert_eq!(lights(0.5), [0.0, 0.0, 0.0, 1.0]);
@@ -471,7 +484,7 @@ fn a_point_is_a_disc_and_a_ring_where_it_is_hidden() {
 }
 
 #[test]
-fn labels_know_what_is_before_them() {
+fn labels_behind_triangles_are_hidden_and_labels_outside_have_no_position() {
     let size = [32, 32];
     let triangle = [[-9.0, -9.0], [9.0, -9.0], [0.0, 18.0]];
     let points = triangle.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
@@ -480,7 +493,7 @@ fn labels_know_what_is_before_them() {
         let text = String::new();
         drawing.labels.push(Label { at, text });
     }
-    let picture = rendered(&drawing, &before(2.0, size), size, &plain());
+    let picture = rendered(&drawing, &front_view(2.0, size), size, &plain());
     let hidden: Vec<_> = picture
         .labels
         .iter()
@@ -491,8 +504,8 @@ fn labels_know_what_is_before_them() {
 }
 
 #[test]
-fn what_is_behind_the_camera_is_cut_away() {
-    // A floor from far before the camera to far behind it, with a point of view just above.
+fn triangles_are_clipped_behind_the_camera() {
+    // A floor that reaches from far in front of the camera to far behind it. The camera is just above the floor.
     let size = [64, 64];
     let corners = [[-1e6, -1e6], [1e6, -1e6], [1e6, 1e6], [-1e6, 1e6]];
     let points = corners.map(|[x, z]| DVec3::new(x, 0.0, z)).to_vec();
@@ -514,36 +527,37 @@ fn what_is_behind_the_camera_is_cut_away() {
 }
 
 #[test]
-fn the_bottom_of_a_cup_sees_as_much_as_its_opening() {
-    // An open cylinder of radius 1 with a bottom, seen from its middle: the opening of radius r at the
-    // distance h fills r² / (r² + h²) of the cosine-weighted half space.
-    let around = 64;
+fn the_openness_at_the_bottom_of_a_cup_is_that_of_its_opening() {
+    // An open cylinder of radius 1 with a bottom. From the middle of the bottom, an opening of radius r at the distance h
+    // fills r² / (r² + h²) of the cosine-weighted hemisphere.
+    let n_sides = 64;
     for height in [0.5, 1.0, 2.0] {
         let mut points = vec![DVec3::ZERO];
         let mut triangles = Vec::new();
-        for i in 0..around {
-            let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(around));
+        for i in 0..n_sides {
+            let angle = std::f64::consts::TAU * f64::from(i) / f64::from(n_sides);
+            let (sin, cos) = libm::sincos(angle);
             points.push(DVec3::new(cos, sin, 0.0));
             points.push(DVec3::new(cos, sin, height));
-            let j = (i + 1) % around;
+            let j = (i + 1) % n_sides;
             let [a, b, c, d] = [1 + 2 * i, 1 + 2 * j, 2 + 2 * j, 2 + 2 * i];
             triangles.extend([[a, b, c], [a, c, d], [0, a, b]]);
         }
         let cup = drawing(vec![part(points, triangles, WHITE)]);
         let occlusion = super::occlusion::Occlusion::new(&cup, [1024, 1024], |_| Ok(())).unwrap();
         let expected = 1.0 / (1.0 + height * height);
-        let found = f64::from(occlusion.open(DVec3::ZERO, DVec3::Z));
+        let found = f64::from(occlusion.openness(DVec3::ZERO, DVec3::Z));
         assert!(
             (found - expected).abs() < 0.05,
             "{height}: {found}, {expected}"
         );
-        let outside = occlusion.open(DVec3::ZERO, -DVec3::Z);
+        let outside = occlusion.openness(DVec3::ZERO, -DVec3::Z);
         assert!(outside > 0.99, "{outside}");
     }
 }
 
 #[test]
-fn glass_does_not_darken_what_is_below_it() {
+fn a_transparent_surface_does_not_occlude_the_surface_below_it() {
     let plane = |z: f64, alpha: f32| {
         let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let points = corners.map(|[x, y]| DVec3::new(x, y, z)).to_vec();
@@ -555,7 +569,7 @@ fn glass_does_not_darken_what_is_below_it() {
         let drawing = drawing(vec![plane(0.0, 1.0), plane(0.3, alpha)]);
         let size = [300, 300];
         let occlusion = super::occlusion::Occlusion::new(&drawing, size, |_| Ok(())).unwrap();
-        occlusion.open(DVec3::ZERO, DVec3::Z)
+        occlusion.openness(DVec3::ZERO, DVec3::Z)
     };
     assert!(
         open(0.2) > 0.99 && open(1.0) < 0.3,
@@ -566,21 +580,26 @@ fn glass_does_not_darken_what_is_below_it() {
 }
 
 #[test]
-fn transparent_surfaces_cover_as_much_as_their_alpha() {
+fn the_coverage_of_a_transparent_surface_is_its_alpha() {
     let size = [16, 16];
     let triangle = [[-9.0, -9.0], [9.0, -9.0], [0.0, 18.0]];
     let points = triangle.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec();
     for sixteenths in 0..=16_u8 {
         let mut glass = part(points.clone(), vec![[0, 1, 2]], WHITE);
         glass.materials[0].color[3] = f32::from(sixteenths) / 16.0;
-        let picture = rendered(&drawing(vec![glass]), &before(2.0, size), size, &plain());
+        let picture = rendered(
+            &drawing(vec![glass]),
+            &front_view(2.0, size),
+            size,
+            &plain(),
+        );
         let expected = crate::color::byte(f32::from(sixteenths) / 16.0);
         assert!(picture.image.pixels.iter().all(|p| p[3] == expected));
     }
 }
 
 #[test]
-fn degenerate_drawings_have_pictures() {
+fn degenerate_drawings_are_rendered() {
     let p = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     let line = Line {
         ends: [DVec3::ZERO; 2],
@@ -588,7 +607,7 @@ fn degenerate_drawings_have_pictures() {
         color: [0.0, 0.0, 0.0, 1.0],
         faces: [NO_FACE; 2],
         hidden: 1.0,
-        room: f64::INFINITY,
+        spacing: f64::INFINITY,
     };
     let dot = Drawing {
         lines: vec![line],
@@ -597,7 +616,8 @@ fn degenerate_drawings_have_pictures() {
     let drawings = [
         Drawing::default(),
         dot,
-        // One point, a line, seen from its edge, very large, very small, very far away.
+        // A triangle that is a point, one that is a line, one seen edge-on; then a very large one, a huge one, a very
+        // small one, and one far from the origin.
         drawing(vec![part(vec![DVec3::ZERO; 3], vec![[0, 1, 2]], WHITE)]),
         drawing(vec![part(
             vec![p(0., 0., 0.), p(1., 0., 0.), p(2., 0., 0.)],

@@ -1,54 +1,54 @@
-//! A tile of the picture: which triangle each sample sees.
+//! A tile of the picture: finds the visible triangle for each sample.
 //!
-//! A pixel has 16 samples, one in each of 16 rows and columns (n-rooks: Shirley, "Discrepancy as a Quality
-//! Measure for Sample Distributions", 1991). Of the ways to place them this one has been found by a search: it
-//! differs least from the areas that edges of all directions cut from the pixel.
+//! A pixel has 16 samples, one in each of 16 rows and columns (n-rooks: Shirley, "Discrepancy as a Quality Measure for
+//! Sample Distributions", 1991). A search has found this arrangement: its coverage of a pixel that an edge cuts differs
+//! least from the exact area, over edges of all directions.
 
 use std::ops::{Add, BitOr, Mul, Sub};
 
 use crate::color::narrow;
 
 use super::lines::Planes;
-use super::project::{Corner, Flat, GRID, GRID_BITS};
+use super::project::{GRID, GRID_BITS, GridPoint, ProjectedTriangle};
 use super::{Frame, TILE};
 
-/// Samples of a pixel.
+/// The number of samples per pixel.
 pub(super) const SAMPLES: usize = 16;
-/// Stands where no triangle is seen.
-pub(super) const NOTHING: u32 = u32::MAX;
-/// So many planes of triangles are remembered.
+/// The value of a sample without a triangle.
+pub(super) const NO_TRIANGLE: u32 = u32::MAX;
+/// The number of triangle planes that a tile caches.
 const PLANES: usize = 512;
-/// The rows of the samples, for each column.
+/// The row of the sample in each column.
 const ROWS: [i32; SAMPLES] = [3, 11, 7, 15, 1, 6, 10, 13, 2, 5, 9, 14, 0, 8, 4, 12];
-/// The place of each sample, from the middle of its pixel, in steps of the grid.
-pub(super) const PLACES: [[i32; 2]; SAMPLES] = {
-    let mut places = [[0; 2]; SAMPLES];
+/// The offset of each sample from the middle of its pixel, in grid steps.
+pub(super) const OFFSETS: [[i32; 2]; SAMPLES] = {
+    let mut offsets = [[0; 2]; SAMPLES];
     let step = GRID / 16;
     let (mut column, mut k) = (0, 0);
     while k < SAMPLES {
-        let aside = step / 2 - GRID / 2;
-        places[k] = [column * step + aside, ROWS[k] * step + aside];
+        let start = step / 2 - GRID / 2;
+        offsets[k] = [column * step + start, ROWS[k] * step + start];
         column += 1;
         k += 1;
     }
-    places
+    offsets
 };
 
 /// The samples of a tile.
 pub(super) struct Tile {
-    /// The pixels of its upper left corner, and behind its lower right one.
+    /// The pixels of the tile; right and bottom are exclusive.
     pub(super) left: u32,
     pub(super) top: u32,
     pub(super) right: u32,
     pub(super) bottom: u32,
-    /// For each pixel the depth of what its samples see; infinite where there is nothing.
+    /// For each pixel, the depths of the visible triangles of its samples; infinite without a triangle.
     pub(super) depth: Vec<[f32; SAMPLES]>,
-    /// For each pixel the triangles that its samples see.
-    pub(super) seen: Vec<[u32; SAMPLES]>,
-    /// For each pixel the lines that lie over its samples: twice the number plus 2, and 1 if hidden; 0 for
-    /// none.
-    pub(super) over: Vec<[u32; SAMPLES]>,
-    /// The planes of some triangles.
+    /// For each pixel, the visible triangles of its samples.
+    pub(super) triangles: Vec<[u32; SAMPLES]>,
+    /// For each pixel, the lines that cover its samples: 2 i + 2 for the visible line i, 2 i + 3 if it is hidden, 0 for
+    /// no line.
+    pub(super) lines: Vec<[u32; SAMPLES]>,
+    /// Cached planes of triangles.
     pub(super) planes: Planes,
 }
 
@@ -61,56 +61,56 @@ impl Tile {
             right: 0,
             bottom: 0,
             depth: vec![[f32::INFINITY; SAMPLES]; n],
-            seen: vec![[NOTHING; SAMPLES]; n],
-            over: vec![[0; SAMPLES]; n],
+            triangles: vec![[NO_TRIANGLE; SAMPLES]; n],
+            lines: vec![[0; SAMPLES]; n],
             planes: vec![None; PLANES],
         }
     }
 
-    /// Begins a tile.
+    /// Clears all samples and moves to a tile of the picture.
     pub(super) fn begin(&mut self, frame: &Frame, column: u32, row: u32) {
         (self.left, self.top) = (column * TILE, row * TILE);
         self.right = (self.left + TILE).min(frame.width);
         self.bottom = (self.top + TILE).min(frame.height);
         self.depth.fill([f32::INFINITY; SAMPLES]);
-        self.seen.fill([NOTHING; SAMPLES]);
-        self.over.fill([0; SAMPLES]);
+        self.triangles.fill([NO_TRIANGLE; SAMPLES]);
+        self.lines.fill([0; SAMPLES]);
     }
 
-    /// The place of a pixel in the arrays.
-    pub(super) fn place(&self, x: u32, y: u32) -> usize {
+    /// Returns the index of a pixel in the arrays.
+    pub(super) fn index(&self, x: u32, y: u32) -> usize {
         ((y - self.top) * TILE + (x - self.left)) as usize
     }
 
-    /// Draws a triangle into the samples where it is nearer than what is there; at the same depth the
-    /// triangle of the lower number stays. Only samples with their bit in `mask` are covered.
-    pub(super) fn draw(&mut self, id: u32, flat: &Flat, mask: u16) {
-        let Some(setup) = Setup::new(flat, self) else {
+    /// Draws a triangle into the samples that it covers and where it is nearer than the triangle drawn before. At the
+    /// same depth, the triangle with the lower index is visible. Only samples with their bit in `mask` are covered.
+    pub(super) fn draw(&mut self, id: u32, projected: &ProjectedTriangle, mask: u16) {
+        let Some(setup) = Setup::new(projected, self) else {
             return;
         };
         let [x0, y0, x1, y1] = setup.limits;
-        // Many small triangles lie between the middles of pixels.
         if x0 > x1 || y0 > y1 {
             return;
         }
-        // In 32 bits the arithmetic is exact for triangles of less than 64 pixels: 32 to each side.
-        let first = flat[0].at;
-        let is_near = |c: &Corner| (0..2).all(|i| c.at[i].abs_diff(first[i]) < 1 << 13);
-        if mask == u16::MAX && flat.iter().all(is_near) {
+        // 32-bit arithmetic is exact if all corners are less than 32 pixels from the first one, in each axis.
+        let first = projected[0].at;
+        let is_near = |c: &GridPoint| (0..2).all(|i| c.at[i].abs_diff(first[i]) < 1 << 13);
+        if mask == u16::MAX && projected.iter().all(is_near) {
             self.fill::<i32>(id, &setup, mask);
         } else {
             self.fill::<i64>(id, &setup, mask);
         }
     }
 
-    /// Draws a triangle as [`Self::draw`] does, where `covers` says that it is: asked of pixels and their samples.
-    pub(super) fn draw_holed(
+    /// Like [`Self::draw`], for a triangle that covers only the samples for which `covers` returns true, which takes a
+    /// pixel and the index of a sample.
+    pub(super) fn draw_textured(
         &mut self,
         id: u32,
-        flat: &Flat,
+        projected: &ProjectedTriangle,
         mut covers: impl FnMut([u32; 2], usize) -> bool,
     ) {
-        let Some(mut setup) = Setup::new(flat, self) else {
+        let Some(mut setup) = Setup::new(projected, self) else {
             return;
         };
         let [x0, y0, x1, y1] = setup.limits;
@@ -127,47 +127,50 @@ impl Tile {
 
     #[expect(
         clippy::needless_bitwise_bool,
-        reason = "no branches: 16 samples at once"
+        reason = "without branches, the 16 samples are computed in parallel"
     )]
     fn fill<T: Number>(&mut self, id: u32, setup: &Setup, mask: u16) {
         let [x0, y0, x1, y1] = setup.limits;
         let edges = setup.edges.map(Edge::of::<T>);
-        // What each edge changes from the middle of a pixel to its samples.
-        let mut aside = edges.map(|[a, b, _]| {
-            PLACES.map(|[x, y]| a * T::of(i64::from(x)) + b * T::of(i64::from(y)))
+        // The difference of each edge function between the middle of a pixel and its samples.
+        let mut offsets = edges.map(|[a, b, _]| {
+            OFFSETS.map(|[x, y]| a * T::of(i64::from(x)) + b * T::of(i64::from(y)))
         });
-        for (k, aside) in aside[0].iter_mut().enumerate() {
+        for (k, offset) in offsets[0].iter_mut().enumerate() {
             if mask >> k & 1 == 0 {
-                *aside = T::of(i64::MIN / 4);
+                *offset = T::of(i64::MIN / 4);
             }
         }
-        let most = aside.map(|of_edge| of_edge.into_iter().max().unwrap_or(T::of(0)));
+        let max_offset = offsets.map(|edge| edge.into_iter().max().unwrap_or(T::of(0)));
         let [dx, dy] = setup.slope;
-        let deeper = PLACES.map(|[x, y]| narrow(dx * f64::from(x) + dy * f64::from(y)));
+        let depth_offsets = OFFSETS.map(|[x, y]| narrow(dx * f64::from(x) + dy * f64::from(y)));
         let step = edges.map(|[a, _, _]| a * T::of(i64::from(GRID)));
         for y in y0..=y1 {
-            let from = setup.from(x0, y);
+            let middle = setup.middle(x0, y);
             let mut e: [T; 3] = std::array::from_fn(|i| {
                 let [a, b, c] = edges[i];
-                c + a * T::of(from[0]) + b * T::of(from[1])
+                c + a * T::of(middle[0]) + b * T::of(middle[1])
             });
-            let mut depth = setup.depth + dx * from[0] as f64 + dy * from[1] as f64;
-            let row = self.place(x0, y);
+            let mut depth = setup.depth + dx * middle[0] as f64 + dy * middle[1] as f64;
+            let row = self.index(x0, y);
             let n = (x1 - x0 + 1) as usize;
-            for place in row..row + n {
-                let outside = (0..3).any(|i| e[i] + most[i] < T::of(0));
+            for index in row..row + n {
+                let outside = (0..3).any(|i| e[i] + max_offset[i] < T::of(0));
                 if !outside {
                     let inside: [T; SAMPLES] = std::array::from_fn(|k| {
-                        (e[0] + aside[0][k]) | (e[1] + aside[1][k]) | (e[2] + aside[2][k])
+                        (e[0] + offsets[0][k]) | (e[1] + offsets[1][k]) | (e[2] + offsets[2][k])
                     });
                     let d = narrow(depth);
-                    let (depths, seen) = (&mut self.depth[place], &mut self.seen[place]);
+                    let depths = &mut self.depth[index];
+                    let triangles = &mut self.triangles[index];
                     for k in 0..SAMPLES {
-                        let d = (d + deeper[k]).max(setup.nearest).min(setup.farthest);
-                        let is_nearer = (d < depths[k]) | ((d == depths[k]) & (id < seen[k]));
-                        let take = (inside[k] >= T::of(0)) & is_nearer;
-                        depths[k] = if take { d } else { depths[k] };
-                        seen[k] = if take { id } else { seen[k] };
+                        let d = (d + depth_offsets[k])
+                            .max(setup.nearest)
+                            .min(setup.farthest);
+                        let is_nearer = (d < depths[k]) | ((d == depths[k]) & (id < triangles[k]));
+                        let is_visible = (inside[k] >= T::of(0)) & is_nearer;
+                        depths[k] = if is_visible { d } else { depths[k] };
+                        triangles[k] = if is_visible { id } else { triangles[k] };
                     }
                 }
                 for i in 0..3 {
@@ -179,7 +182,7 @@ impl Tile {
     }
 }
 
-/// The whole numbers that edges are computed with.
+/// An integer type for edge functions.
 trait Number:
     Copy + Ord + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + BitOr<Output = Self>
 {
@@ -195,14 +198,14 @@ impl Number for i64 {
 impl Number for i32 {
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "the caller knows that it fits"
+        reason = "the caller ensures that the value fits"
     )]
     fn of(value: i64) -> Self {
         value as Self
     }
 }
 
-/// An edge: a x + b y + c is not negative inside, seen from the first corner of its triangle.
+/// An edge function: a x + b y + c is not negative inside. Coordinates are relative to the first corner of the triangle.
 #[derive(Clone, Copy)]
 struct Edge {
     a: i64,
@@ -216,30 +219,32 @@ impl Edge {
     }
 }
 
-/// The bits of the samples for which something holds.
-pub(super) fn mask_of(mut holds: impl FnMut(usize) -> bool) -> u16 {
-    (0..SAMPLES).fold(0, |mask, k| mask | u16::from(holds(k)) << k)
+/// Returns the bits of the samples for which `is_covered` is true.
+pub(super) fn mask_of(mut is_covered: impl FnMut(usize) -> bool) -> u16 {
+    (0..SAMPLES).fold(0, |mask, k| mask | u16::from(is_covered(k)) << k)
 }
 
-/// What filling a triangle needs.
+/// The data for filling a triangle.
 struct Setup {
     edges: [Edge; 3],
-    /// The first and the last pixel to look at, from left to right and from top to bottom.
+    /// The bounding box in pixels: left, top, right and bottom, inclusive.
     limits: [u32; 4],
     /// The first corner.
     origin: [i64; 2],
-    /// Depth at the first corner, and how it changes for a step of the grid.
+    /// The depth at the first corner.
     depth: f64,
+    /// The change of depth per grid step to the right and downwards.
     slope: [f64; 2],
+    /// The range of depths of the corners.
     nearest: f32,
     farthest: f32,
 }
 
 impl Setup {
-    /// `None` if the triangle has no area or is not on the tile.
-    fn new(flat: &Flat, tile: &Tile) -> Option<Self> {
-        let [o, mut p, mut q] = *flat;
-        let from_o = |c: Corner| [c.at[0] - o.at[0], c.at[1] - o.at[1]].map(i64::from);
+    /// Returns `None` if the triangle has no area or its bounding box is outside of the tile.
+    fn new(projected: &ProjectedTriangle, tile: &Tile) -> Option<Self> {
+        let [o, mut p, mut q] = *projected;
+        let from_o = |c: GridPoint| [c.at[0] - o.at[0], c.at[1] - o.at[1]].map(i64::from);
         let (mut u, mut v) = (from_o(p), from_o(q));
         let mut area = u[0] * v[1] - u[1] * v[0];
         if area == 0 {
@@ -260,17 +265,17 @@ impl Setup {
         };
         let [x0, x1] = axis(0, tile.left, tile.right)?;
         let [y0, y1] = axis(1, tile.top, tile.bottom)?;
-        // The area of the corner (x, y) with an edge from s to t: (t - s) x ((x, y) - s). With y downwards
-        // a positive area turns clockwise. A sample exactly on an edge belongs to the triangle below or to
-        // the right of it.
+        // Twice the signed area of the triangle of an edge from s to t and the point (x, y): (t - s) x ((x, y) - s). As
+        // y points downwards, a positive area means clockwise. A sample exactly on an edge belongs to the triangle below
+        // or to the right of the edge.
         let edge = |s: [i64; 2], t: [i64; 2]| {
             let (a, b) = (s[1] - t[1], t[0] - s[0]);
             let c = -(a * s[0] + b * s[1]);
-            let is_mine = a > 0 || (a == 0 && b > 0);
+            let includes_edge = a > 0 || (a == 0 && b > 0);
             Edge {
                 a,
                 b,
-                c: if is_mine { c } else { c - 1 },
+                c: if includes_edge { c } else { c - 1 },
             }
         };
         let [dp, dq] = [p, q].map(|c| f64::from(c.depth) - f64::from(o.depth));
@@ -289,13 +294,13 @@ impl Setup {
 
     /// Whether a sample of a pixel is in the triangle.
     fn is_inside(&self, x: u32, y: u32, sample: usize) -> bool {
-        let (from, aside) = (self.from(x, y), PLACES[sample].map(i64::from));
-        let [x, y] = [from[0] + aside[0], from[1] + aside[1]];
+        let (middle, offset) = (self.middle(x, y), OFFSETS[sample].map(i64::from));
+        let [x, y] = [middle[0] + offset[0], middle[1] + offset[1]];
         self.edges.iter().all(|e| e.a * x + e.b * y + e.c >= 0)
     }
 
-    /// The middle of a pixel, from the first corner.
-    fn from(&self, x: u32, y: u32) -> [i64; 2] {
+    /// Returns the middle of a pixel, relative to the first corner.
+    fn middle(&self, x: u32, y: u32) -> [i64; 2] {
         let middle = |x: u32| i64::from(x) * i64::from(GRID) + i64::from(GRID) / 2;
         [middle(x) - self.origin[0], middle(y) - self.origin[1]]
     }

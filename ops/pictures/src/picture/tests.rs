@@ -176,7 +176,7 @@ fn wrong_parameters_are_problems_before_anything_runs() {
         ),
         (
             "path: \"a.png\", camera: LookAt(from: (0, 0, 0), to: (0, 0, 0))",
-            "expected a camera that looks from one point to another, found no direction",
+            "expected `from` and `to` of the camera to be two different finite points",
         ),
         (
             "path: \"a.png\", color_by: (of: Attribute(name: \"heat\"))",

@@ -1,4 +1,4 @@
-//! Bezier patches, curves and polylines.
+//! Bezier patches, curves, polylines, and strokes of overlays.
 
 use bezier::{Curve, Faces, Patch};
 use glam::{DVec2, DVec3};
@@ -11,15 +11,15 @@ use crate::color::Color;
 use crate::drawing::{Channel, NO_FACE, Part, Surface};
 use crate::figure::construction;
 
-/// Cells of a patch along each side.
+/// The number of cells along each side of a patch.
 const CELLS: u32 = 24;
-/// Pieces of a curve.
-const PIECES: u32 = 200;
-/// The diameter of a polyline of one point, in widths of lines.
-const LONE_POINT: f64 = 3.0;
+/// The number of line segments of a curve.
+const SEGMENTS: u32 = 200;
+/// The diameter of a polyline of one point, as a multiple of the line width.
+const SINGLE_POINT: f64 = 3.0;
 
 impl Builder<'_, '_> {
-    /// Adds Bezier patches, and their control nets if the style wants them.
+    /// Adds Bezier patches, and their control nets if the style has them.
     pub(super) fn patches(&mut self, patches: &[Patch], color: Color) -> Result<(), PictureError> {
         let surface = bezier::tessellate(patches, CELLS, Faces::Triangles)
             .map_err(|e| PictureError::Style(format!("the patches cannot be drawn: {e}")))?;
@@ -37,7 +37,7 @@ impl Builder<'_, '_> {
             n_faces,
             normals,
             colors: Channel::All(rgb(color.linear())),
-            marks: Vec::new(),
+            highlights: Vec::new(),
             materials: vec![Surface::default()],
             material_of_face: Vec::new(),
             uvs: Vec::new(),
@@ -54,27 +54,27 @@ impl Builder<'_, '_> {
         Ok(())
     }
 
-    /// Adds a curve, and its control polygon if the style wants it.
+    /// Adds a curve, and its control polygon if the style has it.
     pub(super) fn curve(&mut self, curve: &Curve<DVec2>, color: Color) {
-        let points: Vec<DVec3> = curve.sample(PIECES).map(|p| p.extend(0.0)).collect();
+        let points: Vec<DVec3> = curve.sample(SEGMENTS).map(|p| p.extend(0.0)).collect();
         let color = self.line_color(color);
-        self.chain(&points, color);
+        self.polyline(&points, color);
         let control: Vec<DVec3> = curve.points().iter().map(|p| p.extend(0.0)).collect();
         self.control_polygon(&control);
     }
 
-    /// Adds polylines, with dots on their points if the style wants them. The levels of de Casteljau's construction
-    /// have the colors that they have in figures of it.
+    /// Adds polylines, with dots at their points if the style has them. The levels of de Casteljau's construction have
+    /// the same colors as in figures of the construction.
     pub(super) fn polylines(&mut self, lines: &[Vec<DVec3>], color: Color) {
-        let usual = self.line_color(color);
+        let default = self.line_color(color);
         let are_levels = self.style.color.is_none() && are_levels(lines);
         for (r, line) in lines.iter().enumerate() {
             let color = if are_levels {
                 Color(construction::color_of_level(r, lines.len())).linear()
             } else {
-                usual
+                default
             };
-            self.chain(line, color);
+            self.polyline(line, color);
             if let Some(diameter) = self.style.points {
                 for &point in line {
                     self.dot(point, diameter, color, 0.0);
@@ -83,7 +83,8 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// The color of lines: darker than a surface would be, to be seen on white.
+    /// Returns the color of lines. It is darker than that of a surface, so that lines are visible on white, unless the
+    /// style sets the color.
     fn line_color(&self, color: Color) -> [f32; 4] {
         let [r, g, b, a] = color.linear();
         if self.style.color.is_some() {
@@ -93,20 +94,20 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Lines between consecutive points, or a dot for a single one.
-    fn chain(&mut self, points: &[DVec3], color: [f32; 4]) {
+    /// Adds lines between consecutive points, or a dot for a single point.
+    fn polyline(&mut self, points: &[DVec3], color: [f32; 4]) {
         let width = self.style.curve_width;
-        self.through(points, [width, LONE_POINT * width], color, 0.0);
+        self.line_through(points, [width, SINGLE_POINT * width], color, 0.0);
     }
 
     /// Adds a line or a dot of an overlay.
     pub(super) fn stroke(&mut self, stroke: &Stroke) {
         let color = stroke.color.linear();
-        self.through(&stroke.points, [stroke.width; 2], color, stroke.hidden);
+        self.line_through(&stroke.points, [stroke.width; 2], color, stroke.hidden);
     }
 
-    /// A line of this width through points; a dot of this diameter if there is one.
-    fn through(
+    /// Adds a line of this width through several points, or a dot of this diameter at a single point.
+    fn line_through(
         &mut self,
         points: &[DVec3],
         [width, diameter]: [f64; 2],
@@ -121,14 +122,14 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// A control polygon with its points, if the style wants it.
+    /// Adds a control polygon and its points, if the style has it.
     fn control_polygon(&mut self, points: &[DVec3]) {
         let Some(lines) = self.style.control_nets else {
             return;
         };
         let color = lines.color.linear();
         if points.len() > 1 {
-            self.through(points, [lines.width; 2], color, lines.hidden);
+            self.line_through(points, [lines.width; 2], color, lines.hidden);
         }
         for &point in points {
             self.dot(point, 3.0 * lines.width + 1.5, color, lines.hidden);
@@ -136,8 +137,8 @@ impl Builder<'_, '_> {
     }
 }
 
-/// Whether polylines are the levels of de Casteljau's construction: each has one point less than the one before, down
-/// to one.
+/// Whether polylines are the levels of de Casteljau's construction: each has one point less than the one before, and
+/// the last has a single point.
 fn are_levels(lines: &[Vec<DVec3>]) -> bool {
     let loses_one = |pair: &[Vec<DVec3>]| pair[0].len() == pair[1].len() + 1;
     lines.len() > 1 && lines.windows(2).all(loses_one) && lines[lines.len() - 1].len() == 1
@@ -158,7 +159,7 @@ mod tests {
         scene
     }
 
-    fn built<'s>(scene: &'s Scene, style: &Style) -> Drawing<'s> {
+    fn build_drawing<'s>(scene: &'s Scene, style: &Style) -> Drawing<'s> {
         let (drawing, _) = build(scene, style, &Overlays::default(), &mut |_| None).unwrap();
         drawing
     }
@@ -172,7 +173,7 @@ mod tests {
                 points,
                 ..Style::default()
             };
-            built(&scene, &style).lines
+            build_drawing(&scene, &style).lines
         };
         assert_eq!(lines(None).len(), 3);
         let dots: Vec<_> = (lines(Some(7.0)).iter())
@@ -183,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn levels_of_a_construction_are_told_apart() {
+    fn levels_of_a_construction_have_different_colors() {
         let points = [[0.0, 0.0], [1.0, 3.0], [3.0, 3.0], [4.0, 0.0]];
         let curve = Curve::new(points.map(DVec2::from).to_vec()).unwrap();
         let levels = curve.levels(0.5).into_iter();
@@ -193,14 +194,15 @@ mod tests {
                 .collect(),
         );
         let colors = |style: &Style| {
-            let mut colors: Vec<_> = built(&scene, style).lines.iter().map(|l| l.color).collect();
+            let lines = build_drawing(&scene, style).lines;
+            let mut colors: Vec<_> = lines.iter().map(|l| l.color).collect();
             colors.dedup();
             colors
         };
         let found = colors(&Style::default());
         assert_eq!(found.len(), 4);
         assert!((1..4).all(|i| !found[..i].contains(&found[i])));
-        // A color for everything is for them too.
+        // The color of the style replaces the colors of levels.
         let blue = Color::rgb(0, 0, 200);
         let style = Style {
             color: Some(blue),

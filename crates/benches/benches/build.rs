@@ -1,15 +1,13 @@
-//! Measures the construction of a mesh, in triangles per second, and compares it with copying the bytes of the mesh.
+//! How many triangles per second become a mesh, relative to copying the bytes of the mesh?
 //!
-//! The mesh is a torus of a million triangles and half a million vertices, numbered row by row, so that neighbors are
-//! close in memory. The positions are given and only moved into the mesh. The time includes checking the input,
-//! pairing half-edges, and filling the arrays and the two maps from the input to the mesh, all in new memory.
+//! The input is a torus of a million triangles and half a million vertices. Vertices are numbered row by row, so that
+//! neighbors are close in memory. The input is in memory before the timing starts; the output is in new memory.
 //!
-//! - `build`: from offsets and corners, with one and two threads.
+//! - `build`: from offsets and corners.
 //! - `from_polygons`: from a list for each triangle, which is first copied into offsets and corners.
-//! - `shuffled`: the same triangles and vertices in random order, the worst case for a file.
-//! - `half reversed`: every second triangle is reversed. The mesh is built, the triangles to turn are found, and the mesh
-//!   is built again.
-//! - `copy of its bytes`: one thread copies the bytes of the mesh into new memory.
+//! - `shuffled`: the same triangles and vertices in random order, the worst order that a file can have.
+//! - `half reversed`: every second triangle has the opposite orientation and is reversed. The mesh is built twice, with
+//!   a search for the triangles to reverse in between.
 
 use std::hint::black_box;
 use std::time::Duration;
@@ -33,33 +31,25 @@ fn a_million_triangles(c: &mut Criterion) {
     let mut group = c.benchmark_group("build 1 M triangles");
     group.sample_size(10).warm_up_time(Duration::from_secs(1));
     group.throughput(Throughput::Elements(triangles.len() as u64));
-    for threads in [1, 2] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let pool = pool.build().expect("a pool of one or two threads");
-        group.bench_function(format!("build, {threads} threads"), |b| {
-            pool.install(|| b.iter_batched(|| positions.clone(), built, BatchSize::PerIteration));
+    group.bench_function("build", |b| {
+        b.iter_batched(|| positions.clone(), built, BatchSize::PerIteration);
+    });
+    group.bench_function("from_polygons", |b| {
+        let from_polygons = |positions| Mesh::from_polygons(positions, &triangles);
+        b.iter_batched(|| positions.clone(), from_polygons, BatchSize::PerIteration);
+    });
+    for (name, positions, triangles) in [
+        ("shuffled", &shuffled_positions, &shuffled),
+        ("half reversed", &positions, &half),
+    ] {
+        let corners = triangles.as_flattened();
+        let built = |positions| build(positions, &offsets, corners, NonManifold::Split);
+        group.bench_function(name, |b| {
+            b.iter_batched(|| positions.clone(), built, BatchSize::PerIteration);
         });
-        group.bench_function(format!("from_polygons, {threads} threads"), |b| {
-            let from_polygons = |positions| Mesh::from_polygons(positions, &triangles);
-            pool.install(|| {
-                b.iter_batched(|| positions.clone(), from_polygons, BatchSize::PerIteration);
-            });
-        });
-        for (name, positions, triangles) in [
-            ("shuffled", &shuffled_positions, &shuffled),
-            ("half reversed", &positions, &half),
-        ] {
-            let corners = triangles.as_flattened();
-            let built = |positions| build(positions, &offsets, corners, NonManifold::Split);
-            group.bench_function(format!("{name}, {threads} threads"), |b| {
-                pool.install(|| {
-                    b.iter_batched(|| positions.clone(), built, BatchSize::PerIteration);
-                });
-            });
-        }
     }
-    // Into new memory, like the mesh.
-    group.bench_function("copy of its bytes", |b| {
+    // Into new memory, as the mesh is.
+    group.bench_function("bytes alone: copy of the mesh", |b| {
         b.iter_batched(
             || (),
             |()| black_box(&bytes).clone(),
@@ -97,7 +87,7 @@ fn shuffled(positions: &[DVec3], triangles: &[[u32; 3]]) -> (Vec<DVec3>, Vec<[u3
     (moved, triangles)
 }
 
-/// Shuffles values with a linear congruential generator.
+/// Puts values into an order of chance: that of a linear congruential generator.
 fn shuffle<T>(values: &mut [T]) {
     let mut state = 1_u64;
     for i in (1..values.len()).rev() {

@@ -40,7 +40,7 @@ fn million_triangles(c: &mut Criterion) {
         group
             .sample_size(10)
             .throughput(Throughput::Bytes(bytes.len() as u64));
-        measure(&mut group, "read the bytes alone", || fs::read(&path));
+        measure(&mut group, "read, bytes alone", || fs::read(&path));
         measure(&mut group, "read to arrays", || {
             read_polygons(&Disk, &path, &ReadOptions::default()).expect("it was written")
         });
@@ -51,7 +51,7 @@ fn million_triangles(c: &mut Criterion) {
             "obj" => obj_peers(&mut group, &path),
             _ => gltf_peer(&mut group, &path),
         }
-        measure(&mut group, "write the bytes alone", || {
+        measure(&mut group, "write, bytes alone", || {
             fs::write(&path, &bytes)
         });
         measure(&mut group, "write", || save(&path, scene));

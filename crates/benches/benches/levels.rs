@@ -1,123 +1,76 @@
-//! Measures the faces per second that subdivision computes, with full connectivity, and compares the time with the memory
-//! bandwidth of the machine. `tests/oracle` measures `OpenSubdiv` with the same cases.
+//! How many faces per second does subdivision produce, and how does that compare with the memory bandwidth?
 //!
-//! `cargo bench -p meshwright-benches --bench levels` prints, for one thread and two, the median time from the control mesh in
-//! memory to the refined mesh in memory, the faces per second, the bytes of the result, and the faces per second that
-//! copying or filling memory of this size would reach.
-
-#![expect(clippy::print_stdout, reason = "a benchmark prints its figures")]
+//! Measured from the cage in memory to the refined mesh, with full connectivity, in memory. `tests/oracle`
+//! measures `OpenSubdiv` on the same cages. The group also copies 256 MB, and fills 256 MB of new memory, to show
+//! what the machine allows.
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
 
+use criterion::measurement::WallTime;
+use criterion::{
+    BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main,
+};
 use geometry::shapes;
 use mesh::Mesh;
 use progress::NoProgress;
 use rayon::prelude::*;
 use subdivision::{LoopWeights, Rules, Scheme};
 
-/// Number of measured runs, after one to warm up.
-const RUNS: usize = 9;
-
-fn main() {
-    // `cargo test` also runs the benchmarks, to check that they work.
-    let is_test = std::env::args().any(|a| a == "--test");
+fn levels(c: &mut Criterion) {
+    let warren = Scheme::Loop(LoopWeights::Warren);
     let cases = [
         (
-            "Loop, icosahedron",
-            Scheme::Loop(LoopWeights::Warren),
+            "Loop, icosahedron, 9 levels",
+            warren,
             shapes::icosahedron(),
             9,
         ),
+        ("Loop, 100,352 triangles, 3 levels", warren, triangles(), 3),
         (
-            "Loop, 100,352 triangles",
-            Scheme::Loop(LoopWeights::Warren),
-            triangles(),
-            3,
-        ),
-        (
-            "Catmull-Clark, 33,451 mixed faces",
+            "Catmull-Clark, 33,451 mixed faces, 3 levels",
             Scheme::CatmullClark,
             mixed(),
             3,
         ),
     ];
-    for threads in [1, 2] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.expect("a pool of one or two threads").install(|| {
-            println!("{threads} thread{}", if threads == 1 { "" } else { "s" });
-            let n = if is_test { 1 << 20 } else { 256 << 20 };
-            let (copy, fill) = bandwidth(n);
-            println!("  copying {copy:.1} GB/s, filling new memory {fill:.1} GB/s");
-            for (name, scheme, cage, levels) in &cases {
-                let levels = if is_test { 1 } else { *levels };
-                measure(name, Rules::of(*scheme), cage, levels, [copy, fill]);
-            }
+    let mut group = c.benchmark_group("subdivision");
+    group.sample_size(10);
+    for (name, scheme, cage, levels) in &cases {
+        let refine = || {
+            subdivision::subdivide(cage, Rules::of(*scheme), *levels, &NoProgress)
+                .expect("the scheme accepts the cage")
+        };
+        group.throughput(Throughput::Elements(refine().n_faces() as u64));
+        group.bench_function(*name, |b| {
+            b.iter_batched(|| (), |()| refine(), BatchSize::PerIteration);
         });
     }
+    bandwidth(&mut group);
+    group.finish();
 }
 
-/// Measures one case and prints a line.
-fn measure(name: &str, rules: Rules, cage: &Mesh, levels: u32, [copy, fill]: [f64; 2]) {
-    let refined = |levels: u32| {
-        subdivision::subdivide(cage, rules, levels, &NoProgress)
-            .expect("a mesh that the scheme accepts")
-    };
-    let run = || refined(levels);
-    let result = run();
-    let (faces, bytes) = (result.n_faces() as f64, result.bytes() as f64);
-    drop(result);
-    // The bytes that the last level reads at least once.
-    let read = refined(levels - 1).bytes() as f64;
-    let seconds = median(|| {
-        let start = Instant::now();
-        let mesh = black_box(run());
-        let time = start.elapsed();
-        drop(mesh);
-        time
-    });
-    println!(
-        "  {name}, {levels} levels: {:.0} ms, {:.2} M faces, {:.1} M/s; the last \
-         level reads {:.0} MB and writes {:.0} MB; copying would reach \
-         {:.0} M/s and filling {:.0} M/s",
-        seconds * 1e3,
-        faces / 1e6,
-        faces / seconds / 1e6,
-        read / 1e6,
-        bytes / 1e6,
-        copy * 1e9 / bytes * faces / 1e6,
-        fill * 1e9 / bytes * faces / 1e6,
-    );
-}
-
-/// Measures bandwidth in GB per second: copying from one array to another, and filling new memory.
-fn bandwidth(n: usize) -> (f64, f64) {
+/// Copies bytes from one array to another, and writes bytes into new memory.
+fn bandwidth(group: &mut BenchmarkGroup<WallTime>) {
+    const BYTES: usize = 256 << 20;
     const CHUNK: usize = 1 << 16;
-    let source = vec![1_u8; n];
-    let mut target = vec![2_u8; n];
-    let copy = median(|| {
-        let start = Instant::now();
-        let chunks = target.par_chunks_mut(CHUNK).zip(source.par_chunks(CHUNK));
-        chunks.for_each(|(to, from)| to.copy_from_slice(from));
-        black_box(&mut target);
-        start.elapsed()
+    let source = vec![1_u8; BYTES];
+    let mut target = vec![2_u8; BYTES];
+    group.throughput(Throughput::Bytes(BYTES as u64));
+    group.bench_function("memory, copied", |b| {
+        b.iter(|| {
+            let chunks = target.par_chunks_mut(CHUNK).zip(source.par_chunks(CHUNK));
+            chunks.for_each(|(to, from)| to.copy_from_slice(from));
+            black_box(&mut target);
+        });
     });
-    let fill = median(|| {
-        let start = Instant::now();
-        let mut new: Vec<u8> = mesh::zeroed(n);
+    let fill = || {
+        let mut new: Vec<u8> = mesh::zeroed(BYTES);
         new.par_chunks_mut(CHUNK).for_each(|chunk| chunk.fill(3));
-        black_box(&mut new);
-        start.elapsed()
+        new
+    };
+    group.bench_function("memory, allocated and filled", |b| {
+        b.iter_batched(|| (), |()| fill(), BatchSize::PerIteration);
     });
-    (n as f64 / copy / 1e9, n as f64 / fill / 1e9)
-}
-
-/// Returns the median time of the runs, in seconds.
-fn median(mut run: impl FnMut() -> Duration) -> f64 {
-    run();
-    let mut times: Vec<f64> = (0..RUNS).map(|_| run().as_secs_f64()).collect();
-    times.sort_unstable_by(f64::total_cmp);
-    times[RUNS / 2]
 }
 
 /// A torus of 100,352 triangles.
@@ -125,7 +78,7 @@ fn triangles() -> Mesh {
     shapes::fans(&shapes::torus(224, 224, 2.0, 1.0))
 }
 
-/// A torus of 33,451 faces: one of every three squares is split into two triangles.
+/// A torus of 33,451 faces: of every three squares one is cut into two triangles.
 fn mixed() -> Mesh {
     let torus = shapes::torus(224, 112, 2.0, 1.0);
     let mut polygons: Vec<Vec<u32>> = Vec::new();
@@ -144,3 +97,6 @@ fn mixed() -> Mesh {
     let (mesh, _) = Mesh::from_polygons(torus.positions().to_vec(), &polygons).expect("a torus");
     mesh
 }
+
+criterion_group!(benches, levels);
+criterion_main!(benches);

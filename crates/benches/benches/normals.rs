@@ -1,8 +1,8 @@
-//! Measures the vertex normals of a million triangles, and compares the time with copying positions and normals.
+//! How long do the normals of a million triangles take, relative to copying the positions and normals?
 
 use std::hint::black_box;
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use geometry::shapes;
 use mesh::Mesh;
 use ops_vertices::{Weight, normals};
@@ -14,15 +14,10 @@ fn million_triangles(c: &mut Criterion) {
         .sample_size(20)
         .throughput(Throughput::Elements(mesh.n_faces() as u64));
     for weight in [Weight::Area, Weight::Angle, Weight::Uniform] {
-        for threads in [1, 2] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-            let pool = pool.build().expect("a pool of one or two threads");
-            let id = BenchmarkId::new(format!("{weight:?}"), format!("{threads} threads"));
-            group.bench_function(id, |b| pool.install(|| b.iter(|| normals(&mesh, weight))));
-        }
+        group.bench_function(format!("{weight:?}"), |b| b.iter(|| normals(&mesh, weight)));
     }
     let bytes = vec![1_u8; 2 * size_of_val(mesh.positions())];
-    group.bench_function("copy of positions and normals", |b| {
+    group.bench_function("bytes alone: copy of positions and normals", |b| {
         b.iter(|| black_box(&bytes).clone());
     });
     group.finish();

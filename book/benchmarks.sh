@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Measures everything in crates/benches with one thread and with two, and writes book/src/benchmark_tables.md.
+# Takes about half an hour on a machine that has nothing else to do.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+RAYON_NUM_THREADS=1 cargo bench -p meshwright-benches -- --save-baseline one
+RAYON_NUM_THREADS=2 cargo bench -p meshwright-benches -- --save-baseline two
+{
+    cat << HEAD
+# Measured tables
+
+Written by \`book/benchmarks.sh\` on $(date -u +%F), commit $(git describe --always), $(rustc --version | cut -d' ' -f1,2).
+Machine: $(lscpu | sed -n 's/^Model name: *//p') ($(uname -m)), $(nproc) processors, $(free -g | awk '/^Mem/ { print $2 }') GB of memory.
+
+Times are medians. *Scaling* is the time of one thread divided by the time of two. *Relative to bytes alone* is the time of one
+thread divided by the time that one thread needs to copy, read or write the same bytes. Not every peer uses two threads.
+HEAD
+    cargo run --release -p meshwright-benches
+} > target/benchmark_tables.md
+mv target/benchmark_tables.md book/src/benchmark_tables.md

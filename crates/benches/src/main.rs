@@ -1,0 +1,114 @@
+//! Prints the tables of the book's chapter of benchmarks from the results of criterion in `target/criterion`:
+//! `book/benchmarks.sh` runs the benchmarks with one thread and with two, and then this program.
+
+#![expect(clippy::print_stdout, reason = "the tables are its output")]
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde_json::Value;
+
+/// A benchmark: its name, its seconds with one thread and with two, and what one run of it processes.
+struct Row {
+    name: String,
+    seconds: [Option<f64>; 2],
+    throughput: Value,
+}
+
+fn main() -> std::io::Result<()> {
+    let mut groups: BTreeMap<String, Vec<Row>> = BTreeMap::new();
+    for group in folders(Path::new("target/criterion"))? {
+        for benchmark in folders(&group)? {
+            let Some(id) = json(&benchmark.join("two/benchmark.json")) else {
+                continue;
+            };
+            let text = |key: &str| id[key].as_str().unwrap_or_default().to_owned();
+            let row = Row {
+                name: text("function_id"),
+                seconds: ["one", "two"].map(|threads| median(&benchmark.join(threads))),
+                throughput: id["throughput"].clone(),
+            };
+            groups.entry(text("group_id")).or_default().push(row);
+        }
+    }
+    for (group, rows) in &groups {
+        println!("\n## {group}\n");
+        println!(
+            "| benchmark | one thread | two threads | scaling | two threads, per second | relative to bytes alone |"
+        );
+        println!("| --- | --- | --- | --- | --- | --- |");
+        for row in rows {
+            let [one, two] = row.seconds;
+            let scaling = one.zip(two).map(|(one, two)| format!("{:.1}", one / two));
+            let relative = one
+                .zip(reference(row, rows))
+                .map(|(one, bytes)| format!("{:.1}", one / bytes));
+            println!(
+                "| {} | {} | {} | {} | {} | {} |",
+                row.name,
+                one.map(milliseconds).unwrap_or_default(),
+                two.map(milliseconds).unwrap_or_default(),
+                scaling.unwrap_or_default(),
+                two.map(|two| rate(&row.throughput, two))
+                    .unwrap_or_default(),
+                relative.unwrap_or_default(),
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The seconds of one thread that the bytes alone take: the row of the group whose name contains `bytes alone` and
+/// begins with the same word or with `bytes`. `None` for that row itself.
+fn reference(row: &Row, rows: &[Row]) -> Option<f64> {
+    let is_bytes = |row: &Row| row.name.contains("bytes alone");
+    let word = row.name.split([' ', ',']).next()?;
+    let bytes = |other: &&Row| {
+        is_bytes(other) && (other.name.starts_with(word) || other.name.starts_with("bytes"))
+    };
+    rows.iter().find(bytes).filter(|_| !is_bytes(row))?.seconds[0]
+}
+
+/// The folders in a folder, by name.
+fn folders(path: &Path) -> std::io::Result<Vec<std::path::PathBuf>> {
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(path)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            paths.push(path);
+        }
+    }
+    paths.sort();
+    Ok(paths)
+}
+
+fn json(path: &Path) -> Option<Value> {
+    serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()
+}
+
+/// The median of one run, in seconds.
+fn median(folder: &Path) -> Option<f64> {
+    let nanoseconds = json(&folder.join("estimates.json"))?["median"]["point_estimate"].as_f64()?;
+    Some(nanoseconds / 1e9)
+}
+
+/// Milliseconds with three significant digits.
+fn milliseconds(seconds: f64) -> String {
+    let ms = seconds * 1e3;
+    let decimals = if ms < 10.0 {
+        2
+    } else {
+        usize::from(ms < 100.0)
+    };
+    format!("{ms:.decimals$} ms")
+}
+
+/// Elements or bytes per second.
+fn rate(throughput: &Value, seconds: f64) -> String {
+    let per_second = |key: &str| Some(throughput[key].as_f64()? / seconds / 1e6);
+    match (per_second("Elements"), per_second("Bytes")) {
+        (Some(elements), _) => format!("{elements:.1} M"),
+        (_, Some(bytes)) => format!("{bytes:.0} MB"),
+        _ => String::new(),
+    }
+}

@@ -49,15 +49,15 @@ fn peers(c: &mut Criterion) {
         edges,
         copy: Mesh::clone,
     };
-    let flips = start.measure(&mut group, "flip, this crate", |mesh, edges, i| {
+    let flips = start.measure(&mut group, "flip, Meshwright", |mesh, edges, i| {
         mesh.fetch_ahead(edges, i);
         mesh.flip_edge(edges[i]).is_ok()
     });
-    start.measure(&mut group, "split, this crate", |mesh, edges, i| {
+    start.measure(&mut group, "split, Meshwright", |mesh, edges, i| {
         mesh.fetch_ahead(edges, i);
         mesh.split_edge(edges[i], 0.5).is_ok()
     });
-    let n = start.measure(&mut group, "collapse, this crate", |mesh, edges, i| {
+    let n = start.measure(&mut group, "collapse, Meshwright", |mesh, edges, i| {
         mesh.fetch_ahead(edges, i);
         mesh.collapse_edge(edges[i]).is_ok()
     });

@@ -33,26 +33,42 @@ fn main() -> std::io::Result<()> {
     }
     for (group, rows) in &groups {
         println!("\n## {group}\n");
-        println!(
-            "| benchmark | one thread | two threads | scaling | two threads, per second | relative to bytes alone |"
-        );
-        println!("| --- | --- | --- | --- | --- | --- |");
+        let references: Vec<Option<f64>> = rows.iter().map(|row| reference(row, rows)).collect();
+        let mut table = vec![
+            [
+                "benchmark",
+                "one thread",
+                "two threads",
+                "scaling",
+                "two threads, per second",
+            ]
+            .map(str::to_owned)
+            .to_vec(),
+        ];
         for row in rows {
             let [one, two] = row.seconds;
-            let scaling = one.zip(two).map(|(one, two)| format!("{:.1}", one / two));
-            let relative = one
-                .zip(reference(row, rows))
-                .map(|(one, bytes)| format!("{:.1}", one / bytes));
-            println!(
-                "| {} | {} | {} | {} | {} | {} |",
-                row.name,
+            let ratio = |(a, b): (f64, f64)| format!("{:.1}", a / b);
+            table.push(vec![
+                row.name.clone(),
                 one.map(milliseconds).unwrap_or_default(),
                 two.map(milliseconds).unwrap_or_default(),
-                scaling.unwrap_or_default(),
+                one.zip(two).map(ratio).unwrap_or_default(),
                 two.map(|two| rate(&row.throughput, two))
                     .unwrap_or_default(),
-                relative.unwrap_or_default(),
-            );
+            ]);
+        }
+        if references.iter().any(Option::is_some) {
+            table[0].push("relative to bytes alone".to_owned());
+            for ((row, reference), line) in rows.iter().zip(&references).zip(&mut table[1..]) {
+                let relative = row.seconds[0]
+                    .zip(*reference)
+                    .map(|(one, bytes)| format!("{:.1}", one / bytes));
+                line.push(relative.unwrap_or_default());
+            }
+        }
+        table.insert(1, vec!["---".to_owned(); table[0].len()]);
+        for line in table {
+            println!("| {} |", line.join(" | "));
         }
     }
     Ok(())

@@ -1,13 +1,13 @@
 //! Every recipe in `scenes/` is a test.
 //!
 //! ```text
-//! teapot                          all expectations hold, the digest is that in digests.txt
+//! teapot                          all expectations hold, and the digest equals that in digests.txt
 //! teapot: any number of threads   1, 2 and 8 threads: the same digest and the same files
-//! teapot: from every step         a run that begins at a step with the scene before it: the same digest
-//! teapot: every step counts       without one step the recipe fails
+//! teapot: from every step         a run that starts at a step, with the scene before it: the same digest
+//! teapot: every step is needed    without any one of its steps the recipe fails
 //! ```
 //!
-//! With `MESHWRIGHT_UPDATE` set in the environment, digests.txt is written anew first.
+//! If the environment variable `MESHWRIGHT_UPDATE` is set, first rewrites digests.txt.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -21,13 +21,13 @@ use op::Progress;
 use ron_tree::{Lexer, Span, TokenKind, Value};
 use tempfile::TempDir;
 
-/// The bytes that meshes may take.
+/// The memory budget in bytes.
 const BUDGET: u64 = 4 << 30;
 
-/// Recipes whose meshes take more bytes are not run from every step.
-const SMALL: u64 = 16 << 20;
+/// Recipes whose planned peak exceeds this number of bytes are not run from every step.
+const MAX_BYTES_FROM_EVERY_STEP: u64 = 16 << 20;
 
-/// The operations that only write: nothing in a recipe can miss them.
+/// The operations that only write files. The expectations of a recipe do not depend on them.
 const OUTPUTS: [&str; 3] = ["CurveFigure", "Picture", "Save"];
 
 const DIGESTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/digests.txt");
@@ -39,11 +39,11 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         update(&recipes)?;
     }
     let digests = Arc::new(digests()?);
-    let mut trials = vec![there_are_recipes(recipes.len())];
+    let mut trials = vec![has_recipes(recipes.len())];
     trials.push(digests_name_recipes(&recipes, &digests));
     trials.push(Trial::test(
-        "a step that nothing misses is found",
-        idle_step,
+        "unneeded steps are found",
+        unneeded_steps_are_found,
     ));
     for recipe in recipes {
         let recipe = Arc::new(recipe);
@@ -56,15 +56,15 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         let r = recipe.clone();
         let from = format!("{name}: from every step");
         trials.push(Trial::test(from, move || from_every_step(&r)));
-        let counts = format!("{name}: every step counts");
-        trials.push(Trial::test(counts, move || every_step_counts(&recipe)));
+        let needed = format!("{name}: every step is needed");
+        trials.push(Trial::test(needed, move || every_step_is_needed(&recipe)));
     }
     Ok(libtest_mimic::run(&arguments, trials).exit_code())
 }
 
 /// A recipe in `scenes/`.
 struct Scene {
-    /// The name of the file without its ending.
+    /// The file name without its extension.
     name: String,
     path: PathBuf,
     source: String,
@@ -92,7 +92,7 @@ impl Scene {
         Ok(found)
     }
 
-    /// Reads and checks `source` as if it stood in the file. Fails with everything that is wrong.
+    /// Reads and checks `source` as if it were the text of the file. The error has all diagnostics.
     fn load(&self, source: &str, out: &Path) -> Result<Loaded, String> {
         let registry = ops_all::registry();
         let options = Options {
@@ -108,7 +108,7 @@ impl Scene {
         Ok(loaded)
     }
 
-    /// The same, and runs it.
+    /// Reads, checks and runs `source`.
     fn run(&self, source: &str) -> Result<Run, String> {
         let out = tempfile::tempdir().map_err(|e| e.to_string())?;
         let loaded = self.load(source, out.path())?;
@@ -137,7 +137,7 @@ fn fail<T>(message: impl Into<String>) -> Result<T, Failed> {
 
 type Digests = BTreeMap<String, String>;
 
-/// The lines of digests.txt: the name of a recipe and its digest.
+/// Reads digests.txt, which has a line for each recipe: its name and its digest.
 fn digests() -> Result<Digests, Box<dyn Error>> {
     if !Path::new(DIGESTS).exists() {
         return Ok(Digests::new());
@@ -159,8 +159,8 @@ fn update(recipes: &[Scene]) -> std::io::Result<()> {
     std::fs::write(DIGESTS, lines.collect::<String>())
 }
 
-fn there_are_recipes(n: usize) -> Trial {
-    Trial::test("there are recipes in scenes/", move || {
+fn has_recipes(n: usize) -> Trial {
+    Trial::test("scenes/ has recipes", move || {
         if n == 0 {
             return fail("no recipes found");
         }
@@ -171,9 +171,12 @@ fn there_are_recipes(n: usize) -> Trial {
 fn digests_name_recipes(recipes: &[Scene], digests: &Digests) -> Trial {
     let is_known = |name: &String| recipes.iter().any(|recipe| recipe.name == *name);
     let unknown: Vec<String> = digests.keys().filter(|n| !is_known(n)).cloned().collect();
-    Trial::test("digests.txt names recipes only", move || {
+    Trial::test("digests.txt names existing recipes only", move || {
         if !unknown.is_empty() {
-            return fail(format!("there are no such recipes: {}", unknown.join(", ")));
+            return fail(format!(
+                "digests.txt names missing recipes: {}",
+                unknown.join(", ")
+            ));
         }
         Ok(())
     })
@@ -184,13 +187,15 @@ fn digests_name_recipes(recipes: &[Scene], digests: &Digests) -> Trial {
 fn holds(recipe: &Scene, digests: &Digests) -> Result<(), Failed> {
     let outcome = recipe.run(&recipe.source)?.outcome;
     if outcome.checked == 0 {
-        return fail("the recipe expects nothing");
+        return fail("the recipe has no expectations");
     }
     let (name, found) = (&recipe.name, outcome.digest.to_string());
     match digests.get(name) {
         Some(expected) if *expected == found => Ok(()),
-        Some(expected) => fail(format!("the digest is {found}, in digests.txt {expected}")),
-        None => fail(format!("digests.txt has no line `{name} {found}`")),
+        Some(expected) => fail(format!(
+            "the digest is {found}, expected {expected} as in digests.txt"
+        )),
+        None => fail(format!("digests.txt is missing the line `{name} {found}`")),
     }
 }
 
@@ -210,28 +215,30 @@ fn any_number_of_threads(recipe: &Scene) -> Result<(), Failed> {
             return fail(format!("1 thread: digest {digest}, {n} threads: {found}"));
         }
         if files.keys().ne(files_before.keys()) {
-            return fail(format!("{n} threads write other files than 1"));
+            return fail(format!("{n} threads write different files than 1 thread"));
         }
         let differs = |name: &&PathBuf| files.get(*name) != files_before.get(*name);
         if let Some(name) = files.keys().find(differs) {
             let name = name.display();
-            return fail(format!("{n} threads write another {name} than 1"));
+            return fail(format!(
+                "{n} threads write a different {name} than 1 thread"
+            ));
         }
     }
     Ok(())
 }
 
-/// Keeps the scene after each step.
+/// A listener that keeps the scene after each step.
 #[derive(Default)]
-struct Kept(Mutex<Vec<scene::Scene>>);
+struct SceneRecorder(Mutex<Vec<scene::Scene>>);
 
-impl Progress for Kept {
+impl Progress for SceneRecorder {
     fn advance(&self, _: &str, _: u64, _: u64) -> bool {
         true
     }
 }
 
-impl Listener for Kept {
+impl Listener for SceneRecorder {
     fn step_begins(&self, _: usize, _: &str) {}
     fn step_done(&self, _: usize, _: &StepDone) {}
 
@@ -247,16 +254,16 @@ impl Listener for Kept {
 fn from_every_step(recipe: &Scene) -> Result<(), Failed> {
     let out = tempfile::tempdir()?;
     let mut loaded = recipe.load(&recipe.source, out.path())?;
-    if loaded.forecast.peak_bytes() > SMALL {
+    if loaded.forecast.peak_bytes() > MAX_BYTES_FROM_EVERY_STEP {
         return Ok(());
     }
-    // What earlier steps write is not there.
+    // The files that earlier steps write are missing.
     let expectations = &mut loaded.recipe.expectations;
     expectations.retain(|placed| placed.that.output().is_none());
-    let kept = Kept::default();
-    let whole = loaded.run(engine::Run::default(), &kept).digest;
-    let kept = kept.0.into_inner()?;
-    for (i, scene) in (1..).zip(kept) {
+    let recorder = SceneRecorder::default();
+    let whole = loaded.run(engine::Run::default(), &recorder).digest;
+    let scenes = recorder.0.into_inner()?;
+    for (i, scene) in (1..).zip(scenes) {
         let rest = loaded.run_from(i, scene, engine::Run::default(), &Silent);
         if !rest.succeeded() {
             return fail(loaded.render(&rest.failures, false));
@@ -264,7 +271,7 @@ fn from_every_step(recipe: &Scene) -> Result<(), Failed> {
         if rest.digest != whole {
             let found = rest.digest;
             return fail(format!(
-                "from step {}: digest {found}, whole: {whole}",
+                "the run from step {} has the digest {found}, expected {whole}",
                 i + 1
             ));
         }
@@ -272,7 +279,7 @@ fn from_every_step(recipe: &Scene) -> Result<(), Failed> {
     Ok(())
 }
 
-fn every_step_counts(recipe: &Scene) -> Result<(), Failed> {
+fn every_step_is_needed(recipe: &Scene) -> Result<(), Failed> {
     let source = &recipe.source;
     let parsed = ron_tree::parse(source);
     let mut unnoticed = Vec::new();
@@ -288,29 +295,28 @@ fn every_step_counts(recipe: &Scene) -> Result<(), Failed> {
         }
         let id = step.field("id").filter(|_| step.name().is_none());
         let id = id.and_then(Value::as_str);
-        // Without the step, its id is unknown: what names it would fail in any case, so it goes as well.
+        // An expectation that names the id of the step would always fail without the step. So the step is also
+        // removed together with these expectations.
         let naming = list(&parsed.value, "expect").iter().filter(|expectation| {
             let after = expectation
                 .field("after")
                 .filter(|_| expectation.name().is_none());
             id.is_some() && after.and_then(Value::as_str) == id
         });
-        let gone: Vec<Span> = naming.map(|expectation| expectation.span).collect();
-        for more in [&[], &gone[..]] {
+        let naming: Vec<Span> = naming.map(|expectation| expectation.span).collect();
+        for more in [&[], &naming[..]] {
             let mut spans = vec![step.span];
             spans.extend(more);
             let shortened = without(source, &spans);
             if ron_tree::parse(&shortened).diagnostics.len() > parsed.diagnostics.len() {
-                return fail(format!(
-                    "taking {operation} out broke the text:\n{shortened}"
-                ));
+                return fail(format!("removing {operation} broke the text:\n{shortened}"));
             }
             if recipe.run(&shortened).is_ok() {
                 let (line, _) = recipe::LineIndex::new(source).position(step.span.start);
                 let with = if more.is_empty() {
                     ""
                 } else {
-                    " and what names it"
+                    " and the expectations that name it"
                 };
                 unnoticed.push(format!("line {line}: {}{with}", id.unwrap_or(operation)));
             }
@@ -321,13 +327,11 @@ fn every_step_counts(recipe: &Scene) -> Result<(), Failed> {
         return Ok(());
     }
     let steps = unnoticed.join("\n");
-    fail(format!(
-        "no expectation misses these steps when they are taken out:\n{steps}"
-    ))
+    fail(format!("the recipe succeeds without these steps:\n{steps}"))
 }
 
-/// Of three steps the second changes nothing that is expected.
-fn idle_step() -> Result<(), Failed> {
+/// Tests that a step is reported on which no other expectation depends.
+fn unneeded_steps_are_found() -> Result<(), Failed> {
     let source = r#"(
         recipe: 1,
         steps: [
@@ -342,18 +346,18 @@ fn idle_step() -> Result<(), Failed> {
         path: folder().join("idle.ron"),
         source: source.to_owned(),
     };
-    let Err(found) = every_step_counts(&recipe) else {
-        return fail("every step is said to count");
+    let Err(found) = every_step_is_needed(&recipe) else {
+        return fail("no unneeded step is reported");
     };
     let message = found.message().unwrap_or_default();
-    if message.ends_with(":\nline 5: more and what names it") {
+    if message.ends_with(":\nline 5: more and the expectations that name it") {
         Ok(())
     } else {
-        fail(format!("expected line 5 alone, found: {message}"))
+        fail(format!("expected line 5 only, found: {message}"))
     }
 }
 
-/// The items of a list of the recipe.
+/// Returns the items of a list of the recipe.
 fn list<'v>(recipe: &'v Value, field: &str) -> &'v [Value] {
     recipe
         .field(field)
@@ -361,7 +365,7 @@ fn list<'v>(recipe: &'v Value, field: &str) -> &'v [Value] {
         .unwrap_or_default()
 }
 
-/// The text without these items of lists and the commas behind them. Comments stay.
+/// Returns the text without the given list items and the commas after them. Keeps comments.
 fn without(source: &str, items: &[Span]) -> String {
     let mut edits = Vec::new();
     for &item in items {
@@ -372,5 +376,5 @@ fn without(source: &str, items: &[Span]) -> String {
             edits.push((Span::new(item.end + start, item.end + end), String::new()));
         }
     }
-    ron_tree::replace(source, edits).expect("items of a list lie apart")
+    ron_tree::replace(source, edits).expect("items of a list do not overlap")
 }

@@ -1,4 +1,4 @@
-//! Any bytes as a `.bez` file.
+//! Reads arbitrary bytes as a `.bez` file.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Any bytes as a `.bzc` file.
+//! Reads arbitrary bytes as a `.bzc` file.
 
 #![no_main]
 

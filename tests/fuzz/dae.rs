@@ -1,4 +1,4 @@
-//! Any bytes as a `.dae` file.
+//! Reads arbitrary bytes as a `.dae` file.
 
 #![no_main]
 

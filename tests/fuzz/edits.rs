@@ -1,6 +1,6 @@
-//! Any edits in any order on any shape: the mesh stays valid, and everything can be taken back.
+//! Applies arbitrary edits in any order to a shape. The mesh must stay valid, and a rollback must restore it.
 //!
-//! The first byte chooses a shape; each six after it are an edit.
+//! The first byte chooses the shape. Every six bytes after it are an edit.
 
 #![no_main]
 
@@ -11,27 +11,27 @@ use libfuzzer_sys::fuzz_target;
 use mesh::{COLOR, CREASE, DVec2, DVec4, MATERIAL, Mesh, UV};
 use geometry::shapes;
 
-use any_edit::{Code, edit_and_check};
+use any_edit::{EditCode, edit_and_check};
 
-/// Larger meshes are left alone, so that a run stays short.
+/// A run stops when the mesh has more faces than this, so that it stays short.
 const MAX_FACES: usize = 100;
 
 fuzz_target!(|bytes: &[u8]| {
     let Some((&shape, edits)) = bytes.split_first() else {
         return;
     };
-    let start = dressed(start(shape));
+    let start = with_attributes(start(shape));
     let mut mesh = start.clone();
     mesh.begin();
     let (codes, _) = edits.as_chunks::<6>();
     for &code in codes {
-        edit_and_check(&mut mesh, Code::from_bytes(code));
+        edit_and_check(&mut mesh, EditCode::from_bytes(code));
         if mesh.n_faces() > MAX_FACES {
             break;
         }
     }
     mesh.rollback();
-    assert!(mesh == start, "the start does not come back");
+    assert!(mesh == start, "the rollback does not restore the start");
 });
 
 fn start(shape: u8) -> Mesh {
@@ -51,8 +51,8 @@ fn start(shape: u8) -> Mesh {
     }
 }
 
-/// The mesh with values on every domain; UVs change at the first face.
-fn dressed(mut mesh: Mesh) -> Mesh {
+/// Adds values on every domain to a mesh. The first face has separate UVs.
+fn with_attributes(mut mesh: Mesh) -> Mesh {
     let uv = |h| {
         let chart = if mesh.face(h).is_some_and(|f| f.index() == 0) {
             10.0

@@ -1,5 +1,5 @@
-//! Any bytes as a `.glb` file. Most mutations change one of its two chunks and keep the lengths right: without that
-//! nearly all would be refused at the header.
+//! Reads arbitrary bytes as a `.glb` file. Most mutations change one of the two chunks and correct the lengths
+//! in the headers. Otherwise the reader would reject nearly all files at the header.
 
 #![no_main]
 
@@ -8,7 +8,7 @@ mod files;
 
 use libfuzzer_sys::{fuzz_mutator, fuzz_target, fuzzer_mutate};
 
-/// The bytes of the header of the file and of those of its chunks.
+/// The number of bytes of the file header and the two chunk headers.
 const HEADERS: usize = 12 + 2 * 8;
 
 fuzz_target!(|bytes: &[u8]| files::check("glb", bytes));
@@ -33,7 +33,7 @@ fuzz_mutator!(|data: &mut [u8], size: usize, max_size: usize, seed: u32| {
     file.len()
 });
 
-/// The two chunks of a file that is as it should be.
+/// Returns the two chunks of a well-formed file.
 fn chunks(bytes: &[u8]) -> Option<[Vec<u8>; 2]> {
     let word = |at: usize| {
         let four = bytes.get(at..)?.first_chunk()?;

@@ -1,4 +1,4 @@
-//! Any bytes as a `.gltf` file.
+//! Reads arbitrary bytes as a `.gltf` file.
 
 #![no_main]
 

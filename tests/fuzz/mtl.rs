@@ -1,4 +1,4 @@
-//! Any bytes as a `.mtl` file.
+//! Reads arbitrary bytes as a `.mtl` file.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Any bytes as a `.obj` file.
+//! Reads arbitrary bytes as a `.obj` file.
 
 #![no_main]
 

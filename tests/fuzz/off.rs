@@ -1,4 +1,4 @@
-//! Any bytes as a `.off` file.
+//! Reads arbitrary bytes as a `.off` file.
 
 #![no_main]
 

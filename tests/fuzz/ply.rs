@@ -1,4 +1,4 @@
-//! Any bytes as a `.ply` file.
+//! Reads arbitrary bytes as a `.ply` file.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Any bytes as a `.stl` file.
+//! Reads arbitrary bytes as a `.stl` file.
 
 #![no_main]
 

@@ -1,25 +1,25 @@
-//! Any local edit of a mesh, chosen by numbers: what random tests and the fuzzer share.
+//! Any local edit of a mesh, encoded as numbers. Shared by the random tests and the fuzzer.
 
 use mesh::{DVec3, Domain, EdgeId, EditError, FaceId, HalfEdgeId, Mesh, Seams, VertexId};
 
-/// How many kinds of edits there are.
+/// The number of kinds of edits.
 const KINDS: u8 = 27;
 
-/// An edit: its kind, and numbers that choose its elements and places.
+/// An encoded edit: its kind, and numbers that choose its elements and parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Code {
-    /// Which edit.
+pub(crate) struct EditCode {
+    /// The kind of edit.
     pub(crate) kind: u8,
     /// Chooses the first element.
     pub(crate) a: u16,
-    /// Chooses a second one.
+    /// Chooses a second element.
     pub(crate) b: u16,
-    /// A small whole number, for a place.
+    /// A small integer for positions and fractions.
     pub(crate) place: i8,
 }
 
-impl Code {
-    /// The edit that six bytes stand for.
+impl EditCode {
+    /// Decodes an edit from six bytes.
     pub(crate) const fn from_bytes([kind, a0, a1, b0, b1, place]: [u8; 6]) -> Self {
         Self {
             kind: kind % KINDS,
@@ -29,21 +29,20 @@ impl Code {
         }
     }
 
-    /// Whether the edit may join two vertices by a second edge, as its documentation says.
-    pub(crate) const fn may_join_twice(self) -> bool {
+    /// Whether the edit can connect two vertices by a second edge, as documented.
+    pub(crate) const fn can_duplicate_edges(self) -> bool {
         self.kind == SPLIT
     }
 }
 
 const SPLIT: u8 = 1;
 
-/// Does the edit. Numbers beyond the last element, and dead elements, are tried too.
+/// Applies the edit. Also tries numbers beyond the last element, and dead elements.
 ///
 /// # Errors
-///
-/// Why the edit was refused.
-pub(crate) fn edit(mesh: &mut Mesh, code: Code) -> Result<(), EditError> {
-    let Code { kind, a, b, place } = code;
+/// The reason why the edit was refused.
+pub(crate) fn edit(mesh: &mut Mesh, code: EditCode) -> Result<(), EditError> {
+    let EditCode { kind, a, b, place } = code;
     let e = EdgeId::new(pick(mesh, Domain::Edge, a));
     let f = FaceId::new(pick(mesh, Domain::Face, a));
     let v = VertexId::new(pick(mesh, Domain::Vertex, a));
@@ -112,73 +111,73 @@ pub(crate) fn edit(mesh: &mut Mesh, code: Code) -> Result<(), EditError> {
     }
 }
 
-/// The number of an element, or one that is not there.
+/// Returns the number of an element, or one beyond the last element.
 fn pick(mesh: &Mesh, domain: Domain, number: u16) -> usize {
     usize::from(number) % (mesh.domain_len(domain) + 1)
 }
 
-/// One to four elements in a row.
+/// Returns one to four consecutive elements.
 fn some<I>(mesh: &Mesh, domain: Domain, a: u16, b: u16, id: fn(usize) -> I) -> Vec<I> {
     let first = pick(mesh, domain, a);
     (first..=first + usize::from(b % 4)).map(id).collect()
 }
 
-fn is_there(mesh: &Mesh, h: HalfEdgeId) -> bool {
+fn exists(mesh: &Mesh, h: HalfEdgeId) -> bool {
     mesh.has_edge(h.edge())
 }
 
-/// The half-edge so many steps further around the face or the hole.
+/// Returns the half-edge `steps` modulo 6 steps further around the face or the hole.
 fn later(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
-    if is_there(mesh, h) {
+    if exists(mesh, h) {
         (0..steps % 6).fold(h, |h, _| mesh.next(h))
     } else {
         h
     }
 }
 
-/// The half-edge so many steps further around the vertex.
+/// Returns the half-edge `steps` modulo 6 steps further around the vertex.
 fn around(mesh: &Mesh, h: HalfEdgeId, steps: u16) -> HalfEdgeId {
-    if is_there(mesh, h) {
+    if exists(mesh, h) {
         (0..steps % 6).fold(h, |h, _| mesh.next(h.twin()))
     } else {
         h
     }
 }
 
-/// A half-edge of a hole, the first from `h` on, or `h` itself if there is none.
+/// Returns the first half-edge of a hole from `h` on, or `h` itself if the mesh has no hole.
 fn hole(mesh: &Mesh, h: HalfEdgeId) -> HalfEdgeId {
     let n = mesh.domain_len(Domain::Corner);
     (0..n)
         .map(|i| HalfEdgeId::new((h.index() + i) % n))
-        .find(|&h| is_there(mesh, h) && mesh.face(h).is_none())
+        .find(|&h| exists(mesh, h) && mesh.face(h).is_none())
         .unwrap_or(h)
 }
 
-/// Does the edit and holds it to what every edit promises: the mesh stays valid, no two vertices are joined
-/// twice where none were, and a refused edit has changed nothing.
+/// Applies the edit and checks the guarantees of every edit: the mesh stays valid, the edit makes no duplicate
+/// edges if there were none, and a refused edit changes nothing.
 ///
 /// # Panics
 ///
-/// If a promise is broken.
-pub(crate) fn edit_and_check(mesh: &mut Mesh, code: Code) {
+/// If a guarantee is broken.
+pub(crate) fn edit_and_check(mesh: &mut Mesh, code: EditCode) {
     let before = mesh.clone();
-    let done = edit(mesh, code);
-    assert_eq!(mesh.defects(), [], "after {code:?}: {done:?}");
-    match done {
+    let result = edit(mesh, code);
+    assert_eq!(mesh.defects(), [], "after {code:?}: {result:?}");
+    match result {
         Err(refusal) => assert!(
             *mesh == before,
-            "{code:?} was refused ({refusal}) and changed the mesh"
+            "{code:?} was refused ({refusal}) but changed the mesh"
         ),
-        Ok(()) if code.may_join_twice() => {}
+        Ok(()) if code.can_duplicate_edges() => {}
         Ok(()) => assert!(
-            joined_twice(mesh) == 0 || joined_twice(&before) > 0,
-            "{code:?} joined two vertices twice"
+            n_duplicate_edges(mesh) == 0 || n_duplicate_edges(&before) > 0,
+            "{code:?} made a duplicate edge"
         ),
     }
 }
 
-/// How many edges join vertices that an earlier one joins.
-fn joined_twice(mesh: &Mesh) -> usize {
+/// Returns the number of duplicate edges.
+fn n_duplicate_edges(mesh: &Mesh) -> usize {
     let mut ends: Vec<[VertexId; 2]> = mesh.edges().map(|e| mesh.edge_vertices(e)).collect();
     for pair in &mut ends {
         pair.sort_unstable();

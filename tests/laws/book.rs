@@ -1,6 +1,7 @@
-//! The manual: every recipe in it runs, every example in its tables can be read, and none is missing.
+//! Tests the manual: every recipe runs, every example in the tables can be read, and no example is missing.
 //!
-//! A block `ron` is a whole recipe of the folder `scenes/`, `ron,step` a step, and `ron,sweep` a sweep.
+//! A code block marked `ron` is a whole recipe that runs in the folder `scenes/`, `ron,step` is a step, and
+//! `ron,sweep` is a sweep.
 
 use std::fs;
 use std::path::PathBuf;
@@ -9,9 +10,9 @@ use engine::{Engine, Options, Run, Silent, Source};
 
 use crate::{assert_none, root};
 
-/// The name and text of each chapter.
+/// Returns the name and text of each chapter.
 fn chapters() -> Vec<(String, String)> {
-    let entries = fs::read_dir(root().join("book/src")).expect("there is a folder book/src");
+    let entries = fs::read_dir(root().join("book/src")).expect("the folder book/src exists");
     let paths = entries.map(|entry| entry.expect("the folder can be listed").path());
     let mut chapters: Vec<_> = paths
         .filter(|path| path.extension().is_some_and(|e| e == "md"))
@@ -27,13 +28,13 @@ fn chapters() -> Vec<(String, String)> {
     chapters
 }
 
-/// The code blocks of a kind, each with its place.
+/// Returns the code blocks of a kind, each with its file and line.
 fn blocks(kind: &str) -> Vec<(String, String)> {
     let mut all = Vec::new();
     for (name, text) in chapters() {
         let mut lines = text.lines().enumerate();
         while let Some((i, line)) = lines.next() {
-            let Some(given) = line.trim_start().strip_prefix("```") else {
+            let Some(marker) = line.trim_start().strip_prefix("```") else {
                 continue;
             };
             let block: Vec<&str> = lines
@@ -41,27 +42,31 @@ fn blocks(kind: &str) -> Vec<(String, String)> {
                 .map(|(_, line)| line)
                 .take_while(|line| line.trim() != "```")
                 .collect();
-            if given == kind {
+            if marker == kind {
                 all.push((format!("{name}:{}", i + 2), block.join("\n")));
             }
         }
     }
-    assert!(!all.is_empty(), "no block is of the kind {kind}");
+    assert!(
+        !all.is_empty(),
+        "the book has no code block of the kind {kind}"
+    );
     all
 }
 
-/// What is wrong with a recipe of the folder `scenes/`, if anything. Runs it unless it is only to be `read`.
-fn problem(engine: &Engine, text: &str, read: bool) -> Option<String> {
-    let folder = tempfile::tempdir().expect("there is room for a folder");
+/// Returns the problem of a recipe as if it were in the folder `scenes/`, if any. Only reads the recipe if
+/// `read_only` is true; otherwise runs it.
+fn problem(engine: &Engine, text: &str, read_only: bool) -> Option<String> {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
     let options = Options {
         out: folder.path(),
         ..Options::default()
     };
     let loaded = engine.load(&Source::new(root().join("scenes/book.ron"), text), &options);
-    if !loaded.is_read || (!read && loaded.has_errors()) {
+    if !loaded.is_read || (!read_only && loaded.has_errors()) {
         return Some(loaded.render(&loaded.diagnostics, false));
     }
-    if read {
+    if read_only {
         return None;
     }
     let outcome = loaded.run(Run::default(), &Silent);
@@ -89,10 +94,10 @@ fn every_recipe_of_the_book_runs() {
     assert_none(&failures);
 }
 
-/// The code in the first column of the tables of a chapter, each with the heading above it.
+/// Returns the code in the first column of the tables of a chapter, each with the heading above it.
 fn examples(chapter: &str) -> Vec<(String, String)> {
     let path = root().join("book/src").join(chapter);
-    let text = fs::read_to_string(path).expect("the chapter is there");
+    let text = fs::read_to_string(path).expect("the chapter exists");
     let mut heading = "";
     let mut all = Vec::new();
     for line in text.lines() {
@@ -112,7 +117,7 @@ fn every_selection_and_expectation_has_an_example_that_can_be_read() {
     let registry = ops_all::registry();
     let engine = Engine::new(&registry);
     let mut failures = Vec::new();
-    let mut try_one = |expectation: &str| {
+    let mut check = |expectation: &str| {
         let text = format!("(recipe: 1, steps: [Cube(name: \"a\")], expect: [\n{expectation}\n])");
         failures.extend(problem(&engine, &text, true));
     };
@@ -120,15 +125,15 @@ fn every_selection_and_expectation_has_an_example_that_can_be_read() {
     for (heading, code) in &selections {
         match heading.as_str() {
             kind @ ("Vertices" | "Edges" | "Faces") => {
-                try_one(&format!("Count(of: {kind}({code}), min: 0)"));
+                check(&format!("Count(of: {kind}({code}), min: 0)"));
             }
-            _ if code.contains("Faces(") => try_one(&format!("Count(of: Faces({code}), min: 0)")),
-            _ => try_one(&format!("Count(of: Edges({code}), min: 0)")),
+            _ if code.contains("Faces(") => check(&format!("Count(of: Faces({code}), min: 0)")),
+            _ => check(&format!("Count(of: Edges({code}), min: 0)")),
         }
     }
     let expectations = examples("expectations.md");
     for (_, code) in &expectations {
-        try_one(code);
+        check(code);
     }
     for (kind, heading) in [
         ("VertexSelection", "Vertices"),
@@ -137,33 +142,34 @@ fn every_selection_and_expectation_has_an_example_that_can_be_read() {
     ] {
         let types = recipe::selections();
         let selection = types.iter().find(|t| t.name == kind);
-        for variant in &selection.expect("a kind of selections").variants {
-            let is_there = |(at, code): &(String, String)| {
-                (at == heading || at.starts_with("For all")) && code.starts_with(&variant.name)
+        for variant in &selection.expect("the type of selection exists").variants {
+            let is_example = |(table_heading, code): &(String, String)| {
+                (table_heading == heading || table_heading.starts_with("For all"))
+                    && code.starts_with(&variant.name)
             };
-            if !selections.iter().any(is_there) {
-                failures.push(format!("selections.md: no {kind} {}", variant.name));
+            if !selections.iter().any(is_example) {
+                failures.push(format!("selections.md: missing {kind} {}", variant.name));
             }
         }
     }
     for variant in recipe::expectations() {
-        let is_there = |(_, code): &(String, String)| code.starts_with(&variant.name);
-        if !expectations.iter().any(is_there) {
-            failures.push(format!("expectations.md: no {}", variant.name));
+        let is_example = |(_, code): &(String, String)| code.starts_with(&variant.name);
+        if !expectations.iter().any(is_example) {
+            failures.push(format!("expectations.md: missing {}", variant.name));
         }
     }
     assert_none(&failures);
 }
 
-/// The targets of the links in a text.
+/// Returns the targets of the Markdown links in a text.
 fn links(text: &str) -> impl Iterator<Item = &str> {
     let targets = text.split("](").skip(1);
     targets.filter_map(|rest| rest.split_once(')').map(|(target, _)| target))
 }
 
 #[test]
-fn every_link_leads_to_a_file() {
-    let readme = fs::read_to_string(root().join("README.md")).expect("there is a README");
+fn every_link_target_exists() {
+    let readme = fs::read_to_string(root().join("README.md")).expect("README.md exists");
     let mut pages = vec![(root().to_owned(), "README.md".to_owned(), readme)];
     let book = root().join("book/src");
     pages.extend(
@@ -177,11 +183,11 @@ fn every_link_leads_to_a_file() {
             let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
             let file = if path.is_empty() { name } else { path };
             let Ok(target) = fs::read(folder.join(file)) else {
-                failures.push(format!("{name}: {link} leads nowhere"));
+                failures.push(format!("{name}: the target of {link} does not exist"));
                 continue;
             };
             let target = String::from_utf8_lossy(&target);
-            // As the pages make anchors of headings.
+            // Makes the anchor of a heading as Markdown renderers do.
             let heading = |line: &str| {
                 let text = line.trim_start_matches('#').trim().to_lowercase();
                 let kept = |c: &char| c.is_alphanumeric() || "-_ ".contains(*c);
@@ -197,7 +203,7 @@ fn every_link_leads_to_a_file() {
                     .filter(is_heading)
                     .any(|line| heading(line) == anchor)
             {
-                failures.push(format!("{name}: {link} leads to no heading"));
+                failures.push(format!("{name}: the heading of {link} does not exist"));
             }
         }
     }

@@ -1,4 +1,5 @@
-//! Every recipe of the project runs with a cache as it runs without one: empty, full, damaged or shared by two.
+//! Every recipe in `scenes/` gives the same results with a cache as without: with an empty, full or damaged
+//! cache, and with one that two runs share.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,9 +11,9 @@ use op::Files;
 use recipe::{Outcome, Settings, Silent, StepCache};
 use tempfile::TempDir;
 
-/// What a run leaves behind, without times.
+/// The results of a run, without times.
 #[derive(Debug, PartialEq)]
-struct Left {
+struct RunResults {
     steps: Vec<String>,
     failures: Vec<recipe::Diagnostic>,
     checked: usize,
@@ -20,7 +21,7 @@ struct Left {
     outputs: BTreeMap<PathBuf, Vec<u8>>,
 }
 
-fn run(path: &Path, cache: Option<&Cache>) -> (Left, Outcome) {
+fn run(path: &Path, cache: Option<&Cache>) -> (RunResults, Outcome) {
     let source = fs::read_to_string(path).unwrap();
     let out = TempDir::new().unwrap();
     let source = recipe::Source::new(path, source);
@@ -55,14 +56,14 @@ fn run(path: &Path, cache: Option<&Cache>) -> (Left, Outcome) {
         let name = written.strip_prefix(out.path()).unwrap().to_owned();
         (name, fs::read(written).unwrap())
     };
-    let left = Left {
+    let results = RunResults {
         steps: outcome.steps.iter().map(step).collect(),
         failures: outcome.failures.clone(),
         checked: outcome.checked,
         digest: outcome.digest,
         outputs: outcome.written.iter().map(output).collect(),
     };
-    (left, outcome)
+    (results, outcome)
 }
 
 fn scenes() -> Vec<PathBuf> {
@@ -75,7 +76,7 @@ fn scenes() -> Vec<PathBuf> {
     scenes
 }
 
-/// All files below a folder, sorted.
+/// Returns all files below a folder, sorted.
 fn all_files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).into_iter().flatten() {
@@ -90,15 +91,16 @@ fn all_files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Damages every n-th file in one of four ways.
+/// Damages every n-th file in one of four ways: changes a bit, truncates, removes, or copies a different file
+/// over it.
 fn damage(folder: &Path, n: usize) {
     let files = all_files(folder);
     for (i, path) in files.iter().enumerate().filter(|(i, _)| i % n == 0) {
         let mut bytes = fs::read(path).unwrap();
         match i / n % 4 {
             0 => {
-                let at = i * 7919 % bytes.len().max(1);
-                if let Some(byte) = bytes.get_mut(at) {
+                let offset = i * 7919 % bytes.len().max(1);
+                if let Some(byte) = bytes.get_mut(offset) {
                     *byte ^= 1;
                 }
                 fs::write(path, bytes).unwrap();
@@ -111,17 +113,17 @@ fn damage(folder: &Path, n: usize) {
 }
 
 #[test]
-fn with_a_cache_everything_is_as_without_one() {
+fn results_with_a_cache_equal_results_without() {
     let folder = TempDir::new().unwrap();
     let cache = Cache::new(folder.path(), u64::MAX, "tests");
     let scenes = scenes();
-    let plain: Vec<Left> = scenes.iter().map(|path| run(path, None).0).collect();
-    let check = |what: &str| {
+    let plain: Vec<RunResults> = scenes.iter().map(|path| run(path, None).0).collect();
+    let check = |state: &str| {
         for (path, plain) in scenes.iter().zip(&plain) {
-            let (left, _) = run(path, Some(&cache));
+            let (results, _) = run(path, Some(&cache));
             assert!(
-                left == *plain,
-                "{} with a cache that is {what}",
+                results == *plain,
+                "{} with a cache that is {state}",
                 path.display()
             );
         }
@@ -136,7 +138,7 @@ fn with_a_cache_everything_is_as_without_one() {
         let ((a, _), (b, _)) = rayon::join(|| run(path, Some(&cache)), || run(path, Some(&cache)));
         assert!(
             a == *plain && b == *plain,
-            "{} twice at once",
+            "{} in two concurrent runs",
             path.display()
         );
     }
@@ -145,7 +147,7 @@ fn with_a_cache_everything_is_as_without_one() {
         let ((a, _), (b, _)) = rayon::join(|| run(path, Some(&cache)), || run(path, Some(&cache)));
         assert!(
             a == *plain && b == *plain,
-            "{} twice at once from nothing",
+            "{} in two concurrent runs with an empty cache",
             path.display()
         );
     }
@@ -159,7 +161,7 @@ fn every_operation_that_the_scenes_use_can_be_cached() {
         run(&path, Some(&cache));
         let (_, outcome) = run(&path, Some(&cache));
         for step in &outcome.steps {
-            // A large output that is written in no time is written again.
+            // A large output that takes little time to write is not cached.
             let fine = matches!(step.ran, None | Some(recipe::RerunReason::NotKept));
             assert!(fine, "{}, {}: {:?}", path.display(), step.label, step.ran);
         }

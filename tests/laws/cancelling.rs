@@ -1,4 +1,4 @@
-//! Operations and runs that are told to stop.
+//! Cancellation of operations and runs.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -10,7 +10,7 @@ use crate::assert_none;
 use crate::every_op::{Case, files};
 use crate::samples::samples;
 
-/// Goes on so many times and then says stop.
+/// A progress listener that cancels after a number of calls.
 struct StopAfter {
     allowed: usize,
     calls: AtomicUsize,
@@ -22,7 +22,7 @@ impl StopAfter {
         Self { allowed, calls }
     }
 
-    fn was_asked(&self) -> bool {
+    fn has_cancelled(&self) -> bool {
         self.calls.load(Ordering::Relaxed) > self.allowed
     }
 }
@@ -34,20 +34,23 @@ impl Progress for StopAfter {
 }
 
 #[test]
-fn an_operation_that_is_cancelled_at_once_has_changed_nothing() {
+fn an_operation_cancelled_at_its_first_call_changes_nothing() {
     let mut failures = Vec::new();
     for case in Case::all() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let stop = StopAfter::new(0);
         let (scene, result) = case.run(folder.path(), &stop);
-        let mut written = folder.path().read_dir().expect("the folder is there");
+        let mut written = folder.path().read_dir().expect("the folder exists");
         let was_cancelled = matches!(result, Err(OpError::Cancelled));
-        if stop.was_asked() && !was_cancelled {
-            failures.push(format!("{}: asked whether to stop, and did not", case.name));
+        if stop.has_cancelled() && !was_cancelled {
+            failures.push(format!("{}: did not stop when cancelled", case.name));
         }
-        // An operation that finds nothing to do need not ask.
+        // An operation that has nothing to do need not report progress.
         if (result.is_ok() || was_cancelled) && scene != case.scene {
-            failures.push(format!("{}: changed the scene before it asked", case.name));
+            failures.push(format!(
+                "{}: changed the scene before its first progress call",
+                case.name
+            ));
         }
         if written.next().is_some() {
             failures.push(format!("{}: wrote a file", case.name));
@@ -56,7 +59,8 @@ fn an_operation_that_is_cancelled_at_once_has_changed_nothing() {
     assert_none(&failures);
 }
 
-/// What comes before a step in the recipes of the next test: an object of each name that samples use.
+/// The steps before the tested step in the recipes of the next test: they make an object for each name that
+/// samples use.
 const PRELUDE: &str = r#"
     Cube(name: "mesh", triangles: true),
     Octahedron(name: "other"),
@@ -65,7 +69,7 @@ const PRELUDE: &str = r#"
 "#;
 
 #[test]
-fn a_run_that_is_cancelled_ends_with_the_scene_from_before_the_step() {
+fn a_cancelled_run_ends_with_the_scene_before_the_step() {
     let registry = ops_all::registry();
     let mut failures = Vec::new();
     for (entry, sample) in samples(&registry) {
@@ -79,29 +83,33 @@ fn a_run_that_is_cancelled_ends_with_the_scene_from_before_the_step() {
             }
             let stopped = run(&format!("{PRELUDE}{step}"), stop_at).outcome;
             if !stopped.cancelled {
-                failures.push(format!("{step}: call {stop_at} did not stop it"));
+                failures.push(format!(
+                    "{step}: cancelling at call {stop_at} did not stop the run"
+                ));
             }
             if stopped.scene != before.outcome.scene {
                 failures.push(format!(
-                    "{step}: stopped at call {stop_at}, the scene is another"
+                    "{step}: stopped at call {stop_at}, but the scene has changed"
                 ));
             }
             if !stopped.written.is_empty() {
-                failures.push(format!("{step}: stopped at call {stop_at}, but wrote"));
+                failures.push(format!(
+                    "{step}: stopped at call {stop_at}, but wrote files"
+                ));
             }
         }
     }
     assert_none(&failures);
 }
 
-/// How a run ended.
+/// The result of a run.
 struct Run {
     outcome: Outcome,
-    /// How often it was asked whether to go on.
+    /// The number of progress calls.
     calls: usize,
 }
 
-/// Runs a list of steps and says stop after so many questions.
+/// Runs a list of steps and cancels after `allowed` progress calls.
 fn run(steps: &str, allowed: usize) -> Run {
     let source = format!("(recipe: 1, steps: [{steps}])");
     let folder = tempfile::tempdir().expect("a temporary folder");

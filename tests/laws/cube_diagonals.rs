@@ -1,4 +1,4 @@
-//! What flipping diagonals can do for the symmetry of a subdivided cube: all 64 patterns.
+//! The effect of flipped diagonals on the symmetry of a subdivided cube, for all 64 patterns.
 
 use engine::FileReader;
 use geometry::shapes;
@@ -9,7 +9,7 @@ use recipe::Expectation;
 use recipe::expect::{Group, Subject};
 use scene::{Object, Scene};
 
-/// A cube after one level of subdivision, the diagonals in `pattern` flipped before.
+/// Returns a cube after one level of subdivision, with the diagonals in `pattern` flipped before.
 fn subdivided(pattern: usize) -> Scene {
     let mut cube = shapes::fans(&shapes::cube());
     let flat = |e: &EdgeId| cube.dihedral_angle(*e).is_some_and(|angle| angle < 0.1);
@@ -29,7 +29,7 @@ fn subdivided(pattern: usize) -> Scene {
     scene
 }
 
-fn keeps(scene: &Scene, eq: Option<u64>, max: Option<u64>) -> bool {
+fn is_symmetric(scene: &Scene, eq: Option<u64>, max: Option<u64>) -> bool {
     let symmetric = Expectation::SymmetricUnder {
         group: Group::CubeRotations,
         eq,
@@ -52,12 +52,16 @@ fn keeps(scene: &Scene, eq: Option<u64>, max: Option<u64>) -> bool {
 #[test]
 fn no_pattern_of_flipped_diagonals_keeps_more_than_twelve_rotations_of_a_cube() {
     let scenes: Vec<Scene> = (0..64).map(subdivided).collect();
-    assert!(scenes.iter().all(|scene| keeps(scene, None, Some(12))));
-    // The diagonals of a tetrahedron, and those of its mirror image.
+    assert!(
+        scenes
+            .iter()
+            .all(|scene| is_symmetric(scene, None, Some(12)))
+    );
+    // The two patterns are the edges of a tetrahedron and of its mirror image.
     assert_eq!(
         scenes
             .iter()
-            .filter(|scene| keeps(scene, Some(12), None))
+            .filter(|scene| is_symmetric(scene, Some(12), None))
             .count(),
         2
     );

@@ -1,4 +1,4 @@
-//! Every operation, with every sample of its parameters, on every fixture.
+//! Tests every operation with every sample of its parameters on every fixture.
 
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -15,17 +15,17 @@ use crate::samples::samples;
 use crate::threads::POOLS;
 use crate::{assert_none, fixtures};
 
-/// An operation with its parameters, and what it is tried on.
+/// An operation with its parameters and the scene on which it is tested.
 pub(crate) struct Case {
-    /// `Weld(distance: 0) on cube`.
+    /// For example `Weld(distance: 0) on cube`.
     pub(crate) name: String,
     operation: &'static str,
     pub(crate) step: Box<dyn Step>,
     pub(crate) scene: Scene,
 }
 
-/// What a step makes of a scene: the scene and a report, or an error.
-type Done = Result<(Scene, Report), OpError>;
+/// The result of a step: the scene and a report, or an error.
+type StepResult = Result<(Scene, Report), OpError>;
 
 impl Case {
     pub(crate) fn all() -> Vec<Self> {
@@ -46,12 +46,12 @@ impl Case {
             operation: entry.name,
             step: entry
                 .parse(&ron_tree::parse(sample).value)
-                .expect("a test of the samples reads them"),
+                .expect("a different test checks that samples can be read"),
             scene: scene.clone(),
         }
     }
 
-    /// Runs the step with a folder for its outputs.
+    /// Runs the step and writes its outputs to the given folder.
     pub(crate) fn run(
         &self,
         output: &Path,
@@ -65,14 +65,14 @@ impl Case {
         (scene, result)
     }
 
-    fn done(&self) -> Done {
+    fn result(&self) -> StepResult {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let (scene, result) = self.run(folder.path(), &NoProgress);
         result.map(|report| (scene, report))
     }
 }
 
-/// Everything is read from the models of the recipes.
+/// Returns the file settings. Inputs are the models of the recipes.
 pub(crate) fn files(output: &Path) -> Files {
     Files {
         input: crate::root().join("scenes/assets"),
@@ -85,7 +85,7 @@ pub(crate) fn files(output: &Path) -> Files {
 fn results_are_valid_and_finite_and_nothing_panics() {
     let mut failures = Vec::new();
     for case in Case::all() {
-        match catch_unwind(AssertUnwindSafe(|| case.done())) {
+        match catch_unwind(AssertUnwindSafe(|| case.result())) {
             Err(_) => failures.push(format!("{}: panicked", case.name)),
             Ok(Err(_)) => {}
             Ok(Ok((scene, _))) => failures.extend(
@@ -100,14 +100,14 @@ fn results_are_valid_and_finite_and_nothing_panics() {
     assert_none(&failures);
 }
 
-/// What is wrong with an object.
+/// Describes the defects of an object.
 pub(crate) fn defects(object: &Object) -> Vec<String> {
     let mut found = Vec::new();
     match &object.geometry {
         Geometry::Mesh(mesh) => {
             found.extend(mesh.defects().iter().take(3).map(ToString::to_string));
             if !mesh.is_dense() {
-                found.push("dead elements are left".to_owned());
+                found.push("the mesh has dead elements".to_owned());
             }
             for (domain, column) in mesh.attributes().iter() {
                 if !is_finite(&column.values) {
@@ -151,16 +151,16 @@ fn is_finite(values: &Values) -> bool {
 fn results_and_refusals_are_the_same_twice_and_for_any_number_of_threads() {
     let mut failures = Vec::new();
     for case in Case::all() {
-        let first = summary(&case.done());
-        if summary(&case.done()) != first {
-            failures.push(format!("{}: differs the second time", case.name));
+        let first = summary(&case.result());
+        if summary(&case.result()) != first {
+            failures.push(format!("{}: the second run differs", case.name));
         }
         for pool in &*POOLS {
             let n = pool.current_num_threads();
-            let again = pool.install(|| summary(&case.done()));
+            let again = pool.install(|| summary(&case.result()));
             if again != first {
                 failures.push(format!(
-                    "{}: {n} threads: {again}, before {first}",
+                    "{}: {n} threads: {again}, first run: {first}",
                     case.name
                 ));
             }
@@ -169,9 +169,10 @@ fn results_and_refusals_are_the_same_twice_and_for_any_number_of_threads() {
     assert_none(&failures);
 }
 
-/// What must stay the same. Temporary folders have other names each time.
-fn summary(done: &Done) -> String {
-    match done {
+/// Returns what must be equal between runs. File errors are not compared, because temporary folders have
+/// different names each time.
+fn summary(result: &StepResult) -> String {
+    match result {
         Ok((scene, report)) => format!("{} {report:?}", scene.digest()),
         Err(OpError::File(_)) => "a file error".to_owned(),
         Err(error) => format!("{error:?}"),
@@ -189,12 +190,12 @@ fn results_are_as_planned() {
             on: None,
             budget: u64::MAX,
         };
-        let mut plan = known(&case.scene);
+        let mut plan = exact_plan(&case.scene);
         let problems = case.step.plan(&mut plan, &cx);
         if problems.iter().any(|p| !p.is_warning) {
             continue;
         }
-        if let Ok((scene, _)) = case.done() {
+        if let Ok((scene, _)) = case.result() {
             let differences = differences(&scene, &plan);
             failures.extend(differences.iter().map(|d| format!("{}: {d}", case.name)));
         }
@@ -203,7 +204,7 @@ fn results_are_as_planned() {
 }
 
 #[test]
-fn planning_never_panics_even_when_little_is_known() {
+fn planning_never_panics_even_for_incomplete_plans() {
     let mut failures = Vec::new();
     for case in Case::all() {
         let folder = tempfile::tempdir().expect("a temporary folder");
@@ -213,9 +214,9 @@ fn planning_never_panics_even_when_little_is_known() {
             on: None,
             budget: u64::MAX,
         };
-        // The second is what steps see behind one that could not be read.
+        // Plans are incomplete after a step that could not be read.
         for incomplete in [false, true] {
-            let mut plan = known(&case.scene);
+            let mut plan = exact_plan(&case.scene);
             plan.incomplete = incomplete;
             let planned = catch_unwind(AssertUnwindSafe(|| case.step.plan(&mut plan, &cx)));
             if planned.is_err() {
@@ -227,8 +228,8 @@ fn planning_never_panics_even_when_little_is_known() {
     assert_none(&failures);
 }
 
-/// The plan of a scene that is there.
-pub(crate) fn known(scene: &Scene) -> Plan {
+/// Returns the exact plan of an existing scene.
+pub(crate) fn exact_plan(scene: &Scene) -> Plan {
     let exactly = |n: usize| Range::exactly(n as u64);
     let planned = |object: &Object| match &object.geometry {
         Geometry::Mesh(mesh) => PlannedGeometry::Mesh(MeshPlan::of(mesh)),
@@ -243,9 +244,9 @@ pub(crate) fn known(scene: &Scene) -> Plan {
     plan
 }
 
-/// Where a scene is not as planned.
+/// Describes the differences between a scene and its plan.
 fn differences(scene: &Scene, plan: &Plan) -> Vec<String> {
-    let there: Vec<_> = scene
+    let found: Vec<_> = scene
         .objects()
         .iter()
         .map(|o| (o.name.as_str(), o.geometry.kind()))
@@ -257,9 +258,9 @@ fn differences(scene: &Scene, plan: &Plan) -> Vec<String> {
         .collect();
     // An incomplete plan knows only some of the objects.
     let is_known = |object: &&(&str, &str)| !plan.incomplete || planned.contains(object);
-    let known: Vec<_> = there.iter().filter(is_known).copied().collect();
+    let known: Vec<_> = found.iter().filter(is_known).copied().collect();
     if known != planned {
-        return vec![format!("planned {planned:?}, found {there:?}")];
+        return vec![format!("planned {planned:?}, found {found:?}")];
     }
     let mut differences = Vec::new();
     for planned in plan.objects() {
@@ -271,10 +272,10 @@ fn differences(scene: &Scene, plan: &Plan) -> Vec<String> {
                 differences.extend(found.iter().map(|d| format!("{name}: {d}")));
             }
             (Geometry::Patches(patches), PlannedGeometry::Patches(n)) => {
-                differences.extend(outside(*n, patches.len(), "patches"));
+                differences.extend(outside_range(*n, patches.len(), "patches"));
             }
             (Geometry::Curve(curve), PlannedGeometry::Curve(n)) => {
-                differences.extend(outside(*n, curve.points().len(), "control points"));
+                differences.extend(outside_range(*n, curve.points().len(), "control points"));
             }
             _ => {}
         }
@@ -284,18 +285,18 @@ fn differences(scene: &Scene, plan: &Plan) -> Vec<String> {
 
 fn mesh_differences(mesh: &Mesh, plan: &MeshPlan) -> Vec<String> {
     let mut differences = Vec::new();
-    differences.extend(outside(plan.vertices, mesh.n_vertices(), "vertices"));
-    differences.extend(outside(plan.edges, mesh.n_edges(), "edges"));
-    differences.extend(outside(plan.faces, mesh.n_faces(), "faces"));
+    differences.extend(outside_range(plan.vertices, mesh.n_vertices(), "vertices"));
+    differences.extend(outside_range(plan.edges, mesh.n_edges(), "edges"));
+    differences.extend(outside_range(plan.faces, mesh.n_faces(), "faces"));
     let degrees: BTreeSet<usize> = mesh.faces().map(|f| mesh.degree(f)).collect();
     for degree in degrees {
-        differences.extend(outside(plan.degrees, degree, "corners of a face"));
+        differences.extend(outside_range(plan.degrees, degree, "corners of a face"));
     }
     let attributes = mesh.attributes();
     for a in &plan.attributes {
         if a.certain && attributes.column(a.domain, &a.name).is_none() {
             let (domain, name) = (a.domain, &a.name);
-            differences.push(format!("the {domain} attribute {name} is not there"));
+            differences.push(format!("the {domain} attribute {name} is missing"));
         }
     }
     for (domain, column) in attributes.iter() {
@@ -310,7 +311,7 @@ fn mesh_differences(mesh: &Mesh, plan: &MeshPlan) -> Vec<String> {
     differences
 }
 
-fn outside(planned: Range, found: usize, what: &str) -> Option<String> {
+fn outside_range(planned: Range, found: usize, what: &str) -> Option<String> {
     let Range { min, max } = planned;
     (!planned.contains(found as u64))
         .then(|| format!("planned {min} to {max} {what}, found {found}"))
@@ -318,7 +319,7 @@ fn outside(planned: Range, found: usize, what: &str) -> Option<String> {
 
 #[test]
 fn every_operation_changes_something() {
-    let mut idle: BTreeSet<&str> = ops_all::registry()
+    let mut unchanged: BTreeSet<&str> = ops_all::registry()
         .entries()
         .iter()
         .map(|e| e.name)
@@ -326,14 +327,14 @@ fn every_operation_changes_something() {
     for case in Case::all() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let (scene, result) = case.run(folder.path(), &NoProgress);
-        let mut written = folder.path().read_dir().expect("the folder is there");
+        let mut written = folder.path().read_dir().expect("the folder exists");
         let changes = scene.digest() != case.scene.digest() || written.next().is_some();
         if result.is_ok() && changes {
-            idle.remove(case.operation);
+            unchanged.remove(case.operation);
         }
     }
     assert!(
-        idle.is_empty(),
-        "no sample and fixture shows what they do: {idle:?}"
+        unchanged.is_empty(),
+        "these operations change no fixture with any sample: {unchanged:?}"
     );
 }

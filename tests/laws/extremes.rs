@@ -1,4 +1,4 @@
-//! Every operation with numbers at the ends of what a float can hold.
+//! Tests every operation with numbers near the limits of floating point.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -7,11 +7,11 @@ use op::{Entry, NoProgress, Plan, PlanContext, PlannedGeometry};
 use ron_tree::{Lexer, TokenKind};
 use scene::{Object, Scene};
 
-use crate::every_op::{Case, defects, files, known};
+use crate::every_op::{Case, defects, exact_plan, files};
 use crate::samples::samples;
 use crate::{assert_none, fixtures};
 
-/// Numbers that overflow, vanish, or lose their last digits when they are added, multiplied or squared.
+/// Numbers that overflow, underflow or lose precision when they are added, multiplied or squared.
 const NUMBERS: &[&str] = &[
     "0",
     "-1",
@@ -30,11 +30,12 @@ const NUMBERS: &[&str] = &[
     "9223372036854775807",
 ];
 
-/// Meshes are kept small: what is asked for is a budget, not memory.
+/// The memory budget in bytes. Cases whose plan exceeds it are skipped, so that meshes stay small.
 const BUDGET: u64 = 1 << 20;
 
-/// Texts that are read as parameters: each number of a sample replaced by itself, and all of them together.
-fn extreme(parameters: &str, is_read: impl Fn(&str) -> bool) -> Vec<String> {
+/// Returns variants of a sample in which one number, or all numbers, are replaced by an extreme number. Keeps
+/// the variants that can be read.
+fn extreme_variants(parameters: &str, can_be_read: impl Fn(&str) -> bool) -> Vec<String> {
     let tokens: Vec<_> = Lexer::new(parameters).collect();
     let with = |chosen: &[usize], number: &str| -> String {
         let texts = tokens.iter().enumerate().map(|(i, token)| {
@@ -49,17 +50,18 @@ fn extreme(parameters: &str, is_read: impl Fn(&str) -> bool) -> Vec<String> {
     let mut texts = vec![parameters.to_owned()];
     for number in NUMBERS {
         let mut places: Vec<usize> = (0..tokens.len()).collect();
-        places.retain(|&i| tokens[i].kind == TokenKind::Number && is_read(&with(&[i], number)));
+        places.retain(|&i| tokens[i].kind == TokenKind::Number && can_be_read(&with(&[i], number)));
         texts.extend(places.iter().map(|&i| with(&[i], number)));
         texts.push(with(&places, number));
     }
     texts.sort();
     texts.dedup();
-    texts.retain(|text| is_read(text));
+    texts.retain(|text| can_be_read(text));
     texts
 }
 
-/// An object of each kind; a cube of triangles, and the same as large and as small as numbers allow.
+/// Returns a scene with an object of each kind, a cube of triangles, and the same cube scaled to very large and
+/// very small sizes.
 fn scenes() -> Vec<(&'static str, Scene)> {
     let find = |wanted: &str| {
         let mut all = fixtures::scenes().into_iter();
@@ -83,7 +85,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     scenes
 }
 
-/// What goes wrong with a step on a scene.
+/// Describes the failures of a step on a scene.
 fn failures(entry: &Entry, sample: &str, fixture: &str, scene: &Scene) -> Vec<String> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let files = files(folder.path());
@@ -94,13 +96,13 @@ fn failures(entry: &Entry, sample: &str, fixture: &str, scene: &Scene) -> Vec<St
             on: None,
             budget: BUDGET,
         };
-        let mut plan = known(scene);
+        let mut plan = exact_plan(scene);
         let problems = case.step.plan(&mut plan, &cx);
         if problems.iter().any(|p| !p.is_warning) || bytes(&plan) > BUDGET {
             return Vec::new();
         }
-        let (scene, done) = case.run(folder.path(), &NoProgress);
-        match done {
+        let (scene, result) = case.run(folder.path(), &NoProgress);
+        match result {
             Ok(_) => scene.objects().iter().flat_map(defects).collect(),
             Err(_) => Vec::new(),
         }
@@ -108,11 +110,11 @@ fn failures(entry: &Entry, sample: &str, fixture: &str, scene: &Scene) -> Vec<St
     let found = ran.unwrap_or_else(|_| vec!["panicked".to_owned()]);
     found
         .into_iter()
-        .map(|what| format!("{}: {what}", case.name))
+        .map(|failure| format!("{}: {failure}", case.name))
         .collect()
 }
 
-/// The most bytes that the meshes of a plan take.
+/// Returns the maximum number of bytes of the meshes of a plan.
 fn bytes(plan: &Plan) -> u64 {
     let objects = plan.objects().iter().map(|object| match &object.geometry {
         PlannedGeometry::Mesh(mesh) => mesh.bytes().max,
@@ -122,15 +124,15 @@ fn bytes(plan: &Plan) -> u64 {
 }
 
 #[test]
-fn extreme_numbers_are_computed_with_or_refused() {
+fn extreme_numbers_give_valid_results_or_errors() {
     let scenes = scenes();
     let registry = ops_all::registry();
     let mut failed = Vec::new();
     for (entry, sample) in samples(&registry) {
-        let is_read = |text: &str| entry.parse(&ron_tree::parse(text).value).is_ok();
-        // Each text on an ordinary scene and, in turn, on one of the others.
+        let can_be_read = |text: &str| entry.parse(&ron_tree::parse(text).value).is_ok();
+        // Tests each variant on the first scene and on one of the other scenes, in turn.
         let others = scenes[1..].iter().cycle();
-        for (text, other) in extreme(sample, is_read).iter().zip(others) {
+        for (text, other) in extreme_variants(sample, can_be_read).iter().zip(others) {
             for (name, scene) in [&scenes[0], other] {
                 failed.extend(failures(entry, text, name, scene));
             }
@@ -139,7 +141,7 @@ fn extreme_numbers_are_computed_with_or_refused() {
     assert_none(&failed);
 }
 
-/// Expectations that measure.
+/// Expectations that measure meshes.
 const MEASURES: &[&str] = &[
     "Area(eq: 1, min: 2, max: 3, tolerance: 4)",
     "Volume(eq: 1, min: 2, max: 3, tolerance: 4)",
@@ -196,7 +198,7 @@ fn extreme_meshes_are_measured_without_a_panic() {
                 "{sample}: {:?}",
                 recipe(sample).diagnostics
             );
-            for that in extreme(sample, |that| recipe(that).is_read) {
+            for that in extreme_variants(sample, |that| recipe(that).is_read) {
                 let run = || recipe(&that).run(engine::Run::default(), &engine::Silent);
                 if catch_unwind(AssertUnwindSafe(run)).is_err() {
                     failed.push(format!("{that} of a cube of size {size}: panicked"));

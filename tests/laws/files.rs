@@ -1,13 +1,14 @@
-//! No crate below the program touches files or clocks by itself: it must run where there are none.
+//! No crate below the program accesses files or clocks directly, because the crates must run on platforms
+//! without them.
 
 use std::path::{Path, PathBuf};
 
 use super::{assert_none, root};
 
-/// The crates that may: the program, the store, the step cache on the disk, and benchmarks.
-const MAY: [&str; 4] = ["benches", "cache", "cli", "store"];
+/// The crates that can access files directly: the program, the store, the step cache on disk, and benchmarks.
+const ALLOWED: [&str; 4] = ["benches", "cache", "cli", "store"];
 
-/// What gives it away.
+/// The words that show direct access.
 const WORDS: [&str; 13] = [
     "std::fs",
     "File::open",
@@ -29,7 +30,7 @@ fn files_go_through_the_store() {
     let mut found = Vec::new();
     for folder in ["crates", "ops"].map(|name| root().join(name)) {
         for package in entries(&folder) {
-            if !MAY.iter().any(|name| package.ends_with(name)) {
+            if !ALLOWED.iter().any(|name| package.ends_with(name)) {
                 search(&package.join("src"), &mut found);
             }
         }
@@ -49,13 +50,16 @@ fn search(folder: &Path, found: &mut Vec<String>) {
             search(&path, found);
         } else if name.ends_with(".rs") && !["tests.rs", "testing.rs"].contains(&&*name) {
             let text = std::fs::read_to_string(&path).unwrap_or_default();
-            // The tests of a file stand at its end.
+            // The tests of a file are at its end.
             let code = text.split("#[cfg(test)]\nmod tests {").next();
             for (i, line) in code.unwrap_or_default().lines().enumerate() {
                 let is_comment = line.trim_start().starts_with("//");
                 if !is_comment && let Some(word) = WORDS.iter().find(|word| line.contains(**word)) {
                     let place = path.display();
-                    found.push(format!("{place}:{}: `{word}`, not the store", i + 1));
+                    found.push(format!(
+                        "{place}:{}: `{word}` must not be used here: use the store",
+                        i + 1
+                    ));
                 }
             }
         }

@@ -1,5 +1,5 @@
-//! The scenes that every operation is tried on. Where an operation names an object, a mesh is called
-//! "mesh" and a second one "other".
+//! The scenes on which every operation is tested. The first mesh of a scene is named "mesh" and a second one
+//! "other", so that samples can refer to them.
 
 use bezier::Curve;
 use geometry::shapes;
@@ -10,17 +10,20 @@ use mesh::{
 };
 use scene::{Geometry, Material, Object, Scene};
 
-/// Every fixture with its name.
+/// Returns every fixture with its name.
 pub(crate) fn scenes() -> Vec<(&'static str, Scene)> {
     let mut scenes: Vec<_> = meshes()
         .into_iter()
         .map(|(name, mesh)| (name, one(Object::mesh("mesh", mesh))))
         .collect();
     scenes.push(("no objects", Scene::new()));
-    scenes.push(("squares with attributes", one(dressed(shapes::grid(4, 3)))));
+    scenes.push((
+        "squares with attributes",
+        one(with_attributes(shapes::grid(4, 3))),
+    ));
     scenes.push((
         "triangles with attributes",
-        one(dressed(shapes::fans(&shapes::grid(4, 3)))),
+        one(with_attributes(shapes::fans(&shapes::grid(4, 3)))),
     ));
     scenes.push(("patches", one(Object::new("patches", teapot()))));
     scenes.push(("curve", one(Object::new("curve", curve()))));
@@ -28,7 +31,7 @@ pub(crate) fn scenes() -> Vec<(&'static str, Scene)> {
     scenes
 }
 
-/// The fixtures that are one mesh without attributes.
+/// Returns the fixtures that are one mesh without attributes.
 pub(crate) fn meshes() -> Vec<(&'static str, Mesh)> {
     vec![
         ("nothing", Mesh::default()),
@@ -53,7 +56,7 @@ pub(crate) fn meshes() -> Vec<(&'static str, Mesh)> {
     ]
 }
 
-/// The faces of a mesh as lists of vertex numbers, in order.
+/// Returns the faces of a mesh as lists of vertex numbers, in order.
 fn polygons(mesh: &Mesh) -> Vec<Vec<u32>> {
     let number = |v: mesh::VertexId| u32::try_from(v.index()).expect("ids have 32 bits");
     mesh.faces()
@@ -61,12 +64,12 @@ fn polygons(mesh: &Mesh) -> Vec<Vec<u32>> {
         .collect()
 }
 
-/// A mesh with attributes of every domain, type and rule, a seam of its UVs, and two materials.
-pub(crate) fn dressed(mut mesh: Mesh) -> Object {
+/// Adds attributes of every domain, type and rule, UV seams and two materials to a mesh.
+pub(crate) fn with_attributes(mut mesh: Mesh) -> Object {
     let (n_vertices, n_edges, n_faces) = (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces());
     let corner = |h: mesh::HalfEdgeId| {
         let place = mesh.position(mesh.origin(h)).truncate();
-        // Faces of odd numbers lie apart in the texture.
+        // Every fourth face has separate texture coordinates.
         match mesh.face(h) {
             Some(f) if f.index() % 4 == 3 => place + DVec2::new(10.0, 0.0),
             Some(_) => place,
@@ -112,7 +115,7 @@ fn one(object: Object) -> Scene {
     scene
 }
 
-/// An object of each kind, and two meshes.
+/// Returns a scene with an object of each kind, and two meshes.
 fn everything() -> Scene {
     let lines = vec![
         vec![DVec3::ZERO, DVec3::X, DVec3::ONE],
@@ -121,7 +124,7 @@ fn everything() -> Scene {
     let mut scene = Scene::new();
     for object in [
         Object::mesh("mesh", shapes::octahedron()),
-        dressed_as("other", shapes::fans(&shapes::cube())),
+        with_attributes_as("other", shapes::fans(&shapes::cube())),
         Object::new("patches", teapot()),
         Object::new("curve", curve()),
         Object::new("lines", Geometry::Polylines(lines)),
@@ -131,8 +134,8 @@ fn everything() -> Scene {
     scene
 }
 
-fn dressed_as(name: &str, mesh: Mesh) -> Object {
-    let mut object = dressed(mesh);
+fn with_attributes_as(name: &str, mesh: Mesh) -> Object {
+    let mut object = with_attributes(mesh);
     name.clone_into(&mut object.name);
     object
 }
@@ -167,7 +170,7 @@ fn two_components() -> Mesh {
     of(positions, &faces)
 }
 
-/// Two triangles that meet in a vertex, which is split.
+/// Returns two triangles that share a vertex, which is split.
 fn bow_tie() -> Mesh {
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let positions = vec![
@@ -180,11 +183,11 @@ fn bow_tie() -> Mesh {
     of(positions, &[[0, 1, 2], [0, 3, 4]])
 }
 
-/// Two closed cubes that meet in a vertex, which is split.
+/// Returns two closed cubes that share a vertex, which is split.
 fn two_cubes() -> Mesh {
     let cube = shapes::cube();
     let mut positions = cube.positions().to_vec();
-    // Corner 7 of the first is corner 0 of the second.
+    // Vertex 7 of the first cube is vertex 0 of the second.
     let others = cube.positions().iter().skip(1);
     positions.extend(others.map(|&p| p + DVec3::splat(2.0)));
     let mut faces = polygons(&cube);
@@ -202,21 +205,21 @@ fn isolated_vertices() -> Mesh {
     of(positions.to_vec(), &[[1, 2, 0]])
 }
 
-/// Triangles on a line, in a point, and along each other.
+/// Returns triangles that degenerate to a segment or to a point.
 fn no_area() -> Mesh {
     let x = |x: f64| DVec3::new(x, 0.0, 0.0);
     let positions = vec![x(0.0), x(1.0), x(2.0), x(0.0), x(0.0), x(0.0)];
     of(positions, &[[0, 1, 2], [2, 1, 3], [3, 4, 5]])
 }
 
-/// Two triangles back to back.
+/// Returns two triangles with the same vertices and opposite orientations.
 fn pillow() -> Mesh {
     let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
     of(positions, &[[0, 1, 2], [0, 2, 1]])
 }
 
 fn of(positions: Vec<DVec3>, faces: &[impl AsRef<[u32]> + Sync]) -> Mesh {
-    let (mesh, _) = Mesh::from_polygons(positions, faces).expect("the faces name their points");
+    let (mesh, _) = Mesh::from_polygons(positions, faces).expect("the faces use existing points");
     mesh
 }
 
@@ -230,7 +233,7 @@ fn every_fixture_is_valid() {
 }
 
 #[test]
-fn the_fixtures_have_what_they_are_for() {
+fn the_fixtures_have_the_intended_properties() {
     let scenes = scenes();
     let mesh = |name: &str| {
         let (_, scene) = scenes.iter().find(|(n, _)| *n == name).expect(name);
@@ -249,6 +252,6 @@ fn the_fixtures_have_what_they_are_for() {
             "{name}"
         );
     }
-    // Longer than the blocks in which sums are added.
+    // The mesh must be longer than one block of a blocked sum.
     assert!(mesh("large torus of triangles").n_vertices() > 4096);
 }

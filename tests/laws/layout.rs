@@ -1,4 +1,4 @@
-//! Which crate knows which, and how much a first build compiles.
+//! The dependencies between crates, and the number of packages in a first build.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
@@ -7,8 +7,8 @@ use serde_json::Value;
 
 use crate::{assert_none, root};
 
-/// What stands directly to the left of each crate in the lines of DESIGN.md. A crate may use these, and what they may use.
-const LEFT_OF: &[(&str, &[&str])] = &[
+/// The direct dependencies allowed for each crate. A crate can also use everything that these crates can use.
+const ALLOWED_DEPENDENCIES: &[(&str, &[&str])] = &[
     ("progress", &[]),
     ("store", &[]),
     ("ron-tree", &[]),
@@ -31,9 +31,9 @@ const LEFT_OF: &[(&str, &[&str])] = &[
     ("tests", &["cli"]),
 ];
 
-/// The crates of other people that `cargo build` compiles. A change that needs more of them says what it adds to the
-/// time of a first build.
-const MOST_PACKAGES: usize = 117;
+/// The maximum number of external packages that `cargo build` compiles. A change that raises it must say in its
+/// commit how much time it adds to a first build.
+const MAX_PACKAGES: usize = 117;
 
 fn cargo(arguments: &str) -> String {
     let output = Command::new(env!("CARGO"))
@@ -47,24 +47,24 @@ fn cargo(arguments: &str) -> String {
     String::from_utf8(output.stdout).expect("cargo writes UTF-8")
 }
 
-/// Everything to the left of a crate; `ops-*` stands for every group of operations.
-fn left_of(name: &str) -> BTreeSet<&'static str> {
+/// Returns all crates that a crate can use. `ops-*` stands for every group of operations.
+fn allowed_for(name: &str) -> BTreeSet<&'static str> {
     let is_group = name.starts_with("ops-") && name != "ops-all";
     let entry = if is_group { "ops-*" } else { name };
-    let (_, nearest) = LEFT_OF
+    let (_, nearest) = ALLOWED_DEPENDENCIES
         .iter()
         .find(|(crate_name, _)| *crate_name == entry)
-        .unwrap_or_else(|| panic!("DESIGN.md and this test have no place for the crate {name}"));
+        .unwrap_or_else(|| panic!("add the crate {name} to ALLOWED_DEPENDENCIES"));
     let mut all = BTreeSet::new();
     for near in *nearest {
         all.insert(*near);
-        all.extend(left_of(near));
+        all.extend(allowed_for(near));
     }
     all
 }
 
 #[test]
-fn crates_know_only_what_stands_left_of_them() {
+fn crates_use_only_allowed_dependencies() {
     let metadata = cargo("metadata --no-deps --format-version 1");
     let metadata: Value = serde_json::from_str(&metadata).expect("cargo writes JSON");
     let short = |value: &Value| -> Option<String> {
@@ -82,7 +82,7 @@ fn crates_know_only_what_stands_left_of_them() {
         .collect();
     let mut failures = Vec::new();
     for (name, package) in &crates {
-        let allowed = left_of(name);
+        let allowed = allowed_for(name);
         for dependency in package["dependencies"].as_array().expect("a list") {
             let Some(used) = short(dependency).filter(|used| crates.contains_key(used)) else {
                 continue;
@@ -90,10 +90,10 @@ fn crates_know_only_what_stands_left_of_them() {
             let is_group = used.starts_with("ops-") && used != "ops-all";
             let is_allowed =
                 allowed.contains(used.as_str()) || is_group && allowed.contains("ops-*");
-            // Tests may use more.
+            // Tests can use more crates.
             if dependency["kind"].is_null() && !is_allowed {
                 failures.push(format!(
-                    "{name} uses {used}, which does not stand left of it"
+                    "{name} uses {used}, which is not an allowed dependency"
                 ));
             }
         }
@@ -103,18 +103,18 @@ fn crates_know_only_what_stands_left_of_them() {
 }
 
 #[test]
-fn a_first_build_compiles_no_more_packages_than_before() {
+fn a_first_build_compiles_at_most_max_packages() {
     let tree =
         cargo("tree -p meshwright-cli -e normal --prefix none --target x86_64-unknown-linux-gnu");
     let packages: BTreeSet<&str> = tree
         .lines()
         .map(|line| line.trim_end_matches(" (*)"))
-        // Those of this workspace have a path.
+        // Leaves out packages of this workspace, which have a path.
         .filter(|line| !line.contains(" (") || line.ends_with("(proc-macro)"))
         .collect();
     let n = packages.len();
     assert!(
-        n <= MOST_PACKAGES,
-        "{n} packages, at most {MOST_PACKAGES} before: {packages:#?}"
+        n <= MAX_PACKAGES,
+        "{n} packages, expected at most {MAX_PACKAGES}: {packages:#?}"
     );
 }

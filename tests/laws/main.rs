@@ -1,5 +1,5 @@
-//! Laws that hold for everything in the workspace: every operation on every fixture, every schema,
-//! every sequence of edits.
+//! Properties that everything in the workspace must have: every operation on every fixture, every schema, every
+//! sequence of edits.
 
 mod all_edits;
 mod any_edit;
@@ -22,16 +22,16 @@ mod threads;
 
 use std::path::{Path, PathBuf};
 
-/// The root of the workspace.
+/// Returns the root folder of the workspace.
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .parent()
         .expect("this package is a folder of the workspace")
 }
 
-/// The recipes in `scenes/`, in order of their names.
+/// Returns the paths of the recipes in `scenes/`, sorted.
 fn recipes() -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(root().join("scenes")).expect("there is a folder scenes/");
+    let entries = std::fs::read_dir(root().join("scenes")).expect("the folder scenes/ exists");
     let mut found: Vec<PathBuf> = entries
         .map(|entry| entry.expect("the folder can be listed").path())
         .filter(|path| path.extension().is_some_and(|e| e == "ron"))
@@ -40,7 +40,7 @@ fn recipes() -> Vec<PathBuf> {
     found
 }
 
-/// Fails with all failures, one a line.
+/// Panics if there are failures, with one failure per line.
 #[track_caller]
 fn assert_none(failures: &[String]) {
     let n = failures.len();

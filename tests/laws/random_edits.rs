@@ -1,4 +1,4 @@
-//! Random sequences of local edits, held against lists of polygons that are edited the naive way.
+//! Random sequences of local edits, compared with a naive implementation on polygon lists.
 
 use std::sync::LazyLock;
 
@@ -9,14 +9,14 @@ use proptest::prelude::*;
 
 use crate::fixtures;
 
-/// An edit with the number of its element; numbers beyond the last one are tried too.
+/// An edit with the number of its element. Numbers beyond the last element are tested too.
 #[derive(Clone, Copy, Debug)]
 enum Edit {
     Flip(usize),
-    /// At so many quarters of the edge; 0 and 4 are no places on it.
+    /// Splits at a number of quarters of the edge; 0 and 4 are invalid.
     Split(usize, u8),
     DeleteFace(usize),
-    /// To so many quarters of the edge; 5 is no place on it.
+    /// Collapses to a number of quarters of the edge; 5 is invalid.
     Collapse(usize, u8),
     Compact,
 }
@@ -31,7 +31,7 @@ fn edit() -> impl Strategy<Value = Edit> {
     ]
 }
 
-/// The fixtures that are small enough to be copied at each edit, and two with attributes.
+/// The fixtures that are small enough to be cloned for each edit, and two meshes with attributes.
 static MESHES: LazyLock<Vec<Mesh>> = LazyLock::new(|| {
     let mut meshes: Vec<Mesh> = fixtures::meshes()
         .into_iter()
@@ -39,7 +39,7 @@ static MESHES: LazyLock<Vec<Mesh>> = LazyLock::new(|| {
         .filter(|mesh| mesh.n_faces() < 100)
         .collect();
     for mesh in [shapes::grid(3, 3), shapes::fans(&shapes::grid(3, 3))] {
-        let object = fixtures::dressed(mesh);
+        let object = fixtures::with_attributes(mesh);
         meshes.push(object.as_mesh().expect("a mesh").as_ref().clone());
     }
     meshes
@@ -49,16 +49,16 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(600))]
 
     #[test]
-    fn edits_keep_a_mesh_valid_and_do_what_they_say(
+    fn edits_keep_a_mesh_valid_and_agree_with_the_oracle(
         which in 0..MESHES.len(),
         coordinates in proptest::collection::vec(-2..=2_i8, 64),
         edits in proptest::collection::vec(edit(), 1..24),
     ) {
         let mut mesh = MESHES[which].clone();
-        // Small whole numbers: vertices coincide and triangles have no area at once.
+        // Small integers, so that vertices coincide and triangles have no area.
         let mut numbers = coordinates.iter().cycle().map(|&x| f64::from(x));
         for p in mesh.positions_mut() {
-            *p = DVec3::from_array([(); 3].map(|()| numbers.next().expect("they repeat")));
+            *p = DVec3::from_array([(); 3].map(|()| numbers.next().expect("the numbers are cyclic")));
         }
         let mut oracle = Polygons::of(&mesh);
         for &edit in &edits {
@@ -67,16 +67,16 @@ proptest! {
     }
 }
 
-/// Does an edit on both and compares.
+/// Applies an edit to the mesh and to the oracle and compares the results.
 fn step(mesh: &mut Mesh, oracle: &mut Polygons, edit: Edit) -> Result<(), TestCaseError> {
     let before = mesh.clone();
     let (expected, euler) = expected(mesh, oracle, edit);
-    let done = match edit {
+    let result = match edit {
         Edit::Flip(e) => mesh.flip_edge(edge(mesh, e)),
         Edit::Split(e, quarters) => {
-            let made = mesh.split_edge(edge(mesh, e), f64::from(quarters) / 4.0);
+            let split = mesh.split_edge(edge(mesh, e), f64::from(quarters) / 4.0);
             // The new vertex is the last one.
-            made.map(|m| assert_eq!(m.index() + 1, mesh.positions().len()))
+            split.map(|m| assert_eq!(m.index() + 1, mesh.positions().len()))
         }
         Edit::DeleteFace(f) => mesh.delete_face(face(mesh, f)),
         Edit::Collapse(e, quarters) => {
@@ -90,23 +90,23 @@ fn step(mesh: &mut Mesh, oracle: &mut Polygons, edit: Edit) -> Result<(), TestCa
         }
     };
     prop_assert_eq!(mesh.defects(), vec![], "after {:?}", edit);
-    if done.is_ok() {
+    if result.is_ok() {
         prop_assert_eq!(mesh.euler_characteristic(), euler, "after {:?}", edit);
     } else {
         prop_assert_eq!(
             &*mesh,
             &before,
-            "{:?} was refused, but the mesh is another",
+            "{:?} was refused, but the mesh has changed",
             edit
         );
     }
     let found = Polygons::of(mesh);
-    // A list of polygons cannot tell two edges between the same vertices apart.
+    // A polygon list cannot distinguish two edges between the same vertices.
     if has_parallel_edges(&before) || has_parallel_edges(mesh) {
         *oracle = found;
         return Ok(());
     }
-    agree(done, expected, oracle)?;
+    check_agreement(result, expected, oracle)?;
     prop_assert_eq!(&found, oracle, "after {:?}", edit);
     Ok(())
 }
@@ -120,7 +120,7 @@ fn has_parallel_edges(mesh: &Mesh) -> bool {
     ends.windows(2).any(|pair| pair[0] == pair[1])
 }
 
-/// What an edit must give, and V - E + F after it.
+/// Returns the expected result of an edit, and V - E + F after it.
 fn expected(mesh: &Mesh, oracle: &Polygons, edit: Edit) -> (Result<Polygons, EditError>, i64) {
     let euler = mesh.euler_characteristic();
     match edit {
@@ -147,11 +147,11 @@ fn expected(mesh: &Mesh, oracle: &Polygons, edit: Edit) -> (Result<Polygons, Edi
             if !mesh.has_face(f) {
                 return (Err(EditError::NoSuchFace(f)), euler);
             }
-            // Vertices stay; the face goes, and the edges that have no other.
+            // Removes the face and the edges without another face, and keeps the vertices.
             let sides = mesh.face_half_edges(f);
-            let rims = sides.filter(|&h| mesh.face(h.twin()).is_none()).count();
-            let rims = i64::try_from(rims).expect("a few");
-            (oracle.delete(&corners(mesh, f)), euler - 1 + rims)
+            let n_removed = sides.filter(|&h| mesh.face(h.twin()).is_none()).count();
+            let n_removed = i64::try_from(n_removed).expect("a small number");
+            (oracle.delete(&corners(mesh, f)), euler - 1 + n_removed)
         }
         Edit::Collapse(e, quarters) => {
             let (e, t) = (edge(mesh, e), f64::from(quarters) / 4.0);
@@ -170,18 +170,18 @@ fn face(mesh: &Mesh, number: usize) -> FaceId {
     FaceId::new(number % (mesh.domain_len(Domain::Face) + 1))
 }
 
-/// Both edited, or both refused for the same reason.
-fn agree(
-    done: Result<(), EditError>,
+/// Checks that both edits succeeded, or that both were refused for the same reason.
+fn check_agreement(
+    result: Result<(), EditError>,
     expected: Result<Polygons, EditError>,
     oracle: &mut Polygons,
 ) -> Result<(), TestCaseError> {
-    match (done, expected) {
+    match (result, expected) {
         (Ok(()), Ok(edited)) => *oracle = edited,
-        (done, expected) => {
+        (result, expected) => {
             let kind = |error: EditError| std::mem::discriminant(&error);
-            let (done, expected) = (done.map_err(kind), expected.map(|_| ()).map_err(kind));
-            prop_assert_eq!(done, expected);
+            let (result, expected) = (result.map_err(kind), expected.map(|_| ()).map_err(kind));
+            prop_assert_eq!(result, expected);
         }
     }
     Ok(())
@@ -202,20 +202,19 @@ fn corners(mesh: &Mesh, f: FaceId) -> Vec<u32> {
     lowest_first(mesh.face_vertices(f).map(number).collect())
 }
 
-/// The same loop of vertices in the order that comes first of all its turns: a face may visit its lowest
-/// vertex twice.
+/// Returns the lexicographically smallest rotation of a face. A face can visit its lowest vertex twice.
 fn lowest_first(face: Vec<u32>) -> Vec<u32> {
     let turned = |i: usize| [&face[i..], &face[..i]].concat();
     (0..face.len()).map(turned).min().unwrap_or(face)
 }
 
-/// A mesh as a list of faces in any order. The numbers of vertices are those of the mesh.
+/// A mesh as a polygon list. Vertices have the same numbers as in the mesh.
 #[derive(Clone, Debug, PartialEq)]
 struct Polygons {
     positions: Vec<DVec3>,
-    /// The vertices that collapses took away.
-    gone: Vec<u32>,
-    /// Sorted, each beginning at its lowest vertex.
+    /// The vertices removed by collapses.
+    removed: Vec<u32>,
+    /// The faces, sorted, each starting at its lowest vertex.
     faces: Vec<Vec<u32>>,
 }
 
@@ -223,29 +222,29 @@ impl Polygons {
     fn of(mesh: &Mesh) -> Self {
         let faces = mesh.faces().map(|f| corners(mesh, f)).collect();
         let all = (0..mesh.positions().len()).map(VertexId::new);
-        let gone = all.filter(|&v| !mesh.has_vertex(v)).map(number).collect();
-        Self::new(mesh.positions().to_vec(), gone, faces)
+        let removed = all.filter(|&v| !mesh.has_vertex(v)).map(number).collect();
+        Self::new(mesh.positions().to_vec(), removed, faces)
     }
 
-    fn new(positions: Vec<DVec3>, gone: Vec<u32>, faces: Vec<Vec<u32>>) -> Self {
+    fn new(positions: Vec<DVec3>, removed: Vec<u32>, faces: Vec<Vec<u32>>) -> Self {
         let mut faces: Vec<_> = faces.into_iter().map(lowest_first).collect();
         faces.sort();
         Self {
             positions,
-            gone,
+            removed,
             faces,
         }
     }
 
     fn with_faces(&self, faces: Vec<Vec<u32>>) -> Self {
-        Self::new(self.positions.clone(), self.gone.clone(), faces)
+        Self::new(self.positions.clone(), self.removed.clone(), faces)
     }
 
-    /// Without the vertices that are gone: the others are numbered anew.
+    /// Returns the list without removed vertices. The remaining vertices are renumbered.
     fn compact(&self) -> Self {
-        let lower = |v: u32| self.gone.iter().filter(|&&w| w < v).count();
-        let renumbered = |&v: &u32| v - u32::try_from(lower(v)).expect("fewer than v");
-        let is_left = |(v, _): &(u32, &DVec3)| !self.gone.contains(v);
+        let lower = |v: u32| self.removed.iter().filter(|&&w| w < v).count();
+        let renumbered = |&v: &u32| v - u32::try_from(lower(v)).expect("at most v");
+        let is_left = |(v, _): &(u32, &DVec3)| !self.removed.contains(v);
         let left = (0..).zip(&self.positions).filter(is_left);
         let faces = self.faces.iter();
         Self::new(
@@ -255,14 +254,14 @@ impl Polygons {
         )
     }
 
-    /// The face with a side from a to b.
+    /// Returns the face with a side from a to b.
     fn with_side(&self, a: u32, b: u32) -> Option<usize> {
         let has_side = |face: &Vec<u32>| sides(face).any(|side| side == (a, b));
         self.faces.iter().position(has_side)
     }
 
-    /// With the edge between two faces turned: each end moves on by one corner. Reasons are given in the
-    /// order of the checks.
+    /// Flips the edge between two faces: each end moves to the next corner. Refusals are in the order of the
+    /// checks in the mesh.
     fn flip(&self, [a, b]: [u32; 2], e: EdgeId) -> Result<Self, EditError> {
         let (Some(f), Some(g)) = (self.with_side(a, b), self.with_side(b, a)) else {
             return Err(EditError::Boundary(e));
@@ -270,7 +269,8 @@ impl Polygons {
         if f == g {
             return Err(EditError::SameFace(e));
         }
-        // From a and b on one face and from b and a on the other: c and d come after them.
+        // Rotates one face to start with a, b and the other face to start with b, a. Then c and d are the next
+        // corners.
         let from = |f: usize, start: (u32, u32)| {
             let mut face = self.faces[f].clone();
             let place = sides(&face).position(|side| side == start);
@@ -296,7 +296,7 @@ impl Polygons {
         Ok(self.with_faces(faces))
     }
 
-    /// With a vertex on the edge from a to b, joined to the far corners of triangles.
+    /// Splits the edge from a to b, and connects the new vertex to the opposite corners of triangles.
     fn split(&self, [a, b]: [u32; 2], t: f64) -> Result<Self, EditError> {
         if t <= 0.0 || t >= 1.0 {
             return Err(EditError::OutsideEdge(t));
@@ -322,10 +322,10 @@ impl Polygons {
                 }
             }
         }
-        Ok(Self::new(positions, self.gone.clone(), faces))
+        Ok(Self::new(positions, self.removed.clone(), faces))
     }
 
-    /// Without a face, unless one of its vertices would then have two fans of faces.
+    /// Deletes a face, unless one of its vertices would then have two fans of faces.
     fn delete(&self, face: &[u32]) -> Result<Self, EditError> {
         let place = self.faces.iter().position(|f| f == face);
         let mut faces = self.faces.clone();
@@ -337,8 +337,8 @@ impl Polygons {
         }
     }
 
-    /// With the edge from a to b shrunk, if the surface keeps its shape and no elements of it come to
-    /// coincide. Reasons are given in the order of the checks.
+    /// Collapses the edge from a to b, if the topology does not change and no new elements coincide. Refusals
+    /// are in the order of the checks in the mesh.
     fn collapse(&self, [a, b]: [u32; 2], t: f64, e: EdgeId) -> Result<Self, EditError> {
         if t > 1.0 {
             return Err(EditError::OutsideEdge(t));
@@ -347,13 +347,13 @@ impl Polygons {
         if beside[0] == beside[1] {
             return Err(EditError::SameFace(e));
         }
-        let (v, gone) = (a.min(b), a.max(b));
+        let (v, removed) = (a.min(b), a.max(b));
         let mut after = self.clone();
         after.positions[v as usize] =
             (1.0 - t) * self.positions[a as usize] + t * self.positions[b as usize];
-        after.gone.push(gone);
-        after.gone.sort_unstable();
-        for corner in after.faces.iter_mut().flatten().filter(|v| **v == gone) {
+        after.removed.push(removed);
+        after.removed.sort_unstable();
+        for corner in after.faces.iter_mut().flatten().filter(|v| **v == removed) {
             *corner = v;
         }
         for face in &mut after.faces {
@@ -364,8 +364,8 @@ impl Polygons {
         }
         after.faces.retain(|face| face.len() > 2);
         let vanished = self.faces.len() - after.faces.len();
-        let after = Self::new(after.positions, after.gone, after.faces);
-        if after.is_like(self, vanished) {
+        let after = Self::new(after.positions, after.removed, after.faces);
+        if after.has_topology_of(self, vanished) {
             return Ok(after);
         }
 
@@ -376,7 +376,8 @@ impl Polygons {
         if !beside.contains(&None) && is_open(a) && is_open(b) {
             return Err(EditError::JoinsBoundaries(e));
         }
-        // A triangle that lies within one larger face: both sides of the edge left of it would be in that face.
+        // If a triangle has the same larger face on all three sides, both sides of the remaining edge would be
+        // in that face.
         let around = |f: usize| sides(&self.faces[f]).map(|(x, y)| self.with_side(y, x));
         let is_within = |f: usize, g: usize| {
             let larger = self.faces[f].len() == 3 && self.faces[g].len() > 3;
@@ -392,8 +393,8 @@ impl Polygons {
             triangles.any(|face| face.len() == 3 && face.contains(&v))
         };
         let joined = |v, w| self.with_side(v, w).or(self.with_side(w, v)).is_some();
-        let mut others = (0..v_count(&self.positions)).filter(|v| !is_apex(v));
-        if let Some(x) = others.find(|&x| joined(a, x) && joined(b, x)) {
+        let mut candidates = (0..v_count(&self.positions)).filter(|v| !is_apex(v));
+        if let Some(x) = candidates.find(|&x| joined(a, x) && joined(b, x)) {
             return Err(EditError::Link(e, VertexId::new(x as usize)));
         }
         let has_both = |f: &usize| self.faces[*f].contains(&a) && self.faces[*f].contains(&b);
@@ -407,23 +408,24 @@ impl Polygons {
         Err(EditError::Vanishes(e))
     }
 
-    /// Whether this is a manifold of the same shape as `before`, with one vertex less, so many faces less
-    /// and one edge less and another for each of these; and no more elements coincide.
-    fn is_like(&self, before: &Self, vanished: usize) -> bool {
+    /// Whether this is a manifold with the same topology as `before`, with one vertex less, `vanished` faces
+    /// less and `vanished` + 1 edges less, and no additional coincident elements.
+    fn has_topology_of(&self, before: &Self, vanished: usize) -> bool {
         let [mine, other] = [self, before].map(|polygons| {
-            // Corners of a face at one vertex, edges within one face, and faces back to back.
-            let mut odd = [0; 3];
+            // Counts corners of a face at the same vertex, edges with the same face on both sides, and pairs of
+            // opposite faces.
+            let mut coincident = [0; 3];
             for face in &polygons.faces {
                 let mut once = face.clone();
                 once.sort_unstable();
                 once.dedup();
-                odd[0] += face.len() - once.len();
+                coincident[0] += face.len() - once.len();
                 let within = |&(x, y): &(u32, u32)| sides(face).any(|side| side == (y, x));
-                odd[1] += sides(face).filter(within).count();
+                coincident[1] += sides(face).filter(within).count();
                 let back = lowest_first(face.iter().rev().copied().collect());
-                odd[2] += polygons.faces.iter().filter(|f| **f == back).count();
+                coincident[2] += polygons.faces.iter().filter(|f| **f == back).count();
             }
-            odd
+            coincident
         });
         let (edges, edges_before) = (self.edges(), before.edges());
         let mut ways: Vec<_> = self.all_sides().collect();
@@ -440,7 +442,7 @@ impl Polygons {
         self.faces.iter().flat_map(|face| sides(face))
     }
 
-    /// The edges, each with its lower vertex first.
+    /// Returns the edges, each with its lower vertex first.
     fn edges(&self) -> Vec<(u32, u32)> {
         let mut edges: Vec<_> = self
             .all_sides()
@@ -451,7 +453,7 @@ impl Polygons {
         edges
     }
 
-    /// How many vertices have a face.
+    /// Returns the number of vertices with a face.
     fn n_vertices(&self) -> usize {
         let mut used = self.faces.concat();
         used.sort_unstable();
@@ -459,7 +461,7 @@ impl Polygons {
         used.len()
     }
 
-    /// How many loops the sides without another side form.
+    /// Returns the number of boundary loops.
     fn n_holes(&self) -> usize {
         let is_open = |&(x, y): &(u32, u32)| self.with_side(y, x).is_none();
         let mut open: Vec<_> = self.all_sides().filter(is_open).collect();
@@ -473,7 +475,7 @@ impl Polygons {
         n
     }
 
-    /// How many groups the corners at a vertex form, where corners that share an edge at it are together.
+    /// Returns the number of fans at a vertex: groups of corners that share edges at the vertex.
     fn n_fans(&self, v: u32) -> usize {
         let mut fans: Vec<Vec<u32>> = Vec::new();
         for face in &self.faces {
@@ -500,7 +502,7 @@ fn v_count(positions: &[DVec3]) -> u32 {
     u32::try_from(positions.len()).expect("a small mesh")
 }
 
-/// The sides of a polygon: each corner with the next one.
+/// Returns the sides of a polygon: each corner with the next corner.
 fn sides(face: &[u32]) -> impl Iterator<Item = (u32, u32)> + Clone {
     let next = face.iter().cycle().skip(1);
     face.iter().copied().zip(next.copied())

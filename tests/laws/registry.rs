@@ -1,15 +1,15 @@
-//! The files in `ops/` and the list of built-in operations say the same.
+//! The files in `ops/` agree with the list of built-in operations.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-/// What is in a folder, if there is one.
+/// Returns the paths in a folder; none if the folder does not exist.
 fn list(folder: PathBuf) -> impl Iterator<Item = PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten();
     entries.map(|entry| entry.expect("the folder can be listed").path())
 }
 
-/// The name of each operation that a file of a group has, with the file.
+/// Returns the operation names that the files of all groups stand for, each with its file.
 fn files() -> BTreeMap<String, PathBuf> {
     list(crate::root().join("ops"))
         .flat_map(|group| list(group.join("src")))
@@ -28,7 +28,7 @@ fn files() -> BTreeMap<String, PathBuf> {
         .collect()
 }
 
-/// `uv_sphere` is `UvSphere`.
+/// Converts `uv_sphere` to `UvSphere`.
 fn camel_case(file: &str) -> String {
     let word = |word: &str| word[..1].to_uppercase() + &word[1..];
     file.split('_').map(word).collect()
@@ -40,25 +40,25 @@ fn every_file_is_in_the_registry() {
     for (name, path) in files() {
         assert!(
             registry.entries().iter().any(|entry| entry.name == name),
-            "{} is not registered: its group's lib.rs needs `.with::<{name}>()` in `register`, or ops/all the group",
+            "{} is not registered: add `.with::<{name}>()` to `register` in the lib.rs of its group, or add the group to ops/all",
             path.display()
         );
     }
 }
 
 #[test]
-fn every_operation_has_its_file() {
+fn every_operation_has_a_file_of_its_name() {
     let files = files();
     for entry in ops_all::registry().entries() {
         assert!(
             files.contains_key(entry.name),
-            "{} has no file of its name in a group of ops/",
+            "{} has no file of the same name in a group of ops/",
             entry.name
         );
     }
 }
 
-/// `UvSphere` is `uv_sphere`.
+/// Converts `UvSphere` to `uv_sphere`.
 fn snake_case(name: &str) -> String {
     let mut file = String::new();
     for c in name.chars() {
@@ -71,22 +71,26 @@ fn snake_case(name: &str) -> String {
 }
 
 #[test]
-fn every_operation_but_save_has_its_recipe_and_its_pictures() {
+fn every_operation_except_save_has_a_recipe_and_pictures() {
     let folder = crate::root().join("ops/all/pictures");
     for entry in ops_all::registry().entries() {
         let name = snake_case(entry.name);
         let recipe = folder.join(&name).with_extension("ron");
-        assert!(recipe.is_file(), "{} is forgotten", recipe.display());
+        assert!(recipe.is_file(), "{} is missing", recipe.display());
         let text = std::fs::read_to_string(recipe).expect("found above");
         let drawn = ["before.png", "after.png"].map(|file| text.contains(&format!("\"{file}\"")));
-        assert_eq!(drawn[1], entry.name != "Save", "{name}.ron draws after.png");
+        assert_eq!(
+            drawn[1],
+            entry.name != "Save",
+            "{name}.ron must draw after.png"
+        );
         for (file, drawn) in ["before.png", "after.png"].iter().zip(drawn) {
             let picture = folder.join(&name).join(file);
             let size = picture.metadata().map_or(0, |file| file.len());
             assert_eq!(
                 drawn,
                 size > 0,
-                "{} is forgotten: run its recipe",
+                "{} does not match its recipe: run the recipe",
                 picture.display()
             );
             assert!(size < 50_000, "{}: {size} bytes", picture.display());
@@ -95,7 +99,7 @@ fn every_operation_but_save_has_its_recipe_and_its_pictures() {
 }
 
 #[test]
-fn every_name_is_there_once() {
+fn operation_names_are_unique() {
     let registry = ops_all::registry();
     assert_eq!(registry.check(), Ok(()));
     let mut seen = BTreeSet::new();

@@ -1,4 +1,4 @@
-//! Steps that every law tries: the example of each operation, and those below.
+//! The steps with which all properties are tested: the example of each operation, and the steps below.
 
 use op::{Entry, Registry};
 use proptest::collection::vec;
@@ -6,10 +6,10 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use ron_tree::{Lexer, ValueKind};
 
-const MORE: &[&str] = &[
+const MORE_STEPS: &[&str] = &[
     r#"Load(path: "curve.bzc", name: "new")"#,
     r#"Load(path: "bunny.obj", non_manifold: Refuse)"#,
-    // A bow-tie, which is split, and a point without a face.
+    // A bow-tie vertex, which is split, and a point without a face.
     r#"Polygons(name: "new", points: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (-1, 0, 0),
         (-1, -1, 0)], faces: [[0, 1, 2], [0, 4, 5]])"#,
     r#"Polygons(name: "new", points: [(0, 0, 0)], faces: [[0, 1, 2]])"#,
@@ -139,16 +139,17 @@ const MORE: &[&str] = &[
     r#"Save(path: "a.bzc")"#,
 ];
 
-/// Each operation with its parameters, as in `(levels: 2)`. Most of them work on a mesh that is there.
+/// Returns operations with samples of their parameters, such as `(levels: 2)`. Most of them work on an existing
+/// mesh.
 pub(crate) fn samples(registry: &Registry) -> Vec<(&Entry, &'static str)> {
     let examples = registry.entries().iter().map(|entry| entry.example);
     examples
-        .chain(MORE.iter().copied())
+        .chain(MORE_STEPS.iter().copied())
         .map(|step| {
             let (name, _) = step.split_once('(').expect("a step has parameters");
             let entry = registry.get(name);
             (
-                entry.unwrap_or_else(|| panic!("{step}: no such operation")),
+                entry.unwrap_or_else(|| panic!("{step}: unknown operation")),
                 &step[name.len()..],
             )
         })
@@ -156,10 +157,14 @@ pub(crate) fn samples(registry: &Registry) -> Vec<(&Entry, &'static str)> {
 }
 
 #[test]
-fn every_sample_is_of_its_operation() {
+fn every_example_is_a_step_of_its_operation() {
     let registry = ops_all::registry();
-    for (entry, (of, parameters)) in registry.entries().iter().zip(samples(&registry)) {
-        assert_eq!(entry.name, of.name, "{} is no example of it", entry.example);
+    for (entry, (example_entry, parameters)) in registry.entries().iter().zip(samples(&registry)) {
+        assert_eq!(
+            entry.name, example_entry.name,
+            "{} is the example of a different operation",
+            entry.example
+        );
         assert!(!parameters.contains('\n'), "an example is one line");
     }
     for (entry, parameters) in samples(&registry) {
@@ -172,7 +177,7 @@ fn every_sample_is_of_its_operation() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 4000, ..ProptestConfig::default() })]
 
-    /// Samples and texts that are nearly samples: the tree and `ron` read the same step, or neither reads one.
+    /// For samples and slightly changed samples, the syntax tree and `ron` read the same step, or both fail.
     #[test]
     fn samples_are_read_as_ron_reads_them(
         at in any::<Index>(),
@@ -197,7 +202,7 @@ proptest! {
         let parsed = ron_tree::parse(&tokens.concat());
         if parsed.diagnostics.is_empty() && matches!(parsed.value.kind, ValueKind::Struct(_) | ValueKind::Unit) {
             let by_tree = entry.parse(&parsed.value);
-            // `ron` takes no white space in some places.
+            // `ron` does not accept white space in some places.
             match entry.parse_by_ron(&parsed.value.to_string()) {
                 Ok(step) => prop_assert_eq!(by_tree.unwrap().canonical(), step.canonical()),
                 Err(error) => prop_assert!(by_tree.is_err(), "{}: {error}", tokens.concat()),

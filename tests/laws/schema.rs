@@ -1,4 +1,4 @@
-//! The schemas of operations and recipes: strict, documented, and of one mind with the reader.
+//! The schemas of operations and recipes are strict and documented, and agree with the reader.
 
 use jsonschema::Validator;
 use recipe::{Diagnostic, Parameter};
@@ -7,25 +7,25 @@ use serde_json::Value as Json;
 use crate::samples::samples;
 use crate::{assert_none, recipes};
 
-/// Calls `visit` with each schema below this one, and the way to it.
-fn walk<'s>(schema: &'s Json, way: &str, visit: &mut impl FnMut(&'s Json, &str)) {
-    visit(schema, way);
+/// Calls `visit` with each schema below this one and its path.
+fn walk<'s>(schema: &'s Json, path: &str, visit: &mut impl FnMut(&'s Json, &str)) {
+    visit(schema, path);
     match schema {
         Json::Object(fields) => {
             for (key, value) in fields {
-                walk(value, &format!("{way}/{key}"), visit);
+                walk(value, &format!("{path}/{key}"), visit);
             }
         }
         Json::Array(items) => {
             for (i, item) in items.iter().enumerate() {
-                walk(item, &format!("{way}/{i}"), visit);
+                walk(item, &format!("{path}/{i}"), visit);
             }
         }
         _ => {}
     }
 }
 
-/// The name of the variant, if this is the schema of one that has fields: `{"Name": {..}}`.
+/// Returns the name of the variant if this is the schema of a variant with fields: `{"Name": {..}}`.
 fn variant(schema: &Json) -> Option<&str> {
     let fields = schema["properties"].as_object()?;
     let (name, _) = fields.iter().next()?;
@@ -37,11 +37,11 @@ fn variant(schema: &Json) -> Option<&str> {
 fn no_object_in_a_schema_allows_unknown_fields() {
     let schema = recipe::schema(&ops_all::registry());
     let mut failures = Vec::new();
-    walk(&schema, "", &mut |schema, way| {
-        // A field can be called `properties` as well: then its value is a schema, with a description.
+    walk(&schema, "", &mut |schema, path| {
+        // A field can be named `properties` too. Then its value is a schema, with a description.
         let is_object = schema["type"] == "object" && schema["properties"].is_object();
         if is_object && schema["additionalProperties"] != false {
-            failures.push(format!("{way}: needs deny_unknown_fields"));
+            failures.push(format!("{path}: needs deny_unknown_fields"));
         }
     });
     assert_none(&failures);
@@ -56,14 +56,14 @@ fn every_parameter_and_every_variant_has_a_description() {
             .is_some_and(|d| !d.is_empty())
     };
     let mut failures = Vec::new();
-    walk(&schema["$defs"], "$defs", &mut |schema, way| {
+    walk(&schema["$defs"], "$defs", &mut |schema, path| {
         let is_choice = schema["const"].is_string() || variant(schema).is_some();
         if is_choice && !has_text(schema) {
-            failures.push(format!("{way}: a variant without a doc comment"));
+            failures.push(format!("{path}: a variant without a doc comment"));
         }
         // schemars lists variants like this if they have no doc comments.
         if schema["type"] == "string" && schema["enum"].is_array() {
-            failures.push(format!("{way}: variants without doc comments"));
+            failures.push(format!("{path}: variants without doc comments"));
         }
         if variant(schema).is_some() {
             return;
@@ -73,7 +73,7 @@ fn every_parameter_and_every_variant_has_a_description() {
         }
         for (name, field) in schema["properties"].as_object().into_iter().flatten() {
             if !has_text(field) {
-                failures.push(format!("{way}: the field {name} has no doc comment"));
+                failures.push(format!("{path}: the field {name} has no doc comment"));
             }
         }
     });
@@ -86,12 +86,12 @@ fn every_parameter_and_every_variant_has_a_description() {
 }
 
 #[test]
-fn a_field_that_is_unknown_is_refused_at_every_level() {
+fn unknown_fields_are_errors_at_every_level() {
     let registry = ops_all::registry();
     let mut failures = Vec::new();
     for (entry, sample) in samples(&registry) {
         for (at, _) in sample.match_indices('(') {
-            // Only brackets that hold fields: a tuple is no place for one.
+            // Skips parentheses of tuples, which have no fields.
             let inside = &sample[at + 1..];
             let mut name = inside.split(':').next().expect("a first part").chars();
             let is_empty = inside.starts_with(')');
@@ -107,7 +107,7 @@ fn a_field_that_is_unknown_is_refused_at_every_level() {
     assert_none(&failures);
 }
 
-/// A recipe as JSON, its parameters filled in with their defaults.
+/// Converts a recipe to JSON, with its parameters replaced by their defaults.
 fn json(source: &str) -> Json {
     json_with(&parameters(source), source)
 }
@@ -121,13 +121,13 @@ fn read(source: &str) -> recipe::Reading {
     recipe::read(&source, &ops_all::registry(), recipe::Values::default())
 }
 
-/// A recipe as JSON, with these parameters.
+/// Converts a recipe to JSON, with the given parameters.
 fn json_with(parameters: &[Parameter], source: &str) -> Json {
     let mut parsed = ron_tree::parse(source);
     assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
     let unknown = recipe::substitute(&mut parsed.value, |name, span| {
         let found = parameters.iter().find(|p| p.name == name);
-        let unknown = || Diagnostic::error(span, format!("no parameter {name}"));
+        let unknown = || Diagnostic::error(span, format!("unknown parameter {name}"));
         found
             .map(|p| p.value.clone())
             .ok_or_else(|| Box::new(unknown()))
@@ -172,8 +172,8 @@ fn every_sample_fits_the_schema() {
     assert_none(&failures);
 }
 
-/// A recipe with a bit of everything.
-const WHOLE: &str = r#"(
+/// A recipe with one of everything.
+const VALID: &str = r#"(
     recipe: 1,
     about: "a bit of everything",
     params: { "columns": Int(default: 3, min: 1), "word": Choice(default: "Skip", of: ["Skip"]) },
@@ -192,16 +192,16 @@ const WHOLE: &str = r#"(
     ],
 )"#;
 
-/// What is replaced by what, and what is then wrong.
+/// Changes that make the recipe invalid: the old text, the new text, and the error.
 const BROKEN: &[(&str, &str, &str)] = &[
     ("recipe: 1,", "", "no version"),
-    ("recipe: 1,", "recipe: 2,", "another version"),
+    ("recipe: 1,", "recipe: 2,", "a different version"),
     ("recipe: 1,", "recipe: \"1\",", "a version that is a text"),
     ("about:", "abuot:", "an unknown field of the recipe"),
     (
         "about: \"a bit of everything\"",
         "about: 7",
-        "a number for a text",
+        "a number instead of a text",
     ),
     (
         "Int(default: 3, min: 1)",
@@ -226,8 +226,8 @@ const BROKEN: &[(&str, &str, &str)] = &[
     ("rows: 2, ", "", "a missing field"),
     ("rows: 2", "rows: 0", "a number below its range"),
     ("rows: 2", "rows: -2", "a negative count"),
-    ("rows: 2", "rows: 2.5", "a fraction for a count"),
-    ("rows: 2", "rows: \"2\"", "a text for a count"),
+    ("rows: 2", "rows: 2.5", "a fraction instead of a count"),
+    ("rows: 2", "rows: \"2\"", "a text instead of a count"),
     ("(0, 0, 1)", "(0, 0)", "a vector of two numbers"),
     ("(0, 0, 1)", "(0, 0, 1, 1)", "a vector of four numbers"),
     ("at: 0.25", "at: 1.5", "a number above its range"),
@@ -252,9 +252,13 @@ const BROKEN: &[(&str, &str, &str)] = &[
         "Between(0, 1, 2)",
         "a selection with too many numbers",
     ),
-    ("Not(Boundary)", "Not", "a selection without its part"),
+    ("Not(Boundary)", "Not", "a selection without its operand"),
     ("on: [\"sheet\"]", "on: []", "an empty list of objects"),
-    ("on: [\"sheet\"]", "on: \"sheet\"", "a text for a list"),
+    (
+        "on: [\"sheet\"]",
+        "on: \"sheet\"",
+        "a text instead of a list",
+    ),
     (
         "note: \"two\"",
         "not: \"two\"",
@@ -263,14 +267,14 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "run: SplitEdges",
         "does: SplitEdges",
-        "a step that runs nothing",
+        "a step without an operation",
     ),
     ("refused: Boundary", "refused: Border", "an unknown reason"),
     ("VertexNormals", "VertexNormal", "an unknown operation"),
     (
         "path: \"sheet.obj\"",
         "path: true",
-        "a truth value for a path",
+        "a boolean instead of a path",
     ),
     ("Manifold", "Manyfold", "an unknown expectation"),
     (
@@ -287,37 +291,41 @@ const BROKEN: &[(&str, &str, &str)] = &[
     (
         "after: \"cut\", that:",
         "after: \"cut\", what:",
-        "an expectation that says nothing",
+        "an `after` without expectations",
     ),
 ];
 
-fn reads(source: &str) -> bool {
+fn is_accepted(source: &str) -> bool {
     !read(source).has_errors()
 }
 
 #[test]
-fn the_schema_and_the_reader_take_a_whole_recipe() {
+fn the_schema_and_the_reader_accept_a_valid_recipe() {
     let errors: Vec<_> = validator()
-        .iter_errors(&json(WHOLE))
+        .iter_errors(&json(VALID))
         .map(|error| format!("{}: {error}", error.instance_path()))
         .collect();
     assert_none(&errors);
-    assert!(reads(WHOLE));
+    assert!(is_accepted(VALID));
 }
 
 #[test]
-fn the_schema_and_the_reader_refuse_what_is_broken() {
+fn the_schema_and_the_reader_reject_invalid_recipes() {
     let validator = validator();
-    let parameters = parameters(WHOLE);
+    let parameters = parameters(VALID);
     let mut failures = Vec::new();
-    for (from, to, what) in BROKEN {
-        assert_eq!(WHOLE.matches(from).count(), 1, "{from} is there once");
-        let broken = WHOLE.replace(from, to);
-        let refused = !validator.is_valid(&json_with(&parameters, &broken));
-        match (refused, !reads(&broken)) {
+    for (from, to, error) in BROKEN {
+        assert_eq!(
+            VALID.matches(from).count(),
+            1,
+            "the recipe must contain {from} exactly once"
+        );
+        let broken = VALID.replace(from, to);
+        let is_rejected = !validator.is_valid(&json_with(&parameters, &broken));
+        match (is_rejected, !is_accepted(&broken)) {
             (true, true) => {}
-            (false, _) => failures.push(format!("{what}: the schema takes {to:?}")),
-            (true, false) => failures.push(format!("{what}: the reader takes {to:?}")),
+            (false, _) => failures.push(format!("{error}: the schema accepts {to:?}")),
+            (true, false) => failures.push(format!("{error}: the reader accepts {to:?}")),
         }
     }
     assert_none(&failures);

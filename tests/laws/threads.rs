@@ -1,4 +1,4 @@
-//! The numbers of threads that results must not depend on.
+//! Thread pools of different sizes, to test that results do not depend on the number of threads.
 
 use std::sync::LazyLock;
 

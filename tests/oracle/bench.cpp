@@ -1,12 +1,12 @@
-// How long Pixar's OpenSubdiv takes for uniform refinement, as someone takes it who wants the finest level:
-// topology and positions, one thread, positions in double precision.
+// Measures the time of Pixar's OpenSubdiv for uniform refinement to the finest level: topology and positions,
+// with one thread and positions in double precision.
 //
 //     g++ -std=c++17 -O2 bench.cpp -losdCPU -o bench && ./bench
 //
-// Each line: the median, least and most of five runs after one that is not counted, in seconds, and the
-// highest resident memory. Every kind of run has a process of its own, so that memory is its own. "create" is
-// what building the connectivity of the cage takes; "refine" the connectivity of all levels; "positions" those of
-// all levels, each in a vector that is made for it.
+// Each output line has the median, minimum and maximum time of five runs after one warm-up run, in seconds, and
+// the peak resident memory. Each kind of run has a separate process, so that its memory is measured separately.
+// "create" is the time to build the connectivity of the coarse mesh, "refine" to build the connectivity of all
+// levels, and "positions" to compute the positions of all levels, each in a newly allocated vector.
 
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
@@ -69,7 +69,7 @@ Cage icosahedron() {
     return cage;
 }
 
-/// A torus of m by n quads, of which each `every`-th is cut into two triangles.
+/// Returns a torus of m by n quads. Every `every`-th quad is cut into two triangles.
 Cage torus(int m, int n, int every) {
     double const turn = 6.283185307179586;
     Cage cage;
@@ -133,7 +133,7 @@ Seconds once(Cage const& cage, Sdc::SchemeType scheme, int levels, bool full, do
     }
     double const done = now();
 
-    // Read, so that nothing is left out; the runs print it.
+    // The runs print the sum, so that the compiler cannot remove the computation.
     for (Point const& p : positions) sum += p.x + p.y + p.z;
     sum += refiner->GetLevel(levels).GetNumFaces();
     return {created - start, refined - created, done - refined};
@@ -168,8 +168,8 @@ void run(char const* name, Cage const& cage, Sdc::SchemeType scheme, int levels,
 }  // namespace
 
 int main() {
-    std::printf("OpenSubdiv, one thread; full: all connectivity of the last level, last: its faces' vertices only\n");
-    // "last" first: it is what a viewer takes; "full" is what a mesh that can be edited needs.
+    std::printf("OpenSubdiv, one thread; full: all connectivity of the last level, last: only the vertices of its faces\n");
+    // "last" is what a viewer needs, and "full" is what an editable mesh needs.
     for (bool full : {false, true}) {
         run("loop, icosahedron, 9 levels", icosahedron(), Sdc::SCHEME_LOOP, 9, full);
         run("loop, 100352 triangles, 3 levels", torus(224, 224, 1), Sdc::SCHEME_LOOP, 3, full);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Subdivision beside OpenSubdiv: first theirs, then ours, on the same machine with nothing else running.
-# What follows goes to `cargo bench`. Needs a C++ compiler and OpenSubdiv 3.5 (Debian: g++ libosd-dev).
+# Runs the benchmark of OpenSubdiv, then the benchmark of the crate `subdivision`. Run it on an otherwise idle machine.
+# Arguments are passed to `cargo bench`. Needs a C++ compiler and OpenSubdiv 3.5 (Debian: g++ libosd-dev).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=target/oracle

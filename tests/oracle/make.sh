@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the results of all cases with OpenSubdiv: in results/, or in the folder that is named.
+# Computes the results of all cases with OpenSubdiv. Writes them to results/, or to the folder given as the argument.
 # Needs a C++ compiler and OpenSubdiv 3.5 (Debian: g++ libosd-dev).
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)

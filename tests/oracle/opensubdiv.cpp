@@ -1,9 +1,7 @@
-// Subdivides one case with Pixar's OpenSubdiv, as a second opinion about the crate `subdivision`.
+// Subdivides one case with Pixar's OpenSubdiv, as a reference for the crate `subdivision`.
 //
-//     g++ -std=c++17 -O2 opensubdiv.cpp -losdCPU -o opensubdiv
-//     ./opensubdiv cases/loop_closed.txt > results/loop_closed.txt
-//
-// README.md describes both kinds of file.
+//     g++ -std=c++17 -O2 opensubdiv.cpp -losdCPU -o opensubdiv ./opensubdiv cases/loop_closed.txt >
+//     results/loop_closed.txt README.md describes the case and result files.
 
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
@@ -29,7 +27,7 @@ using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
 
 namespace {
 
-/// N numbers with the two methods that OpenSubdiv asks of a value.
+/// N numbers with the two methods that OpenSubdiv requires of a value.
 template <int N>
 struct Value {
     std::array<double, N> at{};
@@ -49,7 +47,7 @@ using Uvs = std::vector<Value<2>>;
     std::exit(1);
 }
 
-/// What a case file says.
+/// The contents of a case file.
 struct Case {
     Sdc::SchemeType scheme = Sdc::SCHEME_CATMARK;
     Sdc::Options options;
@@ -72,7 +70,7 @@ T word_of(std::istream& line, std::map<std::string, T> const& words) {
     return found->second;
 }
 
-/// Reads the rest of a line `face v v v` or `face v/t v/t v/t`: vertices and numbers of uvs.
+/// Reads the rest of a line `face v v v` or `face v/t v/t v/t`: vertices and uv numbers.
 void read_face(std::istream& line, Case& out) {
     int n = 0;
     for (std::string corner; line >> corner; ++n) {
@@ -126,7 +124,7 @@ Case read(char const* path) {
             out.uvs.push_back(uv);
         } else if (key == "face") {
             read_face(line, out);
-            continue;  // It reads to the end of the line, which is no failure.
+            continue;  // It reads to the end of the line, which is not an error.
         } else if (key == "crease") {
             int v, w;
             float sharpness;
@@ -142,9 +140,9 @@ Case read(char const* path) {
         } else {
             fail("unknown line: " + text);
         }
-        if (!line) fail("numbers are missing: " + text);
+        if (!line) fail("missing numbers: " + text);
     }
-    if (!out.uvs.empty() && out.uv_corners.size() != out.corners.size()) fail("a corner has no uv");
+    if (!out.uvs.empty() && out.uv_corners.size() != out.corners.size()) fail("a corner is missing its uv");
     return out;
 }
 
@@ -170,7 +168,7 @@ std::unique_ptr<Refiner> refined(Case const& in) {
     Factory::Options options(in.scheme, in.options);
     options.validateFullTopology = true;
     std::unique_ptr<Refiner> refiner(Factory::Create(mesh, options));
-    if (!refiner) fail("OpenSubdiv refuses the mesh");
+    if (!refiner) fail("OpenSubdiv rejects the mesh");
 
     Refiner::UniformOptions uniform(in.levels);
     uniform.fullTopologyInLastLevel = true;
@@ -178,8 +176,8 @@ std::unique_ptr<Refiner> refined(Case const& in) {
     return refiner;
 }
 
-/// Prints numbers, each after a blank. What rounds to zero has no sign. Halves, which are common, are rounded
-/// up even where the last bits differ between compilers.
+/// Prints numbers, each after a space. Numbers that round to zero have no sign. Halves, which are common, are
+/// rounded up even if their last bits differ between compilers.
 template <int N>
 void print(Value<N> const& value) {
     for (double x : value.at) {
@@ -188,8 +186,7 @@ void print(Value<N> const& value) {
     }
 }
 
-/// Prints the sharpness that is left: of inner edges, and of vertices that the rule of the boundary has
-/// not made corners.
+/// Prints the sharpness of inner edges, and of vertices that the boundary rule does not make corners.
 void print_sharpness(Case const& in, Far::TopologyLevel const& level) {
     bool const corners =
         in.options.GetVtxBoundaryInterpolation() == Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER;
@@ -206,7 +203,7 @@ void print_sharpness(Case const& in, Far::TopologyLevel const& level) {
     }
 }
 
-/// Prints for each vertex its place on the limit surface, two tangents there, and what the vertex is.
+/// Prints for each vertex its limit position, two tangents, its rule and its side.
 void print_limit(Far::PrimvarRefinerReal<double> const& refiner, Far::TopologyLevel const& level,
                  Points const& positions) {
     Points limit(positions.size()), tangent(positions.size()), other(positions.size());

@@ -1,36 +1,37 @@
-//! Fractions of edges that are cut from both ends.
+//! Fractions for bevels that can cut an edge from both ends.
 
 use mesh::{EdgeId, FaceId, Mesh};
 
-/// What is left of edges that bevels cut, so that their fractions can be those of the lengths from before
-/// the step, in whatever order the ends of an edge come.
+/// The remaining lengths of edges that bevels cut. They convert fractions of the edge lengths before the step
+/// to fractions of the current lengths, so that the result does not depend on which end of an edge is cut
+/// first.
 ///
 /// ```text
-///    a---+---------------+---b      both cuts at a quarter of a-b: the second one at a third of what
-///       1/4             3/4         the first one left
+///    a---+---------------+---b      both cuts at a quarter of a-b: the second cut is at a third
+///       1/4             3/4         of the length that the first cut left
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Cuts {
-    /// By index of the edge; 1 where there is none.
-    left: Vec<f64>,
+    /// The remaining fraction of each edge, by index. Edges beyond the end are uncut and have 1.
+    remaining: Vec<f64>,
 }
 
 impl Cuts {
-    /// The fraction of what is left of `e` that is `fraction` of it at the beginning; 1 or more if there is
-    /// not so much left.
+    /// Converts `fraction` of the length that `e` had before the step to a fraction of its current length. The
+    /// result is 1 or more if the current length is too short.
     pub fn fraction(&self, e: EdgeId, fraction: f64) -> f64 {
-        fraction / self.left.get(e.index()).unwrap_or(&1.0)
+        fraction / self.remaining.get(e.index()).unwrap_or(&1.0)
     }
 
-    /// Takes `fraction` off the edges that end at the corners of `new`: the face that a bevel of a vertex or
-    /// an edge has made.
+    /// Records that a bevel of a vertex or an edge made the face `new` and cut `fraction` off the edges that
+    /// end at its corners.
     pub fn cut(&mut self, mesh: &Mesh, new: FaceId, fraction: f64) {
         for h in mesh.face_half_edges(new) {
             let e = mesh.next(h.twin()).edge();
-            if self.left.len() <= e.index() {
-                self.left.resize(e.index() + 1, 1.0);
+            if self.remaining.len() <= e.index() {
+                self.remaining.resize(e.index() + 1, 1.0);
             }
-            self.left[e.index()] -= fraction;
+            self.remaining[e.index()] -= fraction;
         }
     }
 }
@@ -42,7 +43,7 @@ mod tests {
     use mesh::VertexId;
 
     #[test]
-    fn both_ends_are_cut_by_the_same_length() {
+    fn cuts_at_both_ends_of_an_edge_have_the_same_length() {
         let mut mesh = shapes::cube();
         let mut cuts = Cuts::default();
         for v in [0, 1].map(VertexId::new) {
@@ -59,7 +60,7 @@ mod tests {
     }
 
     #[test]
-    fn too_large_fractions_do_not_fit_twice() {
+    fn half_an_edge_can_be_cut_from_one_end_only() {
         let mut mesh = shapes::cube();
         let mut cuts = Cuts::default();
         let new = mesh.bevel_vertex(VertexId::new(0), 0.5).unwrap();

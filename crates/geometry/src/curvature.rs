@@ -6,13 +6,13 @@ use mesh::blocks::BLOCK;
 use mesh::{Domain, EdgeId, Mesh, VertexId, angle_between};
 use rayon::prelude::*;
 
-/// The Gaussian curvature at each vertex, by its place, in 1 / scene unit²: 1 / r² on a sphere of radius r,
-/// 0 on a cylinder. Not a number for removed vertices and those without area around them.
+/// Returns the Gaussian curvature at each vertex, by vertex index, in 1 / scene unit²: 1 / r² on a sphere of
+/// radius r, 0 on a cylinder. NaN for dead vertices and for vertices whose faces have no area.
 ///
-/// What the angles of the corners miss of a full turn (of half a turn on the boundary) over the
-/// [vertex area](vertex_area): Meyer, Desbrun, Schröder, Barr, "Discrete Differential-Geometry
-/// Operators for Triangulated 2-Manifolds", 2003. Summed over the areas of a closed mesh of flat faces it
-/// is 2π times the Euler characteristic.
+/// The curvature is the angle defect divided by the [vertex area](vertex_area). The angle defect is 2π (π on
+/// the boundary) minus the sum of the corner angles: Meyer, Desbrun, Schröder, Barr, "Discrete
+/// Differential-Geometry Operators for Triangulated 2-Manifolds", 2003. On a closed mesh of flat faces, the sum
+/// of curvature times vertex area is 2π times the Euler characteristic.
 pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
     at_vertices(mesh, |v| {
         let angles: f64 = mesh
@@ -25,13 +25,13 @@ pub fn gaussian_curvatures(mesh: &Mesh) -> Vec<f64> {
     })
 }
 
-/// The mean curvature at each vertex, by its place, in 1 / scene unit: 1 / r on a sphere of radius r seen
-/// from outside, 1 / 2r on a cylinder, negative in hollows. Not a number for removed vertices and those
-/// without area around them.
+/// Returns the mean curvature at each vertex, by vertex index, in 1 / scene unit: 1 / r on an outward-facing
+/// sphere of radius r, 1 / (2r) on a cylinder, negative where the surface is concave. NaN for dead vertices and
+/// for vertices whose faces have no area.
 ///
-/// Half the signed angle at each edge times its length, of which each end gets a half, over the
-/// [vertex area](vertex_area): Cohen-Steiner, Morvan, "Restricted Delaunay Triangulations and Normal
-/// Cycle", 2003. Boundary edges do not count.
+/// Each edge contributes half of its signed dihedral angle times its length, shared equally by its two ends.
+/// The sum at a vertex is divided by the [vertex area](vertex_area): Cohen-Steiner, Morvan, "Restricted
+/// Delaunay Triangulations and Normal Cycle", 2003. Boundary edges contribute 0.
 pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
     at_vertices(mesh, |v| {
         let sum: f64 = mesh
@@ -42,8 +42,8 @@ pub fn mean_curvatures(mesh: &Mesh) -> Vec<f64> {
     })
 }
 
-/// The part of the surface that belongs to a vertex: of each face around it, the share of one corner.
-/// In scene unit².
+/// Returns the area of the surface that belongs to a vertex, in scene unit²: for each face around it, the area
+/// of the face divided by its number of corners.
 pub fn vertex_area(mesh: &Mesh, v: VertexId) -> f64 {
     let faces = mesh.vertex_half_edges(v).filter_map(|h| mesh.face(h));
     #[expect(clippy::cast_precision_loss, reason = "a face has few corners")]
@@ -51,8 +51,8 @@ pub fn vertex_area(mesh: &Mesh, v: VertexId) -> f64 {
     faces.map(share).sum()
 }
 
-/// The angle between the normals of the faces beside an edge, positive where the surface bulges; 0 on the
-/// boundary.
+/// Returns the signed angle between the normals of the two faces at an edge, positive if the edge is convex. 0
+/// on the boundary.
 fn signed_dihedral(mesh: &Mesh, e: EdgeId) -> f64 {
     let [Some(f), Some(g)] = mesh.edge_faces(e) else {
         return 0.0;
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn gauss_and_bonnet_agree_on_closed_meshes_of_flat_faces() {
+    fn gauss_bonnet_holds_on_closed_meshes_of_flat_faces() {
         for mesh in [
             shapes::cube(),
             shapes::icosahedron(),
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_torus_bulges_outside_and_is_a_saddle_inside() {
+    fn a_torus_has_positive_curvature_outside_and_negative_inside() {
         let mesh = shapes::torus(48, 24, 2.0, 0.5);
         let gauss = gaussian_curvatures(&mesh);
         for v in mesh.vertices() {
@@ -143,16 +143,16 @@ mod tests {
     }
 
     #[test]
-    fn flat_sheets_have_none_and_lonely_vertices_no_number() {
+    fn flat_sheets_have_zero_curvature_and_isolated_vertices_have_nan() {
         let mesh = shapes::grid(3, 3);
         let (gauss, mean) = (gaussian_curvatures(&mesh), mean_curvatures(&mesh));
         for v in mesh.vertices() {
             assert!(mean[v.index()].abs() < 1e-12);
             assert!(mesh.is_boundary_vertex(v) || gauss[v.index()].abs() < 1e-12);
         }
-        let mut lonely = shapes::square();
-        let face = lonely.faces().next().unwrap();
-        lonely.delete_face(face).unwrap();
-        assert!(gaussian_curvatures(&lonely).iter().all(|x| x.is_nan()));
+        let mut isolated = shapes::square();
+        let face = isolated.faces().next().unwrap();
+        isolated.delete_face(face).unwrap();
+        assert!(gaussian_curvatures(&isolated).iter().all(|x| x.is_nan()));
     }
 }

@@ -1,8 +1,8 @@
-//! Filling a hole with triangles, found as a sequence of ears to cut off.
+//! Fills a hole with triangles, computed as a sequence of ears to cut off.
 //!
 //! ```text
 //!      p --- ear               p
-//!      |      |      -->       |  \           the loop goes on from p to q
+//!      |      |      -->       |  \           the loop continues from p to q
 //!      |      |                |    \
 //!      + ---- q                + ---- q
 //! ```
@@ -12,55 +12,57 @@ use std::collections::BinaryHeap;
 
 use mesh::{DVec3, EditError, FaceId, HalfEdgeId, Mesh, VertexId};
 
-/// Holes of at most this many edges are filled with the triangles of the smallest area: the time grows
-/// with the third power, and is about a tenth of a second here.
-const EXACT: usize = 500;
+/// Holes of at most this many edges are filled with triangles of minimal total area. The time grows with the
+/// third power of the number of edges; for this many edges it is about a tenth of a second.
+const MAX_EXACT_EDGES: usize = 500;
 
-/// How much the shape of a triangle counts beside its area, in mean squares of the edges of the hole.
-const SHAPE: f64 = 1e-6;
+/// The weight of the shape of a triangle relative to its area, as a multiple of the mean squared edge length of
+/// the hole.
+const SHAPE_WEIGHT: f64 = 1e-6;
 
-/// Puts triangles over the hole of `h`, a half-edge without a face.
+/// Fills the hole of `h`, a half-edge without a face, with triangles.
 ///
 /// ```text
 ///    +-----+-----+          +-----+-----+
 ///    |           |          | \       / |
-///    |           |    -->   |   \   /   |       n edges around it: n - 2 triangles, n - 3 new edges
+///    |           |    -->   |   \   /   |       a hole with n edges: n - 2 triangles, n - 3 new edges
 ///    |           |          |     \/    |
 ///    +-----+--h--+          +-----+-----+
 /// ```
 ///
-/// Up to 500 edges the triangles have the smallest total area of all that use the vertices
-/// around the hole and no others: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron",
-/// 1995, in time n³. Where several choices have the same area, as in a flat hole, the triangles are as
-/// near to equilateral as they can be together: a measure of shape is added to each area, at most a
-/// millionth of the mean square of the edges around the hole.
+/// If the hole has at most 500 edges, the triangles have the smallest total area of all triangulations of the
+/// vertices around the hole: Barequet and Sharir, "Filling gaps in the boundary of a polyhedron", 1995, in time
+/// n³. If several triangulations have the same area, as in a flat hole, the one whose triangles are closest to
+/// equilateral is used: a shape term is added to the area of each triangle, at most 1e-6 times the mean squared
+/// edge length of the hole.
 ///
-/// Around larger holes the corner whose neighbours are nearest to each other is cut off again and again,
-/// in time n log n; corners that are straight or turn outwards, as seen along the mean normal, come
-/// last. In a hole that is far from convex these triangles may overlap.
+/// In larger holes, the corner whose neighbours are nearest to each other is cut off repeatedly, in time n log
+/// n. Corners that are straight or reflex, as seen along the mean normal, come last. In a hole that is far from
+/// convex, the triangles can overlap.
 ///
-/// No two vertices are joined that share an edge already.
+/// A new edge never connects two vertices that already share an edge.
 ///
-/// All ids stay; the new faces and edges are numbered in the order of the triangles returned, which
-/// depends on `h` and on the shape of the hole. Faces take the values of the one beside `h`, and edges
-/// zero values. All corners at a vertex take those of one corner, as in [`Mesh::fill_hole`].
+/// All ids stay valid. The new faces and edges are numbered in the order of the returned triangles, which
+/// depends on `h` and on the shape of the hole. New faces copy the values of the face on the other side of `h`,
+/// and new edges have zero values. All new corners at a vertex copy the values of one existing corner, as in
+/// [`Mesh::fill_hole`].
 ///
 /// Returns the triangles.
 ///
 /// # Errors
 ///
-/// [`EditError::DuplicateEdge`] if there are no triangles without an edge that is there already (for
-/// large holes: if none are found), [`EditError::Full`], and those of [`Mesh::fill_hole`]. The
-/// mesh is unchanged.
+/// [`EditError::DuplicateEdge`] if every triangulation needs an edge that already exists (for holes of more
+/// than 500 edges: if the search finds no other), [`EditError::Full`], and the errors of [`Mesh::fill_hole`].
+/// The mesh is unchanged.
 pub fn fill_hole_triangles(mesh: &mut Mesh, h: HalfEdgeId) -> Result<Vec<FaceId>, EditError> {
     let ears = ears(mesh, &mesh.rim(h)?)?;
     mesh.fill_hole_by_ears(h, &ears)
 }
 
-/// The places on the rim of the vertices to cut off, in order; two fewer than it has.
+/// Returns the vertices to cut off, in order, as indices into `rim`. There are two fewer than the rim has.
 fn ears(mesh: &Mesh, rim: &[HalfEdgeId]) -> Result<Vec<usize>, EditError> {
     let hole = Hole::of(mesh, rim);
-    let ears = if rim.len() <= EXACT {
+    let ears = if rim.len() <= MAX_EXACT_EDGES {
         hole.smallest()
     } else {
         hole.nearest_first()
@@ -72,12 +74,12 @@ struct Hole<'m> {
     mesh: &'m Mesh,
     vertices: Vec<VertexId>,
     points: Vec<DVec3>,
-    /// What the worst shape of a triangle adds to its area.
+    /// The cost that the worst possible shape adds to the area of a triangle.
     shape: f64,
 }
 
-/// The cost of the best triangles over a part of the rim, and the third corner of the one at the edge between
-/// the ends of the part.
+/// The cost of the best triangulation of a part of the rim, and the third corner of the triangle at the edge
+/// between the ends of that part.
 type Best = (f64, usize);
 
 impl<'m> Hole<'m> {
@@ -90,7 +92,7 @@ impl<'m> Hole<'m> {
             mesh,
             vertices,
             points,
-            shape: SHAPE * mean_square,
+            shape: SHAPE_WEIGHT * mean_square,
         }
     }
 
@@ -100,8 +102,9 @@ impl<'m> Hole<'m> {
         self.mesh.find_half_edge(v, w).is_some()
     }
 
-    /// The area of a triangle, and a little more the farther it is from equilateral: Weitzenböck's
-    /// inequality says that 4 √3 times the area is at most the sum of the squares of the sides.
+    /// Returns the cost of a triangle: its area plus a shape term that grows with the deviation from an
+    /// equilateral triangle. By Weitzenböck's inequality, 4 √3 times the area is at most the sum of the squared
+    /// sides.
     fn cost(&self, i: usize, m: usize, k: usize) -> f64 {
         let (a, b, c) = (self.points[i], self.points[m], self.points[k]);
         let (ab, bc, ca) = (b - a, c - b, a - c);
@@ -115,8 +118,8 @@ impl<'m> Hole<'m> {
         0.5 * twice + self.shape * (1.0 - roundness)
     }
 
-    /// The triangles of the smallest cost, from the best ones over all shorter parts of the rim. `None` if
-    /// all need an edge that is there already.
+    /// Finds the triangulation of the smallest cost, by dynamic programming over parts of the rim. Returns
+    /// `None` if every triangulation needs an edge that already exists.
     fn smallest(&self) -> Option<Vec<usize>> {
         let n = self.points.len();
         let mut best: Vec<Option<Best>> = vec![None; n * n];
@@ -126,7 +129,7 @@ impl<'m> Hole<'m> {
         for length in 2..n {
             for i in 0..n - length {
                 let k = i + length;
-                // The last edge of the rim is not a new one.
+                // The longest part is closed by the last edge of the rim, which is not new.
                 if length < n - 1 && self.is_joined(i, k) {
                     continue;
                 }
@@ -137,7 +140,8 @@ impl<'m> Hole<'m> {
                         continue;
                     };
                     let cost = left + right + self.cost(i, middle, k);
-                    // The first one of all, so that coordinates too large to square do no harm.
+                    // Accepts the first candidate even if its cost is not finite, so that very large
+                    // coordinates work.
                     if found.is_none_or(|(least, _)| cost < least) {
                         found = Some((cost, middle));
                     }
@@ -146,7 +150,7 @@ impl<'m> Hole<'m> {
             }
         }
 
-        // A triangle is an ear when the parts on both sides of it are cut off: from the last one back.
+        // A triangle becomes an ear after the parts on both sides of it are cut off, so the order is reversed.
         let mut ears = Vec::with_capacity(n - 2);
         let mut parts = vec![(0, n - 1)];
         while let Some((i, k)) = parts.pop() {
@@ -160,8 +164,8 @@ impl<'m> Hole<'m> {
         Some(ears)
     }
 
-    /// Cuts off the ear with the shortest edge, again and again. `None` if each that is left needs an edge
-    /// that is there already.
+    /// Repeatedly cuts off the ear with the shortest new edge. Returns `None` if every remaining ear needs an
+    /// edge that already exists.
     fn nearest_first(&self) -> Option<Vec<usize>> {
         let n = self.points.len();
         let mut next: Vec<usize> = (1..n).chain([0]).collect();
@@ -170,7 +174,7 @@ impl<'m> Hole<'m> {
         let key = |p: usize, ear: usize, q: usize| {
             let (a, b, c) = (self.points[p], self.points[ear], self.points[q]);
             let is_inward = (b - a).cross(c - b).dot(normal) > 0.0;
-            // The bits of numbers that are not negative are in their order.
+            // Non-negative numbers have the same order as their bits.
             (!is_inward, a.distance_squared(c).to_bits())
         };
         let mut queue: BinaryHeap<_> = (0..n)
@@ -180,9 +184,9 @@ impl<'m> Hole<'m> {
         let mut is_cut = vec![false; n];
         while ears.len() < n - 3 {
             let Reverse((_, ear, p, q)) = queue.pop()?;
-            // Of an ear that was there before its neighbours were cut off, a later entry tells.
-            let is_old = is_cut[ear] || before[ear] != p || next[ear] != q;
-            if is_old || self.is_joined(p, q) {
+            // Skips entries that are out of date because a neighbour was cut off. The queue has a newer entry.
+            let is_outdated = is_cut[ear] || before[ear] != p || next[ear] != q;
+            if is_outdated || self.is_joined(p, q) {
                 continue;
             }
             ears.push(ear);
@@ -196,14 +200,14 @@ impl<'m> Hole<'m> {
         Some(ears)
     }
 
-    /// The area vector of the rim, by Newell's method.
+    /// Returns twice the area vector of the rim, by Newell's method.
     fn normal(&self) -> DVec3 {
         let first = self.points[0];
         let sides = self.points.windows(2);
         sides.map(|s| (s[0] - first).cross(s[1] - first)).sum()
     }
 
-    /// The first edge that is there already and is in the way.
+    /// Returns the error that names the first existing edge between two vertices of the hole.
     fn duplicate(&self) -> EditError {
         let n = self.points.len();
         let pairs = (0..n).flat_map(|i| (i + 2..n).map(move |k| (i, k)));
@@ -220,7 +224,7 @@ mod tests {
     use super::*;
     use crate::shapes;
 
-    /// A hole through these points: the rim of one face whose back is open.
+    /// Returns a mesh of one face, whose boundary is a hole through the given points.
     fn sheet(points: &[DVec3]) -> Mesh {
         let corners: Vec<u32> = (0..u32::try_from(points.len()).unwrap()).rev().collect();
         Mesh::from_polygons(points.to_vec(), &[corners]).unwrap().0
@@ -230,21 +234,24 @@ mod tests {
         mesh.loop_half_edges(mesh.boundary_loops()[0]).collect()
     }
 
-    /// The triangles that cutting off these ears makes, and what is left of the loop.
+    /// Returns the triangles made by cutting off the given ears.
     fn triangles(n: usize, ears: &[usize]) -> Vec<[usize; 3]> {
-        let mut left: Vec<usize> = (0..n).collect();
+        let mut remaining: Vec<usize> = (0..n).collect();
         let mut triangles = Vec::new();
         for &ear in ears {
-            let at = left.iter().position(|&i| i == ear).expect("not cut before");
-            let beside = |by: usize| left[(at + by) % left.len()];
-            triangles.push([beside(left.len() - 1), ear, beside(1)]);
-            left.remove(at);
+            let place = remaining
+                .iter()
+                .position(|&i| i == ear)
+                .expect("not cut before");
+            let neighbor = |by: usize| remaining[(place + by) % remaining.len()];
+            triangles.push([neighbor(remaining.len() - 1), ear, neighbor(1)]);
+            remaining.remove(place);
         }
-        assert_eq!(left.len(), 2);
+        assert_eq!(remaining.len(), 2);
         triangles
     }
 
-    /// The smallest sum of a cost over all ways to cut the polygon from i to k, tried one by one.
+    /// Returns the smallest total cost of all triangulations of the polygon from i to k, by exhaustive search.
     fn smallest(i: usize, k: usize, cost: &dyn Fn(usize, usize, usize) -> f64) -> f64 {
         if k - i < 2 {
             return 0.0;
@@ -253,7 +260,7 @@ mod tests {
         ways.fold(f64::INFINITY, f64::min)
     }
 
-    /// Points that a small generator makes, between -1 and 1.
+    /// Returns pseudo-random points with coordinates between -1 and 1.
     fn points(n: usize, seed: u32) -> Vec<DVec3> {
         let mut state = seed;
         let mut number = || {
@@ -266,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn no_other_triangles_have_a_smaller_area() {
+    fn the_exact_method_finds_the_smallest_area() {
         for n in 3..=9 {
             for seed in 0..20 {
                 let mesh = sheet(&points(n, seed));
@@ -290,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn both_ways_give_as_many_triangles_as_they_must() {
+    fn both_methods_return_n_minus_2_triangles() {
         for n in [3, 4, 7, 20] {
             for seed in 0..10 {
                 let mesh = sheet(&points(n, seed));
@@ -304,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn a_round_hole_is_covered_without_overlaps_both_ways() {
+    fn both_methods_cover_a_round_hole_without_overlaps() {
         let mesh = shapes::cylinder(24, false);
         let rim = rim(&mesh);
         let hole = Hole::of(&mesh, &rim);
@@ -321,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn points_in_one_place_or_very_far_away_still_give_triangles() {
+    fn coincident_and_very_distant_points_are_triangulated() {
         for points in [
             vec![DVec3::ONE; 5],
             points(5, 1).into_iter().map(|p| p * 1e300).collect(),

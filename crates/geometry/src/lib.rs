@@ -1,4 +1,4 @@
-//! Algorithms over a [`Mesh`](mesh::Mesh): what is more than one element and its neighbours.
+//! Algorithms over a [`Mesh`](mesh::Mesh) that go beyond one element and its neighbours.
 //!
 //! | module | what it does |
 //! | --- | --- |
@@ -6,9 +6,9 @@
 //! | [`area`], [`volume`], [`bounds`], [`genus`], [`components`] | measures of whole meshes |
 //! | [`gaussian_curvatures`], [`mean_curvatures`] | discrete curvature |
 //! | [`distance`] | the distance between two surfaces |
-//! | [`merge_vertices`], [`parts`] | putting meshes together and taking them apart |
-//! | [`triangulate`], [`fill_hole_triangles`] | triangles for faces and holes |
-//! | [`bisect`], [`bevel`] | cutting |
+//! | [`merge_vertices`], [`parts`] | merging vertices, splitting a mesh into parts |
+//! | [`triangulate`], [`fill_hole_triangles`] | triangulation of faces and holes |
+//! | [`bisect`], [`bevel`] | cutting along a plane, bevelling |
 
 pub mod bevel;
 mod bisect;

@@ -1,18 +1,18 @@
-//! Measures of whole meshes: how large one is, and of what kind.
+//! Measures of whole meshes: area, volume, bounding box, genus and components.
 
 use mesh::{DVec3, Domain, FaceId, Mesh, VertexId, blocks};
 
-/// The sum of the areas of all faces.
+/// Returns the sum of the areas of all faces.
 pub fn area(mesh: &Mesh) -> f64 {
     sum_over_faces(mesh, |f| mesh.face_area(f))
 }
 
-/// The volume inside the mesh; negative if the faces are seen from the inside. Only meaningful for
-/// a closed mesh.
+/// Returns the volume inside the mesh. It is negative if the faces are oriented inward. Only meaningful for a
+/// closed mesh.
 ///
-/// The sum of the signed volumes of tetrahedra from a fixed point to the triangles of a fan of
-/// each face, by the divergence theorem. The point is the middle of the bounds, so that meshes far
-/// from the origin lose no digits.
+/// Each face is triangulated as a fan. The volume is the sum of the signed volumes of the tetrahedra from a
+/// fixed point to these triangles, by the divergence theorem. The point is the center of the bounding box, so
+/// that meshes far from the origin do not lose precision.
 pub fn volume(mesh: &Mesh) -> f64 {
     let middle = bounds(mesh).map_or(DVec3::ZERO, |[min, max]| 0.5 * (min + max));
     sum_over_faces(mesh, |f| {
@@ -36,7 +36,7 @@ fn sum_over_faces(mesh: &Mesh, term: impl Fn(FaceId) -> f64 + Sync) -> f64 {
     })
 }
 
-/// The smallest and the largest coordinates of all vertices; `None` for a mesh without vertices.
+/// Returns the bounding box of all vertices as its minimum and maximum; `None` for a mesh without vertices.
 pub fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
     let bounds = |v: usize| {
         let v = VertexId::new(v);
@@ -48,8 +48,9 @@ pub fn bounds(mesh: &Mesh) -> Option<[DVec3; 2]> {
     })
 }
 
-/// The number of handles of all components together, by χ = 2c - 2g - b: c the components with
-/// faces, b the boundary loops, χ without isolated vertices.
+/// Returns the number of handles g of all components together, from χ = 2c - 2g - b. Here c is the number of
+/// components with faces, b the number of boundary loops, and χ the Euler characteristic without isolated
+/// vertices.
 pub fn genus(mesh: &Mesh) -> i64 {
     let count = |n: usize| i64::try_from(n).expect("fewer than 2^32 elements");
     let isolated = count(mesh.n_isolated_vertices());
@@ -58,8 +59,8 @@ pub fn genus(mesh: &Mesh) -> i64 {
     (2 * components - count(mesh.n_boundary_loops()) - euler) / 2
 }
 
-/// For each vertex (by index, dead ones too) the number of its component, from 0 in order of the
-/// lowest vertex; an isolated vertex is a component of its own.
+/// Returns the component number of each vertex, by vertex index. Components are numbered from 0 in order of
+/// their lowest vertices, and an isolated vertex is a separate component. Dead vertices have `usize::MAX`.
 pub fn components(mesh: &Mesh) -> Vec<usize> {
     let mut component = vec![usize::MAX; mesh.positions().len()];
     let mut n = 0;
@@ -83,7 +84,7 @@ pub fn components(mesh: &Mesh) -> Vec<usize> {
     component
 }
 
-/// The number of connected parts, isolated vertices counted.
+/// Returns the number of connected components. An isolated vertex counts as a component.
 pub fn n_components(mesh: &Mesh) -> usize {
     let components = components(mesh);
     components
@@ -93,7 +94,7 @@ pub fn n_components(mesh: &Mesh) -> usize {
         .map_or(0, |&last| last + 1)
 }
 
-/// How many vertices have each valence: entry n counts those with n edges.
+/// Returns the number of vertices of each valence: entry n counts the vertices with n edges.
 pub fn valences(mesh: &Mesh) -> Vec<usize> {
     let mut counts = Vec::new();
     for v in mesh.vertices() {
@@ -104,9 +105,10 @@ pub fn valences(mesh: &Mesh) -> Vec<usize> {
     counts
 }
 
-/// Sine and cosine of an angle in degrees, exact for multiples of 90, and the same bits on every platform.
+/// Returns the sine and cosine of an angle in degrees. Exact for multiples of 90, and the same bits on every
+/// platform.
 pub fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
-    let degrees = degrees % 360.0; // the remainder is exact
+    let degrees = degrees % 360.0; // This operation is exact.
     match degrees.abs() {
         0.0 => (0.0, 1.0),
         90.0 => (degrees.signum(), 0.0),
@@ -154,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn the_volume_of_a_mesh_turned_inside_out_is_negative() {
+    fn reversed_faces_negate_the_volume() {
         let cube = shapes::cube();
         let polygons: Vec<Vec<u32>> = cube
             .faces()
@@ -172,8 +174,8 @@ mod tests {
     }
 
     #[test]
-    fn genus_and_loops_tell_the_kinds_of_surfaces_apart() {
-        let kind = |m: &Mesh| {
+    fn genus_and_boundary_loops_classify_surfaces() {
+        let topology = |m: &Mesh| {
             (
                 m.euler_characteristic(),
                 genus(m),
@@ -181,21 +183,21 @@ mod tests {
                 n_components(m),
             )
         };
-        assert_eq!(kind(&shapes::cube()), (2, 0, 0, 1));
-        assert_eq!(kind(&shapes::torus(6, 4, 2.0, 0.5)), (0, 1, 0, 1));
-        assert_eq!(kind(&shapes::grid(3, 2)), (1, 0, 1, 1));
-        assert_eq!(kind(&Mesh::default()), (0, 0, 0, 0));
+        assert_eq!(topology(&shapes::cube()), (2, 0, 0, 1));
+        assert_eq!(topology(&shapes::torus(6, 4, 2.0, 0.5)), (0, 1, 0, 1));
+        assert_eq!(topology(&shapes::grid(3, 2)), (1, 0, 1, 1));
+        assert_eq!(topology(&Mesh::default()), (0, 0, 0, 0));
         let mut tube = shapes::cube();
         tube.delete_face(FaceId::new(0)).unwrap();
         let opposite = tube
             .faces()
             .find(|&f| tube.face_vertices(f).all(|v| !tube.is_boundary_vertex(v)));
         tube.delete_face(opposite.unwrap()).unwrap();
-        assert_eq!(kind(&tube), (0, 0, 2, 1));
+        assert_eq!(topology(&tube), (0, 0, 2, 1));
     }
 
     #[test]
-    fn isolated_vertices_change_neither_genus_nor_loops() {
+    fn isolated_vertices_do_not_change_genus_or_boundary_loops() {
         let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
         let (mesh, _) = Mesh::from_polygons(points, &[[0, 1, 2]]).unwrap();
         assert_eq!(

@@ -1,4 +1,4 @@
-//! Taking a mesh apart.
+//! Splits a mesh into parts.
 //!
 //! ```text
 //!    +---+---+          +---+   +---+        +---+               +---+
@@ -8,16 +8,17 @@
 //!    +---+---+          +---+   +---+            +---+                       +---+
 //! ```
 //!
-//! The faces of a part keep their connections among themselves. Its new boundary is linked by walking
-//! around each vertex through the faces of the part, from the side where it is entered to the side where
-//! it is left: one fan. Of several fans at a vertex the first keeps it and the others get copies.
+//! The faces of a part stay connected to each other. The new boundary of a part is linked by walking around
+//! each of its vertices through the faces of one fan, from the boundary half-edge that ends at the vertex to
+//! the next boundary half-edge. If a vertex has several fans, the first fan keeps the vertex and each of the
+//! other fans gets a copy.
 
 use mesh::{Connectivity, Domain, EdgeId, FaceId, HalfEdgeId, Mesh, Sources, VertexId};
 
 use crate::components;
 
-/// For each face (by index, dead ones too) the number of its component, from 0 in order of the lowest
-/// face; `usize::MAX` for dead ones.
+/// Returns the component number of each face, by face index. Components are numbered from 0 in order of their
+/// lowest faces. Dead faces have `usize::MAX`.
 pub fn face_components(mesh: &Mesh) -> Vec<usize> {
     let of_vertex = components(mesh);
     let mut number = vec![usize::MAX; of_vertex.len()];
@@ -34,11 +35,11 @@ pub fn face_components(mesh: &Mesh) -> Vec<usize> {
     components
 }
 
-/// The components as meshes of their own, in order of their lowest face.
+/// Returns each component as a separate mesh, in order of the lowest faces.
 ///
-/// Elements keep their order and all their values. Isolated vertices belong to no component and are left
-/// out; [`Mesh::n_isolated_vertices`] counts them. The parts are dense. Takes
-/// linear time, however many there are.
+/// Elements keep their order and all their values. Isolated vertices are left out;
+/// [`Mesh::n_isolated_vertices`] counts them. The parts are dense. Takes linear time for any number of
+/// components.
 ///
 /// # Examples
 ///
@@ -56,18 +57,18 @@ pub fn separated(mesh: &Mesh) -> Vec<Mesh> {
     parts(mesh, &face_components(mesh))
 }
 
-/// The mesh taken apart into meshes of their own: a part for each number in `part_of_face` (by index of
-/// the face), in rising order. Faces of `usize::MAX` are left out, and so are isolated vertices.
+/// Splits the mesh into separate meshes: one part for each number in `part_of_face`, which is indexed by face.
+/// Parts are in ascending order of these numbers. Faces with `usize::MAX` and isolated vertices are left out.
 ///
-/// Elements keep their order and their values. An edge between two parts is in both. Where the faces of
-/// a part around a vertex form several fans, the fan of the lowest boundary edge keeps the vertex and
-/// each other one gets a copy of it, behind all others. A part with a new boundary loses columns of
-/// [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Apart from sorting takes linear time, however
-/// many there are.
+/// Elements keep their order and their values. An edge between two parts is in both. If the faces of a part
+/// form several fans around a vertex, the fan with the lowest boundary half-edge keeps the vertex, and each of
+/// the other fans gets a copy, numbered after all other vertices. A part with a new boundary loses the columns
+/// with [`Rule::Drop`](mesh::Rule::Drop). The parts are dense. Except for sorting, takes linear time for any
+/// number of parts.
 ///
 /// # Panics
 ///
-/// If there is not one number for each face, dead ones included.
+/// If `part_of_face` does not have one number for each face, dead faces included.
 pub fn parts(mesh: &Mesh, part_of_face: &[usize]) -> Vec<Mesh> {
     assert_eq!(
         part_of_face.len(),
@@ -76,28 +77,28 @@ pub fn parts(mesh: &Mesh, part_of_face: &[usize]) -> Vec<Mesh> {
     );
     let number = |f: FaceId| part_of_face[f.index()];
     let mut faces: Vec<FaceId> = mesh.faces().filter(|&f| number(f) != usize::MAX).collect();
-    // Stable: the faces of a part stay in order.
+    // The sort is stable, so the faces of a part keep their order.
     faces.sort_by_key(|&f| number(f));
-    let mut scissors = Scissors {
+    let mut builder = PartBuilder {
         mesh,
         vertices: vec![VertexId::NONE; mesh.domain_len(Domain::Vertex)],
         edges: vec![EdgeId::NONE; mesh.domain_len(Domain::Edge)],
     };
     faces
         .chunk_by(|&f, &g| number(f) == number(g))
-        .map(|faces| scissors.part(faces))
+        .map(|faces| builder.part(faces))
         .collect()
 }
 
-/// A mesh that is taken apart, with the numbers that elements have in the part at work.
-struct Scissors<'m> {
+/// Builds parts of a mesh one at a time. Holds the new ids of the elements of the current part.
+struct PartBuilder<'m> {
     mesh: &'m Mesh,
     vertices: Vec<VertexId>,
     edges: Vec<EdgeId>,
 }
 
-impl Scissors<'_> {
-    /// The mesh of some faces, rising.
+impl PartBuilder<'_> {
+    /// Builds the mesh of some faces, which are in ascending order.
     fn part(&mut self, faces: &[FaceId]) -> Mesh {
         let old = self.mesh;
         let sides = || faces.iter().flat_map(|&f| old.face_half_edges(f));
@@ -139,7 +140,9 @@ impl Scissors<'_> {
         }
         // Vertices inside the part keep their half-edge; those on its boundary get theirs below.
         for (v, slot) in vertices.iter().zip(&mut c.vertex_half_edge) {
-            let h = old.vertex_half_edge(*v).expect("it has a face");
+            let h = old
+                .vertex_half_edge(*v)
+                .expect("a vertex of a face has a half-edge");
             if self.edges[h.edge().index()] != EdgeId::NONE {
                 *slot = half_edge(h);
             }
@@ -176,15 +179,15 @@ impl Scissors<'_> {
     }
 }
 
-/// Links the half-edges without a face into loops, and gives each fan at a vertex its own: `vertices` are
-/// the sources of the vertices, behind which those of copies come.
+/// Links the half-edges without a face into boundary loops, and gives each additional fan at a vertex a copy of
+/// the vertex. `vertices` has the source of each vertex; the sources of copies are appended.
 fn link_boundary(c: &mut Connectivity, prev: &[HalfEdgeId], vertices: &mut Vec<VertexId>) {
     let boundary: Vec<HalfEdgeId> = (0..c.next.len())
         .map(HalfEdgeId::new)
         .filter(|h| c.face[h.index()] == FaceId::NONE)
         .collect();
     for &h in &boundary {
-        // Around the target, through the faces of its fan, to the boundary half-edge that leaves.
+        // Walks around the target, through the faces of the fan, to the boundary half-edge that starts there.
         let mut leaving = h.twin();
         while c.face[leaving.index()] != FaceId::NONE {
             leaving = prev[leaving.index()].twin();
@@ -218,7 +221,7 @@ mod tests {
     use crate::{area, n_components, shapes};
     use mesh::{CREASE, Column, DVec2, DVec3, MATERIAL, Rule, UV, Values};
 
-    /// A mesh of several shapes whose faces come in turns, with attributes.
+    /// Returns a mesh of several shapes with interleaved faces and attributes, and the shapes.
     fn mixed() -> (Mesh, Vec<Mesh>) {
         let shapes = vec![
             shapes::cube(),
@@ -268,11 +271,11 @@ mod tests {
             assert_eq!(part.n_faces(), shape.n_faces());
             assert!((area(part) - area(shape)).abs() < 1e-9);
             assert_eq!(part.n_boundary_loops(), shape.n_boundary_loops());
-            // Nothing was cut, so nothing is dropped.
+            // No edge was cut, so no column is dropped.
             assert_eq!(part.attributes().iter().count(), 4);
-            let mine = part.get(MATERIAL).unwrap();
-            assert!(mine.is_sorted());
-            materials.extend_from_slice(mine);
+            let part_materials = part.get(MATERIAL).unwrap();
+            assert!(part_materials.is_sorted());
+            materials.extend_from_slice(part_materials);
             for h in part.half_edges() {
                 let source = part.get(UV).unwrap()[h.index()].x;
                 let crease = part.get(CREASE).unwrap()[h.edge().index()];
@@ -284,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_of_one_component_stays_as_it_is() {
+    fn a_mesh_of_one_component_is_unchanged() {
         for shape in [
             shapes::grid(4, 3),
             shapes::torus(5, 4, 2.0, 0.5),
@@ -297,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn dead_elements_are_left_out() {
+    fn dead_elements_are_ignored() {
         let mut mesh = mixed().0;
         mesh.delete_face(FaceId::new(0)).unwrap();
         let mut dense = mesh.clone();
@@ -306,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn edges_between_parts_are_in_both() {
+    fn edges_between_parts_are_in_both_parts() {
         let mut mesh = shapes::grid(4, 1);
         mesh.set(UV, mesh.half_edges().map(|_| DVec2::ONE).collect());
         let parts = parts(&mesh, &[usize::MAX - 1, usize::MAX - 1, usize::MAX, 0]);
@@ -324,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cut_part_drops_what_edits_drop() {
+    fn parts_with_a_new_boundary_lose_columns_with_the_drop_rule() {
         let (mesh, _) = mixed();
         let part_of_face: Vec<usize> = (0..mesh.n_faces()).map(|f| f % 2).collect();
         for part in parts(&mesh, &part_of_face) {
@@ -334,8 +337,8 @@ mod tests {
     }
 
     #[test]
-    fn fans_that_meet_in_a_vertex_get_one_each() {
-        // A board of black and white squares.
+    fn each_fan_at_a_shared_vertex_gets_a_separate_vertex() {
+        // A checkerboard.
         let board = shapes::grid(5, 5);
         let color: Vec<usize> = (0..25).map(|f| f % 2).collect();
         for (part, n) in parts(&board, &color).iter().zip([13, 12]) {

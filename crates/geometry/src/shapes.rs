@@ -1,17 +1,17 @@
-//! Simple meshes: for examples, tests and recipes.
+//! Simple meshes for examples, tests and recipes.
 //!
-//! All are centered at the origin, their faces counter-clockwise seen from outside (flat ones: from
-//! above, +z), and their elements numbered in the order of the code below.
+//! All except [`square`] are centered at the origin. Faces are counter-clockwise when seen from outside (faces
+//! of flat shapes: from above, +z).
 
 use mesh::{DVec3, Mesh, VertexId};
 
-/// The square from (0, 0, 0) to (1, 1, 0): one face.
+/// Makes the square from (0, 0, 0) to (1, 1, 0): one face.
 pub fn square() -> Mesh {
     let positions = vec![DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
     of(positions, &[[0, 1, 2, 3]])
 }
 
-/// A cube with corners at ±1: 8 vertices, 6 squares.
+/// Makes a cube with corners at ±1: 8 vertices, 6 squares.
 ///
 /// ```text
 ///      6 ------ 7        z
@@ -41,7 +41,7 @@ pub fn cube() -> Mesh {
     )
 }
 
-/// A regular tetrahedron on four corners of the cube: 4 vertices, 4 triangles.
+/// Makes a regular tetrahedron from four corners of the cube: 4 vertices, 4 triangles.
 pub fn tetrahedron() -> Mesh {
     let at = DVec3::new;
     let positions = vec![
@@ -53,7 +53,7 @@ pub fn tetrahedron() -> Mesh {
     of(positions, &[[0, 1, 3], [0, 2, 1], [0, 3, 2], [1, 2, 3]])
 }
 
-/// A regular octahedron with corners at distance 1 on the axes: 6 vertices, 8 triangles.
+/// Makes a regular octahedron with corners at distance 1 on the axes: 6 vertices, 8 triangles.
 pub fn octahedron() -> Mesh {
     let positions = vec![
         DVec3::X,
@@ -78,7 +78,7 @@ pub fn octahedron() -> Mesh {
     )
 }
 
-/// A regular icosahedron with its corners at distance 1: 12 vertices, 20 triangles.
+/// Makes a regular icosahedron with its corners at distance 1: 12 vertices, 20 triangles.
 pub fn icosahedron() -> Mesh {
     let golden = f64::midpoint(1.0, 5.0_f64.sqrt());
     let scale = 1.0 / (1.0 + golden * golden).sqrt();
@@ -125,7 +125,7 @@ pub fn icosahedron() -> Mesh {
     )
 }
 
-/// A flat sheet of `columns` x `rows` unit squares around the origin, in rows from -y to +y.
+/// Makes a flat sheet of `columns` x `rows` unit squares. Rows are numbered from -y to +y.
 ///
 /// # Panics
 ///
@@ -144,8 +144,8 @@ pub fn grid(columns: u32, rows: u32) -> Mesh {
     of(positions, &polygons)
 }
 
-/// A torus around the z axis of `around` x `across` quadrilaterals: `major` is the distance from the
-/// axis to the middle of the tube, `minor` the radius of the tube.
+/// Makes a torus around the z axis with `around` x `across` quadrilaterals. `major` is the distance from the
+/// axis to the center of the tube, and `minor` is the radius of the tube.
 ///
 /// # Panics
 ///
@@ -173,8 +173,8 @@ pub fn torus(around: u32, across: u32, major: f64, minor: f64) -> Mesh {
     of(positions, &polygons)
 }
 
-/// A cylinder around the z axis with radius 1 from z = -1 to z = 1: `around` squares and, if `caps`
-/// is set, two faces of `around` corners.
+/// Makes a cylinder around the z axis with radius 1, from z = -1 to z = 1. It has `around` quadrilaterals and,
+/// if `caps` is true, two faces with `around` corners.
 ///
 /// # Panics
 ///
@@ -203,8 +203,8 @@ pub fn cylinder(around: u32, caps: bool) -> Mesh {
     of(positions, &polygons)
 }
 
-/// A sphere of radius 1 with poles at ±z: `around` meridians, `rings` bands of faces from pole to
-/// pole, triangles at the poles and quadrilaterals between.
+/// Makes a sphere of radius 1 with poles at ±z. It has `around` meridians and `rings` bands of faces from pole
+/// to pole: triangles at the poles and quadrilaterals between them.
 ///
 /// # Panics
 ///
@@ -238,8 +238,8 @@ pub fn uv_sphere(around: u32, rings: u32) -> Mesh {
     of(positions, &polygons)
 }
 
-/// The same vertices with each polygon cut into a fan of triangles at its first corner: the triangles of
-/// a polygon stand where it stood. For the convex polygons of the shapes here; attributes are left out.
+/// Returns the mesh with each polygon triangulated as a fan at its first corner. The triangles are in the order
+/// of the polygons. Meant for convex polygons, such as those of these shapes. Attributes are dropped.
 pub fn fans(mesh: &Mesh) -> Mesh {
     let number = |v: VertexId| u32::try_from(v.index()).expect("ids are below 2^32");
     let mut triangles = Vec::new();
@@ -250,13 +250,13 @@ pub fn fans(mesh: &Mesh) -> Mesh {
     of(mesh.positions().to_vec(), &triangles)
 }
 
-/// The point of the unit circle after `i` of `n` steps around it.
+/// Returns the point of the unit circle after `i` of `n` equal steps.
 fn turn(i: u32, n: u32) -> (f64, f64) {
     let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / f64::from(n));
     (cos, sin)
 }
 
-/// A mesh of polygons that are known to be a manifold.
+/// Builds a mesh from polygons that are known to be a manifold.
 fn of(positions: Vec<DVec3>, polygons: &[impl AsRef<[u32]> + Sync]) -> Mesh {
     let (mesh, report) =
         Mesh::from_polygons(positions, polygons).expect("the polygons of a shape are valid");
@@ -306,7 +306,7 @@ mod tests {
     }
 
     #[test]
-    fn an_open_cylinder_has_two_rims() {
+    fn an_open_cylinder_has_two_boundary_loops() {
         assert_eq!(cylinder(5, false).n_boundary_loops(), 2);
     }
 

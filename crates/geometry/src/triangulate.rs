@@ -1,4 +1,4 @@
-//! Which diagonals cut a polygon into triangles.
+//! Triangulation of polygons: computes the diagonals that cut a polygon into triangles.
 //!
 //! ```text
 //!    d ------- c          d ------- c          .---.                  .---.
@@ -8,48 +8,48 @@
 //!    a ------- b          a ------- b          '---'                  '---'
 //! ```
 //!
-//! A quadrilateral is cut along its shorter diagonal, a larger polygon by ears, improved until it is a
-//! Delaunay triangulation inside its sides; what cannot be cut this way becomes a fan. [`Cutter`] tells
-//! all that is to know.
+//! A quadrilateral is cut along its shorter diagonal. A larger polygon is cut by ear clipping, then its
+//! diagonals are flipped until it is a constrained Delaunay triangulation. If that fails, it becomes a fan. See
+//! [`Cutter`] for the details.
 //!
-//! Corners are counted from 0 along the face. A triangle is written with its corners in rising order,
-//! which is also its direction.
+//! Corners are numbered from 0 along the face. The corners of a triangle are in ascending order, which has the
+//! orientation of the face.
 
 use earcut::{Earcut, Refiner};
 
 use mesh::{DVec3, FaceId, Mesh};
 
-/// Three corners of a face, rising.
+/// Three corners of a face, in ascending order.
 pub type Triangle = [u32; 3];
 
-/// Lengths, areas and turns that differ by less than this, relatively, are taken as equal.
+/// Lengths, areas and turns whose relative difference is below this are treated as equal.
 const TOLERANCE: f64 = 1e-12;
-/// Ear clipping numbers its nodes by 32 bits, several bytes each. Larger faces become fans.
-const MOST_CORNERS: usize = 10_000_000;
+/// The most corners of a face for ear clipping, whose indices have 32 bits. Larger faces become fans.
+const MAX_CORNERS: usize = 10_000_000;
 
 /// How a face is cut.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cut {
-    /// Not at all: it is a triangle.
+    /// The face is a triangle and is not cut.
     Keep,
-    /// A quadrilateral.
+    /// The face is a quadrilateral and is cut along one diagonal.
     Quad {
-        /// Whether from corner 0 to 2, not from 1 to 3.
+        /// Whether the diagonal runs from corner 0 to 2. Otherwise it runs from 1 to 3.
         from_zero: bool,
-        /// Whether the other diagonal would do as well.
+        /// Whether the other diagonal would be valid too.
         is_free: bool,
     },
-    /// A larger face.
+    /// The face has more than four corners.
     Polygon {
-        /// Its triangles, in order.
+        /// The triangles, sorted.
         triangles: Vec<Triangle>,
-        /// Whether they are a fan for want of anything better.
+        /// Whether the triangles are a fan because ear clipping failed.
         is_fan: bool,
     },
 }
 
 impl Cut {
-    /// How many edges it adds, and faces.
+    /// The number of new edges, which is also the number of additional faces.
     pub fn n_diagonals(&self) -> usize {
         match self {
             Self::Keep => 0,
@@ -58,12 +58,12 @@ impl Cut {
         }
     }
 
-    /// Whether the triangles are a fan for want of anything better.
+    /// Whether the triangles are a fan because ear clipping failed.
     pub fn is_fan(&self) -> bool {
         matches!(self, Self::Polygon { is_fan: true, .. })
     }
 
-    /// The triangles, in order; none if it is not cut.
+    /// The triangles, sorted. Empty if the face is not cut.
     pub fn triangles(&self) -> &[Triangle] {
         match self {
             Self::Keep => &[],
@@ -75,11 +75,11 @@ impl Cut {
         }
     }
 
-    /// Puts the diagonals into a list, which is emptied first: pairs of corners, lower first, in order.
+    /// Replaces the contents of `into` by the diagonals: sorted pairs of corners, the lower corner first.
     pub fn diagonals(&self, into: &mut Vec<[u32; 2]>) {
         into.clear();
-        // Each triangle below a diagonal has it as the side from its last to its first corner; one
-        // triangle has a side of the face there instead.
+        // Each diagonal is the side from the last to the first corner of one triangle. One triangle has a side
+        // of the face there instead.
         let triangles = self.triangles();
         let last = u32::try_from(triangles.len()).expect("corners fit 32 bits") + 1;
         let sides = triangles.iter().map(|&[a, _, c]| [a, c]);
@@ -88,17 +88,17 @@ impl Cut {
     }
 }
 
-/// Cuts faces, one after another, with buffers that are used again.
+/// Triangulates faces one after another, and reuses its buffers.
 ///
-/// A quadrilateral is cut along its shorter diagonal; if both are equally long (squares of lengths
-/// within 1e-12 of each other) along the one at its lowest vertex. But a diagonal with a triangle that
-/// has no area or is turned over, seen along the normal of the face, is taken only if the other one is no
-/// better: a quadrilateral with a reflex corner is cut there.
+/// A quadrilateral is cut along its shorter diagonal. If both are equally long (relative difference of the
+/// squared lengths at most 1e-12), it is cut along the diagonal at its lowest vertex. A diagonal is avoided if
+/// one of its triangles has no area or is flipped, as seen along the face normal, unless the other diagonal has
+/// the same problem. So a quadrilateral with a reflex corner is cut at that corner.
 ///
-/// A larger face is projected along its normal and cut by ears (Held, "FIST: Fast Industrial-Strength
-/// Triangulation of Polygons", 2001, as the crate `earcut` does it), and then diagonals are turned until
-/// it is a Delaunay triangulation inside its sides. A face that has no area or whose sides cross may
-/// not be cut this way: then it becomes a fan around its lowest vertex.
+/// A larger face is projected along its normal and cut by ear clipping (Held, "FIST: Fast Industrial-Strength
+/// Triangulation of Polygons", 2001, as implemented by the crate `earcut`). Then diagonals are flipped until it
+/// is a constrained Delaunay triangulation. Ear clipping can fail if the face has no area or its sides cross.
+/// Then the face becomes a fan around its lowest vertex.
 ///
 /// # Examples
 ///
@@ -120,7 +120,7 @@ pub struct Cutter {
 }
 
 impl Cutter {
-    /// How `f` is cut.
+    /// Returns how `f` is cut.
     pub fn cut(&mut self, mesh: &Mesh, f: FaceId) -> Cut {
         self.points.clear();
         let corners = mesh.face_vertices(f).map(|v| mesh.position(v));
@@ -140,11 +140,11 @@ impl Cutter {
         Cut::Polygon { triangles, is_fan }
     }
 
-    /// Cuts the points by ears; `None` if what comes out does not cover them.
+    /// Triangulates the points by ear clipping. Returns `None` if the result is not a triangulation.
     fn ears(&mut self) -> Option<Vec<Triangle>> {
         let n = self.points.len();
         let normal = doubled_area(&self.points).try_normalize()?;
-        if n > MOST_CORNERS || doubled_area(&self.points).length() < TOLERANCE {
+        if n > MAX_CORNERS || doubled_area(&self.points).length() < TOLERANCE {
             return None;
         }
         let (x, y) = normal.any_orthonormal_pair();
@@ -152,19 +152,19 @@ impl Cutter {
         let project = |p: &DVec3| [x.dot(*p), y.dot(*p)];
         self.flat.extend(self.points.iter().map(project));
         self.earcut.earcut_slice(&self.flat, &[], &mut self.indices);
-        let mut triangles = sorted(&self.indices);
-        // Corners between two in line with them, or in their place, are left out by the ears.
-        put_back(n, &mut triangles);
+        let mut triangles = to_triangles(&self.indices);
+        // Ear clipping skips corners that are collinear with their neighbours or coincide with them.
+        insert_skipped_corners(n, &mut triangles);
         triangles.sort_unstable();
-        if !is_cut_of(n, &triangles) {
+        if !is_triangulation(n, &triangles) {
             return None;
         }
         self.indices.clear();
         self.indices.extend(triangles.iter().flatten());
         self.refiner.refine(&mut self.indices, &self.flat);
-        let mut refined = sorted(&self.indices);
+        let mut refined = to_triangles(&self.indices);
         refined.sort_unstable();
-        Some(if is_cut_of(n, &refined) {
+        Some(if is_triangulation(n, &refined) {
             refined
         } else {
             triangles
@@ -172,11 +172,11 @@ impl Cutter {
     }
 }
 
-/// Moves the points so that the first is at 0, and scales them by a power of two to a size near 1, so that
-/// products neither overflow nor vanish.
+/// Translates the points so that the first is at the origin, and scales them by a power of two to a size near
+/// 1, so that products neither overflow nor underflow.
 fn normalize(points: &mut [DVec3]) {
     let first = points[0];
-    // Quarters, because the difference of two finite numbers may be infinite.
+    // Uses quarters, because the difference of two finite numbers can be infinite.
     let quarter = |p: &DVec3| (0.25 * *p - 0.25 * first).abs().max_element();
     let extent = points.iter().map(quarter).fold(0.0, f64::max);
     if extent > 0.0 {
@@ -191,7 +191,7 @@ fn normalize(points: &mut [DVec3]) {
     }
 }
 
-/// Twice the area vector of a polygon, by Newell's method.
+/// Returns twice the area vector of a polygon, by Newell's method.
 fn doubled_area(points: &[DVec3]) -> DVec3 {
     points
         .windows(2)
@@ -199,7 +199,7 @@ fn doubled_area(points: &[DVec3]) -> DVec3 {
         .sum()
 }
 
-/// Cuts a quadrilateral whose lowest vertex is at corner `lowest`.
+/// Returns how to cut a quadrilateral whose lowest vertex is at corner `lowest`.
 fn quad(points: [DVec3; 4], lowest: u32) -> Cut {
     let [a, b, c, d] = points;
     let normal = doubled_area(&points);
@@ -222,36 +222,39 @@ fn quad(points: [DVec3; 4], lowest: u32) -> Cut {
     }
 }
 
-/// All triangles at one corner.
+/// Returns the fan of triangles at one corner, sorted.
 fn fan(n: usize, corner: u32) -> Vec<Triangle> {
     let n = u32::try_from(n).expect("corners fit 32 bits");
     let mut triangles: Vec<Triangle> = (1..n - 1)
-        .map(|i| rising([corner, (corner + i) % n, (corner + i + 1) % n]))
+        .map(|i| with_sorted_corners([corner, (corner + i) % n, (corner + i + 1) % n]))
         .collect();
     triangles.sort_unstable();
     triangles
 }
 
-/// Triples of corners as triangles.
-fn sorted(indices: &[u32]) -> Vec<Triangle> {
+/// Groups corner indices into triangles.
+fn to_triangles(indices: &[u32]) -> Vec<Triangle> {
     let triangles = indices.as_chunks().0;
-    triangles.iter().map(|&triangle| rising(triangle)).collect()
+    triangles
+        .iter()
+        .map(|&triangle| with_sorted_corners(triangle))
+        .collect()
 }
 
-/// The triangle with its corners in rising order.
-fn rising(mut triangle: Triangle) -> Triangle {
+/// Returns the triangle with its corners in ascending order.
+fn with_sorted_corners(mut triangle: Triangle) -> Triangle {
     triangle.sort_unstable();
     triangle
 }
 
-/// Puts corners that no triangle has back where they belong: on the side that skips them.
+/// Inserts corners that no triangle uses, by splitting the triangle at the side that skips them.
 ///
 /// ```text
 ///        c                c
 ///      /   \            / | \
 ///    a ----- b   -->   a--m--b
 /// ```
-fn put_back(n: usize, triangles: &mut Vec<Triangle>) {
+fn insert_skipped_corners(n: usize, triangles: &mut Vec<Triangle>) {
     let mut is_used = vec![false; n];
     triangles
         .iter()
@@ -268,72 +271,77 @@ fn put_back(n: usize, triangles: &mut Vec<Triangle>) {
     let Some(&first) = used.first() else {
         return;
     };
-    let following = |i: u32| {
+    let next_used = |i: u32| {
         let place = used.partition_point(|&u| u <= i);
         used.get(place).copied().unwrap_or(first)
     };
-    // For each side of the smaller polygon its triangle, by the corner where it begins.
+    // For each side of the polygon of used corners, the triangle at that side, indexed by the first corner of
+    // the side.
     let mut owner = vec![None; n];
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {
             let [from, to] = [triangle[k], triangle[(k + 1) % 3]];
-            if following(from) == to {
+            if next_used(from) == to {
                 owner[from as usize] = Some(t);
             }
         }
     }
     let n = u32::try_from(n).expect("corners fit 32 bits");
     for &a in &used {
-        let b = following(a);
+        let b = next_used(a);
         let Some(t) = owner[a as usize].filter(|_| (a + 1) % n != b) else {
             continue;
         };
         let Some(&c) = triangles[t].iter().find(|&&c| c != a && c != b) else {
             continue;
         };
-        // The first piece keeps the place in the list and the side from c, the last gets that to c.
+        // The first part replaces the old triangle in the list and keeps the side from c. The last part has the
+        // side to c.
         let mut from = a;
-        let mut piece = t;
+        let mut part = t;
         while from != b {
             let to = (from + 1) % n;
-            let triangle = rising([from, to, c]);
+            let triangle = with_sorted_corners([from, to, c]);
             if from == a {
                 triangles[t] = triangle;
             } else {
-                piece = triangles.len();
+                part = triangles.len();
                 triangles.push(triangle);
             }
             from = to;
         }
-        if following(b) == c {
-            owner[b as usize] = Some(piece);
+        if next_used(b) == c {
+            owner[b as usize] = Some(part);
         }
     }
 }
 
-/// Whether sorted triangles are a triangulation of a polygon with `n` corners: there are n - 2, each side
-/// of the polygon belongs to one of them, and each other side to one on either hand.
-fn is_cut_of(n: usize, triangles: &[Triangle]) -> bool {
+/// Whether sorted triangles are a triangulation of a polygon with `n` corners: there are n - 2 triangles, each
+/// side of the polygon belongs to one of them, and each diagonal to two triangles on opposite sides.
+fn is_triangulation(n: usize, triangles: &[Triangle]) -> bool {
     if triangles.len() + 2 != n {
         return false;
     }
     let n = u32::try_from(n).expect("corners fit 32 bits");
-    // Sides that run up, and sides that run down, written upwards.
-    let mut up: Vec<[u32; 2]> = triangles
+    // The sides whose corner numbers ascend, and the sides whose corner numbers descend, both with the lower
+    // corner first.
+    let mut ascending: Vec<[u32; 2]> = triangles
         .iter()
         .flat_map(|&[a, b, c]| [[a, b], [b, c]])
         .collect();
-    let mut down: Vec<[u32; 2]> = triangles.iter().map(|&[a, _, c]| [a, c]).collect();
-    // The polygon runs up from 0 to n - 1, and down once, from n - 1 to 0.
+    let mut descending: Vec<[u32; 2]> = triangles.iter().map(|&[a, _, c]| [a, c]).collect();
+    // The sides of the polygon ascend from 0 to n - 1, and the last one descends from n - 1 to 0.
     let whole = [0, n - 1];
-    let Some(place) = down.iter().position(|&side| side == whole) else {
+    let Some(place) = descending.iter().position(|&side| side == whole) else {
         return false;
     };
-    down.swap_remove(place);
-    down.extend((1..n).map(|i| [i - 1, i]));
-    up.sort_unstable();
-    down.sort_unstable();
-    up == down && up.windows(2).all(|w| w[0] != w[1]) && up.iter().all(|[a, b]| a < b)
+    descending.swap_remove(place);
+    descending.extend((1..n).map(|i| [i - 1, i]));
+    ascending.sort_unstable();
+    descending.sort_unstable();
+    ascending == descending
+        && ascending.windows(2).all(|w| w[0] != w[1])
+        && ascending.iter().all(|[a, b]| a < b)
 }
 
 #[cfg(test)]
@@ -344,44 +352,44 @@ mod tests {
     fn fans_are_triangulations() {
         for n in 4..9 {
             for corner in 0..u32::try_from(n).unwrap() {
-                assert!(is_cut_of(n, &fan(n, corner)), "{n} {corner}");
+                assert!(is_triangulation(n, &fan(n, corner)), "{n} {corner}");
             }
         }
     }
 
     #[test]
-    fn what_is_no_triangulation_is_seen() {
-        assert!(is_cut_of(5, &[[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
+    fn invalid_triangulations_are_detected() {
+        assert!(is_triangulation(5, &[[0, 1, 2], [0, 2, 3], [0, 3, 4]]));
         for wrong in [
-            // Too few, one twice, crossing diagonals, a corner twice.
+            // Too few triangles, a duplicate triangle, crossing diagonals, a corner twice in a triangle.
             vec![[0, 1, 2], [0, 2, 4]],
             vec![[0, 1, 2], [0, 2, 4], [0, 2, 4]],
             vec![[0, 1, 2], [1, 2, 3], [0, 3, 4]],
             vec![[0, 1, 2], [0, 2, 4], [3, 3, 4]],
             vec![[0, 1, 4], [1, 2, 4], [0, 3, 4]],
         ] {
-            assert!(!is_cut_of(5, &wrong), "{wrong:?}");
+            assert!(!is_triangulation(5, &wrong), "{wrong:?}");
         }
     }
 
     #[test]
-    fn corners_that_were_left_out_come_back_on_their_side() {
+    fn skipped_corners_are_inserted_at_their_side() {
         // A triangle with corners 1, 4, 6 of a polygon with 8.
         let mut triangles = vec![[1, 4, 6]];
-        put_back(8, &mut triangles);
+        insert_skipped_corners(8, &mut triangles);
         triangles.sort_unstable();
-        assert!(is_cut_of(8, &triangles), "{triangles:?}");
-        // Two triangles, with corners left out on all of their sides but the shared one.
+        assert!(is_triangulation(8, &triangles), "{triangles:?}");
+        // Two triangles with skipped corners at all sides except the shared one.
         let mut triangles = vec![[0, 2, 4], [0, 4, 6]];
-        put_back(8, &mut triangles);
+        insert_skipped_corners(8, &mut triangles);
         triangles.sort_unstable();
-        assert!(is_cut_of(8, &triangles), "{triangles:?}");
+        assert!(is_triangulation(8, &triangles), "{triangles:?}");
     }
 
     #[test]
-    fn nothing_is_put_back_without_triangles() {
+    fn without_triangles_no_corners_are_inserted() {
         let mut triangles = Vec::new();
-        put_back(5, &mut triangles);
+        insert_skipped_corners(5, &mut triangles);
         assert!(triangles.is_empty());
     }
 }

@@ -1,11 +1,11 @@
-//! Reads the cases and results.
+//! Reads the case and result files.
 
 use std::path::{Path, PathBuf};
 
 use mesh::{CREASE, DVec2, DVec3, Mesh, UV, VERTEX_SHARPNESS, VertexId};
 use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split};
 
-/// A case or a result: lines of a word and what belongs to it.
+/// A case or a result file. Each line is a keyword followed by its values.
 pub(super) struct Lines {
     text: String,
 }
@@ -17,7 +17,7 @@ impl Lines {
         Self { text }
     }
 
-    /// What follows `word` on the lines that begin with it.
+    /// Iterates over the values of the lines that start with `word`.
     pub(super) fn after<'a>(&'a self, word: &'a str) -> impl Iterator<Item = Vec<&'a str>> {
         self.text.lines().filter_map(move |line| {
             let mut words = line.split_whitespace();
@@ -25,19 +25,19 @@ impl Lines {
         })
     }
 
-    pub(super) fn choice(&self, word: &str) -> &str {
+    pub(super) fn option(&self, word: &str) -> &str {
         let mut found = self.text.lines().filter_map(|line| {
             let (first, rest) = line.split_once(' ')?;
             (first == word).then_some(rest)
         });
-        found.next().expect("every choice is made")
+        found.next().expect("every option has a line")
     }
 
     pub(super) fn positions(&self) -> Vec<DVec3> {
         self.after("vertex").map(|words| point(&words)).collect()
     }
 
-    /// For each face its corners: a vertex and, if there are any, a number of a uv.
+    /// Returns the corners of each face: a vertex and, if the case has uvs, the number of a uv.
     pub(super) fn faces(&self) -> Vec<Vec<(u32, Option<usize>)>> {
         let corner = |word: &&str| match word.split_once('/') {
             Some((v, uv)) => (parse(v), Some(parse(uv))),
@@ -68,7 +68,7 @@ impl Lines {
 
 pub(super) fn parse<T: std::str::FromStr>(word: &str) -> T {
     let value = word.parse().ok();
-    value.unwrap_or_else(|| panic!("{word} is not what belongs there"))
+    value.unwrap_or_else(|| panic!("cannot parse {word}"))
 }
 
 fn vertex(word: &str) -> VertexId {
@@ -79,7 +79,7 @@ pub(super) fn point(words: &[&str]) -> DVec3 {
     DVec3::new(parse(words[0]), parse(words[1]), parse(words[2]))
 }
 
-/// A folder of the second opinion: `cases` or `results`.
+/// Returns a folder of the reference data: `cases` or `results`.
 pub(super) fn folder(name: &str) -> PathBuf {
     crate::root().join("tests/oracle").join(name)
 }
@@ -92,7 +92,7 @@ pub(super) fn result(case: &str) -> Lines {
     Lines::of(&folder("results").join(case).with_extension("txt"))
 }
 
-/// The mesh of a case with its attributes.
+/// Returns the mesh of a case with its attributes.
 pub(super) fn mesh_of(case: &Lines) -> Mesh {
     let faces = case.faces();
     let polygons: Vec<Vec<u32>> = faces
@@ -137,30 +137,30 @@ pub(super) fn mesh_of(case: &Lines) -> Mesh {
 
 pub(super) fn rules_of(case: &Lines) -> Rules {
     Rules {
-        scheme: match case.choice("scheme") {
+        scheme: match case.option("scheme") {
             "Loop" => Scheme::Loop(LoopWeights::Loop),
             "CatmullClark" => Scheme::CatmullClark,
             "Bilinear" => Scheme::Midpoint(Split::Quads),
-            other => panic!("{other} is no scheme"),
+            other => panic!("unknown scheme {other}"),
         },
-        boundary: match case.choice("boundary") {
+        boundary: match case.option("boundary") {
             "EdgesOnly" => Boundary::EdgesOnly,
             "EdgesAndCorners" => Boundary::EdgesAndCorners,
-            other => panic!("{other} is no rule of boundaries"),
+            other => panic!("unknown boundary rule {other}"),
         },
-        creasing: match case.choice("creasing") {
+        creasing: match case.option("creasing") {
             "Uniform" => Creasing::Uniform,
             "Chaikin" => Creasing::Chaikin,
-            other => panic!("{other} is no rule of creases"),
+            other => panic!("unknown creasing rule {other}"),
         },
-        face_varying: match case.choice("face_varying") {
+        face_varying: match case.option("face_varying") {
             "None" => FaceVarying::None,
             "CornersOnly" => FaceVarying::CornersOnly,
             "CornersPlus1" => FaceVarying::CornersPlus1,
             "CornersPlus2" => FaceVarying::CornersPlus2,
             "Boundaries" => FaceVarying::Boundaries,
             "All" => FaceVarying::All,
-            other => panic!("{other} is no rule of corner values"),
+            other => panic!("unknown face-varying rule {other}"),
         },
     }
 }

@@ -1,5 +1,5 @@
-//! Pixar's OpenSubdiv as a second opinion: what it makes of the cases in `tests/oracle/`, and what the
-//! crate `subdivision` makes of them. `tests/oracle/README.md` describes the files.
+//! Compares the crate `subdivision` with Pixar's OpenSubdiv on the cases in `tests/oracle/`.
+//! `tests/oracle/README.md` describes the files.
 
 mod case;
 
@@ -11,15 +11,15 @@ use subdivision::{Rules, Scheme, subdivide};
 
 use case::{Lines, case, folder, mesh_of, parse, point, result, rules_of};
 
-/// How far two numbers may lie apart: the results have seven digits, and OpenSubdiv's sharpness is `f32`.
+/// The tolerance for equal numbers: the results have seven digits, and OpenSubdiv's sharpness is `f32`.
 const TOLERANCE: f64 = 1e-6;
 
-/// For each vertex of `mesh` the one of `expected` that lies nearest, if that is the same place and no other
-/// vertex lies there.
+/// Returns for each vertex of `mesh` the nearest position in `expected`. Fails unless all pairs are within the
+/// tolerance and each position is used once.
 fn matched(mesh: &Mesh, expected: &[DVec3], tolerance: f64) -> Result<Vec<VertexId>, String> {
     if mesh.n_vertices() != expected.len() {
         let n = mesh.n_vertices();
-        return Err(format!("{n} vertices in place of {}", expected.len()));
+        return Err(format!("{n} vertices, expected {}", expected.len()));
     }
     let mut taken = vec![false; expected.len()];
     let mut partners = Vec::with_capacity(expected.len());
@@ -27,7 +27,7 @@ fn matched(mesh: &Mesh, expected: &[DVec3], tolerance: f64) -> Result<Vec<Vertex
     for &p in mesh.positions() {
         let distance = |i: &usize| expected[*i].distance(p);
         let nearest = (0..expected.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
-        let nearest = nearest.expect("as many as the mesh has");
+        let nearest = nearest.expect("both have the same number of vertices");
         most = most.max(distance(&nearest));
         let twice = std::mem::replace(&mut taken[nearest], true);
         wrong += usize::from(twice || distance(&nearest) > tolerance);
@@ -36,23 +36,23 @@ fn matched(mesh: &Mesh, expected: &[DVec3], tolerance: f64) -> Result<Vec<Vertex
     if wrong > 0 {
         let n = expected.len();
         return Err(format!(
-            "{wrong} of {n} vertices lie elsewhere, by {most:e}"
+            "{wrong} of {n} vertices do not match, by up to {most:e}"
         ));
     }
     Ok(partners)
 }
 
-/// A face from its lowest vertex on, with the uvs of the corners.
+/// Rotates a face so that it starts at its lowest vertex. Returns its vertices and the uvs of its corners.
 fn cycle(mut corners: Vec<(VertexId, Option<DVec2>)>) -> (Vec<VertexId>, Vec<Option<DVec2>>) {
     let lowest = (0..corners.len()).min_by_key(|&i| corners[i].0);
     corners.rotate_left(lowest.unwrap_or(0));
     corners.into_iter().unzip()
 }
 
-/// What differs between the faces of `mesh` and the expected ones, and between their uvs.
+/// Describes the differences between the faces of `mesh` and the expected faces, and between their uvs.
 fn faces_differ(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<String> {
     let uvs = expected.uvs();
-    let wanted: BTreeMap<_, _> = expected
+    let expected_values: BTreeMap<_, _> = expected
         .faces()
         .into_iter()
         .map(|face| {
@@ -75,13 +75,13 @@ fn faces_differ(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<Str
     };
     let (mut unknown, mut apart, mut most) = (0, 0, 0.0_f64);
     for (vertices, uvs) in mesh.faces().map(here) {
-        let Some(wanted) = wanted.get(&vertices) else {
+        let Some(expected_values) = expected_values.get(&vertices) else {
             unknown += 1;
             continue;
         };
-        for (uv, wanted) in uvs.iter().zip(wanted) {
-            let distance = match (uv, wanted) {
-                (Some(uv), Some(wanted)) => uv.distance(*wanted),
+        for (uv, expected_values) in uvs.iter().zip(expected_values) {
+            let distance = match (uv, expected_values) {
+                (Some(uv), Some(expected_values)) => uv.distance(*expected_values),
                 (None, None) => 0.0,
                 _ => f64::INFINITY,
             };
@@ -91,20 +91,23 @@ fn faces_differ(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<Str
     }
 
     let mut failures = Vec::new();
-    if mesh.n_faces() != wanted.len() || unknown > 0 {
-        let (n, wanted) = (mesh.n_faces(), wanted.len());
+    if mesh.n_faces() != expected_values.len() || unknown > 0 {
+        let (n, expected_values) = (mesh.n_faces(), expected_values.len());
         failures.push(format!(
-            "{n} faces in place of {wanted}, {unknown} of them unknown"
+            "{n} faces, expected {expected_values}; {unknown} of them are not expected"
         ));
     }
     if apart > 0 {
-        failures.push(format!("{apart} corners have other uvs, by up to {most}"));
+        failures.push(format!(
+            "{apart} corners have different uvs, by up to {most}"
+        ));
     }
     failures
 }
 
-/// What differs between the sharpness that is left and the expected one. Edges of the boundary and
-/// vertices that the rule of the boundary makes corners are left out: OpenSubdiv writes the rule into its numbers.
+/// Describes the differences between the sharpness of `mesh` and the expected sharpness. Skips boundary edges,
+/// and vertices that the boundary rule makes corners, because OpenSubdiv includes the rule in its sharpness
+/// values.
 fn sharpness_differs(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Vec<String> {
     let creases: BTreeMap<[VertexId; 2], f64> = expected
         .creases()
@@ -120,35 +123,35 @@ fn sharpness_differs(mesh: &Mesh, partners: &[VertexId], expected: &Lines) -> Ve
     let differs = |e: &EdgeId| {
         let mut ends = mesh.edge_vertices(*e).map(|v| partners[v.index()]);
         ends.sort();
-        let wanted = creases.get(&ends).copied().unwrap_or(0.0);
+        let expected_values = creases.get(&ends).copied().unwrap_or(0.0);
         let here = column.get(e.index()).copied().unwrap_or(0.0);
-        !mesh.is_boundary_edge(*e) && (here - wanted).abs() > TOLERANCE
+        !mesh.is_boundary_edge(*e) && (here - expected_values).abs() > TOLERANCE
     };
     let wrong = mesh.edges().filter(differs).count();
     if wrong > 0 {
-        failures.push(format!("{wrong} edges have another sharpness"));
+        failures.push(format!("{wrong} edges have a different sharpness"));
     }
 
     let column = mesh.get(VERTEX_SHARPNESS).unwrap_or_default();
     let differs = |v: &VertexId| {
-        let wanted = corners.get(&partners[v.index()]).copied().unwrap_or(0.0);
+        let expected_values = corners.get(&partners[v.index()]).copied().unwrap_or(0.0);
         let here = column.get(v.index()).copied().unwrap_or(0.0);
         let one_face = mesh.vertex_faces(*v).count() == 1;
-        !one_face && (here - wanted).abs() > TOLERANCE
+        !one_face && (here - expected_values).abs() > TOLERANCE
     };
     let wrong = mesh.vertices().filter(differs).count();
     if wrong > 0 {
-        failures.push(format!("{wrong} vertices have another sharpness"));
+        failures.push(format!("{wrong} vertices have a different sharpness"));
     }
     failures
 }
 
-/// What differs between OpenSubdiv's result for a case and ours.
+/// Describes the differences between the results of OpenSubdiv and of the crate for a case.
 fn differences(name: &str) -> Vec<String> {
     let case = case(name);
     let expected = result(name);
     let (mesh, rules) = (mesh_of(&case), rules_of(&case));
-    let fine = match subdivide(&mesh, rules, parse(case.choice("levels")), &NoProgress) {
+    let fine = match subdivide(&mesh, rules, parse(case.option("levels")), &NoProgress) {
         Ok(fine) => fine,
         Err(error) => return vec![error.to_string()],
     };
@@ -156,13 +159,13 @@ fn differences(name: &str) -> Vec<String> {
     let [low, high] = geometry::bounds(&mesh).expect("cases have vertices");
     let tolerance = TOLERANCE * (high - low).length();
     let mut failures = compared(&fine, &expected, tolerance);
-    if failures.is_empty() && case.choice("limit") == "yes" {
+    if failures.is_empty() && case.option("limit") == "yes" {
         failures = limits_differ(&fine, rules, &expected, tolerance);
     }
     failures
 }
 
-/// What differs between a mesh and the expected one; positions may differ by `tolerance`.
+/// Describes the differences between a mesh and the expected mesh. `tolerance` is for positions.
 fn compared(mesh: &Mesh, expected: &Lines, tolerance: f64) -> Vec<String> {
     let partners = match matched(mesh, &expected.positions(), tolerance) {
         Ok(partners) => partners,
@@ -173,11 +176,12 @@ fn compared(mesh: &Mesh, expected: &Lines, tolerance: f64) -> Vec<String> {
     failures
 }
 
-/// What differs between the limit surface at the vertices of a refined mesh and the expected one, where
-/// OpenSubdiv's masks are those of the limit: not the positions of darts, and of the normals those of
-/// smooth vertices, of regular ones on the boundary and of corners of one face.
+/// Describes the differences between the limit surface at the vertices of a refined mesh and the expected limit
+/// surface. Only compares values for which OpenSubdiv uses exact limit masks: the positions of all vertices
+/// except darts, and the normals of smooth vertices, of regular boundary vertices and of corners with one face.
 fn limits_differ(mesh: &Mesh, rules: Rules, expected: &Lines, tolerance: f64) -> Vec<String> {
-    let partners = matched(mesh, &expected.positions(), tolerance).expect("compared before");
+    let partners =
+        matched(mesh, &expected.positions(), tolerance).expect("the meshes were compared before");
     let limit = match subdivision::limit(mesh, rules, &NoProgress) {
         Ok(limit) => limit,
         Err(error) => return vec![error.to_string()],
@@ -192,11 +196,13 @@ fn limits_differ(mesh: &Mesh, rules: Rules, expected: &Lines, tolerance: f64) ->
 
     let mut failures = Vec::new();
     for v in mesh.vertices() {
-        let wanted = &expected[partners[v.index()].index()];
-        let (rule, side) = (wanted[9], wanted[10]);
-        let off = limit.positions[v.index()].distance(point(wanted));
+        let expected_values = &expected[partners[v.index()].index()];
+        let (rule, side) = (expected_values[9], expected_values[10]);
+        let off = limit.positions[v.index()].distance(point(expected_values));
         if rule != "dart" && off > tolerance {
-            failures.push(format!("the limit of a {rule} ({side}) is off by {off:e}"));
+            failures.push(format!(
+                "the limit position of a {rule} vertex ({side}) differs by {off:e}"
+            ));
         }
         let n_faces = mesh.vertex_faces(v).count();
         let is_exact = match (rule, side) {
@@ -205,17 +211,21 @@ fn limits_differ(mesh: &Mesh, rules: Rules, expected: &Lines, tolerance: f64) ->
             ("corner", "boundary") => n_faces == 1,
             _ => false,
         };
-        let normal = point(&wanted[3..]).cross(point(&wanted[6..])).normalize();
+        let normal = point(&expected_values[3..])
+            .cross(point(&expected_values[6..]))
+            .normalize();
         let off = normals[v.index()].distance(normal);
         if is_exact && off > 10.0 * TOLERANCE {
-            failures.push(format!("the normal of a {rule} ({side}) is off by {off:e}"));
+            failures.push(format!(
+                "the normal of a {rule} vertex ({side}) differs by {off:e}"
+            ));
         }
     }
     failures
 }
 
 fn names() -> Vec<String> {
-    let entries = std::fs::read_dir(folder("cases")).expect("there is a folder of cases");
+    let entries = std::fs::read_dir(folder("cases")).expect("the folder of cases exists");
     let mut names: Vec<String> = entries
         .filter_map(|entry| Some(entry.ok()?.path().file_stem()?.to_str()?.to_owned()))
         .collect();
@@ -224,7 +234,7 @@ fn names() -> Vec<String> {
 }
 
 #[test]
-fn opensubdiv_gives_the_same_meshes() {
+fn results_equal_those_of_opensubdiv() {
     let failures: Vec<String> = names()
         .iter()
         .flat_map(|name| {
@@ -237,9 +247,10 @@ fn opensubdiv_gives_the_same_meshes() {
     crate::assert_none(&failures);
 }
 
-/// Fails unless the result for `case` has exactly these positions, up to order and sign of the coordinates.
+/// Panics unless the result for `case` has exactly these positions, up to the order and signs of the
+/// coordinates.
 #[track_caller]
-fn assert_positions(case: &str, wanted: &[([f64; 3], usize)]) {
+fn assert_positions(case: &str, expected_values: &[([f64; 3], usize)]) {
     let positions = result(case).positions();
     let found = |kind: [f64; 3]| {
         let like = |p: &&DVec3| {
@@ -249,39 +260,40 @@ fn assert_positions(case: &str, wanted: &[([f64; 3], usize)]) {
         };
         positions.iter().filter(like).count()
     };
-    for &(kind, n) in wanted {
+    for &(kind, n) in expected_values {
         assert_eq!(found(kind), n, "{kind:?} of {case}");
     }
-    let n: usize = wanted.iter().map(|&(_, n)| n).sum();
+    let n: usize = expected_values.iter().map(|&(_, n)| n).sum();
     assert_eq!(positions.len(), n, "{case}");
 }
 
 #[test]
-fn the_stored_results_of_small_meshes_are_those_computed_by_hand() {
-    // Loop: an old vertex of valence 3 keeps 7/16 and takes 3/16 of each neighbor; the sum of the
-    // neighbors of p is -p. An edge takes 3/8 of its ends, 1/8 of the two others.
+fn the_stored_results_of_small_meshes_equal_those_computed_by_hand() {
+    // Loop: an old vertex of valence 3 has the weight 7/16 and each neighbor 3/16; the neighbors of p sum to
+    // -p. On an edge each end has the weight 3/8 and each of the two other vertices 1/8.
     let quarter = [0.0, 0.0, 0.25];
     assert_positions(
         "known_tetrahedron",
         &[(quarter, 3), ([0.25; 3], 1), ([0.0, 0.25, 0.25], 6)],
     );
-    // Catmull-Clark: 1/3 of the vertex and 1/9 of each neighbor and each face; the sum of three is p.
+    // Catmull-Clark: the vertex has the weight 1/3, and each neighbor and each face 1/9; the three neighbors
+    // sum to p, and so do the three faces.
     let [near, corner, far] = [[0.0, 0.0, 1.0], [5.0 / 9.0; 3], [0.0, 0.75, 0.75]];
     assert_positions("known_cube", &[(near, 6), (corner, 8), (far, 12)]);
-    // Sharpness 1/2: halfway between that and the sharp rules, which leave corners and middles.
+    // Sharpness 1/2: halfway between the smooth rules and the sharp rules, which keep corners and midpoints.
     let [corner, far] = [[7.0 / 9.0; 3], [0.0, 0.875, 0.875]];
     assert_positions("known_sharp_cube", &[(near, 6), (corner, 8), (far, 12)]);
-    // A boundary with its own corners: 3/4 and twice 1/8.
+    // On a boundary without corners the weights are 3/4 and twice 1/8.
     let [corner, far] = [[0.0, 0.75, 0.75], [0.0, 0.0, 1.0]];
     assert_positions("known_square", &[([0.0; 3], 1), (corner, 4), (far, 4)]);
-    // Its uvs are the places of the corners, and `CornersOnly` leaves them there.
+    // Its uvs are the positions of the corners, and `CornersOnly` keeps them.
     let corners = result("known_square").uvs();
-    let stayed = corners.iter().filter(|uv| uv.abs() == DVec2::ONE);
-    assert_eq!(stayed.count(), 4);
+    let unchanged = corners.iter().filter(|uv| uv.abs() == DVec2::ONE);
+    assert_eq!(unchanged.count(), 4);
 }
 
 #[test]
-fn a_wrong_mesh_is_found_out() {
+fn differences_are_detected() {
     let expected = result("uv_none");
     let mesh = mesh_of(&expected);
     assert_eq!(compared(&mesh, &expected, TOLERANCE), [""; 0]);

@@ -1,20 +1,20 @@
-//! Where a line cuts a polygon.
+//! Computes the chords along which a line cuts a polygon.
 //!
 //! ```text
-//!                 +     +              corners on the line are sorted along it; of two that follow each
-//!               /   \ /   \            other what lies between is inside the polygon or outside, as both
-//!    ... ------a     b-----c---- line  tell by their sides: a sees the inside to its right, b to its left
-//!            /    inside     \         and to its right, c to its left. A chord for each inside.
+//!                 +     +              corners on the line are sorted along it; the two sides of each
+//!               /   \ /   \            corner tell whether the polygon is inside to its left and right:
+//!    ... ------a     b-----c---- line  a has the inside to its right, b to its left and right, c to its
+//!            /    inside     \         left. Each inside interval becomes a chord.
 //!           +-----------------+
 //! ```
 
 use mesh::{DVec3, polygon_parts};
 
-/// A corner of a polygon, seen from a line that is not far from its plane.
+/// A corner of a polygon, in coordinates relative to a line near the plane of the polygon.
 pub(super) struct Corner {
-    /// The signed distance from the line: positive to its left; 0 on it.
+    /// The signed distance from the line: positive to its left, 0 on the line.
     height: f64,
-    /// Where along the line.
+    /// The coordinate along the line.
     place: f64,
     position: DVec3,
 }
@@ -29,15 +29,16 @@ impl Corner {
     }
 }
 
-/// The chords that cut the polygon so that each part has corners on one side of the line only. `normal` is that of the polygon, which has corners on both sides.
+/// Returns chords that cut the polygon so that each part has corners on one side of the line only. The polygon
+/// has corners on both sides, and `normal` is its normal.
 ///
-/// If the corners on the line do not tell the inside from the outside, the parts to the left of it are cut
-/// off one by one.
-pub(super) fn between(corners: &[Corner], normal: DVec3) -> Vec<[u32; 2]> {
+/// If the corners on the line do not give consistent inside intervals, each part to the left of the line is cut
+/// off separately.
+pub(super) fn chords_along_line(corners: &[Corner], normal: DVec3) -> Vec<[u32; 2]> {
     let n = corners.len();
     let is_good = |chords: &[[u32; 2]]| {
         let is_one_sided = |part: &Vec<usize>| {
-            // The sides of a part begin at its corners; chords end where sides or chords begin.
+            // Numbers below n are sides of the polygon, which start at the corner with that number.
             let sides = part.iter().filter(|&&h| h < n);
             let heights = sides.flat_map(|&i| [corners[i].height, corners[(i + 1) % n].height]);
             let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| {
@@ -47,25 +48,25 @@ pub(super) fn between(corners: &[Corner], normal: DVec3) -> Vec<[u32; 2]> {
         };
         polygon_parts(n, chords).is_some_and(|parts| parts.iter().all(is_one_sided))
     };
-    if let Some(chords) = inside(corners, normal)
+    if let Some(chords) = inside_chords(corners, normal)
         && is_good(&chords)
     {
         return chords;
     }
-    left_parts(corners)
+    left_chords(corners)
 }
 
-/// The chords inside the polygon; `None` if that is not clear.
-fn inside(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
+/// Returns the chords inside the polygon; `None` if the corners do not give consistent inside intervals.
+fn inside_chords(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
     let n = corners.len();
     let mut on_line: Vec<usize> = (0..n).filter(|&i| corners[i].height == 0.0).collect();
     if let [a, b] = on_line[..] {
         return Some(vec![[to_u32(a), to_u32(b)]]);
     }
-    let sees: Vec<[bool; 2]> = (0..n)
+    let sees_inside: Vec<[bool; 2]> = (0..n)
         .map(|i| {
             if corners[i].height == 0.0 {
-                sees(
+                sees_inside(
                     &corners[(i + n - 1) % n],
                     &corners[i],
                     &corners[(i + 1) % n],
@@ -76,8 +77,8 @@ fn inside(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
             }
         })
         .collect();
-    // Of corners in one place those that end an inside come first.
-    let rank = |i: usize| match sees[i] {
+    // Among corners at the same place, those that end an inside interval come first.
+    let rank = |i: usize| match sees_inside[i] {
         [true, false] => 0,
         [false, true] => 2,
         _ => 1,
@@ -89,7 +90,7 @@ fn inside(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
     let mut chords = Vec::new();
     let mut is_inside = false;
     for (k, &i) in on_line.iter().enumerate() {
-        let [left, right] = sees[i];
+        let [left, right] = sees_inside[i];
         if left != is_inside {
             return None;
         }
@@ -102,13 +103,12 @@ fn inside(corners: &[Corner], normal: DVec3) -> Option<Vec<[u32; 2]>> {
     (!is_inside).then_some(chords)
 }
 
-/// Whether a corner on the line sees the inside of the polygon to its left and to its right along the
-/// line, behind and ahead.
+/// Returns whether the inside of the polygon is behind and ahead of a corner on the line, along the line.
 ///
-/// The directions to the next and to the previous corner are counted in quarter turns from the line: 0
-/// ahead, 1 to its left, 2 back, 3 to its right. The inside begins at the next one, counter-clockwise, and
-/// ends at the previous one.
-fn sees(before: &Corner, corner: &Corner, after: &Corner, normal: DVec3) -> [bool; 2] {
+/// The directions to the next and to the previous corner are measured in quarter turns from the line: 0 is
+/// ahead, 1 left, 2 behind, 3 right. Counter-clockwise, the inside starts at the direction to the next corner
+/// and ends at the direction to the previous corner.
+fn sees_inside(before: &Corner, corner: &Corner, after: &Corner, normal: DVec3) -> [bool; 2] {
     let quarter = |other: &Corner| {
         if other.height > 0.0 {
             1
@@ -132,14 +132,14 @@ fn sees(before: &Corner, corner: &Corner, after: &Corner, normal: DVec3) -> [boo
     [contains(2) || contains(6), contains(4)]
 }
 
-/// A chord for each chain of corners to the left of the line.
-fn left_parts(corners: &[Corner]) -> Vec<[u32; 2]> {
+/// Returns a chord for each chain of corners to the left of the line.
+fn left_chords(corners: &[Corner]) -> Vec<[u32; 2]> {
     let n = corners.len();
     let is_left = |i: usize| corners[i % n].height > 0.0;
     let mut chords: Vec<[u32; 2]> = (0..n)
         .filter(|&i| !is_left(i) && is_left(i + 1))
         .map(|i| {
-            // There are corners to the right too, so that a chain ends.
+            // The polygon has corners to the right too, so each chain ends.
             let end = (i + 1..=i + n)
                 .find(|&j| !is_left(j))
                 .expect("a chain ends")
@@ -159,11 +159,11 @@ fn to_u32(i: usize) -> u32 {
 mod tests {
     use super::*;
 
-    /// The chords of the line y = 0, from left to right, in a polygon of the plane z = 0.
+    /// Returns the chords of the line y = 0 in a polygon of the plane z = 0.
     fn cut(points: &[(f64, f64)]) -> Vec<[u32; 2]> {
         let corner = |&(x, y): &(f64, f64)| Corner::new(y, x, DVec3::new(x, y, 0.0));
         let corners: Vec<Corner> = points.iter().map(corner).collect();
-        let mut chords = between(&corners, DVec3::Z);
+        let mut chords = chords_along_line(&corners, DVec3::Z);
         assert!(polygon_parts(corners.len(), &chords).is_some());
         chords.sort_unstable();
         chords
@@ -199,8 +199,8 @@ mod tests {
     }
 
     #[test]
-    fn a_corner_that_touches_from_within_and_sides_on_the_line_have_none() {
-        // The corner at (2, 0) is convex and only touches.
+    fn a_corner_that_only_touches_the_line_and_sides_on_the_line_have_no_chord() {
+        // The corner at (2, 0) is convex and only touches the line.
         let zigzag = [
             (0., 0.),
             (1., 2.),
@@ -213,14 +213,14 @@ mod tests {
             (-1., -1.),
             (-1., 0.),
         ];
-        // From (-2, 0), which an edge crosses: put in as the caller does.
+        // An edge crosses the line at (-2, 0). As the caller does, inserts a corner there.
         let mut crossed = zigzag.to_vec();
         crossed.insert(7, (-2., 0.));
         assert_eq!(cut(&crossed), [[7, 10]]);
     }
 
     #[test]
-    fn both_ends_of_a_slit_in_one_place_are_told_apart() {
+    fn coincident_corners_of_a_slit_are_ordered_correctly() {
         // A square with a square hole, joined by a slit that the line crosses.
         let keyhole = [
             (-4., -4.),
@@ -242,14 +242,14 @@ mod tests {
             (-4., 4.),
             (-4., 0.),
         ];
-        // The hole is between -2 and 2; the slit at 3 is crossed down and up.
+        // The hole is between -2 and 2. The line crosses the slit at 3 twice, once for each of its sides.
         let chords = cut(&keyhole);
         assert_eq!(chords, [[2, 5], [8, 17], [11, 14]]);
     }
 
     #[test]
-    fn what_is_not_clear_is_cut_all_the_same() {
-        // A bow tie that crosses itself, as a face may.
+    fn self_intersecting_polygons_are_cut_too() {
+        // A bow tie that intersects itself, which is legal for a face.
         let bow = [
             (0., 0.),
             (2., -2.),

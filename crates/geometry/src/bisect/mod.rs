@@ -1,4 +1,4 @@
-//! Cutting a mesh along a plane.
+//! Cuts a mesh along a plane.
 
 mod chords;
 #[cfg(test)]
@@ -10,12 +10,12 @@ use crate::bounds;
 
 use chords::Corner;
 
-/// How near to the plane a vertex counts as on it, as a part of the largest extent of the mesh.
-const NEAR: f64 = 1e-9;
-/// The same as a part of the largest coordinate: what rounding may do far from the origin.
-const ROUNDING: f64 = 1e-14;
+/// Vertices nearer to the plane than this fraction of the largest extent of the mesh count as on the plane.
+const RELATIVE_TOLERANCE: f64 = 1e-9;
+/// The same as a fraction of the largest coordinate: the size of rounding errors far from the origin.
+const ROUNDING_TOLERANCE: f64 = 1e-14;
 
-/// What a plane made of a mesh: see [`bisect`].
+/// The result of [`bisect`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bisection {
     /// The edges on the plane, in order of their ids.
@@ -26,7 +26,7 @@ pub struct Bisection {
     pub back: Vec<FaceId>,
 }
 
-/// Cuts the mesh along a plane: afterwards every face lies on one side of it.
+/// Cuts the mesh along a plane, so that every face lies on one side of it.
 ///
 /// ```text
 ///    +-------+-------+           +-------+-------+
@@ -36,32 +36,32 @@ pub struct Bisection {
 ///    +-------+-------+           +-------+-------+
 /// ```
 ///
-/// Every edge that crosses the plane gets a vertex where it does, and every face that crosses it is cut
-/// along it, concave ones several times. The mesh stays in one piece. Vertices nearer to the plane than
-/// 1e-9 of the largest extent of the mesh, or than 1e-14 of its largest coordinate, count as on it:
-/// they are not moved, and no edge shorter than that arises. On which side a vertex lies is decided
-/// once, for all edges and faces. A crossing point does not depend on which end of its edge is first.
+/// Every edge that crosses the plane gets a vertex at the crossing point. Every face that crosses the plane is
+/// cut along it, concave faces possibly several times. The parts stay connected. A vertex counts as on the
+/// plane if its distance is at most 1e-9 times the largest extent of the mesh or 1e-14 times the largest
+/// coordinate. Such a vertex is not moved, and an edge that ends there is not split. The side of a vertex is
+/// decided once, for all its edges and faces. A crossing point does not depend on the direction of its edge.
 ///
-/// An edge keeps its id on the side of the origin of its first half; the other parts are new, in order of
-/// the edges, and so are the crossing points. Then come the edges on the plane, face by face. A face
-/// keeps its id at its first corner, its other parts are new.
+/// What happens to ids: the part of an edge at the origin of its first half keeps the id of the edge. The other
+/// parts and the crossing points are new, in order of the edges. The new edges on the plane come after them,
+/// face by face. The part of a face at its first corner keeps the id of the face; its other parts are new.
 ///
-/// Values are interpolated at crossing points, within its own face at each corner, so that both sides of
-/// a seam keep theirs. Parts of an edge or a face have its values, edges on the plane have zero values.
+/// Values are interpolated at crossing points. Corner values are interpolated within their face, so that seams
+/// are kept. Parts of an edge or a face copy its values, and new edges on the plane have zero values.
 ///
-/// The line of the plane crosses the sides of a flat face an even number of times, and every other piece
-/// between them is inside. Where that comes out wrong, because a face is twisted or crosses itself, each
-/// piece in front of the plane is cut off on its own. Two faces that share both edges which the plane
-/// crosses get an edge each between the same two crossing points.
+/// The line in which the plane meets a flat face crosses its sides an even number of times, and the intervals
+/// between crossings are alternately inside and outside of the face. If this fails because a face is twisted or
+/// intersects itself, each part in front of the plane is cut off separately. If two faces share both edges that
+/// the plane crosses, each gets a separate edge between the same two crossing points.
 ///
-/// A face in the plane counts as behind it if its normal points to the front, because what it closes lies
-/// behind, and otherwise as in front.
+/// A face that lies in the plane counts as behind it if its normal points to the front, because the solid that
+/// it bounds lies behind. Otherwise it counts as in front.
 ///
 /// # Errors
 ///
-/// [`EditError::BadNumber`] for a normal without direction, for coordinates that are not finite, and if
-/// the mesh is so large that distances are not; [`EditError::Pinch`] if a face passes a vertex twice and
-/// would be cut from there to there; [`EditError::Full`]. The mesh is unchanged.
+/// [`EditError::BadNumber`] if the normal is zero, if a coordinate is not finite, or if the mesh is so large
+/// that distances are not finite; [`EditError::Pinch`] if a face visits a vertex twice and would be cut from
+/// that vertex to itself; [`EditError::Full`]. The mesh is unchanged.
 ///
 /// # Examples
 ///
@@ -86,7 +86,8 @@ pub fn bisect(mesh: &mut Mesh, point: DVec3, normal: DVec3) -> Result<Bisection,
     })
 }
 
-/// The signed distance of each vertex from the plane: 0 if it counts as on it, and for dead ones.
+/// Returns the signed distance of each vertex from the plane: 0 for vertices that count as on the plane and for
+/// dead vertices.
 fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditError> {
     if let Some(&bad) = point.to_array().iter().find(|x| !x.is_finite()) {
         return Err(EditError::BadNumber(bad));
@@ -94,14 +95,14 @@ fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditErr
     let [min, max] = bounds(mesh).unwrap_or([DVec3::ZERO; 2]);
     let extent = (max - min).max_element();
     let largest = min.abs().max(max.abs()).max(point.abs()).max_element();
-    let near = (NEAR * extent).max(ROUNDING * largest);
+    let near = (RELATIVE_TOLERANCE * extent).max(ROUNDING_TOLERANCE * largest);
     let height = |v: usize| {
         let v = VertexId::new(v);
         if !mesh.has_vertex(v) {
             return Ok(0.0);
         }
         let height = (mesh.position(v) - point).dot(normal);
-        // Twice as much is the largest difference of two heights.
+        // The difference of two heights is at most twice this height.
         if !(2.0 * height).is_finite() || !near.is_finite() {
             return Err(EditError::BadNumber(height));
         }
@@ -110,7 +111,7 @@ fn heights(mesh: &Mesh, point: DVec3, normal: DVec3) -> Result<Vec<f64>, EditErr
     (0..mesh.positions().len()).map(height).collect()
 }
 
-/// Puts a vertex on every edge whose ends lie on different sides, and its height, 0, behind the others.
+/// Inserts a vertex on every edge whose ends lie on different sides, and appends its height, 0, to `heights`.
 fn split_across(mesh: &mut Mesh, heights: &mut Vec<f64>) -> Result<(), EditError> {
     let crossing: Vec<EdgeId> = mesh
         .edges()
@@ -122,7 +123,7 @@ fn split_across(mesh: &mut Mesh, heights: &mut Vec<f64>) -> Result<(), EditError
     for e in crossing {
         let [a, b] = mesh.edge_vertices(e);
         let [low, high] = [a, b].map(|v| heights[v.index()]);
-        // The same two weights, bit for bit, if a and b change places.
+        // The weights are the same bits if a and b are swapped.
         let (weight_a, weight_b) = (high / (high - low), low / (low - high));
         let p = weight_a * mesh.position(a) + weight_b * mesh.position(b);
         let new = mesh.insert_vertex(e, weight_b)?;
@@ -133,7 +134,7 @@ fn split_across(mesh: &mut Mesh, heights: &mut Vec<f64>) -> Result<(), EditError
     Ok(())
 }
 
-/// Cuts a face whose corners lie on both sides.
+/// Cuts face `f` if it has corners on both sides.
 fn cut_across(mesh: &mut Mesh, f: FaceId, normal: DVec3, heights: &[f64]) -> Result<(), EditError> {
     let height = |h: HalfEdgeId| heights[mesh.origin(h).index()];
     let around = mesh.face_half_edges(f);
@@ -144,7 +145,7 @@ fn cut_across(mesh: &mut Mesh, f: FaceId, normal: DVec3, heights: &[f64]) -> Res
         return Ok(());
     }
     let sides: Vec<HalfEdgeId> = around.collect();
-    // Along the line in which the plane meets the face, so that the front is to its left.
+    // The direction of the line in which the plane meets the face, with the front to its left.
     let along = normal.cross(mesh.face_normal(f));
     let first = mesh.position(mesh.origin(sides[0]));
     let corners: Vec<Corner> = sides
@@ -154,29 +155,29 @@ fn cut_across(mesh: &mut Mesh, f: FaceId, normal: DVec3, heights: &[f64]) -> Res
             Corner::new(height(h), along.dot(p), p)
         })
         .collect();
-    let chords = chords::between(&corners, mesh.face_normal(f));
+    let chords = chords::chords_along_line(&corners, mesh.face_normal(f));
     mesh.cut_face(f, &chords).map(drop)
 }
 
-/// What lies where, after all is cut.
+/// Collects the edges on the plane and the faces on both sides, after all faces are cut.
 fn sides(mesh: &Mesh, normal: DVec3, heights: &[f64]) -> Bisection {
     let height = |v: VertexId| heights[v.index()];
-    let mut found = Bisection::default();
+    let mut bisection = Bisection::default();
     let on_plane = |&e: &EdgeId| mesh.edge_vertices(e).iter().all(|&v| height(v) == 0.0);
-    found.edges = mesh.edges().filter(on_plane).collect();
+    bisection.edges = mesh.edges().filter(on_plane).collect();
     for f in mesh.faces() {
-        let off = mesh.face_vertices(f).map(height).find(|&h| h != 0.0);
-        let off = off.unwrap_or_else(|| -mesh.area_vector(f).dot(normal));
-        if off > 0.0 {
-            found.front.push(f);
+        let side = mesh.face_vertices(f).map(height).find(|&h| h != 0.0);
+        let side = side.unwrap_or_else(|| -mesh.area_vector(f).dot(normal));
+        if side > 0.0 {
+            bisection.front.push(f);
         } else {
-            found.back.push(f);
+            bisection.back.push(f);
         }
     }
-    found
+    bisection
 }
 
-/// The direction of a vector, of any length but 0.
+/// Returns the unit vector in the direction of a vector that is not zero.
 fn direction(vector: DVec3) -> Result<DVec3, EditError> {
     let largest = vector.abs().max_element();
     if let Some(&bad) = vector.to_array().iter().find(|x| !x.is_finite()) {
@@ -185,6 +186,6 @@ fn direction(vector: DVec3) -> Result<DVec3, EditError> {
     if largest == 0.0 {
         return Err(EditError::BadNumber(0.0));
     }
-    // Brought near 1 first, so that squares neither overflow nor vanish.
+    // Scales to a size near 1 first, so that squares neither overflow nor underflow.
     Ok((vector / largest).normalize())
 }

@@ -1,4 +1,4 @@
-//! Tests of the cut.
+//! Tests of `bisect`.
 
 use proptest::prelude::*;
 
@@ -6,7 +6,7 @@ use super::*;
 use crate::{area, n_components, shapes};
 use mesh::{CREASE, DVec2, MATERIAL, UV};
 
-/// Cuts the mesh and checks what holds for every cut; takes it back and does it again.
+/// Cuts the mesh and checks the properties of every cut. Also reverts the cut and repeats it.
 fn cut(before: &Mesh, point: DVec3, normal: DVec3) -> (Mesh, Bisection) {
     let mut mesh = before.clone();
     mesh.begin();
@@ -35,7 +35,7 @@ fn cut(before: &Mesh, point: DVec3, normal: DVec3) -> (Mesh, Bisection) {
     for e in mesh.edges() {
         let on_plane = mesh.edge_vertices(e).map(|v| height(v).abs() <= near);
         assert_eq!(on_plane == [true; 2], cut.edges.binary_search(&e).is_ok());
-        // No slivers: an edge is as short as the shortest from before, or not near to nothing.
+        // A cut makes no very short edges.
         assert!(mesh.length(e.half_edges()[0]) > 0.1 * near || on_plane != [false; 2]);
     }
     (mesh, cut)
@@ -45,7 +45,7 @@ fn counts(mesh: &Mesh) -> (usize, usize, usize) {
     (mesh.n_vertices(), mesh.n_edges(), mesh.n_faces())
 }
 
-/// One face in the plane z = 0.
+/// Returns a mesh of one face in the plane z = 0.
 fn polygon(points: &[(f64, f64)]) -> Mesh {
     let at = |&(x, y): &(f64, f64)| DVec3::new(x, y, 0.0);
     let corners: Vec<u32> = (0..).take(points.len()).collect();
@@ -62,7 +62,7 @@ fn a_triangle_becomes_a_triangle_and_a_quadrilateral() {
     let degrees: Vec<_> = mesh.faces().map(|f| mesh.degree(f)).collect();
     assert_eq!(degrees, [4, 3]);
     assert_eq!((found.front.len(), found.back.len()), (1, 1));
-    // Through a corner: two triangles.
+    // A cut through a corner makes two triangles.
     let mesh = polygon(&[(0., 0.), (2., 0.), (0., 2.)]);
     let (mesh, _) = cut(&mesh, DVec3::ZERO, DVec3::new(1.0, -1.0, 0.0));
     assert_eq!(counts(&mesh), (4, 5, 2));
@@ -98,15 +98,15 @@ fn every_shape_can_be_cut_along_any_plane() {
 }
 
 #[test]
-fn vertices_on_the_plane_stay_and_edges_in_it_are_found() {
-    // The ring around the middle of an octahedron.
+fn vertices_on_the_plane_do_not_move_and_edges_on_it_are_returned() {
+    // Cuts along the four edges around the middle of an octahedron.
     let (mesh, found) = cut(&shapes::octahedron(), DVec3::ZERO, DVec3::Z);
     assert_eq!(mesh, shapes::octahedron());
     assert_eq!(
         (found.edges.len(), found.front.len(), found.back.len()),
         (4, 4, 4)
     );
-    // Nearer than counts.
+    // Below the tolerance.
     let (mesh, _) = cut(&shapes::octahedron(), DVec3::Z * 1e-9, DVec3::Z);
     assert_eq!(mesh, shapes::octahedron());
     let (mesh, _) = cut(&shapes::octahedron(), DVec3::Z * 1e-8, DVec3::Z);
@@ -114,7 +114,7 @@ fn vertices_on_the_plane_stay_and_edges_in_it_are_found() {
 }
 
 #[test]
-fn turning_the_normal_changes_sides_only() {
+fn reversing_the_normal_only_swaps_the_sides() {
     let torus = shapes::torus(9, 7, 2.0, 0.5);
     let (point, normal) = (DVec3::new(0.1, 0.2, 0.05), DVec3::new(1.0, 2.0, 0.5));
     let (mesh, one) = cut(&torus, point, normal);
@@ -144,14 +144,14 @@ fn a_concave_face_is_cut_several_times() {
     );
     assert!((area(&mesh) - area(&comb)).abs() < 1e-12);
     assert!(mesh.faces().all(|f| mesh.area_vector(f).z > 0.0));
-    // Through the bottoms of the gaps, which are corners.
+    // A cut through the bottoms of the gaps, which are corners.
     let (mesh, found) = cut(&comb, DVec3::Y, DVec3::Y);
     assert_eq!(
         (found.front.len(), found.back.len(), found.edges.len()),
         (4, 1, 4)
     );
     assert!(mesh.faces().all(|f| mesh.area_vector(f).z > 0.0));
-    // Along the bottom.
+    // A cut along the bottom.
     let (mesh, found) = cut(&comb, DVec3::ZERO, DVec3::Y);
     assert_eq!((mesh, found.edges.len()), (comb, 1));
 }
@@ -180,7 +180,7 @@ fn values_are_interpolated_on_both_sides_of_seams() {
 }
 
 #[test]
-fn two_faces_that_share_both_crossed_edges_get_an_edge_each() {
+fn two_faces_that_share_both_crossed_edges_get_separate_edges() {
     let points = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
     let (pillow, _) = Mesh::from_polygons(points, &[[0, 1, 2], [0, 2, 1]]).unwrap();
     let (mesh, found) = cut(&pillow, DVec3::Y * 0.5, DVec3::Y);
@@ -191,14 +191,14 @@ fn two_faces_that_share_both_crossed_edges_get_an_edge_each() {
 
 #[test]
 fn a_face_around_a_hole_is_cut_on_both_sides_of_it() {
-    // A square and the hole in it, joined by a slit between their first corners: two sides in one place.
+    // A square with a hole, connected by a slit between their first corners: two coincident sides.
     let ring = |x: f64| [(-x, -x), (x, -x), (x, x), (-x, x)];
     let mut points = ring(4.0).to_vec();
     points.extend(ring(2.0).into_iter().rev());
     let keyhole = [0, 1, 2, 3, 0, 7, 4, 5, 6, 7].map(|i: usize| points[i]);
     let mesh = polygon(&keyhole);
     assert!((area(&mesh) - 48.0).abs() < 1e-12);
-    // Across the slit, then across the hole.
+    // Cuts across the slit, then across the hole.
     let (mesh, found) = cut(&mesh, DVec3::Y * -3.0, DVec3::Y);
     assert_eq!((found.edges.len(), mesh.n_faces()), (2, 3));
     let (mesh, found) = cut(&mesh, DVec3::ZERO, DVec3::Y);
@@ -208,7 +208,7 @@ fn a_face_around_a_hole_is_cut_on_both_sides_of_it() {
 }
 
 #[test]
-fn what_is_no_plane_is_refused() {
+fn invalid_planes_and_huge_coordinates_return_errors() {
     let mesh = shapes::cube();
     for (point, normal) in [
         (DVec3::ZERO, DVec3::ZERO),
@@ -217,26 +217,20 @@ fn what_is_no_plane_is_refused() {
         (DVec3::X * f64::INFINITY, DVec3::Z),
     ] {
         let mut edited = mesh.clone();
-        let refused = bisect(&mut edited, point, normal);
-        assert!(
-            matches!(refused, Err(EditError::BadNumber(_))),
-            "{refused:?}"
-        );
+        let result = bisect(&mut edited, point, normal);
+        assert!(matches!(result, Err(EditError::BadNumber(_))), "{result:?}");
         assert_eq!(edited, mesh);
     }
     let mut huge = mesh.clone();
     huge.positions_mut().iter_mut().for_each(|p| *p *= f64::MAX);
     let before = huge.clone();
-    let refused = bisect(&mut huge, DVec3::ZERO, DVec3::ONE);
-    assert!(
-        matches!(refused, Err(EditError::BadNumber(_))),
-        "{refused:?}"
-    );
+    let result = bisect(&mut huge, DVec3::ZERO, DVec3::ONE);
+    assert!(matches!(result, Err(EditError::BadNumber(_))), "{result:?}");
     assert_eq!(huge, before);
 }
 
 #[test]
-fn tiny_and_large_meshes_and_normals_are_cut_alike() {
+fn scaling_the_mesh_and_the_normal_does_not_change_the_cut() {
     let mesh = shapes::icosahedron();
     let (point, normal) = (DVec3::new(0.1, 0.0, 0.25), DVec3::new(0.0, 1.0, 0.5));
     let (expected, _) = cut(&mesh, point, normal);
@@ -250,7 +244,7 @@ fn tiny_and_large_meshes_and_normals_are_cut_alike() {
 }
 
 #[test]
-fn far_from_the_origin_what_rounding_does_counts_as_on_the_plane() {
+fn far_from_the_origin_the_tolerance_covers_rounding_errors() {
     let mut mesh = shapes::icosahedron();
     mesh.positions_mut().iter_mut().for_each(|p| *p += 1e9);
     let (point, normal) = (DVec3::splat(1e9), DVec3::new(1.0, 2.0, 3.0));
@@ -263,7 +257,7 @@ fn far_from_the_origin_what_rounding_does_counts_as_on_the_plane() {
 
 proptest! {
     #[test]
-    fn star_shaped_faces_are_cut_into_parts_of_the_same_area(
+    fn cutting_star_shaped_faces_keeps_the_total_area(
         radii in prop::collection::vec(0.2..3.0_f64, 3..40),
         offset in -1.5..1.5_f64,
         turn in 0.0..6.3_f64,

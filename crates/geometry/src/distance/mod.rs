@@ -1,21 +1,21 @@
-//! The distance between two surfaces: the largest, with a bound of its error, and the mean.
+//! The distance between two surfaces: the largest distance, with a bound of its error, and the mean distance.
 //!
-//! The Hausdorff distance is the largest distance from a point of one surface to the other surface.
-//! It need not be at a vertex: a spike of the other surface may end over the middle of a face. So triangles
-//! are cut until what is left of them cannot be further away than what was found by more than a tolerance:
+//! The Hausdorff distance is the largest distance from a point of one surface to the other surface. It can be
+//! reached inside a face: a spike of the other surface can end over the middle of a face. So triangles are cut
+//! into pieces until no piece can be further away than the largest distance found by more than a tolerance:
 //!
 //! ```text
 //!     c              c
-//!    / \            /|\       d(p) is known at corners and middles of the pieces. A bound for all points
-//!   /   \   --->   / | \      of a piece follows from convexity: a point is no further from a triangle
-//!  a-----b        a--m--b     of the other surface than the furthest corner of its piece is.
+//!    / \            /|\       the distance is computed at corners and centers of pieces. A bound for all points
+//!   /   \   --->   / | \      of a piece follows from convexity: no point of it is further from a triangle
+//!  a-----b        a--m--b     of the other surface than its furthest corner is.
 //! ```
 //!
-//! Only pieces whose bound is above the largest distance found so far are cut. Aspert, Santa-Cruz, Ebrahimi,
-//! "MESH: Measuring Errors between Surfaces using the Hausdorff Distance", 2002, for the measures; Tang, Lee,
-//! Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models", 2009, for bounding and
-//! cutting. All pieces of a round are cut before the next round looks at what was found, so that the result
-//! is the same for any number of threads.
+//! Only pieces whose bound is above the largest distance found so far are cut. Sources: Aspert, Santa-Cruz,
+//! Ebrahimi, "MESH: Measuring Errors between Surfaces using the Hausdorff Distance", 2002, for the measures;
+//! Tang, Lee, Kim, "Interactive Hausdorff Distance Computation for General Polygonal Models", 2009, for the
+//! bounds and the cutting. All pieces of a round are cut before the largest distance is updated, so that the
+//! result is the same for any number of threads.
 
 mod piece;
 mod surface;
@@ -41,36 +41,37 @@ pub struct Distance {
 /// The distances from the points of one surface to another surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneSided {
-    /// The largest that was found, to the last digit unless very many places are nearly as far.
+    /// The largest distance found. It is exact up to rounding unless the search for a nearest point was stopped
+    /// early because very many places are almost equally near; then it is a lower bound.
     pub largest: f64,
-    /// No point is further away than this.
+    /// An upper bound of the distance of all points.
     pub at_most: f64,
-    /// The mean over the area, from samples at the corners and in the triangles; over the vertices if
-    /// there is no area.
+    /// The mean distance over the area, from samples at the corners and inside the triangles. If the surface
+    /// has no area, the mean over the vertices.
     pub mean: f64,
-    /// Where the largest one begins.
+    /// The point of this surface with the largest distance.
     pub from: SurfacePoint,
-    /// Where it ends: the nearest point of the other surface.
+    /// The point of the other surface that is nearest to `from`.
     pub to: SurfacePoint,
 }
 
-/// A point of a surface.
+/// A point on a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
-    /// Where it is.
+    /// The position of the point.
     pub position: DVec3,
-    /// The vertex or face that it lies on.
+    /// The vertex or face that the point lies on.
     pub on: Element,
 }
 
-/// The largest error that is asked for unless another one is given, in proportion to the diagonal of the
-/// bounds of both surfaces.
+/// The default tolerance, as a fraction of the diagonal of the bounding box of both surfaces.
 pub const TOLERANCE: f64 = 1e-5;
 
 impl Distance {
-    /// Measures two surfaces, so that the largest distance is known to within `tolerance`, in scene units,
-    /// or else to within [`TOLERANCE`] of their size. A very small tolerance may not be reached: then the
-    /// bound says so. `None` if one of them has no faces.
+    /// Measures the distance between two surfaces. `tolerance` is the largest allowed error of the Hausdorff
+    /// distance, in scene units. If `None`, it is [`TOLERANCE`] times the [`diagonal`]. A very small tolerance
+    /// may not be reached; [`at_most`](Self::at_most) is a valid bound in any case. Returns `None` if one of
+    /// the meshes has no faces.
     pub fn between(a: &Mesh, b: &Mesh, tolerance: Option<f64>) -> Option<Self> {
         let (from_a, from_b) = rayon::join(|| Surface::new(a), || Surface::new(b));
         let (surface_a, surface_b) = (from_a?, from_b?);
@@ -81,12 +82,12 @@ impl Distance {
         })
     }
 
-    /// Whether the larger distance is that from the first surface; it is if both are equal.
+    /// Whether the largest distance from the first surface to the second is at least as large as the other way.
     pub fn is_worst_forth(&self) -> bool {
         self.forth.largest >= self.back.largest
     }
 
-    /// The side with the larger distance.
+    /// Returns the direction with the larger distance.
     pub fn worst(&self) -> &OneSided {
         if self.is_worst_forth() {
             &self.forth
@@ -95,23 +96,24 @@ impl Distance {
         }
     }
 
-    /// The largest distance that was found: the Hausdorff distance is this, or up to [`at_most`](Self::at_most).
+    /// Returns the largest distance found. The Hausdorff distance is between this and
+    /// [`at_most`](Self::at_most).
     pub fn largest(&self) -> f64 {
         self.worst().largest
     }
 
-    /// What the Hausdorff distance does not exceed.
+    /// Returns an upper bound of the Hausdorff distance.
     pub fn at_most(&self) -> f64 {
         self.forth.at_most.max(self.back.at_most)
     }
 
-    /// The larger of the mean distances of the two sides.
+    /// Returns the larger of the two mean distances.
     pub fn mean(&self) -> f64 {
         self.forth.mean.max(self.back.mean)
     }
 }
 
-/// The length of the diagonal of the bounds of two meshes together.
+/// Returns the length of the diagonal of the common bounding box of two meshes.
 pub fn diagonal(a: &Mesh, b: &Mesh) -> f64 {
     match (bounds(a), bounds(b)) {
         (Some([min, max]), Some([low, high])) => max.max(high).distance(min.min(low)),
@@ -126,22 +128,23 @@ impl std::fmt::Display for SurfacePoint {
     }
 }
 
-/// The number of samples that a surface of few large triangles gets for its mean.
+/// The approximate number of samples for the mean distance of a surface with few large triangles.
 const SAMPLES: f64 = 50_000.0;
 
-/// Elements that are measured by one task. Fixed, because sums are added block by block.
+/// The number of elements measured by one task. It is fixed, because sums are added block by block.
 const BLOCK: usize = 1024;
 
-/// What one task found.
+/// The result of one task.
 #[derive(Default)]
 struct Block {
-    /// Pieces that may be further away than what was found.
+    /// The pieces whose bound is above the largest distance found.
     pieces: Vec<Piece>,
-    /// No point of the rest is further away than this.
+    /// An upper bound of the distance of all points outside of `pieces`.
     ceiling: f64,
     farthest: Option<Farthest>,
-    /// The sums of areas, and of areas times distances.
+    /// The sum of the areas.
     area: f64,
+    /// The sum of area times mean distance.
     weighted: f64,
 }
 
@@ -149,10 +152,10 @@ impl OneSided {
     fn measure(from: &Mesh, to: &Surface, tolerance: f64) -> Self {
         let hits = vertex_hits(from, to);
         let slots = from.domain_len(Domain::Face);
-        let mut found = farthest_vertex(from, &hits).expect("a mesh with faces has vertices");
-        // A sample stands for at most so much area.
-        let portion = area(from) / SAMPLES;
-        let enough = found.certain() + tolerance;
+        let mut farthest = farthest_vertex(from, &hits).expect("a mesh with faces has vertices");
+        // The largest area that one sample represents.
+        let area_per_sample = area(from) / SAMPLES;
+        let threshold = farthest.lower_bound() + tolerance;
         let blocks: Vec<Block> = (0..slots.div_ceil(BLOCK))
             .into_par_iter()
             .map(|b| {
@@ -160,7 +163,7 @@ impl OneSided {
                 let faces = (b * BLOCK..slots.min((b + 1) * BLOCK)).map(FaceId::new);
                 for f in faces.filter(|&f| from.has_face(f)) {
                     for triangle in fan(from, f) {
-                        block.add(&triangle, &hits, to, portion, enough);
+                        block.add(&triangle, &hits, to, area_per_sample, threshold);
                     }
                 }
                 block
@@ -173,7 +176,7 @@ impl OneSided {
             .fold(0.0, |c, hit| hit.distance.max(c));
         let mut pieces = Vec::new();
         for block in blocks {
-            found = found.or(block.farthest);
+            farthest = farthest.or(block.farthest);
             ceiling = ceiling.max(block.ceiling);
             area += block.area;
             weighted += block.weighted;
@@ -184,10 +187,10 @@ impl OneSided {
         } else {
             mean_of(&hits)
         };
-        let (found, at_most) = refine(pieces, found, ceiling, to, tolerance);
-        let (from, to) = found.places(to);
+        let (farthest, at_most) = refine(pieces, farthest, ceiling, to, tolerance);
+        let (from, to) = farthest.points(to);
         Self {
-            largest: found.certain(),
+            largest: farthest.lower_bound(),
             at_most,
             mean,
             from,
@@ -202,8 +205,8 @@ impl Block {
         triangle: &Triangle,
         hits: &[Option<Hit>],
         to: &Surface,
-        portion: f64,
-        enough: f64,
+        area_per_sample: f64,
+        threshold: f64,
     ) {
         let corners = [0, 1, 2].map(|k| Sample {
             at: triangle.at[k],
@@ -212,50 +215,50 @@ impl Block {
         let mut piece = Piece::new(corners, triangle.face, to);
         let middle = piece.middle(to);
         piece.lower(&middle, to);
-        self.take(piece.at(middle));
+        self.record(piece.at(middle));
 
         let [a, b, c] = triangle.at;
         let area = 0.5 * (b - a).cross(c - a).length();
         self.area += area;
-        let rows = (area / portion).sqrt().ceil();
+        let rows = (area / area_per_sample).sqrt().ceil();
         let distance = if rows > 1.0 {
             self.mean_over(&piece, triangle, rows, to)
         } else {
-            // Exact where the distance is a quadratic function of the place.
+            // This quadrature is exact if the distance is a quadratic function of the position.
             let sum: f64 = corners.iter().map(|s| s.hit.distance).sum();
             0.75 * middle.hit.distance + sum / 12.0
         };
         self.weighted += area * distance;
 
-        if piece.upper > enough {
+        if piece.upper > threshold {
             self.pieces.push(piece);
         } else {
             self.ceiling = self.ceiling.max(piece.upper);
         }
     }
 
-    /// The mean of the distances at the middles of the parts of a triangle that is divided into so many rows.
+    /// Divides a triangle into `rows` rows of smaller triangles and returns the mean of the distances at their
+    /// centers.
     fn mean_over(&mut self, piece: &Piece, triangle: &Triangle, rows: f64, to: &Surface) -> f64 {
         let [a, b, c] = triangle.at;
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "a small number: a triangle has at most the area of the mesh, save where that is not flat"
+            reason = "a small number: a triangle has at most the area of the mesh, unless faces are not flat"
         )]
         let n = rows.min(SAMPLES.sqrt()) as u32;
         let third = 1.0 / 3.0;
         let (mut sum, mut count, mut hint) = (0.0, 0.0, 0);
         for i in 0..n {
             for j in 0..n - i {
-                // The part that points as the triangle does, and, if it is inside, the one that points the
-                // other way.
+                // The part with the same orientation as the triangle and, if it is inside, the inverted part.
                 let n_parts = if i + j + 2 <= n { 2 } else { 1 };
                 for shift in [third, 2.0 * third].into_iter().take(n_parts) {
                     let (u, v) = (f64::from(i) + shift, f64::from(j) + shift);
                     let at = a + (u / f64::from(n)) * (b - a) + (v / f64::from(n)) * (c - a);
                     let hit = to.nearest(at, hint);
                     hint = hit.triangle;
-                    self.take(piece.at(Sample { at, hit }));
+                    self.record(piece.at(Sample { at, hit }));
                     sum += hit.distance;
                     count += 1.0;
                 }
@@ -264,18 +267,18 @@ impl Block {
         sum / count
     }
 
-    fn take(&mut self, sample: Farthest) {
+    fn record(&mut self, sample: Farthest) {
         self.farthest = Some(self.farthest.map_or(sample, |best| best.or(Some(sample))));
     }
 }
 
-/// What is nearest to each vertex, by its place; vertices without faces belong to the mesh too.
+/// Returns the nearest point of `to` for each vertex, by vertex index. Isolated vertices are included.
 fn vertex_hits(from: &Mesh, to: &Surface) -> Vec<Option<Hit>> {
     let mut hits = vec![None; from.domain_len(Domain::Vertex)];
     hits.par_chunks_mut(BLOCK)
         .enumerate()
         .for_each(|(b, block)| {
-            // The last one found is a good guess, if the vertices have an order.
+            // The previous hit is a good first guess if consecutive vertices are near each other.
             let mut hint = 0;
             for (i, slot) in block.iter_mut().enumerate() {
                 let v = VertexId::new(b * BLOCK + i);
@@ -289,8 +292,8 @@ fn vertex_hits(from: &Mesh, to: &Surface) -> Vec<Option<Hit>> {
     hits
 }
 
-/// The distance from each vertex of a mesh to the surface of another, by its place; not a number for removed
-/// vertices. `None` if the other one has no faces.
+/// Returns the distance from each vertex of `from` to the surface of `to`, by vertex index. NaN for dead
+/// vertices. Returns `None` if `to` has no faces.
 pub fn vertex_distances(from: &Mesh, to: &Mesh) -> Option<Vec<f64>> {
     let hits = vertex_hits(from, &Surface::new(to)?);
     let distance = |hit: Option<Hit>| hit.map_or(f64::NAN, |hit| hit.distance);

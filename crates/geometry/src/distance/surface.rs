@@ -1,4 +1,4 @@
-//! A surface of triangles that finds its point nearest to another one.
+//! A tree of boxes over the triangles of a surface, to find the nearest point of the surface.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -7,14 +7,14 @@ use mesh::{DVec3, FaceId, Mesh, VertexId};
 
 use super::triangle::nearest_on_triangle;
 
-/// The triangles of a mesh: fans of its faces, from the first corner of each.
+/// The triangles of a mesh in a tree. Each face is triangulated as a fan at its first corner.
 pub(super) struct Surface {
     nodes: Vec<Node>,
-    /// In the order of the tree.
+    /// The triangles, in the order of the tree.
     triangles: Vec<Triangle>,
 }
 
-/// A triangle of a fan.
+/// A triangle of the fan of a face.
 #[derive(Clone, Copy)]
 pub(super) struct Triangle {
     pub(super) at: [DVec3; 3],
@@ -26,16 +26,18 @@ pub(super) struct Triangle {
 #[derive(Clone, Copy)]
 pub(super) struct Hit {
     pub(super) distance: f64,
-    /// No point of the surface is nearer than this: the distance itself, unless too many are nearly as near.
+    /// A lower bound of the distance. It equals `distance` unless the search was stopped early because too many
+    /// triangles are almost equally near.
     pub(super) lower: f64,
     pub(super) point: DVec3,
-    /// The triangle that has it, by its place in the surface.
+    /// The index of the triangle that contains the point.
     pub(super) triangle: u32,
-    /// The nodes that were looked at.
+    /// The number of visited nodes.
     pub(super) visits: u32,
 }
 
-/// A box around triangles `first..last`; an inner node's children are the next node and `right`.
+/// A box around the triangles `first..last`. The children of an inner node are the next node and `right`, which
+/// is 0 for a leaf.
 struct Node {
     min: DVec3,
     max: DVec3,
@@ -44,13 +46,14 @@ struct Node {
     right: u32,
 }
 
-/// Most triangles of a node without children.
+/// The maximum number of triangles of a leaf.
 const LEAF: usize = 4;
 
-/// Most nodes that are looked at for one point before a good answer is enough; some hundred are usual at most.
-const MOST_NODES: u32 = 1000;
+/// The number of nodes visited for one point before the search accepts an inexact answer. Searches usually
+/// visit at most a few hundred.
+const MAX_NODES: u32 = 1000;
 
-/// The triangles of the fan of a face.
+/// Iterates over the triangles of the fan of a face.
 pub(super) fn fan(mesh: &Mesh, face: FaceId) -> impl Iterator<Item = Triangle> {
     let mut corners = mesh.face_vertices(face);
     let first = corners.next();
@@ -66,7 +69,7 @@ pub(super) fn fan(mesh: &Mesh, face: FaceId) -> impl Iterator<Item = Triangle> {
 }
 
 impl Surface {
-    /// The surface of a mesh; `None` if it has no faces.
+    /// Builds the surface of a mesh; `None` if the mesh has no faces.
     pub(super) fn new(mesh: &Mesh) -> Option<Self> {
         let mut surface = Self {
             nodes: Vec::new(),
@@ -83,7 +86,8 @@ impl Surface {
         &self.triangles[i as usize]
     }
 
-    /// Builds the node over these triangles, cut in half across its longest side.
+    /// Builds the node over the triangles `first..last` and its children, which each get half of the triangles,
+    /// split along the longest side of the box.
     fn build(&mut self, first: usize, last: usize) {
         let corners = self.triangles[first..last].iter().flat_map(|t| t.at);
         let (min, max) = corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| {
@@ -110,10 +114,11 @@ impl Surface {
         self.build(first + middle, last);
     }
 
-    /// The point nearest to `p`. A triangle that is near already, `hint`, saves time.
+    /// Returns the point nearest to `p`. `hint` is the index of a triangle that is probably near, which saves
+    /// time.
     ///
-    /// Around the center of a sphere all triangles are equally near, and each would have to be looked at: after
-    /// so many the best so far is taken, with a bound for the rest.
+    /// If `p` is the center of a sphere, all triangles are equally near and the search would visit all of them.
+    /// After [`MAX_NODES`] nodes it continues with [`nearly_nearest`](Self::nearly_nearest), which stops early.
     pub(super) fn nearest(&self, p: DVec3, hint: u32) -> Hit {
         let mut best = Best {
             squared: f64::INFINITY,
@@ -121,7 +126,7 @@ impl Surface {
             triangle: hint,
         };
         self.try_triangle(p, hint, &mut best);
-        // The children of a node are cut in half, so that the tree is at most 32 deep.
+        // Each child has half of the triangles, so the depth of the tree is at most 32.
         let mut stack = [(0, 0.0); 64];
         let mut height = 1;
         stack[0] = (0, self.nodes[0].distance_squared(p));
@@ -133,13 +138,13 @@ impl Surface {
                 continue;
             }
             visits += 1;
-            if visits > MOST_NODES {
+            if visits > MAX_NODES {
                 return self.nearly_nearest(p, best);
             }
-            let Some(mut children) = self.open(p, i, &mut best) else {
+            let Some(mut children) = self.visit(p, i, &mut best) else {
                 continue;
             };
-            // The nearer one is looked at first.
+            // The nearer child is visited first.
             if children[0].1 <= children[1].1 {
                 children.swap(0, 1);
             }
@@ -153,21 +158,22 @@ impl Surface {
         best.hit(None, visits)
     }
 
-    /// The same node by node in the order of their distances, which gives the best bound when it ends early.
+    /// Continues the search in the order of the distances of the nodes, which gives the best lower bound if it
+    /// stops early.
     fn nearly_nearest(&self, p: DVec3, mut best: Best) -> Hit {
-        // Squares are not negative, so that their bits have their order.
+        // Squares are non-negative, so they have the same order as their bits.
         let mut waiting = BinaryHeap::from([Reverse((0_u64, 0_usize))]);
-        let mut visits = MOST_NODES;
+        let mut visits = MAX_NODES;
         while let Some(Reverse((bits, i))) = waiting.pop() {
             let squared = f64::from_bits(bits);
             if squared >= best.squared {
                 break;
             }
             visits += 1;
-            if visits > 3 * MOST_NODES {
+            if visits > 3 * MAX_NODES {
                 return best.hit(Some(squared), visits);
             }
-            for (child, squared) in self.open(p, i, &mut best).into_iter().flatten() {
+            for (child, squared) in self.visit(p, i, &mut best).into_iter().flatten() {
                 if squared < best.squared {
                     waiting.push(Reverse((squared.to_bits(), child)));
                 }
@@ -176,8 +182,8 @@ impl Surface {
         best.hit(None, visits)
     }
 
-    /// Looks at the triangles of a node, or gives its children with the squares of their distances.
-    fn open(&self, p: DVec3, i: usize, best: &mut Best) -> Option<[(usize, f64); 2]> {
+    /// Tries the triangles of a leaf, or returns the children of an inner node with their squared distances.
+    fn visit(&self, p: DVec3, i: usize, best: &mut Best) -> Option<[(usize, f64); 2]> {
         let node = &self.nodes[i];
         if node.right == 0 {
             for i in node.first..node.last {
@@ -201,12 +207,12 @@ impl Surface {
         }
     }
 
-    /// The distance from `p` to one triangle.
+    /// Returns the distance from `p` to one triangle.
     pub(super) fn to_triangle(&self, p: DVec3, i: u32) -> f64 {
         p.distance(nearest_on_triangle(p, &self.triangle(i).at))
     }
 
-    /// The edge that two triangles share, if they share one and not more.
+    /// Returns the edge that two triangles share, if they share exactly two vertices.
     pub(super) fn shared_edge(&self, i: u32, j: u32) -> Option<[DVec3; 2]> {
         let (s, t) = (self.triangle(i), self.triangle(j));
         let mut shared = (0..3).filter(|&k| t.vertices.contains(&s.vertices[k]));
@@ -217,7 +223,7 @@ impl Surface {
     }
 }
 
-/// The nearest point so far.
+/// The nearest point found so far.
 struct Best {
     squared: f64,
     point: DVec3,
@@ -225,7 +231,7 @@ struct Best {
 }
 
 impl Best {
-    /// `lower` is the square of a bound for what was not looked at.
+    /// Converts to a [`Hit`]. `lower` is the squared lower bound for the nodes that were not visited, if any.
     fn hit(self, lower: Option<f64>, visits: u32) -> Hit {
         Hit {
             distance: self.squared.sqrt(),
@@ -243,7 +249,7 @@ impl Node {
     }
 }
 
-/// A place in an array. A mesh has fewer than 2³² half-edges, and the fans no more triangles.
+/// Converts an array index. A mesh has fewer than 2³² half-edges, and its fans have fewer triangles than that.
 fn number(i: usize) -> u32 {
     u32::try_from(i).expect("fewer than 2^32 triangles")
 }

@@ -1,4 +1,4 @@
-//! Distances against cases that can be calculated, and against many samples.
+//! Compares distances with known values and with many samples.
 
 use crate::{bounds, shapes};
 
@@ -25,8 +25,8 @@ fn between(a: &Mesh, b: &Mesh, tolerance: f64) -> Distance {
     found
 }
 
-/// The largest distance from points of `a`, so many in a row of each triangle, to the triangles of `b`.
-fn brute(a: &Mesh, b: &Mesh, rows: u32) -> f64 {
+/// Returns the largest distance from sample points of `a`, `rows` + 1 along each side of each triangle, to `b`.
+fn sampled_distance(a: &Mesh, b: &Mesh, rows: u32) -> f64 {
     let mut largest = 0.0_f64;
     let triangles: Vec<[DVec3; 3]> = b.faces().flat_map(|f| fan(b, f)).map(|t| t.at).collect();
     for t in a.faces().flat_map(|f| fan(a, f)) {
@@ -47,7 +47,7 @@ fn brute(a: &Mesh, b: &Mesh, rows: u32) -> f64 {
 }
 
 #[test]
-fn a_mesh_has_no_distance_to_itself() {
+fn a_mesh_has_distance_zero_to_itself() {
     for mesh in [
         shapes::icosahedron(),
         shapes::cube(),
@@ -59,7 +59,7 @@ fn a_mesh_has_no_distance_to_itself() {
 }
 
 #[test]
-fn shifted_squares_are_as_far_apart_as_the_shift_however_they_are_divided() {
+fn the_distance_of_parallel_sheets_does_not_depend_on_their_faces() {
     let plane = shapes::grid(9, 7);
     let shifted = moved(shapes::grid(9, 7), |p| p + DVec3::new(0.0, 0.0, 0.25));
     let found = between(&plane, &shifted, 1e-9);
@@ -78,7 +78,7 @@ fn shifted_squares_are_as_far_apart_as_the_shift_however_they_are_divided() {
 }
 
 #[test]
-fn spheres_in_each_other_are_apart_by_their_radii() {
+fn the_distance_of_concentric_spheres_is_the_difference_of_radii() {
     let sphere = |radius: f64, around| moved(shapes::uv_sphere(around, around / 2), |p| p * radius);
     let found = between(&sphere(1.0, 64), &sphere(1.5, 48), 1e-4);
     // The chords of the polyhedra lie below the spheres.
@@ -90,8 +90,8 @@ fn spheres_in_each_other_are_apart_by_their_radii() {
 }
 
 #[test]
-fn a_spike_between_the_vertices_is_seen_from_the_large_face_below_it() {
-    // A spike ends above the square near a place that is neither a vertex nor a middle.
+fn a_spike_over_the_inside_of_a_large_face_is_found() {
+    // A spike ends above a point of the square that is neither a vertex nor a center.
     let foot = DVec3::new(0.31, 0.17, 0.0);
     let square = shapes::square();
     let mut positions: Vec<DVec3> = square.vertices().map(|v| square.position(v)).collect();
@@ -105,16 +105,16 @@ fn a_spike_between_the_vertices_is_seen_from_the_large_face_below_it() {
     assert!((found.back.largest - 1.0).abs() < 1e-6, "{found:?}");
     assert_eq!(found.back.from.on, Element::Vertex(VertexId::new(4)));
     assert!(found.back.to.position.distance(foot) < 1e-12);
-    // The square is furthest from the sides of the spike somewhere inside, where no vertex is.
-    let sampled = brute(&square, &spike, 400);
+    // The point of the square that is furthest from the spike lies inside the square.
+    let sampled = sampled_distance(&square, &spike, 400);
     assert!(found.forth.largest >= sampled - 1e-6 && found.forth.at_most >= sampled);
     assert!(found.forth.largest < sampled + 0.01, "{found:?} {sampled}");
     assert!(matches!(found.forth.from.on, Element::Face(_)), "{found:?}");
 }
 
 #[test]
-fn a_ridge_that_no_vertex_middle_or_center_lies_over_is_found() {
-    // Below a long triangle a deep fold, between its vertices.
+fn a_fold_below_no_vertex_or_center_is_found() {
+    // A deep fold lies below a long triangle, between its vertices.
     let flat = of(
         &[
             DVec3::ZERO,
@@ -137,14 +137,14 @@ fn a_ridge_that_no_vertex_middle_or_center_lies_over_is_found() {
     );
     let found = between(&flat, &folded, 1e-5);
     assert_eq!(found.back.largest, 3.0);
-    let sampled = brute(&flat, &folded, 500);
+    let sampled = sampled_distance(&flat, &folded, 500);
     assert!(found.forth.at_most >= sampled, "{found:?} {sampled}");
     assert!(found.forth.largest < sampled + 0.02, "{found:?} {sampled}");
 }
 
 #[test]
-fn the_bounds_hold_for_meshes_that_are_pushed_about() {
-    // A fixed sequence that looks random.
+fn the_bounds_hold_for_randomly_deformed_meshes() {
+    // A fixed pseudo-random sequence.
     let mut state = 1_u64;
     let mut next = || {
         state = state
@@ -169,8 +169,8 @@ fn the_bounds_hold_for_meshes_that_are_pushed_about() {
         let (a, b) = (push(a), push(b));
         let found = between(&a, &b, 1e-4);
         for (side, sampled) in [
-            (&found.forth, brute(&a, &b, 40)),
-            (&found.back, brute(&b, &a, 40)),
+            (&found.forth, sampled_distance(&a, &b, 40)),
+            (&found.back, sampled_distance(&b, &a, 40)),
         ] {
             assert!(
                 side.at_most >= sampled - 1e-12,
@@ -181,14 +181,14 @@ fn the_bounds_hold_for_meshes_that_are_pushed_about() {
                 side.largest <= sampled + 0.12,
                 "{round}: {side:?} {sampled}"
             );
-            let way = side.from.position.distance(side.to.position);
-            assert!((way - side.largest).abs() < 1e-12, "{side:?}");
+            let length = side.from.position.distance(side.to.position);
+            assert!((length - side.largest).abs() < 1e-12, "{side:?}");
         }
     }
 }
 
 #[test]
-fn the_same_bits_for_any_number_of_threads() {
+fn distances_are_the_same_bits_for_any_number_of_threads() {
     let a = shapes::torus(90, 60, 2.0, 1.0);
     let b = moved(shapes::torus(70, 80, 2.0, 1.0), |p| {
         p + DVec3::new(0.01, 0.02, 0.03)
@@ -211,7 +211,7 @@ fn meshes_without_faces_have_no_distance() {
 }
 
 #[test]
-fn faces_without_area_are_lines_and_points() {
+fn faces_without_area_are_treated_as_segments_and_points() {
     let line = of(&[DVec3::ZERO, DVec3::X, 0.5 * DVec3::X], &[&[0, 1, 2]]);
     let lifted = moved(line.clone(), |p| p + DVec3::Z);
     let found = between(&line, &lifted, 1e-9);
@@ -235,14 +235,14 @@ fn vertices_without_faces_are_measured_too() {
 }
 
 #[test]
-fn coordinates_that_are_too_large_to_be_squared_end() {
+fn the_search_ends_for_coordinates_too_large_to_square() {
     let huge = moved(shapes::cube(), |p| p * 1e200);
     let found = Distance::between(&huge, &shapes::cube(), None).unwrap();
     assert!(found.largest() > 1e150);
 }
 
 #[test]
-fn a_surface_around_a_small_one_is_bounded_though_all_of_it_is_equally_near() {
+fn the_bounds_hold_if_all_triangles_are_equally_near() {
     let around = shapes::uv_sphere(160, 80);
     let small = moved(shapes::uv_sphere(24, 12), |p| p * 1e-6);
     let found = Distance::between(&small, &around, None).unwrap();
@@ -256,7 +256,7 @@ fn a_surface_around_a_small_one_is_bounded_though_all_of_it_is_equally_near() {
 }
 
 #[test]
-fn each_vertex_has_its_distance() {
+fn vertex_distances_are_those_of_each_vertex() {
     let (cube, mut moved) = (shapes::cube(), shapes::cube());
     for p in moved.positions_mut() {
         p.x += 0.25;

@@ -1,8 +1,8 @@
-//! Nearest points of segments and triangles.
+//! Nearest points on segments and triangles.
 
 use mesh::DVec3;
 
-/// The point of the segment from `a` to `b` nearest to `p`; `a` if the segment is a point.
+/// Returns the point of the segment from `a` to `b` that is nearest to `p`; `a` if the segment is a point.
 pub(super) fn nearest_on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
     let along = b - a;
     let length_squared = along.length_squared();
@@ -12,10 +12,10 @@ pub(super) fn nearest_on_segment(p: DVec3, a: DVec3, b: DVec3) -> DVec3 {
     a + along * ((p - a).dot(along) / length_squared).clamp(0.0, 1.0)
 }
 
-/// The distance between two segments.
+/// Returns the distance between two segments.
 ///
-/// The nearest points of their lines, each moved into its segment in turn: Ericson, "Real-Time Collision
-/// Detection", 2005, §5.1.9.
+/// Computes the nearest points of the two lines, then clamps each to its segment in turn: Ericson, "Real-Time
+/// Collision Detection", 2005, §5.1.9.
 pub(super) fn between_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
     let (u, v, w) = (b - a, d - c, a - c);
     let (uu, vv, uv) = (u.length_squared(), v.length_squared(), u.dot(v));
@@ -30,8 +30,8 @@ pub(super) fn between_segments([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> f64 {
     on_first.distance(on_second)
 }
 
-/// The point of a triangle nearest to `p`, by the region that `p` lies over. A triangle without area is
-/// its three sides.
+/// Returns the point of a triangle that is nearest to `p`, by the Voronoi region that contains `p`. A triangle
+/// without area is treated as its three sides.
 ///
 /// Ericson, "Real-Time Collision Detection", 2005, §5.1.5.
 pub(super) fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
@@ -79,7 +79,7 @@ pub(super) fn nearest_on_triangle(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> DVec3 {
 mod tests {
     use super::*;
 
-    /// Points on a lattice around the origin.
+    /// Returns points on a lattice around the origin.
     fn lattice() -> impl Iterator<Item = DVec3> {
         (0..200).map(|i| {
             DVec3::new(
@@ -90,7 +90,7 @@ mod tests {
         })
     }
 
-    /// The least distance from `p` to samples of the triangle.
+    /// Returns the smallest distance from `p` to samples of the triangle.
     fn sampled(p: DVec3, t: &[DVec3; 3]) -> f64 {
         (0..=60)
             .flat_map(|a| (0..=60 - a).map(move |b| (f64::from(a) / 60.0, f64::from(b) / 60.0)))
@@ -103,7 +103,7 @@ mod tests {
         let at = DVec3::new;
         for t in [
             [DVec3::ZERO, at(3.0, 0.5, 0.0), at(1.0, 2.0, 1.0)],
-            // A segment, a segment with a doubled end, a point.
+            // A segment, a segment with a duplicate end, a point.
             [DVec3::ZERO, at(2.0, 2.0, 0.0), at(1.0, 1.0, 0.0)],
             [DVec3::ZERO, DVec3::ZERO, at(2.0, 1.0, 1.0)],
             [at(1.0, 0.0, 1.0); 3],

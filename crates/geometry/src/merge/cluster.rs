@@ -1,34 +1,34 @@
-//! Which points are connected by steps of at most a distance.
+//! Clusters of points that are connected by steps of at most a given distance.
 //!
-//! Points are sorted into a tree of boxes (a k-d tree: every box is cut at its median along its longest
+//! Points are sorted into a tree of boxes (a k-d tree: every box is split at the median along its longest
 //! side), and pairs of boxes are compared from the root down:
 //!
 //! ```text
-//!    +-----+        +---+      nearest corners farther than the distance: nothing to do
-//!    |  A  |<------>| B |      farthest corners within it: all of A and B are one cluster
-//!    +-----+        +---+      otherwise: compare the halves of the larger one
+//!    +-----+        +---+      smallest distance above the limit: nothing to do
+//!    |  A  |<------>| B |      largest distance within the limit: all of A and B are one cluster
+//!    +-----+        +---+      otherwise: compare the halves of the larger box
 //! ```
 //!
-//! A grid of cells as wide as the distance would be simpler, but its cell numbers overflow for tiny
-//! distances, and a million points in one cell take a million squared comparisons. Here boxes of equal
-//! or crowded points are clusters at once, however many points they hold, and only differences of
-//! coordinates are ever computed, which neither overflow nor round where it matters.
+//! A grid of cells as wide as the distance would be simpler, but its cell numbers overflow for tiny distances,
+//! and a million points in one cell need a million squared comparisons. In the tree, a box of equal or very
+//! close points becomes a cluster immediately, for any number of points. Only differences of coordinates are
+//! computed, which neither overflow nor lose precision for nearby points.
 
 use mesh::DVec3;
 use progress::{Cancelled, Meter, Progress};
 
 use super::union_find::UnionFind;
 
-/// Boxes of at most this many points are not cut: comparing all pairs is faster.
+/// Boxes of at most this many points are not split, because comparing all pairs is faster.
 const LEAF: usize = 8;
-/// Boxes of fewer points are not worth a task of their own.
+/// Boxes with at most this many points are not processed in a separate task.
 const TASK: usize = 8192;
 
-/// For each point the lowest number of its cluster: the points that are connected by steps of at most
-/// `distance`, which is finite and not negative.
+/// Returns for each point the lowest number in its cluster. A cluster is a set of points that are connected by
+/// steps of at most `distance`, which must be finite and not negative.
 ///
-/// Two points are a step apart if the length of their difference, rounded, is at most the distance.
-/// Positions must be finite and fewer than 2³².
+/// Two points are one step apart if the rounded length of their difference is at most `distance`. Positions
+/// must be finite, and there must be fewer than 2³² of them.
 ///
 /// # Errors
 ///
@@ -46,14 +46,14 @@ pub fn clusters(
         .zip(0..)
         .map(|(&at, index)| Point { at, index })
         .collect();
-    arrange(&mut points);
+    sort_into_tree(&mut points);
     let search = Search {
         reach: Reach::new(distance),
         sets: UnionFind::new(n),
         meter,
     };
     if !points.is_empty() {
-        search.within(&Tree::of(&points, &search.reach))?;
+        search.join_within(&Tree::of(&points, &search.reach))?;
     }
     search.meter.finish()?;
     Ok(search.sets.into_lowest())
@@ -65,8 +65,9 @@ struct Point {
     index: u32,
 }
 
-/// Sorts points so that each half, and each half of a half, lies on its side of a median.
-fn arrange(points: &mut [Point]) {
+/// Sorts points into the order of the tree: the points are split at the median along the longest side of their
+/// box, recursively.
+fn sort_into_tree(points: &mut [Point]) {
     let (min, max) = bounds(points);
     if points.len() <= LEAF || min == max {
         return;
@@ -80,11 +81,11 @@ fn arrange(points: &mut [Point]) {
         by_coordinate.then(p.index.cmp(&q.index))
     });
     let (low, high) = points.split_at_mut(middle);
-    both(n, || arrange(low), || arrange(high));
+    run_both(n, || sort_into_tree(low), || sort_into_tree(high));
 }
 
-/// Both halves of some work on `n` points, at once if that is worth a task.
-fn both<T: Send>(
+/// Runs both halves of some work on `n` points, in parallel if `n` is large enough.
+fn run_both<T: Send>(
     n: usize,
     low: impl FnOnce() -> T + Send,
     high: impl FnOnce() -> T + Send,
@@ -96,7 +97,7 @@ fn both<T: Send>(
     }
 }
 
-/// The lowest and the highest coordinates.
+/// Returns the bounding box.
 fn bounds(points: &[Point]) -> (DVec3, DVec3) {
     let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     points
@@ -104,13 +105,13 @@ fn bounds(points: &[Point]) -> (DVec3, DVec3) {
         .fold(start, |(min, max), p| (min.min(p.at), max.max(p.at)))
 }
 
-/// A box around points that are arranged.
+/// A box around points in the order of the tree.
 struct Tree<'p> {
     min: DVec3,
     max: DVec3,
     points: &'p [Point],
-    /// Whether any two points of the box are a step apart at most.
-    is_one: bool,
+    /// Whether any two points of the box are at most one step apart.
+    is_cluster: bool,
     halves: Option<Box<[Tree<'p>; 2]>>,
 }
 
@@ -119,7 +120,7 @@ impl<'p> Tree<'p> {
         let n = points.len();
         let halves = (n > LEAF).then(|| {
             let (low, high) = points.split_at(n / 2);
-            let halves = both(n, || Self::of(low, reach), || Self::of(high, reach));
+            let halves = run_both(n, || Self::of(low, reach), || Self::of(high, reach));
             Box::new(<[Self; 2]>::from(halves))
         });
         let (min, max) = match halves.as_deref() {
@@ -130,16 +131,16 @@ impl<'p> Tree<'p> {
             min,
             max,
             points,
-            is_one: reach.covers(max - min),
+            is_cluster: reach.covers(max - min),
             halves,
         }
     }
 }
 
-/// Which differences of positions are a step.
+/// Decides which differences of positions are one step.
 #[derive(Clone, Copy)]
 struct Reach {
-    /// A power of two that brings the distance near 1, so that squares neither overflow nor vanish.
+    /// A power of two that scales the distance to near 1, so that squares neither overflow nor underflow.
     scale: f64,
     /// The square of the scaled distance; 0 for the distance 0.
     squared: f64,
@@ -156,7 +157,8 @@ impl Reach {
         }
     }
 
-    /// Whether the difference is a step. If it is, so is every one with smaller coordinates.
+    /// Whether the difference is at most one step. If so, every difference with smaller absolute coordinates is
+    /// too.
     fn covers(&self, difference: DVec3) -> bool {
         if self.squared == 0.0 {
             // The square of a tiny difference would be 0 too.
@@ -167,7 +169,7 @@ impl Reach {
     }
 }
 
-/// The comparison of boxes.
+/// The search for clusters by comparison of boxes.
 struct Search<'a> {
     reach: Reach,
     sets: UnionFind,
@@ -175,15 +177,19 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Joins what is connected inside a box.
-    fn within(&self, tree: &Tree) -> Result<(), Cancelled> {
-        if let (false, Some([a, b])) = (tree.is_one, tree.halves.as_deref()) {
-            let (low, high) = both(tree.points.len(), || self.within(a), || self.within(b));
+    /// Joins the connected points inside a box.
+    fn join_within(&self, tree: &Tree) -> Result<(), Cancelled> {
+        if let (false, Some([a, b])) = (tree.is_cluster, tree.halves.as_deref()) {
+            let (low, high) = run_both(
+                tree.points.len(),
+                || self.join_within(a),
+                || self.join_within(b),
+            );
             low.and(high)?;
-            self.between(a, b);
+            self.join_between(a, b);
             return Ok(());
         }
-        if tree.is_one {
+        if tree.is_cluster {
             self.join_all(tree, tree.points[0]);
         } else {
             for (i, p) in tree.points.iter().enumerate() {
@@ -193,15 +199,15 @@ impl Search<'_> {
         self.meter.add(tree.points.len())
     }
 
-    /// Joins what is connected between two boxes.
-    fn between(&self, a: &Tree, b: &Tree) {
+    /// Joins the connected points between two boxes.
+    fn join_between(&self, a: &Tree, b: &Tree) {
         let gap = (b.min - a.max).max(a.min - b.max).max(DVec3::ZERO);
         if !self.reach.covers(gap) {
             return;
         }
         let (p, q) = (a.points[0], b.points[0]);
-        let are_two = a.is_one && b.is_one;
-        if are_two && self.sets.root(p.index) == self.sets.root(q.index) {
+        let are_clusters = a.is_cluster && b.is_cluster;
+        if are_clusters && self.sets.root(p.index) == self.sets.root(q.index) {
             return;
         }
         let span = (b.max - a.min).abs().max((a.max - b.min).abs());
@@ -212,12 +218,12 @@ impl Search<'_> {
         }
         match (a.halves.as_deref(), b.halves.as_deref()) {
             (Some([low, high]), other) if other.is_none() || a.points.len() >= b.points.len() => {
-                self.between(low, b);
-                self.between(high, b);
+                self.join_between(low, b);
+                self.join_between(high, b);
             }
             (_, Some([low, high])) => {
-                self.between(a, low);
-                self.between(a, high);
+                self.join_between(a, low);
+                self.join_between(a, high);
             }
             _ => {
                 for p in a.points {
@@ -227,14 +233,14 @@ impl Search<'_> {
         }
     }
 
-    /// Joins `q` and all points of a box, each of which is a step from it or from one that is.
+    /// Joins `q` with all points of a box, which are known to belong to its cluster.
     fn join_all(&self, tree: &Tree, q: Point) {
         for p in tree.points {
             self.sets.join(p.index, q.index);
         }
     }
 
-    /// Joins `q` and those points that are a step from it.
+    /// Joins `q` with the points that are one step away from it.
     fn join_near(&self, points: &[Point], q: Point) {
         for p in points {
             if self.reach.covers(p.at - q.at) {
@@ -254,7 +260,7 @@ mod tests {
         clusters(points, distance, &NoProgress).unwrap()
     }
 
-    /// The same by comparing all pairs, until nothing changes.
+    /// Computes clusters by comparing all pairs until nothing changes.
     fn by_all_pairs(points: &[DVec3], distance: f64) -> Vec<u32> {
         let mut lowest: Vec<u32> = (0..).take(points.len()).collect();
         loop {
@@ -272,7 +278,7 @@ mod tests {
         }
     }
 
-    /// Points of a generator with a seed, in [0, 1) cubed.
+    /// Returns pseudo-random points in the cube [0, 1)³.
     fn noise(n: usize) -> Vec<DVec3> {
         let mut state = 1_u64;
         let mut next = || {
@@ -285,23 +291,23 @@ mod tests {
     }
 
     #[test]
-    fn a_million_crowded_points_are_one_cluster_at_once() {
+    fn a_million_close_points_become_one_cluster_quickly() {
         let equal = vec![DVec3::splat(0.1); 1_000_000];
         assert!(clustered(&equal, 0.0).iter().all(|&low| low == 0));
-        // Two crowds, nearer to each other than the distance, and farther.
+        // Two groups of points, once nearer to each other than the distance and once farther.
         for (apart, expected) in [(0.9, 1), (1.1, 2)] {
-            let mut crowds: Vec<DVec3> = noise(200_000).iter().map(|&p| p * 1e-3).collect();
-            for p in &mut crowds[100_000..] {
+            let mut groups: Vec<DVec3> = noise(200_000).iter().map(|&p| p * 1e-3).collect();
+            for p in &mut groups[100_000..] {
                 p.x += apart;
             }
-            let lowest = clustered(&crowds, 1.0);
+            let lowest = clustered(&groups, 1.0);
             let roots = (0..).zip(&lowest).filter(|&(v, &low): &(u32, _)| v == low);
             assert_eq!(roots.count(), expected);
         }
     }
 
     #[test]
-    fn a_chain_is_one_cluster_and_its_lowest_number_the_first() {
+    fn a_chain_is_one_cluster_with_its_lowest_number() {
         let chain: Vec<DVec3> = (0..10_000).rev().map(|i| DVec3::X * f64::from(i)).collect();
         assert!(clustered(&chain, 1.0).iter().all(|&low| low == 0));
         let apart = clustered(&chain, 0.999);
@@ -309,7 +315,7 @@ mod tests {
     }
 
     #[test]
-    fn distance_zero_links_equal_positions_only() {
+    fn distance_zero_joins_equal_positions_only() {
         let tiny = f64::MIN_POSITIVE / 4.0;
         let points = [
             DVec3::ZERO,
@@ -326,9 +332,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_distances_count_as_near_at_any_size() {
+    fn points_at_exactly_the_distance_are_joined_at_any_scale() {
         for size in [1e-300_f64, 1e-160, 1e-3, 1.0, 1e160, 1e300] {
-            // Powers of two keep 3, 4, 5 exact.
+            // Scaling by a power of two keeps 3, 4 and 5 exact.
             let unit = f64::from_bits(size.to_bits() >> 52 << 52);
             let points = [DVec3::ZERO, DVec3::new(3.0, 4.0, 0.0) * unit];
             assert_eq!(clustered(&points, 5.0 * unit), [0, 0], "{size}");
@@ -337,9 +343,9 @@ mod tests {
     }
 
     #[test]
-    fn the_number_of_threads_changes_nothing() {
+    fn clusters_are_the_same_for_any_number_of_threads() {
         let points = noise(100_000);
-        // Near the distance at which clusters of such a cloud grow together.
+        // Includes the distance at which most clusters of this cloud become connected.
         for distance in [0.005, 0.015, 0.02] {
             let with = |threads| {
                 let pool = rayon::ThreadPoolBuilder::new()
@@ -354,7 +360,7 @@ mod tests {
     }
 
     #[test]
-    fn it_stops_when_told_to() {
+    fn a_cancelled_search_returns_an_error() {
         struct Stop;
         impl Progress for Stop {
             fn advance(&self, _: &str, done: u64, _: u64) -> bool {
@@ -368,7 +374,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn two_points_merge_within_the_distance_wherever_they_lie(
+        fn two_points_are_joined_if_and_only_if_they_are_within_the_distance(
             at in prop::array::uniform3(-10.0..10.0_f64),
             direction in prop::array::uniform3(-1.0..1.0_f64),
             offset in prop::sample::select(vec![0.0, 1e3, -1e9]),
@@ -381,9 +387,9 @@ mod tests {
             let a = DVec3::from_array(at) + offset;
             for (factor, near) in [(0.9, true), (1.1, false)] {
                 let mut points = vec![a, a + factor * distance * direction];
-                // Far away, only to make the tree deep.
+                // Points far away, which only make the tree deeper.
                 points.extend(noise(others).iter().map(|&p| a + 1e4 * (p + 1.0)));
-                // Rounding of the sum moves a point by less than this.
+                // Skips cases in which rounding of the sum could move a point too far.
                 prop_assume!(offset.abs() * 1e-15 < 0.01 * distance);
                 let lowest = clustered(&points, distance);
                 prop_assert_eq!(lowest[1] == 0, near);
@@ -391,7 +397,7 @@ mod tests {
         }
 
         #[test]
-        fn clusters_are_those_of_all_pairs(
+        fn clusters_equal_those_of_all_pairs(
             points in prop::collection::vec(prop::array::uniform3(0..8_i8), 0..120),
             distance in prop::sample::select(vec![0.0, 0.9, 1.0, 1.5, 2.0, 3.0]),
             flat in any::<bool>(),

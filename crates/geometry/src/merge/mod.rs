@@ -1,15 +1,15 @@
-//! Merging vertices that lie near each other.
+//! Merges vertices that lie near each other.
 //!
 //! ```text
 //!    +-----+ +-----+            +-----+-----+
-//!    |     a b     |            |     |     |       a, b become the one of the lower number,
-//!    |     | |     |    -->     |     |     |       where that is; the two edges become one
+//!    |     a b     |            |     |     |       a and b become the vertex with the lower
+//!    |     | |     |    -->     |     |     |       number, and the two edges become one
 //!    |     c d     |            |     |     |
 //!    +-----+ +-----+            +-----+-----+
 //! ```
 //!
-//! [`clusters`] finds which vertices belong together, [`merge_clusters`] makes them one and builds
-//! the mesh again from its polygons.
+//! [`clusters`] finds the vertices that belong together. [`merge_clusters`] merges them and rebuilds the mesh
+//! from its polygons.
 
 mod cluster;
 mod union_find;
@@ -22,43 +22,44 @@ use progress::{Cancelled, Progress};
 
 pub use cluster::clusters;
 
-/// What was merged, and what became of the faces.
+/// The result of merging: counts of merged vertices and changed faces.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Merged {
-    /// How many vertices became part of another.
+    /// The number of vertices that were merged into a different vertex.
     pub vertices: usize,
-    /// How many faces have fewer corners than before, but enough.
+    /// The number of faces that lost corners but kept at least three.
     pub smaller_faces: usize,
-    /// What was done to make the result a manifold; its dropped faces are those that are gone.
+    /// The changes that made the result a manifold. Its dropped faces are the faces that disappeared.
     pub report: BuildReport,
 }
 
-/// Why vertices were not merged. The mesh is unchanged.
+/// The reason why vertices could not be merged. The mesh is unchanged.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MergeError {
     /// The distance is negative or not finite.
-    #[error("`distance` must be 0 or a positive number, not {0}")]
+    #[error("`distance` must be a finite number of at least 0, found {0}")]
     Distance(f64),
     /// The computation was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// The result is not a mesh.
+    /// The result cannot be built as a mesh.
     #[error(transparent)]
     Build(#[from] BuildError),
 }
 
-/// Merges vertices at most `distance` apart, and all that such steps connect.
+/// Merges vertices that are at most `distance` apart, and all vertices that are connected by steps of at most
+/// `distance`.
 ///
-/// Two vertices at 0.9 times the distance always merge, wherever they lie, and two at 1.1 times only
-/// through others between them. Neither depends on the order of vertices or on the number of threads.
-/// A distance of 0 merges equal positions.
+/// The result does not depend on the order of vertices or on the number of threads. A distance of 0 merges
+/// equal positions only.
 ///
-/// [`merge_clusters`] tells what becomes of everything. If no two vertices merge, nothing changes at all.
+/// [`merge_clusters`] describes what happens to vertices, edges, faces and attributes. If no two vertices
+/// merge, the mesh is unchanged.
 ///
 /// # Errors
 ///
-/// [`MergeError::Distance`] if the distance is negative or not finite, [`MergeError::Cancelled`], and those of
-/// [`merge_clusters`]. The mesh is unchanged.
+/// [`MergeError::Distance`] if the distance is negative or not finite, [`MergeError::Cancelled`], and the
+/// errors of [`merge_clusters`]. The mesh is unchanged.
 ///
 /// # Panics
 ///
@@ -93,18 +94,18 @@ pub fn merge_vertices(
     Ok(merge_clusters(mesh, &lowest)?)
 }
 
-/// Makes each cluster of vertices one: `lowest` has for each vertex the lowest of those it merges with,
-/// its own number if it is that. The mesh must be dense.
+/// Merges each cluster of vertices into one vertex. `lowest` has for each vertex the lowest vertex of its
+/// cluster, as returned by [`clusters`]. The mesh must be dense.
 ///
-/// The merged vertex has the position and the values of the lowest; the others go, and numbers close
-/// up. Edges between the same two vertices become one, with the values of the first. Faces keep their
-/// order and values, and corners theirs, so that seams are kept.
+/// The merged vertex has the position and the values of the lowest vertex. The other vertices are removed, and
+/// ids are renumbered without gaps. Edges between the same two vertices become one edge with the values of the
+/// lowest edge. Faces keep their order and values, and corners keep their values, so that seams are kept.
 ///
-/// A face loses corners that merge with the next one around it, and goes if fewer than three are left
-/// or if it would visit a vertex twice. Where faces that hang together then run different ways round,
-/// the smaller number of them is reversed if that makes all agree, and normals are dropped. Where the
-/// result would still not be a manifold it is split, as [`build()`] does: of three faces at one edge the
-/// third gets its own.
+/// A face loses each corner that merges with the next corner around it. The face is dropped if fewer than three
+/// corners are left or if it would visit a vertex twice. If connected faces then have opposite orientations,
+/// the smaller number of them is reversed if that makes all orientations agree, and normals are dropped. If the
+/// result is still non-manifold, it is split as [`build()`] does: the third face at an edge gets a copy of the
+/// edge.
 ///
 /// # Errors
 ///
@@ -113,7 +114,8 @@ pub fn merge_vertices(
 ///
 /// # Panics
 ///
-/// If the mesh is not dense, or `lowest` has not one number for each vertex, or one names no vertex.
+/// If the mesh is not dense, if `lowest` does not have one number for each vertex, or if a number is not that
+/// of a vertex.
 pub fn merge_clusters(mesh: &mut Mesh, lowest: &[u32]) -> Result<Merged, BuildError> {
     assert!(mesh.is_dense(), "the mesh must be dense");
     assert_eq!(
@@ -137,25 +139,26 @@ pub fn merge_clusters(mesh: &mut Mesh, lowest: &[u32]) -> Result<Merged, BuildEr
     Ok(merged)
 }
 
-/// The faces of a mesh over the vertices that are left.
+/// The faces of a mesh over the vertices that remain after merging.
 struct Polygons {
-    /// The vertices that are left, by their old numbers.
+    /// The old ids of the vertices that remain.
     kept: Vec<VertexId>,
     offsets: Vec<u32>,
     corners: Vec<u32>,
-    /// For each corner the half-edge that it was.
+    /// The old half-edge of each corner.
     half_edges: Vec<HalfEdgeId>,
-    /// How many faces have fewer corners than before, but enough.
+    /// The number of faces that lost corners but kept at least three.
     reduced: usize,
 }
 
 impl Polygons {
-    /// `lowest` has for each vertex the lowest number of those that it merges with.
+    /// Maps the faces of the mesh to the merged vertices. `lowest` has for each vertex the lowest vertex of its
+    /// cluster.
     fn of(mesh: &Mesh, lowest: &[u32]) -> Self {
         let mut kept = Vec::new();
         let mut number = vec![0; lowest.len()];
         for (v, (&low, i)) in lowest.iter().zip(0_u32..).enumerate() {
-            // The lowest one comes before all others of its cluster.
+            // The lowest vertex comes before all other vertices of its cluster.
             if low == i {
                 number[v] = to_u32(kept.len());
                 kept.push(VertexId::new(v));
@@ -171,7 +174,7 @@ impl Polygons {
             let mut is_smaller = false;
             for h in mesh.face_half_edges(f) {
                 let [v, w] = [mesh.origin(h), mesh.target(h)].map(|v| number[v.index()]);
-                // A side that shrinks to a point goes, and the corner at its origin with it.
+                // A side that shrinks to a point is removed together with the corner at its origin.
                 if v == w {
                     is_smaller = true;
                 } else {
@@ -180,7 +183,7 @@ impl Polygons {
                 }
             }
             reduced += usize::from(is_smaller && corners.len() - first >= 3);
-            // No more corners than before, and those had ids.
+            // There are at most as many corners as before, so ids can number them.
             offsets.push(to_u32(corners.len()));
         }
         Self {
@@ -192,13 +195,13 @@ impl Polygons {
         }
     }
 
-    /// The built mesh with the attributes of the old one.
+    /// Returns the built mesh with the attributes of the old mesh.
     fn with_attributes(self, old: &Mesh, built: BuildOutput) -> Mesh {
         let edges_of_sides = built.edges_of_sides(&self.offsets);
         let has_reversed = !built.report.reversed_faces.is_empty();
         let mut mesh = built.mesh;
         let mut vertices = self.kept;
-        // Copies stand behind all others, in this order.
+        // Copies come after all other vertices, in this order.
         for (original, _) in &built.report.split_vertices {
             vertices.push(vertices[original.index()]);
         }
@@ -227,7 +230,7 @@ impl Polygons {
         });
         attributes.drop_by_rule();
         if has_reversed {
-            // They would point to the other side of the faces that were reversed.
+            // Normals would point to the wrong side of reversed faces.
             attributes.remove(Domain::Vertex, VERTEX_NORMAL.name);
             attributes.remove(Domain::Corner, CORNER_NORMAL.name);
         }

@@ -1,26 +1,25 @@
-//! Sets of numbers that threads may join at the same time.
+//! A union-find structure that several threads can join concurrently.
 
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
-/// Numbers from 0, each in one set. Every set has its lowest number as root.
+/// Disjoint sets of the numbers below n. The root of a set is its lowest number.
 ///
-/// Which sets there are at the end depends only on what was joined, not on the order. A parent is always
-/// below its child, so that no cycle can arise; a join is one compare-and-swap at a root, tried again if
-/// another thread was first. Anderson and Woll, "Wait-free Parallel Algorithms for the Union-Find
-/// Problem", 1991.
+/// The final sets depend only on the joined pairs, not on their order. A parent is always lower than its child,
+/// so that no cycle can arise. A join is one compare-and-swap at a root, repeated if another thread changed the
+/// root first. Source: Anderson and Woll, "Wait-free Parallel Algorithms for the Union-Find Problem", 1991.
 pub(super) struct UnionFind {
     parent: Vec<AtomicU32>,
 }
 
 impl UnionFind {
-    /// Numbers below `n`, each alone.
+    /// Creates one set for each number below `n`.
     pub(super) fn new(n: u32) -> Self {
         Self {
             parent: (0..n).map(AtomicU32::new).collect(),
         }
     }
 
-    /// The root of the set of `v`: its lowest number, once no other thread joins.
+    /// Returns the root of the set of `v`. It is the lowest number of the set once all joins are finished.
     pub(super) fn root(&self, mut v: u32) -> u32 {
         loop {
             let parent = self.parent[v as usize].load(Relaxed);
@@ -28,13 +27,13 @@ impl UnionFind {
                 return v;
             }
             let above = self.parent[parent as usize].load(Relaxed);
-            // Halves the way for the next one. A parent only ever moves to one of its ancestors.
+            // Path halving for later calls. A parent is only ever replaced by one of its ancestors.
             let _ = self.parent[v as usize].compare_exchange(parent, above, Relaxed, Relaxed);
             v = above;
         }
     }
 
-    /// Joins the sets of `a` and `b`.
+    /// Joins the sets that contain `a` and `b`.
     pub(super) fn join(&self, a: u32, b: u32) {
         let (mut a, mut b) = (self.root(a), self.root(b));
         while a != b {
@@ -50,10 +49,10 @@ impl UnionFind {
         }
     }
 
-    /// The lowest number of each set, for all its members.
+    /// Returns for each number the lowest number of its set.
     pub(super) fn into_lowest(self) -> Vec<u32> {
         let mut lowest: Vec<u32> = self.parent.into_iter().map(AtomicU32::into_inner).collect();
-        // Parents are below their children, so theirs is final already.
+        // Parents are lower than their children, so their entries are already final.
         for v in 0..lowest.len() {
             lowest[v] = lowest[lowest[v] as usize];
         }
@@ -77,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn threads_that_join_at_the_same_time_lose_nothing() {
+    fn concurrent_joins_are_not_lost() {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(8)
             .build()

@@ -1,8 +1,8 @@
-//! Corner values and how they are subdivided: OpenSubdiv's face-varying data.
+//! Corner values and their subdivision, as in OpenSubdiv's face-varying data.
 //!
-//! Corners at one vertex whose numbers are equal hold one value. What becomes of a value is decided in each
-//! level, from the sharpness that is left; OpenSubdiv decides once which of two values depends on the
-//! other. That is the same but where sharpness ends on one side of a vertex earlier than on the other.
+//! Corners at one vertex with equal numbers share one value. The rule for a value is decided on each level,
+//! from the sharpness on that level. OpenSubdiv decides only once which of two values depends on the other; the
+//! results differ only if sharpness ends on one side of a vertex earlier than on the other side.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,45 +10,45 @@ use mesh::DVec2;
 use subdivision::{Boundary, FaceVarying, Rules, Scheme};
 
 use crate::masks;
-use crate::polygons::{Around, Edge, Polygons, ahead, behind, edge};
+use crate::polygons::{Adjacency, Edge, Polygons, ahead, behind, edge};
 use crate::sharpness::{Sharpness, is_semi_sharp};
 use crate::split::{self, Place};
 
-/// What becomes of a value.
+/// How a value changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    /// The same as of the position of its vertex.
+    /// The value moves as the position of its vertex does.
     Regular,
-    /// It stays.
+    /// The value stays.
     Corner,
-    /// It moves along the border of its faces.
+    /// The value moves along the border of its faces.
     Crease,
-    /// It stays while something is sharp, and then moves.
+    /// The value stays while an edge or the vertex is semi-sharp, then moves.
     Sharp,
-    /// It stays while the other value at the vertex does.
+    /// The value stays while the other value at the vertex stays.
     Dependent,
 }
 
 /// Corner values.
 #[derive(Clone, Debug)]
 pub(crate) struct Charts {
-    /// The values; one belongs to one vertex.
+    /// The values. Each belongs to one vertex.
     values: Vec<DVec2>,
-    /// The value of each corner of each face.
+    /// The index of the value of each corner of each face.
     corners: Vec<Vec<usize>>,
-    /// Inner edges where values of the two sides differ, at one end or both.
+    /// Inner edges whose two sides have different values at one end or at both ends.
     seams: BTreeSet<Edge>,
 }
 
 impl Charts {
-    /// Corner values given as numbers for each corner of each face.
+    /// Creates corner values from the numbers of each corner of each face.
     pub(crate) fn new(faces: &[Vec<usize>], numbers: &[Vec<DVec2>]) -> Self {
-        let mut known: BTreeMap<(usize, [u64; 2]), usize> = BTreeMap::new();
+        let mut index_of: BTreeMap<(usize, [u64; 2]), usize> = BTreeMap::new();
         let mut values = Vec::new();
         let mut corners = Vec::new();
         for (face, numbers) in faces.iter().zip(numbers) {
             let of_corner = |(&v, &number): (&usize, &DVec2)| {
-                *known
+                *index_of
                     .entry((v, number.to_array().map(f64::to_bits)))
                     .or_insert_with(|| {
                         values.push(number);
@@ -63,7 +63,7 @@ impl Charts {
             seams: BTreeSet::new(),
         };
         let n_vertices = faces.iter().flatten().max().map_or(0, |&v| v + 1);
-        for (e, sides) in &Around::new(n_vertices, faces).sides {
+        for (e, sides) in &Adjacency::new(n_vertices, faces).sides {
             if let &[a, b] = sides.as_slice()
                 && (charts.at(a, 0) != charts.at(b, 1) || charts.at(a, 1) != charts.at(b, 0))
             {
@@ -73,38 +73,38 @@ impl Charts {
         charts
     }
 
-    /// The number at each corner of each face.
+    /// Returns the number at each corner of each face.
     pub(crate) fn numbers(&self) -> Vec<Vec<DVec2>> {
         let numbers = |face: &Vec<usize>| face.iter().map(|&x| self.values[x]).collect();
         self.corners.iter().map(numbers).collect()
     }
 
-    /// The value at a corner, or `by` corners on.
+    /// Returns the value `by` corners after a corner.
     fn at(&self, (f, i): (usize, usize), by: usize) -> usize {
         let face = &self.corners[f];
         face[(i + by) % face.len()]
     }
 
-    /// The value at the corner before.
+    /// Returns the value at the corner before.
     fn before(&self, (f, i): (usize, usize)) -> usize {
         let face = &self.corners[f];
         face[behind(i, face.len())]
     }
 
-    /// The mean of the values of a face.
+    /// Returns the mean of the values of a face.
     fn center(&self, f: usize) -> DVec2 {
         let face = &self.corners[f];
         face.iter().map(|&x| self.values[x]).sum::<DVec2>() / face.len() as f64
     }
 
-    /// The faces around `v` that hold a value.
-    fn span(&self, v: usize, value: usize, around: &Around) -> Span {
-        let fan = around.fan(v);
+    /// Returns the faces around `v` that have the given value.
+    fn span(&self, v: usize, value: usize, adjacency: &Adjacency) -> Span {
+        let fan = adjacency.fan(v);
         let n = fan.len();
-        let is_inner = !around.is_boundary_vertex(v);
-        let is_seam = |c: (usize, usize)| self.seams.contains(&edge(v, around.at(c, 1)));
-        let holds = |i: usize| self.at(fan[i], 0) == value;
-        if is_inner && (0..n).all(holds) {
+        let is_inner = !adjacency.is_boundary_vertex(v);
+        let is_seam = |c: (usize, usize)| self.seams.contains(&edge(v, adjacency.at(c, 1)));
+        let has_value = |i: usize| self.at(fan[i], 0) == value;
+        if is_inner && (0..n).all(has_value) {
             let seams: Vec<usize> = (0..n).filter(|&i| is_seam(fan[i])).collect();
             return Span {
                 size: n,
@@ -113,15 +113,15 @@ impl Charts {
                 inner: fan
                     .iter()
                     .filter(|&&c| !is_seam(c))
-                    .map(|&c| around.at(c, 1))
+                    .map(|&c| adjacency.at(c, 1))
                     .collect(),
             };
         }
         let (mut inner, mut starts, mut size, mut is_torn) = (Vec::new(), Vec::new(), 0, false);
-        for i in (0..n).filter(|&i| holds(i)) {
+        for i in (0..n).filter(|&i| has_value(i)) {
             size += 1;
-            if (is_inner || i > 0) && holds(behind(i, n)) {
-                inner.push(around.at(fan[i], 1));
+            if (is_inner || i > 0) && has_value(behind(i, n)) {
+                inner.push(adjacency.at(fan[i], 1));
                 is_torn |= is_seam(fan[i]);
             } else {
                 starts.push(i);
@@ -138,27 +138,27 @@ impl Charts {
     }
 }
 
-/// The faces around a vertex that hold one value.
+/// The faces around a vertex that share one value.
 #[derive(Debug)]
 struct Span {
-    /// How many.
+    /// The number of faces.
     size: usize,
-    /// They are not in one row, or a seam runs between them.
+    /// Whether the faces are not consecutive, or a seam runs between them.
     is_torn: bool,
-    /// Where the edges between them lead.
+    /// The other ends of the edges between the faces.
     inner: Vec<usize>,
-    /// The corners in the first and the last of them, counter-clockwise.
+    /// The corners of the first and the last face, counter-clockwise.
     ends: [(usize, usize); 2],
 }
 
 impl Span {
-    /// Whether an edge inside is infinitely sharp.
+    /// Whether an inner edge is infinitely sharp.
     fn is_hard(&self, v: usize, sharpness: &Sharpness) -> bool {
         let mut inside = self.inner.iter().map(|&w| sharpness.of_edge(v, w));
         inside.any(|s| s > 0.0 && !is_semi_sharp(s))
     }
 
-    /// Whether an edge inside is sharp for some levels.
+    /// Whether an inner edge is semi-sharp.
     fn is_semi_sharp(&self, v: usize, sharpness: &Sharpness, when: When) -> bool {
         let mut inside = self.inner.iter().map(|&w| match when {
             When::Now => sharpness.of_edge(v, w),
@@ -168,38 +168,41 @@ impl Span {
     }
 }
 
-/// By which sharpness something is decided.
+/// The level whose sharpness is used.
 #[derive(Clone, Copy, Debug)]
 enum When {
-    /// That of the old mesh.
+    /// The level of the old mesh.
     Now,
-    /// That of the new one.
+    /// The next level.
     Next,
 }
 
-/// The values at `v`, in the order of their numbers.
-fn values_at(charts: &Charts, v: usize, around: &Around) -> Vec<usize> {
-    let values: BTreeSet<usize> = around.corners[v].iter().map(|&c| charts.at(c, 0)).collect();
+/// Returns the values at `v`, in the order of their indices.
+fn values_at(charts: &Charts, v: usize, adjacency: &Adjacency) -> Vec<usize> {
+    let values: BTreeSet<usize> = adjacency.corners[v]
+        .iter()
+        .map(|&c| charts.at(c, 0))
+        .collect();
     values.into_iter().collect()
 }
 
-/// Decides what becomes of the values at `v`.
+/// Decides the states of the values at `v`.
 fn decide(
     charts: &Charts,
     v: usize,
     rules: Rules,
-    around: &Around,
+    adjacency: &Adjacency,
     sharpness: &Sharpness,
     when: When,
 ) -> Vec<State> {
     let choice = rules.face_varying;
-    let values = values_at(charts, v, around);
+    let values = values_at(charts, v, adjacency);
     let all = |state: State| vec![state; values.len()];
-    let is_boundary = around.is_boundary_vertex(v);
-    let has_seam = around.neighbors[v]
+    let is_boundary = adjacency.is_boundary_vertex(v);
+    let has_seam = adjacency.neighbors[v]
         .iter()
         .any(|&w| charts.seams.contains(&edge(v, w)));
-    let is_single = around.corners[v].len() == 1
+    let is_single = adjacency.corners[v].len() == 1
         && choice != FaceVarying::None
         && rules.boundary != Boundary::EdgesAndCorners;
     let is_linear = choice == FaceVarying::Boundaries;
@@ -220,7 +223,7 @@ fn decide(
     }
     let spans: Vec<Span> = values
         .iter()
-        .map(|&value| charts.span(v, value, around))
+        .map(|&value| charts.span(v, value, adjacency))
         .collect();
     if depends && values.len() == 2 {
         let sharpens = |s: &Span| s.is_torn || s.is_hard(v, sharpness) || (plus_two && s.size == 1);
@@ -245,22 +248,22 @@ fn decide(
     spans.iter().map(state).collect()
 }
 
-/// Corner values of the next level. `numbers` are the vertices on edges.
+/// Computes the corner values of the next level. `numbers` has the new vertices on edges.
 pub(crate) fn refine(
     charts: &Charts,
     mesh: &Polygons,
     rules: Rules,
-    around: &Around,
+    adjacency: &Adjacency,
     sharpness: &Sharpness,
     numbers: &BTreeMap<Edge, usize>,
 ) -> Charts {
     let mut values = vec![DVec2::ZERO; charts.values.len()];
-    for v in (0..mesh.positions.len()).filter(|&v| !around.corners[v].is_empty()) {
+    for v in (0..mesh.positions.len()).filter(|&v| !adjacency.corners[v].is_empty()) {
         let of_vertex = Vertex {
             charts,
             v,
             rules,
-            around,
+            adjacency,
             sharpness,
         };
         for (x, number) in of_vertex.refined() {
@@ -268,9 +271,9 @@ pub(crate) fn refine(
         }
     }
 
-    // A value for each edge, or for each side of a seam; then one in each center.
+    // Adds a value for each edge, or for each side of a seam, then a value for each center.
     let mut of_sides: BTreeMap<(usize, usize), usize> = BTreeMap::new();
-    for (&e, sides) in &around.sides {
+    for (&e, sides) in &adjacency.sides {
         let is_seam = charts.seams.contains(&e);
         for (k, &side) in sides.iter().enumerate() {
             if k == 0 || is_seam {
@@ -303,12 +306,12 @@ pub(crate) fn refine(
     }
 }
 
-/// Whether values do not leave their faces.
+/// Whether values are interpolated linearly within each face.
 fn is_linear(rules: Rules) -> bool {
     rules.face_varying == FaceVarying::All || matches!(rules.scheme, Scheme::Midpoint(_))
 }
 
-/// The new value of an edge, on the side given.
+/// Returns the new value on an edge, on the given side.
 fn of_edge(
     charts: &Charts,
     e: Edge,
@@ -329,35 +332,35 @@ fn of_edge(
     mask.end * ends + mask.side * sides.iter().map(beside).sum::<DVec2>()
 }
 
-/// The values of an old vertex.
+/// The data to refine the values at an old vertex.
 struct Vertex<'a> {
     charts: &'a Charts,
     v: usize,
     rules: Rules,
-    around: &'a Around<'a>,
+    adjacency: &'a Adjacency<'a>,
     sharpness: &'a Sharpness,
 }
 
 impl Vertex<'_> {
-    /// Each value with what it becomes.
+    /// Returns each value index with its new value.
     fn refined(&self) -> Vec<(usize, DVec2)> {
         let Self {
             charts,
             v,
             rules,
-            around,
+            adjacency,
             sharpness,
         } = *self;
-        let values = values_at(charts, v, around);
+        let values = values_at(charts, v, adjacency);
         if is_linear(rules) {
             return values.iter().map(|&x| (x, charts.values[x])).collect();
         }
-        let [states, next] =
-            [When::Now, When::Next].map(|when| decide(charts, v, rules, around, sharpness, when));
+        let [states, next] = [When::Now, When::Next]
+            .map(|when| decide(charts, v, rules, adjacency, sharpness, when));
         let number = |k: usize| match (states[k], next[k]) {
             (State::Regular, _) => self.regular(values[k]),
             (_, State::Crease) => {
-                // A dependent value is as sharp as the other one.
+                // A dependent value is as sharp as the other value.
                 let source = if states[k] == State::Dependent {
                     1 - k
                 } else {
@@ -376,34 +379,34 @@ impl Vertex<'_> {
         (0..values.len()).map(|k| (values[k], number(k))).collect()
     }
 
-    /// How much of the corner is left, by the edges inside the faces of a value.
+    /// Returns the weight of the corner rule, from the inner edges of the faces of a value.
     fn fraction(&self, value: usize) -> f64 {
-        let span = self.charts.span(self.v, value, self.around);
+        let span = self.charts.span(self.v, value, self.adjacency);
         self.sharpness.fraction(self.v, &span.inner)
     }
 
-    /// The value moved along the border of its faces.
+    /// Returns the value moved along the border of its faces.
     fn crease(&self, value: usize) -> DVec2 {
         let charts = self.charts;
-        let [first, last] = charts.span(self.v, value, self.around).ends;
+        let [first, last] = charts.span(self.v, value, self.adjacency).ends;
         let ends = charts.values[charts.at(first, 1)] + charts.values[charts.before(last)];
         0.75 * charts.values[value] + 0.125 * ends
     }
 
-    /// The value moved as the position is.
+    /// Returns the value moved as the position is.
     fn regular(&self, value: usize) -> DVec2 {
         let Self {
             charts,
             v,
             rules,
-            around,
+            adjacency,
             sharpness,
         } = *self;
-        let mask = masks::of_vertex(v, rules, around, sharpness);
+        let mask = masks::of_vertex(v, rules, adjacency, sharpness);
         let beyond = |w: usize| {
-            let (f, i) = around.sides[&edge(v, w)][0];
+            let (f, i) = adjacency.sides[&edge(v, w)][0];
             let face = &charts.corners[f];
-            let at_start = around.at((f, i), 0) == w;
+            let at_start = adjacency.at((f, i), 0) == w;
             charts.values[if at_start {
                 face[i]
             } else {

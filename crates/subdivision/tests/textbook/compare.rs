@@ -1,4 +1,4 @@
-//! A mesh of the crate against one of the textbook.
+//! Compares a mesh of the crate with a mesh of the textbook implementation.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,10 +6,10 @@ use mesh::{COLOR, CREASE, DVec2, DVec3, DVec4, Mesh, UV, VERTEX_SHARPNESS, Verte
 
 use crate::polygons::{Polygons, edge};
 
-/// How far apart the same numbers may be, for positions in parts of the size of the mesh.
+/// The tolerance for equal numbers. For positions it is relative to the size of the mesh.
 const TOLERANCE: f64 = 1e-12;
 
-/// The mesh of a list, with its sharpness, its corner values and, as colors, its positions as columns.
+/// Converts polygon lists to a mesh, with columns for sharpness, corner values and, as colors, positions.
 pub(crate) fn mesh_of(polygons: &Polygons) -> Mesh {
     let number = |&v: &usize| u32::try_from(v).expect("few vertices");
     let faces: Vec<Vec<u32>> = polygons
@@ -18,7 +18,7 @@ pub(crate) fn mesh_of(polygons: &Polygons) -> Mesh {
         .map(|face| face.iter().map(number).collect())
         .collect();
     let (mut mesh, report) =
-        Mesh::from_polygons(polygons.positions.clone(), &faces).expect("sound polygons");
+        Mesh::from_polygons(polygons.positions.clone(), &faces).expect("valid polygons");
     assert!(report.is_clean(), "{}", report.summary());
     let sharpness = |e| {
         let [a, b] = mesh.edge_vertices(e).map(VertexId::index);
@@ -43,7 +43,7 @@ pub(crate) fn mesh_of(polygons: &Polygons) -> Mesh {
     mesh
 }
 
-/// What differs between a mesh and the list that it should be; `None` if nothing does.
+/// Describes the first difference between a mesh and the expected polygon lists; `None` if they are equal.
 pub(crate) fn difference(mesh: &Mesh, expected: &Polygons) -> Option<String> {
     let defects = mesh.defects();
     if !defects.is_empty() {
@@ -61,7 +61,7 @@ pub(crate) fn difference(mesh: &Mesh, expected: &Polygons) -> Option<String> {
     };
     let place: BTreeMap<VertexId, usize> = vertices.iter().copied().zip(matched).collect();
 
-    // Faces by their corners, with the corner values that belong to them.
+    // Maps the corners of each face to its corner values.
     let uv = mesh.get(UV);
     let mut faces: BTreeMap<Vec<usize>, Vec<Option<DVec2>>> = BTreeMap::new();
     for f in mesh.faces() {
@@ -73,7 +73,7 @@ pub(crate) fn difference(mesh: &Mesh, expected: &Polygons) -> Option<String> {
     }
     if mesh.n_faces() != expected.faces.len() {
         return Some(format!(
-            "{} faces, not {}",
+            "{} faces, expected {}",
             mesh.n_faces(),
             expected.faces.len()
         ));
@@ -85,7 +85,7 @@ pub(crate) fn difference(mesh: &Mesh, expected: &Polygons) -> Option<String> {
         });
         let (face, numbers) = rotated(face.clone(), numbers);
         let Some(found) = faces.get(&face) else {
-            return Some(format!("no face {face:?}"));
+            return Some(format!("missing face {face:?}"));
         };
         for (i, (found, expected)) in found.iter().zip(&numbers).enumerate() {
             let Some(expected) = expected else { continue };
@@ -93,7 +93,7 @@ pub(crate) fn difference(mesh: &Mesh, expected: &Polygons) -> Option<String> {
                 Some(found) if (*found - *expected).abs().max_element() <= TOLERANCE => {}
                 _ => {
                     return Some(format!(
-                        "at corner {} of face {face:?} {found:?}, not {expected:?}",
+                        "at corner {} of face {face:?}: {found:?}, expected {expected:?}",
                         face[i]
                     ));
                 }
@@ -103,7 +103,7 @@ pub(crate) fn difference(mesh: &Mesh, expected: &Polygons) -> Option<String> {
     sharpness_difference(mesh, expected, &place).or_else(|| color_difference(mesh))
 }
 
-/// What differs in the columns of sharpness.
+/// Describes the first difference in the sharpness columns.
 fn sharpness_difference(
     mesh: &Mesh,
     expected: &Polygons,
@@ -111,14 +111,14 @@ fn sharpness_difference(
 ) -> Option<String> {
     let differs = |found: f64, expected: f64| (found - expected).abs() > TOLERANCE;
     let (Some(crease), Some(corner)) = (mesh.get(CREASE), mesh.get(VERTEX_SHARPNESS)) else {
-        return Some("a column is gone".to_owned());
+        return Some("a sharpness column is missing".to_owned());
     };
     for e in mesh.edges() {
         let [a, b] = mesh.edge_vertices(e).map(|v| place[&v]);
         let s = expected.crease.get(&edge(a, b)).copied().unwrap_or(0.0);
         if differs(crease[e.index()], s) {
             return Some(format!(
-                "edge {a}, {b} has sharpness {}, not {s}",
+                "edge {a}, {b} has sharpness {}, expected {s}",
                 crease[e.index()]
             ));
         }
@@ -128,7 +128,7 @@ fn sharpness_difference(
         if differs(corner[v.index()], s) {
             let found = corner[v.index()];
             return Some(format!(
-                "vertex {} has sharpness {found}, not {s}",
+                "vertex {} has sharpness {found}, expected {s}",
                 place[&v]
             ));
         }
@@ -136,10 +136,10 @@ fn sharpness_difference(
     None
 }
 
-/// What differs between positions and the colors that were positions.
+/// Describes the first difference between positions and colors, which were equal before subdivision.
 fn color_difference(mesh: &Mesh) -> Option<String> {
     let Some(colors) = mesh.get(COLOR) else {
-        return Some("the colors are gone".to_owned());
+        return Some("the color column is missing".to_owned());
     };
     let size = size(mesh.positions());
     mesh.vertices().find_map(|v| {
@@ -149,7 +149,7 @@ fn color_difference(mesh: &Mesh) -> Option<String> {
     })
 }
 
-/// The largest coordinate.
+/// Returns the largest absolute coordinate.
 fn size(points: &[DVec3]) -> f64 {
     points
         .iter()
@@ -157,16 +157,20 @@ fn size(points: &[DVec3]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// For each point of one list the place of the same point in the other.
+/// Returns for each point of one list the index of the same point in the other list.
 fn matches(points: &[DVec3], expected: &[DVec3]) -> Result<Vec<usize>, String> {
     if points.len() != expected.len() {
-        return Err(format!("{} vertices, not {}", points.len(), expected.len()));
+        return Err(format!(
+            "{} vertices, expected {}",
+            points.len(),
+            expected.len()
+        ));
     }
     let size = size(expected);
     let mut by_x: Vec<usize> = (0..expected.len()).collect();
     by_x.sort_by(|&a, &b| expected[a].x.total_cmp(&expected[b].x));
     let mut taken = BTreeSet::new();
-    let mut lost = BTreeMap::new();
+    let mut unmatched = BTreeMap::new();
     let mut matched = Vec::new();
     for (i, p) in points.iter().enumerate() {
         let reach = TOLERANCE * size;
@@ -178,29 +182,29 @@ fn matches(points: &[DVec3], expected: &[DVec3]) -> Result<Vec<usize>, String> {
         match near {
             Some(&k) if taken.insert(k) => matched.push(k),
             _ => {
-                lost.insert(i, *p);
+                unmatched.insert(i, *p);
             }
         }
     }
-    let Some((&i, &p)) = lost.first_key_value() else {
+    let Some((&i, &p)) = unmatched.first_key_value() else {
         return Ok(matched);
     };
     let free = (0..expected.len()).filter(|k| !taken.contains(k));
     let distance = |k: &usize| (expected[*k] - p).length();
     let nearest = free
         .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        .expect("one is free");
+        .expect("both lists have the same length");
     Err(format!(
-        "{} of {} vertices elsewhere: vertex {i} at {p}; the nearest in the textbook is {nearest} at \
+        "{} of {} vertices do not match: vertex {i} is at {p}; the nearest vertex of the textbook is {nearest} at \\
          {}, {:.1e} away",
-        lost.len(),
+        unmatched.len(),
         points.len(),
         expected[nearest],
         distance(&nearest)
     ))
 }
 
-/// A face from its lowest vertex on.
+/// Rotates a face so that it starts at its lowest vertex.
 fn rotated<T>(mut face: Vec<usize>, mut values: Vec<T>) -> (Vec<usize>, Vec<T>) {
     let lowest = (0..face.len()).min_by_key(|&i| face[i]).expect("corners");
     face.rotate_left(lowest);

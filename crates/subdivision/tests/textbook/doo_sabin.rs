@@ -1,19 +1,19 @@
-//! Doo-Sabin subdivision: a face for each old face, edge and vertex.
+//! Doo-Sabin subdivision: makes a face of each old face, edge and vertex.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use mesh::DVec3;
 
-use crate::polygons::{Around, Polygons, ahead, edge};
+use crate::polygons::{Adjacency, Polygons, ahead, edge};
 
-/// One level.
+/// Computes one level.
 pub(crate) fn refine(mesh: &Polygons) -> Polygons {
-    let around = Around::new(mesh.positions.len(), &mesh.faces);
+    let adjacency = Adjacency::new(mesh.positions.len(), &mesh.faces);
     let p = |v: usize| mesh.positions[v];
     let mut positions: Vec<DVec3> = Vec::new();
     let mut faces = Vec::new();
-    // For each corner of a face its new vertex, and the one on the boundary at v of the edge to w.
+    // The new vertex of each corner of a face, and the new vertex near v on the boundary edge from v to w.
     let mut inside: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     let mut outside: BTreeMap<(usize, usize), usize> = BTreeMap::new();
 
@@ -33,7 +33,7 @@ pub(crate) fn refine(mesh: &Polygons) -> Polygons {
         }
         faces.push(corners);
     }
-    for (&(a, b), sides) in &around.sides {
+    for (&(a, b), sides) in &adjacency.sides {
         if sides.len() == 1 {
             for (v, w) in [(a, b), (b, a)] {
                 outside.insert((v, w), positions.len());
@@ -42,10 +42,10 @@ pub(crate) fn refine(mesh: &Polygons) -> Polygons {
         }
     }
 
-    for sides in around.sides.values() {
+    for sides in adjacency.sides.values() {
         let (f, i) = sides[0];
         let n = mesh.faces[f].len();
-        let (a, b) = (around.at((f, i), 0), around.at((f, i), 1));
+        let (a, b) = (adjacency.at((f, i), 0), adjacency.at((f, i), 1));
         let mut face = vec![inside[&(f, ahead(i, n))], inside[&(f, i)]];
         if let Some(&(g, j)) = sides.get(1) {
             face.extend([inside[&(g, ahead(j, mesh.faces[g].len()))], inside[&(g, j)]]);
@@ -55,18 +55,18 @@ pub(crate) fn refine(mesh: &Polygons) -> Polygons {
         faces.push(face);
     }
     for v in 0..mesh.positions.len() {
-        let fan = around.fan(v);
+        let fan = adjacency.fan(v);
         let Some((&first, &last)) = fan.first().zip(fan.last()) else {
             positions.push(p(v));
             continue;
         };
         let mut face: Vec<usize> = fan.iter().map(|corner| inside[corner]).collect();
-        let (leads, arrives) = (around.at(first, 1), around.before(last));
-        if around.is_boundary_edge(edge(v, leads)) {
+        let (leads, arrives) = (adjacency.at(first, 1), adjacency.before(last));
+        if adjacency.is_boundary_edge(edge(v, leads)) {
             face.insert(0, outside[&(v, leads)]);
             face.push(outside[&(v, arrives)]);
         }
-        // Two corners are no face: their edges are one.
+        // Two corners do not make a face: their edges are merged.
         if face.len() > 2 {
             faces.push(face);
         }

@@ -1,4 +1,4 @@
-//! The textbook itself against what is known without it.
+//! Tests the textbook implementation itself with known results.
 
 use std::collections::BTreeMap;
 
@@ -7,17 +7,17 @@ use subdivision::{Boundary, Creasing, LoopWeights, Rules, Scheme, Split};
 
 use crate::masks;
 use crate::meshes::{self, Pattern, Random};
-use crate::polygons::{Around, Polygons, edge};
+use crate::polygons::{Adjacency, Polygons, edge};
 use crate::textbook;
 
 const LOOP: Scheme = Scheme::Loop(LoopWeights::Loop);
 
-/// Whether both are the same but for rounding.
+/// Whether two points are equal up to rounding.
 fn is_near(a: DVec3, b: DVec3) -> bool {
     (a - b).abs().max_element() < 1e-13
 }
 
-/// Fails unless a vertex is at this point.
+/// Panics unless a vertex is at the given point.
 fn assert_has(mesh: &Polygons, p: [f64; 3]) {
     let p = DVec3::from(p);
     assert!(
@@ -31,7 +31,7 @@ fn one_level(mesh: &Polygons, scheme: Scheme) -> Polygons {
     textbook(mesh, Rules::of(scheme), 1)
 }
 
-/// The cube from -1 to 1.
+/// Returns the cube from -1 to 1.
 fn cube() -> Polygons {
     let sign = |bit: usize| if bit == 0 { -1.0 } else { 1.0 };
     let positions = (0..8)
@@ -48,7 +48,7 @@ fn cube() -> Polygons {
     Polygons::new(positions, faces.map(|face| face.to_vec()).to_vec())
 }
 
-/// Four corners of that cube.
+/// Returns the tetrahedron on four corners of that cube.
 fn tetrahedron() -> Polygons {
     let positions = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]];
     let faces = [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]];
@@ -58,7 +58,7 @@ fn tetrahedron() -> Polygons {
     )
 }
 
-/// A flat sheet of 6 x 6 squares, or of triangles, two in each.
+/// Returns a flat sheet of 6 x 6 squares, or with each square cut into two triangles.
 fn sheet(of_triangles: bool) -> Polygons {
     let positions = (0..49)
         .map(|i| DVec3::new(f64::from(i % 7), f64::from(i / 7), 0.0))
@@ -93,7 +93,7 @@ fn loop_of_a_tetrahedron() {
     assert_has(&warren, [0.25, 0.25, 0.25]);
     assert_has(&warren, [0.5, 0.0, 0.0]);
 
-    // (5/8 - (3/8 - 1/8)^2) / 3 = 3/16: three neighbors are the same to both.
+    // (5/8 - (3/8 - 1/8)^2) / 3 = 3/16: for three neighbors both weights are equal.
     let loops = one_level(&tetrahedron(), LOOP);
     assert_has(&loops, [0.25, 0.25, 0.25]);
 }
@@ -123,8 +123,8 @@ fn doo_sabin_of_a_cube() {
 
 #[test]
 fn butterfly_of_a_tetrahedron() {
-    // Both ends have three neighbors: the mean of 3/4 a + 5/12 b - 1/12 (c + d) and the same from b.
-    // As a + b + c + d = 0 that is (7/12 + 1/12) (a + b).
+    // Both ends have three neighbors, so the new vertex is the mean of 3/4 a + 5/12 b - 1/12 (c + d) and the
+    // same with a and b swapped. With a + b + c + d = 0 this is (7/12 + 1/12) (a + b).
     let fine = one_level(&tetrahedron(), Scheme::Butterfly);
     assert_has(&fine, [4.0 / 3.0, 0.0, 0.0]);
     assert_has(&fine, [1.0, 1.0, 1.0]);
@@ -132,7 +132,8 @@ fn butterfly_of_a_tetrahedron() {
 
 #[test]
 fn sqrt3_of_a_tetrahedron() {
-    // a = (4 + 1) / 9: 4/9 itself and 5/27 of the others, whose sum is its opposite.
+    // a = (4 + 1) / 9: the weight is 4/9 for the vertex and 5/27 for each neighbor, and the neighbors sum to
+    // the negative of the vertex.
     let fine = one_level(&tetrahedron(), Scheme::Sqrt3);
     assert_eq!((fine.positions.len(), fine.faces.len()), (8, 12));
     assert_has(&fine, [7.0 / 27.0, 7.0 / 27.0, 7.0 / 27.0]);
@@ -178,8 +179,8 @@ fn two_levels_of_sqrt3_divide_each_edge_of_a_regular_sheet_in_three() {
 }
 
 #[test]
-fn schemes_do_not_depend_on_the_place() {
-    let place = |p: DVec3| {
+fn schemes_commute_with_affine_maps() {
+    let map = |p: DVec3| {
         DVec3::new(
             2.0 * p.x - p.y + 3.0,
             p.x + p.y + p.z - 5.0,
@@ -200,14 +201,14 @@ fn schemes_do_not_depend_on_the_place() {
         for (name, mesh) in meshes {
             let mesh = Pattern::Mixed.on(mesh, &mut random);
             let mut moved = mesh.clone();
-            moved.positions.iter_mut().for_each(|p| *p = place(*p));
+            moved.positions.iter_mut().for_each(|p| *p = map(*p));
             let rules = Rules {
                 creasing: Creasing::Chaikin,
                 ..Rules::of(scheme)
             };
             let (fine, moved) = (textbook(&mesh, rules, 2), textbook(&moved, rules, 2));
             for (&p, &q) in fine.positions.iter().zip(&moved.positions) {
-                assert!((place(p) - q).length() < 1e-11, "{name}, {scheme:?}");
+                assert!((map(p) - q).length() < 1e-11, "{name}, {scheme:?}");
             }
         }
     }
@@ -216,19 +217,19 @@ fn schemes_do_not_depend_on_the_place() {
 #[test]
 fn surfaces_keep_their_topology() {
     let euler = |name: &str, mesh: &Polygons| {
-        let around = Around::new(mesh.positions.len(), &mesh.faces);
-        let n_boundary = around
+        let adjacency = Adjacency::new(mesh.positions.len(), &mesh.faces);
+        let n_boundary = adjacency
             .sides
             .values()
             .filter(|sides| sides.len() == 1)
             .count();
         assert!(
-            around.sides.values().all(|sides| sides.len() <= 2),
+            adjacency.sides.values().all(|sides| sides.len() <= 2),
             "{name}"
         );
         let n = |count: usize| i64::try_from(count).unwrap();
         (
-            n(mesh.positions.len()) - n(around.sides.len()) + n(mesh.faces.len()),
+            n(mesh.positions.len()) - n(adjacency.sides.len()) + n(mesh.faces.len()),
             n_boundary,
         )
     };
@@ -259,7 +260,7 @@ fn surfaces_keep_their_topology() {
 }
 
 #[test]
-fn sharpness_decreases_by_hand() {
+fn sharpness_decreases_as_computed_by_hand() {
     let mut mesh = cube();
     mesh.crease = BTreeMap::from([(edge(0, 1), 3.0), (edge(1, 3), 1.5), (edge(1, 5), 10.0)]);
     mesh.corner[1] = 1.4;
@@ -270,8 +271,12 @@ fn sharpness_decreases_by_hand() {
         };
         let fine = textbook(&mesh, rules, 1);
         let at = |v: usize, w: usize| {
-            let around = Around::new(8, &mesh.faces);
-            let rank = around.sides.keys().position(|&e| e == edge(v, w)).unwrap();
+            let adjacency = Adjacency::new(8, &mesh.faces);
+            let rank = adjacency
+                .sides
+                .keys()
+                .position(|&e| e == edge(v, w))
+                .unwrap();
             fine.crease[&edge(v, 8 + rank)]
         };
         assert_eq!(fine.corner[1], 1.4 - 1.0);
@@ -286,7 +291,7 @@ fn sharpness_decreases_by_hand() {
         ]
     };
     assert_eq!(of(Creasing::Uniform), [2.0, 2.0, 0.5, 0.5, 10.0, 10.0, 0.0]);
-    let other = [
+    let chaikin = [
         2.0,
         0.75 * 3.0 + 0.25 * 1.5 - 1.0,
         0.75 * 1.5 + 0.25 * 3.0 - 1.0,
@@ -294,12 +299,14 @@ fn sharpness_decreases_by_hand() {
     ];
     assert_eq!(
         of(Creasing::Chaikin),
-        [other[0], other[1], other[2], other[3], 10.0, 10.0, 0.0]
+        [
+            chaikin[0], chaikin[1], chaikin[2], chaikin[3], 10.0, 10.0, 0.0
+        ]
     );
 }
 
 #[test]
-fn a_fraction_of_sharpness_blends() {
+fn fractional_sharpness_blends_the_rules() {
     let sharp = |s: f64| {
         let mut mesh = cube();
         mesh.crease = BTreeMap::from([(edge(0, 1), s), (edge(0, 2), s)]);
@@ -309,20 +316,20 @@ fn a_fraction_of_sharpness_blends() {
     for ((&a, &b), &c) in smooth.iter().zip(&half).zip(&full) {
         assert!(is_near(b, 0.5 * a + 0.5 * c));
     }
-    // 3/4 of itself, 1/8 of two neighbors.
+    // The crease mask: 3/4 of the vertex and 1/8 of each of two neighbors.
     assert!(is_near(full[0], DVec3::new(-0.75, -0.75, -1.0)));
 }
 
 #[test]
-fn all_sharp_is_linear() {
+fn subdivision_with_all_edges_sharp_is_linear() {
     let mut mesh = cube();
-    let around = Around::new(8, &mesh.faces);
-    let crease = around.sides.keys().map(|&e| (e, 10.0)).collect();
+    let adjacency = Adjacency::new(8, &mesh.faces);
+    let crease = adjacency.sides.keys().map(|&e| (e, 10.0)).collect();
     mesh.crease = crease;
     let [sharp, linear] = [Scheme::CatmullClark, Scheme::Midpoint(Split::Quads)]
         .map(|scheme| textbook(&mesh, Rules::of(scheme), 2));
 
-    // The faces are flat and symmetric, so only edges and corners could move.
+    // The faces are flat and symmetric, so only vertices on edges and corners could differ.
     assert_eq!(sharp.positions, linear.positions);
 }
 
@@ -345,7 +352,7 @@ fn boundaries_are_splines_or_fixed() {
     assert_has(&doo_sabin, [1.0, 0.0, 0.0]);
     assert_has(&doo_sabin, [1.0, 1.0, 0.0]);
     assert_eq!((doo_sabin.positions.len(), doo_sabin.faces.len()), (12, 9));
-    // A corner of a triangle is pulled in by 8/27 of the way along both sides.
+    // A corner of a triangle moves by 4/27 of both of its sides.
     let triangle = Polygons::new(square.positions[..3].to_vec(), vec![vec![0, 1, 2]]);
     let fine = textbook(&triangle, Rules::of(Scheme::Sqrt3), 2);
     assert_has(&fine, [32.0 / 27.0, 16.0 / 27.0, 0.0]);

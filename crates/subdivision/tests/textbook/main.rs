@@ -1,10 +1,10 @@
-//! Every scheme once more, slowly, as textbooks write it: on lists of polygons, without half-edges, one
-//! level after the other. The crate must give the same.
+//! A second, slow implementation of every scheme as in textbooks: on lists of polygons, without half-edges, one
+//! level after the other. The tests compare the crate with it.
 
-mod against;
 mod butterfly;
 mod charts;
 mod compare;
+mod comparisons;
 mod doo_sabin;
 mod known;
 mod masks;
@@ -18,7 +18,7 @@ mod sqrt3;
 use polygons::Polygons;
 use subdivision::{Rules, Scheme};
 
-/// So many levels, as the textbook has them.
+/// Subdivides a mesh `levels` times with the textbook implementation.
 fn textbook(mesh: &Polygons, rules: Rules, levels: u32) -> Polygons {
     (1..=levels).fold(mesh.clone(), |mesh, level| match rules.scheme {
         Scheme::Loop(_) | Scheme::CatmullClark | Scheme::Midpoint(_) => split::refine(&mesh, rules),

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use subdivision::{LoopWeights, Rules, Scheme};
 
-use crate::polygons::{Around, Edge};
+use crate::polygons::{Adjacency, Edge};
 use crate::sharpness::{Rule, Sharpness, rule};
 
-/// What an old vertex becomes: weights of itself, of its neighbors, and of the centers of faces.
+/// The mask of an old vertex: the weights of the vertex, of its neighbors, and of the centers of faces.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct VertexMask {
     pub(crate) own: f64,
@@ -16,7 +16,7 @@ pub(crate) struct VertexMask {
 }
 
 impl VertexMask {
-    /// Stays where it is.
+    /// The mask of a vertex that stays in place.
     pub(crate) fn corner() -> Self {
         Self {
             own: 1.0,
@@ -24,7 +24,7 @@ impl VertexMask {
         }
     }
 
-    /// On a line with two neighbors: a point of the cubic B-spline.
+    /// The mask of a vertex on a crease with two neighbors: a point of the cubic B-spline.
     fn crease(ends: &[usize]) -> Self {
         let neighbors = ends.iter().map(|&w| (w, 1.0 / 8.0)).collect();
         Self {
@@ -34,7 +34,7 @@ impl VertexMask {
         }
     }
 
-    /// Adds so much of another.
+    /// Adds a multiple of a different mask.
     fn add(&mut self, t: f64, other: &Self) {
         self.own += t * other.own;
         for (&w, weight) in &other.neighbors {
@@ -46,8 +46,8 @@ impl VertexMask {
     }
 }
 
-/// What the new vertex of an edge becomes: a weight of each end, and of what stands on each side: the
-/// center of the face, or its third corner.
+/// The mask of the new vertex on an edge: the weight of each end, and of the point on each side, which is the
+/// center of the face or its third corner.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EdgeMask {
     pub(crate) end: f64,
@@ -55,14 +55,14 @@ pub(crate) struct EdgeMask {
 }
 
 impl EdgeMask {
-    /// In the middle.
+    /// The mask of the midpoint.
     pub(crate) const MIDPOINT: Self = Self {
         end: 0.5,
         side: 0.0,
     };
 }
 
-/// The weight of each of n neighbors in Loop subdivision.
+/// Returns the weight of each of n neighbors in Loop subdivision.
 pub(crate) fn loop_weight(weights: LoopWeights, n: usize) -> f64 {
     let count = n as f64;
     match weights {
@@ -75,9 +75,9 @@ pub(crate) fn loop_weight(weights: LoopWeights, n: usize) -> f64 {
     }
 }
 
-/// The mask of an inner vertex without anything sharp.
-fn smooth(v: usize, scheme: Scheme, around: &Around) -> VertexMask {
-    let neighbors = &around.neighbors[v];
+/// Returns the mask of an inner vertex without sharp edges.
+fn smooth(v: usize, scheme: Scheme, adjacency: &Adjacency) -> VertexMask {
+    let neighbors = &adjacency.neighbors[v];
     let n = neighbors.len() as f64;
     let all = |weight: f64| neighbors.iter().map(|&w| (w, weight)).collect();
     match scheme {
@@ -92,7 +92,7 @@ fn smooth(v: usize, scheme: Scheme, around: &Around) -> VertexMask {
         _ => VertexMask {
             own: (n - 2.0) / n,
             neighbors: all(1.0 / (n * n)),
-            centers: around.corners[v]
+            centers: adjacency.corners[v]
                 .iter()
                 .map(|&(f, _)| (f, 1.0 / (n * n)))
                 .collect(),
@@ -100,30 +100,30 @@ fn smooth(v: usize, scheme: Scheme, around: &Around) -> VertexMask {
     }
 }
 
-/// What the old vertex `v` becomes.
+/// Returns the mask of the old vertex `v`.
 pub(crate) fn of_vertex(
     v: usize,
     rules: Rules,
-    around: &Around,
+    adjacency: &Adjacency,
     sharpness: &Sharpness,
 ) -> VertexMask {
-    if matches!(rules.scheme, Scheme::Midpoint(_)) || around.neighbors[v].is_empty() {
+    if matches!(rules.scheme, Scheme::Midpoint(_)) || adjacency.neighbors[v].is_empty() {
         return VertexMask::corner();
     }
     let mask = |rule: Rule, sharp: &[usize]| match rule {
-        Rule::Smooth | Rule::Dart => smooth(v, rules.scheme, around),
+        Rule::Smooth | Rule::Dart => smooth(v, rules.scheme, adjacency),
         Rule::Crease => VertexMask::crease(sharp),
         Rule::Corner => VertexMask::corner(),
     };
-    let sharp = sharpness.sharp_neighbors(v, around);
+    let sharp = sharpness.sharp_neighbors(v, adjacency);
     let parent = rule(sharpness.of_vertex(v), sharp.len());
-    let still_sharp = sharpness.sharp_in_child(v, around);
+    let still_sharp = sharpness.sharp_in_child(v, adjacency);
     let child = rule(sharpness.of_child(v), still_sharp.len());
 
     if parent == child || matches!(parent, Rule::Smooth | Rule::Dart) {
         return mask(parent, &sharp);
     }
-    let neighbors: Vec<usize> = around.neighbors[v].iter().copied().collect();
+    let neighbors: Vec<usize> = adjacency.neighbors[v].iter().copied().collect();
     let w = sharpness.fraction(v, &neighbors);
     let mut blend = VertexMask::default();
     blend.add(w, &mask(parent, &sharp));
@@ -131,7 +131,7 @@ pub(crate) fn of_vertex(
     blend
 }
 
-/// What the new vertex of an edge becomes.
+/// Returns the mask of the new vertex on an edge.
 pub(crate) fn of_edge(e: Edge, rules: Rules, sharpness: &Sharpness) -> EdgeMask {
     let smooth = match rules.scheme {
         Scheme::Loop(_) => EdgeMask {

@@ -1,4 +1,5 @@
-//! Meshes to try, shaken so that no two neighborhoods are alike, with sharpness and corner values.
+//! Test meshes with sharpness and corner values. Positions are jittered, so that no two neighborhoods are
+//! equal.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -6,15 +7,15 @@ use std::f64::consts::TAU;
 use mesh::{DVec2, DVec3};
 
 use crate::charts::Charts;
-use crate::polygons::{Around, Polygons};
+use crate::polygons::{Adjacency, Polygons};
 
-/// A stream of numbers that are the same in each run: Steele, Lea and Flood, "Fast Splittable
-/// Pseudorandom Number Generators", 2014.
+/// A pseudo-random generator with a fixed seed: Steele, Lea and Flood, "Fast Splittable Pseudorandom Number
+/// Generators", 2014.
 #[derive(Debug)]
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    /// Between 0 and 1.
+    /// Returns a number from 0 to 1, exclusive of 1.
     pub(crate) fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -24,14 +25,14 @@ impl Random {
         (z >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    /// One of several.
-    pub(crate) fn one_of<T: Copy>(&mut self, things: &[T]) -> T {
-        let k = things.len() as f64 * self.unit();
-        let places = (1..things.len()).filter(|&i| i as f64 <= k).count();
-        things[places]
+    /// Returns one of several values.
+    pub(crate) fn one_of<T: Copy>(&mut self, values: &[T]) -> T {
+        let k = values.len() as f64 * self.unit();
+        let index = (1..values.len()).filter(|&i| i as f64 <= k).count();
+        values[index]
     }
 
-    /// True so often.
+    /// Returns true with probability `p`.
     pub(crate) fn chance(&mut self, p: f64) -> bool {
         self.unit() < p
     }
@@ -40,8 +41,8 @@ impl Random {
 /// A mesh with a name.
 pub(crate) type Named = (String, Polygons);
 
-/// Shakes the positions.
-fn shaken(mut mesh: Polygons, random: &mut Random) -> Polygons {
+/// Moves each vertex by a random vector, by at most 0.2 along each axis.
+fn jittered(mut mesh: Polygons, random: &mut Random) -> Polygons {
     for p in &mut mesh.positions {
         let by = DVec3::new(random.unit(), random.unit(), random.unit()) - 0.5;
         *p += 0.4 * by;
@@ -49,13 +50,13 @@ fn shaken(mut mesh: Polygons, random: &mut Random) -> Polygons {
     mesh
 }
 
-/// A point on a circle.
+/// Returns a point on a circle.
 fn on_circle(i: usize, n: usize, radius: f64, z: f64) -> DVec3 {
     let (sin, cos) = libm::sincos(TAU * i as f64 / n as f64);
     DVec3::new(radius * cos, radius * sin, z)
 }
 
-/// A closed surface of triangles with two vertices of valence n.
+/// Returns a closed surface of triangles with two vertices of valence n.
 fn double_pyramid(n: usize) -> Polygons {
     let mut positions: Vec<DVec3> = (0..n).map(|i| on_circle(i, n, 2.0, 0.0)).collect();
     positions.extend([DVec3::Z, -DVec3::Z]);
@@ -66,7 +67,8 @@ fn double_pyramid(n: usize) -> Polygons {
     Polygons::new(positions, faces.collect())
 }
 
-/// A disk of triangles: a vertex of valence n inside, and a ring of inner vertices around it if `wide`.
+/// Returns a disk of triangles with an inner vertex of valence n. If `wide`, its neighbors are inner vertices
+/// too.
 fn disk(n: usize, wide: bool) -> Polygons {
     let mut positions = vec![DVec3::ZERO];
     positions.extend((0..n).map(|i| on_circle(i, n, 1.5, 0.0)));
@@ -82,7 +84,7 @@ fn disk(n: usize, wide: bool) -> Polygons {
     Polygons::new(positions, faces)
 }
 
-/// A disk of quads around a vertex of valence n, whose outer corners have one face.
+/// Returns a disk of quads around a vertex of valence n, whose outer corners have one face.
 fn star(n: usize) -> Polygons {
     let mut positions = vec![DVec3::ZERO];
     positions
@@ -92,7 +94,7 @@ fn star(n: usize) -> Polygons {
     Polygons::new(positions, faces.collect())
 }
 
-/// A closed surface of two n-gons and n quads.
+/// Returns a closed surface of two n-gons and n quads.
 fn prism(n: usize) -> Polygons {
     let ring = |z: f64| (0..n).map(move |i| on_circle(i, n, 2.0, z));
     let positions = ring(-1.0).chain(ring(1.0)).collect();
@@ -104,7 +106,8 @@ fn prism(n: usize) -> Polygons {
     Polygons::new(positions, faces)
 }
 
-/// Squares in a rectangle; those for which `holes` is true are left out. Around the ends where asked.
+/// Returns a rectangle of squares without those for which `holes` is true. Opposite ends are connected in the
+/// directions in which `wraps` is true.
 fn sheet(
     [columns, rows]: [usize; 2],
     wraps: [bool; 2],
@@ -134,8 +137,8 @@ fn sheet(
     Polygons::new(positions.collect(), faces)
 }
 
-/// Cuts each quad along one of its diagonals, taken at random or always the first.
-fn cut(mesh: &Polygons, mut random: Option<&mut Random>) -> Polygons {
+/// Cuts each quad along a random diagonal, or along the first one if `random` is `None`.
+fn cut_quads(mesh: &Polygons, mut random: Option<&mut Random>) -> Polygons {
     let mut faces = Vec::new();
     for face in &mesh.faces {
         let &[a, b, c, d] = face.as_slice() else {
@@ -150,8 +153,8 @@ fn cut(mesh: &Polygons, mut random: Option<&mut Random>) -> Polygons {
     Polygons::new(mesh.positions.clone(), faces)
 }
 
-/// Several meshes as one.
-fn together(meshes: &[Polygons]) -> Polygons {
+/// Combines several meshes into one.
+fn combined(meshes: &[Polygons]) -> Polygons {
     let mut all = Polygons::default();
     for mesh in meshes {
         let first = all.positions.len();
@@ -167,12 +170,12 @@ fn together(meshes: &[Polygons]) -> Polygons {
     Polygons::new(all.positions, all.faces)
 }
 
-/// A vertex without faces.
-fn alone() -> Polygons {
+/// Returns an isolated vertex.
+fn isolated_vertex() -> Polygons {
     Polygons::new(vec![DVec3::ONE], Vec::new())
 }
 
-/// One face.
+/// Returns a mesh of one face.
 fn polygon(n: usize) -> Polygons {
     Polygons::new(
         (0..n).map(|i| on_circle(i, n, 1.0, 0.0)).collect(),
@@ -180,7 +183,7 @@ fn polygon(n: usize) -> Polygons {
     )
 }
 
-/// Meshes of triangles.
+/// Returns triangle meshes.
 pub(crate) fn triangles() -> Vec<Named> {
     let mut random = Random(1);
     let mut meshes: Vec<(String, Polygons)> = Vec::new();
@@ -197,50 +200,50 @@ pub(crate) fn triangles() -> Vec<Named> {
     }
     let none = |_: usize, _: usize| false;
     add("triangle", polygon(3));
-    add("two triangles", cut(&polygon(4), None));
+    add("two triangles", cut_quads(&polygon(4), None));
     let field = sheet([4, 4], [false, false], none);
-    add("cut sheet", cut(&field, Some(&mut random)));
+    add("cut_quads sheet", cut_quads(&field, Some(&mut random)));
     add(
         "even sheet",
-        cut(&sheet([5, 4], [false, false], none), None),
+        cut_quads(&sheet([5, 4], [false, false], none), None),
     );
     let ring = sheet([4, 4], [false, false], |x, y| {
         (1..3).contains(&x) && (1..3).contains(&y)
     });
-    add("sheet with a hole", cut(&ring, Some(&mut random)));
+    add("sheet with a hole", cut_quads(&ring, Some(&mut random)));
     add(
         "torus of triangles",
-        cut(&sheet([5, 4], [true, true], none), Some(&mut random)),
+        cut_quads(&sheet([5, 4], [true, true], none), Some(&mut random)),
     );
     add(
         "even torus of triangles",
-        cut(&sheet([5, 4], [true, true], none), None),
+        cut_quads(&sheet([5, 4], [true, true], none), None),
     );
     add(
         "tube of triangles",
-        cut(&sheet([5, 2], [true, false], none), Some(&mut random)),
+        cut_quads(&sheet([5, 2], [true, false], none), Some(&mut random)),
     );
     let parts = [
         tetrahedron,
-        alone(),
+        isolated_vertex(),
         disk(5, true),
         polygon(3),
-        alone(),
+        isolated_vertex(),
         double_pyramid(7),
     ];
-    add("parts of triangles", together(&parts));
+    add("parts of triangles", combined(&parts));
     meshes
         .into_iter()
-        .map(|(name, mesh)| (name, shaken(mesh, &mut random)))
+        .map(|(name, mesh)| (name, jittered(mesh, &mut random)))
         .collect()
 }
 
-/// A point on a plane.
+/// Returns a point on a plane.
 fn on_plane(x: i32, y: i32) -> DVec3 {
     DVec3::new(f64::from(x), f64::from(y), 0.0)
 }
 
-/// Meshes of quads and other polygons.
+/// Returns meshes of quads and other polygons.
 pub(crate) fn polygons() -> Vec<Named> {
     let mut random = Random(2);
     let mut meshes: Vec<(String, Polygons)> = Vec::new();
@@ -265,47 +268,54 @@ pub(crate) fn polygons() -> Vec<Named> {
     add("torus", sheet([5, 4], [true, true], none));
     add("tube", sheet([5, 2], [true, false], none));
     let concave = |faces| {
-        let places = [[0, 0], [4, 0], [4, 4], [2, 1], [0, 4], [6, 2], [2, 6]];
-        Polygons::new(places.map(|[x, y]| on_plane(x, y)).to_vec(), faces)
+        let index = [[0, 0], [4, 0], [4, 4], [2, 1], [0, 4], [6, 2], [2, 6]];
+        Polygons::new(index.map(|[x, y]| on_plane(x, y)).to_vec(), faces)
     };
     let dented = concave(vec![vec![0, 1, 2, 3, 4], vec![1, 5, 2], vec![4, 3, 6]]);
     add("dented", dented.clone());
-    // Two faces share two edges in a row.
+    // Two faces share two consecutive edges.
     add(
         "filled dent",
         concave(vec![vec![0, 1, 2, 3, 4], vec![1, 5, 2], vec![4, 3, 2, 6]]),
     );
     add(
         "parts",
-        together(&[prism(5), alone(), star(6), polygon(7), dented, alone()]),
+        combined(&[
+            prism(5),
+            isolated_vertex(),
+            star(6),
+            polygon(7),
+            dented,
+            isolated_vertex(),
+        ]),
     );
     meshes
         .into_iter()
-        .map(|(name, mesh)| (name, shaken(mesh, &mut random)))
+        .map(|(name, mesh)| (name, jittered(mesh, &mut random)))
         .collect()
 }
 
-/// How edges and vertices are made sharp.
+/// A pattern of sharp edges and vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pattern {
-    /// Not at all.
+    /// Nothing is sharp.
     Smooth,
-    /// Few edges, so that there are darts and creases.
+    /// Few sharp edges, which form darts and creases.
     FewEdges,
-    /// Many edges, so that there are corners too.
+    /// Many sharp edges, which form corners too.
     ManyEdges,
-    /// Few vertices.
+    /// Few sharp vertices.
     Vertices,
-    /// Edges and vertices, all that there is.
+    /// Sharp edges and vertices of all kinds.
     Mixed,
-    /// Every edge, by at most 1: all that is sharp changes at once.
+    /// Sharpness of at most 1, so that all sharp elements become smooth within one level.
     Fractions,
-    /// Every edge, for ever.
+    /// Infinite sharpness.
     Infinite,
 }
 
 impl Pattern {
-    /// All of them.
+    /// All patterns.
     pub(crate) const ALL: [Self; 7] = [
         Self::Smooth,
         Self::FewEdges,
@@ -316,7 +326,7 @@ impl Pattern {
         Self::Infinite,
     ];
 
-    /// The mesh made sharp.
+    /// Returns the mesh with random sharpness of this pattern.
     pub(crate) fn on(self, mesh: &Polygons, random: &mut Random) -> Polygons {
         let levels = [-1.0, 12.0, 0.3, 0.7, 1.0, 1.7, 2.0, 2.5, 3.2, 10.0];
         let (edges, vertices, choice): (f64, f64, &[f64]) = match self {
@@ -329,8 +339,8 @@ impl Pattern {
             Self::Infinite => (0.4, 0.2, &levels[9..]),
         };
         let mut mesh = mesh.clone();
-        let around = Around::new(mesh.positions.len(), &mesh.faces);
-        // Broken numbers are never quite the same, so that no sum is 1 but for rounding.
+        let adjacency = Adjacency::new(mesh.positions.len(), &mesh.faces);
+        // Adds noise to fractional values, so that no sum is within rounding of 1.
         let sharpness = |random: &mut Random| {
             let s: f64 = random.one_of(choice);
             if s.fract() == 0.0 {
@@ -340,7 +350,7 @@ impl Pattern {
             }
         };
         let mut crease = BTreeMap::new();
-        for &e in around.sides.keys() {
+        for &e in adjacency.sides.keys() {
             if random.chance(edges) {
                 crease.insert(e, sharpness(random));
             }
@@ -355,23 +365,23 @@ impl Pattern {
     }
 }
 
-/// How corner values are given.
+/// A pattern of corner values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Islands {
-    /// One value for each vertex.
+    /// Each vertex has one value.
     One,
     /// Faces belong to one of two islands.
     Two,
     /// Faces belong to one of four islands.
     Four,
-    /// Corners of one vertex in ten take one of two values.
+    /// The corners of about 15 % of the vertices have one of two random values.
     Torn,
-    /// Corners take one of two values.
+    /// All corners have one of two random values.
     Shattered,
 }
 
 impl Islands {
-    /// All of them.
+    /// All patterns.
     pub(crate) const ALL: [Self; 5] = [
         Self::One,
         Self::Two,
@@ -380,7 +390,7 @@ impl Islands {
         Self::Shattered,
     ];
 
-    /// The mesh with corner values.
+    /// Returns the mesh with random corner values of this pattern.
     pub(crate) fn on(self, mesh: &Polygons, random: &mut Random) -> Polygons {
         let n = 4;
         let numbers: Vec<Vec<DVec2>> = (mesh.positions.iter())

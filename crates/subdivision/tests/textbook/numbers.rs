@@ -1,4 +1,4 @@
-//! What is documented about the numbers of new elements, columns that are copied, and what is refused.
+//! Tests the documentation: the ids of new elements, copied columns, and errors.
 
 use mesh::{Attribute, DVec3, FaceId, MATERIAL, Mesh, Rule, VertexId};
 use progress::NoProgress;
@@ -12,7 +12,7 @@ use crate::textbook;
 const LOOP: Scheme = Scheme::Loop(LoopWeights::Warren);
 const MARK: Attribute<VertexId, f64> = Attribute::new("mark", Rule::Copy);
 
-/// One level of a mesh whose vertices and faces are marked by their numbers, counted from 1.
+/// Returns a mesh whose vertices and faces are marked with their numbers, counted from 1, and its next level.
 fn marked(mesh: &Polygons, scheme: Scheme) -> (Mesh, Mesh) {
     let mut mesh = mesh_of(mesh);
     let marks = (0..mesh.n_vertices()).map(|i| i as f64 + 1.0).collect();
@@ -23,16 +23,16 @@ fn marked(mesh: &Polygons, scheme: Scheme) -> (Mesh, Mesh) {
     (mesh, fine)
 }
 
-/// Schemes that cut triangles, and schemes that cut polygons, with meshes for them.
-fn cutting() -> [(Vec<Scheme>, Vec<Named>); 2] {
+/// Returns the schemes that split triangles and the schemes that split polygons, each with suitable meshes.
+fn schemes_and_meshes() -> [(Vec<Scheme>, Vec<Named>); 2] {
     let four = vec![LOOP, Scheme::Midpoint(Split::Triangles), Scheme::Butterfly];
     let quads = vec![Scheme::CatmullClark, Scheme::Midpoint(Split::Quads)];
     [(four, meshes::triangles()), (quads, meshes::polygons())]
 }
 
 #[test]
-fn old_vertices_keep_their_numbers_and_new_ones_follow() {
-    for (schemes, meshes) in cutting() {
+fn old_vertices_keep_their_ids_and_new_ones_follow() {
+    for (schemes, meshes) in schemes_and_meshes() {
         for scheme in schemes {
             for (name, mesh) in &meshes {
                 let (mesh, fine) = marked(mesh, scheme);
@@ -56,8 +56,8 @@ fn old_vertices_keep_their_numbers_and_new_ones_follow() {
 }
 
 #[test]
-fn pieces_of_faces_stand_in_order() {
-    for (schemes, meshes) in cutting() {
+fn parts_of_faces_are_in_order() {
+    for (schemes, meshes) in schemes_and_meshes() {
         for scheme in schemes {
             for (name, mesh) in &meshes {
                 let (mesh, fine) = marked(mesh, scheme);
@@ -107,7 +107,7 @@ fn vertices_in_faces_follow_those_on_edges() {
 }
 
 #[test]
-fn dead_elements_do_not_count() {
+fn dead_elements_are_ignored() {
     for (scheme, meshes) in [
         (LOOP, meshes::triangles()),
         (Scheme::CatmullClark, meshes::polygons()),
@@ -117,7 +117,7 @@ fn dead_elements_do_not_count() {
     ] {
         for (name, mesh) in meshes {
             let mut mesh = mesh_of(&mesh);
-            // One face goes, and with it what has no other.
+            // Deletes one face, with the edges and vertices that have no other face.
             if mesh.n_faces() < 6 || mesh.delete_faces(&[FaceId::new(2)]).is_err() {
                 continue;
             }
@@ -139,7 +139,7 @@ fn dead_elements_do_not_count() {
 }
 
 #[test]
-fn schemes_for_triangles_refuse_other_faces() {
+fn schemes_for_triangles_return_errors_for_polygons() {
     let (_, mesh) = &meshes::polygons()[0];
     for scheme in [
         LOOP,

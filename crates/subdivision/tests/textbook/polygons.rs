@@ -1,4 +1,4 @@
-//! A mesh as lists, and who is next to whom in them.
+//! A mesh as polygon lists, and the adjacency of its elements.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,28 +9,28 @@ use crate::charts::Charts;
 /// The two vertices of an edge, the lower one first.
 pub(crate) type Edge = (usize, usize);
 
-/// The edge of two vertices.
+/// Returns the edge of two vertices.
 pub(crate) fn edge(a: usize, b: usize) -> Edge {
     (a.min(b), a.max(b))
 }
 
-/// A mesh as lists: all that the textbook works on.
+/// A mesh as polygon lists, the only input of the textbook implementation.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Polygons {
-    /// Where the vertices are.
+    /// The positions of the vertices.
     pub(crate) positions: Vec<DVec3>,
     /// The corners of each face, counter-clockwise.
     pub(crate) faces: Vec<Vec<usize>>,
-    /// The stored sharpness of edges; 0 for the others.
+    /// The stored sharpness of edges; edges without an entry have 0.
     pub(crate) crease: BTreeMap<Edge, f64>,
     /// The stored sharpness of each vertex.
     pub(crate) corner: Vec<f64>,
-    /// Corner values, if there are any.
+    /// The corner values, if any.
     pub(crate) charts: Option<Charts>,
 }
 
 impl Polygons {
-    /// A mesh without sharpness and corner values.
+    /// Creates a mesh without sharpness and corner values.
     pub(crate) fn new(positions: Vec<DVec3>, faces: Vec<Vec<usize>>) -> Self {
         let corner = vec![0.0; positions.len()];
         Self {
@@ -42,32 +42,32 @@ impl Polygons {
     }
 }
 
-/// The next place around a face with `n` corners.
+/// Returns the index of the next corner of a face with `n` corners.
 pub(crate) fn ahead(i: usize, n: usize) -> usize {
     (i + 1) % n
 }
 
-/// The place before around a face with `n` corners.
+/// Returns the index of the previous corner of a face with `n` corners.
 pub(crate) fn behind(i: usize, n: usize) -> usize {
     (i + n - 1) % n
 }
 
-/// Who is next to whom, found by looking through all faces.
+/// The adjacency of elements, computed from all faces.
 #[derive(Debug)]
-pub(crate) struct Around<'a> {
+pub(crate) struct Adjacency<'a> {
     faces: &'a [Vec<usize>],
-    /// For each edge the sides that lie on it: a face, and the corner where the side begins.
+    /// The sides at each edge: the face, and the corner where the side starts.
     pub(crate) sides: BTreeMap<Edge, Vec<(usize, usize)>>,
-    /// For each vertex its corners: a face, and the place in it.
+    /// The corners at each vertex: the face, and the index of the corner.
     pub(crate) corners: Vec<Vec<(usize, usize)>>,
-    /// For each vertex those that an edge joins with it.
+    /// The neighbors of each vertex.
     pub(crate) neighbors: Vec<BTreeSet<usize>>,
 }
 
-impl<'a> Around<'a> {
-    /// Looks through all faces.
+impl<'a> Adjacency<'a> {
+    /// Computes the adjacency of all faces.
     pub(crate) fn new(n_vertices: usize, faces: &'a [Vec<usize>]) -> Self {
-        let mut around = Self {
+        let mut adjacency = Self {
             faces,
             sides: BTreeMap::new(),
             corners: vec![Vec::new(); n_vertices],
@@ -76,21 +76,21 @@ impl<'a> Around<'a> {
         for (f, face) in faces.iter().enumerate() {
             for (i, &a) in face.iter().enumerate() {
                 let b = face[ahead(i, face.len())];
-                around.sides.entry(edge(a, b)).or_default().push((f, i));
-                around.corners[a].push((f, i));
-                around.neighbors[a].insert(b);
-                around.neighbors[b].insert(a);
+                adjacency.sides.entry(edge(a, b)).or_default().push((f, i));
+                adjacency.corners[a].push((f, i));
+                adjacency.neighbors[a].insert(b);
+                adjacency.neighbors[b].insert(a);
             }
         }
-        around
+        adjacency
     }
 
-    /// Whether the edge has one face.
+    /// Whether the edge has only one face.
     pub(crate) fn is_boundary_edge(&self, e: Edge) -> bool {
         self.sides[&e].len() == 1
     }
 
-    /// The neighbors of `v` along the boundary: two or none.
+    /// Returns the neighbors of `v` along the boundary: two or none.
     pub(crate) fn along_boundary(&self, v: usize) -> Vec<usize> {
         let is_boundary = |&w: &usize| self.is_boundary_edge(edge(v, w));
         self.neighbors[v]
@@ -105,25 +105,25 @@ impl<'a> Around<'a> {
         !self.along_boundary(v).is_empty()
     }
 
-    /// The neighbor of `v` along the boundary that is not `w`.
+    /// Returns the neighbor of `v` along the boundary that is not `w`.
     pub(crate) fn beyond(&self, w: usize, v: usize) -> usize {
         let along = self.along_boundary(v);
         if along[0] == w { along[1] } else { along[0] }
     }
 
-    /// The vertex at corner `i + by` of a face.
+    /// Returns the vertex at corner `i + by` of a face.
     pub(crate) fn at(&self, (f, i): (usize, usize), by: usize) -> usize {
         let face = &self.faces[f];
         face[(i + by) % face.len()]
     }
 
-    /// The vertex before a corner of a face.
+    /// Returns the vertex before a corner of a face.
     pub(crate) fn before(&self, (f, i): (usize, usize)) -> usize {
         let face = &self.faces[f];
         face[behind(i, face.len())]
     }
 
-    /// The corners at `v` counter-clockwise, at the boundary from one end to the other.
+    /// Returns the corners at `v` counter-clockwise; on the boundary, from one boundary edge to the other.
     pub(crate) fn fan(&self, v: usize) -> Vec<(usize, usize)> {
         let corners = &self.corners[v];
         let leaves_boundary = |&&c: &&(usize, usize)| self.is_boundary_edge(edge(v, self.at(c, 1)));

@@ -1,33 +1,33 @@
-//! How sharp edges and vertices are, in one level and the next.
+//! The sharpness of edges and vertices on one level and the next.
 
 use std::collections::BTreeMap;
 
 use subdivision::{Boundary, Creasing};
 
-use crate::polygons::{Around, Edge, Polygons, edge};
+use crate::polygons::{Adjacency, Edge, Polygons, edge};
 
-/// From here on sharpness never decreases.
+/// Sharpness from this value on does not decrease.
 const INFINITE: f64 = 10.0;
 
-/// The four kinds of vertices.
+/// The rule of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Rule {
-    /// No sharp edge.
+    /// The vertex has no sharp edge.
     Smooth,
-    /// One sharp edge ends here.
+    /// The vertex has one sharp edge.
     Dart,
-    /// A sharp line passes.
+    /// The vertex has two sharp edges.
     Crease,
-    /// Three sharp edges or more, or sharp itself.
+    /// The vertex has three or more sharp edges or is sharp itself.
     Corner,
 }
 
-/// Whether a sharpness is above 0 and decreases.
+/// Whether a sharpness is above 0 and decreases with levels.
 pub(crate) fn is_semi_sharp(s: f64) -> bool {
     s > 0.0 && s < INFINITE
 }
 
-/// One level less; more than infinite is infinite.
+/// Returns the sharpness on the next level by the uniform rule.
 fn decreased(s: f64) -> f64 {
     if s >= INFINITE {
         INFINITE
@@ -36,43 +36,43 @@ fn decreased(s: f64) -> f64 {
     }
 }
 
-/// The sharpness that counts, where the boundary is sharp, and that of the next level.
+/// The effective sharpness, with a sharp boundary, on one level and on the next.
 #[derive(Debug)]
 pub(crate) struct Sharpness {
     creasing: Creasing,
-    /// Of each edge.
+    /// The sharpness of each edge.
     edges: BTreeMap<Edge, f64>,
-    /// Of the half of each edge that ends at its first vertex and of the other one.
+    /// The sharpness on the next level of the two halves of each edge: at its first and at its second vertex.
     halves: BTreeMap<Edge, [f64; 2]>,
-    /// Of each vertex.
+    /// The sharpness of each vertex.
     vertices: Vec<f64>,
-    /// Of each vertex, one level on.
+    /// The sharpness of each vertex on the next level.
     children: Vec<f64>,
-    /// The numbers to store for the halves of each edge.
+    /// The sharpness to store for the halves of each edge.
     pub(crate) stored_halves: BTreeMap<Edge, [f64; 2]>,
-    /// The numbers to store for the old vertices.
+    /// The sharpness to store for the old vertices.
     pub(crate) stored_vertices: Vec<f64>,
 }
 
 impl Sharpness {
-    /// The sharpness of a mesh.
+    /// Computes the sharpness of a mesh.
     pub(crate) fn new(
         mesh: &Polygons,
-        around: &Around,
+        adjacency: &Adjacency,
         boundary: Boundary,
         creasing: Creasing,
     ) -> Self {
         let is_fixed = |v: usize| match boundary {
             Boundary::EdgesOnly => false,
-            Boundary::EdgesAndCorners => around.corners[v].len() == 1,
-            Boundary::Fixed => around.is_boundary_vertex(v),
+            Boundary::EdgesAndCorners => adjacency.corners[v].len() == 1,
+            Boundary::Fixed => adjacency.is_boundary_vertex(v),
         };
         let stored = |e: &Edge| mesh.crease.get(e).copied().unwrap_or(0.0).max(0.0);
-        let edges: BTreeMap<Edge, f64> = (around.sides.keys())
+        let edges: BTreeMap<Edge, f64> = (adjacency.sides.keys())
             .map(|&e| {
                 (
                     e,
-                    if around.is_boundary_edge(e) {
+                    if adjacency.is_boundary_edge(e) {
                         INFINITE
                     } else {
                         stored(&e)
@@ -90,7 +90,7 @@ impl Sharpness {
             })
             .collect();
         let half = |e: Edge, v: usize, s: f64| {
-            let others: Vec<f64> = (around.neighbors[v].iter())
+            let others: Vec<f64> = (adjacency.neighbors[v].iter())
                 .map(|&w| edge(v, w))
                 .filter(|&other| other != e && is_semi_sharp(edges[&other]))
                 .map(|other| edges[&other])
@@ -109,10 +109,10 @@ impl Sharpness {
                 .collect()
         };
         let halves = halves_of(&|e| edges[e]);
-        // What is stored for the boundary does not matter and knows no neighbors.
+        // The sharpness stored for boundary edges has no effect; it decreases by the uniform rule.
         let mut stored_halves: BTreeMap<Edge, [f64; 2]> = halves_of(&stored);
         for (e, halves) in &mut stored_halves {
-            if around.is_boundary_edge(*e) {
+            if adjacency.is_boundary_edge(*e) {
                 *halves = [decreased(stored(e)); 2];
             }
         }
@@ -127,71 +127,71 @@ impl Sharpness {
         }
     }
 
-    /// Of the edge between two vertices.
+    /// Returns the sharpness of the edge between two vertices.
     pub(crate) fn of_edge(&self, a: usize, b: usize) -> f64 {
         self.edges[&edge(a, b)]
     }
 
-    /// Of the half at `v` of the edge from `v` to `w`.
+    /// Returns the sharpness on the next level of the half at `v` of the edge from `v` to `w`.
     pub(crate) fn of_half(&self, v: usize, w: usize) -> f64 {
         self.halves[&edge(v, w)][usize::from(v > w)]
     }
 
-    /// Of a vertex.
+    /// Returns the sharpness of a vertex.
     pub(crate) fn of_vertex(&self, v: usize) -> f64 {
         self.vertices[v]
     }
 
-    /// Of a vertex in the next level.
+    /// Returns the sharpness of a vertex on the next level.
     pub(crate) fn of_child(&self, v: usize) -> f64 {
         self.children[v]
     }
 
-    /// The neighbors to which sharp edges lead.
-    pub(crate) fn sharp_neighbors(&self, v: usize, around: &Around) -> Vec<usize> {
+    /// Returns the neighbors along sharp edges.
+    pub(crate) fn sharp_neighbors(&self, v: usize, adjacency: &Adjacency) -> Vec<usize> {
         let is_sharp = |&w: &usize| self.of_edge(v, w) > 0.0;
-        around.neighbors[v]
+        adjacency.neighbors[v]
             .iter()
             .copied()
             .filter(is_sharp)
             .collect()
     }
 
-    /// The neighbors towards which edges of the next level are sharp.
-    pub(crate) fn sharp_in_child(&self, v: usize, around: &Around) -> Vec<usize> {
+    /// Returns the neighbors along edges that are sharp on the next level.
+    pub(crate) fn sharp_in_child(&self, v: usize, adjacency: &Adjacency) -> Vec<usize> {
         let is_sharp = |&w: &usize| self.of_half(v, w) > 0.0;
-        around.neighbors[v]
+        adjacency.neighbors[v]
             .iter()
             .copied()
             .filter(is_sharp)
             .collect()
     }
 
-    /// How much of the old kind of a vertex is left where it changes: the mean of what goes to 0, of the
-    /// vertex itself and its edges to `neighbors`, at most 1.
+    /// Returns the weight of the old rule of a vertex if its rule changes: the mean sharpness, at most 1, of
+    /// those elements that become smooth, among the vertex and its edges to `neighbors`.
     pub(crate) fn fraction(&self, v: usize, neighbors: &[usize]) -> f64 {
-        let mut going = Vec::new();
+        let mut ending = Vec::new();
         if self.vertices[v] > 0.0 && self.children[v] <= 0.0 {
-            going.push(self.vertices[v]);
+            ending.push(self.vertices[v]);
         }
         for &w in neighbors {
             let s = self.of_edge(v, w);
-            let goes = match self.creasing {
+            let ends = match self.creasing {
                 Creasing::Uniform => s <= 1.0,
                 Creasing::Chaikin => self.of_half(v, w) <= 0.0,
             };
-            if s > 0.0 && goes {
-                going.push(s);
+            if s > 0.0 && ends {
+                ending.push(s);
             }
         }
-        if going.is_empty() {
+        if ending.is_empty() {
             0.0
         } else {
-            (going.iter().sum::<f64>() / going.len() as f64).min(1.0)
+            (ending.iter().sum::<f64>() / ending.len() as f64).min(1.0)
         }
     }
 
-    /// How much of an edge's new vertex is its midpoint.
+    /// Returns the weight of the midpoint in the new vertex on an edge.
     pub(crate) fn of_new_vertex(&self, (a, b): Edge) -> f64 {
         let s = self.of_edge(a, b);
         let stays = self.creasing == Creasing::Chaikin
@@ -201,7 +201,7 @@ impl Sharpness {
     }
 }
 
-/// The kind of a vertex.
+/// Returns the rule of a vertex.
 pub(crate) fn rule(vertex: f64, n_sharp_edges: usize) -> Rule {
     match n_sharp_edges {
         _ if vertex > 0.0 => Rule::Corner,

@@ -1,4 +1,4 @@
-//! Loop, Catmull-Clark and linear subdivision: faces cut at the middles of their edges.
+//! Loop, Catmull-Clark and midpoint subdivision: faces are cut at the middles of their edges.
 
 use std::collections::BTreeMap;
 
@@ -7,15 +7,15 @@ use subdivision::{Rules, Scheme, Split};
 
 use crate::charts;
 use crate::masks;
-use crate::polygons::{Around, Edge, Polygons, ahead, behind, edge};
+use crate::polygons::{Adjacency, Edge, Polygons, ahead, behind, edge};
 use crate::sharpness::Sharpness;
 
-/// Where a corner of a new face stands in the old one.
+/// The place of a corner of a new face in its old face.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Place {
     /// At this corner.
     Corner(usize),
-    /// On the side that begins at this corner.
+    /// On the side that starts at this corner.
     Side(usize),
     /// In the center.
     Center,
@@ -29,7 +29,7 @@ fn has_centers(scheme: Scheme) -> bool {
     )
 }
 
-/// The new faces in an old one with n corners.
+/// Returns the new faces in an old face with n corners.
 pub(crate) fn pieces(scheme: Scheme, n: usize) -> Vec<Vec<Place>> {
     use Place::{Center, Corner, Side};
     if has_centers(scheme) {
@@ -46,12 +46,12 @@ pub(crate) fn pieces(scheme: Scheme, n: usize) -> Vec<Vec<Place>> {
     }
 }
 
-/// One level.
+/// Computes one level.
 pub(crate) fn refine(mesh: &Polygons, rules: Rules) -> Polygons {
-    let around = Around::new(mesh.positions.len(), &mesh.faces);
-    let sharpness = Sharpness::new(mesh, &around, rules.boundary, rules.creasing);
-    let (n_vertices, n_edges) = (mesh.positions.len(), around.sides.len());
-    let numbers: BTreeMap<Edge, usize> = around
+    let adjacency = Adjacency::new(mesh.positions.len(), &mesh.faces);
+    let sharpness = Sharpness::new(mesh, &adjacency, rules.boundary, rules.creasing);
+    let (n_vertices, n_edges) = (mesh.positions.len(), adjacency.sides.len());
+    let numbers: BTreeMap<Edge, usize> = adjacency
         .sides
         .keys()
         .enumerate()
@@ -65,7 +65,7 @@ pub(crate) fn refine(mesh: &Polygons, rules: Rules) -> Polygons {
         .collect();
     let mut positions: Vec<DVec3> = (0..n_vertices)
         .map(|v| {
-            let mask = masks::of_vertex(v, rules, &around, &sharpness);
+            let mask = masks::of_vertex(v, rules, &adjacency, &sharpness);
             mask.own * mesh.positions[v]
                 + mask
                     .neighbors
@@ -79,13 +79,13 @@ pub(crate) fn refine(mesh: &Polygons, rules: Rules) -> Polygons {
                     .sum::<DVec3>()
         })
         .collect();
-    for (&(a, b), sides) in &around.sides {
+    for (&(a, b), sides) in &adjacency.sides {
         let mask = masks::of_edge((a, b), rules, &sharpness);
         let beside = |&(f, i): &(usize, usize)| {
             if has_centers(rules.scheme) {
                 centers[f]
             } else {
-                mesh.positions[around.at((f, i), 2)]
+                mesh.positions[adjacency.at((f, i), 2)]
             }
         };
         let ends = mask.end * (mesh.positions[a] + mesh.positions[b]);
@@ -118,7 +118,7 @@ pub(crate) fn refine(mesh: &Polygons, rules: Rules) -> Polygons {
     let mut corner = sharpness.stored_vertices.clone();
     corner.resize(positions.len(), 0.0);
     let charts = (mesh.charts.as_ref())
-        .map(|charts| charts::refine(charts, mesh, rules, &around, &sharpness, &numbers));
+        .map(|charts| charts::refine(charts, mesh, rules, &adjacency, &sharpness, &numbers));
     Polygons {
         positions,
         faces,
@@ -128,7 +128,7 @@ pub(crate) fn refine(mesh: &Polygons, rules: Rules) -> Polygons {
     }
 }
 
-/// The mean of the corners of a face.
+/// Returns the mean of the corners of a face.
 pub(crate) fn mean(positions: &[DVec3], face: &[usize]) -> DVec3 {
     face.iter().map(|&v| positions[v]).sum::<DVec3>() / face.len() as f64
 }

@@ -1,4 +1,4 @@
-//! The crate against the textbook.
+//! Compares the crate with the textbook implementation.
 
 use subdivision::{Boundary, Creasing, FaceVarying, LoopWeights, Rules, Scheme, Split, subdivide};
 
@@ -22,7 +22,7 @@ const FACE_VARYING: [FaceVarying; 6] = [
     FaceVarying::All,
 ];
 
-/// Lists what differs, and fails if anything does.
+/// Collects differences between the crate and the textbook implementation.
 #[derive(Debug, Default)]
 struct Comparison {
     compared: usize,
@@ -30,7 +30,7 @@ struct Comparison {
 }
 
 impl Comparison {
-    /// Compares one mesh.
+    /// Compares the results for one mesh and records a difference.
     fn compare(&mut self, name: &str, mesh: &Polygons, rules: Rules, levels: u32) {
         self.compared += 1;
         let found = subdivide(&mesh_of(mesh), rules, levels, &progress::NoProgress);
@@ -45,7 +45,7 @@ impl Comparison {
         }
     }
 
-    /// Fails if anything differed.
+    /// Panics with the first differences, if any.
     fn finish(&self) {
         let first: Vec<&str> = self
             .differences
@@ -63,12 +63,12 @@ impl Comparison {
     }
 }
 
-/// Fewer levels of big meshes.
+/// Returns the number of levels to test, which is lower for large meshes.
 fn levels_of(mesh: &Polygons) -> u32 {
     if mesh.faces.len() <= 12 { 3 } else { 2 }
 }
 
-/// A smooth scheme on meshes with every boundary, decrease and pattern of sharpness.
+/// Compares a smooth scheme on meshes with every boundary rule, creasing rule and sharpness pattern.
 fn compare_sharp(meshes: &[Named], scheme: Scheme) {
     let mut comparison = Comparison::default();
     let mut random = Random(3);
@@ -93,7 +93,7 @@ fn compare_sharp(meshes: &[Named], scheme: Scheme) {
     comparison.finish();
 }
 
-/// A scheme without choices.
+/// Compares a scheme without options.
 fn compare_plain(meshes: &[Named], scheme: Scheme) {
     let mut comparison = Comparison::default();
     for (name, mesh) in meshes {
@@ -104,7 +104,7 @@ fn compare_plain(meshes: &[Named], scheme: Scheme) {
     comparison.finish();
 }
 
-/// Corner values with every choice, on meshes with and without sharpness.
+/// Compares corner values with every face-varying rule, on meshes with and without sharpness.
 fn compare_corner_values(meshes: &[Named], scheme: Scheme) {
     let mut comparison = Comparison::default();
     let mut random = Random(4);
@@ -138,7 +138,7 @@ fn loop_with_the_weights_of_warren() {
 }
 
 #[test]
-fn loop_with_its_own_weights() {
+fn loop_with_the_weights_of_loop() {
     compare_sharp(&meshes::triangles(), Scheme::Loop(LoopWeights::Loop));
 }
 
